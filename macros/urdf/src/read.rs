@@ -114,12 +114,12 @@ impl<'a> Reader<'a> {
 
     fn attribute(&mut self, node: Node<'a, 'a>, attribute: &'static str) -> Option<&'a str> {
         let found = node.attribute(attribute).map(str::trim);
-        let found = found.filter(|text| !text.is_empty());
-        if found.is_none() {
+        let text = found.filter(|text| !text.is_empty());
+        if text.is_none() {
             let element = node.tag_name().name().to_owned();
             self.report(node, Reason::MissingAttribute { element, attribute });
         }
-        found
+        text
     }
 
     fn links(&mut self, root: Node<'a, 'a>) -> Vec<Link> {
@@ -268,8 +268,8 @@ impl<'a> Reader<'a> {
                 .iter()
                 .map(|(known, _)| *known)
                 .find(|known| Some(*known) == near);
-            let found = word.to_owned();
-            self.report(node, Reason::JointType { found, near });
+            let word = word.to_owned();
+            self.report(node, Reason::JointType { found: word, near });
         }
         found.map(|(_, kind)| *kind)
     }
@@ -385,10 +385,10 @@ impl<'a> Reader<'a> {
     }
 
     fn wrong_value(&mut self, node: Node, attribute: &str, text: &str, expected: &'static str) {
-        let found: String = text.chars().take(60).collect();
+        let text: String = text.chars().take(60).collect();
         let reason = Reason::Value {
             attribute: format!("{} {attribute}", node.tag_name().name()),
-            found,
+            found: text,
             expected,
         };
         self.report(node, reason);

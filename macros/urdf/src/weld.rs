@@ -40,14 +40,14 @@ pub(crate) fn weld(robot: &Robot) -> Result<Tree, ImportError> {
             joint.kind == JointKind::Fixed || held[index].is_some(),
             &held[index],
         ) {
-            let mut place = pose.then(&joint.pose);
+            let mut pose = pose.then(&joint.pose);
             if let Some(at) = held {
-                place = place.then(&displaced(joint.kind, joint.axis, *at));
+                pose = pose.then(&displaced(joint.kind, joint.axis, *at));
                 tree.held.push(index);
             }
             let group = *group;
             tree.groups[group].push(joint.child);
-            tree.place[joint.child] = (group, place);
+            tree.place[joint.child] = (group, pose);
         } else {
             tree.place[joint.child] = (tree.groups.len(), Pose::default());
             tree.groups.push(vec![joint.child]);

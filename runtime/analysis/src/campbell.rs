@@ -154,8 +154,8 @@ pub fn campbell(
         points.push(point);
         ControlFlow::Continue(())
     };
-    let found = campbell_each(mechanism, (u, b), start, following, axes, tolerances, each)?;
-    Ok(Campbell { points, ..found })
+    let campbell = campbell_each(mechanism, (u, b), start, following, axes, tolerances, each)?;
+    Ok(Campbell { points, ..campbell })
 }
 
 /// Like [`campbell`], but passes each point to `each`, in order and as soon as it is found, and keeps none: the result
@@ -218,9 +218,9 @@ pub fn campbell_each(
         inputs: u.into(),
         description,
     };
-    let until = |found: Events| match (unreached, &tracker.last) {
-        (1.., Some(last)) => found.until(last.value),
-        _ => found,
+    let until = |events: Events| match (unreached, &tracker.last) {
+        (1.., Some(last)) => events.until(last.value),
+        _ => events,
     };
     if let Some(found) = found.map(until) {
         let spread = |state| critical_tolerance(mechanism, state, tolerances);
@@ -242,7 +242,7 @@ pub fn campbell_each(
         Event::Crossing {
             condition: Condition::Line(line),
             ..
-        } => orders.iter().position(|own| *own == line),
+        } => orders.iter().position(|order| *order == line),
         _ => None,
     };
     diagram.crossings.sort_by_key(order);
@@ -276,7 +276,7 @@ fn describe(
             frequency: spread(Quantity::Frequency),
             damping_ratio: spread(Quantity::DampingRatio),
             whirl: whirls[r],
-            clustered: own.is_some_and(|own| own.clustered),
+            clustered: own.is_some_and(|x| x.clustered),
         }
     };
     modes.modes.iter().enumerate().map(one).collect()

@@ -112,12 +112,12 @@ impl<'a> QuadraticModels<'a> {
 
 impl QuadraticModel {
     /// The model of a value of the input.
-    fn along(found: EventCurvature) -> Self {
+    fn along(event_curvature: EventCurvature) -> Self {
         Self {
             quadratic: Quadratic {
-                value: found.value,
-                slopes: found.first,
-                curvature: found.second,
+                value: event_curvature.value,
+                slopes: event_curvature.first,
+                curvature: event_curvature.second,
             },
             by_input: None,
         }

@@ -361,7 +361,7 @@ impl<'a> Responses<'a> {
         solved.solve(self.mechanism, self.nominal, self.modes, design);
         let stable = solved.continues(self.nominal);
         let unstable = matches!(solved.outcome, Outcome::Divergent | Outcome::Flutter);
-        let mut found = Realisation {
+        let mut realisation = Realisation {
             outcome: solved.outcome,
             values: Vec::with_capacity(self.wanted.len()),
             gradients: Vec::new(),
@@ -396,20 +396,20 @@ impl<'a> Responses<'a> {
                     let value = solved.mode(*mode).and_then(|mode| quantity.of(mode));
                     let slopes = value.filter(|_| slopes);
                     let place = solved.place(*mode);
-                    let gradient = slopes.and(place).and_then(|place| {
+                    let gradient = slopes.and(place).and_then(|mask| {
                         let all = own.of_modes(self.mechanism, solved)?;
-                        let own = all.modes.get(place)?;
-                        match own.clustered {
-                            false => Some(own.of(*quantity)?.by_design),
-                            true => self.common_gradient(solved, place, *quantity),
+                        let mode = all.modes.get(mask)?;
+                        match mode.clustered {
+                            false => Some(mode.of(*quantity)?.by_design),
+                            true => self.common_gradient(solved, mask, *quantity),
                         }
                     });
                     (value, gradient)
                 }
                 Response::Vibration(vibration) => {
                     let state = &solved.state;
-                    let found = own.of_vibrations(self.mechanism, solved);
-                    let value = found.and_then(|found| vibration.of(found));
+                    let forced_response = own.of_vibrations(self.mechanism, solved);
+                    let value = forced_response.and_then(|found| vibration.of(found));
                     let gradient = value.filter(|_| slopes).and_then(|_| {
                         let all = forced::sensitivities(self.mechanism, state).ok()?;
                         let place = vibration.place(&state.description)?;
@@ -432,12 +432,12 @@ impl<'a> Responses<'a> {
                     (value, gradient)
                 }
             };
-            found.values.push(value);
+            realisation.values.push(value);
             if slopes {
-                found.gradients.push(gradient);
+                realisation.gradients.push(gradient);
             }
         }
-        Ok(found)
+        Ok(realisation)
     }
 
     /// The responses of a design that was solved beside others, those of its equilibrium alone; `state` is a copy of the
@@ -476,17 +476,17 @@ impl<'a> Responses<'a> {
     fn common_gradient(
         &self,
         solved: &Solution,
-        place: usize,
+        index: usize,
         quantity: Quantity,
     ) -> Option<Vector> {
         let modes = solved.modes();
-        let slopes = common_slopes(self.mechanism, &solved.state, modes, place)?;
-        let s = modes.modes.get(place)?.s;
-        let slope = |own: &Complex| match modes.family {
-            Family::Undamped => eigenvalue_slope(s, own.re),
-            Family::General => *own,
+        let slopes = common_slopes(self.mechanism, &solved.state, modes, index)?;
+        let s = modes.modes.get(index)?.s;
+        let slope = |complex: &Complex| match modes.family {
+            Family::Undamped => eigenvalue_slope(s, complex.re),
+            Family::General => *complex,
         };
-        let each = slopes.iter().map(|own| quantity.slope(s, slope(own)));
+        let each = slopes.iter().map(|x| quantity.slope(s, slope(x)));
         (s != Complex::ZERO).then(|| each.collect())
     }
 

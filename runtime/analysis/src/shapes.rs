@@ -116,7 +116,10 @@ impl<'a> Shapes<'a> {
                 let shape = mode.real_shape();
                 let pencil =
                     |i: usize, j: usize| linear.stiffness[i][j] - mode.lambda * linear.mass[i][j];
-                let slope = times(&linear.mass, &shape).iter().map(|own| -own).collect();
+                let slope = times(&linear.mass, &shape)
+                    .iter()
+                    .map(|time| -time)
+                    .collect();
                 let normalised = (size, first_of(&mode.shape, leading.right));
                 Side::new(linear, pencil, (&shape, slope), scale, normalised)
                     .map(|side| Sides::Undamped(side.into()))

@@ -14,8 +14,8 @@ pub(crate) fn remember(machine: &Interpreted) {
     let d = eigentol::kernels::Kernels::description(machine);
     let unknowns = || d.coordinates.iter();
     let stretches = |beam: &str| {
-        unknowns().any(|own| {
-            let rest = own.name.strip_prefix(beam);
+        unknowns().any(|item| {
+            let rest = item.name.strip_prefix(beam);
             let rest = rest.filter(|rest| rest.starts_with('_'));
             // A load splits a beam into parts, which are numbered.
             let part = |c: char| c == '_' || c.is_ascii_digit();
@@ -23,9 +23,9 @@ pub(crate) fn remember(machine: &Interpreted) {
         })
     };
     let picture = machine.picture_info();
-    let beams = picture.beams.iter().map(|own| own.name.to_string());
-    let closed = unknowns().any(|own| own.role == Role::PositionReaction);
-    let found = beams.filter(|own| closed && !stretches(own)).collect();
+    let beams = picture.beams.iter().map(|beam| beam.name.to_string());
+    let closed = unknowns().any(|x| x.role == Role::PositionReaction);
+    let found = beams.filter(|beam| closed && !stretches(beam)).collect();
     let _ = INEXTENSIBLE.set(found);
 }
 

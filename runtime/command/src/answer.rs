@@ -62,8 +62,8 @@ impl Answer {
         if self.form == Form::Text && kind.is_none() {
             return Ok(kinds.iter().map(|(_, aside)| !aside).collect());
         }
-        let wanted = named("result", kinds, kind, |own| own.0)?.0;
-        Ok(kinds.iter().map(|(own, _)| *own == wanted).collect())
+        let wanted = named("result", kinds, kind, |pair| pair.0)?.0;
+        Ok(kinds.iter().map(|(x, _)| *x == wanted).collect())
     }
 
     /// Adds a result.
@@ -92,8 +92,8 @@ impl Answer {
         result: &R,
     ) -> Result<(), Failure> {
         self.add(result)?;
-        if let Some(own) = self.results.last_mut() {
-            own.aside = true;
+        if let Some(result) = self.results.last_mut() {
+            result.aside = true;
         }
         Ok(())
     }
@@ -106,15 +106,15 @@ impl Answer {
         table: Option<&str>,
     ) -> Result<Vec<u8>, Failure> {
         if self.form == Form::Text && kind.is_none() {
-            let shown = self.results.iter().filter(|own| !own.aside);
-            let all: Vec<&str> = shown.map(|own| own.text.as_str()).collect();
+            let shown = self.results.iter().filter(|result| !result.aside);
+            let all: Vec<&str> = shown.map(|shown| shown.text.as_str()).collect();
             return Ok(all.join("\n").into_bytes());
         }
-        let result = named("result", &self.results, kind, |own| own.kind)?;
+        let result = named("result", &self.results, kind, |x| x.kind)?;
         if !self.form.has_rows() {
             return Ok(result.text.clone().into_bytes());
         }
-        let table = named("table", &result.tables, table, |own| &own.name)?;
+        let table = named("table", &result.tables, table, |x| &x.name)?;
         let mut file = Vec::new();
         match self.form {
             Form::Parquet => parquet::write(table, &mut file)?,
@@ -154,10 +154,10 @@ fn named<'a, T>(
 fn meant<'a, T>(name: &str, all: &'a [T], name_of: impl Fn(&'a T) -> &'a str) -> Option<&'a T> {
     let plain = |text: &str| text.to_lowercase().replace(['-', '_'], " ");
     let name = plain(name);
-    if let Some(found) = all.iter().find(|own| plain(name_of(own)) == name) {
+    if let Some(found) = all.iter().find(|x| plain(name_of(x)) == name) {
         return Some(found);
     }
-    let begins = |own: &&'a T| plain(name_of(own)).starts_with(&format!("{name} "));
+    let begins = |item: &&'a T| plain(name_of(item)).starts_with(&format!("{name} "));
     let mut found = all.iter().filter(begins);
     found.next().filter(|_| found.next().is_none())
 }
@@ -184,7 +184,7 @@ mod tests {
             ("first_ord", None),
             ("", None),
         ] {
-            let found = meant(name, &all, |own| own).copied();
+            let found = meant(name, &all, |x| x).copied();
             assert_eq!(found, expected, "{name}");
         }
     }

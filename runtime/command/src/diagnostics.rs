@@ -105,8 +105,8 @@ fn byte(source: &str, (line, column): (usize, usize)) -> usize {
         .take(line.saturating_sub(1))
         .map(str::len)
         .sum();
-    let own = lines.nth(line.saturating_sub(1)).unwrap_or("");
-    let own = own.trim_end_matches(['\n', '\r']);
+    let line = lines.nth(line.saturating_sub(1)).unwrap_or("");
+    let own = line.trim_end_matches(['\n', '\r']);
     let inside = own.char_indices().nth(column.saturating_sub(1));
     before + inside.map_or(own.len(), |(at, _)| at)
 }

@@ -11,24 +11,24 @@ pub(crate) struct Mistake {
 }
 
 impl From<&eigentol_interpreter::Mistake> for Mistake {
-    fn from(own: &eigentol_interpreter::Mistake) -> Self {
+    fn from(mistake: &eigentol_interpreter::Mistake) -> Self {
         Self {
-            start: (own.line, own.column),
-            end: (own.end_line, own.end_column),
-            message: own.message.clone(),
-            help: own.help.clone(),
+            start: (mistake.line, mistake.column),
+            end: (mistake.end_line, mistake.end_column),
+            message: mistake.message.clone(),
+            help: mistake.help.clone(),
         }
     }
 }
 
 impl From<&eigentol_urdf::Mistake> for Mistake {
-    fn from(own: &eigentol_urdf::Mistake) -> Self {
-        let (line, column) = (own.line as usize, own.column as usize);
+    fn from(mistake: &eigentol_urdf::Mistake) -> Self {
+        let (line, column) = (mistake.line as usize, mistake.column as usize);
         Self {
             start: (line, column),
             end: (line, column + 1),
-            message: own.reason.to_string(),
-            help: Some(own.reason.help()),
+            message: mistake.reason.to_string(),
+            help: Some(mistake.reason.help()),
         }
     }
 }

@@ -13,7 +13,10 @@ const NAMED: usize = 5;
 pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     if why == ErrorKind::IsADirectory {
         let files = declarations(path);
-        let names: Vec<String> = files.iter().map(|own| own.display().to_string()).collect();
+        let names: Vec<String> = files
+            .iter()
+            .map(|file| file.display().to_string())
+            .collect();
         return Some(match &names[..] {
             [] => "name a file: this is a folder".to_owned(),
             names => format!("name a file in it: `{}`", names.join("`, `")),
@@ -22,7 +25,7 @@ pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     if why != ErrorKind::NotFound {
         return None;
     }
-    if let Some(value) = path.to_str().filter(|own| own.contains('=')) {
+    if let Some(value) = path.to_str().filter(|x| x.contains('=')) {
         return Some(format!("put the value after its option: `--set {value}`"));
     }
     // Compared without extensions, which would make any two names look alike.
@@ -30,18 +33,18 @@ pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     let stem = |file: &Path| Some(file.file_stem()?.to_str()?.to_owned());
     let stems: Vec<String> = files.iter().filter_map(|file| stem(file)).collect();
     let near = nearest(&stem(path)?, stems.iter().map(String::as_str))?;
-    let found = files
+    let file = files
         .iter()
         .find(|file| stem(file).as_deref() == Some(near))?;
-    Some(format!("did you mean `{}`?", found.display()))
+    Some(format!("did you mean `{}`?", file.display()))
 }
 
 /// A few declarations in a folder, by name.
 fn declarations(folder: &Path) -> Vec<PathBuf> {
-    let mut found = files(folder);
-    found.retain(|file| is_declaration(file));
-    found.truncate(NAMED);
-    found
+    let mut paths = files(folder);
+    paths.retain(|file| is_declaration(file));
+    paths.truncate(NAMED);
+    paths
 }
 
 /// The files of a folder, declarations first, then by name; empty if the folder cannot be read.
@@ -58,5 +61,5 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 }
 
 fn is_declaration(file: &Path) -> bool {
-    file.extension().is_some_and(|own| own == "mechanism")
+    file.extension().is_some_and(|x| x == "mechanism")
 }

@@ -68,7 +68,7 @@ impl Output {
 
     /// Whether the answer is written to this file.
     pub(crate) fn is_written_to(&self, path: &Path) -> bool {
-        self.place.path().is_some_and(|own| is_same(own, path))
+        self.place.path().is_some_and(|x| is_same(x, path))
     }
 
     fn form(&self) -> Form {

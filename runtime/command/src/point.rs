@@ -102,9 +102,9 @@ fn pair(text: &str) -> Result<(String, String), String> {
 /// Parses a count: `10000` or `1e4`.
 pub(crate) fn whole(text: &str) -> Result<usize, String> {
     let number = text.parse::<f64>().ok();
-    let whole = number.filter(|own| own.fract() == 0.0 && (0.0..1e15).contains(own));
+    let whole = number.filter(|number| number.fract() == 0.0 && (0.0..1e15).contains(number));
     whole
-        .map(|own| own as usize)
+        .map(|x| x as usize)
         .ok_or_else(|| "write a whole number: `10000` or `1e4`".to_owned())
 }
 
@@ -293,7 +293,7 @@ fn correlate(
     let place = |name: &str| match parameter(&study, name)?.0 {
         Parameter::Design(variable) => Ok(variable.index()),
         Parameter::Input(input) => {
-            let found = inputs.iter().position(|own| *own == input);
+            let found = inputs.iter().position(|x| *x == input);
             found.map(|k| design + k).ok_or_else(|| {
                 let message = format!("correlation of `{name}`, which has no tolerance");
                 Failure::usage(message, format!("give `{name}` a tolerance"))
@@ -345,7 +345,7 @@ pub(crate) fn design(
 ) -> Result<(DesignVariable<Interpreted>, Unit), Failure> {
     let all = &study.description().design;
     match study.find_design(name) {
-        Ok(found) => Ok((found, all[found.index()].unit.clone())),
+        Ok(design_variable) => Ok((design_variable, all[design_variable.index()].unit.clone())),
         Err(_) => Err(unknown(
             study.description(),
             "design variable",
@@ -362,7 +362,7 @@ pub(crate) fn input(
 ) -> Result<(Input<Interpreted>, Unit), Failure> {
     let all = &study.description().inputs;
     match study.find_input(name) {
-        Ok(found) => Ok((found, all[found.index()].unit.clone())),
+        Ok(input) => Ok((input, all[input.index()].unit.clone())),
         Err(_) => {
             let known = all.iter().map(|info| &info.name);
             Err(unknown(study.description(), "input", name, known))
@@ -376,7 +376,7 @@ fn coordinate(
 ) -> Result<(Coordinate<Interpreted>, Unit), Failure> {
     let all = &study.description().coordinates;
     match study.find_coordinate(name) {
-        Ok(found) => Ok((found, all[found.index()].unit.clone())),
+        Ok(coordinate) => Ok((coordinate, all[coordinate.index()].unit.clone())),
         Err(_) if parameter(study, name).is_ok() => {
             let message = format!("`{name}` is not a coordinate");
             let help =
@@ -398,7 +398,7 @@ pub(crate) fn unknown<'a>(
     name: &str,
     known: impl Iterator<Item = &'a Text>,
 ) -> Failure {
-    let known: Vec<&str> = known.map(|own| &**own).collect();
+    let known: Vec<&str> = known.map(|x| &**x).collect();
     let help = match nearest(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None if known.is_empty() => "it has none".to_owned(),

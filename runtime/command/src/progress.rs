@@ -24,8 +24,8 @@ pub(crate) fn bar(what: &'static str, steps: Option<u64>) -> ProgressBar {
 
 /// A study that shows its steps on a bar, and that Ctrl-C ends with the work done so far.
 pub(crate) fn watched(study: Study<Interpreted>, bar: &ProgressBar) -> Study<Interpreted> {
-    let own = bar.clone();
+    let bar = bar.clone();
     study
-        .progress(move |steps| own.inc(steps as u64))
+        .progress(move |steps| bar.inc(steps as u64))
         .stop(interrupt::stop())
 }

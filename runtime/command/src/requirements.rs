@@ -45,11 +45,11 @@ pub(crate) const HELP: &str = "write what, and its limit: `frequency 1 >= 20 Hz`
 
 /// Parses a requirement as written on the command line.
 pub(crate) fn parsed(text: &str) -> Result<Require, String> {
-    let mut own = Require::default();
+    let mut require = Require::default();
     let refused = || format!("`{text}` is not a requirement: {HELP}");
     if text.trim() == "stable" {
-        own.stable = true;
-        return Ok(own);
+        require.stable = true;
+        return Ok(require);
     }
     let limits = [">=", "<=", " outside ", " within ", " away from "];
     let found = limits.into_iter().find_map(|word| {
@@ -60,30 +60,30 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
     let written = |text: &str| Written::Text(text.trim().to_owned());
     let ends = || limit.split_once("..").ok_or_else(refused);
     match word {
-        ">=" => own.at_least = Some(written(limit)),
-        "<=" => own.at_most = Some(written(limit)),
-        "away from" => own.away_from = Some(limit.to_owned()),
+        ">=" => require.at_least = Some(written(limit)),
+        "<=" => require.at_most = Some(written(limit)),
+        "away from" => require.away_from = Some(limit.to_owned()),
         _ => {
             let (low, high) = ends()?;
             let (low, high) = (written(&with_unit_of(low, high)), written(high));
             match word {
-                "outside" => own.outside = Some([low, high]),
-                _ => (own.at_least, own.at_most) = (Some(low), Some(high)),
+                "outside" => require.outside = Some([low, high]),
+                _ => (require.at_least, require.at_most) = (Some(low), Some(high)),
             }
         }
     }
     let words: Vec<&str> = what.split_whitespace().collect();
     let mode = |text: &str| text.parse().map_err(|_| refused());
     match words[..] {
-        ["critical", along] => own.critical = Some(along.to_owned()),
+        ["critical", along] => require.critical = Some(along.to_owned()),
         ["resonance", of, along] => {
-            (own.mode, own.resonance) = (Some(mode(of)?), Some(along.to_owned()));
+            (require.mode, require.resonance) = (Some(mode(of)?), Some(along.to_owned()));
         }
         ["flutter", of, along] => {
-            (own.mode, own.flutter) = (Some(mode(of)?), Some(along.to_owned()));
+            (require.mode, require.flutter) = (Some(mode(of)?), Some(along.to_owned()));
         }
         [what @ ("vibration" | "peak"), name, ref more @ ..] => {
-            own.vibration = Some(name.to_owned());
+            require.vibration = Some(name.to_owned());
             let (under, range) = match *more {
                 [] => (None, None),
                 ["under", under] => (Some(under), None),
@@ -91,20 +91,21 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
                 ["under", under, "along", range] => (Some(under), Some(range)),
                 _ => return Err(refused()),
             };
-            own.under = under.map(str::to_owned);
+            require.under = under.map(str::to_owned);
             let range = range.map(str::to_owned);
             match what {
-                "vibration" => own.along = range,
-                _ => own.peak = Some(range.ok_or_else(refused)?),
+                "vibration" => require.along = range,
+                _ => require.peak = Some(range.ok_or_else(refused)?),
             }
         }
         [quantity, of] if study_file::Quantity::named(quantity).is_some() => {
-            (own.mode, own.quantity) = (Some(mode(of)?), study_file::Quantity::named(quantity));
+            (require.mode, require.quantity) =
+                (Some(mode(of)?), study_file::Quantity::named(quantity));
         }
-        ["output", name] | [name] => own.output = Some(name.to_owned()),
+        ["output", name] | [name] => require.output = Some(name.to_owned()),
         _ => return Err(refused()),
     }
-    Ok(own)
+    Ok(require)
 }
 
 /// The requirements of a study file or a command line.
@@ -112,21 +113,21 @@ pub(crate) fn requirements(
     study: &Study<Interpreted>,
     all: &[Require],
 ) -> Result<Vec<Requirement>, Failure> {
-    all.iter().map(|own| requirement(study, own)).collect()
+    all.iter().map(|x| requirement(study, x)).collect()
 }
 
-fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement, Failure> {
-    all_used(own)?;
-    if own.stable && !about_a_number(own) {
+fn requirement(study: &Study<Interpreted>, require: &Require) -> Result<Requirement, Failure> {
+    all_used(require)?;
+    if require.stable && !about_a_number(require) {
         return Ok(Requirement::Stable);
     }
-    let response = response(study, own)?;
+    let response = response(study, require)?;
     let unit = response.unit(study.description());
     let read = |place: &str, text: &Written| written(place, text, &unit);
-    if let Some(text) = &own.away_from {
+    if let Some(text) = &require.away_from {
         return away(study, response, text);
     }
-    match (&own.at_least, &own.at_most, &own.outside) {
+    match (&require.at_least, &require.at_most, &require.outside) {
         (None, None, Some([low, high])) => Ok(Requirement::Outside {
             response,
             low: read("outside", low)?,
@@ -178,64 +179,64 @@ fn away(
 }
 
 /// Rejects settings that would have no effect in this requirement.
-fn all_used(own: &Require) -> Result<(), Failure> {
-    let ends = own.at_least.is_some() || own.at_most.is_some() || own.outside.is_some();
-    let limited = ends || own.away_from.is_some();
+fn all_used(require: &Require) -> Result<(), Failure> {
+    let ends = require.at_least.is_some() || require.at_most.is_some() || require.outside.is_some();
+    let limited = ends || require.away_from.is_some();
     let elsewhere = [
-        &own.output,
-        &own.vibration,
-        &own.critical,
-        &own.resonance,
-        &own.flutter,
+        &require.output,
+        &require.vibration,
+        &require.critical,
+        &require.resonance,
+        &require.flutter,
     ];
-    let of_a_mode = own.mode.is_some() && elsewhere.iter().all(|text| text.is_none());
+    let of_a_mode = require.mode.is_some() && elsewhere.iter().all(|text| text.is_none());
     let refuse = |message: &str, help: &str| Err(Failure::usage(message, help));
-    if own.order.is_some() && own.resonance.is_none() {
+    if require.order.is_some() && require.resonance.is_none() {
         let help = "`order` goes with `resonance = \"speed=0..6000rpm\"`: the excitation frequency is this many times the input";
         return refuse("`order` belongs to a resonance", help);
     }
-    if own.vibration.is_none() && (own.under.is_some() || own.measure.is_some()) {
+    if require.vibration.is_none() && (require.under.is_some() || require.measure.is_some()) {
         let help = "`under` and `measure` go with `vibration = \"output\"`";
         return refuse("`under` and `measure` belong to a vibration", help);
     }
-    if own.vibration.is_none() && (own.along.is_some() || own.peak.is_some()) {
+    if require.vibration.is_none() && (require.along.is_some() || require.peak.is_some()) {
         let help = "`along` and `peak` go with `vibration = \"output\"`";
         return refuse("`along` and `peak` belong to a vibration", help);
     }
-    if own.along.is_some() && own.peak.is_some() {
+    if require.along.is_some() && require.peak.is_some() {
         let help = "state another requirement for the other";
         return refuse("`along` asks for an amplitude and `peak` for a speed", help);
     }
-    if own.quantity.is_some() && !of_a_mode {
+    if require.quantity.is_some() && !of_a_mode {
         let help = "`quantity` goes with `mode = 1` alone, at the operating point";
         return refuse("`quantity` belongs to a mode", help);
     }
-    if ends && own.away_from.is_some() {
+    if ends && require.away_from.is_some() {
         let help = "state another requirement for the other limits";
         return refuse("`away_from` takes no further limits", help);
     }
-    if own.stable && limited {
+    if require.stable && limited {
         let help = "`stable = true` takes `failure` and nothing else";
         return refuse("`stable` takes no limits", help);
     }
     Ok(())
 }
 
-fn about_a_number(own: &Require) -> bool {
+fn about_a_number(require: &Require) -> bool {
     let texts = [
-        &own.output,
-        &own.vibration,
-        &own.critical,
-        &own.resonance,
-        &own.flutter,
+        &require.output,
+        &require.vibration,
+        &require.critical,
+        &require.resonance,
+        &require.flutter,
     ];
-    own.mode.is_some() || texts.into_iter().any(Option::is_some)
+    require.mode.is_some() || texts.into_iter().any(Option::is_some)
 }
 
-fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failure> {
+fn response(study: &Study<Interpreted>, require: &Require) -> Result<Response, Failure> {
     let mode = || {
         let help = "modes are counted from 1: `mode = 1`";
-        let place = own.mode.and_then(|mode| mode.checked_sub(1));
+        let place = require.mode.and_then(|mode| mode.checked_sub(1));
         place.ok_or_else(|| Failure::usage("there is no such mode", help))
     };
     let along = |text: &str| {
@@ -253,14 +254,19 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
             range: Range::new(found.input.any(), low, high),
         })
     };
-    let stated = [&own.output, &own.critical, &own.resonance, &own.flutter];
-    if let Some(name) = &own.vibration
-        && own.mode.is_none()
-        && !own.stable
+    let stated = [
+        &require.output,
+        &require.critical,
+        &require.resonance,
+        &require.flutter,
+    ];
+    if let Some(name) = &require.vibration
+        && require.mode.is_none()
+        && !require.stable
         && stated.into_iter().all(Option::is_none)
     {
-        let vibration = vibration(study, name, own)?;
-        let (text, quantity) = match (&own.along, &own.peak) {
+        let vibration = vibration(study, name, require)?;
+        let (text, quantity) = match (&require.along, &require.peak) {
             (None, None) => return Ok(Response::Vibration(vibration)),
             (Some(text), _) => (text, PeakQuantity::Height),
             (_, Some(text)) => (text, PeakQuantity::Place),
@@ -271,23 +277,28 @@ fn response(study: &Study<Interpreted>, own: &Require) -> Result<Response, Failu
             quantity,
         });
     }
-    match (&own.output, &own.critical, &own.resonance, &own.flutter) {
-        _ if own.stable || own.vibration.is_some() => {}
-        (None, None, None, None) if own.mode.is_some() => {
-            let quantity = own.quantity.map_or(Quantity::Frequency, Quantity::from);
+    match (
+        &require.output,
+        &require.critical,
+        &require.resonance,
+        &require.flutter,
+    ) {
+        _ if require.stable || require.vibration.is_some() => {}
+        (None, None, None, None) if require.mode.is_some() => {
+            let quantity = require.quantity.map_or(Quantity::Frequency, Quantity::from);
             return Ok(Response::Mode {
                 mode: mode()?,
                 quantity,
             });
         }
-        (Some(name), None, None, None) if own.mode.is_none() => {
+        (Some(name), None, None, None) if require.mode.is_none() => {
             return output(study, name).map(Response::Output);
         }
-        (None, Some(text), None, None) if own.mode.is_none() => {
+        (None, Some(text), None, None) if require.mode.is_none() => {
             return Ok(Response::Critical(along(text)?));
         }
         (None, None, Some(text), None) => {
-            let order = multiple(own.order.unwrap_or(1.0), &range(study, text)?, study)?;
+            let order = multiple(require.order.unwrap_or(1.0), &range(study, text)?, study)?;
             return crossing(Condition::Line(Line::from(order)), text);
         }
         (None, None, None, Some(text)) => return crossing(Condition::FlutterOnset, text),
@@ -309,11 +320,11 @@ pub(crate) fn named_vibration(
         Some((name, under)) => (name, Some(under.trim().to_owned())),
         None => (text, None),
     };
-    let own = Require {
+    let require = Require {
         under,
         ..Require::default()
     };
-    vibration(study, name.trim(), &own)
+    vibration(study, name.trim(), &require)
 }
 
 /// The orbit written as `shake,lift` or `shake,lift under u`.
@@ -340,11 +351,15 @@ pub(crate) fn named_pair(study: &Study<Interpreted>, text: &str) -> Result<[Outp
 }
 
 /// The amplitude of an output under one of the excitations.
-fn vibration(study: &Study<Interpreted>, name: &str, own: &Require) -> Result<Vibration, Failure> {
+fn vibration(
+    study: &Study<Interpreted>,
+    name: &str,
+    require: &Require,
+) -> Result<Vibration, Failure> {
     Ok(Vibration {
         output: output(study, name)?,
-        excitation: excitation(study, own.under.as_deref())?,
-        measure: match own.measure {
+        excitation: excitation(study, require.under.as_deref())?,
+        measure: match require.measure {
             None | Some(study_file::Measure::Displacement) => Measure::Displacement,
             Some(study_file::Measure::Velocity) => Measure::Velocity,
             Some(study_file::Measure::Acceleration) => Measure::Acceleration,
@@ -359,7 +374,7 @@ fn excitation(study: &Study<Interpreted>, under: Option<&str>) -> Result<Excitat
     match under {
         Some(under) => study
             .find_excitation(under)
-            .map(|found| found.any())
+            .map(|excitation| excitation.any())
             .map_err(|_| unknown(d, "excitation", under, known)),
         None if d.excitations.is_empty() => {
             let help = "declare one: `unbalance u: on disk, amount: 20 g*mm;`, a `harmonic` force or a `shaken` joint";
@@ -389,8 +404,8 @@ fn output(study: &Study<Interpreted>, name: &str) -> Result<Output, Failure> {
 }
 
 impl From<study_file::Quantity> for Quantity {
-    fn from(own: study_file::Quantity) -> Self {
-        match own {
+    fn from(quantity: study_file::Quantity) -> Self {
+        match quantity {
             study_file::Quantity::Frequency => Self::Frequency,
             study_file::Quantity::NaturalFrequency => Self::NaturalFrequency,
             study_file::Quantity::DampingRatio => Self::DampingRatio,

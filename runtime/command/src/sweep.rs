@@ -52,21 +52,21 @@ pub(crate) struct Range {
 
 impl Sweep {
     pub(crate) fn range(&self, question: &Question) -> Result<Range, Failure> {
-        let found = self.range_alone(question)?;
-        found.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))
+        let range = self.range_alone(question)?;
+        range.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))
     }
 
     /// The range, if there is one, of an answer along it alone: a value of its input would have no effect.
     pub(crate) fn range_alone(&self, question: &Question) -> Result<Option<Range>, Failure> {
-        let Some(found) = self.range_if_any(question)? else {
+        let Some(range) = self.range_if_any(question)? else {
             return Ok(None);
         };
-        let name = &question.study.description().inputs[found.input.index()].name;
+        let name = &question.study.description().inputs[range.input.index()].name;
         if question.set.iter().any(|set| **set == **name) {
             let message = format!("`--set {name}=...` has no effect: the sweep sets `{name}`");
             return Err(Failure::usage(message, "leave one of them out"));
         }
-        Ok(Some(found))
+        Ok(Some(range))
     }
 
     /// The range; `None` if neither the command line nor a study file gives one.

@@ -47,7 +47,7 @@ impl Style {
     pub fn design_of<M: Kernels>(self, study: &Study<M>) -> Self {
         let description = study.description();
         let tolerances = study.tolerances();
-        let half_widths = tolerances.as_ref().map(|own| own.half_widths());
+        let half_widths = tolerances.as_ref().map(|tolerance| tolerance.half_widths());
         let half_widths = half_widths.unwrap_or_default();
         self.note(design(description, study.design_values(), half_widths))
     }
@@ -91,14 +91,14 @@ impl Style {
     /// Sets the upper end of the first vertical axis, in its unit; for eigenvalues the lower end is its negative.
     #[must_use]
     pub fn highest(mut self, value: f64) -> Self {
-        self.highest = Some(value).filter(|own| own.is_finite() && *own > 0.0);
+        self.highest = Some(value).filter(|value| value.is_finite() && *value > 0.0);
         self
     }
 
     /// Sets the lower end of the first vertical axis of a Campbell diagram, in its unit, to show part of it.
     #[must_use]
     pub fn lowest(mut self, value: f64) -> Self {
-        self.lowest = Some(value).filter(|own| own.is_finite());
+        self.lowest = Some(value).filter(|value| value.is_finite());
         self
     }
 
@@ -131,8 +131,8 @@ impl Style {
     /// The name of a mode, or `mode 1` if it has none.
     #[must_use]
     pub fn mode(&self, label: usize) -> String {
-        let own = self.names.get(&label);
-        own.cloned()
+        let name = self.names.get(&label);
+        name.cloned()
             .unwrap_or_else(|| format!("mode {}", label + 1))
     }
 
@@ -152,7 +152,7 @@ impl Style {
     pub fn frequency(&self, along: Option<&InputInfo>) -> (f64, &'static str) {
         let turning = |info: &InputInfo| matches!(&*info.unit.symbol, "rpm" | "Hz");
         let hertz = match self.frequency {
-            Some(own) => own == Frequency::Hertz,
+            Some(frequency) => frequency == Frequency::Hertz,
             None => along.is_some_and(turning),
         };
         match hertz {

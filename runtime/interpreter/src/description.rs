@@ -48,9 +48,9 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
 /// coordinate that no constraint takes away.
 pub(crate) fn good_modes(of: &Compilation) -> Option<usize> {
     let beams = &of.mechanism.beams;
-    let moves = |own: &&mechanics::Unknown| {
+    let moves = |unknown: &&mechanics::Unknown| {
         matches!(
-            own.role,
+            unknown.role,
             mechanics::Role::Position(_) | mechanics::Role::Speed(_)
         )
     };

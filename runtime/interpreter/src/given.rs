@@ -78,8 +78,8 @@ pub fn design_tolerance(
     variable: usize,
     design: &[f64],
 ) -> Result<ToleranceInfo, Mistakes> {
-    let found = given::design_tolerance(&of.ast, tokens(text)?, variable, design)?;
-    Ok(description::tolerance(&found))
+    let tolerance = given::design_tolerance(&of.ast, tokens(text)?, variable, design)?;
+    Ok(description::tolerance(&tolerance))
 }
 
 /// The tokens of a unit, as in a declaration.

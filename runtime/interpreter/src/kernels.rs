@@ -110,7 +110,11 @@ fn run_along_each<const N: usize>(
             let values = arguments[list].iter().enumerate();
             let pairs = values.map(|(k, &value)| Dual {
                 value: Batch::all(value),
-                slope: Batch::from_fn(|lane| directions.get(lane).map_or(0.0, |own| own[list][k])),
+                slope: Batch::from_fn(|lane| {
+                    directions
+                        .get(lane)
+                        .map_or(0.0, |direction| direction[list][k])
+                }),
             });
             pairs.collect()
         });
@@ -241,7 +245,7 @@ impl Kernels for Interpreted {
                 margin,
                 least: *least,
             });
-            let beyond = |own: &PoseMargin<f64>| own.margin - own.least;
+            let beyond = |pose_margin: &PoseMargin<f64>| pose_margin.margin - pose_margin.least;
             poses.reduce(|least, other| match beyond(&other) < beyond(&least) {
                 true => other,
                 false => least,

@@ -62,7 +62,7 @@ impl Study {
             let limits = (number(&least, &unit, &name)?, number(&most, &unit, &name)?);
             moving.push(Nominal { variable, limits });
         }
-        let found = self.ask_stoppably(py, move |study| {
+        let py_result = self.ask_stoppably(py, move |study| {
             let own = |(variable, limits, (fixed, factor, power))| HalfWidth {
                 variable,
                 limits,
@@ -75,7 +75,7 @@ impl Study {
             };
             study.allocation(&wanted, &choices)
         });
-        found.map(Allocation)
+        py_result.map(Allocation)
     }
 }
 
@@ -85,7 +85,7 @@ impl Study {
         let inputs = self.inner.deviating_inputs();
         let input = inputs
             .iter()
-            .position(|own| of.inputs[own.index()].name == *name);
+            .position(|input| of.inputs[input.index()].name == *name);
         match input {
             Some(k) => Ok((
                 of.design.len() + k,

@@ -66,6 +66,6 @@ pub(crate) fn optional_rows<'py>(
 
 /// Derivatives of a square matrix of `size` rows, one for each variable, which comes last in the array.
 pub(crate) fn slopes<'py>(py: Python<'py>, size: usize, all: &[&Matrix]) -> PyResult<Array3<'py>> {
-    let entry = |k: usize| all.iter().map(move |own| own.as_flattened()[k]);
+    let entry = |k: usize| all.iter().map(move |x| x.as_flattened()[k]);
     vector(py, (0..size * size).flat_map(entry)).reshape([size, size, all.len()])
 }

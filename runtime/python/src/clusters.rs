@@ -32,10 +32,10 @@ impl Study {
         let of = self.inner.description();
         let inputs = List::Inputs.changes(py, of, inputs)?;
         let design = List::Design.changes(py, of, design)?;
-        let found = self.ask(py, |study| {
+        let py_result = self.ask(py, |study| {
             study.directional_derivatives(mode, (&inputs, &design))
         });
-        found.map(DirectionalDerivatives)
+        py_result.map(DirectionalDerivatives)
     }
 }
 
@@ -46,7 +46,12 @@ result! {
 
 impl Clusters {
     fn counts<'py>(&self, py: Python<'py>, of: fn(&ClusterSpread) -> usize) -> Array1<'py, i64> {
-        let count = |own: &ClusterTolerance| own.spread.as_ref().map_or(0, |own| of(own) as i64);
+        let count = |cluster_tolerance: &ClusterTolerance| {
+            cluster_tolerance
+                .spread
+                .as_ref()
+                .map_or(0, |spread| of(spread) as i64)
+        };
         vector(py, self.0.iter().map(count))
     }
 
@@ -59,17 +64,17 @@ impl Clusters {
     ) -> PyResult<Vec<Array1<'py>>> {
         type Part = fn(&ClusterSpread) -> Option<&SortedSpread>;
         let words: [(&str, Part); 4] = [
-            ("frequency", |own| Some(&own.frequency)),
-            ("lambda", |own| own.lambda.as_ref()),
-            ("growth", |own| own.growth.as_ref()),
-            ("damping_ratio", |own| own.damping_ratio.as_ref()),
+            ("frequency", |x| Some(&x.frequency)),
+            ("lambda", |x| x.lambda.as_ref()),
+            ("growth", |x| x.growth.as_ref()),
+            ("damping_ratio", |x| x.damping_ratio.as_ref()),
         ];
         let part = word(py, "quantity", quantity, &words)?;
-        let each = self.0.iter().map(|own| {
-            let spread = own.spread.as_ref().ok().and_then(part);
-            let members = (0..own.modes.len()).map(|k| spread?.members.get(k)?.value.as_ref());
-            let all = members.chain([spread.and_then(|own| own.splitting.as_ref())]);
-            optional(py, all.map(|own| own.and_then(&of)))
+        let each = self.0.iter().map(|item| {
+            let spread = item.spread.as_ref().ok().and_then(part);
+            let members = (0..item.modes.len()).map(|k| spread?.members.get(k)?.value.as_ref());
+            let all = members.chain([spread.and_then(|spread| spread.splitting.as_ref())]);
+            optional(py, all.map(|x| x.and_then(&of)))
         });
         Ok(each.collect())
     }

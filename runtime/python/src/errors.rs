@@ -94,15 +94,15 @@ fn types(py: Python<'_>) -> PyResult<&Vec<Py<PyType>>> {
         let mut all: Vec<Py<PyType>> = Vec::new();
         for (name, base, doc, _) in KINDS {
             let mut bases: Vec<Bound<'_, PyAny>> = Vec::new();
-            bases.extend(all.first().map(|own| own.bind(py).clone().into_any()));
+            bases.extend(all.first().map(|x| x.bind(py).clone().into_any()));
             if !base.is_empty() {
                 bases.push(builtins.getattr(*base)?);
             }
-            let own = PyDict::new(py);
-            own.set_item("__module__", "eigentol")?;
-            own.set_item("__doc__", doc.trim_start())?;
+            let py_dict = PyDict::new(py);
+            py_dict.set_item("__module__", "eigentol")?;
+            py_dict.set_item("__doc__", doc.trim_start())?;
             let made = py.get_type::<PyType>();
-            let made = made.call1((name, PyTuple::new(py, bases)?, own))?;
+            let made = made.call1((name, PyTuple::new(py, bases)?, py_dict))?;
             all.push(made.cast_into::<PyType>()?.unbind());
         }
         Ok(all)
@@ -187,7 +187,7 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
     let raised = |message| new(py, kind, message);
     match &error {
         Error::UnknownName { name, known, .. } => {
-            let near = did_you_mean(name, known.iter().map(|own| &**own));
+            let near = did_you_mean(name, known.iter().map(|x| &**x));
             raised(format!("{error}{near}"))
         }
         Error::NoSuchMode { mode, count } => raised(format!(
@@ -230,14 +230,14 @@ fn no_mechanism(
 }
 
 impl From<&eigentol_interpreter::Mistake> for Mistake {
-    fn from(own: &eigentol_interpreter::Mistake) -> Self {
+    fn from(mistake: &eigentol_interpreter::Mistake) -> Self {
         Self {
-            line: own.line,
-            column: own.column,
-            end_line: own.end_line,
-            end_column: own.end_column,
-            message: own.message.clone(),
-            help: own.help.clone(),
+            line: mistake.line,
+            column: mistake.column,
+            end_line: mistake.end_line,
+            end_column: mistake.end_column,
+            message: mistake.message.clone(),
+            help: mistake.help.clone(),
         }
     }
 }
@@ -267,13 +267,13 @@ pub(crate) fn unreadable(path: &Path, source: &std::io::Error) -> PyErr {
 
 /// A URDF file that describes no robot.
 pub(crate) fn urdf(py: Python<'_>, error: &eigentol_urdf::ImportError, path: &Path) -> PyErr {
-    let mistake = |own: &eigentol_urdf::Mistake| Mistake {
-        line: own.line as usize,
-        column: own.column as usize,
-        end_line: own.line as usize,
-        end_column: own.column as usize,
-        message: own.reason.to_string(),
-        help: Some(own.reason.help()),
+    let mistake = |mistake: &eigentol_urdf::Mistake| Mistake {
+        line: mistake.line as usize,
+        column: mistake.column as usize,
+        end_line: mistake.line as usize,
+        end_column: mistake.column as usize,
+        message: mistake.reason.to_string(),
+        help: Some(mistake.reason.help()),
     };
     let lines = error.mistakes.iter().map(ToString::to_string).collect();
     let mistakes = error.mistakes.iter().map(mistake).collect();

@@ -30,7 +30,7 @@ impl Event {
         self.0
             .spread
             .as_ref()
-            .map_or_else(|_| missing(), |own| of(own).to_vec())
+            .map_or_else(|_| missing(), |spread| of(spread).to_vec())
     }
 
     fn line(&self) -> Option<Line> {

@@ -54,17 +54,22 @@ impl Mechanism {
         Err(raise(py, error))
     }
 
-    fn three<'py>(&self, py: Python<'py>, q: &[f64], own: &Linear) -> PyResult<Three<'py>> {
-        let all = [&own.mass, &own.damping, &own.stiffness];
-        self.finite(py, q, all.into_iter().map(|own| own.as_flattened()))?;
-        let [mass, damping, stiffness] = all.map(|own| arrays::matrix(py, own));
+    fn three<'py>(&self, py: Python<'py>, q: &[f64], linear: &Linear) -> PyResult<Three<'py>> {
+        let all = [&linear.mass, &linear.damping, &linear.stiffness];
+        self.finite(py, q, all.into_iter().map(|x| x.as_flattened()))?;
+        let [mass, damping, stiffness] = all.map(|x| arrays::matrix(py, x));
         Ok((mass?, damping?, stiffness?))
     }
 
-    fn gradient<'py>(&self, py: Python<'py>, q: &[f64], own: Gradient) -> PyResult<Slopes<'py>> {
-        let all = [own.coordinates, own.inputs, own.design];
-        self.finite(py, q, all.iter().map(|own| &own[..]))?;
-        Ok(all.map(|own| arrays::vector(py, own)).into())
+    fn gradient<'py>(
+        &self,
+        py: Python<'py>,
+        q: &[f64],
+        gradient: Gradient,
+    ) -> PyResult<Slopes<'py>> {
+        let all = [gradient.coordinates, gradient.inputs, gradient.design];
+        self.finite(py, q, all.iter().map(|x| &x[..]))?;
+        Ok(all.map(|x| arrays::vector(py, x)).into())
     }
 }
 

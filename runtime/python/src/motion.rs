@@ -42,7 +42,7 @@ impl Motion {
 
     fn count(&self, role: Role) -> usize {
         let all = self.description().coordinates.iter();
-        all.filter(|own| own.role == role).count()
+        all.filter(|x| x.role == role).count()
     }
 
     fn rates(&self, y: &[f64]) -> Result<Vec<f64>, Error> {
@@ -61,9 +61,9 @@ impl Motion {
         velocity[..positions].copy_from_slice(&y[positions..2 * positions]);
         q[positions..positions + speeds].copy_from_slice(&y[2 * positions..]);
         let (u, b) = (&self.inputs, &self.design);
-        let found = motion::accelerations(self.inner(), &velocity, &q, u, b)?;
+        let vector = motion::accelerations(self.inner(), &velocity, &q, u, b)?;
         let rates = &y[positions..2 * positions];
-        Ok([rates, &found[..positions + speeds]].concat())
+        Ok([rates, &vector[..positions + speeds]].concat())
     }
 }
 

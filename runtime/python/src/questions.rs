@@ -180,9 +180,9 @@ impl Study {
                     .collect::<PyResult<_>>()?
             }
         };
-        let found: Vec<f64> = found;
-        match found.iter().find(|value| !value.is_finite()) {
-            None => Ok((Input::new(place), found)),
+        let values: Vec<f64> = found;
+        match values.iter().find(|value| !value.is_finite()) {
+            None => Ok((Input::new(place), values)),
             Some(other) => Err(not_finite(py, input, *other)),
         }
     }
@@ -213,7 +213,7 @@ impl Study {
         given: Vec<Bound<'_, PyTuple>>,
     ) -> PyResult<Vec<Vibration>> {
         let own = |response| match response {
-            Response::Vibration(own) => Ok(own),
+            Response::Vibration(vibration) => Ok(vibration),
             other => {
                 let name = other.name(self.inner.description());
                 let message = format!(
@@ -251,8 +251,8 @@ impl Study {
                 .map_err(|error| invalid(py, error.to_string()))
         };
         let refined = [refined(1)?, refined(2)?];
-        let found = self.ask(py, |study| study.convergence(refined))?;
-        Ok(Convergence(found.of_first(modes.unwrap_or(usize::MAX))))
+        let py_result = self.ask(py, |study| study.convergence(refined))?;
+        Ok(Convergence(py_result.of_first(modes.unwrap_or(usize::MAX))))
     }
 
     /// Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,
@@ -284,10 +284,10 @@ impl Study {
     ) -> PyResult<Bode> {
         let (input, values) = self.values(py, input, values, unit)?;
         let wanted = self.vibrations(py, vibrations)?;
-        let found = self.ask_stoppably(py, |study| {
+        let py_result = self.ask_stoppably(py, |study| {
             study.bode_bands(input, &values, &wanted, checked)
         });
-        found.map(Bode)
+        py_result.map(Bode)
     }
 
     /// The peaks of a vibration, a tuple such as `("vibration", "shake")`, between two values of an input: places, heights,
@@ -335,17 +335,17 @@ impl Study {
         let mut search = self.ask(py, |study| study.search(&within))?;
         search.starts = starts.unwrap_or(search.starts);
         search.seed = seed.unwrap_or(search.seed);
-        let found = self.ask(py, |study| study.equilibria(&search))?;
-        Ok(found.into_iter().map(Equilibrium).collect())
+        let py_result = self.ask(py, |study| study.equilibria(&search))?;
+        Ok(py_result.into_iter().map(Equilibrium).collect())
     }
 
     /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; NaN where it
     /// does not apply.
     fn whirls<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
-        let found = self.ask(py, |study| study.whirls())?;
+        let py_result = self.ask(py, |study| study.whirls())?;
         Ok(optional(
             py,
-            found.into_iter().map(|own| own.map(|own| own.ratio)),
+            py_result.into_iter().map(|x| x.map(|x| x.ratio)),
         ))
     }
 
@@ -421,9 +421,9 @@ impl Study {
             ratio: order,
             offset,
         };
-        let found = self.ask(py, |study| {
+        let py_result = self.ask(py, |study| {
             study.crossing_tolerances(input, low, high, line)
         })?;
-        Ok(events(&found))
+        Ok(events(&py_result))
     }
 }

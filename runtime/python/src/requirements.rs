@@ -121,12 +121,12 @@ impl Study {
         stop: Option<u64>,
     ) -> PyResult<Chances> {
         let wanted = self.requirements(&requirements)?;
-        let found = self.ask_stoppably(py, |study| {
+        let py_result = self.ask_stoppably(py, |study| {
             let sampling = study.sampling();
             let range = start.unwrap_or(0)..stop.unwrap_or(sampling.samples as u64);
             study.chances_by(&wanted, &sampling.range(Some(range)))
         });
-        found.map(Chances)
+        py_result.map(Chances)
     }
 }
 
@@ -143,11 +143,11 @@ impl Study {
         requirements: Vec<Requirement<'_>>,
     ) -> PyResult<RareFailure> {
         let wanted = self.requirements(&requirements)?;
-        let found = self.ask_stoppably(py, |study| {
+        let py_result = self.ask_stoppably(py, |study| {
             let (most, accuracy) = RARE;
             study.rare_failure(&wanted, &study.sampling().samples(most), accuracy)
         });
-        found.map(RareFailure)
+        py_result.map(RareFailure)
     }
 
     /// Probability of failing one requirement by the second-order model of its response, with what changes it;
@@ -259,9 +259,9 @@ result! {
 }
 
 /// 95 % interval (Clopper and Pearson).
-fn interval(own: &requirement::Tally) -> Option<(f64, f64)> {
-    let found = own.clopper_pearson(0.95).ok()?;
-    Some((found.lower, found.upper))
+fn interval(tally: &requirement::Tally) -> Option<(f64, f64)> {
+    let interval = tally.clopper_pearson(0.95).ok()?;
+    Some((interval.lower, interval.upper))
 }
 
 attributes! {
@@ -309,8 +309,12 @@ impl Reliability {
         py: Python<'py>,
         of: fn(&DesignPoint) -> Vec<f64>,
     ) -> PyResult<Array2<'py>> {
-        let points = self.0.limits.iter().map(|own| own.design_points.as_ref());
-        let first = points.map(|own| own.ok()?.first().map(&of));
+        let points = self
+            .0
+            .limits
+            .iter()
+            .map(|limit| limit.design_points.as_ref());
+        let first = points.map(|point| point.ok()?.first().map(&of));
         optional_rows(py, self.0.description.design.len(), first)
     }
 }
@@ -449,7 +453,12 @@ impl SecondOrderFailure {
         py: Python<'py>,
         of: impl Fn(&MarginDerivatives) -> &Vector,
     ) -> Array1<'py> {
-        let own = self.0.margin.derivatives.as_ref().map(|own| &of(own)[..]);
+        let own = self
+            .0
+            .margin
+            .derivatives
+            .as_ref()
+            .map(|derivative| &of(derivative)[..]);
         slopes(py, self.0.description.design.len(), own)
     }
 }
@@ -496,9 +505,9 @@ attributes! {
 }
 
 /// Derivatives, or as many NaN.
-fn slopes<'py>(py: Python<'py>, count: usize, own: Option<&[f64]>) -> Array1<'py> {
+fn slopes<'py>(py: Python<'py>, count: usize, values: Option<&[f64]>) -> Array1<'py> {
     vector(
         py,
-        own.map_or_else(|| vec![f64::NAN; count], <[f64]>::to_vec),
+        values.map_or_else(|| vec![f64::NAN; count], <[f64]>::to_vec),
     )
 }

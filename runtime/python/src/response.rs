@@ -131,15 +131,15 @@ fn vibration(
     let output = study.find_output(&name).map_err(|error| raise(py, error))?;
     let excitation = match given.get_item(1) {
         Ok(name) => {
-            let found = study.find_excitation(&name.extract::<String>()?);
-            found.map_err(|error| raise(py, error))?
+            let excitation = study.find_excitation(&name.extract::<String>()?);
+            excitation.map_err(|error| raise(py, error))?
         }
         Err(_) => only(py, study)?,
     };
-    let own = Vibration::new(output, excitation);
+    let vibration = Vibration::new(output, excitation);
     match given.get_item(2) {
-        Ok(name) => Ok(own.measure(measure(py, &name.extract::<String>()?)?)),
-        Err(_) => Ok(own),
+        Ok(name) => Ok(vibration.measure(measure(py, &name.extract::<String>()?)?)),
+        Err(_) => Ok(vibration),
     }
 }
 
@@ -154,7 +154,7 @@ fn only(py: Python<'_>, study: &eigentol::Study<Interpreted>) -> PyResult<Excita
         }
         1 => Ok(Excitation::new(0)),
         _ => {
-            let firsts: Vec<&str> = harmonics.iter().map(|own| own[0]).collect();
+            let firsts: Vec<&str> = harmonics.iter().map(|harmonic| harmonic[0]).collect();
             let message = format!(
                 "the excitations have several frequencies: say under which the output vibrates, {}",
                 firsts.join(" or ")
@@ -229,7 +229,7 @@ impl Study {
         let arguments = of.clone().unbind();
         let of: Vec<String> = of
             .iter()
-            .map(|own| own.str().map(|own| own.to_string()))
+            .map(|x| x.str().map(|x| x.to_string()))
             .collect::<PyResult<_>>()?;
         Ok(Response {
             mechanism: slf.get().inner.mechanism().clone(),
@@ -256,8 +256,8 @@ impl Response {
             let mut room = responses.workspace();
             let mut design = equilibrium.design.to_vec();
             let each = designs.iter().map(|values| {
-                for (place, value) in self.variables.iter().zip(values) {
-                    design[*place] = *value;
+                for (variable, value) in self.variables.iter().zip(values) {
+                    design[*variable] = *value;
                 }
                 question(&responses, &mut room, &design)
             });
@@ -277,7 +277,10 @@ impl Response {
             }
             Err(_) => (vec![numbers(x, "x")?], true),
         };
-        match designs.iter().find(|own: &&Vec<f64>| own.len() != columns) {
+        match designs
+            .iter()
+            .find(|values: &&Vec<f64>| values.len() != columns)
+        {
             None => Ok((designs, single)),
             Some(other) => Err(raise(
                 x.py(),
@@ -334,9 +337,9 @@ impl Response {
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let (designs, single) = self.designs(x)?;
         let values = self.evaluate(py, &designs, |responses, room, design| {
-            let found = responses.with_gradients(room, design)?;
-            let own = |place: &usize| match &found.gradients[0] {
-                Some(gradient) => gradient[*place],
+            let realisation = responses.with_gradients(room, design)?;
+            let own = |index: &usize| match &realisation.gradients[0] {
+                Some(gradient) => gradient[*index],
                 None => f64::NAN,
             };
             Ok(self.variables.iter().map(own).collect::<Vec<f64>>())

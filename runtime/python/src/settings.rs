@@ -165,7 +165,7 @@ pub(crate) fn unset_inputs(
     };
     let inputs = study.description().inputs.iter();
     let names = inputs.map(|info| info.name.to_string());
-    let unset = |name: &String| !named.is_some_and(|own| own.contains(name).unwrap_or(true));
+    let unset = |name: &String| !named.is_some_and(|named| named.contains(name).unwrap_or(true));
     names.filter(unset).collect()
 }
 
@@ -177,7 +177,7 @@ pub(crate) fn merged<'py>(
     let all = copied(settings)?;
     for (key, value) in copied(others)? {
         let own = all.get_item(&key)?;
-        let own = own.as_ref().and_then(|own| own.cast::<PyDict>().ok());
+        let own = own.as_ref().and_then(|x| x.cast::<PyDict>().ok());
         match (own, value.cast::<PyDict>()) {
             (Some(own), Ok(value)) => own.update(value.as_mapping())?,
             _ => all.set_item(key, value)?,
@@ -191,7 +191,7 @@ pub(crate) fn copied<'py>(settings: &Bound<'py, PyDict>) -> PyResult<Bound<'py, 
     let all = settings.copy()?;
     for (name, ..) in SETTINGS {
         let own = all.get_item(name)?;
-        if let Some(own) = own.as_ref().and_then(|own| own.cast::<PyDict>().ok()) {
+        if let Some(own) = own.as_ref().and_then(|x| x.cast::<PyDict>().ok()) {
             all.set_item(name, own.copy()?)?;
         }
     }

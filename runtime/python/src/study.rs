@@ -99,8 +99,8 @@ impl Study {
         py: Python<'_>,
         question: impl FnOnce(&eigentol::Study<Interpreted>) -> Result<R, Error> + Send,
     ) -> PyResult<R> {
-        let found = self.stoppably(py, question)?;
-        found.map_err(|error| self.explain(py, error))
+        let py_result = self.stoppably(py, question)?;
+        py_result.map_err(|error| self.explain(py, error))
     }
 
     /// Runs an analysis; Ctrl-C ends it and is raised.
@@ -114,9 +114,9 @@ impl Study {
         let here = thread::current();
         thread::scope(|scope| {
             let work = scope.spawn(|| {
-                let found = question(&study);
+                let question = question(&study);
                 here.unpark();
-                found
+                question
             });
             let interrupted = loop {
                 py.detach(|| thread::park_timeout(BETWEEN_SIGNALS));

@@ -88,9 +88,13 @@ impl List {
 
     pub(crate) fn quantities(self, of: &Description) -> Vec<Quantity> {
         match self {
-            Self::Coordinates => named(of.coordinates.iter().map(|own| (&own.name, &own.unit))),
-            Self::Inputs => named(of.inputs.iter().map(|own| (&own.name, &own.unit))),
-            Self::Design => named(of.design.iter().map(|own| (&own.name, &own.unit))),
+            Self::Coordinates => named(
+                of.coordinates
+                    .iter()
+                    .map(|coordinate| (&coordinate.name, &coordinate.unit)),
+            ),
+            Self::Inputs => named(of.inputs.iter().map(|input| (&input.name, &input.unit))),
+            Self::Design => named(of.design.iter().map(|value| (&value.name, &value.unit))),
         }
     }
 
@@ -99,7 +103,7 @@ impl List {
         match self {
             Self::Coordinates => vec![0.0; of.coordinates.len()],
             Self::Inputs => vec![0.0; of.inputs.len()],
-            Self::Design => of.design.iter().map(|own| own.nominal).collect(),
+            Self::Design => of.design.iter().map(|value| value.nominal).collect(),
         }
     }
 

@@ -47,7 +47,7 @@ impl Forced {
             let ends = (values.first(), values.last());
             let peaks = match ends {
                 (Some(&first), Some(&last)) if first != last => (wanted.iter())
-                    .map(|own| (*own, study.peaks(*own, input, first, last)))
+                    .map(|x| (*x, study.peaks(*x, input, first, last)))
                     .collect(),
                 _ => Vec::new(),
             };

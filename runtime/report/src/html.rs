@@ -26,7 +26,7 @@ impl Html {
 
     /// Writes an element that contains only text.
     pub(crate) fn leaf(&mut self, tag: &'static str, attributes: Attributes<'_>, text: &str) {
-        self.element(tag, attributes, |own| own.text(text));
+        self.element(tag, attributes, |x| x.text(text));
     }
 
     /// Writes a paragraph.

@@ -38,18 +38,18 @@ impl<'a> View<'a> {
     ) -> Self {
         let scene = &pictures.scene;
         let size = scene.size();
-        let motion = |own: &ModePictures| {
-            let mode = modes?.modes.get(own.mode)?;
-            let frames = own.frames.iter().map(|poses| flat(poses, size));
+        let motion = |mode_pictures: &ModePictures| {
+            let mode = modes?.modes.get(mode_pictures.mode)?;
+            let frames = mode_pictures.frames.iter().map(|poses| flat(poses, size));
             Some(Motion {
                 title: title(mode, style),
-                about: about(mode, own.amplitude),
+                about: about(mode, mode_pictures.amplitude),
                 frames: frames.collect(),
             })
         };
         let vibrations = harmonics(d).into_iter().zip(&pictures.vibrations);
-        let forced = vibrations.filter_map(|(excitation, own)| {
-            let own = own.as_ref().ok()?;
+        let forced = vibrations.filter_map(|(excitation, item)| {
+            let own = item.as_ref().ok()?;
             let (scale, unit) = style.frequency(None);
             let frequency = number(scale * own.frequency);
             Some(Motion {
@@ -98,8 +98,8 @@ fn title(mode: &Mode, style: &Style) -> String {
     }
 }
 
-fn enlarged(own: &VibrationPictures) -> String {
-    match own.enlargement {
+fn enlarged(vibration_pictures: &VibrationPictures) -> String {
+    match vibration_pictures.enlargement {
         0.0 => "forced vibration; it moves no body".to_owned(),
         factor => format!(
             "forced vibration, enlarged {} times, not in real time",

@@ -96,13 +96,13 @@ fn head(html: &mut Html, columns: &[&Column]) {
 /// Writes a cell; a number within rounding error relative to `largest` is shown as zero.
 fn cell(html: &mut Html, values: &Values, row: usize, largest: f64) {
     let text = match values {
-        Values::Numbers(all) => all[row].map(|own| match is_rounding(own, largest) {
+        Values::Numbers(all) => all[row].map(|item| match is_rounding(item, largest) {
             true => number(0.0),
-            false => number(own),
+            false => number(item),
         }),
-        Values::Whole(all) => all[row].map(|own| own.to_string()),
+        Values::Whole(all) => all[row].map(|x| x.to_string()),
         Values::Texts(all) => all[row].clone(),
-        Values::Flags(all) => all[row].map(|own| if own { "yes" } else { "no" }.to_owned()),
+        Values::Flags(all) => all[row].map(|x| if x { "yes" } else { "no" }.to_owned()),
     };
     let text = text.unwrap_or_else(|| "\u{2013}".to_owned());
     html.leaf("td", &[("class", class_of(values))], &text);
@@ -117,7 +117,7 @@ fn class_of(values: &Values) -> &'static str {
 
 fn largest(values: &Values) -> f64 {
     match values {
-        Values::Numbers(all) => (all.iter().flatten()).fold(0.0, |most, own| own.abs().max(most)),
+        Values::Numbers(all) => (all.iter().flatten()).fold(0.0, |most, x| x.abs().max(most)),
         _ => 0.0,
     }
 }

@@ -19,7 +19,9 @@ pub(crate) fn digits(value: f64, count: usize) -> String {
     }
     // The exponent of the rounded number: 0.99999 has one digit before the point.
     let exponent = scientific.rsplit('e').next();
-    let exponent: i32 = exponent.and_then(|own| own.parse().ok()).unwrap_or(0);
+    let exponent: i32 = exponent
+        .and_then(|exponent| exponent.parse().ok())
+        .unwrap_or(0);
     let decimals = (count as i32 - 1 - exponent).clamp(0, 9) as usize;
     trimmed(&format!("{value:.decimals$}"))
 }

@@ -51,8 +51,8 @@ pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
 /// The value of an unknown, or zero if it is rounding compared to others with the same unit.
 pub fn of_its_kind(description: &Description, values: &[f64], i: usize) -> f64 {
     let infos = description.coordinates.iter().zip(values);
-    let own = &description.coordinates[i].unit.symbol;
-    let kind = infos.filter(|(info, _)| info.unit.symbol == *own);
+    let symbol = &description.coordinates[i].unit.symbol;
+    let kind = infos.filter(|(info, _)| info.unit.symbol == *symbol);
     unless_rounding(values[i], largest(kind.map(|(_, value)| *value)))
 }
 

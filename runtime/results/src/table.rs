@@ -104,7 +104,7 @@ impl Table {
         unit: &str,
         values: impl IntoIterator<Item = V>,
     ) {
-        let finite = |value: V| value.into().filter(|own: &f64| own.is_finite());
+        let finite = |value: V| value.into().filter(|value: &f64| value.is_finite());
         let values = values.into_iter().map(finite).collect();
         self.add(name, unit, Values::Numbers(values));
     }
@@ -115,7 +115,7 @@ impl Table {
         name: &str,
         values: impl IntoIterator<Item = V>,
     ) {
-        let whole = |value: V| value.into().and_then(|own| i64::try_from(own).ok());
+        let whole = |value: V| value.into().and_then(|x| i64::try_from(x).ok());
         let values = values.into_iter().map(whole).collect();
         self.add(name, "", Values::Whole(values));
     }
@@ -142,7 +142,7 @@ impl Table {
 
     /// Adds a column. A name the table already has gets a number appended, `mode 2`.
     fn add(&mut self, name: &str, unit: &str, values: Values) {
-        let taken = |name: &str| self.columns.iter().any(|own| own.name == name);
+        let taken = |name: &str| self.columns.iter().any(|column| column.name == name);
         let mut own = name.to_owned();
         let mut number = 2;
         while taken(&own) {

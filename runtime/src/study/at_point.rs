@@ -64,7 +64,7 @@ impl<M: Kernels> Study<M> {
     pub fn search(&self, bounds: &[(Coordinate<M>, f64, f64)]) -> Result<Search, Error> {
         let start = self.settings.assembled_start(&self.mechanism)?;
         let bounds = bounds.iter();
-        let bounds = bounds.map(|(own, low, high)| (own.any(), *low, *high));
+        let bounds = bounds.map(|(x, low, high)| (x.any(), *low, *high));
         let bounds: Vec<_> = self
             .settings
             .held_bounds(&self.mechanism)
@@ -153,10 +153,10 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
-        let own = Toleranced::<dyn Kernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        let slopes = sensitivity::sensitivities(own.kernels(), state, modes)?;
-        tolerance::first_order(modes, &slopes, own.tolerances)
+        let toleranced = Toleranced::<dyn Kernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = toleranced.solved();
+        let slopes = sensitivity::sensitivities(toleranced.kernels(), state, modes)?;
+        tolerance::first_order(modes, &slopes, toleranced.tolerances)
     }
 
     /// Classifies each mode as whirling forward, backward or not at all ([`modes::whirls`](crate::modes::whirls)).
@@ -187,9 +187,15 @@ impl<M: BatchKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`], of the nominal design; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
-        let own = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
-        let ((state, modes), sampling) = (own.solved(), self.sampling());
-        tolerance::monte_carlo(own.kernels(), state, modes, own.tolerances, &sampling)
+        let toleranced = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
+        let ((state, modes), sampling) = (toleranced.solved(), self.sampling());
+        tolerance::monte_carlo(
+            toleranced.kernels(),
+            state,
+            modes,
+            toleranced.tolerances,
+            &sampling,
+        )
     }
 
     /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same
@@ -232,9 +238,15 @@ impl<M: BatchKernels> Study<M> {
     /// # Errors
     /// As [`Study::samples_between`].
     pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
-        let own = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        tolerance::partial_monte_carlo(own.kernels(), state, modes, own.tolerances, sampling)
+        let toleranced = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = toleranced.solved();
+        tolerance::partial_monte_carlo(
+            toleranced.kernels(),
+            state,
+            modes,
+            toleranced.tolerances,
+            sampling,
+        )
     }
 
     /// Solves the missing samples of a run, unless it is stopped again; see [`Study::sample_modes`].

@@ -153,9 +153,9 @@ impl<M: DirectionalKernels> Study<M> {
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        let own = Toleranced::<dyn DirectionalKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        clusters::clusters(own.kernels(), state, modes, own.tolerances)
+        let toleranced = Toleranced::<dyn DirectionalKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = toleranced.solved();
+        clusters::clusters(toleranced.kernels(), state, modes, toleranced.tolerances)
     }
 }
 
@@ -195,9 +195,9 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`] and [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
-        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        let (kernels, tolerances) = (own.kernels(), own.tolerances);
+        let toleranced = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = toleranced.solved();
+        let (kernels, tolerances) = (toleranced.kernels(), toleranced.tolerances);
         Ok(second_order::second_order(
             kernels, state, modes, tolerances,
         ))
@@ -226,8 +226,14 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::summary`].
     pub fn summary_within(&self, operations: f64) -> Result<Summary, Error> {
-        let own = Toleranced::<dyn SummaryKernels>::of(&self.settings, &self.mechanism)?;
-        let (kernels, watch) = (own.kernels(), self.settings.watch());
-        summary::summary_watched(kernels, own.solved(), own.tolerances, operations, watch)
+        let toleranced = Toleranced::<dyn SummaryKernels>::of(&self.settings, &self.mechanism)?;
+        let (kernels, watch) = (toleranced.kernels(), self.settings.watch());
+        summary::summary_watched(
+            kernels,
+            toleranced.solved(),
+            toleranced.tolerances,
+            operations,
+            watch,
+        )
     }
 }

@@ -194,8 +194,9 @@ impl<M: Kernels> Study<M> {
     #[must_use]
     pub fn relative_tolerance(mut self, parameter: impl Into<Parameter<M>>, fraction: f64) -> Self {
         let limits = (-fraction, fraction);
-        self.settings
-            .vary(parameter.into().any(), |own| own.set_limits(limits, true));
+        self.settings.vary(parameter.into().any(), |setting| {
+            setting.set_limits(limits, true)
+        });
         self
     }
 
@@ -230,7 +231,7 @@ impl<M: Kernels> Study<M> {
     #[must_use]
     pub fn law(mut self, parameter: impl Into<Parameter<M>>, law: Law) -> Self {
         self.settings
-            .vary(parameter.into().any(), |own| own.set_law(law));
+            .vary(parameter.into().any(), |setting| setting.set_law(law));
         self
     }
 
@@ -248,8 +249,8 @@ impl<M: Kernels> Study<M> {
         parameter: impl Into<Parameter<M>>,
         values: Distribution,
     ) -> Self {
-        self.settings.vary(parameter.into().any(), |own| {
-            *own = Variation::Values(values)
+        self.settings.vary(parameter.into().any(), |setting| {
+            *setting = Variation::Values(values)
         });
         self
     }
@@ -422,7 +423,7 @@ impl<M: Kernels> Study<M> {
     ) -> Result<usize, Error> {
         let known = names.clone();
         names
-            .position(|own| *own == *name)
+            .position(|x| *x == *name)
             .ok_or_else(|| Error::UnknownName {
                 kind,
                 name: name.to_owned(),

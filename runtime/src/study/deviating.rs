@@ -46,7 +46,7 @@ impl<'a, K: ?Sized> Toleranced<'a, K> {
     /// The equilibrium and its modes.
     pub(super) fn solved(&self) -> (&Equilibrium, &Modes) {
         match &self.deviating {
-            Some(own) => (&own.0, &own.1),
+            Some(deviating) => (&deviating.0, &deviating.1),
             None => self.plain,
         }
     }

@@ -112,12 +112,17 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`] and [`Study::forced_response`].
     pub fn vibration_spread(&self, wanted: &[Vibration]) -> Result<Propagation, Error> {
-        let own = Toleranced::<dyn SummaryKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
+        let toleranced = Toleranced::<dyn SummaryKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = toleranced.solved();
         let wanted = wanted.iter().copied().map(Response::Vibration);
-        let responses = Responses::new(own.kernels(), state, modes, wanted.collect())?;
+        let responses = Responses::new(toleranced.kernels(), state, modes, wanted.collect())?;
         let sampling = self.settings.sampling();
-        propagation::vibrations(own.kernels(), &responses, own.tolerances, &sampling)
+        propagation::vibrations(
+            toleranced.kernels(),
+            &responses,
+            toleranced.tolerances,
+            &sampling,
+        )
     }
 
     /// Forced vibration at each value of one input: amplitude and phase of every output with their derivatives

@@ -263,7 +263,7 @@ impl Swept<'_> {
         let from = (along.0, first_of(along.1));
         let (start, following) = self.way(self.plain, from)?;
         let watch = self.settings.watch();
-        let each = |found: &SweepPoint| go_on(each(found), watch);
+        let each = |sweep_point: &SweepPoint| go_on(each(sweep_point), watch);
         sweep::sweep_each(self.kernels(), point, &start, following, along, each)
     }
 
@@ -288,11 +288,11 @@ impl Swept<'_> {
         along: (Input, &[f64]),
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
         let tolerances = self.settings.tolerances()?;
-        let mut found = Vec::with_capacity(along.1.len());
+        let mut first_orders = Vec::with_capacity(along.1.len());
         self.sensitivity_sweep(along, &mut |point, slopes| {
-            found.push(spread(point, slopes, tolerances));
+            first_orders.push(spread(point, slopes, tolerances));
         })?;
-        Ok(found)
+        Ok(first_orders)
     }
 }
 

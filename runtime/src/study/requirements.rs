@@ -142,9 +142,15 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`] and [`second_order_failure`].
     pub fn second_order_failure(&self, wanted: Requirement) -> Result<SecondOrderFailure, Error> {
-        let own = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = own.solved();
-        second_order_failure(own.kernels(), state, modes, own.tolerances, wanted)
+        let toleranced = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, modes) = toleranced.solved();
+        second_order_failure(
+            toleranced.kernels(),
+            state,
+            modes,
+            toleranced.tolerances,
+            wanted,
+        )
     }
 }
 

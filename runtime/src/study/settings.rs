@@ -131,11 +131,11 @@ impl Settings {
     )]
     pub(super) fn of(&self, description: Shared<Description>, at: &Equilibrium) -> Self {
         let unknowns = &description.coordinates;
-        let place = |own: usize| {
-            let name = &self.description.coordinates.get(own)?.name;
+        let place = |item: usize| {
+            let name = &self.description.coordinates.get(item)?.name;
             unknowns.iter().position(|info| info.name == *name)
         };
-        let held = |own: &Held| Some(Held::at(place(own.unknown)?, own.value));
+        let held = |held: &Held| Some(Held::at(place(held.unknown)?, held.value));
         let mut settings = Self {
             start: Vector::zeros(unknowns.len()),
             named: vec![false; unknowns.len()],
@@ -191,7 +191,7 @@ impl Settings {
     pub(super) fn set_limits(&mut self, parameter: Parameter, lower: Value, upper: Value) {
         let limits = (self.unit(parameter)).map(|unit| (lower.si(unit), upper.si(unit)));
         match limits {
-            Ok(limits) => self.vary(parameter, |own| own.set_limits(limits, false)),
+            Ok(limits) => self.vary(parameter, |x| x.set_limits(limits, false)),
             Err(error) => self.refuse(error),
         }
     }
@@ -271,16 +271,16 @@ impl Settings {
 
     fn tolerances_here(&self) -> Result<Tolerances, Error> {
         let inputs = self.input_variations.iter().zip(&self.inputs);
-        let inputs = inputs.filter(|(own, _)| !own.is_none());
+        let inputs = inputs.filter(|(x, _)| !x.is_none());
         let design = self.design_variations.iter().zip(&self.design);
         let all = design.chain(inputs);
         let (level, correlation) = (self.sigma_level, self.correlation.clone());
-        let normal = (all.clone()).map(|(own, value)| own.normal_half_width(*value));
+        let normal = (all.clone()).map(|(x, value)| x.normal_half_width(*value));
         if normal.clone().all(|half_width| half_width.is_some()) {
             let half_widths: Vector = normal.flatten().collect();
             return Tolerances::new(half_widths, level, correlation);
         }
-        let values = (all.clone()).map(|(own, value)| own.distribution(*value, level));
+        let values = (all.clone()).map(|(x, value)| x.distribution(*value, level));
         let values: Vec<Distribution> = values.collect::<Result<_, _>>()?;
         let nominal: Vector = all.map(|(_, value)| *value).collect();
         Tolerances::distributed(&nominal, values, level, correlation)
@@ -289,7 +289,7 @@ impl Settings {
     /// The inputs that have a tolerance.
     pub(super) fn deviating_inputs(&self) -> Vec<Input> {
         let all = self.input_variations.iter().enumerate();
-        let varied = all.filter(|(_, own)| !own.is_none());
+        let varied = all.filter(|(_, x)| !x.is_none());
         varied.map(|(i, _)| Input::new(i)).collect()
     }
 
@@ -305,9 +305,9 @@ impl Settings {
 
     /// A search for equilibria held as the study is; if there is none, `None` or only the equilibrium from `start`.
     pub(super) fn held_in(&self, search: Option<&Search>, start: &[f64]) -> Option<Search> {
-        let own = search.cloned();
-        let own =
-            own.or_else(|| (!self.holds.is_empty()).then(|| Search::new(start, start).starts(0)))?;
+        let search = search.cloned();
+        let own = search
+            .or_else(|| (!self.holds.is_empty()).then(|| Search::new(start, start).starts(0)))?;
         Some(match own.held.is_empty() {
             true => own.held(self.holds.clone()),
             false => own,
@@ -327,8 +327,8 @@ impl Settings {
             return None;
         }
         let mut there = self.clone();
-        if let Some(own) = there.inputs.get_mut(input.index()) {
-            *own = first;
+        if let Some(input) = there.inputs.get_mut(input.index()) {
+            *input = first;
         }
         let (state, _) = there.solve(plain).ok()?;
         (!state.stability.holds() || !state.free.held.is_empty()).then_some(*state)

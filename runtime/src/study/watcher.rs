@@ -17,7 +17,7 @@ impl Watcher {
     pub(super) fn watch(&self) -> Watch<'_> {
         let progress = self.progress.as_deref();
         Watch::default()
-            .progress(progress.map(|own| own as &(dyn Fn(usize) + Sync)))
+            .progress(progress.map(|progress| progress as &(dyn Fn(usize) + Sync)))
             .stop(self.stop.as_deref())
     }
 }

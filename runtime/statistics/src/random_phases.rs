@@ -39,21 +39,28 @@ impl RandomPhases {
     pub fn new(lengths: &[f64]) -> Result<Self, Error> {
         if let Some(wrong) = lengths
             .iter()
-            .find(|own| !(**own >= 0.0 && own.is_finite()))
+            .find(|length| !(**length >= 0.0 && length.is_finite()))
         {
             return Err(Error::Setting {
                 setting: "lengths",
                 reason: format!("{wrong} is no length"),
             });
         }
-        let mut lengths: Vec<f64> = lengths.iter().copied().filter(|own| *own > 0.0).collect();
+        let mut lengths: Vec<f64> = lengths
+            .iter()
+            .copied()
+            .filter(|length| *length > 0.0)
+            .collect();
         lengths.sort_by(|a, b| b.total_cmp(a));
         let all: f64 = lengths.iter().sum();
         let mut terms = Vec::new();
         if lengths.len() > 2 {
             for m in 1..=TERMS {
                 let j = zero_of_j0(m);
-                let product: f64 = lengths.iter().map(|own| libm::j0(own * j / all)).product();
+                let product: f64 = lengths
+                    .iter()
+                    .map(|length| libm::j0(length * j / all))
+                    .product();
                 terms.push([j, product / (j * libm::j1(j).powi(2))]);
             }
         }
@@ -76,7 +83,11 @@ impl RandomPhases {
     /// Root of the mean square of the length.
     #[must_use]
     pub fn root_mean_square(&self) -> f64 {
-        self.lengths.iter().map(|own| own * own).sum::<f64>().sqrt()
+        self.lengths
+            .iter()
+            .map(|length| length * length)
+            .sum::<f64>()
+            .sqrt()
     }
 
     /// Probability that the sum is not longer than `length`; the series of three or more vectors to about 1e-6.

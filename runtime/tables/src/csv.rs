@@ -167,10 +167,12 @@ pub fn read(name: &str, mut file: impl Read) -> Result<Table, Error> {
 fn cell(values: &Values, row: usize) -> String {
     match values {
         // Debug prints the shortest digits that restore the number, with an exponent where that is shorter.
-        Values::Numbers(own) => own[row].map_or_else(String::new, |value| format!("{value:?}")),
-        Values::Whole(own) => own[row].map_or_else(String::new, |value| value.to_string()),
-        Values::Texts(own) => own[row].clone().unwrap_or_default(),
-        Values::Flags(own) => own[row].map_or_else(String::new, |value| value.to_string()),
+        Values::Numbers(numbers) => {
+            numbers[row].map_or_else(String::new, |value| format!("{value:?}"))
+        }
+        Values::Whole(whole) => whole[row].map_or_else(String::new, |value| value.to_string()),
+        Values::Texts(texts) => texts[row].clone().unwrap_or_default(),
+        Values::Flags(flags) => flags[row].map_or_else(String::new, |value| value.to_string()),
     }
 }
 
@@ -196,7 +198,7 @@ fn values(cells: Vec<String>) -> Values {
     if let Some(own) = all(&cells, |cell| cell.parse().ok()) {
         return Values::Flags(own);
     }
-    let word = |cell: String| Some(cell).filter(|own| !own.is_empty());
+    let word = |cell: String| Some(cell).filter(|cell| !cell.is_empty());
     Values::Texts(cells.into_iter().map(word).collect())
 }
 
@@ -219,9 +221,7 @@ fn reading(error: csv::Error) -> Error {
 
 /// Name and unit of a [heading](Column::heading).
 pub(crate) fn read_heading(heading: &str) -> (String, String) {
-    let unit = heading
-        .strip_suffix(']')
-        .and_then(|own| own.rsplit_once(" ["));
+    let unit = heading.strip_suffix(']').and_then(|x| x.rsplit_once(" ["));
     let (name, unit) = unit.unwrap_or((heading, ""));
     (name.to_owned(), unit.to_owned())
 }

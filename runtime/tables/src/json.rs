@@ -103,14 +103,14 @@ struct Whole {
 pub fn write<A: Answer + Serialize>(answer: &A, mut file: impl Write) -> Result<(), Error> {
     let subject = answer.subject();
     let description = match subject {
-        Some(own) => value(&**own.description)?,
+        Some(subject) => value(&**subject.description)?,
         None => Value::Null,
     };
     let mut result = value(answer)?;
     leave_out(&mut result, &description);
-    let each = subject.iter().flat_map(|own| {
-        let each = own.description.inputs.iter().zip(own.inputs).enumerate();
-        let varied = own.varied.map(Input::index);
+    let each = subject.iter().flat_map(|item| {
+        let each = item.description.inputs.iter().zip(item.inputs).enumerate();
+        let varied = item.varied.map(Input::index);
         each.filter(move |(k, _)| Some(*k) != varied)
     });
     let inputs = each.map(|(_, (info, &value))| {
@@ -123,7 +123,7 @@ pub fn write<A: Answer + Serialize>(answer: &A, mut file: impl Write) -> Result<
         version: VERSION,
         by: concat!("eigentol-tables ", env!("CARGO_PKG_VERSION")),
         kind: A::KIND,
-        mechanism: subject.map(|own| &*own.description.name),
+        mechanism: subject.map(|subject| &*subject.description.name),
         inputs: inputs.collect(),
         notes: answer.findings().notes().map(str::to_owned).collect(),
         tables: answer.tables(),
@@ -217,7 +217,7 @@ fn lengths(description: &Value, result: &Value) -> String {
         match value {
             Value::Array(all) => {
                 add(hash, &(all.len() as u64).to_le_bytes());
-                all.iter().for_each(|own| walk(hash, own));
+                all.iter().for_each(|x| walk(hash, x));
             }
             Value::Object(fields) => {
                 // Sorted, because other programs may reorder fields.
@@ -240,7 +240,7 @@ fn lengths(description: &Value, result: &Value) -> String {
 /// Replaces repeated descriptions by `null`: every state and set of modes carries one, but the document stores it once.
 fn leave_out(value: &mut Value, description: &Value) {
     match value {
-        Value::Array(all) => all.iter_mut().for_each(|own| leave_out(own, description)),
+        Value::Array(all) => all.iter_mut().for_each(|x| leave_out(x, description)),
         Value::Object(fields) => {
             for (name, own) in fields {
                 if name == "description" && own == description {
@@ -256,7 +256,7 @@ fn leave_out(value: &mut Value, description: &Value) {
 
 fn put_back(value: &mut Value, description: &Value) {
     match value {
-        Value::Array(all) => all.iter_mut().for_each(|own| put_back(own, description)),
+        Value::Array(all) => all.iter_mut().for_each(|x| put_back(x, description)),
         Value::Object(fields) => {
             for (name, own) in fields {
                 if name == "description" && own.is_null() {

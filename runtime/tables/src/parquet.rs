@@ -183,21 +183,21 @@ fn group<W: Write + Send>(
             break;
         };
         match (writer.untyped(), &column.values) {
-            (ColumnWriter::DoubleColumnWriter(own), Values::Numbers(all)) => {
+            (ColumnWriter::DoubleColumnWriter(double_column_writer), Values::Numbers(all)) => {
                 let (levels, values) = present(all, |value| *value);
-                own.write_batch(&values, Some(&levels), None)?;
+                double_column_writer.write_batch(&values, Some(&levels), None)?;
             }
-            (ColumnWriter::Int64ColumnWriter(own), Values::Whole(all)) => {
+            (ColumnWriter::Int64ColumnWriter(int64_column_writer), Values::Whole(all)) => {
                 let (levels, values) = present(all, |value| *value);
-                own.write_batch(&values, Some(&levels), None)?;
+                int64_column_writer.write_batch(&values, Some(&levels), None)?;
             }
-            (ColumnWriter::ByteArrayColumnWriter(own), Values::Texts(all)) => {
+            (ColumnWriter::ByteArrayColumnWriter(byte_array_column_writer), Values::Texts(all)) => {
                 let (levels, values) = present(all, |text| ByteArray::from(text.as_str()));
-                own.write_batch(&values, Some(&levels), None)?;
+                byte_array_column_writer.write_batch(&values, Some(&levels), None)?;
             }
-            (ColumnWriter::BoolColumnWriter(own), Values::Flags(all)) => {
+            (ColumnWriter::BoolColumnWriter(bool_column_writer), Values::Flags(all)) => {
                 let (levels, values) = present(all, |value| *value);
-                own.write_batch(&values, Some(&levels), None)?;
+                bool_column_writer.write_batch(&values, Some(&levels), None)?;
             }
             _ => return Err(ParquetError::General("a column of another kind".to_owned())),
         }
@@ -209,7 +209,7 @@ fn group<W: Write + Send>(
 
 /// Definition levels (1 where an entry is present) and the values present.
 fn present<T, R>(all: &[Option<T>], value: impl Fn(&T) -> R) -> (Vec<i16>, Vec<R>) {
-    let levels = all.iter().map(|own| i16::from(own.is_some())).collect();
+    let levels = all.iter().map(|x| i16::from(x.is_some())).collect();
     (levels, all.iter().flatten().map(value).collect())
 }
 
@@ -225,9 +225,9 @@ pub fn read(mut file: impl Read) -> Result<Table, Error> {
     let metadata = reader.metadata().file_metadata();
     let keys = metadata.key_value_metadata().into_iter().flatten();
     let keys: BTreeMap<&str, &str> = keys
-        .filter_map(|own| Some((own.key.as_str(), own.value.as_deref()?)))
+        .filter_map(|key| Some((key.key.as_str(), key.value.as_deref()?)))
         .collect();
-    if let Some(version) = keys.get(FORMAT).filter(|own| **own != VERSION.to_string()) {
+    if let Some(version) = keys.get(FORMAT).filter(|key| **key != VERSION.to_string()) {
         return Err(Error::Version {
             found: (*version).to_owned(),
             by: metadata
@@ -283,7 +283,7 @@ fn append(group: &dyn RowGroupReader, column: usize, to: &mut Values) -> Result<
         Values::Texts(all) => {
             for entry in entries::<ByteArrayType>(reader, rows)? {
                 let text = entry
-                    .map(|own| own.as_utf8().map(str::to_owned))
+                    .map(|entry| entry.as_utf8().map(str::to_owned))
                     .transpose();
                 all.push(text.map_err(content)?);
             }

@@ -43,8 +43,7 @@ impl<'a> Deviations<'a> {
     /// Rejects variables without a density, which are not smooth functions of normal ones.
     pub(crate) fn check_densities(&self, description: &Description) -> Result<(), Error> {
         let all = self.tolerances.joint().map(|(joint, _)| joint.variables());
-        let discrete =
-            all.and_then(|all| all.iter().position(|own| !Distribution::is_continuous(own)));
+        let discrete = all.and_then(|all| all.iter().position(|x| !Distribution::is_continuous(x)));
         let Some(k) = discrete else {
             return Ok(());
         };

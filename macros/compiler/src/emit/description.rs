@@ -185,11 +185,11 @@ pub(super) fn warnings(mechanism: &Mechanism) -> TokenStream {
     }
     let hide = |name: &Ident| Ident::new(&name.to_string(), Span::call_site());
     let hidden = names.iter().map(|name| hide(name));
-    let beams: Vec<_> = exchanged.iter().map(|own| &own.beam).collect();
+    let beams: Vec<_> = exchanged.iter().map(|x| &x.beam).collect();
     let constants = beams.iter().map(|name| hide(name));
     let notes = exchanged
         .iter()
-        .map(|own| format!("{}; {}", own.message, Exchanged::HELP));
+        .map(|x| format!("{}; {}", x.message, Exchanged::HELP));
     let levels = ["allow", "warn", "deny", "forbid"];
     let is_level = |a: &&syn::Attribute| levels.iter().any(|level| a.path().is_ident(level));
     let levels = mechanism.attributes.iter().filter(is_level);

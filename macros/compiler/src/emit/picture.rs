@@ -52,8 +52,8 @@ pub(super) fn info(picture: &Picture) -> TokenStream {
     });
     let numbers = picture.numbers.iter().map(|value| quote!(#value));
     let computed = picture.computed.iter().map(|&place| {
-        let place = Literal::u32_unsuffixed(place);
-        quote!(#place)
+        let literal = Literal::u32_unsuffixed(place);
+        quote!(#literal)
     });
     let (bodies, beams) = (list(bodies), list(beams));
     let (joints, points) = (list(joints), list(points));

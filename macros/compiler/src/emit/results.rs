@@ -173,11 +173,11 @@ impl<'a> Results<'a> {
         let result = &self.kernel.results[array];
         let mut indices = indices(&result.shape, entry).into_iter();
         let which = indices.next().unwrap_or(0);
-        let mut place = format!("result_.{}[{which}].{}", BY[array / 3], result.name);
+        let mut text = format!("result_.{}[{which}].{}", BY[array / 3], result.name);
         for index in indices {
-            let _ = write!(place, "[{index}]");
+            let _ = write!(text, "[{index}]");
         }
-        place
+        text
     }
 }
 

@@ -36,7 +36,7 @@ pub fn derive(
             Err(Unsteady::Standing(more)) => {
                 let mut refused = Diagnostics::new();
                 for id in more {
-                    if let Some(steady) = mechanism.steady.iter().find(|own| own.coordinate == id) {
+                    if let Some(steady) = mechanism.steady.iter().find(|x| x.coordinate == id) {
                         refused.error_with_help(
                             &steady.name,
                             format!("`{}` can only stand still: slip depends on it", steady.name),
@@ -146,7 +146,7 @@ fn held(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<usize> {
         place.expect("what has a steady value is not driven, and its joint is not cut")
     };
     let steady = mechanism.steady.iter();
-    steady.map(|own| place(own.coordinate)).collect()
+    steady.map(|steady| place(steady.coordinate)).collect()
 }
 
 /// The meaning of each entry of `q`.

@@ -104,7 +104,7 @@ impl Graph {
                     Some(_) => {
                         let inwards = graph.path(from, 0).unwrap_or_default();
                         let pairs = closing.iter().zip(&inwards);
-                        let shared = pairs.take_while(|(own, other)| own == other).count();
+                        let shared = pairs.take_while(|(x, other)| x == other).count();
                         closing.drain(..shared);
                     }
                 }

@@ -55,10 +55,9 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
         }
     }
     for (index, joint) in mechanism.joints.iter().enumerate() {
-        let moves_itself = mechanism
-            .coordinates
-            .iter()
-            .any(|own| own.joint.index() == index && own.motion != Motion::Free);
+        let moves_itself = mechanism.coordinates.iter().any(|coordinate| {
+            coordinate.joint.index() == index && coordinate.motion != Motion::Free
+        });
         needed[index] |= moves_itself || joint.closing.is_none();
     }
     needed

@@ -126,9 +126,9 @@ mod tests {
         for n in 1..10 {
             let rule = Gauss::new(n);
             for x in [0.0, 0.3, 0.77, 1.0] {
-                let own = rule.integrals_to(x);
+                let values = rule.integrals_to(x);
                 for power in 0..n as i32 {
-                    let terms = rule.points.iter().zip(&own);
+                    let terms = rule.points.iter().zip(&values);
                     let sum: f64 = terms.map(|(p, w)| w * p.powi(power)).sum();
                     let expected = f64::powi(x, power + 1) / f64::from(power + 1);
                     assert!((sum - expected).abs() < 1e-13, "{n} {x} {power}");
@@ -140,9 +140,9 @@ mod tests {
     #[test]
     fn slopes_are_those_of_powers() {
         let rule = Gauss::new(6);
-        for (x, own) in rule.points.iter().zip(rule.slopes()) {
+        for (x, slope) in rule.points.iter().zip(rule.slopes()) {
             for power in 1..6 {
-                let terms = rule.points.iter().zip(&own);
+                let terms = rule.points.iter().zip(&slope);
                 let sum: f64 = terms.map(|(p, w)| w * p.powi(power)).sum();
                 let expected = f64::from(power) * x.powi(power - 1);
                 assert!((sum - expected).abs() < 1e-12, "{x} {power}");
@@ -154,10 +154,10 @@ mod tests {
     fn integrals_are_those_of_the_polynomials() {
         let rule = Gauss::new(8);
         for x in [0.2, 0.9, 1.0] {
-            for (j, own) in integrals(6, x).into_iter().enumerate() {
+            for (j, value) in integrals(6, x).into_iter().enumerate() {
                 let terms = rule.points.iter().zip(&rule.weights);
                 let sum: f64 = terms.map(|(p, w)| w * x * polynomials(6, p * x)[j]).sum();
-                assert!((own - sum).abs() < 1e-14, "{j} {x} {own} {sum}");
+                assert!((value - sum).abs() < 1e-14, "{j} {x} {value} {sum}");
             }
         }
     }

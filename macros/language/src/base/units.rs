@@ -199,12 +199,12 @@ pub fn suggestion(name: &str) -> Option<&'static str> {
     let name = &name.replace('_', "");
     let singular = name.strip_suffix('s').unwrap_or(name);
     let word = |name: &str| {
-        let word = WORDS.iter().find(|own| own.0.eq_ignore_ascii_case(name));
-        word.map(|own| own.1)
+        let word = WORDS.iter().find(|word| word.0.eq_ignore_ascii_case(name));
+        word.map(|word| word.1)
     };
     let plain = |name: &str| {
-        let symbol = PLAIN.iter().find(|own| own.0.eq_ignore_ascii_case(name));
-        symbol.map(|own| own.0)
+        let symbol = PLAIN.iter().find(|pair| pair.0.eq_ignore_ascii_case(name));
+        symbol.map(|symbol| symbol.0)
     };
     [name, singular]
         .into_iter()

@@ -27,11 +27,11 @@ impl Mechanism {
     /// Beams given by numbers whose two bending stiffnesses seem to be exchanged: the lower one is about the axis from which
     /// the section extends, or has its inertia, farther. Nothing is said where a number depends on an input.
     pub fn exchanged(&self) -> Vec<Exchanged> {
-        let design: Vec<f64> = self.design.iter().map(|own| own.nominal).collect();
+        let design: Vec<f64> = self.design.iter().map(|value| value.nominal).collect();
         let values = Values::new(&self.constants, &[], &design);
         let mut list: Vec<Exchanged> = Vec::new();
         for beam in &self.beams {
-            if list.iter().any(|own| own.beam == beam.whole) {
+            if list.iter().any(|x| x.beam == beam.whole) {
                 continue;
             }
             let Some(contradiction) = contradiction(&values, beam) else {

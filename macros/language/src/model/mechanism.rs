@@ -98,7 +98,7 @@ impl Mechanism {
             .beams
             .iter()
             .flat_map(|beam| beam.strains.iter().flatten());
-        all.into_iter().any(|own| *own == id)
+        all.into_iter().any(|x| *x == id)
     }
 
     /// The beam on which a point lies, its place there as a fraction of the length, and the section.
@@ -107,9 +107,9 @@ impl Mechanism {
             return None;
         };
         self.beams.iter().find_map(|beam| {
-            let station = beam.stations.iter().find(|own| own.body == body);
+            let station = beam.stations.iter().find(|station| station.body == body);
             let root = (beam.body == body).then_some((beam, 0.0, &beam.root));
-            let station = station.map(|own| (beam, own.place, &own.section));
+            let station = station.map(|station| (beam, station.place, &station.section));
             station.or(root)
         })
     }

@@ -30,9 +30,9 @@ impl Mechanism {
             let help = format!("if this is intentional, prefix it with an underscore: `_{plain}`");
             (!plain.starts_with('_')).then(|| mistake((span, span), message, Some(help)))
         });
-        let exchanged = self.exchanged().into_iter().map(|own| {
-            let span = own.beam.span();
-            mistake((span, span), own.message, Some(Exchanged::HELP.to_owned()))
+        let exchanged = self.exchanged().into_iter().map(|item| {
+            let span = item.beam.span();
+            mistake((span, span), item.message, Some(Exchanged::HELP.to_owned()))
         });
         let told = |lints: &[&str]| !is_allowed(&self.attributes, lints);
         let unused = unused.filter(|_| told(&UNUSED));

@@ -107,7 +107,7 @@ fn item(kind: &ItemKind) -> String {
         ItemKind::Material(material) => {
             let properties = material.call.arguments.iter().flatten();
             let properties: Vec<String> = properties
-                .map(|own| format!("{} {}", own.name, value(&own.value)))
+                .map(|property| format!("{} {}", property.name, value(&property.value)))
                 .collect();
             format!("material {}: {}", material.name, properties.join(", "))
         }

@@ -55,7 +55,7 @@ impl<'a> Tokens<'a> {
     /// An error at the next token, where something else was expected.
     pub(super) fn expected<T>(&self, what: &str) -> Parsed<T> {
         let message = match self.describe_next() {
-            Some(found) => format!("expected {what}, found `{found}`"),
+            Some(text) => format!("expected {what}, found `{text}`"),
             None => format!("expected {what}"),
         };
         Err(Box::new(Diagnostic::new(self.span(), message)))

@@ -133,8 +133,8 @@ impl Table {
         (hash >> self.slots.len().leading_zeros() >> 1) as usize
     }
 
-    fn next_place(&self, place: usize) -> usize {
-        (place + 1) & (self.slots.len() - 1)
+    fn next_place(&self, index: usize) -> usize {
+        (index + 1) & (self.slots.len() - 1)
     }
 }
 

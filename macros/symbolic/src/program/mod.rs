@@ -117,7 +117,7 @@ impl Kernel {
             }
             match counts.binary_search_by_key(&instruction.stage, |&(stage, _)| stage) {
                 Ok(found) => counts[found].1 += 1,
-                Err(place) => counts.insert(place, (instruction.stage, 1)),
+                Err(error) => counts.insert(error, (instruction.stage, 1)),
             }
         }
         counts

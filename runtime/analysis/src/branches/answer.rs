@@ -79,7 +79,7 @@ impl Answer for Branches {
         let points = points(1, &self.branches);
         said.data(point_columns(one, &points, Vec::new(), &moving).finish().0);
         let (special, distinct) = (special(&self.branches), self.special());
-        let known = |k: &usize| distinct.iter().any(|own| ptr::eq(*own, special[*k].1));
+        let known = |k: &usize| distinct.iter().any(|x| ptr::eq(*x, special[*k].1));
         let rows = (0..special.len()).filter(known).collect();
         special_columns(&mut said, one, &special, rows, &moving);
         for (ends, branches) in self.ends() {
@@ -113,9 +113,9 @@ impl Answer for SpecialPoint {
         said.quote(self.equilibrium.findings());
         critical_vectors(&mut said, d, &self.v, &self.w);
         let mut table = Columns::new("special points", slice::from_ref(self));
-        table.words("kind", &|own| Some(own.kind.to_string()));
-        varied(&mut table, d, self.input, number, &|own| own.value);
-        table.unknowns(d, &|own| Some(&own.equilibrium.coordinates[..]));
+        table.words("kind", &|row| Some(row.kind.to_string()));
+        varied(&mut table, d, self.input, number, &|x| x.value);
+        table.unknowns(d, &|row| Some(&row.equilibrium.coordinates[..]));
         said.data(table.finish().0);
         said
     }
@@ -198,11 +198,11 @@ fn point_columns<'a>(
     let mut table = Columns::new("branches", points);
     table.show_rows(shown);
     table.whole("branch", &|(branch, _)| Some(*branch));
-    varied(&mut table, d, one.input, number, &|(_, own)| own.value);
-    table.unknowns(d, &|(_, own)| Some(&own.equilibrium.coordinates[..]));
-    moving.columns(&mut table, &|(_, own)| Some(&own.equilibrium));
-    let stability = table.words("stability", &|(_, own)| {
-        Some(own.equilibrium.stability_word())
+    varied(&mut table, d, one.input, number, &|(_, x)| x.value);
+    table.unknowns(d, &|(_, x)| Some(&x.equilibrium.coordinates[..]));
+    moving.columns(&mut table, &|(_, x)| Some(&x.equilibrium));
+    let stability = table.words("stability", &|(_, item)| {
+        Some(item.equilibrium.stability_word())
     });
     stability.shown().headed("state");
     table
@@ -223,12 +223,12 @@ fn special_columns(
     let mut table = Columns::new("special points", points);
     table.show_rows(shown);
     table.whole("branch", &|(branch, _)| Some(*branch));
-    let kind = table.words("kind", &|(_, own)| Some(own.kind.to_string()));
+    let kind = table.words("kind", &|(_, x)| Some(x.kind.to_string()));
     kind.shown().headed("special point");
-    varied(&mut table, d, one.input, number, &|(_, own)| own.value);
-    table.cells("state", &|(_, own)| own.equilibrium.stability_word());
-    table.unknowns(d, &|(_, own)| Some(&own.equilibrium.coordinates[..]));
-    moving.columns(&mut table, &|(_, own)| Some(&own.equilibrium));
+    varied(&mut table, d, one.input, number, &|(_, x)| x.value);
+    table.cells("state", &|(_, x)| x.equilibrium.stability_word());
+    table.unknowns(d, &|(_, x)| Some(&x.equilibrium.coordinates[..]));
+    moving.columns(&mut table, &|(_, x)| Some(&x.equilibrium));
     said.columns(table);
 }
 
@@ -261,15 +261,15 @@ fn stretches(one: &Branch, branches: &[Branch], moving: &Moving<'_>) -> Grid {
     let (d, input) = (&one.description, one.input);
     let rows = Stretch::all(branches);
     let mut table = Columns::new("stretches", &rows);
-    table.cells("branch", &|own| {
-        let number = own.number.map(|number| number.to_string());
+    table.cells("branch", &|row| {
+        let number = row.number.map(|number| number.to_string());
         number.unwrap_or_default()
     });
     for (k, end) in ["from", "to"].into_iter().enumerate() {
         let heading = format!("{end} {}", heading_of(d, input));
-        table.cells(&heading, &|own| value_of(d, input, own.ends[k].value));
+        table.cells(&heading, &|row| value_of(d, input, row.ends[k].value));
     }
-    table.cells("state", &|own| own.stability.to_string());
-    moving.columns_from_to(&mut table, &|own| own.ends.map(|end| &end.equilibrium));
+    table.cells("state", &|row| row.stability.to_string());
+    moving.columns_from_to(&mut table, &|x| x.ends.map(|end| &end.equilibrium));
     table.finish().1
 }

@@ -310,13 +310,13 @@ impl Curve<'_> {
     }
 
     /// Number of real growing modes at a place next to a branch point.
-    fn growing(&self, place: &CurvePosition) -> Option<usize> {
-        let linear = self.linear(place).ok()?;
+    fn growing(&self, curve_position: &CurvePosition) -> Option<usize> {
+        let linear = self.linear(curve_position).ok()?;
         let modes = solve_modes(&linear, Family::General, &self.description, 0.0).ok()?;
         let behaviours = modes.modes.iter().map(|mode| mode.behaviour);
         Some(
             behaviours
-                .filter(|own| matches!(own, Behaviour::Divergent(_)))
+                .filter(|behaviour| matches!(behaviour, Behaviour::Divergent(_)))
                 .count(),
         )
     }

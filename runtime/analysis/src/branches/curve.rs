@@ -226,12 +226,12 @@ impl<'a> Curve<'a> {
                 &Vector::zeros(self.size()),
             ],
         );
-        let found = CurvePosition {
+        let curve_position = CurvePosition {
             q: gradient.coordinates,
             p: gradient.inputs[input],
         };
-        if found.finite() {
-            Ok(found)
+        if curve_position.finite() {
+            Ok(curve_position)
         } else {
             Err(ContinuationFailure::OutsideDomain(at.q.clone()))
         }
@@ -282,13 +282,14 @@ impl<'a> Curve<'a> {
         let verdict = if constraints.singular {
             Verdict::undecided()
         } else {
-            let place = rounding::CheckedState {
+            let checked_state = rounding::CheckedState {
                 coordinates: &at.q,
                 inputs: &inputs,
                 design: self.design,
                 residual: &residual,
             };
-            judge(self.mechanism, &place, &linear, &[]).map_err(ContinuationFailure::Refused)?
+            judge(self.mechanism, &checked_state, &linear, &[])
+                .map_err(ContinuationFailure::Refused)?
         };
         let mut state = Equilibrium::blank(&self.description, &inputs, self.design);
         state.pose = self.mechanism.pose_margin(&at.q, &inputs, self.design);

@@ -43,13 +43,13 @@ impl Curve<'_> {
     /// The station at a point of the branch, with its tangent on the side of `towards` (SI units).
     pub(crate) fn station(
         &self,
-        place: &CurvePosition,
+        curve_position: &CurvePosition,
         system: &System,
         judged: SolvedState,
         towards: &CurvePosition,
         before: Option<&Signs>,
     ) -> Result<CurvePoint, ContinuationFailure> {
-        let frame = self.frame(place, system);
+        let frame = self.frame(curve_position, system);
         let scaled = frame.scaled(system);
         let singular = ContinuationFailure::Missed(NotFound::NotIsolated);
         let towards = frame.direction(towards).unit();
@@ -81,7 +81,7 @@ impl Curve<'_> {
             return Err(ContinuationFailure::Missed(NotFound::SingularStiffness));
         }
         Ok(CurvePoint {
-            place: place.clone(),
+            place: curve_position.clone(),
             equilibrium: judged.state,
             judged: judged.modes,
             frame,
@@ -114,10 +114,10 @@ impl Curve<'_> {
                 continue;
             };
             let (q, [p]) = factors.solve(&Vector::zeros(self.size()), [1.0]);
-            let found = CurvePosition { q, p };
-            if found.finite() && 1.0 / found.norm() > share {
-                share = 1.0 / found.norm();
-                best = found.unit();
+            let curve_position = CurvePosition { q, p };
+            if curve_position.finite() && 1.0 / curve_position.norm() > share {
+                share = 1.0 / curve_position.norm();
+                best = curve_position.unit();
             }
         }
         let forward = (self.settings.high - self.settings.low).signum();

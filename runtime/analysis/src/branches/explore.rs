@@ -109,7 +109,7 @@ pub fn branches_each(
         }
         let inputs = curve.inputs_at(value);
         match find_equilibria(mechanism, &inputs, b, start, search_or_none) {
-            Ok(found) => states.extend(found),
+            Ok(equilibria) => states.extend(equilibria),
             Err(error) => _ = refused.get_or_insert(error),
         }
     }

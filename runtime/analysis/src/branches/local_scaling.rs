@@ -121,8 +121,8 @@ impl Frame {
         self.origin.plus(1.0, &local.by(&self.units))
     }
 
-    pub(crate) fn local(&self, place: &CurvePosition) -> CurvePosition {
-        self.direction(&place.plus(-1.0, &self.origin))
+    pub(crate) fn local(&self, curve_position: &CurvePosition) -> CurvePosition {
+        self.direction(&curve_position.plus(-1.0, &self.origin))
     }
 
     /// Converts a direction to local coordinates.
@@ -155,14 +155,16 @@ impl Frame {
 /// Units of the unknowns and the input. A reaction is measured by the work it does on a unit of the coordinates it
 /// holds, relative to the work of the other forces on all units: it weighs as much as the forces it balances.
 fn units(
-    place: &CurvePosition,
+    curve_position: &CurvePosition,
     large: &[f64],
     range: f64,
     system: &System,
     motions: usize,
 ) -> CurvePosition {
     let mut units = CurvePosition {
-        q: Vector::from_fn(place.q.len(), |i| large[i] + place.q[i].abs()),
+        q: Vector::from_fn(curve_position.q.len(), |i| {
+            large[i] + curve_position.q[i].abs()
+        }),
         p: range,
     };
     let n = units.q.len();

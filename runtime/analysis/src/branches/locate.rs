@@ -48,16 +48,16 @@ impl Curve<'_> {
         &self,
         a: &CurvePoint,
         b: &CurvePoint,
-        found: &mut Vec<Located>,
+        locateds: &mut Vec<Located>,
     ) -> Result<(), ContinuationFailure> {
-        self.divide(a, b, found, &mut 0)
+        self.divide(a, b, locateds, &mut 0)
     }
 
     fn divide(
         &self,
         a: &CurvePoint,
         b: &CurvePoint,
-        found: &mut Vec<Located>,
+        locateds: &mut Vec<Located>,
         points: &mut usize,
     ) -> Result<(), ContinuationFailure> {
         let changes = Changes::between(&a.signs, &b.signs);
@@ -65,12 +65,12 @@ impl Curve<'_> {
             return Ok(());
         }
         if let Some(located) = self.simple(a, b, changes)? {
-            found.push(located);
+            locateds.push(located);
             return Ok(());
         }
         let width = a.frame.local(&b.place).norm();
         if width <= NARROW {
-            found.push(self.unresolved(a, b, changes)?);
+            locateds.push(self.unresolved(a, b, changes)?);
             return Ok(());
         }
         *points += 1;
@@ -78,8 +78,8 @@ impl Curve<'_> {
             return Err(ContinuationFailure::Missed(NotFound::TooManyEvents));
         }
         let middle = self.middle(a, b)?;
-        self.divide(a, &middle, found, points)?;
-        self.divide(&middle, b, found, points)
+        self.divide(a, &middle, locateds, points)?;
+        self.divide(&middle, b, locateds, points)
     }
 
     /// The single event that explains the changes, if one does.

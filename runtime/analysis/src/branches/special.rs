@@ -100,27 +100,27 @@ impl Curve<'_> {
     pub(crate) fn special(
         &self,
         kind: SpecialKind,
-        place: &CurvePosition,
+        curve_position: &CurvePosition,
         (v, w): (&[f64], &[f64]),
         zero: usize,
         also: Option<f64>,
     ) -> Result<SpecialPoint, ContinuationFailure> {
         let (least, most) = self.settings.bounds();
-        let place = &CurvePosition {
-            q: place.q.clone(),
-            p: place.p.clamp(least, most),
+        let curve_position = &CurvePosition {
+            q: curve_position.q.clone(),
+            p: curve_position.p.clamp(least, most),
         };
         let mut equilibrium = self
-            .equilibrium(place, &self.system(place)?, 0, also)?
+            .equilibrium(curve_position, &self.system(curve_position)?, 0, also)?
             .state;
         let (v, w) = normalised(&equilibrium.linear, self.structure, v, w)
             .ok_or(ContinuationFailure::Missed(NotFound::DependentVectors))?;
-        equilibrium.free = self.place_at(place);
+        equilibrium.free = self.place_at(curve_position);
         make_critical(&mut equilibrium, zero);
         Ok(SpecialPoint {
             kind,
             input: self.settings.input,
-            value: place.p,
+            value: curve_position.p,
             equilibrium,
             v,
             w,
@@ -131,11 +131,11 @@ impl Curve<'_> {
     /// there are modes, otherwise the tangent.
     pub(crate) fn degenerate(
         &self,
-        place: &CurvePosition,
+        curve_position: &CurvePosition,
         (frame, tangent): (&Frame, &CurvePosition),
         zero: usize,
     ) -> Result<SpecialPoint, ContinuationFailure> {
-        let linear = self.linear(place)?;
+        let linear = self.linear(curve_position)?;
         let softest = symmetric_to_rounding(&linear, &self.description)
             .then(|| free_pairs(&linear, &self.description).ok())
             .flatten()
@@ -146,10 +146,10 @@ impl Curve<'_> {
                 Some(Vector::from(least))
             });
         let v = softest.unwrap_or_else(|| tangent.q.clone());
-        let residual = largest(&frame.weights(&self.system(place)?.residual));
+        let residual = largest(&frame.weights(&self.system(curve_position)?.residual));
         self.special(
             SpecialKind::Degenerate,
-            place,
+            curve_position,
             (&v, &v),
             zero,
             Some(residual),

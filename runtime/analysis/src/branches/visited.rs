@@ -10,11 +10,13 @@ const CLOSE: f64 = 1e-6;
 
 impl Curve<'_> {
     /// Whether a point, or an equivalent one that differs by full turns, lies on one of the branches.
-    pub(super) fn known(&self, branches: &[Branch], place: &CurvePosition) -> bool {
-        branches.iter().any(|branch| self.on(branch, place))
+    pub(super) fn known(&self, branches: &[Branch], curve_position: &CurvePosition) -> bool {
+        branches
+            .iter()
+            .any(|branch| self.on(branch, curve_position))
     }
 
-    fn on(&self, branch: &Branch, place: &CurvePosition) -> bool {
+    fn on(&self, branch: &Branch, curve_position: &CurvePosition) -> bool {
         let at = |k: usize| CurvePosition {
             q: branch.points[k].equilibrium.coordinates.clone(),
             p: branch.points[k].value,
@@ -22,20 +24,26 @@ impl Curve<'_> {
         (1..branch.points.len()).any(|k| {
             let (from, to) = (at(k - 1), at(k));
             let turned = CurvePosition {
-                q: turned_towards(&place.q, &from.q, &self.description),
-                p: place.p,
+                q: turned_towards(&curve_position.q, &from.q, &self.description),
+                p: curve_position.p,
             };
-            self.near(&from, &to, &turned) && (turned == *place || self.same(place, &turned))
+            self.near(&from, &to, &turned)
+                && (turned == *curve_position || self.same(curve_position, &turned))
         })
     }
 
     /// Whether `place` lies on the piece of a branch between two neighbouring points.
-    fn near(&self, from: &CurvePosition, to: &CurvePosition, place: &CurvePosition) -> bool {
+    fn near(
+        &self,
+        from: &CurvePosition,
+        to: &CurvePosition,
+        curve_position: &CurvePosition,
+    ) -> bool {
         let Ok(system) = self.system(from) else {
             return false;
         };
         let frame: Frame = self.frame(from, &system);
-        let (end, target) = (frame.local(to), frame.local(place));
+        let (end, target) = (frame.local(to), frame.local(curve_position));
         let length = end.norm();
         let Some(normal) = end.unit() else {
             return target.norm() <= CLOSE;
@@ -53,8 +61,8 @@ impl Curve<'_> {
     }
 
     /// Whether two points that differ by full turns are the same state.
-    fn same(&self, place: &CurvePosition, turned: &CurvePosition) -> bool {
-        let inputs = self.inputs_at(place.p);
-        turns_do_not_count(&self.operating_point(&inputs), &place.q, &turned.q)
+    fn same(&self, curve_position: &CurvePosition, turned: &CurvePosition) -> bool {
+        let inputs = self.inputs_at(curve_position.p);
+        turns_do_not_count(&self.operating_point(&inputs), &curve_position.q, &turned.q)
     }
 }

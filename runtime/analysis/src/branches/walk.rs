@@ -60,8 +60,10 @@ impl Curve<'_> {
             junctions: Vec::new(),
             end: BranchEnd::PointLimit,
         };
-        let largest = |place: &CurvePosition| {
-            let q = place.q[..self.structure.motions()].iter().zip(&self.large);
+        let largest = |curve_position: &CurvePosition| {
+            let q = curve_position.q[..self.structure.motions()]
+                .iter()
+                .zip(&self.large);
             q.fold(0.0, |most: f64, (value, large)| {
                 most.max((value / large).abs())
             })
@@ -179,13 +181,13 @@ impl Curve<'_> {
         special: &SpecialPoint,
         direction: &CurvePosition,
     ) -> BranchPoint {
-        let place = CurvePosition {
+        let curve_position = CurvePosition {
             q: special.equilibrium.coordinates.clone(),
             p: special.value,
         };
-        let length = self
-            .system(&place)
-            .map_or(1.0, |system| self.frame(&place, &system).length(direction));
+        let length = self.system(&curve_position).map_or(1.0, |system| {
+            self.frame(&curve_position, &system).length(direction)
+        });
         let tangent = direction.scaled(1.0 / length);
         BranchPoint {
             value: special.value,
@@ -279,9 +281,9 @@ impl Curve<'_> {
     }
 
     /// Whether the step from a station passes a point.
-    fn passes(&self, at: &CurvePoint, to: &Corrected, place: &CurvePosition) -> bool {
+    fn passes(&self, at: &CurvePoint, to: &Corrected, curve_position: &CurvePosition) -> bool {
         let end = &to.local;
-        let target = at.frame.local(place);
+        let target = at.frame.local(curve_position);
         let along = target.dot(end) / end.dot(end);
         if !(0.0..=1.0).contains(&along) || target.plus(-along, end).norm() > BEND * end.norm() {
             return false;

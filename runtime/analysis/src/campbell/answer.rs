@@ -112,7 +112,7 @@ impl CampbellMode {
     /// The standard deviation of one of its spreads, which a member of a cluster does not have.
     fn sigma(&self, spread: Option<&Spread>) -> Option<f64> {
         let own = spread.filter(|_| !self.clustered);
-        own.map(|own| own.sigma)
+        own.map(|x| x.sigma)
     }
 }
 
@@ -160,9 +160,9 @@ impl Motion<'_> {
 
     /// Where its frequency spreads most, and how far.
     fn widest(&self) -> Option<(f64, f64)> {
-        let single = self.points.iter().filter(|(_, own)| !own.clustered);
+        let single = self.points.iter().filter(|(_, x)| !x.clustered);
         let spreads =
-            single.filter_map(|(value, own)| Some((*value, spread_of(own.frequency.as_ref()?))));
+            single.filter_map(|(value, item)| Some((*value, spread_of(item.frequency.as_ref()?))));
         let spreads = spreads.filter(|(_, sigma)| *sigma > 0.0);
         spreads.max_by(|(_, a), (_, b)| a.total_cmp(b))
     }
@@ -171,7 +171,7 @@ impl Motion<'_> {
     fn least_damped(&self) -> Option<(f64, &CampbellMode, &Spread)> {
         let damped = self.points.iter();
         let damped =
-            damped.filter_map(|(value, own)| Some((*value, *own, own.damping_ratio.as_ref()?)));
+            damped.filter_map(|(value, item)| Some((*value, *item, item.damping_ratio.as_ref()?)));
         damped.min_by(|(.., a), (.., b)| a.mean.total_cmp(&b.mean))
     }
 
@@ -237,25 +237,25 @@ impl Campbell {
         });
         let motions: Vec<Motion<'_>> = each.collect();
         let mut table = Columns::new("modes", &motions);
-        table.cells("mode", &|own| (own.label + 1).to_string());
-        table.cells("omega [rad/s]", &|own| {
-            optional(own.frequency(own.points.first()))
+        table.cells("mode", &|row| (row.label + 1).to_string());
+        table.cells("omega [rad/s]", &|row| {
+            optional(row.frequency(row.points.first()))
         });
-        table.cells("to", &|own| optional(own.frequency(own.points.last())));
-        table.cells("most sigma", &|own| {
-            or_dash(own.widest().map(|own| own.1), rough)
+        table.cells("to", &|row| optional(row.frequency(row.points.last())));
+        table.cells("most sigma", &|pair| {
+            or_dash(pair.widest().map(|pair| pair.1), rough)
         });
         let at = format!("at {}", info.name);
-        table.cells(&at, &|own| place(own.widest().map(|own| own.0)));
+        table.cells(&at, &|pair| place(pair.widest().map(|pair| pair.0)));
         if self.family == Family::General {
-            table.cells("least damping ratio", &|own| {
-                or_dash(own.least_damped().map(|(.., own)| own.mean), rough)
+            table.cells("least damping ratio", &|row| {
+                or_dash(row.least_damped().map(|(.., x)| x.mean), rough)
             });
-            table.cells("sigma", &|own| {
-                let own = own.least_damped().filter(|(_, mode, _)| !mode.clustered);
-                or_dash(own.map(|(.., own)| spread_of(own)), rough)
+            table.cells("sigma", &|row| {
+                let own = row.least_damped().filter(|(_, mode, _)| !mode.clustered);
+                or_dash(own.map(|(.., x)| spread_of(x)), rough)
             });
-            table.cells(&at, &|own| place(own.least_damped().map(|own| own.0)));
+            table.cells(&at, &|pair| place(pair.least_damped().map(|pair| pair.0)));
         }
         table.cells("whirl", &Motion::senses);
         table.cells("motion", &Motion::behaviours);
@@ -268,24 +268,28 @@ impl Campbell {
         let rows = shown(self.points.len());
         let (count, all) = (rows.len(), self.points.len());
         table.show_rows(rows);
-        varied(&mut table, &self.description, self.input, given, &|own| {
-            own.value
+        varied(&mut table, &self.description, self.input, given, &|x| {
+            x.value
         });
         for label in self.labels() {
-            let frequency = |own: &CampbellPoint| {
-                let modes = own.modes.as_ref().ok()?;
+            let frequency = |campbell_point: &CampbellPoint| {
+                let modes = campbell_point.modes.as_ref().ok()?;
                 let mode = modes.iter().find(|mode| mode.label == label)?;
                 mode.behaviour.frequency()
             };
-            if self.points.iter().any(|own| frequency(own).is_some()) {
+            if self.points.iter().any(|point| frequency(point).is_some()) {
                 let heading = format!("omega{} [rad/s]", label + 1);
-                table.cells(&heading, &|own| optional(frequency(own)));
+                table.cells(&heading, &|row| optional(frequency(row)));
             }
         }
-        let failed = self.points.iter().filter(|own| own.modes.is_err()).count();
+        let failed = self
+            .points
+            .iter()
+            .filter(|point| point.modes.is_err())
+            .count();
         if failed > 0 {
-            table.cells("error", &|own| {
-                let error = own.modes.as_ref().err();
+            table.cells("error", &|row| {
+                let error = row.modes.as_ref().err();
                 error.map_or_else(|| "-".to_owned(), ToString::to_string)
             });
         }

@@ -47,15 +47,15 @@ fn frequency_of_mean(cluster: &ClusterTolerance) -> Option<&Spread> {
 
 fn verdicts(said: &mut Findings, all: &[ClusterTolerance]) {
     let mut table = Columns::new("cluster verdicts", all);
-    table.words("modes", &|own| Some(listed(&own.modes)));
-    table.number("distance", "sigma", &|own| Some(own.distance));
-    table.number("mean frequency", "rad/s", &|own| {
-        Some(frequency_of_mean(own)?.mean)
+    table.words("modes", &|row| Some(listed(&row.modes)));
+    table.number("distance", "sigma", &|row| Some(row.distance));
+    table.number("mean frequency", "rad/s", &|row| {
+        Some(frequency_of_mean(row)?.mean)
     });
-    table.number("sigma of mean frequency", "rad/s", &|own| {
-        Some(frequency_of_mean(own)?.sigma)
+    table.number("sigma of mean frequency", "rad/s", &|row| {
+        Some(frequency_of_mean(row)?.sigma)
     });
-    table.words("error", &|own| Some(own.spread.as_ref().err()?.to_string()));
+    table.words("error", &|row| Some(row.spread.as_ref().err()?.to_string()));
     said.columns(table);
 }
 
@@ -85,7 +85,7 @@ impl ClusterTolerance {
         };
         let damping = spread.damping_ratio.as_ref();
         let quantities = [("frequency", &spread.frequency)].into_iter();
-        let quantities = quantities.chain(damping.map(|own| ("damping ratio", own)));
+        let quantities = quantities.chain(damping.map(|damping| ("damping ratio", damping)));
         let mut rows = Vec::new();
         for (quantity, own) in quantities {
             let member = |name, value| Member {
@@ -95,7 +95,7 @@ impl ClusterTolerance {
                 value,
             };
             let each = own.members.iter().enumerate();
-            rows.extend(each.map(|(k, own)| member((k + 1).to_string(), own.value.as_ref())));
+            rows.extend(each.map(|(k, x)| member((k + 1).to_string(), x.value.as_ref())));
             rows.push(member("splitting".to_owned(), own.splitting.as_ref()));
         }
         rows
@@ -138,9 +138,9 @@ impl ClusterTolerance {
 
     fn sorted(&self, spread: &ClusterSpread) -> Grid {
         let mut table = Grid::new(cells(["sorted", "mean", "sigma", "min", "max", "samples"]));
-        if let Some(own) = frequency_of_mean(self) {
+        if let Some(spread) = frequency_of_mean(self) {
             let name = "of the mean eigenvalue [rad/s]";
-            let (mean, sigma) = (number(own.mean), rough(own.sigma));
+            let (mean, sigma) = (number(spread.mean), rough(spread.sigma));
             table.row(cells([name, &mean, &sigma, "-", "-", "-"]));
         }
         sorted_members(&mut table, "frequency [rad/s]", &spread.frequency);
@@ -213,9 +213,9 @@ impl Answer for DirectionalDerivatives {
         let rows: Vec<_> = self.eigenvalues.iter().enumerate().collect();
         let mut table = Columns::new("directional derivatives", &rows);
         table.words("modes", &|_| Some(listed(&self.modes)));
-        let re = table.number("Re derivative", unit, &|(_, own)| Some(own.re));
+        let re = table.number("Re derivative", unit, &|(_, x)| Some(x.re));
         re.digits(rough);
-        let im = table.number("Im derivative", unit, &|(_, own)| Some(own.im));
+        let im = table.number("Im derivative", unit, &|(_, x)| Some(x.im));
         im.digits(rough);
         let frequency = table.number("derivative of frequency", "rad/s", &|(k, _)| {
             self.frequencies.as_ref()?.get(*k).copied()

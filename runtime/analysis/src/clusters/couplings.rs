@@ -51,14 +51,14 @@ impl ModalCouplings {
     /// Total derivatives of the mean eigenvalue with respect to the inputs.
     #[must_use]
     pub fn mean_by_input(&self) -> Vec<Complex> {
-        self.by_input.iter().map(|own| self.trace(own)).collect()
+        self.by_input.iter().map(|x| self.trace(x)).collect()
     }
 
     /// Total derivatives of the mean eigenvalue with respect to the design variables; they exist even where those of
     /// single modes do not.
     #[must_use]
     pub fn mean_by_design(&self) -> Vec<Complex> {
-        self.by_design.iter().map(|own| self.trace(own)).collect()
+        self.by_design.iter().map(|x| self.trace(x)).collect()
     }
 
     /// Trace of a matrix divided by its size.
@@ -104,7 +104,7 @@ pub(crate) fn common_slopes(
     let size = couplings.mean().norm();
     let splits = |(matrix, variable): (&Matrix<Complex>, &f64)| {
         let elements = matrix.as_flattened().iter();
-        let largest = elements.fold(0.0_f64, |most, own| most.max(own.norm()));
+        let largest = elements.fold(0.0_f64, |most, element| most.max(element.norm()));
         let rounding = ROUNDING * largest.max(size / variable.abs());
         let common = couplings.trace(matrix);
         let count = couplings.modes.len();

@@ -74,8 +74,8 @@ pub fn directional_derivatives(
         found.iter_mut().for_each(|value| value.im = 0.0);
     }
     found.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
-    let own = &modes.modes[mode];
-    let frequencies = own.frequency().map(|omega| {
+    let mode = &modes.modes[mode];
+    let frequencies = mode.frequency().map(|omega| {
         let slope = |value: &Complex| match modes.family {
             Family::Undamped => value.re / (2.0 * omega),
             Family::General => value.im,

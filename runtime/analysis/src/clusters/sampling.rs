@@ -232,9 +232,8 @@ impl<'a> Work<'a> {
         let m = couplings.eigenvalues.len();
         match couplings.family {
             Family::Undamped => {
-                let real = |matrix: &Matrix<Complex>| {
-                    matrix.as_flattened().iter().map(|own| own.re).collect()
-                };
+                let real =
+                    |matrix: &Matrix<Complex>| matrix.as_flattened().iter().map(|x| x.re).collect();
                 Self::Undamped {
                     couplings,
                     slopes: couplings.by_design.iter().map(real).collect(),
@@ -399,7 +398,7 @@ impl Sorted {
     fn spread(&self, samples: usize) -> SortedSpread {
         let member = |sums: &Sums| {
             let value = sums.statistics();
-            let count = value.as_ref().map_or(0, |found| found.count);
+            let count = value.as_ref().map_or(0, |value| value.count);
             MemberSpread {
                 value,
                 without: samples - count as usize,

@@ -145,7 +145,7 @@ pub fn groups(
     let mut label = all;
     for i in 0..count {
         for j in 0..i {
-            let mixes = |own: Pair| together(&own, modes, (i, j));
+            let mixes = |pair: Pair| together(&pair, modes, (i, j));
             // Nothing mixes a free direction with another mode.
             let free = |r: usize| modes.modes[r].behaviour == Behaviour::Free;
             if free(i) || free(j) {
@@ -155,8 +155,8 @@ pub fn groups(
                 let (old, new) = (label[i].max(label[j]), label[i].min(label[j]));
                 label
                     .iter_mut()
-                    .filter(|own| **own == old)
-                    .for_each(|own| *own = new);
+                    .filter(|x| **x == old)
+                    .for_each(|x| *x = new);
             }
         }
     }
@@ -238,7 +238,7 @@ fn tolerance(
     modes: &Modes,
     tolerances: &Tolerances,
 ) -> ClusterTolerance {
-    let own = |place: usize| &modes.modes[couplings.modes[place]];
+    let own = |index: usize| &modes.modes[couplings.modes[index]];
     let count = couplings.modes.len();
     let mut defective = couplings.modes.iter().any(|&mode| merged(modes, mode));
     let mut distance = f64::INFINITY;

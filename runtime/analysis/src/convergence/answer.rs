@@ -25,18 +25,18 @@ impl Answer for Convergence {
             "{title}: changes with more coordinates of each component of a beam"
         ));
         let mut table = Columns::new("convergence", &self.changes);
-        table.words("answer", &|own| Some(own.answer.name(d)));
-        table.words("unit", &|own| Some(own.answer.unit(d).symbol.to_string()));
-        table.cells("answer", &|own| {
-            heading(&own.answer.name(d), &own.answer.unit(d))
+        table.words("answer", &|row| Some(row.answer.name(d)));
+        table.words("unit", &|row| Some(row.answer.unit(d).symbol.to_string()));
+        table.cells("answer", &|row| {
+            heading(&row.answer.name(d), &row.answer.unit(d))
         });
-        let value = |own: &Change| Some(converted(own.value, &own.answer.unit(d)));
+        let value = |change: &Change| Some(converted(change.value, &change.answer.unit(d)));
         table.number("as declared", "", &value).digits(number);
         for (k, name) in ["change with 1 more", "change with 2 more"]
             .into_iter()
             .enumerate()
         {
-            table.number(name, "", &|own| own.relative[k]).digits(short);
+            table.number(name, "", &|row| row.relative[k]).digits(short);
         }
         said.columns(table);
         for verdict in [self.of_modes(), self.of_outputs()].into_iter().flatten() {
@@ -67,18 +67,18 @@ impl Convergence {
 
     /// Which outputs are known well, and how far the others change.
     fn of_outputs(&self) -> Option<String> {
-        let outputs = self.changes.iter().filter(|own| own.mode().is_none());
+        let outputs = self.changes.iter().filter(|change| change.mode().is_none());
         let outputs: Vec<(String, f64)> = outputs
-            .map(|own| {
+            .map(|output| {
                 (
-                    format!("`{}`", own.answer.name(&self.description)),
-                    own.most(),
+                    format!("`{}`", output.answer.name(&self.description)),
+                    output.most(),
                 )
             })
             .collect();
-        verdict(&outputs, |own| {
-            let own: Vec<&str> = own.iter().map(String::as_str).collect();
-            names(&own, "outputs")
+        verdict(&outputs, |item| {
+            let texts: Vec<&str> = item.iter().map(String::as_str).collect();
+            names(&texts, "outputs")
         })
     }
 }
@@ -88,7 +88,7 @@ fn verdict<T: Clone>(all: &[(T, f64)], name: impl Fn(&[T]) -> String) -> Option<
     let (known, others): (Vec<_>, Vec<_>) = all.iter().partition(|(_, most)| *most < RELEVANT);
     let worst = |of: &[&(T, f64)]| largest(of.iter().map(|(_, most)| *most));
     let called = |of: &[&(T, f64)]| {
-        let all: Vec<T> = of.iter().map(|(own, _)| own.clone()).collect();
+        let all: Vec<T> = of.iter().map(|(x, _)| x.clone()).collect();
         name(&all)
     };
     let verb = |of: &[&(T, f64)]| if of.len() == 1 { "changes" } else { "change" };

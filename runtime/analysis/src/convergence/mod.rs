@@ -41,7 +41,10 @@ impl Change {
     /// The larger of the changes, without sign; infinite if the answer no longer exists.
     #[must_use]
     pub fn most(&self) -> f64 {
-        largest(self.relative.map(|own| own.unwrap_or(f64::INFINITY)))
+        largest(
+            self.relative
+                .map(|relative| relative.unwrap_or(f64::INFINITY)),
+        )
     }
 
     /// The mode it belongs to, from 0; `None` for an output.
@@ -62,7 +65,7 @@ impl Convergence {
         compared.dedup();
         compared.truncate(modes);
         self.changes
-            .retain(|change| change.mode().is_none_or(|own| compared.contains(&own)));
+            .retain(|change| change.mode().is_none_or(|x| compared.contains(&x)));
         self
     }
 }

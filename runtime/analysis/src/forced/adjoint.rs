@@ -134,8 +134,8 @@ pub(super) fn gradients(
     for call in calls.iter().flatten() {
         let mut weights = Weights::of(mechanism.sizes(), vibration, motion, (*call, 1.0));
         each.set(&weights.after([&[]; 3])[3..]);
-        for own in outputs {
-            weights.set_output(own, &own.factors, (*call, 1.0));
+        for output in outputs {
+            weights.set_output(output, &output.factors, (*call, 1.0));
             each.push(&weights.of_output());
         }
     }
@@ -165,7 +165,9 @@ fn forms(solved: &Solved<'_>, lefts: &Matrix, motion: &Motion) -> [Matrix; 2] {
     }
     PARTS.map(|part| {
         let mut each = SideBySide::new(solved.mechanism, solved.at, Kernel::PencilGradient, many);
-        let parts = motion.each_ref().map(|own| own.map(|value| part.of(value)));
+        let parts = motion
+            .each_ref()
+            .map(|motion| motion.map(|value| part.of(value)));
         let [acceleration, velocity, position] = &parts;
         each.set(&[&Vector::zeros(n), acceleration, velocity, position]);
         lefts.iter().for_each(|left| each.push(&[(0, left)]));
@@ -272,7 +274,7 @@ impl Weights {
     /// For an output; what does not depend on `factors` is multiplied by `fixed`.
     pub(super) fn set_output(
         &mut self,
-        own: &OutputAdjoint<'_>,
+        output_adjoint: &OutputAdjoint<'_>,
         factors: &Factors,
         (call, fixed): (Call, f64),
     ) {
@@ -286,11 +288,11 @@ impl Weights {
             &mut self.direct_sine,
         ];
         lists.into_iter().for_each(|list| list.fill(0.0));
-        self.direct_cosine[own.output] = fixed * part.of(Complex::ONE);
-        self.direct_sine[own.output] = fixed * turn * part.of(-Complex::I);
+        self.direct_cosine[output_adjoint.output] = fixed * part.of(Complex::ONE);
+        self.direct_sine[output_adjoint.output] = fixed * turn * part.of(-Complex::I);
         if first {
-            self.output[own.output] = fixed;
-            let first = &own.vibration.harmonic.shares[0];
+            self.output[output_adjoint.output] = fixed;
+            let first = &output_adjoint.vibration.harmonic.shares[0];
             self.frequency[first.excitation] = first.turn() * part.of(factors.slope);
         }
     }

@@ -50,7 +50,11 @@ impl Answer for ForcedResponse {
         of_output(&mut table, d, &|row| row.0.output, &|row| {
             share(row)?.outputs.get(row.0.output).copied()
         });
-        match self.harmonics.iter().any(|own| own.shares.len() > 1) {
+        match self
+            .harmonics
+            .iter()
+            .any(|harmonic| harmonic.shares.len() > 1)
+        {
             true => said.columns(table),
             false => said.data(table.finish().0),
         }
@@ -105,7 +109,7 @@ impl ForcedResponse {
         let d = &self.description;
         let harmonics = self.harmonics.iter();
         let rows: Vec<(&Harmonic, usize)> = harmonics
-            .flat_map(|own| (0..own.unknowns.len()).map(move |i| (own, i)))
+            .flat_map(|harmonic| (0..harmonic.unknowns.len()).map(move |i| (harmonic, i)))
             .collect();
         let mut table = Columns::new("vibration of unknowns", &rows);
         table.number("frequency", "rad/s", &|row| Some(row.0.frequency));
@@ -118,8 +122,8 @@ impl ForcedResponse {
                 &info(row)?.unit,
             ))
         };
-        table.number("Re", "", &|row| value(row, |own| own.re));
-        table.number("Im", "", &|row| value(row, |own| own.im));
+        table.number("Re", "", &|row| value(row, |x| x.re));
+        table.number("Im", "", &|row| value(row, |x| x.im));
         said.data(table.finish().0);
     }
 }
@@ -146,7 +150,10 @@ impl Row<'_> {
         let info = of.description.outputs.get(self.output);
         let name = info.map_or("?", |info| &*info.name);
         let frequency = self.harmonic.frequency;
-        let same = of.harmonics.iter().filter(|own| own.frequency == frequency);
+        let same = of
+            .harmonics
+            .iter()
+            .filter(|harmonic| harmonic.frequency == frequency);
         match (of.harmonics.len(), same.count()) {
             (1, _) => name.to_owned(),
             (_, 1) => format!("{name} at {} rad/s", short(frequency)),
@@ -202,16 +209,16 @@ fn of_output<R>(
         Some(converted(part(of(row)?), &d.outputs.get(output(row))?.unit))
     };
     table
-        .number("amplitude", "", &|row| value(row, |own| own.norm()))
+        .number("amplitude", "", &|row| value(row, |x| x.norm()))
         .digits(number);
     let phase = |row: &R| {
         of(row)
-            .filter(|own| *own != Complex::ZERO)
-            .map(|own| own.arg().to_degrees())
+            .filter(|x| *x != Complex::ZERO)
+            .map(|x| x.arg().to_degrees())
     };
     table.number("phase", "deg", &phase).digits(short);
-    table.number("Re", "", &|row| value(row, |own| own.re));
-    table.number("Im", "", &|row| value(row, |own| own.im));
+    table.number("Re", "", &|row| value(row, |x| x.re));
+    table.number("Im", "", &|row| value(row, |x| x.im));
 }
 
 /// The tables of the response; `derivatives of forced vibration`: a row for each amplitude, phase and frequency and each
@@ -229,7 +236,7 @@ impl Answer for ForcedSensitivities {
         let variables = variables(&of.description, &of.inputs);
         let rows = of.rows();
         let list =
-            |slopes: Option<Slopes<f64>>| slopes.map_or(Vec::new(), |own| own.iter().collect());
+            |slopes: Option<Slopes<f64>>| slopes.map_or(Vec::new(), |slope| slope.iter().collect());
         let derived = |name: String, unit: Unit, slopes: Option<Slopes<f64>>| Derived {
             name,
             unit,
@@ -284,7 +291,7 @@ impl Answer for ForcedCurvature {
         };
         let all: Vec<_> = rows.iter().map(|row| (row, second(row))).collect();
         let rows: Vec<_> = (all.iter())
-            .flat_map(|own| pairs.iter().map(move |pair| (own, pair)))
+            .flat_map(|x| pairs.iter().map(move |pair| (x, pair)))
             .collect();
         let mut table = Columns::new("second derivatives", &rows);
         table.words("output", &|((row, _), _)| Some(row.name(of)));

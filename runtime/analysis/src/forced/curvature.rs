@@ -43,7 +43,7 @@ pub struct HarmonicCurvature {
 impl HarmonicCurvature {
     fn finite(&self) -> bool {
         let mut all = (self.outputs.iter().flatten()).flat_map(SecondDerivatives::iter);
-        self.frequency.iter().all(|own| own.is_finite()) && all.all(|own| own.is_finite())
+        self.frequency.iter().all(|x| x.is_finite()) && all.all(|x| x.is_finite())
     }
 }
 
@@ -97,7 +97,7 @@ impl ForcedCurvature {
 
 /// Second derivative of `|y|`.
 fn modulus_curvature(y: Complex, [a, b]: [Complex; 2], ab: Complex) -> f64 {
-    let [first, second] = [a, b].map(|own| modulus_slope(y, own));
+    let [first, second] = [a, b].map(|x| modulus_slope(y, x));
     ((a.conj() * b + y.conj() * ab).re - first * second) / y.norm()
 }
 
@@ -117,28 +117,31 @@ pub fn second_derivatives(
         .collect();
     let mut most = 0.0_f64;
     let mut harmonics = Vec::new();
-    for (vibration, own) in solved.vibrations.iter().zip(&slopes) {
-        let moved = all.iter().map(|along| along.of(vibration, &own.frequency));
+    for (vibration, slope) in solved.vibrations.iter().zip(&slopes) {
+        let moved = all
+            .iter()
+            .map(|along| along.of(vibration, &slope.frequency));
         let moved: Vec<Moved<'_>> = moved.collect();
         let (_, frequency) = frequency_rows(mechanism, at, &adjoint, vibration, &all);
         let adjoints = OutputAdjoint::each(&solved, vibration, 0..mechanism.sizes().outputs);
-        let of_output = |(slopes, own): (&Option<Slopes<Complex>>, Option<OutputAdjoint<'_>>)| {
-            slopes.as_ref()?;
-            let (curved, _) = Curved::new(own?, &adjoint);
-            let rows = moved.iter().map(|moved| curved.along(mechanism, moved));
-            let rows: Option<Vec<Slopes<Complex>>> = rows.collect();
-            let (second, asymmetry) = symmetric(&rows?, at.inputs.len(), Complex::norm);
-            most = most.max(asymmetry);
-            Some(second)
-        };
-        let own = HarmonicCurvature {
+        let of_output =
+            |(slopes, output_adjoint): (&Option<Slopes<Complex>>, Option<OutputAdjoint<'_>>)| {
+                slopes.as_ref()?;
+                let (curved, _) = Curved::new(output_adjoint?, &adjoint);
+                let rows = moved.iter().map(|moved| curved.along(mechanism, moved));
+                let rows: Option<Vec<Slopes<Complex>>> = rows.collect();
+                let (second, asymmetry) = symmetric(&rows?, at.inputs.len(), Complex::norm);
+                most = most.max(asymmetry);
+                Some(second)
+            };
+        let harmonic_curvature = HarmonicCurvature {
             frequency: symmetric(&frequency, at.inputs.len(), f64::abs).0,
-            outputs: own.outputs.iter().zip(adjoints).map(of_output).collect(),
+            outputs: slope.outputs.iter().zip(adjoints).map(of_output).collect(),
         };
-        if !own.finite() {
+        if !harmonic_curvature.finite() {
             return Err(solved.not_finite());
         }
-        harmonics.push(own);
+        harmonics.push(harmonic_curvature);
     }
     Ok(ForcedCurvature {
         first: ForcedSensitivities {
@@ -190,10 +193,7 @@ impl<'a> Along<'a> {
         let mut right = Vector::from_fn(z.len(), |i| -change[i] - ds * slope[i]);
         for share in &harmonic.shares {
             let force = self.forces.force(share.excitation, share.turn());
-            right
-                .iter_mut()
-                .zip(&force)
-                .for_each(|(sum, own)| *sum += own);
+            right.iter_mut().zip(&force).for_each(|(sum, x)| *sum += x);
         }
         let stiffness = &vibration.stiffness;
         let finite = !stiffness.driven_by(&right);
@@ -227,11 +227,21 @@ pub(super) struct Curved<'a> {
 
 impl<'a> Curved<'a> {
     /// With the total gradient of `-h`.
-    pub(super) fn new(own: OutputAdjoint<'a>, adjoint: &'a Adjoint<'a>) -> (Self, ComplexGradient) {
-        let mut room = Gradient::zeros(own.solved.mechanism.sizes());
-        let mut total = own.gradient();
+    pub(super) fn new(
+        output_adjoint: OutputAdjoint<'a>,
+        adjoint: &'a Adjoint<'a>,
+    ) -> (Self, ComplexGradient) {
+        let mut room = Gradient::zeros(output_adjoint.solved.mechanism.sizes());
+        let mut total = output_adjoint.gradient();
         let w = (total.each_mut()).map(|part| adjoint.total(part, &mut room));
-        (Self { own, adjoint, w }, total)
+        (
+            Self {
+                own: output_adjoint,
+                adjoint,
+                w,
+            },
+            total,
+        )
     }
 
     /// The derivatives of the total gradient along a direction; `None` if they are infinite.
@@ -344,9 +354,9 @@ pub(super) fn frequency_rows(
     let weights = Weights::of_frequency(sizes, vibration);
     weights.gradient_into(mechanism, at, gradient_results(&mut partial));
     let w = adjoint.total(&mut partial, &mut room);
-    let slopes = |own: &Gradient| Slopes {
-        by_input: own.inputs.clone(),
-        by_design: own.design.clone(),
+    let slopes = |gradient: &Gradient| Slopes {
+        by_input: gradient.inputs.clone(),
+        by_design: gradient.design.clone(),
     };
     let first = slopes(&partial);
     let still = Weights::zeros(sizes);

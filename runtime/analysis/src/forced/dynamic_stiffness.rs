@@ -81,13 +81,13 @@ impl DynamicStiffness {
     /// Whether a force drives a direction in which `D` vanishes: then there is no response to it.
     pub(super) fn driven_by(&self, force: &[Complex]) -> bool {
         let mut directions = self.vanishing.iter();
-        directions.any(|own| drives(&scaled(force, &self.rows), &own.left))
+        directions.any(|direction| drives(&scaled(force, &self.rows), &direction.left))
     }
 
     /// Whether weights see a direction in which `D` vanishes: then `D^-T weights` is infinite.
     pub(super) fn seen_by(&self, weights: &[Complex]) -> bool {
         let mut directions = self.vanishing.iter();
-        directions.any(|own| drives(&scaled(weights, &self.columns), &own.right))
+        directions.any(|direction| drives(&scaled(weights, &self.columns), &direction.right))
     }
 
     /// `D^-1 forces`, for forces that do not drive a direction in which `D` vanishes; one column each.
@@ -179,20 +179,20 @@ fn scales(n: usize, logarithms: &[i32]) -> (Vector, Vector) {
     for _ in 0..ROUNDS {
         let mut changed = false;
         by_column.fill(NONE);
-        for (own, logarithms) in rows.iter_mut().zip(logarithms.chunks_exact(n.max(1))) {
+        for (row, logarithms) in rows.iter_mut().zip(logarithms.chunks_exact(n.max(1))) {
             let mut by_row = NONE;
             for ((size, column), most) in logarithms.iter().zip(&columns).zip(&mut by_column) {
                 by_row = by_row.max(size + column);
-                *most = (*most).max(size + *own);
+                *most = (*most).max(size + *row);
             }
-            let change = root(by_row + *own);
+            let change = root(by_row + *row);
             changed |= change != 0;
-            *own -= change;
+            *row -= change;
         }
-        for (own, most) in columns.iter_mut().zip(&by_column) {
-            let change = root(most + *own);
+        for (column, most) in columns.iter_mut().zip(&by_column) {
+            let change = root(most + *column);
             changed |= change != 0;
-            *own -= change;
+            *column -= change;
         }
         if !changed {
             break;

@@ -34,7 +34,7 @@ impl Forces {
 
     fn filled(sizes: Sizes, evaluate: impl FnOnce(&mut [&mut [f64]])) -> Self {
         let rows = |columns| Matrix::zeros(sizes.excitations, columns);
-        let mut own = Forcing {
+        let mut forcing = Forcing {
             cosine: rows(sizes.coordinates),
             frequency: Vector::zeros(sizes.excitations),
             direct_cosine: rows(sizes.outputs),
@@ -42,13 +42,13 @@ impl Forces {
             direct_sine: rows(sizes.outputs),
         };
         evaluate(&mut [
-            own.cosine.as_flattened_mut(),
-            &mut own.frequency,
-            own.direct_cosine.as_flattened_mut(),
-            own.sine.as_flattened_mut(),
-            own.direct_sine.as_flattened_mut(),
+            forcing.cosine.as_flattened_mut(),
+            &mut forcing.frequency,
+            forcing.direct_cosine.as_flattened_mut(),
+            forcing.sine.as_flattened_mut(),
+            forcing.direct_sine.as_flattened_mut(),
         ]);
-        Self(own)
+        Self(forcing)
     }
 
     /// The declared frequency of an excitation, rad/s; it may be negative.

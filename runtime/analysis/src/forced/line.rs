@@ -65,8 +65,12 @@ pub(crate) fn along_input(
         along: rows.into_iter().next().ok_or(none.clone())?,
     };
     let only = output.index()..output.index() + 1;
-    let own = OutputAdjoint::each(&solved, vibration, only);
-    let own = own.into_iter().flatten().next().ok_or(none.clone())?;
+    let output_adjoint = OutputAdjoint::each(&solved, vibration, only);
+    let own = output_adjoint
+        .into_iter()
+        .flatten()
+        .next()
+        .ok_or(none.clone())?;
     let terms = terms(
         &at.linear,
         frequency.value,
@@ -86,7 +90,7 @@ pub(crate) fn along_input(
     let first = w.slopes.zip(&slopes);
     let second = w.along.zip(&row);
     let value = (w.value, y);
-    let curvature = |(own, second)| measure.curvature(value, [by_input, own], second);
+    let curvature = |(item, second)| measure.curvature(value, [by_input, item], second);
     let amplitude = Curving {
         value: measure.of(w.value, y),
         along: first.zip(&second).map(curvature),

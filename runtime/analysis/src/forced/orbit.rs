@@ -89,7 +89,7 @@ impl ForcedSensitivities {
         let orbit = self.response.harmonics.get(harmonic)?.orbit(x, y)?;
         let of = |output| self.complex(harmonic, output, Measure::Displacement);
         let both = of(x)?.zip(&of(y)?);
-        let slope = |part: Complex, own: Complex| 2.0 * (part.conj() * own).re;
+        let slope = |part: Complex, complex: Complex| 2.0 * (part.conj() * complex).re;
         Some([
             both.map(|(dx, dy)| slope(orbit.forward, Orbit::of(dx, dy).forward)),
             both.map(|(dx, dy)| slope(orbit.backward, Orbit::of(dx, dy).backward)),

@@ -68,10 +68,10 @@ impl ForcedResponse {
     /// The harmonic of an excitation; `None` for one of another mechanism.
     #[must_use]
     pub fn harmonic<M>(&self, excitation: Excitation<M>) -> Option<&Harmonic> {
-        let drives = |own: &Share| own.excitation == excitation.index();
+        let drives = |share: &Share| share.excitation == excitation.index();
         self.harmonics
             .iter()
-            .find(|own| own.shares.iter().any(drives))
+            .find(|harmonic| harmonic.shares.iter().any(drives))
     }
 }
 
@@ -145,12 +145,13 @@ impl<'a> Solved<'a> {
                     excitation: infos[first].name.clone(),
                 });
             }
-            let same = |own: &&Vibration| own.harmonic.frequency == frequency;
+            let same = |vibration: &&Vibration| vibration.harmonic.frequency == frequency;
             let stiffness = match vibrations.iter().find(same) {
-                Some(own) => own.stiffness.clone(),
+                Some(vibration) => vibration.stiffness.clone(),
                 None => {
-                    let found = DynamicStiffness::new(&at.linear, Complex::new(0.0, frequency));
-                    Rc::new(found.ok_or_else(|| resonance(at, first, frequency))?)
+                    let dynamic_stiffness =
+                        DynamicStiffness::new(&at.linear, Complex::new(0.0, frequency));
+                    Rc::new(dynamic_stiffness.ok_or_else(|| resonance(at, first, frequency))?)
                 }
             };
             let members = (first..infos.len()).filter(|&k| infos[k].with == first);
@@ -173,10 +174,15 @@ impl<'a> Solved<'a> {
 
     /// Why derivatives are not finite: an output without a first derivative is in the way of all.
     pub(super) fn not_finite(&self) -> Error {
-        let smooth =
-            |own: &Vibration, output: usize| own.seen[output].iter().all(|value| value.is_finite());
+        let smooth = |vibration: &Vibration, output: usize| {
+            vibration.seen[output].iter().all(|value| value.is_finite())
+        };
         let mut outputs = self.at.description.outputs.iter().enumerate();
-        let rough = outputs.find(|(k, _)| self.vibrations.iter().any(|own| !smooth(own, *k)));
+        let rough = outputs.find(|(k, _)| {
+            self.vibrations
+                .iter()
+                .any(|vibration| !smooth(vibration, *k))
+        });
         match rough {
             Some((_, info)) => Error::NotSmooth {
                 output: info.name.clone(),
@@ -188,7 +194,7 @@ impl<'a> Solved<'a> {
     pub(super) fn response(self) -> ForcedResponse {
         let each = self.vibrations.into_iter();
         ForcedResponse {
-            harmonics: each.map(|own| own.harmonic).collect(),
+            harmonics: each.map(|x| x.harmonic).collect(),
             inputs: self.at.inputs.clone(),
             description: self.at.description.clone(),
         }
@@ -244,7 +250,9 @@ fn shares(
         true => -1.0,
         false => 1.0,
     };
-    let each = members.iter().map(|&own| forces.force(own, turn(own)));
+    let each = members
+        .iter()
+        .map(|&member| forces.force(member, turn(member)));
     let each: Vec<Vector<Complex>> = each.collect();
     if let Some(driven) = each.iter().position(|force| stiffness.driven_by(force)) {
         return Err(members[driven]);
@@ -294,7 +302,7 @@ const NEAR: f64 = 1e-6;
 pub(crate) fn resonance(at: &Equilibrium, excitation: usize, frequency: f64) -> Error {
     let mode = modes(at).ok().and_then(|modes| {
         let own = modes.frequencies().into_iter().enumerate();
-        let away = own.filter_map(|(mode, own)| Some((mode, (own? - frequency).abs())));
+        let away = own.filter_map(|(mode, x)| Some((mode, (x? - frequency).abs())));
         let nearest = away.min_by(|a, b| a.1.total_cmp(&b.1))?;
         (nearest.1 <= NEAR * frequency).then_some(nearest.0)
     });

@@ -35,7 +35,7 @@ pub struct HarmonicSensitivity {
 impl HarmonicSensitivity {
     fn finite(&self) -> bool {
         let mut all = self.outputs.iter().flatten().flat_map(Slopes::iter);
-        self.frequency.iter().all(|own| own.is_finite()) && all.all(|own| own.is_finite())
+        self.frequency.iter().all(|x| x.is_finite()) && all.all(|x| x.is_finite())
     }
 }
 
@@ -132,8 +132,8 @@ pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensi
         rows.iter_mut().for_each(|rows| add_shift(rows, &shift));
         let [re, im] = &rows;
         let mut places = 0..finite.len();
-        let of_output = |own: &Option<OutputAdjoint<'_>>| {
-            own.as_ref()?;
+        let of_output = |output_adjoint: &Option<OutputAdjoint<'_>>| {
+            output_adjoint.as_ref()?;
             let k = places.next()?;
             (!placed[k]).then(|| slopes(at, |j| -Complex::new(re[k][j], im[k][j])))
         };
@@ -142,14 +142,14 @@ pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensi
         let of_frequency = Weights::of_frequency(mechanism.sizes(), vibration);
         of_frequency.gradient_into(mechanism, at, results(at, &mut row[0]));
         add_shift(&mut row, &shift);
-        let own = HarmonicSensitivity {
+        let harmonic_sensitivity = HarmonicSensitivity {
             outputs,
             frequency: slopes(at, |j| row[0][j]),
         };
-        if !own.finite() {
+        if !harmonic_sensitivity.finite() {
             return Err(solved.not_finite());
         }
-        harmonics.push(own);
+        harmonics.push(harmonic_sensitivity);
     }
     Ok(harmonics)
 }

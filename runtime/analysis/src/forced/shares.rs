@@ -17,7 +17,7 @@ pub fn share_sensitivities(
 ) -> Result<ForcedSensitivities, Error> {
     let mut solved = Solved::new(mechanism, at)?;
     let mut each: Vec<Vibration> = solved.vibrations.iter().flat_map(alone).collect();
-    each.sort_by_key(|own| own.harmonic.shares[0].excitation);
+    each.sort_by_key(|x| x.harmonic.shares[0].excitation);
     solved.vibrations = each;
     Ok(ForcedSensitivities {
         harmonics: first_derivatives(&solved)?,

@@ -17,7 +17,7 @@ impl Harmonic {
         let share = |y: &crate::Complex| measure.of(self.frequency, *y).norm();
         let shares = self.shares.iter();
         let lengths: Option<Vec<f64>> = shares
-            .map(|own| own.outputs.get(output.index()).map(share))
+            .map(|x| x.outputs.get(output.index()).map(share))
             .collect();
         let lengths = lengths.ok_or_else(|| Error::Setting {
             setting: "output",

@@ -102,9 +102,9 @@ impl Peaks {
             scale: 1.0,
         };
         let d = &self.description;
-        let place = d.inputs.get(self.range.input.index());
+        let input = d.inputs.get(self.range.input.index());
         [
-            place.map_or(plain(""), |info| info.unit.clone()),
+            input.map_or(plain(""), |info| info.unit.clone()),
             plain("rad/s"),
             self.vibration.unit(d).unwrap_or(plain("")),
             plain(""),
@@ -164,11 +164,11 @@ impl Peaks {
                 }
             };
             if k > 0 {
-                add(what, Some(number), &|own| Some(own.value));
+                add(what, Some(number), &|x| Some(x.value));
             }
             let form = self.sigma_level.map(|_| rough as fn(f64) -> String);
-            add(&format!("sigma of {what}"), form, &|own| {
-                Some(own.spread.as_ref()?.sigma)
+            add(&format!("sigma of {what}"), form, &|item| {
+                Some(item.spread.as_ref()?.sigma)
             });
         }
         let phase = |row: &Row<'_>| Some(row.2.phase.to_degrees());

@@ -43,7 +43,7 @@ pub(crate) fn highest(
         tolerances: None,
     };
     let tops = search.tops()?;
-    let tops = tops.iter().map(|own| &own.1);
+    let tops = tops.iter().map(|top| &top.1);
     let (value, slopes) = match quantity {
         PeakQuantity::Height => {
             let ends = [found.states.first(), found.states.last()];
@@ -52,11 +52,11 @@ pub(crate) fn highest(
             (own.square().value.sqrt(), own.modulus_by_design())
         }
         PeakQuantity::Place => {
-            let own = tops.max_by(lower).ok_or_else(none)?;
-            (own.value, own.place_by_design())
+            let top = tops.max_by(lower).ok_or_else(none)?;
+            (top.value, top.place_by_design())
         }
     };
-    let smooth = slopes.iter().all(|own| own.is_finite());
+    let smooth = slopes.iter().all(|slope| slope.is_finite());
     Ok((value, smooth.then_some(slopes)))
 }
 

@@ -86,7 +86,7 @@ impl HalfPower {
     #[must_use]
     pub fn place(&self) -> Option<&Moving> {
         match self {
-            Self::At(place) => Some(place),
+            Self::At(at) => Some(at),
             Self::EndOfRange | Self::RisesAgain => None,
         }
     }
@@ -108,17 +108,17 @@ pub struct Moving {
 impl Moving {
     /// `value`, which moves `slope` times as far.
     fn scaled(&self, slope: f64, value: f64) -> Self {
-        let mean = |own: f64| value + slope * (own - self.value);
+        let mean = |x: f64| value + slope * (x - self.value);
         let spread = self.spread.as_ref();
         Self {
             value,
-            by_design: self.by_design.map(|own| slope * own),
-            spread: spread.map(|own| own.scaled(slope, mean(own.mean))),
+            by_design: self.by_design.map(|x| slope * x),
+            spread: spread.map(|spread| spread.scaled(slope, mean(spread.mean))),
         }
     }
 
     fn new(value: f64, by_design: Vector, tolerances: Option<&Tolerances>) -> Self {
-        let spread = tolerances.map(|own| Spread::new(value, by_design.clone(), own));
+        let spread = tolerances.map(|tolerance| Spread::new(value, by_design.clone(), tolerance));
         Self {
             value,
             by_design,
@@ -145,8 +145,8 @@ pub fn peaks(
     vibration: Vibration,
     tolerances: Option<&Tolerances>,
 ) -> Result<Peaks, Error> {
-    if let Some(own) = tolerances {
-        own.check_count(b.len())?;
+    if let Some(tolerances) = tolerances {
+        tolerances.check_count(b.len())?;
     }
     let along = Along::new(mechanism, (u, b), following.into(), (range, vibration))?;
     let found = scan(&along, &range, start)?;
@@ -325,11 +325,9 @@ impl Search<'_> {
             (own.value - half, own.slope)
         })?;
         let slope = found.square().slope;
-        let (peak, own) = (top.square_by_design(), found.square_by_design());
-        let pairs = peak.iter().zip(&own);
-        let by_design: Vector = pairs
-            .map(|(peak, own)| (0.5 * peak - own) / slope)
-            .collect();
+        let (peak, vector) = (top.square_by_design(), found.square_by_design());
+        let pairs = peak.iter().zip(&vector);
+        let by_design: Vector = pairs.map(|(peak, x)| (0.5 * peak - x) / slope).collect();
         let frequency = found.line.frequency.slopes.by_design.iter().zip(&by_design);
         let frequency = frequency.map(|(dw, du)| dw + found.frequency_slope() * du);
         Ok(Half {

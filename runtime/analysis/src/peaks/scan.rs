@@ -175,6 +175,6 @@ fn turns_between(a: &State, b: &State) -> bool {
 
 /// Whether the amplitude is about the same at both states.
 fn still(a: &State, b: &State) -> bool {
-    let [a, b] = [a, b].map(|own| own.square().value);
+    let [a, b] = [a, b].map(|x| x.square().value);
     (a - b).abs() <= STILL * a.max(b)
 }

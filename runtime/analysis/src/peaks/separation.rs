@@ -69,8 +69,8 @@ fn margin(peak: &Peak, [low, high]: [f64; 2]) -> SeparationMargin {
         () if place.value > high => (1.0 / high, place.value / high - 1.0, 0.10),
         () => (0.0, 0.0, 0.0),
     };
-    let required = peak.amplification.as_ref().map(|own| {
-        let factor = own.value;
+    let required = peak.amplification.as_ref().map(|amplification| {
+        let factor = amplification.value;
         match factor < DAMPED {
             true => 0.0,
             false => extra + 0.17 * (1.0 - 1.0 / (factor - 1.5)),

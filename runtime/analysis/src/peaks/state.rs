@@ -105,9 +105,13 @@ impl State {
 
     /// `d2A/(du db)` for each design variable.
     pub(super) fn bend_by_design(&self) -> Vector {
-        let (y, own) = (self.line.amplitude.value.conj(), &self.line.amplitude);
-        let along = own.slopes.by_input[self.input].conj();
-        let each = own.slopes.by_design.iter().zip(&own.along.by_design);
+        let (y, amplitude) = (self.line.amplitude.value.conj(), &self.line.amplitude);
+        let along = amplitude.slopes.by_input[self.input].conj();
+        let each = amplitude
+            .slopes
+            .by_design
+            .iter()
+            .zip(&amplitude.along.by_design);
         each.map(|(dy, ddy)| 2.0 * (along * dy + y * ddy).re)
             .collect()
     }
@@ -115,8 +119,8 @@ impl State {
     /// The derivatives of the modulus by the design.
     pub(super) fn modulus_by_design(&self) -> Vector {
         let modulus = self.line.amplitude.value.norm();
-        let own = self.square_by_design();
-        own.map(|value| value / (2.0 * modulus))
+        let vector = self.square_by_design();
+        vector.map(|value| value / (2.0 * modulus))
     }
 
     /// How far a peak here moves with the design.
@@ -148,6 +152,6 @@ impl State {
 }
 
 fn nearest(s: Complex, poles: &[Complex]) -> f64 {
-    let each = poles.iter().map(|own| (s - own).norm());
+    let each = poles.iter().map(|pole| (s - pole).norm());
     each.fold(f64::INFINITY, f64::min)
 }

@@ -34,8 +34,8 @@ pub(super) fn ellipsoid(
     });
     let moments = [principal[0], principal[4], principal[8]];
     let sum: f64 = moments.iter().sum();
-    let semi_axes = moments.map(|own| {
-        let square = 2.5 * (sum - 2.0 * own) / mass;
+    let semi_axes = moments.map(|moment| {
+        let square = 2.5 * (sum - 2.0 * moment) / mass;
         // Zero for a body without mass, and for a flat body, whose square may be negative due to rounding.
         if square > 0.0 && square.is_finite() {
             square.sqrt()
@@ -82,9 +82,9 @@ mod tests {
                 |axis: &[f64; 3]| -> f64 { axis.iter().zip(direction).map(|(a, d)| a * d).sum() };
             let found = axes.iter().zip(semi_axes);
             let found = found.filter(|(axis, _)| along(axis).abs() > 1.0 - 1e-12);
-            let found: Vec<f64> = found.map(|(_, semi_axis)| semi_axis).collect();
-            assert_eq!(found.len(), 1, "{direction:?}");
-            assert!((found[0] - expected).abs() < 1e-12, "{direction:?}");
+            let values: Vec<f64> = found.map(|(_, semi_axis)| semi_axis).collect();
+            assert_eq!(values.len(), 1, "{direction:?}");
+            assert!((values[0] - expected).abs() < 1e-12, "{direction:?}");
         }
     }
 

@@ -49,8 +49,8 @@ impl Scene {
     #[must_use]
     pub fn up(&self) -> [f64; 3] {
         if let Some(gravity) = self.gravity {
-            let size = gravity.iter().fold(0.0_f64, |size, own| size.hypot(*own));
-            return gravity.map(|own| -own / size + 0.0);
+            let size = gravity.iter().fold(0.0_f64, |size, x| size.hypot(*x));
+            return gravity.map(|gravity| -gravity / size + 0.0);
         }
         let on_ground = |joint: &&Joint| joint.driven && joint.from.body.is_none();
         let driven = self.joints.iter().find(on_ground);
@@ -58,12 +58,12 @@ impl Scene {
             .and_then(|joint| joint.from.axis)
             .unwrap_or([0.0, 0.0, 1.0]);
         let largest = axis.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let sign = if largest.is_some_and(|own| own < 0.0) {
+        let sign = if largest.is_some_and(|largest| largest < 0.0) {
             -1.0
         } else {
             1.0
         };
-        axis.map(|own| sign * own + 0.0)
+        axis.map(|axis| sign * axis + 0.0)
     }
 
     /// Whether a body is the root or a station of a beam: a frame of a section, which the beam shows.
@@ -82,10 +82,10 @@ impl Scene {
 
     /// Transforms a place on a body, or on the ground, to the common frame.
     #[must_use]
-    pub fn place(&self, body: Option<usize>, place: [f64; 3]) -> [f64; 3] {
+    pub fn place(&self, body: Option<usize>, values: [f64; 3]) -> [f64; 3] {
         match body.and_then(|body| self.bodies.get(body)) {
-            Some(body) => body.pose.place(place),
-            None => place,
+            Some(body) => body.pose.place(values),
+            None => values,
         }
     }
 }
@@ -103,8 +103,8 @@ pub struct Pose {
 impl Pose {
     /// Transforms a place to the common frame.
     #[must_use]
-    pub fn place(&self, place: [f64; 3]) -> [f64; 3] {
-        let turned = self.direction(place);
+    pub fn place(&self, values: [f64; 3]) -> [f64; 3] {
+        let turned = self.direction(values);
         core::array::from_fn(|i| self.position[i] + turned[i])
     }
 

@@ -186,7 +186,7 @@ impl Motion<'_> {
 fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2]) -> f64 {
     let solids = scene.bodies.iter().enumerate().flat_map(|(body, found)| {
         let tips = found.solids.iter().flat_map(|solid| solid.tips());
-        tips.map(move |place| (body, place))
+        tips.map(move |tip| (body, tip))
     });
     let seats = scene.joints.iter().flat_map(|joint| [joint.from, joint.to]);
     let seats = seats.map(|seat| (seat.body, seat.place));

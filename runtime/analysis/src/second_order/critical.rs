@@ -97,7 +97,7 @@ impl State<'_> {
             subtract(&mut change, &self.residual_gradient(&dw));
             let by_input = change.inputs[input];
             let each = change.design.iter().zip(self.first);
-            each.map(|(own, rate)| -(own + by_input * rate) / push)
+            each.map(|(x, rate)| -(x + by_input * rate) / push)
                 .collect()
         });
         Ok(rows.collect())
@@ -191,8 +191,8 @@ impl State<'_> {
     fn direction(&self, coordinates: Vector, rate: f64, design: Option<usize>) -> Direction {
         let at = &self.critical.equilibrium;
         let input = self.critical.input.index();
-        let only = |size: usize, place: Option<usize>, value: f64| {
-            Vector::from_fn(size, |i| if Some(i) == place { value } else { 0.0 })
+        let only = |size: usize, index: Option<usize>, value: f64| {
+            Vector::from_fn(size, |i| if Some(i) == index { value } else { 0.0 })
         };
         Direction {
             coordinates,

@@ -78,8 +78,8 @@ pub fn mode_curvature(
     modes: &Modes,
     mode: usize,
 ) -> Result<ModeCurvature, Error> {
-    let mut found = mode_curvatures(mechanism, at, modes, mode..mode + 1);
-    found.pop().unwrap_or(Err(Error::NoSuchMode {
+    let mut mode_curvatures = mode_curvatures(mechanism, at, modes, mode..mode + 1);
+    mode_curvatures.pop().unwrap_or(Err(Error::NoSuchMode {
         mode,
         count: modes.modes.len(),
     }))
@@ -95,22 +95,24 @@ pub(super) fn mode_curvatures(
     modes: &Modes,
     positions: Range<usize>,
 ) -> Vec<Result<ModeCurvature, Error>> {
-    let mut own: Vec<Result<Own<'_>, Error>> = positions
+    let mut owns: Vec<Result<Own<'_>, Error>> = positions
         .clone()
         .map(|mode| match is_free(modes, mode) {
             true => Err(Error::NotOscillating { mode, lambda: 0.0 }),
             false => Own::new(mechanism, at, modes, mode),
         })
         .collect();
-    if own.iter().any(Result::is_ok) {
+    if owns.iter().any(Result::is_ok) {
         match directions(mechanism, at) {
             Ok(directions) => {
                 let all: Vec<Direction> = directions.collect();
                 let n = at.coordinates.len();
                 let shift = Matrix::from_fn(all.len(), n, |k, i| all[k].coordinates[i]);
-                let mut ready: Vec<&mut Own<'_>> = own.iter_mut().flatten().collect();
+                let mut ready: Vec<&mut Own<'_>> = owns.iter_mut().flatten().collect();
                 for directions in all.chunks(TOGETHER) {
-                    let changes = directions.iter().map(|own| own.linear(mechanism, at));
+                    let changes = directions
+                        .iter()
+                        .map(|direction| direction.linear(mechanism, at));
                     let changes: Vec<Linear> = changes.collect();
                     match modes.family {
                         Family::Undamped => {
@@ -128,16 +130,16 @@ pub(super) fn mode_curvatures(
                     }
                 }
             }
-            Err(error) => own
+            Err(error) => owns
                 .iter_mut()
-                .filter(|own| own.is_ok())
-                .for_each(|own| *own = Err(error.clone())),
+                .filter(|x| x.is_ok())
+                .for_each(|x| *x = Err(error.clone())),
         }
     }
-    let each = own.into_iter().zip(positions);
-    each.map(|(own, position)| match is_free(modes, position) {
+    let each = owns.into_iter().zip(positions);
+    each.map(|(item, position)| match is_free(modes, position) {
         true => Ok(ModeCurvature::of_free(at, position)),
-        false => own?.curvature(at, modes),
+        false => item?.curvature(at, modes),
     })
     .collect()
 }
@@ -221,8 +223,8 @@ fn undamped_along(
     (directions, shift): (&[Direction], &Matrix),
     changes: &[Linear],
 ) {
-    let shapes: Vec<Vector> = modes.iter().map(|own| own.mode.real_shape()).collect();
-    let n = shapes.first().map_or(0, |own| own.len());
+    let shapes: Vec<Vector> = modes.iter().map(|mode| mode.mode.real_shape()).collect();
+    let n = shapes.first().map_or(0, |shape| shape.len());
     let columns = Matrix::from_fn(n, shapes.len(), |i, r| shapes[r][i]);
     let products = changes.iter().map(|change| {
         let moved = |matrix: &Matrix| {
@@ -234,21 +236,21 @@ fn undamped_along(
         [&change.stiffness, &change.mass].map(moved)
     });
     let products: Vec<[Matrix; 2]> = products.collect();
-    for (r, (own, phi)) in modes.iter_mut().zip(&shapes).enumerate() {
+    for (r, (mode, phi)) in modes.iter_mut().zip(&shapes).enumerate() {
         let each = products.iter();
         let each = each.map(|[k, m]| (k.column(r), m.column(r)));
         let each: Vec<(Vector, Vector)> = each.collect();
         let rates = each
             .iter()
-            .map(|(k, m)| dot(phi, k) - own.mode.lambda * dot(phi, m));
+            .map(|(k, m)| dot(phi, k) - mode.mode.lambda * dot(phi, m));
         let rates: Vec<f64> = rates.collect();
-        let Some(moved) = own.shapes.undamped_along(&each, &rates) else {
+        let Some(moved) = mode.shapes.undamped_along(&each, &rates) else {
             continue;
         };
-        let rows = own
+        let rows = mode
             .gradient
             .undamped_along((directions, shift), &moved, &rates);
-        own.rows.extend(rows);
+        mode.rows.extend(rows);
     }
 }
 
@@ -336,8 +338,8 @@ impl<'a> AdjointGradient<'a> {
                 .total_along_each(&mut changes, w, directions, (shift, &mut room));
         }
         let slopes = |change: Gradient| Slopes {
-            by_input: change.inputs.iter().map(|own| (*own).into()).collect(),
-            by_design: change.design.iter().map(|own| (*own).into()).collect(),
+            by_input: change.inputs.iter().map(|input| (*input).into()).collect(),
+            by_design: change.design.iter().map(|value| (*value).into()).collect(),
         };
         changes.into_iter().map(slopes).collect()
     }

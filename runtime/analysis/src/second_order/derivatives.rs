@@ -57,9 +57,9 @@ impl<T: Copy> SecondDerivatives<T> {
     where
         (T, S): Default,
     {
-        let pairs = |own: &Matrix<T>, other: &Matrix<S>| {
-            Matrix::from_fn(own.row_count(), own.column_count(), |i, j| {
-                (own[i][j], other[i][j])
+        let pairs = |matrix: &Matrix<T>, other: &Matrix<S>| {
+            Matrix::from_fn(matrix.row_count(), matrix.column_count(), |i, j| {
+                (matrix[i][j], other[i][j])
             })
         };
         SecondDerivatives {

@@ -131,7 +131,7 @@ fn derivatives(
     let by_mean = at_low.0 - at_high.0;
     let by_sigma = at_low.1 - at_high.1;
     let (sigma_by_design, sigma_by_half_width) = sigma_derivatives(quadratic, tolerances, sigma);
-    let found = MarginDerivatives {
+    let margin_derivatives = MarginDerivatives {
         by_mean,
         by_sigma,
         by_low: -at_low.0,
@@ -141,10 +141,14 @@ fn derivatives(
             .collect(),
         by_half_width: sigma_by_half_width.map(|slope| by_sigma * slope),
     };
-    let finite = all_finite(&[by_mean, by_sigma, found.by_low, found.by_high])
-        && all_finite(&found.by_design)
-        && all_finite(&found.by_half_width);
-    finite.then_some(found)
+    let finite = all_finite(&[
+        by_mean,
+        by_sigma,
+        margin_derivatives.by_low,
+        margin_derivatives.by_high,
+    ]) && all_finite(&margin_derivatives.by_design)
+        && all_finite(&margin_derivatives.by_half_width);
+    finite.then_some(margin_derivatives)
 }
 
 /// Derivatives of `sigma = sqrt(S Sigma S^T)` with respect to the nominal design, `H Sigma S / sigma`, and to the

@@ -113,8 +113,9 @@ fn blocks<'a>(
     let mut undamped = None;
     starts.map(move |start| {
         let block = start..count.min(start + TOGETHER);
-        let found = mode_curvatures(mechanism, at, modes, block).into_iter();
-        let each = found.map(|own| mode_second_order(&own?, modes, tolerances, &mut undamped));
+        let mode_curvatures = mode_curvatures(mechanism, at, modes, block).into_iter();
+        let each =
+            mode_curvatures.map(|item| mode_second_order(&item?, modes, tolerances, &mut undamped));
         each.collect()
     })
 }

@@ -35,8 +35,8 @@ pub fn sweep(
         ControlFlow::Continue(())
     };
     let along = (input, values);
-    let found = sweep_each(mechanism, (u, b), start, following, along, each)?;
-    Ok(Sweep { points, ..found })
+    let sweep = sweep_each(mechanism, (u, b), start, following, along, each)?;
+    Ok(Sweep { points, ..sweep })
 }
 
 /// Like [`sweep`], but passes each point to `each`, in order and as soon as it is found, and keeps none: the result
@@ -70,9 +70,9 @@ pub fn sweep_each(
         last = station.point.value;
         each(station.point)
     });
-    let until = |found: Events| match unreached {
-        0 => found,
-        _ => found.until(last),
+    let until = |events: Events| match unreached {
+        0 => events,
+        _ => events.until(last),
     };
     let (critical, flutter_onsets, searched) = match found.map(until) {
         Some(found) => (found.critical, found.crossings, Some(found.searched)),

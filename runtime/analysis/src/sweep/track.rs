@@ -132,8 +132,8 @@ impl<'a> Tracker<'a> {
     /// All inputs when the varied one has this value.
     pub(super) fn inputs_at(&self, value: f64) -> Vector {
         let mut inputs = self.inputs.clone();
-        if let Some(place) = inputs.get_mut(self.input.index()) {
-            *place = value;
+        if let Some(input) = inputs.get_mut(self.input.index()) {
+            *input = value;
         }
         inputs
     }

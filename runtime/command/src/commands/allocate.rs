@@ -57,10 +57,10 @@ impl Allocate {
             .seed(file.seed.unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let wanted = requirements(&study, &file.require)?;
-        let allowed = file.require.iter().enumerate().map(|(k, own)| {
+        let allowed = file.require.iter().enumerate().map(|(k, item)| {
             let help = "give the greatest probability of violating it: `failure = 0.001`";
             let message = || format!("requirement {} allows no failure", k + 1);
-            own.failure.ok_or_else(|| Failure::usage(message(), help))
+            item.failure.ok_or_else(|| Failure::usage(message(), help))
         });
         let failure = allowed.collect::<Result<Vec<_>, _>>()?;
         let mut choices = Choices {
@@ -71,22 +71,22 @@ impl Allocate {
         for choice in &file.choose {
             choose(&study, choice, &mut choices)?;
         }
-        let found = study.allocation(&wanted, &choices)?;
+        let allocation = study.allocation(&wanted, &choices)?;
         bar.finish_and_clear();
         let mut answer = self.output.answer();
-        answer.add(&found)?;
+        answer.add(&allocation)?;
         self.output.write(&answer)?;
-        if found.stopped {
-            let tried = found.evaluations;
+        if allocation.stopped {
+            let tried = allocation.evaluations;
             return Ok(Verdict::Stopped(format!(
                 "after {tried} choices: there may be cheaper tolerances"
             )));
         }
-        let (samples, planned) = (found.chances.all.samples(), found.chances.planned);
+        let (samples, planned) = (allocation.chances.all.samples(), allocation.chances.planned);
         if samples < planned {
             return Ok(Verdict::stopped(samples, planned, "samples"));
         }
-        Ok(match found.refuted.first() {
+        Ok(match allocation.refuted.first() {
             None => Verdict::Yes,
             Some(k) => Verdict::No(format!("samples refute requirement {}", k + 1)),
         })
@@ -95,16 +95,16 @@ impl Allocate {
 
 fn choose(
     study: &Study<Interpreted>,
-    own: &Choose,
+    choose: &Choose,
     choices: &mut Choices<'_>,
 ) -> Result<(), Failure> {
     let limits = |unit: &Unit| -> Result<(f64, f64), Failure> {
         Ok((
-            written("least", &own.least, unit)?,
-            written("most", &own.most, unit)?,
+            written("least", &choose.least, unit)?,
+            written("most", &choose.most, unit)?,
         ))
     };
-    match (&own.tolerance, &own.nominal, own.cost) {
+    match (&choose.tolerance, &choose.nominal, choose.cost) {
         (Some(name), None, Some(cost)) => {
             let (parameter, unit) = parameter(study, name)?;
             let factor = cost.factor * unit.scale.powf(cost.power);
@@ -142,10 +142,7 @@ fn place(
         Parameter::Design(variable) => return Ok(variable.index()),
         Parameter::Input(input) => input,
     };
-    let found = study
-        .deviating_inputs()
-        .iter()
-        .position(|own| *own == input);
+    let found = study.deviating_inputs().iter().position(|x| *x == input);
     found
         .map(|k| study.design_values().len() + k)
         .ok_or_else(|| {

@@ -40,7 +40,7 @@ impl Branches {
         let make = |all: &[Table]| all.first().cloned().unwrap_or_default();
         let mut rows = self.output.rows(("branches", "branches"), make)?;
         let (mut number, mut written) = (0, Ok(()));
-        let found = study.branches_each(&settings, None, |branch| {
+        let branches = study.branches_each(&settings, None, |branch| {
             number += 1;
             if let (Some(rows), Ok(())) = (&mut rows, &written) {
                 written = rows
@@ -51,21 +51,25 @@ impl Branches {
         written?;
         bar.finish_and_clear();
         let style = self.picture.plain_style(&question);
-        self.picture.draw(|| figures::branches(&found, &style))?;
+        self.picture.draw(|| figures::branches(&branches, &style))?;
         match rows {
             Some(rows) => rows.finish()?,
             None => {
                 let mut answer = self.output.answer();
-                answer.add(&found)?;
+                answer.add(&branches)?;
                 self.output.write(&answer)?;
             }
         }
-        let ends = found.branches.iter().flat_map(|branch| &branch.ends);
+        let ends = branches.branches.iter().flat_map(|branch| &branch.ends);
         if ends.into_iter().any(|end| *end == BranchEnd::Stopped) {
-            let points: usize = found.branches.iter().map(|own| own.points.len()).sum();
+            let points: usize = branches
+                .branches
+                .iter()
+                .map(|branch| branch.points.len())
+                .sum();
             return Ok(Verdict::Stopped(format!("after {points} points")));
         }
-        if found.stable().next().is_some() {
+        if branches.stable().next().is_some() {
             return Ok(Verdict::Yes);
         }
         Ok(Verdict::No("no branch has a stable part".to_owned()))

@@ -51,7 +51,7 @@ impl Campbell {
         let keep = rows.is_none() || self.picture.is_wanted();
         let (mut points, mut done, mut solved) = (Vec::new(), 0, 0);
         let mut written = Ok(());
-        let found = study.campbell_each(input, &values, &orders, |point| {
+        let campbell = study.campbell_each(input, &values, &orders, |point| {
             done += 1;
             solved += usize::from(point.modes.is_ok());
             if keep {
@@ -67,7 +67,7 @@ impl Campbell {
         })?;
         written?;
         bar.finish_and_clear();
-        let mut found = found;
+        let mut found = campbell;
         found.points = points;
         let modes = found.labels().last().map_or(0, |last| last + 1);
         let style = self.picture.style(&question, modes)?;

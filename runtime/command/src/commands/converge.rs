@@ -25,9 +25,9 @@ impl Converge {
         self.output.check()?;
         let question = self.point.question()?;
         let refined = |more| Interpreted::refined(&question.text, more);
-        let found = (question.study).convergence([refined(1)?, refined(2)?])?;
+        let convergence = (question.study).convergence([refined(1)?, refined(2)?])?;
         let mut answer = self.output.answer();
-        answer.add(&found.of_first(self.modes.unwrap_or(usize::MAX)))?;
+        answer.add(&convergence.of_first(self.modes.unwrap_or(usize::MAX)))?;
         self.output.write(&answer)?;
         Ok(Verdict::of(&question.study)?)
     }

@@ -66,8 +66,8 @@ impl Expand {
 
 fn dump(compilation: &Compilation, stage: &str) -> String {
     let dumps = compilation.dumps().into_iter();
-    let mut found = dumps.filter(|(name, _)| *name == stage);
-    found.next().map_or_else(String::new, |(_, text)| text)
+    let mut dumps = dumps.filter(|(name, _)| *name == stage);
+    dumps.next().map_or_else(String::new, |(_, text)| text)
 }
 
 /// A line for each kernel: arithmetic operations, and functions such as sines.

@@ -85,10 +85,10 @@ impl Probability {
 }
 
 /// No if a requirement fails more often than is allowed.
-fn verdict(required: &[Require], found: &Probabilities) -> Verdict {
-    let all = required.iter().zip(&found.each).enumerate();
-    let mut exceeded = all.filter_map(|(k, (own, found))| {
-        let allowed = own.failure.filter(|allowed| found.value > *allowed)?;
+fn verdict(required: &[Require], probabilities: &Probabilities) -> Verdict {
+    let all = required.iter().zip(&probabilities.each).enumerate();
+    let mut exceeded = all.filter_map(|(k, (item, found))| {
+        let allowed = item.failure.filter(|allowed| found.value > *allowed)?;
         Some(format!(
             "requirement {} fails with a probability of {:.3e}, and {allowed} is allowed",
             k + 1,

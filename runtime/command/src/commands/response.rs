@@ -130,24 +130,27 @@ impl Response {
         let operating = operating.transpose()?;
         if operating
             .as_ref()
-            .is_some_and(|own| own.input != along.input)
+            .is_some_and(|operating| operating.input != along.input)
         {
             let help = "state it for the input of `--sweep`";
             let message = "the range of operation is of another input";
             return Err(Failure::usage(message, help));
         }
         let each = wanted.iter();
-        let each = each.map(|own| study.peaks(*own, along.input, along.low, along.high));
-        let found: Vec<Peaks> = each.collect::<Result<_, _>>()?;
+        let each = each.map(|item| study.peaks(*item, along.input, along.low, along.high));
+        let peaks: Vec<Peaks> = each.collect::<Result<_, _>>()?;
         let mut answer = self.output.answer();
-        answer.add(&found)?;
-        let peaked: Vec<Peaks> = (found.into_iter())
-            .filter(|own| !own.peaks.is_empty())
+        answer.add(&peaks)?;
+        let peaked: Vec<Peaks> = (peaks.into_iter())
+            .filter(|x| !x.peaks.is_empty())
             .collect();
         let any = !peaked.is_empty();
-        if let (Some(own), true) = (&operating, any) {
-            let ends = [own.low.min(own.high), own.low.max(own.high)];
-            let margins: Vec<_> = peaked.into_iter().map(|own| own.separation(ends)).collect();
+        if let (Some(operating), true) = (&operating, any) {
+            let ends = [
+                operating.low.min(operating.high),
+                operating.low.max(operating.high),
+            ];
+            let margins: Vec<_> = peaked.into_iter().map(|x| x.separation(ends)).collect();
             answer.add(&margins)?;
         }
         self.output.write(&answer)?;
@@ -162,7 +165,7 @@ impl Response {
         &self,
         question: &Question,
         range: &Range,
-        found: &Bode,
+        bode: &Bode,
         drawn: Option<Vibration>,
     ) -> Result<(), Failure> {
         self.picture.draw(|| {
@@ -173,8 +176,8 @@ impl Response {
             let peaks: Vec<_> = peaks.into_iter().collect();
             let style = self.picture.plain_style(question);
             match self.polar {
-                true => figures::polar(found, drawn, &peaks, &style),
-                false => figures::bode(found, drawn, &peaks, &style),
+                true => figures::polar(bode, drawn, &peaks, &style),
+                false => figures::bode(bode, drawn, &peaks, &style),
             }
         })
     }
@@ -185,12 +188,14 @@ impl Response {
         let orbit = orbit.transpose()?;
         let verdict = Verdict::of(study)?;
         let mut answer = self.output.answer();
-        let found = study.forced_sensitivities()?;
+        let forced_sensitivities = study.forced_sensitivities()?;
         if let Some((pair, excitation)) = orbit {
             let style = self.picture.plain_style(question);
-            (self.picture).draw(|| figures::orbit(&found.response, pair, excitation, &style))?;
+            (self.picture).draw(|| {
+                figures::orbit(&forced_sensitivities.response, pair, excitation, &style)
+            })?;
         }
-        answer.add(&found)?;
+        answer.add(&forced_sensitivities)?;
         if self.bands {
             answer.add(&study.vibration_spread(wanted)?)?;
         }

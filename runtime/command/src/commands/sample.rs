@@ -167,12 +167,12 @@ impl Run<'_> {
 }
 
 fn length(ranges: &[Range<u64>]) -> u64 {
-    ranges.iter().map(|own| own.end - own.start).sum()
+    ranges.iter().map(|range| range.end - range.start).sum()
 }
 
 /// The intersections of these ranges with another range.
 fn within(ranges: &[Range<u64>], within: &Range<u64>) -> Vec<Range<u64>> {
-    let inside = |own: &Range<u64>| own.start.max(within.start)..own.end.min(within.end);
+    let inside = |range: &Range<u64>| range.start.max(within.start)..range.end.min(within.end);
     let inside = ranges.iter().map(inside);
-    inside.filter(|own| own.start < own.end).collect()
+    inside.filter(|inside| inside.start < inside.end).collect()
 }

@@ -42,14 +42,14 @@ impl Follow {
         let mut rows = self.output.rows(("sweep", "sweep"), make)?;
         let (mut points, mut done, mut solved, mut labels) = (Vec::new(), 0, 0, 0);
         let mut written = Ok(());
-        let mut found = study.sweep_each(input, &values, |point| {
+        let mut sweep = study.sweep_each(input, &values, |point| {
             done += 1;
             if let Ok(modes) = &point.modes {
                 solved += 1;
                 labels = modes
                     .modes
                     .iter()
-                    .fold(labels, |most, own| most.max(own.label + 1));
+                    .fold(labels, |most, mode| most.max(mode.label + 1));
             }
             match &mut rows {
                 Some(rows) => written = rows.add(point.clone()),
@@ -73,9 +73,9 @@ impl Follow {
                 }
             }
             None => {
-                found.points = points;
+                sweep.points = points;
                 let mut answer = self.output.answer();
-                answer.add(&found)?;
+                answer.add(&sweep)?;
                 self.output.write(&answer)?;
             }
         }

@@ -46,7 +46,7 @@ impl Tolerance {
             kinds
                 .iter()
                 .zip(&shown)
-                .any(|(own, shown)| own.0 == kind && *shown)
+                .any(|(x, shown)| x.0 == kind && *shown)
         };
         let modes = study.modes()?;
         let mut answer = self.output.answer();

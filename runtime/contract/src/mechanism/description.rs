@@ -84,8 +84,8 @@ impl Description {
     #[cfg(feature = "std")]
     #[doc(hidden)]
     pub fn unknown_name(&self, index: usize) -> Text {
-        let found = self.coordinates.get(index);
-        found.map_or(Text::Static("?"), |info| info.name.clone())
+        let coordinate = self.coordinates.get(index);
+        coordinate.map_or(Text::Static("?"), |info| info.name.clone())
     }
 }
 

@@ -482,11 +482,11 @@ pub trait Mechanism: Clone + Sync + Sized {
         Self::Outputs<Self::Design<T>>,
     ) {
         let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
-        let found = self.output_partials::<Dual<T>>(&q, &u, &b);
+        let matrices = self.output_partials::<Dual<T>>(&q, &u, &b);
         (
-            Array::from_fn(|o| slopes(&found.0.as_ref()[o])),
-            Array::from_fn(|o| slopes(&found.1.as_ref()[o])),
-            Array::from_fn(|o| slopes(&found.2.as_ref()[o])),
+            Array::from_fn(|o| slopes(&matrices.0.as_ref()[o])),
+            Array::from_fn(|o| slopes(&matrices.1.as_ref()[o])),
+            Array::from_fn(|o| slopes(&matrices.2.as_ref()[o])),
         )
     }
 

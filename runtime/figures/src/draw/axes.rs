@@ -115,14 +115,14 @@ fn ticks(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
     let step = step(rough, &axis.unit);
     let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
     let count = (last - first).clamp(0.0, 100.0) as usize;
-    let values = (0..=count).map(|k| first + k as f64).map(|own| own * step);
+    let values = (0..=count).map(|k| first + k as f64).map(|x| x * step);
     values.map(|value| (value, number(value, step))).collect()
 }
 
 /// The next larger round number; for angles, one that divides a turn.
 fn step(rough: f64, unit: &str) -> f64 {
     let power = 10f64.powf(rough.log10().floor());
-    let decimal = [1.0, 2.0, 2.5, 5.0, 10.0].map(|own| own * power);
+    let decimal = [1.0, 2.0, 2.5, 5.0, 10.0].map(|x| x * power);
     let turns: &[f64] = match unit {
         "deg" => &[15.0, 30.0, 45.0, 90.0, 180.0],
         _ => &[],
@@ -131,7 +131,7 @@ fn step(rough: f64, unit: &str) -> f64 {
         true => turns.iter().chain(&decimal),
         false => [].iter().chain(&decimal),
     };
-    let mut wide = all.copied().filter(|own| *own >= 0.999 * rough);
+    let mut wide = all.copied().filter(|x| *x >= 0.999 * rough);
     wide.next().unwrap_or(10.0 * power)
 }
 
@@ -162,7 +162,7 @@ mod tests {
     fn words(low: f64, high: f64) -> Vec<String> {
         let mut axis = Axis::new("", "");
         axis.range = [low, high];
-        ticks(&axis, 5.0).into_iter().map(|own| own.1).collect()
+        ticks(&axis, 5.0).into_iter().map(|tick| tick.1).collect()
     }
 
     #[test]
@@ -178,7 +178,7 @@ mod tests {
         assert!(words(1.0, 1.0).is_empty());
         let mut turn = Axis::new("phase", "deg");
         turn.range = [-195.0, 195.0];
-        let words: Vec<String> = ticks(&turn, 5.0).into_iter().map(|own| own.1).collect();
+        let words: Vec<String> = ticks(&turn, 5.0).into_iter().map(|tick| tick.1).collect();
         assert_eq!(words, ["-180", "-90", "0", "90", "180"]);
     }
 }

@@ -4,9 +4,9 @@ type Pixel = (i32, i32);
 
 /// The dashes of a line; `pattern` alternates dash and gap lengths.
 pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
-    let mut found = Vec::new();
+    let mut pixels = Vec::new();
     let Some(&first) = line.first() else {
-        return found;
+        return pixels;
     };
     let whole: f64 = pattern.iter().sum();
     if whole <= 0.0 {
@@ -16,7 +16,7 @@ pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
     let mut dash = vec![first];
     for pair in line.windows(2) {
         let [(x, y), (to_x, to_y)] =
-            [pair[0], pair[1]].map(|own| (f64::from(own.0), f64::from(own.1)));
+            [pair[0], pair[1]].map(|pair| (f64::from(pair.0), f64::from(pair.1)));
         let length = (to_x - x).hypot(to_y - y);
         let mut done = 0.0;
         while length - done > left {
@@ -28,7 +28,7 @@ pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
             );
             if turn % 2 == 0 {
                 dash.push(at);
-                found.push(std::mem::take(&mut dash));
+                pixels.push(std::mem::take(&mut dash));
             } else {
                 dash = vec![at];
             }
@@ -41,9 +41,9 @@ pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
         }
     }
     if dash.len() > 1 {
-        found.push(dash);
+        pixels.push(dash);
     }
-    found
+    pixels
 }
 
 #[cfg(test)]
@@ -53,13 +53,13 @@ mod tests {
     #[test]
     fn dashes_go_round_corners() {
         let line = [(0, 0), (10, 0), (10, 10)];
-        let found = dashes(&line, &[6.0, 3.0]);
+        let pixels = dashes(&line, &[6.0, 3.0]);
         let expected = [
             vec![(0, 0), (6, 0)],
             vec![(9, 0), (10, 0), (10, 5)],
             vec![(10, 8), (10, 10)],
         ];
-        assert_eq!(found, expected);
+        assert_eq!(pixels, expected);
         assert!(dashes(&[], &[6.0, 3.0]).is_empty());
     }
 }

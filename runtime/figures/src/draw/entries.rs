@@ -27,7 +27,7 @@ pub(super) enum Symbol {
 pub(super) fn entries(figure: &Figure) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for (label, symbol) in figure.panels.iter().flat_map(symbols) {
-        if !label.is_empty() && !entries.iter().any(|own| own.label == label) {
+        if !label.is_empty() && !entries.iter().any(|entry| entry.label == label) {
             let label = label.to_owned();
             entries.push(Entry { label, symbol });
         }
@@ -37,20 +37,21 @@ pub(super) fn entries(figure: &Figure) -> Vec<Entry> {
 
 fn symbols(panel: &Panel) -> Vec<(&str, Symbol)> {
     let curves = panel.curves.iter();
-    let curves = curves.map(|own| (&*own.label, Symbol::Line(own.colour, own.stroke)));
+    let curves = curves.map(|curve| (&*curve.label, Symbol::Line(curve.colour, curve.stroke)));
     let bands = panel
         .bands
         .iter()
-        .map(|own| (&*own.label, Symbol::Area(own.colour)));
+        .map(|band| (&*band.label, Symbol::Area(band.colour)));
     let bars = panel
         .bars
         .iter()
-        .map(|own| (&*own.label, Symbol::Bar(own.colour)));
+        .map(|bar| (&*bar.label, Symbol::Bar(bar.colour)));
     let errors = panel.error_bars.iter();
-    let errors = errors.map(|own| (&*own.label, Symbol::Interval(own.colour, own.shape)));
+    let errors = errors.map(|error| (&*error.label, Symbol::Interval(error.colour, error.shape)));
     let markers = panel.markers.iter();
-    let markers = markers.map(|own| (&*own.label, Symbol::Point(own.colour, own.shape)));
-    let marks = panel.marks.iter().map(|own| (&*own.label, Symbol::Mark));
+    let markers =
+        markers.map(|marker| (&*marker.label, Symbol::Point(marker.colour, marker.shape)));
+    let marks = panel.marks.iter().map(|mark| (&*mark.label, Symbol::Mark));
     curves
         .chain(bands)
         .chain(bars)
@@ -62,7 +63,10 @@ fn symbols(panel: &Panel) -> Vec<(&str, Symbol)> {
 
 /// The largest number of columns in which the labels fit.
 pub(super) fn columns(entries: &[Entry]) -> usize {
-    let longest = entries.iter().map(|own| own.label.chars().count()).max();
+    let longest = entries
+        .iter()
+        .map(|entry| entry.label.chars().count())
+        .max();
     match longest.unwrap_or(0) {
         0..=16 => 4,
         17..=SHORT => 3,

@@ -64,13 +64,13 @@ impl Labels {
         });
         let places: Vec<Box> = places.collect();
         let free =
-            |own: &&Box| self.inside(own) && !self.taken.iter().any(|other| meet(own, other));
-        let inside = |own: &&Box| self.inside(own);
+            |item: &&Box| self.inside(item) && !self.taken.iter().any(|other| meet(item, other));
+        let inside = |x: &&Box| self.inside(x);
         let place = places.iter().find(free);
-        let place = place
+        let mask = place
             .or_else(|| places.iter().find(inside))
             .or(places.first());
-        if let Some(&[left, right, top, bottom]) = place {
+        if let Some(&[left, right, top, bottom]) = mask {
             // If no place is inside the panel, the label is nearly as long as the panel is wide, or longer.
             let room = self.frame.right + BEYOND - self.frame.left;
             let left = left
@@ -83,11 +83,11 @@ impl Labels {
     }
 
     fn inside(&self, &[left, right, top, bottom]: &Box) -> bool {
-        let own = &self.frame;
-        left >= own.left
-            && right <= own.right + BEYOND
-            && top >= own.top - px(8)
-            && bottom <= own.bottom
+        let frame = &self.frame;
+        left >= frame.left
+            && right <= frame.right + BEYOND
+            && top >= frame.top - px(8)
+            && bottom <= frame.bottom
     }
 }
 

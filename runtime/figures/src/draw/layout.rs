@@ -62,7 +62,7 @@ impl Layout {
             y = frame.bottom + px(below(panel));
             panels.push(frame);
         }
-        let caption: Vec<String> = figure.caption.iter().flat_map(|own| wrapped(own)).collect();
+        let caption: Vec<String> = figure.caption.iter().flat_map(|x| wrapped(x)).collect();
         let caption_top = y + px(8);
         Self {
             height: caption_top + px(CAPTION_HEIGHT * caption.len() as i32 + 12),
@@ -77,7 +77,11 @@ impl Layout {
 
 /// Room for the labels below the horizontal axis; categories that do not fit side by side hang vertically.
 pub(super) fn below(panel: &Panel) -> i32 {
-    let names = panel.x.categories.iter().map(|own| own.chars().count());
+    let names = panel
+        .x
+        .categories
+        .iter()
+        .map(|category| category.chars().count());
     match names.max() {
         Some(longest) if hanging(panel) => BELOW + (9 * longest as i32).min(HANGING),
         _ => BELOW,
@@ -86,14 +90,22 @@ pub(super) fn below(panel: &Panel) -> i32 {
 
 /// Whether the categories of the horizontal axis do not fit side by side.
 pub(super) fn hanging(panel: &Panel) -> bool {
-    let names = panel.x.categories.iter().map(|own| own.chars().count());
+    let names = panel
+        .x
+        .categories
+        .iter()
+        .map(|category| category.chars().count());
     let slot = (WIDTH - left(panel) - RIGHT) / panel.x.categories.len().max(1) as i32;
     names.max().is_some_and(|longest| 9 * longest as i32 > slot)
 }
 
 /// Room for the labels beside the vertical axis.
 fn left(panel: &Panel) -> i32 {
-    let names = panel.y.categories.iter().map(|own| own.chars().count());
+    let names = panel
+        .y
+        .categories
+        .iter()
+        .map(|category| category.chars().count());
     match names.max() {
         Some(longest) => (24 + 10 * longest as i32).clamp(LEFT, WIDTH / 3),
         None => LEFT,
@@ -114,7 +126,7 @@ fn wrapped(text: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     let words = text.split(' ').flat_map(|word| {
         let letters: Vec<char> = word.chars().collect();
-        let pieces = letters.chunks(LINE).map(|own| own.iter().collect());
+        let pieces = letters.chunks(LINE).map(|range| range.iter().collect());
         pieces.collect::<Vec<String>>()
     });
     for word in words {

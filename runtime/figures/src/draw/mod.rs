@@ -49,10 +49,10 @@ fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> 
     let title = (middle, px(TITLE_HEIGHT) / 2);
     pen.fitted(&figure.title, title, 22, Anchor::Middle, px(WIDTH - 48))?;
     legend::draw(&pen, layout)?;
-    for (own, frame) in figure.panels.iter().zip(&layout.panels) {
-        match own.equal_scales {
-            true => panel::draw(&pen, &equalised(own, frame), frame)?,
-            false => panel::draw(&pen, own, frame)?,
+    for (panel, frame) in figure.panels.iter().zip(&layout.panels) {
+        match panel.equal_scales {
+            true => panel::draw(&pen, &equalised(panel, frame), frame)?,
+            false => panel::draw(&pen, panel, frame)?,
         }
     }
     for (k, line) in layout.caption.iter().enumerate() {

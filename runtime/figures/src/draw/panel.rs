@@ -38,7 +38,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
     for mark in panel
         .marks
         .iter()
-        .filter(|own| (left..=right).contains(&own.at))
+        .filter(|mark| (left..=right).contains(&mark.at))
     {
         let ends = [low, high].map(|y| place.pixel([mark.at, y]));
         pen.hair(ends, 0.6)?;
@@ -47,7 +47,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
     for curve in &panel.curves {
         for piece in &curve.pieces {
             for part in clip(piece, panel.x.range, panel.y.range) {
-                let line: Vec<_> = part.into_iter().map(|own| place.pixel(own)).collect();
+                let line: Vec<_> = part.into_iter().map(|x| place.pixel(x)).collect();
                 labels.keep_line_free(&line);
                 pen.curve(line, curve.colour, curve.stroke)?;
             }
@@ -64,13 +64,13 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
         }
     }
     for markers in &panel.markers {
-        let shown = |own: &&Point| place.holds(**own);
+        let shown = |point: &&Point| place.holds(**point);
         for point in markers.points.iter().filter(shown) {
             pen.marker(place.pixel(*point), markers.colour, markers.shape)?;
             labels.keep_free(place.pixel(*point), px(5));
         }
     }
-    for label in panel.labels.iter().filter(|own| place.holds(own.at)) {
+    for label in panel.labels.iter().filter(|label| place.holds(label.at)) {
         labels.write(pen, place.pixel(label.at), &label.text)?;
     }
     Ok(())

@@ -107,16 +107,16 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// A curve.
-    pub(super) fn curve(&self, points: Vec<Pixel>, own: Colour, stroke: Stroke) -> Outcome {
+    pub(super) fn curve(&self, points: Vec<Pixel>, colour: Colour, stroke: Stroke) -> Outcome {
         let pattern: &[i32] = match stroke {
-            Stroke::Solid => return self.line(points, own, LINE),
+            Stroke::Solid => return self.line(points, colour, LINE),
             Stroke::Dashed => &[8, 5],
             Stroke::Dotted => &[2, 4],
             Stroke::DashDotted => &[10, 4, 2, 4],
         };
-        let pattern: Vec<f64> = pattern.iter().map(|own| f64::from(px(*own))).collect();
+        let pattern: Vec<f64> = pattern.iter().map(|x| f64::from(px(*x))).collect();
         for dash in dashes(&points, &pattern) {
-            self.line(dash, own, LINE)?;
+            self.line(dash, colour, LINE)?;
         }
         Ok(())
     }
@@ -192,16 +192,16 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// An interval about a point: a line with a cap at either end.
-    pub(super) fn interval(&self, [from, to]: [Pixel; 2], own: Colour) -> Outcome {
+    pub(super) fn interval(&self, [from, to]: [Pixel; 2], colour: Colour) -> Outcome {
         let level = from.1 == to.1;
-        self.line(vec![from, to], own, 1)?;
+        self.line(vec![from, to], colour, 1)?;
         let stop = px(4);
         for (x, y) in [from, to] {
             let ends = match level {
                 true => vec![(x, y - stop), (x, y + stop)],
                 false => vec![(x - stop, y), (x + stop, y)],
             };
-            self.line(ends, own, 1)?;
+            self.line(ends, colour, 1)?;
         }
         Ok(())
     }

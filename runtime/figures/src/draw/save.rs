@@ -23,7 +23,7 @@ impl Form {
     /// [`Error::Ending`] for any other extension.
     pub fn of(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let ending = path.extension().and_then(|own| own.to_str());
+        let ending = path.extension().and_then(|x| x.to_str());
         match ending.map(str::to_ascii_lowercase).as_deref() {
             Some("svg") => Ok(Self::Svg),
             #[cfg(feature = "png")]

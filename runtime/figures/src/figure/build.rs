@@ -219,12 +219,12 @@ impl Panel {
     /// All points that the axes must include.
     fn points(&self) -> Vec<Point> {
         let curves = self.curves.iter().flat_map(|curve| &curve.pieces).flatten();
-        let markers = self.markers.iter().flat_map(|own| &own.points);
-        let errors = self.error_bars.iter().flat_map(|own| &own.bars);
+        let markers = self.markers.iter().flat_map(|marker| &marker.points);
+        let errors = self.error_bars.iter().flat_map(|error_bar| &error_bar.bars);
         let errors = errors.flat_map(|bar| [bar.at, bar.low, bar.high]);
-        let bands = self.bands.iter().flat_map(|own| &own.edges);
+        let bands = self.bands.iter().flat_map(|band| &band.edges);
         let bands = bands.flat_map(|&[x, low, high]| [[x, low], [x, high]]);
-        let bars = self.bars.iter().flat_map(|own| &own.bars);
+        let bars = self.bars.iter().flat_map(|bar| &bar.bars);
         let bars = bars.flat_map(|&[left, right, low, high]| [[left, low], [right, high]]);
         (curves.chain(markers).copied())
             .chain(errors)

@@ -142,8 +142,8 @@ mod tests {
         [0.019_3, 0.119_2, 0.950_5],
     ];
 
-    fn apply(matrix: &Matrix, own: [f64; 3]) -> [f64; 3] {
-        matrix.map(|row| row.iter().zip(own).map(|(a, b)| a * b).sum())
+    fn apply(matrix: &Matrix, values: [f64; 3]) -> [f64; 3] {
+        matrix.map(|row| row.iter().zip(values).map(|(a, b)| a * b).sum())
     }
 
     /// CIE 1976 L*, a*, b* of a colour as such a reader perceives it.
@@ -155,7 +155,7 @@ mod tests {
                 false => ((own + 0.055) / 1.055).powf(2.4),
             }
         };
-        let seen = apply(reader, colour.rgb().map(linear)).map(|own| own.clamp(0.0, 1.0));
+        let seen = apply(reader, colour.rgb().map(linear)).map(|x| x.clamp(0.0, 1.0));
         let (own, white) = (apply(&XYZ, seen), apply(&XYZ, [1.0; 3]));
         let [x, y, z] = core::array::from_fn(|k| {
             let share: f64 = own[k] / white[k];
@@ -226,7 +226,7 @@ mod tests {
         let full = Colour::Series(1).rgb()[0];
         assert_eq!(full, 230);
         let scale = 1.0 / ((f64::from(full) / 255.0 + 0.055) / 1.055).powf(2.4);
-        let pure = red.map(|row| row.map(|own| own * scale));
+        let pure = red.map(|row| row.map(|row| row * scale));
         assert!(near(lab(Colour::Series(1), &pure), [53.2, 80.1, 67.2]));
     }
 

@@ -64,7 +64,7 @@ pub(crate) mod sealed {
 
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)> {
             let each = self.points.iter().map(|point| {
-                let modes = point.modes.iter().flat_map(|own| &own.modes);
+                let modes = point.modes.iter().flat_map(|mode| &mode.modes);
                 let modes = modes.map(|mode| (mode.label, mode.s, mode.frequency(), None));
                 (point.value, point.equilibrium.as_ref(), modes.collect())
             });
@@ -76,7 +76,7 @@ pub(crate) mod sealed {
                 supercritical: Some(true),
             };
             let each = self.critical.iter();
-            each.map(|own| (own.value, (own.kind == soft).then_some(&own.equilibrium)))
+            each.map(|item| (item.value, (item.kind == soft).then_some(&item.equilibrium)))
                 .collect()
         }
     }
@@ -106,7 +106,7 @@ pub(crate) mod sealed {
         }
 
         fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)> {
-            self.critical.iter().map(|own| (own.value, None)).collect()
+            self.critical.iter().map(|x| (x.value, None)).collect()
         }
     }
 }
@@ -167,7 +167,7 @@ impl<'a> Course<'a> {
     /// The horizontal axis, from the first to the last value.
     pub(crate) fn axis(&self) -> Axis {
         let mut axis = input_axis(self.description, self.input);
-        axis.range = ends(self.stations.iter().map(|own| own.value));
+        axis.range = ends(self.stations.iter().map(|station| station.value));
         axis
     }
 
@@ -178,7 +178,7 @@ impl<'a> Course<'a> {
             self.inputs,
             Some(self.input),
         )];
-        let own = self.equilibria.iter().find_map(|(_, own)| *own);
+        let own = self.equilibria.iter().find_map(|(_, x)| *x);
         if let Some(own) = own {
             lines.push(design(self.description, &own.design, &[]));
         }
@@ -226,6 +226,6 @@ pub(crate) fn input_unit(d: &Description, input: Input) -> Unit {
         symbol: "".into(),
         scale: 1.0,
     };
-    let own = d.inputs.get(input.index());
-    own.map_or_else(pure, |info| info.unit.clone())
+    let input = d.inputs.get(input.index());
+    input.map_or_else(pure, |info| info.unit.clone())
 }

@@ -63,7 +63,7 @@ pub fn bode(
     let course = Course::of(result, vibration, peaks)?;
     let name = "nominal design";
     let mut upper = Panel::new(course.axis(), Axis::new("amplitude", &*course.unit.symbol));
-    let moduli = course.curve(|own| Some(in_unit(own.norm(), &course.unit)));
+    let moduli = course.curve(|x| Some(in_unit(x.norm(), &course.unit)));
     upper.curve(Curve::new(name, Colour::Series(0), moduli));
     course.bands(&mut upper);
     let lines = course.draw_peaks(&mut upper);
@@ -71,7 +71,7 @@ pub fn bode(
     upper.y.range = [0.0, style.top().unwrap_or(upper.y.range[1])];
     let mut lower = Panel::new(course.axis(), Axis::new("phase", "deg"));
     let phases = course.phases();
-    lower.y.range = eighths(phases.iter().flatten().map(|own| own[1]));
+    lower.y.range = eighths(phases.iter().flatten().map(|x| x[1]));
     lower.curve(Curve::new("", Colour::Series(0), phases));
     if upper.bands.is_empty() && lines.is_empty() {
         for curve in &mut upper.curves {
@@ -85,9 +85,12 @@ pub fn bode(
             "Shaded: from {low:.1} to {high:.1} % of the designs within tolerances."
         ));
     }
-    let bars = upper.error_bars.iter().flat_map(|own| &own.bars);
+    let bars = upper
+        .error_bars
+        .iter()
+        .flat_map(|error_bar| &error_bar.bars);
     let wide = bars.into_iter().any(|bar| bar.low != bar.high);
-    let sigmas = peaks.iter().find_map(|own| own.sigma_level);
+    let sigmas = peaks.iter().find_map(|peak| peak.sigma_level);
     if let Some(sigmas) = sigmas.filter(|_| wide) {
         caption.push(format!(
             "Bars at peaks: {sigmas} standard deviations to either side."
@@ -121,12 +124,12 @@ pub fn polar(
     let mut panel = Panel::new(Axis::new("Re", symbol), Axis::new("Im", symbol));
     panel.equal_scales = true;
     let path: Vec<(f64, Option<Point>)> = (course.values.iter())
-        .map(|(value, own)| (*value, own.map(|own| course.point(own))))
+        .map(|(value, x)| (*value, x.map(|x| course.point(x))))
         .collect();
     panel.curve(Curve::new(
         "",
         Colour::Series(0),
-        path.iter().map(|own| own.1),
+        path.iter().map(|pair| pair.1),
     ));
     panel.markers("", Colour::Grey, Shape::Cross, [[0.0, 0.0]]);
     let is_peak = |value: f64| course.places().any(|place| place == value);
@@ -240,15 +243,15 @@ impl<'a> Course<'a> {
         let mut values: Vec<(f64, Option<Complex>)> = (result.points.iter())
             .map(|point| (in_unit(point.value, &unit), amplitude(point)))
             .collect();
-        if values.iter().all(|own| own.1.is_none()) {
+        if values.iter().all(|value| value.1.is_none()) {
             return Err(Error::nothing(
                 "there is no such vibration at any of the values",
             ));
         }
         let own =
-            |found: &&Peaks| found.vibration == vibration && found.range.input == result.input;
+            |peaks: &&Peaks| peaks.vibration == vibration && peaks.range.input == result.input;
         let peaks: Vec<&Peak> = (peaks.iter().filter(own))
-            .flat_map(|found| &found.peaks)
+            .flat_map(|peak| &peak.peaks)
             .collect();
         for peak in &peaks {
             let amplitude = Complex::from_polar(peak.height.value, peak.phase);
@@ -269,23 +272,24 @@ impl<'a> Course<'a> {
 
     fn axis(&self) -> Axis {
         let mut axis = input_axis(&self.result.description, self.result.input);
-        axis.range = ends(self.values.iter().map(|own| own.0));
+        axis.range = ends(self.values.iter().map(|value| value.0));
         axis
     }
 
     fn point(&self, amplitude: Complex) -> Point {
-        [amplitude.re, amplitude.im].map(|own| in_unit(own, &self.unit))
+        [amplitude.re, amplitude.im].map(|x| in_unit(x, &self.unit))
     }
 
     fn curve(&self, height: impl Fn(Complex) -> Option<f64>) -> Vec<Option<Point>> {
         let each = self.values.iter();
-        each.map(|(value, own)| Some([*value, height((*own)?)?]))
+        each.map(|(value, x)| Some([*value, height((*x)?)?]))
             .collect()
     }
 
     /// Phases, deg, each within half a turn of the one before; a vibration that vanishes has none.
     fn phases(&self) -> Vec<Option<Point>> {
-        let mut phases = self.curve(|own| (own != Complex::ZERO).then(|| own.arg().to_degrees()));
+        let mut phases =
+            self.curve(|item| (item != Complex::ZERO).then(|| item.arg().to_degrees()));
         let mut last: Option<f64> = None;
         for [_, phase] in phases.iter_mut().flatten() {
             if let Some(last) = last {
@@ -299,7 +303,7 @@ impl<'a> Course<'a> {
     /// The spread of the vibration at each value, in the unit of the input.
     fn spreads(&self) -> Vec<(f64, Option<&'a ResponseSpread>)> {
         let banded = &self.result.banded;
-        let place = banded.iter().position(|own| *own == self.vibration);
+        let place = banded.iter().position(|x| *x == self.vibration);
         let spread = |point: &'a BodePoint| {
             let all = &point.bands.as_ref()?.spread.spreads;
             all.get(place?)?.as_ref()
@@ -314,8 +318,8 @@ impl<'a> Course<'a> {
     /// The probabilities at the ends of the bands.
     fn quantiles(&self) -> Option<[f64; 2]> {
         let spreads = self.spreads();
-        let spread = spreads.iter().find_map(|own| own.1)?;
-        let [low, high] = outer(spread)?.map(|own| own.probability);
+        let spread = spreads.iter().find_map(|spread| spread.1)?;
+        let [low, high] = outer(spread)?.map(|quantiles| quantiles.probability);
         Some([low, high])
     }
 
@@ -325,7 +329,7 @@ impl<'a> Course<'a> {
         let in_unit = |value: f64| in_unit(value, &self.unit);
         let median = spreads.iter().map(|(value, spread)| {
             let all = &(*spread)?.quantiles;
-            let own = all.iter().find(|own| own.probability == 0.5)?;
+            let own = all.iter().find(|x| x.probability == 0.5)?;
             Some([*value, in_unit(own.value)])
         });
         let median = Curve::new("median", Colour::Black, median).stroke(Stroke::Dashed);
@@ -334,7 +338,7 @@ impl<'a> Course<'a> {
         for (value, spread) in &spreads {
             match spread.and_then(outer) {
                 Some(ends) => {
-                    let [low, high] = ends.map(|own| in_unit(own.value));
+                    let [low, high] = ends.map(|end| in_unit(end.value));
                     edges.push([*value, low, high]);
                 }
                 None => panel.band("", Colour::Series(0), std::mem::take(&mut edges)),
@@ -354,16 +358,16 @@ impl<'a> Course<'a> {
     fn draw_peaks(&self, panel: &mut Panel) -> Vec<String> {
         let unit = input_unit(&self.result.description, self.result.input);
         let height = |peak: &Peak| in_unit(peak.height.value, &self.unit);
-        let place = |own: &Moving| in_unit(own.value, &unit);
+        let place = |moving: &Moving| in_unit(moving.value, &unit);
         let bars = self.peaks.iter().map(|peak| {
             let spread = peak.place.spread.as_ref();
-            let half = spread.map_or(0.0, |own| in_unit(own.band, &unit));
+            let half = spread.map_or(0.0, |spread| in_unit(spread.band, &unit));
             ErrorBar::level([place(&peak.place), height(peak)], half)
         });
         panel.error_bars("peak", Colour::Series(1), Shape::Diamond, bars);
         let sides = self.peaks.iter().flat_map(|peak| {
             let places = peak.half_power.iter().filter_map(HalfPower::place);
-            places.map(|own| [place(own), height(peak) / std::f64::consts::SQRT_2])
+            places.map(|item| [place(item), height(peak) / std::f64::consts::SQRT_2])
         });
         panel.markers("half power", Colour::Series(1), Shape::Cross, sides);
         let each = self.peaks.iter().enumerate();
@@ -429,8 +433,9 @@ fn insert(values: &mut Vec<(f64, Option<Complex>)>, value: f64, amplitude: Compl
 
 /// The quantiles at the ends of the band.
 fn outer(spread: &ResponseSpread) -> Option<[&eigentol::propagation::Quantile; 2]> {
-    let inner =
-        |own: &&eigentol::propagation::Quantile| (BAND[0]..=BAND[1]).contains(&own.probability);
+    let inner = |quantile: &&eigentol::propagation::Quantile| {
+        (BAND[0]..=BAND[1]).contains(&quantile.probability)
+    };
     let mut all = spread.quantiles.iter().filter(inner);
     let first = all.next()?;
     Some([first, all.next_back()?])

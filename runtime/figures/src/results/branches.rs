@@ -19,7 +19,10 @@ const MOST: usize = 4;
 /// # Errors
 /// [`Error::Nothing`] without a branch, or if the mechanism has no coordinates at rest.
 pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
-    let first = result.branches.iter().find(|own| !own.points.is_empty());
+    let first = result
+        .branches
+        .iter()
+        .find(|branch| !branch.points.is_empty());
     let Some(first) = first else {
         return Err(Error::nothing("no branch was found"));
     };
@@ -34,8 +37,8 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
         let mut panel = Panel::new(input_axis(d, first.input), y);
         let unit = input_unit(d, first.input);
         let place = |value: f64, state: &Equilibrium| -> Option<Point> {
-            let own = *state.coordinates.get(k)?;
-            Some([in_unit(value, &unit), in_unit(own, &info.unit)])
+            let coordinate = *state.coordinates.get(k)?;
+            Some([in_unit(value, &unit), in_unit(coordinate, &info.unit)])
         };
         for (number, branch) in result.branches.iter().enumerate() {
             for (stability, stretch, before, after) in joined(branch) {
@@ -48,10 +51,10 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
                     _ => format!("branch {}, {word}", number + 1),
                 };
                 let middle = |pair: [&BranchPoint; 2]| {
-                    let [a, b] = pair.map(|own| place(own.value, &own.equilibrium));
+                    let [a, b] = pair.map(|pair| place(pair.value, &pair.equilibrium));
                     Some(between(a?, b?))
                 };
-                let points = stretch.iter().map(|own| place(own.value, &own.equilibrium));
+                let points = stretch.iter().map(|x| place(x.value, &x.equilibrium));
                 let points = before.map(middle).into_iter().chain(points);
                 let points = points.chain(after.map(middle)).collect();
                 open_ends |= after.is_some_and(|[a, b]| holds(a) != holds(b));
@@ -63,8 +66,8 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
             ("branch point", Shape::Square),
             ("stiffness is lost", Shape::Cross),
         ] {
-            let here = special.iter().filter(|own| kind(own).0 == word);
-            let points = here.filter_map(|own| place(own.value, &own.equilibrium));
+            let here = special.iter().filter(|x| kind(x).0 == word);
+            let points = here.filter_map(|here| place(here.value, &here.equilibrium));
             panel.markers(word, Colour::Black, shape, points);
         }
         for (place_of, own) in special.iter().enumerate() {
@@ -86,9 +89,9 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     }
     caption = with_notes(caption, style, d);
     let unit = input_unit(d, first.input);
-    caption.extend(special.iter().enumerate().map(|(k, own)| {
-        let at = with_unit(own.value, &unit);
-        format!("({}) {} at {at}", k + 1, kind(own).1)
+    caption.extend(special.iter().enumerate().map(|(k, item)| {
+        let at = with_unit(item.value, &unit);
+        format!("({}) {} at {at}", k + 1, kind(item).1)
     }));
     if open_ends {
         caption.push(
@@ -145,7 +148,7 @@ fn add(
     points: Vec<Option<Point>>,
 ) {
     let curve = Curve::new(label, colour, points).stroke(stroke);
-    let known = |own: &&mut Curve| own.label == curve.label && own.stroke == stroke;
+    let known = |x: &&mut Curve| x.label == curve.label && x.stroke == stroke;
     match panel.curves.iter_mut().find(known) {
         Some(own) if curve.pieces.iter().all(|piece| piece.len() > 1) => {
             own.pieces.extend(curve.pieces);
@@ -155,8 +158,12 @@ fn add(
 }
 
 fn about(d: &Description, result: &Branches) -> Vec<String> {
-    let first = result.branches.iter().flat_map(|own| &own.points).next();
-    let input = result.branches.first().map(|own| own.input);
+    let first = result
+        .branches
+        .iter()
+        .flat_map(|branch| &branch.points)
+        .next();
+    let input = result.branches.first().map(|branch| branch.input);
     match first {
         Some(point) => vec![
             operating_point(d, &point.equilibrium.inputs, input),

@@ -53,7 +53,7 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let mut ends = Ends::default();
     for track in tracks(&course.stations, &course.critical) {
         if track.oscillates() {
-            let curve = oscillation(&track, style, |own| scale * own.s.im);
+            let curve = oscillation(&track, style, |x| scale * x.s.im);
             ends.add(&track, &curve);
             panel.curve(curve);
         }
@@ -63,7 +63,7 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
         .iter()
         .flat_map(|curve| &curve.pieces)
         .flatten();
-    let markers = panel.markers.iter().flat_map(|own| &own.points);
+    let markers = panel.markers.iter().flat_map(|marker| &marker.points);
     let highest = curves
         .chain(markers)
         .fold(0.0, |most: f64, p| most.max(p[1]));
@@ -75,13 +75,13 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
         .unwrap_or(if highest > 0.0 { 1.05 * highest } else { 1.0 });
     let bottom = style.bottom().min(0.99 * top);
     panel.y.range = [bottom, top];
-    let times = bands(&mut panel, result, (style, top - bottom), scale, |own| {
-        own.frequency.as_ref()
+    let times = bands(&mut panel, result, (style, top - bottom), scale, |x| {
+        x.frequency.as_ref()
     });
     let seen = |point: &Point| (bottom..=top).contains(&point[1]);
     panel
         .curves
-        .retain(|own| own.pieces.iter().flatten().any(seen));
+        .retain(|curve| curve.pieces.iter().flatten().any(seen));
     orders(&mut panel, result, scale);
     panel.marks.extend(style.marks());
     ends.write(&mut panel, style);
@@ -121,7 +121,7 @@ pub(super) fn oscillation(
             Some(Sense::Forward) => Stroke::Solid,
             None => Stroke::of(track.label),
         },
-        pieces: track.points(|own| [own.value, height(own)]),
+        pieces: track.points(|track| [track.value, height(track)]),
     }
 }
 
@@ -147,7 +147,7 @@ pub(super) fn bands(
         .flat_map(|point| point.modes.iter().flatten());
     let times = match style.has_true_width() {
         true => 1.0,
-        false => factor(modes.filter_map(quantity).map(|own| own.1), length),
+        false => factor(modes.filter_map(quantity).map(|pair| pair.1), length),
     };
     for label in result.labels() {
         let mut edges = Vec::new();
@@ -174,7 +174,7 @@ fn orders(panel: &mut Panel, result: &Campbell, scale: f64) {
     let ([low, high], [bottom, top]) = (panel.x.range, panel.y.range);
     let label = |first: bool| if first { "excitation" } else { "" };
     for (k, line) in result.orders.iter().enumerate() {
-        let value = |own: f64| scale * (line.ratio * unit.to_si(own) + line.offset);
+        let value = |value: f64| scale * (line.ratio * unit.to_si(value) + line.offset);
         let ends: [Point; 2] = [[low, value(low)], [high, value(high)]];
         panel.curve(Curve::new(label(k == 0), Colour::Grey, ends.map(Some)).stroke(Stroke::Dotted));
         let inside = |t: &f64| (bottom..=0.97 * top).contains(&value(low + t * (high - low)));

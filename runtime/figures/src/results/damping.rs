@@ -33,8 +33,8 @@ pub fn damping_ratios(result: &Campbell, style: &Style) -> Result<Figure, Error>
     let mut fitted = panel.clone();
     fitted.fit();
     let length = fitted.y.range[1] - fitted.y.range[0];
-    let times = bands(&mut panel, result, (style, length), 100.0, |own| {
-        own.damping_ratio.as_ref()
+    let times = bands(&mut panel, result, (style, length), 100.0, |x| {
+        x.damping_ratio.as_ref()
     });
     panel.marks.extend(style.marks());
     let lines = events::draw(&mut panel, result, style, |event| {

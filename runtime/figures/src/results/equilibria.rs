@@ -31,7 +31,12 @@ pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
             panels.len() - 1
         });
         let panel = &mut panels[place];
-        let value = |own: &Equilibrium| own.coordinates.get(k).map(|q| in_unit(*q, &info.unit));
+        let value = |equilibrium: &Equilibrium| {
+            equilibrium
+                .coordinates
+                .get(k)
+                .map(|q| in_unit(*q, &info.unit))
+        };
         for (stable, label) in [
             (true, info.name.to_string()),
             (false, format!("{}, unstable", info.name)),
@@ -72,13 +77,13 @@ fn stretch(
     let mut points = Vec::new();
     let mut before: Option<(Point, bool)> = None;
     for (at, state) in &course.equilibria {
-        let point = state.and_then(|own| Some(([*at, value(own)?], own.stability.holds())));
-        let passed = |own: f64, from: f64| (from < own) != (*at < own);
+        let point = state.and_then(|state| Some(([*at, value(state)?], state.stability.holds())));
+        let passed = |value: f64, from: f64| (from < value) != (*at < value);
         let (mut start, mut end) = (None, before);
         if let Some((from, _)) = before
-            && course.critical.iter().any(|own| passed(*own, from[0]))
+            && course.critical.iter().any(|x| passed(*x, from[0]))
         {
-            let turn = course.soft.iter().find(|own| passed(own.0, from[0]));
+            let turn = course.soft.iter().find(|pair| passed(pair.0, from[0]));
             start = turn.and_then(|(at, state)| Some([*at, value(state)?]));
             end = None;
             if before.is_some_and(|(_, held)| held == stable) {

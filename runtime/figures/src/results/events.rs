@@ -77,7 +77,7 @@ pub(crate) fn draw(
     lines
 }
 
-fn line(place: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> String {
+fn line(index: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> String {
     let what = match event.event {
         Event::Crossing {
             mode,
@@ -98,9 +98,9 @@ fn line(place: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> Str
     let value = with_unit(event.value, unit);
     match event.sigma() {
         Some(sigma) => format!(
-            "({place}) {what} at {value}, sigma {}",
+            "({index}) {what} at {value}, sigma {}",
             with_unit(sigma, unit)
         ),
-        None => format!("({place}) {what} at {value}, without a derivative"),
+        None => format!("({index}) {what} at {value}, without a derivative"),
     }
 }

@@ -22,12 +22,12 @@ pub fn frequencies<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figur
     let mut ends = Ends::default();
     for track in tracks(&course.stations, &course.critical) {
         if track.oscillates() {
-            let curve = oscillation(&track, style, |own| scale * own.s.im);
+            let curve = oscillation(&track, style, |x| scale * x.s.im);
             ends.add(&track, &curve);
             upper.curve(curve);
             lower.curve(oscillation(&track, style, percent));
             let states = track.pieces.iter().flatten();
-            damped |= states.into_iter().any(|own| own.s.re != 0.0);
+            damped |= states.into_iter().any(|state| state.s.re != 0.0);
         }
     }
     if upper.is_empty() {

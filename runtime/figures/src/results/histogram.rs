@@ -90,11 +90,11 @@ impl<'a> Histogram<'a> {
         let name = style.mode(mode);
         let d = &*self.sampled.description;
         let statistics = own.as_ref();
-        let sketch = statistics.and_then(|own| own.sketch());
+        let sketch = statistics.and_then(|statistic| statistic.sketch());
         let bins = |count: u64| ((2.0 * (count as f64).cbrt()) as usize).clamp(8, 60);
-        let histogram = statistics.zip(sketch).and_then(|(own, sketch)| {
-            let found = sketch.histogram(bins(own.count)).ok()?;
-            (own.min < own.max).then_some(found)
+        let histogram = statistics.zip(sketch).and_then(|(statistic, sketch)| {
+            let histogram = sketch.histogram(bins(statistic.count)).ok()?;
+            (statistic.min < statistic.max).then_some(histogram)
         });
         let (Some(statistics), Some(histogram)) = (statistics, histogram) else {
             let why = format!("the samples of {name} have no two different frequencies");
@@ -109,7 +109,9 @@ impl<'a> Histogram<'a> {
         });
         let label = format!("Monte Carlo, {} samples", statistics.count);
         panel.bars(label, Colour::Grey, bars.collect::<Vec<_>>());
-        let first = self.first_order.and_then(|own| own.modes.get(mode));
+        let first = self
+            .first_order
+            .and_then(|first_order| first_order.modes.get(mode));
         if let Some(spread) = first.and_then(ModeTolerance::frequency) {
             let points = normal(scale * spread.mean, scale * spread.sigma);
             let curve = Curve::new(
@@ -121,7 +123,7 @@ impl<'a> Histogram<'a> {
         }
         let second = self
             .second_order
-            .map(|(own, tolerances)| (own.modes.get(mode), tolerances));
+            .map(|(x, tolerances)| (x.modes.get(mode), tolerances));
         if let Some((Some(Ok(own)), tolerances)) = second {
             let (model, moments) = (&own.frequency.model, &own.frequency.moments);
             let points = quadratic(model, tolerances, (moments.mean, moments.sigma), scale)?;
@@ -166,7 +168,7 @@ impl<'a> Histogram<'a> {
 /// # Errors
 /// [`Error::Nothing`] if no tolerance moves the response.
 pub fn second_order_failure(result: &SecondOrderFailure, style: &Style) -> Result<Figure, Error> {
-    let (d, own) = (&*result.description, &result.margin);
+    let (d, margin) = (&*result.description, &result.margin);
     let Some(response) = result.wanted.response() else {
         return Err(Error::nothing("stability is not a number"));
     };
@@ -174,7 +176,7 @@ pub fn second_order_failure(result: &SecondOrderFailure, style: &Style) -> Resul
         Response::Mode { mode, quantity } => format!("{quantity} of {}", style.mode(mode)),
         response => response.name(d),
     };
-    if own.sigma <= 0.0 || !own.sigma.is_finite() {
+    if margin.sigma <= 0.0 || !margin.sigma.is_finite() {
         return Err(Error::nothing(format!("no tolerance moves {name}")));
     }
     let unit = response.unit(d);
@@ -187,7 +189,7 @@ pub fn second_order_failure(result: &SecondOrderFailure, style: &Style) -> Resul
     };
     let mut panel = density_panel(&name, symbol);
     panel.x.name.clone_from(&name);
-    let (value, sigma) = (scale * own.value, scale * own.sigma);
+    let (value, sigma) = (scale * margin.value, scale * margin.sigma);
     let points = normal(value, sigma);
     panel.curve(Curve::new(
         "normal, sigma of first order",
@@ -197,7 +199,7 @@ pub fn second_order_failure(result: &SecondOrderFailure, style: &Style) -> Resul
     panel.fit();
     panel.y.range[0] = 0.0;
     let bands = result.bands.iter();
-    let bands: Vec<[f64; 2]> = bands.map(|own| [scale * own.0, scale * own.1]).collect();
+    let bands: Vec<[f64; 2]> = bands.map(|band| [scale * band.0, scale * band.1]).collect();
     let near = |end: &&f64| end.is_finite() && (*end - value).abs() < 40.0 * sigma;
     for end in bands.as_flattened().iter().filter(near) {
         panel.x.range = [
@@ -218,21 +220,21 @@ pub fn second_order_failure(result: &SecondOrderFailure, style: &Style) -> Resul
         label: "nominal value".to_owned(),
         at: value,
     });
-    let chance = |own: f64| match own < NEGLIGIBLE {
+    let chance = |value: f64| match value < NEGLIGIBLE {
         true => format!("below {} %", number(100.0 * NEGLIGIBLE)),
-        false => format!("{} %", number(100.0 * own)),
+        false => format!("{} %", number(100.0 * value)),
     };
     let text = format!(
         "probability of failure: {} at first order, {} by the second-order model",
-        chance(own.first_order),
-        chance(own.corrected.value)
+        chance(margin.first_order),
+        chance(margin.corrected.value)
     );
     if let Some([low, high]) = bands.first() {
-        let text = format!("probability {}", chance(own.corrected.value));
+        let text = format!("probability {}", chance(margin.corrected.value));
         panel.label([0.5 * (low + high), 0.9 * top], text);
     }
-    let distance = match own.distance.is_finite() {
-        true => format!("; {} sigma away", number(own.distance)),
+    let distance = match margin.distance.is_finite() {
+        true => format!("; {} sigma away", number(margin.distance)),
         false => String::new(),
     };
     let lines = vec![

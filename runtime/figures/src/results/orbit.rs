@@ -49,7 +49,7 @@ pub fn orbit<M>(
     }
     let at = |share: f64| -> Point {
         let turn = Complex::from_polar(1.0, TAU * share);
-        [across, up].map(|own| in_unit((own * turn).re, unit))
+        [across, up].map(|x| in_unit((x * turn).re, unit))
     };
     let mut panel = Panel::new(
         Axis::new(&*first.name, &*unit.symbol),
@@ -65,7 +65,7 @@ pub fn orbit<M>(
     let (scale, symbol) = style.frequency(None);
     let frequency = format!("{} {symbol}", number(scale * found.frequency));
     let vibration = Response::Vibration(Vibration::new(x, excitation)).name(d);
-    let under = vibration.split_once(" under ").map_or("?", |own| own.1);
+    let under = vibration.split_once(" under ").map_or("?", |pair| pair.1);
     let caption = vec![
         operating_point(d, &result.inputs, None),
         format!("Under {under}, {frequency}; displacements from the equilibrium."),
@@ -78,7 +78,7 @@ pub fn orbit<M>(
 
 /// `Semi-axes 0.12 mm and 0.07 mm, the longer one 31 deg from across towards up; passed forward, from across to up.`
 fn about(orbit: &Orbit, [x, y]: [&str; 2], unit: &Unit) -> String {
-    let [long, short] = orbit.semi_axes().map(|own| with_unit(own, unit));
+    let [long, short] = orbit.semi_axes().map(|value| with_unit(value, unit));
     let direction = orbit.direction().map(|angle| {
         let angle = number(angle.to_degrees());
         format!(", the longer one {angle} deg from {x} towards {y}")

@@ -9,7 +9,7 @@ const WIDEST: f64 = 0.12;
 /// length, unless the widest band would then hide its surroundings.
 pub(crate) fn factor(half_widths: impl Iterator<Item = f64>, length: f64) -> f64 {
     let mut all: Vec<f64> = half_widths
-        .filter(|own| own.is_finite() && *own > 0.0)
+        .filter(|half_width| half_width.is_finite() && *half_width > 0.0)
         .collect();
     all.sort_by(f64::total_cmp);
     let (Some(typical), Some(widest)) = (all.get(all.len() / 2), all.get(all.len() * 9 / 10))

@@ -27,19 +27,25 @@ const WIDEST: f64 = 0.25;
 pub fn mode_shapes(result: &Modes, style: &Style) -> Result<Figure, Error> {
     let shown = shown(result)?;
     let real = |mode: &&Mode| {
-        let whole = mode.shape.iter().map(|own| own.norm()).fold(0.0, f64::max);
-        mode.shape.iter().all(|own| own.im.abs() <= 1e-9 * whole)
+        let whole = mode
+            .shape
+            .iter()
+            .map(|component| component.norm())
+            .fold(0.0, f64::max);
+        mode.shape
+            .iter()
+            .all(|component| component.im.abs() <= 1e-9 * whole)
     };
     let real = shown.iter().all(real);
     let mut upper = panel(result, if real { "shape" } else { "magnitude" }, "");
     let mut lower = panel(result, "phase", "deg");
     for (r, mode) in shown.iter().enumerate() {
         let own = relative(result, mode);
-        let heights = own.iter().map(|own| if real { own.re } else { own.norm() });
+        let heights = own.iter().map(|x| if real { x.re } else { x.norm() });
         let bars: Vec<[f64; 4]> = columns(heights, r, shown.len()).collect();
         upper.bars(label(mode, style), Colour::Series(r), bars);
-        let phases = columns(own.iter().map(|own| own.arg().to_degrees()), r, shown.len());
-        let phases = phases.zip(&own).filter(|(_, own)| own.norm() >= VISIBLE);
+        let phases = columns(own.iter().map(|x| x.arg().to_degrees()), r, shown.len());
+        let phases = phases.zip(&own).filter(|(_, x)| x.norm() >= VISIBLE);
         let points = phases.map(|([left, right, low, high], _)| {
             [0.5 * (left + right), if low < 0.0 { low } else { high }]
         });
@@ -85,12 +91,12 @@ pub fn participation(result: &Modes, at: &Equilibrium, style: &Style) -> Result<
     for (r, mode) in shown.iter().enumerate() {
         let product = |i: usize| -> Option<f64> {
             let row = mass.iter().nth(i)?;
-            let own: Complex = row
+            let complex: Complex = row
                 .iter()
                 .zip(mode.shape.iter())
                 .map(|(m, phi)| phi * *m)
                 .sum();
-            Some((mode.shape.get(i)?.conj() * own).re)
+            Some((mode.shape.get(i)?.conj() * complex).re)
         };
         let all: Option<Vec<f64>> = (0..mode.shape.len()).map(product).collect();
         let all =
@@ -139,16 +145,16 @@ fn panel(result: &Modes, name: &str, unit: &str) -> Panel {
 
 /// Components divided by the largest one, whose phase is zero.
 fn relative(result: &Modes, mode: &Mode) -> Vec<Complex> {
-    let own: Vec<Complex> = resting(result)
+    let complexes: Vec<Complex> = resting(result)
         .filter_map(|k| mode.shape.get(k).copied())
         .collect();
-    let largest = own
+    let largest = complexes
         .iter()
         .copied()
         .max_by(|a, b| a.norm().total_cmp(&b.norm()));
     match largest.filter(|largest| largest.norm() > 0.0) {
-        Some(largest) => own.iter().map(|own| own / largest).collect(),
-        None => own,
+        Some(largest) => complexes.iter().map(|x| x / largest).collect(),
+        None => complexes,
     }
 }
 

@@ -56,8 +56,8 @@ pub fn shares_of_all(result: &FirstOrder, style: &Style) -> Result<Figure, Error
             break;
         }
         let name = style.mode(mode);
-        if let Ok(own) = panel(result, mode, &name) {
-            panels.push(own);
+        if let Ok(panel) = panel(result, mode, &name) {
+            panels.push(panel);
             let spread = spread(result, mode, style);
             if !spread.is_empty() {
                 lines.push(format!("{name}: {spread}"));
@@ -92,7 +92,7 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
     all.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
     if all.len() > MOST {
         let rest = all.split_off(MOST - 1);
-        let sum = rest.iter().map(|own| own.1).sum();
+        let sum = rest.iter().map(|pair| pair.1).sum();
         all.push((format!("{} others", rest.len()), sum));
     }
     // The first category is at the bottom.
@@ -102,7 +102,7 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
         [share.min(0.0), share.max(0.0), k - HALF, k + HALF]
     });
     let bars: Vec<[f64; 4]> = bars.collect();
-    let names = all.iter().map(|own| own.0.clone()).collect();
+    let names = all.iter().map(|pair| pair.0.clone()).collect();
     let heading = match name.is_empty() {
         true => "share in the variance".to_owned(),
         false => format!("share in the variance of {name}"),
@@ -116,7 +116,7 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
         };
         panel.label([share.max(0.0), k as f64], text);
     }
-    let ends = all.iter().map(|own| own.1);
+    let ends = all.iter().map(|pair| pair.1);
     let [low, high] = ends.fold([0.0_f64, 0.0_f64], |[low, high], share| {
         [low.min(share), high.max(share)]
     });
@@ -126,9 +126,9 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
 
 fn spread(result: &FirstOrder, mode: usize, style: &Style) -> String {
     let (scale, symbol) = style.frequency(None);
-    let own = result.modes.get(mode).and_then(ModeTolerance::frequency);
-    own.map_or_else(String::new, |own| {
-        let (mean, sigma) = (number(scale * own.mean), number(scale * own.sigma));
+    let frequency = result.modes.get(mode).and_then(ModeTolerance::frequency);
+    frequency.map_or_else(String::new, |item| {
+        let (mean, sigma) = (number(scale * item.mean), number(scale * item.sigma));
         format!("frequency {mean} {symbol}, sigma {sigma} {symbol} at first order.")
     })
 }

@@ -89,10 +89,10 @@ impl<'a> Spreads<'a> {
     /// # Errors
     /// [`Error::Nothing`] where the mode has no spread anywhere.
     pub fn figure(&self, style: &Style) -> Result<Figure, Error> {
-        let firsts = self.series.iter().flat_map(|own| own.first_order);
-        let about = firsts.map(|own| (&own.description, &own.inputs));
-        let sampled = self.series.iter().flat_map(|own| own.sampled);
-        let mut about = about.chain(sampled.map(|own| (&own.description, &own.inputs)));
+        let firsts = self.series.iter().flat_map(|x| x.first_order);
+        let about = firsts.map(|first| (&first.description, &first.inputs));
+        let sampled = self.series.iter().flat_map(|x| x.sampled);
+        let mut about = about.chain(sampled.map(|sampled| (&sampled.description, &sampled.inputs)));
         let name = style.mode(self.mode);
         let nothing = || Error::nothing(format!("{name} has no spread"));
         let (d, inputs) = about.next().ok_or_else(nothing)?;
@@ -112,8 +112,8 @@ impl<'a> Spreads<'a> {
             upper
                 .error_bars
                 .iter()
-                .flat_map(|own| &own.bars)
-                .map(|own| own.high[1])
+                .flat_map(|error_bar| &error_bar.bars)
+                .map(|bars| bars.high[1])
                 .collect(),
         );
         upper.fit();
@@ -126,7 +126,7 @@ impl<'a> Spreads<'a> {
             );
         }
         lower.x.range = upper.x.range;
-        if let Some(own) = self.series.iter().find_map(|own| own.sampled.first()) {
+        if let Some(own) = self.series.iter().find_map(|x| x.sampled.first()) {
             let samples = own.drawn();
             caption.push(format!("Monte Carlo: {samples}; bars are standard errors."));
         }
@@ -151,9 +151,9 @@ impl<'a> Spreads<'a> {
         let unit = input_unit(d, self.input);
         let value = |inputs: &[f64]| Some(in_unit(*inputs.get(self.input.index())?, &unit));
         let nominal = |inputs: &[f64]| self.nominal(series, inputs);
-        let points = series.first_order.iter().map(|own| -> Option<Point> {
-            let spread = own.modes.get(self.mode)?.frequency()?;
-            Some([value(&own.inputs)?, scale * spread.sigma])
+        let points = series.first_order.iter().map(|item| -> Option<Point> {
+            let spread = item.modes.get(self.mode)?.frequency()?;
+            Some([value(&item.inputs)?, scale * spread.sigma])
         });
         let curve = Curve::new(
             format!("first order, {}", series.label),
@@ -162,14 +162,14 @@ impl<'a> Spreads<'a> {
         );
         upper.curve(curve.stroke(Stroke::of(k)));
         let sampled = || {
-            series.sampled.iter().filter_map(|own| {
-                let statistics = own.modes.get(self.mode)?.as_ref()?;
-                Some((value(&own.inputs)?, statistics, nominal(&own.inputs)))
+            series.sampled.iter().filter_map(|item| {
+                let statistics = item.modes.get(self.mode)?.as_ref()?;
+                Some((value(&item.inputs)?, statistics, nominal(&item.inputs)))
             })
         };
-        let sigmas = sampled().filter_map(|(at, own, _)| {
-            let half = scale * own.sigma_error.unwrap_or(0.0);
-            Some(ErrorBar::upright([at, scale * own.sigma?], half))
+        let sigmas = sampled().filter_map(|(at, item, _)| {
+            let half = scale * item.sigma_error.unwrap_or(0.0);
+            Some(ErrorBar::upright([at, scale * item.sigma?], half))
         });
         let label = format!("Monte Carlo, {}", series.label);
         upper.error_bars(
@@ -178,9 +178,12 @@ impl<'a> Spreads<'a> {
             Shape::of(k),
             sigmas.collect::<Vec<_>>(),
         );
-        let means = sampled().filter_map(|(at, own, nominal)| {
-            let half = scale * own.standard_error.unwrap_or(0.0);
-            Some(ErrorBar::upright([at, scale * (own.mean - nominal?)], half))
+        let means = sampled().filter_map(|(at, item, nominal)| {
+            let half = scale * item.standard_error.unwrap_or(0.0);
+            Some(ErrorBar::upright(
+                [at, scale * (item.mean - nominal?)],
+                half,
+            ))
         });
         lower.error_bars(
             label,
@@ -192,7 +195,7 @@ impl<'a> Spreads<'a> {
 
     /// The nominal frequency at these input values.
     fn nominal(&self, series: &Series<'_>, inputs: &[f64]) -> Option<f64> {
-        let same = |own: &&FirstOrder| own.inputs.iter().eq(inputs.iter());
+        let same = |first_order: &&FirstOrder| first_order.inputs.iter().eq(inputs.iter());
         let found = series.first_order.iter().find(same)?;
         found.modes.get(self.mode)?.behaviour.frequency()
     }

@@ -81,7 +81,7 @@ struct Lines {
 impl Lines {
     /// Adds a stretch of a motion, extending a piece that ends where it begins.
     fn stretch(&mut self, label: usize, motion: Motion, states: &[State]) {
-        let known = |own: &Track| own.label == label && own.motion == motion;
+        let known = |track: &Track| track.label == label && track.motion == motion;
         let place = self.tracks.iter().position(known);
         let place = place.unwrap_or_else(|| {
             self.tracks.push(Track {
@@ -105,8 +105,11 @@ impl Lines {
                 value: station.value,
                 s: sample.s,
             };
-            let mut own = self.tracks.iter().filter(|own| own.label == sample.label);
-            if !own.any(|own| own.pieces.iter().flatten().any(|known| *known == state)) {
+            let mut tracks = self
+                .tracks
+                .iter()
+                .filter(|track| track.label == sample.label);
+            if !tracks.any(|item| item.pieces.iter().flatten().any(|known| *known == state)) {
                 self.stretch(sample.label, motion(sample, sample), &[state]);
             }
         }
@@ -150,10 +153,10 @@ impl Lines {
         (lost, gained): (&[Sample], &[Sample]),
         critical: Option<f64>,
     ) {
-        let mut reals: Vec<&Sample> = gained.iter().filter(|own| !own.oscillates).collect();
+        let mut reals: Vec<&Sample> = gained.iter().filter(|x| !x.oscillates).collect();
         reals.sort_by(|a, b| a.s.re.total_cmp(&b.s.re));
         let backwards = pair.value > single.value;
-        for own in lost.iter().filter(|own| own.oscillates) {
+        for own in lost.iter().filter(|x| x.oscillates) {
             let two = (0..reals.len().saturating_sub(1)).min_by(|&a, &b| {
                 let far = |k: usize| (middle(&reals[k..k + 2]) - own.s.re).abs();
                 far(a).total_cmp(&far(b))
@@ -244,16 +247,16 @@ fn undamped(a: &Sample, b: &Sample) -> bool {
 fn softest(station: &Station) -> Option<usize> {
     let modes = station.modes.iter();
     let least = modes.min_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
-    least.map(|own| own.label)
+    least.map(|least| least.label)
 }
 
 /// Modes of `own` that continue in no mode of `other`.
 fn unmatched(
-    own: &Station,
+    station: &Station,
     other: &Station,
     same: impl Fn(&Sample, &Sample) -> bool,
 ) -> Vec<Sample> {
-    let modes = own.modes.iter().copied();
+    let modes = station.modes.iter().copied();
     modes
         .filter(|a| !other.modes.iter().any(|b| same(a, b)))
         .collect()
@@ -298,8 +301,8 @@ mod tests {
             let at_turn = ends
                 .into_iter()
                 .flatten()
-                .filter(|own| (own.value - 0.5).abs() < 1e-12);
-            let s: Vec<Complex> = at_turn.map(|own| own.s).collect();
+                .filter(|x| (x.value - 0.5).abs() < 1e-12);
+            let s: Vec<Complex> = at_turn.map(|at_turn| at_turn.s).collect();
             assert!(
                 s.len() == 1 && (s[0] - Complex::new(-1.0, 0.0)).norm() < 1e-12,
                 "{track:?}"
@@ -323,7 +326,7 @@ mod tests {
         let [track] = &tracks[..] else {
             panic!("{tracks:?}");
         };
-        let lowest = track.pieces.iter().flatten().find(|own| own.value == 1.0);
+        let lowest = track.pieces.iter().flatten().find(|x| x.value == 1.0);
         assert_eq!(lowest.map(|own| own.s.im), Some(0.0));
         assert_eq!(track.pieces.len(), 1);
     }

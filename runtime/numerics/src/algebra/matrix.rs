@@ -77,8 +77,8 @@ impl<T: Copy + Default> Matrix<T> {
     pub fn from_fn(rows: usize, columns: usize, mut value: impl FnMut(usize, usize) -> T) -> Self {
         let mut matrix = Self::zeros(rows, columns);
         for (i, row) in matrix.iter_mut().enumerate() {
-            for (j, place) in row.iter_mut().enumerate() {
-                *place = value(i, j);
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = value(i, j);
             }
         }
         matrix

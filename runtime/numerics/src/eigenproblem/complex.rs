@@ -175,16 +175,16 @@ mod tests {
     }
 
     /// Whether every element of `wanted` is found exactly once, to within `tolerance`.
-    fn same(mut found: Vec<Complex>, wanted: &[Complex], tolerance: f64) {
-        assert_eq!(found.len(), wanted.len());
+    fn same(mut complexes: Vec<Complex>, wanted: &[Complex], tolerance: f64) {
+        assert_eq!(complexes.len(), wanted.len());
         for want in wanted {
             let apart = |value: &Complex| (value - want).norm();
-            let nearest =
-                (0..found.len()).min_by(|&a, &b| apart(&found[a]).total_cmp(&apart(&found[b])));
+            let nearest = (0..complexes.len())
+                .min_by(|&a, &b| apart(&complexes[a]).total_cmp(&apart(&complexes[b])));
             let Some(nearest) = nearest else {
                 panic!("none left")
             };
-            let value = found.swap_remove(nearest);
+            let value = complexes.swap_remove(nearest);
             assert!(apart(&value) <= tolerance, "{value} is not {want}");
         }
     }

@@ -36,15 +36,17 @@ impl Bode {
         of: impl Fn(&'a Found) -> Vec<T>,
     ) -> Vec<T> {
         let points = self.0.points.iter();
-        let all = points.map(|own| own.vibration.as_ref().ok().map(&of));
+        let all = points.map(|point| point.vibration.as_ref().ok().map(&of));
         filled(all, (count, none))
     }
 
     fn measured<'py>(&self, py: Python<'py>, measure: Measure) -> PyResult<Array3<'py, Complex>> {
         let [harmonics, outputs] = self.counts();
-        let all = self.each((harmonics * outputs, NONE), |own| {
-            let harmonics = own.response.harmonics.iter();
-            harmonics.flat_map(|own| amplitudes(own, measure)).collect()
+        let all = self.each((harmonics * outputs, NONE), |item| {
+            let harmonics = item.response.harmonics.iter();
+            harmonics
+                .flat_map(|harmonic| amplitudes(harmonic, measure))
+                .collect()
         });
         vector(py, all).reshape([self.0.points.len(), harmonics, outputs])
     }
@@ -58,11 +60,11 @@ impl Bode {
         part: fn(&Slopes<T>) -> &Vector<T>,
     ) -> PyResult<Array4<'py, T>> {
         let [harmonics, outputs] = self.counts();
-        let all = self.each((harmonics * outputs * columns, none), |own| {
+        let all = self.each((harmonics * outputs * columns, none), |item| {
             let places = (0..harmonics).flat_map(|h| (0..outputs).map(move |o| (h, o)));
             let each = places.map(|(h, o)| {
-                let found = of(own, h, Output::new(o));
-                found.map(|own| part(&own).to_vec())
+                let found = of(item, h, Output::new(o));
+                found.map(|x| part(&x).to_vec())
             });
             filled(each, (columns, none))
         });
@@ -81,8 +83,8 @@ impl Bode {
             self.0.description.design.len(),
         );
         Ok((
-            self.slopes(py, (inputs, none), &of, |own| &own.by_input)?,
-            self.slopes(py, (design, none), &of, |own| &own.by_design)?,
+            self.slopes(py, (inputs, none), &of, |x| &x.by_input)?,
+            self.slopes(py, (design, none), &of, |x| &x.by_design)?,
         ))
     }
 
@@ -93,7 +95,7 @@ impl Bode {
         of: impl Fn(&BodePoint, usize) -> Option<f64>,
     ) -> PyResult<Array2<'py>> {
         let count = self.0.banded.len();
-        let row = |own| (0..count).map(|band| or_nan(of(own, band))).collect();
+        let row = |item| (0..count).map(|band| or_nan(of(item, band))).collect();
         rows(py, count, self.0.points.iter().map(row))
     }
 }

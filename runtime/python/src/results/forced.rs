@@ -35,9 +35,9 @@ impl ForcedResponse {
     /// What each excitation contributes, in the order of their declaration.
     fn contributions(&self) -> Vec<&Share> {
         let mut all: Vec<&Share> = (self.0.harmonics.iter())
-            .flat_map(|own| &own.shares)
+            .flat_map(|harmonic| &harmonic.shares)
             .collect();
-        all.sort_by_key(|own| own.excitation);
+        all.sort_by_key(|x| x.excitation);
         all
     }
 }
@@ -95,13 +95,17 @@ attributes! {
 impl ForcedResponse {
     fn output(&self, py: Python<'_>, name: &str) -> PyResult<Output> {
         let of = &self.0.description;
-        let place = of.outputs.iter().position(|own| own.name == *name);
+        let place = of.outputs.iter().position(|output| output.name == *name);
         place.map(Output::new).ok_or_else(|| {
             let error = Error::UnknownName {
                 kind: "output",
                 name: name.to_owned(),
                 mechanism: of.name.clone(),
-                known: of.outputs.iter().map(|own| own.name.clone()).collect(),
+                known: of
+                    .outputs
+                    .iter()
+                    .map(|output| output.name.clone())
+                    .collect(),
             };
             raise(py, error)
         })
@@ -110,7 +114,7 @@ impl ForcedResponse {
     fn orbits(&self, py: Python<'_>, [x, y]: [&str; 2]) -> PyResult<Vec<Orbit>> {
         let (x, y) = (self.output(py, x)?, self.output(py, y)?);
         let each = self.0.harmonics.iter();
-        Ok(each.filter_map(|own| own.orbit(x, y)).collect())
+        Ok(each.filter_map(|item| item.orbit(x, y)).collect())
     }
 
     /// A number of each output of each harmonic, if the phases of the excitations are unknown.
@@ -122,8 +126,8 @@ impl ForcedResponse {
     ) -> PyResult<Array2<'py>> {
         let measure = self::measure(py, measure)?;
         let outputs = self.0.description.outputs.len();
-        let each = |own: &Harmonic| {
-            let all = (0..outputs).map(|k| of(&own.unknown_phases(Output::new(k), measure)?));
+        let each = |harmonic: &Harmonic| {
+            let all = (0..outputs).map(|k| of(&harmonic.unknown_phases(Output::new(k), measure)?));
             all.collect::<Result<Vec<f64>, _>>()
         };
         let all: Result<Vec<_>, _> = self.0.harmonics.iter().map(each).collect();
@@ -143,7 +147,7 @@ impl ForcedResponse {
     ) -> PyResult<(Array1<'py, Complex>, Array1<'py, Complex>)> {
         let all = self.orbits(py, [x, y])?;
         let part = |of: fn(&Orbit) -> Complex| vector(py, all.iter().map(of));
-        Ok((part(|own| own.forward), part(|own| own.backward)))
+        Ok((part(|x| x.forward), part(|x| x.backward)))
     }
 
     /// Half of the longest and half of the shortest diameters of the orbits of two outputs, SI, shape (h,) each.
@@ -154,7 +158,7 @@ impl ForcedResponse {
         y: &str,
     ) -> PyResult<(Array1<'py>, Array1<'py>)> {
         let all = self.orbits(py, [x, y])?;
-        let axis = |k: usize| vector(py, all.iter().map(|own| own.semi_axes()[k]));
+        let axis = |k: usize| vector(py, all.iter().map(|x| x.semi_axes()[k]));
         Ok((axis(0), axis(1)))
     }
 
@@ -172,7 +176,7 @@ impl ForcedResponse {
         x: &str,
         y: &str,
     ) -> PyResult<Vec<Option<&'static str>>> {
-        let word = |own: &Orbit| match own.turning()? {
+        let word = |orbit: &Orbit| match orbit.turning()? {
             Turning::Forward => Some("forward"),
             Turning::Backward => Some("backward"),
         };
@@ -189,7 +193,7 @@ impl ForcedResponse {
         probability: f64,
         measure: &hints::Measure,
     ) -> PyResult<Array2<'py>> {
-        self.of_unknown_phases(py, measure, |own| Ok(own.quantile(probability)?))
+        self.of_unknown_phases(py, measure, |x| Ok(x.quantile(probability)?))
     }
 
     /// Roots of the mean squares of the amplitudes of the outputs under unknown phases, shape (h, o).
@@ -199,7 +203,7 @@ impl ForcedResponse {
         py: Python<'py>,
         measure: &hints::Measure,
     ) -> PyResult<Array2<'py>> {
-        self.of_unknown_phases(py, measure, |own| Ok(own.root_mean_square()))
+        self.of_unknown_phases(py, measure, |x| Ok(x.root_mean_square()))
     }
 
     /// Probabilities that the amplitude of an output stays below a limit, SI or a text with a unit, under unknown phases,
@@ -217,8 +221,8 @@ impl ForcedResponse {
         let vibration = vibration.measure(self::measure(py, measure)?);
         let unit = Response::Vibration(vibration).unit(&self.0.description);
         let limit = number(limit, &unit, output)?;
-        let below = |own: &Harmonic| {
-            let sum = own.unknown_phases(wanted, vibration.measure)?;
+        let below = |harmonic: &Harmonic| {
+            let sum = harmonic.unknown_phases(wanted, vibration.measure)?;
             Ok(sum.probability_below(limit))
         };
         let all: Result<Vec<f64>, _> = self.0.harmonics.iter().map(below).collect();
@@ -251,7 +255,7 @@ pub(super) fn filled<T: Copy>(
     all: impl IntoIterator<Item = Option<Vec<T>>>,
     (columns, none): (usize, T),
 ) -> Vec<T> {
-    let row = |own: Option<Vec<T>>| own.unwrap_or_else(|| vec![none; columns]);
+    let row = |x: Option<Vec<T>>| x.unwrap_or_else(|| vec![none; columns]);
     all.into_iter().flat_map(row).collect()
 }
 
@@ -284,8 +288,8 @@ impl ForcedSensitivities {
             vector(py, filled(all, (columns, none))).reshape([harmonics, outputs, columns])
         };
         Ok((
-            part(inputs, |own| &own.by_input)?,
-            part(design, |own| &own.by_design)?,
+            part(inputs, |x| &x.by_input)?,
+            part(design, |x| &x.by_design)?,
         ))
     }
 
@@ -311,7 +315,7 @@ impl ForcedSensitivities {
         let of = |which: usize| {
             let each = both
                 .iter()
-                .map(|own| Some(part(&own.as_ref()?[which]).to_vec()));
+                .map(|x| Some(part(&x.as_ref()?[which]).to_vec()));
             optional_rows(py, count, each)
         };
         Ok((of(0)?, of(1)?))
@@ -373,7 +377,7 @@ impl ForcedSensitivities {
         y: &str,
     ) -> PyResult<(Array2<'py>, Array2<'py>)> {
         let count = self.0.response.description.inputs.len();
-        self.orbit_squares(py, [x, y], (count, |own| &own.by_input))
+        self.orbit_squares(py, [x, y], (count, |x| &x.by_input))
     }
 
     /// The same by design variables, shape (h, design) each.
@@ -384,7 +388,7 @@ impl ForcedSensitivities {
         y: &str,
     ) -> PyResult<(Array2<'py>, Array2<'py>)> {
         let count = self.0.response.description.design.len();
-        self.orbit_squares(py, [x, y], (count, |own| &own.by_design))
+        self.orbit_squares(py, [x, y], (count, |x| &x.by_design))
     }
 }
 
@@ -412,9 +416,9 @@ impl ForcedCurvature {
             vector(py, filled(all, (rows * columns, none))).reshape(shape)
         };
         Ok((
-            part(inputs, inputs, |own| &own.by_input)?,
-            part(inputs, design, |own| &own.by_input_and_design)?,
-            part(design, design, |own| &own.by_design)?,
+            part(inputs, inputs, |x| &x.by_input)?,
+            part(inputs, design, |x| &x.by_input_and_design)?,
+            part(design, design, |x| &x.by_design)?,
         ))
     }
 
@@ -432,8 +436,12 @@ impl ForcedCurvature {
         of: fn(&SecondDerivatives<f64>) -> &Matrix,
         [rows, columns]: [usize; 2],
     ) -> PyResult<Array3<'py>> {
-        let all = self.0.harmonics.iter().map(|own| of(&own.frequency));
-        let all = all.flat_map(|own| own.as_flattened().iter().copied());
+        let all = self
+            .0
+            .harmonics
+            .iter()
+            .map(|harmonic| of(&harmonic.frequency));
+        let all = all.flat_map(|x| x.as_flattened().iter().copied());
         vector(py, all).reshape([self.0.harmonics.len(), rows, columns])
     }
 

@@ -116,7 +116,7 @@ result! {
 
 impl Separation {
     fn actual(&self) -> impl Iterator<Item = &Moving> {
-        self.0.margins.iter().map(|own| &own.actual)
+        self.0.margins.iter().map(|margin| &margin.actual)
     }
 }
 

@@ -96,8 +96,12 @@ impl Sensitivities {
     ) -> PyResult<(Array2<'py>, Array2<'py>)> {
         let wanted = quantity(py, name)?;
         let (inputs, design) = self.counts();
-        let by_input = |own: &ModeSensitivity| Some(own.of(wanted)?.by_input.to_vec());
-        let by_design = |own: &ModeSensitivity| Some(own.of(wanted)?.by_design.to_vec());
+        let by_input = |mode_sensitivity: &ModeSensitivity| {
+            Some(mode_sensitivity.of(wanted)?.by_input.to_vec())
+        };
+        let by_design = |mode_sensitivity: &ModeSensitivity| {
+            Some(mode_sensitivity.of(wanted)?.by_design.to_vec())
+        };
         Ok((
             self.rows(py, inputs, by_input)?,
             self.rows(py, design, by_design)?,

@@ -180,13 +180,13 @@ pub(crate) fn table<'py>(
 ) -> PyResult<hints::Table<'py>> {
     let found = match name {
         None => all.first(),
-        Some(name) => all.iter().find(|own| own.name == name),
+        Some(name) => all.iter().find(|x| x.name == name),
     };
     if let Some(found) = found {
         return dictionary(py, found);
     }
     let name = name.unwrap_or_default();
-    let known: Vec<&str> = all.iter().map(|own| own.name.as_str()).collect();
+    let known: Vec<&str> = all.iter().map(|x| x.name.as_str()).collect();
     let near = did_you_mean(name, known.iter().copied());
     let message = format!(
         "there is no table `{name}`: there are {}{near}",
@@ -207,7 +207,7 @@ fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict
             Values::Whole(values) => match values.iter().copied().collect::<Option<Vec<i64>>>() {
                 Some(whole) => columns.set_item(heading, vector(py, whole))?,
                 None => {
-                    let values = values.iter().map(|own| own.map(|own| own as f64));
+                    let values = values.iter().map(|value| value.map(|x| x as f64));
                     columns.set_item(heading, optional(py, values))?;
                 }
             },
@@ -221,7 +221,7 @@ fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict
 /// HTML for a notebook: the text, followed by collapsible tables.
 pub(crate) fn html(report: &str, all: &[Table]) -> String {
     let mut text = format!("<pre>{}</pre>", escaped(report));
-    for table in all.iter().filter(|own| own.rows() > 0) {
+    for table in all.iter().filter(|x| x.rows() > 0) {
         let _ = write!(
             text,
             "<details><summary>{}</summary><table><thead><tr>",

@@ -22,8 +22,8 @@ impl Sweep {
             .0
             .points
             .iter()
-            .filter_map(|own| own.modes.as_ref().ok());
-        let labels = modes.flat_map(|own| own.modes.iter().map(|mode| mode.label + 1));
+            .filter_map(|point| point.modes.as_ref().ok());
+        let labels = modes.flat_map(|x| x.modes.iter().map(|mode| mode.label + 1));
         labels.max().unwrap_or(0)
     }
 
@@ -34,9 +34,9 @@ impl Sweep {
         of: impl Fn(&Mode) -> Option<T>,
     ) -> PyResult<Array2<'py, T>> {
         let labels = self.labels();
-        let row = |own: &eigentol::sweep::SweepPoint| {
+        let row = |sweep_point: &eigentol::sweep::SweepPoint| {
             let mut row = vec![none; labels];
-            for mode in own.modes.iter().flat_map(|own| &own.modes) {
+            for mode in sweep_point.modes.iter().flat_map(|mode| &mode.modes) {
                 row[mode.label] = of(mode).unwrap_or(none);
             }
             row
@@ -79,8 +79,8 @@ result! {
 impl Campbell {
     fn words(&self, of: &dyn Fn(&CampbellMode) -> Option<String>) -> Vec<Vec<Option<String>>> {
         let labels = self.0.labels();
-        let row = |own: &eigentol::campbell::CampbellPoint| {
-            let modes = own.modes.as_ref().map_or(&[][..], Vec::as_slice);
+        let row = |campbell_point: &eigentol::campbell::CampbellPoint| {
+            let modes = campbell_point.modes.as_ref().map_or(&[][..], Vec::as_slice);
             let mode = |label: &usize| modes.iter().find(|mode| mode.label == *label);
             labels
                 .iter()
@@ -97,8 +97,8 @@ impl Campbell {
         of: impl Fn(&CampbellMode) -> Option<T>,
     ) -> PyResult<Array2<'py, T>> {
         let labels = self.0.labels();
-        let row = |own: &eigentol::campbell::CampbellPoint| {
-            let modes = own.modes.as_ref().map_or(&[][..], Vec::as_slice);
+        let row = |campbell_point: &eigentol::campbell::CampbellPoint| {
+            let modes = campbell_point.modes.as_ref().map_or(&[][..], Vec::as_slice);
             let entry = |label: &usize| {
                 let mode = modes.iter().find(|mode| mode.label == *label);
                 mode.and_then(&of).unwrap_or(none)
@@ -111,18 +111,18 @@ impl Campbell {
 
 /// Ends and resolution.
 fn searched(of: Option<&Searched>) -> Option<(f64, f64, f64)> {
-    of.map(|own| (own.low, own.high, own.resolution))
+    of.map(|x| (x.low, x.high, x.resolution))
 }
 
 fn unsearched(of: Option<&Searched>) -> Vec<(f64, f64)> {
-    let unresolved = of.iter().flat_map(|own| &own.unresolved);
-    let gaps = of.iter().flat_map(|own| &own.gaps);
-    let ends = unresolved.map(|own| (own.from, own.to));
-    ends.chain(gaps.map(|own| (own.from, own.to))).collect()
+    let unresolved = of.iter().flat_map(|x| &x.unresolved);
+    let gaps = of.iter().flat_map(|x| &x.gaps);
+    let ends = unresolved.map(|x| (x.from, x.to));
+    ends.chain(gaps.map(|gap| (gap.from, gap.to))).collect()
 }
 
 fn sigma(spread: &Option<Spread>) -> Option<f64> {
-    spread.as_ref().map(|own| own.sigma)
+    spread.as_ref().map(|spread| spread.sigma)
 }
 
 attributes! {

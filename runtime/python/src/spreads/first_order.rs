@@ -97,7 +97,10 @@ result! {
 
 impl OutputTolerances {
     fn each<T>(&self, of: impl Fn(&Spread) -> T) -> impl Iterator<Item = Option<T>> {
-        self.0.spreads.iter().map(move |own| own.as_ref().map(&of))
+        self.0
+            .spreads
+            .iter()
+            .map(move |spread| spread.as_ref().map(&of))
     }
 }
 

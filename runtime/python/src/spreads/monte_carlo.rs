@@ -30,10 +30,7 @@ impl MonteCarlo {
                 return Err(invalid(py, message));
             }
         };
-        Ok(optional(
-            py,
-            all.iter().map(|own| own.as_ref().and_then(&of)),
-        ))
+        Ok(optional(py, all.iter().map(|x| x.as_ref().and_then(&of))))
     }
 
     fn kept(&self, py: Python<'_>) -> PyResult<&[Sample]> {
@@ -48,7 +45,7 @@ impl MonteCarlo {
         py: Python<'py>,
         of: impl Fn(&Sample) -> &[Option<f64>],
     ) -> PyResult<Array2<'py>> {
-        let row = |own| of(own).iter().copied().map(or_nan).collect();
+        let row = |x| of(x).iter().copied().map(or_nan).collect();
         rows(py, self.0.modes.len(), self.kept(py)?.iter().map(row))
     }
 }
@@ -142,7 +139,7 @@ impl MonteCarlo {
             let message = format!("`probability` is {probability}: give one between 0 and 1");
             return Err(invalid(py, message));
         }
-        let value = |own: &Statistics| Some(own.quantile(probability).ok()?.value);
+        let value = |statistics: &Statistics| Some(statistics.quantile(probability).ok()?.value);
         self.statistics(py, quantity, value)
     }
 }

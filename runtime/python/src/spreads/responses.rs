@@ -14,7 +14,7 @@ use crate::results::{attributes, result};
 
 /// Names of responses.
 fn responses(all: &[eigentol::response::Response], of: &eigentol::Description) -> Vec<String> {
-    all.iter().map(|own| own.name(of)).collect()
+    all.iter().map(|x| x.name(of)).collect()
 }
 
 /// Least and greatest values, a row each.
@@ -33,17 +33,21 @@ impl Propagation {
         py: Python<'py>,
         of: impl Fn(&propagation::Quantile) -> f64,
     ) -> PyResult<Array2<'py>> {
-        let row = |own: &ResponseSpread| {
-            let all: Vec<f64> = own.quantiles.iter().map(&of).collect();
+        let row = |response_spread: &ResponseSpread| {
+            let all: Vec<f64> = response_spread.quantiles.iter().map(&of).collect();
             (all.len() == QUANTILES.len()).then_some(all)
         };
-        let all = self.0.spreads.iter().map(|own| own.as_ref().and_then(row));
+        let all = self
+            .0
+            .spreads
+            .iter()
+            .map(|spread| spread.as_ref().and_then(row));
         optional_rows(py, QUANTILES.len(), all)
     }
 
     fn each<'py>(&self, py: Python<'py>, of: fn(&ResponseSpread) -> Option<f64>) -> Array1<'py> {
         let all = self.0.spreads.iter();
-        optional(py, all.map(|own| own.as_ref().and_then(of)))
+        optional(py, all.map(|x| x.as_ref().and_then(of)))
     }
 }
 
@@ -55,7 +59,7 @@ fn optional_matrix<'py>(py: Python<'py>, of: &Matrix<Option<f64>>) -> PyResult<A
 }
 
 fn value(of: Option<Estimated>) -> Option<f64> {
-    of.map(|own| own.value)
+    of.map(|x| x.value)
 }
 
 attributes! {
@@ -108,7 +112,7 @@ result! {
 impl Influence {
     fn columns(&self) -> usize {
         let first = self.0.responses.first();
-        first.map_or(0, |own| own.variables.len())
+        first.map_or(0, |x| x.variables.len())
     }
 
     fn interval<'py>(
@@ -116,8 +120,12 @@ impl Influence {
         py: Python<'py>,
         of: impl Fn(&VariableInfluence) -> Option<&propagation::Estimate>,
     ) -> PyResult<Array3<'py>> {
-        let all = self.0.responses.iter().flat_map(|own| &own.variables);
-        let ends = all.flat_map(|own| of(own).map_or([f64::NAN; 2], |own| [own.lower, own.upper]));
+        let all = self
+            .0
+            .responses
+            .iter()
+            .flat_map(|response| &response.variables);
+        let ends = all.flat_map(|item| of(item).map_or([f64::NAN; 2], |x| [x.lower, x.upper]));
         vector(py, ends).reshape([self.0.responses.len(), self.columns(), 2])
     }
 
@@ -126,8 +134,13 @@ impl Influence {
         py: Python<'py>,
         of: impl Fn(&VariableInfluence) -> Option<f64>,
     ) -> PyResult<Array2<'py>> {
-        let row =
-            |own: &ResponseInfluence| own.variables.iter().map(|own| or_nan(of(own))).collect();
+        let row = |response_influence: &ResponseInfluence| {
+            response_influence
+                .variables
+                .iter()
+                .map(|variable| or_nan(of(variable)))
+                .collect()
+        };
         rows(py, self.columns(), self.0.responses.iter().map(row))
     }
 }
@@ -184,7 +197,7 @@ impl WorstCase {
         of: fn(&ResponseLimits) -> &Option<Extreme>,
     ) -> Array1<'py> {
         let all = self.0.responses.iter();
-        optional(py, all.map(|own| of(own).as_ref().map(|own| own.value)))
+        optional(py, all.map(|x| of(x).as_ref().map(|x| x.value)))
     }
 
     fn designs<'py>(
@@ -193,7 +206,7 @@ impl WorstCase {
         of: fn(&ResponseLimits) -> &Option<Extreme>,
     ) -> PyResult<Array2<'py>> {
         let all = self.0.responses.iter();
-        let all = all.map(|own| of(own).as_ref().map(|own| own.design.to_vec()));
+        let all = all.map(|x| of(x).as_ref().map(|x| x.design.to_vec()));
         optional_rows(py, self.0.description.design.len(), all)
     }
 }

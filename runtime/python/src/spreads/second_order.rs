@@ -24,15 +24,15 @@ impl SecondOrder {
         of: impl Fn(&SecondOrderSpread) -> f64,
     ) -> PyResult<Array1<'py>> {
         let spread: fn(&ModeSecondOrder) -> &SecondOrderSpread = match quantity(py, name)? {
-            Quantity::Frequency => |own| &own.frequency,
-            Quantity::NaturalFrequency => |own| &own.natural_frequency,
-            Quantity::DampingRatio => |own| &own.damping_ratio,
+            Quantity::Frequency => |x| &x.frequency,
+            Quantity::NaturalFrequency => |x| &x.natural_frequency,
+            Quantity::DampingRatio => |x| &x.damping_ratio,
             _ => return Err(invalid(py, format!("there is no second order of `{name}`"))),
         };
         let all = self.0.modes.iter();
         Ok(optional(
             py,
-            all.map(|mode| mode.as_ref().ok().map(|own| of(spread(own)))),
+            all.map(|mode| mode.as_ref().ok().map(|mode| of(spread(mode)))),
         ))
     }
 }

@@ -18,16 +18,16 @@ pub(crate) fn counts<'py>(py: Python<'py>, own: &Counts) -> PyResult<hints::Coun
 pub(crate) fn judgement<'py>(py: Python<'py>, own: &Judgement) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
     match own {
-        Judgement::Judged(own) => {
-            let (interval, estimate) = (own.interval(), own.probability);
+        Judgement::Judged(judged) => {
+            let (interval, estimate) = (judged.interval(), judged.probability);
             all.set_item("probability", estimate.value)?;
             all.set_item("standard_error", estimate.standard_error)?;
             all.set_item("interval", (interval.lower, interval.upper))?;
-            all.set_item("untold", own.untold.value)?;
-            all.set_item("unseen", own.unseen)?;
-            all.set_item("settled", own.settled)?;
-            all.set_item("lines", own.lines)?;
-            all.set_item("designs", own.designs)?;
+            all.set_item("untold", judged.untold.value)?;
+            all.set_item("unseen", judged.unseen)?;
+            all.set_item("settled", judged.settled)?;
+            all.set_item("lines", judged.lines)?;
+            all.set_item("designs", judged.designs)?;
         }
         Judgement::Open(reason) => all.set_item("open", reason.to_string())?,
         _ => {}

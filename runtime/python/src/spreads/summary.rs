@@ -69,7 +69,7 @@ impl Summary {
     ) -> PyResult<Array1<'py>> {
         let wanted = quantity(py, name)?;
         let all = self.0.trust.iter();
-        Ok(optional(py, all.map(|own| own.check(wanted).and_then(&of))))
+        Ok(optional(py, all.map(|x| x.check(wanted).and_then(&of))))
     }
 }
 

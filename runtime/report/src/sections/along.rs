@@ -26,7 +26,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 
 fn states(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error> {
     let found = match &along.branches {
-        Ok(found) => found,
+        Ok(branches) => branches,
         Err(error) => {
             refused(html, "branches of equilibria were not followed", error);
             return Ok(());
@@ -52,7 +52,7 @@ fn states(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error
 
 fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error> {
     let found = match &along.campbell {
-        Ok(found) => found,
+        Ok(campbell) => campbell,
         Err(error) => {
             refused(html, "frequencies along the input are not known", error);
             return Ok(());
@@ -78,7 +78,7 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
         .points
         .iter()
         .flat_map(|point| point.modes.iter().flatten());
-    let is_damped = |own: &Spread| own.mean != 0.0;
+    let is_damped = |spread: &Spread| spread.mean != 0.0;
     let mut damped = damped.filter_map(|mode| mode.damping_ratio.as_ref());
     if damped.any(is_damped) {
         chart(
@@ -105,7 +105,7 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
 /// The columns that fit on a page; the rest is available by copying.
 fn on_a_page(table: &Table) -> Vec<&str> {
     let left_out = ["sigma level", "Re s", "Im s", "whirl ratio"];
-    let names = table.columns.iter().map(|own| &*own.name);
+    let names = table.columns.iter().map(|column| &*column.name);
     names
         .filter(|name| !name.starts_with("variance share of ") && !left_out.contains(name))
         .collect()

@@ -45,7 +45,7 @@ fn all(content: &Content) -> Vec<Line> {
     let along = content
         .along
         .as_ref()
-        .map(|own| along(own, &content.brief_style));
+        .map(|x| along(x, &content.brief_style));
     lines.extend(along.unwrap_or_default());
     lines
 }
@@ -70,8 +70,8 @@ fn equilibrium(content: &Content) -> Line {
 /// Each mode with its spread and the main source of that spread.
 fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
     let first = (content.spread.as_ref())
-        .and_then(|own| own.summary.as_ref().ok())
-        .map(|own| &own.first);
+        .and_then(|spread| spread.summary.as_ref().ok())
+        .map(|summary| &summary.first);
     let style = &content.brief_style;
     let (scale, unit) = style.frequency(None);
     let each = modes.modes.iter().enumerate().take(MODES);
@@ -118,13 +118,10 @@ fn moves(behaviour: Behaviour) -> String {
 
 /// ` +- 0.2 (3 sigma), mostly by l (97 %)`.
 fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
-    let Some(own) = first.modes.get(mode).filter(|own| !own.clustered) else {
+    let Some(own) = first.modes.get(mode).filter(|mode| !mode.clustered) else {
         return String::new();
     };
-    let Some(spread) = own
-        .frequency()
-        .filter(|own| !is_rounding(own.sigma, own.mean))
-    else {
+    let Some(spread) = own.frequency().filter(|x| !is_rounding(x.sigma, x.mean)) else {
         return String::new();
     };
     let shares = spread
@@ -159,8 +156,8 @@ fn tolerances(spread: &Spreads, style: &Style) -> Vec<Line> {
             ));
         }
         Ok(summary) => {
-            let doubted = summary.trust.iter().filter(|own| !own.trusted());
-            let doubted: Vec<String> = doubted.map(|own| style.mode(own.mode)).collect();
+            let doubted = summary.trust.iter().filter(|x| !x.trusted());
+            let doubted: Vec<String> = doubted.map(|doubted| style.mode(doubted.mode)).collect();
             let text = format!(
                 "The first-order spread of {} is not to be trusted. See Tolerances.",
                 doubted.join(", ")
@@ -169,21 +166,19 @@ fn tolerances(spread: &Spreads, style: &Style) -> Vec<Line> {
         }
         Err(error) => lines.push((Some(false), sentence(&format!("no spread: {error}")))),
     }
-    if let Ok(found) = &spread.monte_carlo {
-        lines.push(stable_samples(found));
+    if let Ok(monte_carlo) = &spread.monte_carlo {
+        lines.push(stable_samples(monte_carlo));
     }
     lines
 }
 
-pub(super) fn stable_samples(found: &MonteCarlo) -> Line {
-    let (stable, all) = (found.counts.stable, found.samples);
+pub(super) fn stable_samples(monte_carlo: &MonteCarlo) -> Line {
+    let (stable, all) = (monte_carlo.counts.stable, monte_carlo.samples);
     if stable == all {
         return (Some(true), format!("All of {all} samples are stable."));
     }
-    let others = Outcome::ALL
-        .into_iter()
-        .filter(|own| *own != Outcome::Stable);
-    let others = others.filter_map(|outcome| match found.counts.of(outcome) {
+    let others = Outcome::ALL.into_iter().filter(|x| *x != Outcome::Stable);
+    let others = others.filter_map(|outcome| match monte_carlo.counts.of(outcome) {
         0 => None,
         count => Some(format!("{count} {}", word(outcome))),
     });

@@ -19,7 +19,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         return Ok(());
     };
     let found = match &spread.monte_carlo {
-        Ok(found) => found,
+        Ok(monte_carlo) => monte_carlo,
         Err(error) => {
             refused(html, "there are no samples", error);
             return Ok(());

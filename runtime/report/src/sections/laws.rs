@@ -21,7 +21,7 @@ const MOST: usize = 48;
 
 /// A drawing for each variable with a tolerance.
 pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) {
-    let varying = all.iter().filter_map(|own| Some((own, own.law?)));
+    let varying = all.iter().filter_map(|x| Some((x, x.law?)));
     let varying: Vec<_> = varying.filter(|(_, law)| law.sigma() > 0.0).collect();
     if varying.is_empty() {
         return;
@@ -47,17 +47,21 @@ pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) 
 }
 
 /// `normal, 1 ± 0.03 m`: distribution, mean and band.
-fn words(own: &Variable<'_>, law: &Distribution, sigma_level: f64) -> String {
-    let mean = number(own.unit.from_si(law.mean()));
-    let band = digits(own.unit.from_si(sigma_level * law.sigma()), 3);
-    let text = format!("{}, {mean} \u{b1} {band} {}", law.name(), own.unit.symbol);
+fn words(variable: &Variable<'_>, law: &Distribution, sigma_level: f64) -> String {
+    let mean = number(variable.unit.from_si(law.mean()));
+    let band = digits(variable.unit.from_si(sigma_level * law.sigma()), 3);
+    let text = format!(
+        "{}, {mean} \u{b1} {band} {}",
+        law.name(),
+        variable.unit.symbol
+    );
     text.trim_end().to_owned()
 }
 
-fn drawing(html: &mut Html, own: &Variable<'_>, law: &Distribution) {
+fn drawing(html: &mut Html, variable: &Variable<'_>, law: &Distribution) {
     let points = density(law);
     let xs = points.iter().map(|point| point[0]);
-    let (low, high) = xs.fold((own.value, own.value), |(low, high), x| {
+    let (low, high) = xs.fold((variable.value, variable.value), |(low, high), x| {
         (low.min(x), high.max(x))
     });
     let top = points.iter().fold(0.0, |top: f64, point| top.max(point[1]));
@@ -73,16 +77,16 @@ fn drawing(html: &mut Html, own: &Variable<'_>, law: &Distribution) {
         let _ = write!(path, "{letter}{:.1} {:.1}", x(point[0]), y(point[1]));
     }
     let view = format!("0 0 {WIDTH} {HEIGHT}");
-    let label = format!("Density of {}", own.name);
+    let label = format!("Density of {}", variable.name);
     let attributes = [
         ("viewBox", &*view),
         ("role", "img"),
         ("aria-label", &*label),
     ];
     html.element("svg", &attributes, |html| {
-        let ends = [-1.0, 1.0].map(|side| law.mean() + side * own.half_width);
+        let ends = [-1.0, 1.0].map(|side| law.mean() + side * variable.half_width);
         let [left, right] = ends.map(x);
-        let numbers = [left, 0.0, right - left, base].map(|own| format!("{own:.1}"));
+        let numbers = [left, 0.0, right - left, base].map(|x| format!("{x:.1}"));
         let [left, top, width, height] = &numbers;
         let shade = [
             ("class", "shade"),
@@ -93,7 +97,7 @@ fn drawing(html: &mut Html, own: &Variable<'_>, law: &Distribution) {
         ];
         html.leaf("rect", &shade, "");
         html.leaf("path", &[("class", "density"), ("d", &path)], "");
-        let line = format!("M0 {base}H{WIDTH}M{:.1} 0V{HEIGHT}", x(own.value));
+        let line = format!("M0 {base}H{WIDTH}M{:.1} 0V{HEIGHT}", x(variable.value));
         html.leaf("path", &[("class", "scale"), ("d", &line)], "");
     });
 }
@@ -106,7 +110,7 @@ fn density(law: &Distribution) -> Vec<[f64; 2]> {
     if law.is_continuous() {
         let height = |z: f64| (-0.5 * z * z).exp() / TAU.sqrt() / law.slope_from_normal(z);
         points.extend(quantiles.map(|z| [law.from_normal(z), height(z)]));
-        points.retain(|point| point.iter().all(|own| own.is_finite()));
+        points.retain(|point| point.iter().all(|x| x.is_finite()));
     } else {
         let mut counted: Vec<[f64; 2]> = Vec::new();
         let count = 4 * STEPS;

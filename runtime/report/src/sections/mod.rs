@@ -43,7 +43,7 @@ pub(crate) fn of(content: &Content) -> Vec<Section> {
     let all = all
         .into_iter()
         .map(|(id, heading, write)| Section { id, heading, write });
-    all.filter(|own| own.id != "vibration" || content.forced.is_some())
+    all.filter(|item| item.id != "vibration" || content.forced.is_some())
         .collect()
 }
 

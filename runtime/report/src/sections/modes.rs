@@ -92,7 +92,7 @@ fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), E
 
 /// States which way is up in the picture, and why.
 fn upwards(scene: &Scene) -> String {
-    let up = scene.up().map(|own| digits(own, 3)).join(", ");
+    let up = scene.up().map(|values| digits(values, 3)).join(", ");
     match scene.gravity {
         Some(_) => format!("Up is against gravity: [{up}] in the common frame."),
         None => format!(

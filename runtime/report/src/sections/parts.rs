@@ -16,7 +16,7 @@ pub(super) fn tables(scene: &Scene) -> Vec<(&'static str, Table)> {
         ),
         ("What rolls", wheels(scene)),
     ];
-    all.into_iter().filter(|(_, own)| own.rows() > 0).collect()
+    all.into_iter().filter(|(_, x)| x.rows() > 0).collect()
 }
 
 fn bodies(scene: &Scene) -> Table {
@@ -24,8 +24,8 @@ fn bodies(scene: &Scene) -> Table {
     let all = all.filter(|(number, _)| !scene.is_of_beam(*number));
     let all = all.map(|(_, body)| body);
     let mut table = Table::new("bodies");
-    let names = all.clone().map(|own| &own.name);
-    let names = names.chain(scene.beams.iter().map(|own| &own.name));
+    let names = all.clone().map(|x| &x.name);
+    let names = names.chain(scene.beams.iter().map(|beam| &beam.name));
     table.texts("body", names.map(|name| Some(name.to_string())));
     let made_of = |body: &Body| match &body.solids[..] {
         [] => "massless".to_owned(),
@@ -97,18 +97,18 @@ fn shape(shape: &Shape) -> String {
 
 /// The name of a body; `None` is the ground.
 fn body(scene: &Scene, number: Option<usize>) -> Option<String> {
-    let found = number.map(|own| scene.bodies.get(own).map(|own| own.name.to_string()));
+    let found = number.map(|number| scene.bodies.get(number).map(|body| body.name.to_string()));
     found.unwrap_or_else(|| Some("ground".to_owned()))
 }
 
 fn joints(scene: &Scene) -> Table {
-    let all = scene.joints.iter().filter(|own| !own.is_flexure());
+    let all = scene.joints.iter().filter(|joint| !joint.is_flexure());
     let mut table = Table::new("joints");
-    table.texts("joint", all.clone().map(|own| Some(own.name.to_string())));
-    table.texts("kind", all.clone().map(|own| Some(own.kind.to_string())));
-    table.texts("from", all.clone().map(|own| body(scene, own.from.body)));
-    table.texts("to", all.clone().map(|own| body(scene, own.to.body)));
-    let closes = |own: &Joint| own.closes_loop.then(|| "closes a loop".to_owned());
+    table.texts("joint", all.clone().map(|x| Some(x.name.to_string())));
+    table.texts("kind", all.clone().map(|x| Some(x.kind.to_string())));
+    table.texts("from", all.clone().map(|x| body(scene, x.from.body)));
+    table.texts("to", all.clone().map(|x| body(scene, x.to.body)));
+    let closes = |joint: &Joint| joint.closes_loop.then(|| "closes a loop".to_owned());
     table.texts("role", all.map(closes));
     table
 }
@@ -116,16 +116,16 @@ fn joints(scene: &Scene) -> Table {
 fn elements(scene: &Scene) -> Table {
     let all = scene.elements.iter();
     let mut table = Table::new("elements");
-    table.texts("name", all.clone().map(|own| Some(own.name.to_string())));
-    table.texts("kind", all.clone().map(|own| Some(own.kind.to_string())));
-    table.texts("law", all.map(|own| Some(own.law.to_string())));
+    table.texts("name", all.clone().map(|x| Some(x.name.to_string())));
+    table.texts("kind", all.clone().map(|x| Some(x.kind.to_string())));
+    table.texts("law", all.map(|x| Some(x.law.to_string())));
     table
 }
 
 fn wheels(scene: &Scene) -> Table {
     let all = scene.wheels.iter();
     let mut table = Table::new("wheels");
-    table.texts("name", all.clone().map(|own| Some(own.name.to_string())));
-    table.numbers("radius", "m", all.map(|own| own.radius));
+    table.texts("name", all.clone().map(|x| Some(x.name.to_string())));
+    table.numbers("radius", "m", all.map(|x| x.radius));
     table
 }

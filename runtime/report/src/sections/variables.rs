@@ -23,8 +23,8 @@ pub(super) struct Variable<'a> {
 /// Inputs first.
 pub(super) fn variables(content: &Content) -> Vec<Variable<'_>> {
     let (d, setup) = (&content.description, &content.setup);
-    let variable = |name, kind, unit, value, place: Option<usize>| {
-        let of = |values: &[f64]| place.and_then(|place| values.get(place).copied());
+    let variable = |name, kind, unit, value, index: Option<usize>| {
+        let of = |values: &[f64]| index.and_then(|place| values.get(place).copied());
         Variable {
             name,
             kind,
@@ -32,7 +32,7 @@ pub(super) fn variables(content: &Content) -> Vec<Variable<'_>> {
             value,
             half_width: of(setup.tolerances.half_widths()).unwrap_or_default(),
             shift: of(setup.tolerances.shifts()).unwrap_or_default(),
-            law: place.and_then(|place| setup.distributions.get(place)),
+            law: index.and_then(|place| setup.distributions.get(place)),
         }
     };
     let inputs = d.inputs.iter().zip(&setup.inputs).enumerate();
@@ -55,29 +55,27 @@ pub(super) fn variables(content: &Content) -> Vec<Variable<'_>> {
 /// A row for each variable, in its own unit.
 pub(super) fn table(all: &[Variable<'_>]) -> Table {
     let of = |pick: fn(&Variable<'_>, &Distribution) -> f64| -> Vec<Option<f64>> {
-        let one = |own: &Variable<'_>| Some(own.unit.from_si(pick(own, own.law?)));
+        let one =
+            |variable: &Variable<'_>| Some(variable.unit.from_si(pick(variable, variable.law?)));
         all.iter()
-            .map(|own| one(own).filter(|value| *value != 0.0))
+            .map(|x| one(x).filter(|value| *value != 0.0))
             .collect()
     };
     let mut table = Table::new("variables");
-    table.texts("name", all.iter().map(|own| Some(own.name.to_owned())));
-    table.texts("kind", all.iter().map(|own| Some(own.kind.to_owned())));
-    table.numbers(
-        "value",
-        "",
-        all.iter().map(|own| own.unit.from_si(own.value)),
-    );
-    table.numbers("half-width", "", of(|own, _| own.half_width));
+    table.texts("name", all.iter().map(|x| Some(x.name.to_owned())));
+    table.texts("kind", all.iter().map(|x| Some(x.kind.to_owned())));
+    table.numbers("value", "", all.iter().map(|x| x.unit.from_si(x.value)));
+    table.numbers("half-width", "", of(|x, _| x.half_width));
     table.numbers("sigma", "", of(|_, law| law.sigma()));
-    table.numbers("mean less value", "", of(|own, _| own.shift));
-    let law = |own: &Variable<'_>| {
-        own.law
+    table.numbers("mean less value", "", of(|x, _| x.shift));
+    let law = |variable: &Variable<'_>| {
+        variable
+            .law
             .filter(|law| law.sigma() > 0.0)
             .map(Distribution::name)
     };
-    table.texts("law", all.iter().map(|own| law(own).map(str::to_owned)));
-    let symbols = all.iter().map(|own| Some(own.unit.symbol.to_string()));
+    table.texts("law", all.iter().map(|x| law(x).map(str::to_owned)));
+    let symbols = all.iter().map(|x| Some(x.unit.symbol.to_string()));
     table.texts("unit", symbols);
     table
 }
@@ -85,7 +83,7 @@ pub(super) fn table(all: &[Variable<'_>]) -> Table {
 impl Setup {
     /// Index of an input's tolerance; those of inputs follow those of the design variables.
     fn place_of_input(&self, input: usize) -> Option<usize> {
-        let place = self.deviating.iter().position(|own| *own == input)?;
+        let place = self.deviating.iter().position(|x| *x == input)?;
         Some(self.design.len() + place)
     }
 }

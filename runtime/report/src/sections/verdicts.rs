@@ -54,7 +54,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     let mixed = summary
         .trust
         .iter()
-        .any(|own| summary.cluster_of(own.mode).is_some());
+        .any(|x| summary.cluster_of(x.mode).is_some());
     if mixed {
         let captions = [
             "Modes that tolerances mix, and the mean of each group",

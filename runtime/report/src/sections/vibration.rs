@@ -27,7 +27,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 
 fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), Error> {
     let found = match &forced.response {
-        Ok(found) => found,
+        Ok(response) => response,
         Err(error) => {
             refused(html, "there is no steady vibration", error);
             return Ok(());
@@ -37,7 +37,10 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
         "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).",
     );
     motion(html, content);
-    let several = found.harmonics.iter().any(|own| own.shares.len() > 1);
+    let several = found
+        .harmonics
+        .iter()
+        .any(|harmonic| harmonic.shares.len() > 1);
     for own in found.tables() {
         match &*own.name {
             "forced response" => {
@@ -72,17 +75,22 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
 }
 
 /// The orbits that were asked for, under each harmonic that moves them.
-fn orbits(html: &mut Html, content: &Content, found: &ForcedResponse) -> Result<(), Error> {
+fn orbits(
+    html: &mut Html,
+    content: &Content,
+    forced_response: &ForcedResponse,
+) -> Result<(), Error> {
     for &[x, y] in &content.orbits {
-        let moves = |own: &Harmonic| {
-            let orbit = own.orbit(x, y);
-            orbit.is_none_or(|own| own.semi_axes()[0] > 0.0)
+        let moves = |harmonic: &Harmonic| {
+            let orbit = harmonic.orbit(x, y);
+            orbit.is_none_or(|orbit| orbit.semi_axes()[0] > 0.0)
         };
         let moved = harmonics(&content.description)
             .into_iter()
             .map(Excitation::<Any>::new)
-            .filter(|own| found.harmonic(*own).is_some_and(moves));
-        let figures = moved.map(|own| orbit(found, [x, y], own, &content.brief_style));
+            .filter(|x| forced_response.harmonic(*x).is_some_and(moves));
+        let figures =
+            moved.map(|moved| orbit(forced_response, [x, y], moved, &content.brief_style));
         charts(html, figures)?;
     }
     Ok(())
@@ -99,7 +107,7 @@ fn motion(html: &mut Html, content: &Content) {
     for error in pictures
         .vibrations
         .iter()
-        .filter_map(|own| own.as_ref().err())
+        .filter_map(|vibration| vibration.as_ref().err())
     {
         refused(html, "a vibration is not shown in motion", error);
     }
@@ -107,7 +115,7 @@ fn motion(html: &mut Html, content: &Content) {
 
 fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Result<(), Error> {
     let found = match &along.bode {
-        Ok(found) => found,
+        Ok(bode) => bode,
         Err(error) => {
             refused(html, "vibration along the input is not known", error);
             return Ok(());
@@ -116,7 +124,7 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
     let failed = found
         .points
         .iter()
-        .filter(|own| own.vibration.is_err())
+        .filter(|point| point.vibration.is_err())
         .count();
     if failed > 0 {
         let all = found.points.len();
@@ -125,7 +133,7 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
         html.leaf("p", &[("class", "refused")], &text);
     }
     let wanted = Vibration::all(&content.description);
-    let peaks = along.peaks.iter().filter_map(|own| own.1.as_ref().ok());
+    let peaks = along.peaks.iter().filter_map(|peak| peak.1.as_ref().ok());
     let peaks: Vec<_> = peaks.cloned().collect();
     for &vibration in wanted.iter().take(MODES) {
         let name = Response::Vibration(vibration).name(&content.description);
@@ -143,7 +151,7 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
     for (_, error) in along
         .peaks
         .iter()
-        .filter_map(|(own, found)| Some((own, found.as_ref().err()?)))
+        .filter_map(|(x, found)| Some((x, found.as_ref().err()?)))
     {
         refused(html, "peaks are not known", error);
     }
@@ -160,6 +168,6 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
 /// The columns that fit on a page; the rest is available by copying.
 fn on_a_page(table: &Table) -> Vec<&str> {
     let left_out = ["Re", "Im", "mean", "99.9 %", "designs solved anew"];
-    let names = table.columns.iter().map(|own| &*own.name);
+    let names = table.columns.iter().map(|column| &*column.name);
     names.filter(|name| !left_out.contains(name)).collect()
 }

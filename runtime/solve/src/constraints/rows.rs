@@ -77,16 +77,16 @@ impl Rows {
 
     fn with_threshold(mut row: Matrix, scale: Vector, threshold: f64) -> Self {
         let count = row.row_count();
-        for own in row.iter_mut() {
-            divide_each(own, &scale);
+        for entry in row.iter_mut() {
+            divide_each(entry, &scale);
         }
         let mut size: Vector = row.iter().map(norm).collect();
         let greatest = largest(&size);
-        for (own, size) in row.iter_mut().zip(&mut size) {
+        for (entry, size) in row.iter_mut().zip(&mut size) {
             if *size > VANISHING * greatest {
-                divide(own, *size);
+                divide(entry, *size);
             } else {
-                own.fill(0.0);
+                entry.fill(0.0);
                 *size = if greatest > 0.0 { greatest } else { 1.0 };
             }
         }

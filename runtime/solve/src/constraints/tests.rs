@@ -26,17 +26,17 @@ fn rank_null_space_and_dependencies() {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     for _ in 0..50 {
         let given = rows(&mut random);
-        let found = Rows::balanced(given.clone());
-        assert_eq!((found.rank, found.dependent()), (3, 1));
-        let n = found.null_left(0);
+        let rows = Rows::balanced(given.clone());
+        assert_eq!((rows.rank, rows.dependent()), (3, 1));
+        let n = rows.null_left(0);
         let expected = [2.0, -1e-5, -1.0, 0.0];
         let factor = n[0] / expected[0];
         for (have, want) in n.iter().zip(expected) {
             assert!((have - factor * want).abs() <= 1e-12 * factor.abs());
         }
-        assert!((dot(&n, &found.null_left_scaled(0)) - 1.0).abs() < 1e-13);
-        assert_eq!(found.null_basis(6).len(), 3);
-        for direction in &found.null_basis(6) {
+        assert!((dot(&n, &rows.null_left_scaled(0)) - 1.0).abs() < 1e-13);
+        assert_eq!(rows.null_basis(6).len(), 3);
+        for direction in &rows.null_basis(6) {
             for row in given.iter() {
                 let terms: f64 = row.iter().zip(direction).map(|(a, b)| (a * b).abs()).sum();
                 assert!(dot(row, direction).abs() <= 1e-13 * terms);
@@ -44,7 +44,7 @@ fn rank_null_space_and_dependencies() {
         }
         let x = Vector::from_fn(6, |_| uniform(&mut random));
         let right = times(&given, &x);
-        let back = times(&given, &found.shortest(&right));
+        let back = times(&given, &rows.shortest(&right));
         assert!((0..4).all(|k| (back[k] - right[k]).abs() <= 1e-12 * right[k].abs().max(1.0)));
     }
 }
@@ -53,13 +53,13 @@ fn rank_null_space_and_dependencies() {
 fn multipliers_balance_what_can_be_balanced() {
     let mut random = ChaCha8Rng::seed_from_u64(2);
     let given = rows(&mut random);
-    let found = Rows::balanced(given.clone());
+    let rows = Rows::balanced(given.clone());
     let mu = [0.3, -2e-5, 0.7, 1.5];
     let force = times(&given.transpose(), &mu);
-    let again = found.multipliers(&force);
+    let again = rows.multipliers(&force);
     let balanced = times(&given.transpose(), &again);
     assert!((0..6).all(|j| (balanced[j] - force[j]).abs() <= 1e-12 * force[j].abs()));
-    assert!(dot(&again, &found.null_left_scaled(0)).abs() <= 1e-12);
+    assert!(dot(&again, &rows.null_left_scaled(0)).abs() <= 1e-12);
 }
 
 /// Three coordinates (two metres, one radian) and three constraints, two of which are equivalent in different units.

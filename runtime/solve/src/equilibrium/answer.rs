@@ -116,10 +116,10 @@ impl Answer for Assembly {
         let mut said = Findings::titled(self.title());
         let rows = [self];
         let mut table = Columns::new("assembly", &rows);
-        table.unknowns(d, &|own| Some(&own.coordinates[..]));
-        table.number("margin to dead centre", "", &|own| Some(own.margin));
-        table.flag("singular", &|own| {
-            Some(own.singular || own.constraints.singular)
+        table.unknowns(d, &|row| Some(&row.coordinates[..]));
+        table.number("margin to dead centre", "", &|row| Some(row.margin));
+        table.flag("singular", &|row| {
+            Some(row.singular || row.constraints.singular)
         });
         said.columns(table);
         unknowns(&mut said, d, &self.coordinates, Some(&self.changes()));

@@ -167,12 +167,12 @@ fn relative_residual_into(
     parts: &mut RestParts,
 ) -> f64 {
     point.parts_into(q, parts);
-    let own = relative_to(point, parts, q, residual, stiffness);
-    if own > TOLERANCE && point.motions() < q.len() {
+    let value = relative_to(point, parts, q, residual, stiffness);
+    if value > TOLERANCE && point.motions() < q.len() {
         let forces = [&parts.inertia[..], &parts.applied];
-        own.min(relative_to_passed_on(point, forces, q, residual, stiffness))
+        value.min(relative_to_passed_on(point, forces, q, residual, stiffness))
     } else {
-        own
+        value
     }
 }
 

@@ -93,12 +93,12 @@ where
         let stiffness = base.space.reduced(&base.stiffness);
         let convex = factors.factor(&stiffness).is_ok();
         if was_curved && convex {
-            let place = SearchState {
+            let search_state = SearchState {
                 q: base.q.clone(),
                 radius,
                 iterations,
             };
-            if let Some(found) = straight(place) {
+            if let Some(found) = straight(search_state) {
                 return Ok(UnjudgedResult {
                     left_unstable_region,
                     ..found

@@ -30,38 +30,43 @@ pub(super) fn finished(point: &OperatingPoint<'_>, q: Vector) -> Result<SolvedSt
 
 pub(super) fn finish(
     point: &OperatingPoint<'_>,
-    mut found: UnjudgedResult,
+    mut unjudged_result: UnjudgedResult,
 ) -> Result<SolvedState, Failure> {
     let Measured {
         linear,
         relative_residual: relative,
-    } = match found.measured.take() {
+    } = match unjudged_result.measured.take() {
         Some(measured) => measured,
-        None => measure(point, &mut found)?,
+        None => measure(point, &mut unjudged_result)?,
     };
     if relative.is_nan() || relative > ACCEPTED {
         return Err(Failure::NotFound {
             reason: NotFound::Inaccurate,
-            coordinates: found.coordinates.into(),
-            iterations: found.iterations,
+            coordinates: unjudged_result.coordinates.into(),
+            iterations: unjudged_result.iterations,
             relative,
         });
     }
-    let constraints = constraint_state(point, &found.coordinates, &found.residual, &linear)?;
+    let constraints = constraint_state(
+        point,
+        &unjudged_result.coordinates,
+        &unjudged_result.residual,
+        &linear,
+    )?;
     let mut state = Equilibrium {
-        coordinates: found.coordinates,
+        coordinates: unjudged_result.coordinates,
         inputs: point.inputs.into(),
         design: point.design.into(),
         stability: Stability::Undecided,
         rounding: 0.0,
         free: FreeDirections::of(&linear.stiffness, point.free()),
         linear,
-        residual: found.residual,
+        residual: unjudged_result.residual,
         relative_residual: relative,
-        iterations: found.iterations,
+        iterations: unjudged_result.iterations,
         pose: None,
         constraints,
-        left_unstable_region: found.left_unstable_region,
+        left_unstable_region: unjudged_result.left_unstable_region,
         kept: false,
         notes: Vec::new(),
         description: point.description.clone(),
@@ -86,30 +91,34 @@ pub(crate) fn judge(
     } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {
         Verdict::without_modes(Stability::Stable, 0.0)
     } else {
-        let place = CheckedState {
+        let checked_state = CheckedState {
             coordinates: &state.coordinates,
             inputs: point.inputs,
             design: point.design,
             residual: &state.residual,
         };
-        stability::judge(point.mechanism, &place, &state.linear, point.nearby)?
+        stability::judge(point.mechanism, &checked_state, &state.linear, point.nearby)?
     };
     (state.stability, state.rounding) = (verdict.stability, verdict.rounding);
     Ok(verdict.modes)
 }
 
 /// Determines the reactions of a state, and measures the state.
-fn measure(point: &OperatingPoint<'_>, found: &mut UnjudgedResult) -> Result<Measured, Failure> {
-    let mut linear = point.linear(&found.coordinates)?;
+fn measure(
+    point: &OperatingPoint<'_>,
+    unjudged_result: &mut UnjudgedResult,
+) -> Result<Measured, Failure> {
+    let mut linear = point.linear(&unjudged_result.coordinates)?;
     if point.structure.constraints() > 1 {
-        if let Some(least) = least_reactions(&found.coordinates, &linear, point.structure) {
+        if let Some(least) = least_reactions(&unjudged_result.coordinates, &linear, point.structure)
+        {
             linear = point.linear(&least)?;
-            found.coordinates = least;
+            unjudged_result.coordinates = least;
         }
         // Includes the gaps of constraints that were left out.
-        found.residual = point.residual(&found.coordinates);
+        unjudged_result.residual = point.residual(&unjudged_result.coordinates);
     }
-    let (q, residual) = (&found.coordinates, &found.residual);
+    let (q, residual) = (&unjudged_result.coordinates, &unjudged_result.residual);
     Ok(Measured {
         relative_residual: relative_residual(point, q, residual, &linear.stiffness),
         linear,

@@ -42,14 +42,14 @@ const DIFFERENT: f64 = 1e-9;
 pub(super) fn select_member(
     point: &OperatingPoint<'_>,
     start: &[f64],
-    found: SolvedState,
+    solved_state: SolvedState,
 ) -> Result<SolvedState, Failure> {
-    let q = &found.state.coordinates;
+    let q = &solved_state.state.coordinates;
     let choice = choice(point, start, q)?;
     let unit = units_of(point, q)?;
     let family = choice.filter(|held| newton(point, q, &perturbed(held, q, &unit)).is_some());
     let Some(mut held) = family else {
-        return refuse_held(point).map(|()| found);
+        return refuse_held(point).map(|()| solved_state);
     };
     let differs = |unknown: usize, a: f64, b: f64| {
         (a - b).abs() > DIFFERENT * (a.abs() + b.abs() + unit[unknown])
@@ -57,7 +57,7 @@ pub(super) fn select_member(
     let moves = |held: &Held| differs(held.unknown, q[held.unknown], held.value);
     let mut settled = match held.iter().any(moves) {
         true => finished(point, continued_to(point, start, q, &held)?)?,
-        false => found,
+        false => solved_state,
     };
     let state = &mut settled.state;
     let dimension = held.len();
@@ -67,12 +67,12 @@ pub(super) fn select_member(
     state.free = FreeDirections::of_member(&state.linear.stiffness, point.free(), held);
     state.notes.push(Note::Member { dimension });
     for unknown in point.named() {
-        let (asked, found) = (start[unknown], state.coordinates[unknown]);
-        if differs(unknown, asked, found) {
+        let (asked, coordinate) = (start[unknown], state.coordinates[unknown]);
+        if differs(unknown, asked, coordinate) {
             state.notes.push(Note::OtherValue {
                 unknown,
                 asked,
-                found,
+                found: coordinate,
             });
         }
     }
@@ -177,11 +177,11 @@ fn units_of(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
 
 /// The held unknowns, each perturbed slightly from its value at `q`.
 fn perturbed(held: &[Held], q: &[f64], unit: &[f64]) -> Vec<Held> {
-    let moved = |own: &Held| {
-        let here = q[own.unknown];
+    let moved = |held: &Held| {
+        let here = q[held.unknown];
         Held {
-            value: here + REACH * (here.abs() + unit[own.unknown]),
-            ..own.clone()
+            value: here + REACH * (here.abs() + unit[held.unknown]),
+            ..held.clone()
         }
     };
     held.iter().map(moved).collect()
@@ -191,16 +191,16 @@ fn perturbed(held: &[Held], q: &[f64], unit: &[f64]) -> Vec<Held> {
 fn continued_to(
     point: &OperatingPoint<'_>,
     start: &[f64],
-    found: &[f64],
+    values: &[f64],
     held: &[Held],
 ) -> Result<Vector, Failure> {
-    let direct = newton(point, start, held).or_else(|| newton(point, found, held));
+    let direct = newton(point, start, held).or_else(|| newton(point, values, held));
     let by_stages = || {
-        (1..=STAGES).try_fold(Vector::from(found), |q, stage| {
+        (1..=STAGES).try_fold(Vector::from(values), |q, stage| {
             let share = stage as f64 / STAGES as f64;
-            let on_the_way = |own: &Held| Held {
-                value: found[own.unknown] + share * (own.value - found[own.unknown]),
-                ..own.clone()
+            let on_the_way = |held: &Held| Held {
+                value: values[held.unknown] + share * (held.value - values[held.unknown]),
+                ..held.clone()
             };
             newton(point, &q, &held.iter().map(on_the_way).collect::<Vec<_>>())
         })

@@ -95,8 +95,8 @@ impl Search {
         let (mut lower, mut upper) = (Vector::from(about), Vector::from(about));
         let mut missing = Vec::new();
         for (i, info) in description.coordinates.iter().enumerate() {
-            let own = bounds.iter().find(|(unknown, ..)| unknown.index() == i);
-            if let Some(&(_, low, high)) = own {
+            let bound = bounds.iter().find(|(unknown, ..)| unknown.index() == i);
+            if let Some(&(_, low, high)) = bound {
                 (lower[i], upper[i]) = (low, high);
                 continue;
             }
@@ -163,7 +163,7 @@ pub fn find_equilibria(
     point.check_start(&search.lower)?;
     point.check_start(&search.upper)?;
     let mut random = RandomNumbers::new(search.seed, 0);
-    let mut found: Vec<Equilibrium> = Vec::new();
+    let mut equilibriums: Vec<Equilibrium> = Vec::new();
     let mut from = Vector::from(start);
     let (mut isolated, mut met) = (0, 0);
     for done in 0.. {
@@ -177,9 +177,9 @@ pub fn find_equilibria(
             };
             met += 1;
             let known = |known| same(&point, known, &state);
-            if !found.iter().any(known) {
+            if !equilibriums.iter().any(known) {
                 isolated += usize::from(!matches!(state.stability, Stability::Neutral { .. }));
-                found.push(state);
+                equilibriums.push(state);
             }
         }
         from = Vector::from_fn(start.len(), |i| {
@@ -187,7 +187,7 @@ pub fn find_equilibria(
         });
     }
     Ok(Equilibria {
-        states: found,
+        states: equilibriums,
         inputs: u.into(),
         description: point.description.clone(),
     })

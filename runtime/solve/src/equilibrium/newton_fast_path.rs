@@ -30,13 +30,13 @@ const MAX_ITERATIONS: usize = 8;
 /// Overwrites `state` except for its stability. On failure, returns the last convex state, or `place`.
 pub(super) fn newton_fast_path(
     point: &OperatingPoint<'_>,
-    place: SearchState,
+    search_state: SearchState,
     state: &mut Equilibrium,
 ) -> Result<(), SearchState> {
     for_size(
         point.size(),
         #[inline(always)]
-        |n| newton(n, point, place, state),
+        |n| newton(n, point, search_state, state),
     )
 }
 
@@ -45,7 +45,7 @@ pub(super) fn newton_fast_path(
 fn newton(
     n: usize,
     point: &OperatingPoint<'_>,
-    mut place: SearchState,
+    mut search_state: SearchState,
     state: &mut Equilibrium,
 ) -> Result<(), SearchState> {
     let (u, b) = (point.inputs, point.design);
@@ -53,19 +53,19 @@ fn newton(
         let mechanism = point.mechanism;
         mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
     };
-    let most = place.iterations + MAX_ITERATIONS;
+    let most = search_state.iterations + MAX_ITERATIONS;
     let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
     let mut factors = Cholesky::default();
     let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
     let (residual, step, next) = (&mut residual[..n], &mut step[..n], &mut next[..n]);
     let stiffness = &mut stiffness.as_flattened_mut()[..n * n];
     let (lower, pivots) = factors.room(n);
-    evaluate(&place.q[..n], residual, stiffness);
-    while place.iterations < most {
+    evaluate(&search_state.q[..n], residual, stiffness);
+    while search_state.iterations < most {
         if factor_rows(n, stiffness, lower, pivots).is_err() {
-            return Err(place);
+            return Err(search_state);
         }
-        let q = &mut place.q[..n];
+        let q = &mut search_state.q[..n];
         step.copy_from_slice(residual);
         solve_rows(n, lower, pivots, step);
         step.iter_mut().for_each(|value| *value = -*value);
@@ -76,23 +76,23 @@ fn newton(
             if !taken {
                 step.fill(0.0);
             }
-            state.iterations = place.iterations + usize::from(taken);
+            state.iterations = search_state.iterations + usize::from(taken);
             state.left_unstable_region = false;
             for ((end, q), step) in state.coordinates[..n].iter_mut().zip(&*q).zip(&*step) {
                 *end = q + step;
             }
             return match ends(n, point, residual, (lower, pivots), state) {
                 true => Ok(()),
-                false => Err(place),
+                false => Err(search_state),
             };
         }
         let size = largest(step);
-        let limited = size > place.radius;
+        let limited = size > search_state.radius;
         let mut share = 1.0;
         if limited {
-            share = place.radius / size;
+            share = search_state.radius / size;
             step.iter_mut()
-                .for_each(|value| *value = *value * place.radius / size);
+                .for_each(|value| *value = *value * search_state.radius / size);
         }
         let slope = dot(step, residual);
         // A Newton step has as much curvature as slope.
@@ -111,15 +111,15 @@ fn newton(
         let curvature = forces.fold(-0.0, |sum, (x, row)| sum + x * dot(row, step));
         let finite = slope.is_finite() && curvature.is_finite();
         if !(way.slope < 0.0 && finite && way.falls(1.0, slope, curvature)) {
-            return Err(place);
+            return Err(search_state);
         }
         if limited && way.predicts(1.0, slope) {
-            place.radius *= GROWTH;
+            search_state.radius *= GROWTH;
         }
         q.copy_from_slice(next);
-        place.iterations += 1;
+        search_state.iterations += 1;
     }
-    Err(place)
+    Err(search_state)
 }
 
 /// Completes the state at the coordinates reached by the last step, and returns whether it is solved: the remainder of
@@ -196,8 +196,8 @@ mod tests {
             let inputs = [omega];
             let point = OperatingPoint::unchecked(&DoublePendulum, &inputs, &[]);
             let straight = |place| {
-                let found: Result<Equilibrium, SearchState> = fast(&point, place);
-                let found = found.ok()?;
+                let equilibrium: Result<Equilibrium, SearchState> = fast(&point, place);
+                let found = equilibrium.ok()?;
                 let end = Candidate {
                     coordinates: found.coordinates,
                     residual: found.residual,
@@ -221,11 +221,11 @@ mod tests {
                         assert!(!left, "{omega} {start:?}");
                         state.coordinates
                     }
-                    Err(place) => {
+                    Err(error) => {
                         let before = alone.get();
-                        let found =
-                            minimise_potential::<Unconstrained>(&point, &start, &place, straight);
-                        let Ok(found) = found else {
+                        let unjudged_result =
+                            minimise_potential::<Unconstrained>(&point, &start, &error, straight);
+                        let Ok(found) = unjudged_result else {
                             panic!("nothing from {start:?}")
                         };
                         assert_eq!(found.left_unstable_region, left, "{omega} {start:?}");

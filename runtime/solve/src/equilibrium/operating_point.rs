@@ -91,7 +91,7 @@ impl<'a> OperatingPoint<'a> {
     #[inline]
     pub fn asked(mut self, named: &'a [bool], held: Vec<Held>) -> Self {
         let mut declared = declared(self.mechanism, self.inputs, self.design);
-        declared.retain(|own| held.iter().all(|other| other.unknown != own.unknown));
+        declared.retain(|declared| held.iter().all(|other| other.unknown != declared.unknown));
         self.named = named;
         self.held = held;
         self.held.append(&mut declared);
@@ -123,7 +123,7 @@ impl<'a> OperatingPoint<'a> {
     /// Held unknowns, those with declared values at the values of this design.
     fn at_declared_values(&self, held: &[Held]) -> Vec<Held> {
         let mut held = held.to_vec();
-        if held.iter().any(|own| own.declared.is_some()) {
+        if held.iter().any(|x| x.declared.is_some()) {
             let declared = declared(self.mechanism, self.inputs, self.design);
             for own in &mut held {
                 if let Some(place) = own.declared {
@@ -177,8 +177,8 @@ impl<'a> OperatingPoint<'a> {
 
     /// This point with the place held as at another state.
     #[doc(hidden)]
-    pub fn placed(self, place: &'a FreeDirections) -> Self {
-        let place = (!place.is_empty()).then_some(place);
+    pub fn placed(self, free_directions: &'a FreeDirections) -> Self {
+        let place = (!free_directions.is_empty()).then_some(free_directions);
         Self { place, ..self }
     }
 

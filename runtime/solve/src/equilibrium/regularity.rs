@@ -52,32 +52,32 @@ pub fn constraint_state(
     }
     let tangent = Tangent::new(linear, structure);
     let place = (q, point.inputs, point.design);
-    let mut found = ConstraintState::new(point.mechanism, place, &tangent);
-    if found.singular || tangent.all.hardly_supported().next().is_none() {
-        return Ok(found);
+    let mut constraint_state = ConstraintState::new(point.mechanism, place, &tangent);
+    if constraint_state.singular || tangent.all.hardly_supported().next().is_none() {
+        return Ok(constraint_state);
     }
     let noise = noise(point, q, residual, linear);
     let each = tangent.all.hardly_supported();
     let mut each = each.map(|i| Weak::new(point, q, &tangent, i));
     let Some(weak) = each.find(|weak| weak.moved(linear, &noise) > KNOWN) else {
-        return Ok(found);
+        return Ok(constraint_state);
     };
-    found.singular = true;
+    constraint_state.singular = true;
     let rows = || structure.constraint_rows().enumerate();
-    let share = |(k, place): (usize, usize)| (weak.combination[place] * tangent.all.size[k]).abs();
+    let share = |(k, index): (usize, usize)| (weak.combination[index] * tangent.all.size[k]).abs();
     let most = rows().map(share).fold(0.0, greater);
     for (k, place) in rows() {
-        found.dependent[place] |= share((k, place)) > TAKES_PART * most;
+        constraint_state.dependent[place] |= share((k, place)) > TAKES_PART * most;
     }
     let force = weak.force(point, q);
     if force == 0.0 {
-        return Ok(found);
+        return Ok(constraint_state);
     }
     let downhill = -force.signum() / largest(&weak.direction);
     Err(Failure::Unbalanced {
         coordinates: q.into(),
         downhill: weak.direction.map(|value| downhill * value).into(),
-        dependent: found.dependent,
+        dependent: constraint_state.dependent,
     })
 }
 

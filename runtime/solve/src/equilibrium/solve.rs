@@ -44,10 +44,10 @@ pub fn solve_into(
         member::refuse_held(point)?;
     }
     let found = if policy == Policy::Stable && has_open_potential(point) {
-        let place = descent::SearchState::first(start);
-        match newton_fast_path::newton_fast_path(point, place, state) {
+        let search_state = descent::SearchState::first(start);
+        match newton_fast_path::newton_fast_path(point, search_state, state) {
             Ok(()) => return judge(point, state),
-            Err(place) => solve_by_descent(point, start, &place)?,
+            Err(error) => solve_by_descent(point, start, &error)?,
         }
     } else {
         solve_slowly(point, start, policy)?
@@ -77,35 +77,35 @@ fn solve_slowly(
     };
     let potential = point.description.symmetric_stiffness && structure.holonomic();
     if policy == Policy::Nearest || !potential {
-        let mut found = nearest_beside(point, start)?;
+        let mut solved_state = nearest_beside(point, start)?;
         if !structure.holonomic() {
-            found = member::select_member(point, start, found)?;
+            solved_state = member::select_member(point, start, solved_state)?;
         }
         if policy == Policy::Nearest {
-            found
+            solved_state
                 .state
                 .notes
-                .extend(far(point, start, &found.state.coordinates));
+                .extend(far(point, start, &solved_state.state.coordinates));
         }
-        return Ok(found);
+        return Ok(solved_state);
     }
-    let mut found = solve_by_descent(point, start, &descent::SearchState::first(start));
+    let mut solved_state = solve_by_descent(point, start, &descent::SearchState::first(start));
     for _ in 0..descent::MAX_DEPARTURES {
         let Err(Failure::Unbalanced {
             coordinates,
             downhill,
             ..
-        }) = found
+        }) = solved_state
         else {
-            return found;
+            return solved_state;
         };
         let start = departed(point, &coordinates, &downhill)?;
-        found = solve_by_descent(point, &start, &descent::SearchState::first(&start));
-        if let Ok(found) = &mut found {
+        solved_state = solve_by_descent(point, &start, &descent::SearchState::first(&start));
+        if let Ok(found) = &mut solved_state {
             found.state.left_unstable_region = true;
         }
     }
-    found
+    solved_state
 }
 
 /// What to say if the nearest equilibrium is far from the start values that were given.
@@ -142,8 +142,8 @@ pub fn solve_from_prediction(
     if !has_open_potential(point) {
         return None;
     }
-    let place = descent::SearchState::first(predicted);
-    newton_fast_path::newton_fast_path(point, place, state).ok()?;
+    let search_state = descent::SearchState::first(predicted);
+    newton_fast_path::newton_fast_path(point, search_state, state).ok()?;
     if !confirmed(&state.coordinates, predicted, last) {
         return None;
     }
@@ -155,7 +155,7 @@ pub fn solve_from_prediction(
 fn solve_by_descent(
     point: &OperatingPoint<'_>,
     start: &[f64],
-    place: &descent::SearchState,
+    search_state: &descent::SearchState,
 ) -> Result<SolvedState, Failure> {
     let structure = point.structure;
     if let Some(named) = stays(point, start) {
@@ -165,14 +165,20 @@ fn solve_by_descent(
         return Ok(held);
     }
     let found = if structure.open() {
-        descent::minimise_potential::<search_space::Unconstrained>(point, start, place, |place| {
-            straight(point, place)
-        })
+        descent::minimise_potential::<search_space::Unconstrained>(
+            point,
+            start,
+            search_state,
+            |place| straight(point, place),
+        )
     } else {
-        descent::minimise_potential::<search_space::ConstraintManifold>(point, start, place, |_| {
-            None
-        })
-        .and_then(|found| polished(point, found))
+        descent::minimise_potential::<search_space::ConstraintManifold>(
+            point,
+            start,
+            search_state,
+            |_| None,
+        )
+        .and_then(|unjudged_result| polished(point, unjudged_result))
     };
     found
         .or_else(|failure| match failure {
@@ -190,10 +196,13 @@ fn solve_by_descent(
 }
 
 /// Refuses a state next to a pole of the forces.
-fn bounded(point: &OperatingPoint<'_>, found: UnjudgedResult) -> Result<UnjudgedResult, Failure> {
-    let q = &found.coordinates;
+fn bounded(
+    point: &OperatingPoint<'_>,
+    unjudged_result: UnjudgedResult,
+) -> Result<UnjudgedResult, Failure> {
+    let q = &unjudged_result.coordinates;
     if !descent::grows_without_bound(point, q) {
-        return Ok(found);
+        return Ok(unjudged_result);
     }
     let relative = point
         .evaluate(q)
@@ -202,9 +211,9 @@ fn bounded(point: &OperatingPoint<'_>, found: UnjudgedResult) -> Result<Unjudged
         });
     Err(Failure::NotFound {
         reason: NotFound::Unbounded,
-        iterations: found.iterations,
+        iterations: unjudged_result.iterations,
         relative,
-        coordinates: found.coordinates.to_vec(),
+        coordinates: unjudged_result.coordinates.to_vec(),
     })
 }
 
@@ -224,8 +233,8 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
     }
     let found = nearest(point, start).ok()?;
     let is_there = |unknown: usize| {
-        let (asked, found) = (start[unknown], found.coordinates[unknown]);
-        (asked - found).abs() <= NAMED * (asked.abs() + SMALL_MOTION)
+        let (asked, coordinate) = (start[unknown], found.coordinates[unknown]);
+        (asked - coordinate).abs() <= NAMED * (asked.abs() + SMALL_MOTION)
     };
     if !point.named().all(is_there) {
         return None;
@@ -242,9 +251,12 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
 const NAMED: f64 = 1e-8;
 
 /// The minimum that the fast path finds from `place`.
-fn straight(point: &OperatingPoint<'_>, place: descent::SearchState) -> Option<UnjudgedResult> {
+fn straight(
+    point: &OperatingPoint<'_>,
+    search_state: descent::SearchState,
+) -> Option<UnjudgedResult> {
     let mut state = point.blank_state();
-    newton_fast_path::newton_fast_path(point, place, &mut state).ok()?;
+    newton_fast_path::newton_fast_path(point, search_state, &mut state).ok()?;
     Some(UnjudgedResult {
         coordinates: state.coordinates,
         residual: state.residual,
@@ -305,18 +317,23 @@ fn nearest(point: &OperatingPoint<'_>, start: &[f64]) -> Result<UnjudgedResult, 
         return whole();
     }
     newton::damped_newton::<search_space::ConstraintManifold>(point, start)
-        .and_then(|found| polished(point, found))
+        .and_then(|unjudged_result| polished(point, unjudged_result))
         .or_else(|failure| whole().map_err(|_| failure))
 }
 
 /// Takes the last steps in coordinates and reactions together.
-fn polished(point: &OperatingPoint<'_>, found: UnjudgedResult) -> Result<UnjudgedResult, Failure> {
-    let independent = point.without_redundant(&found.coordinates);
-    let last =
-        newton::damped_newton::<search_space::Unconstrained>(&independent, &found.coordinates)?;
+fn polished(
+    point: &OperatingPoint<'_>,
+    unjudged_result: UnjudgedResult,
+) -> Result<UnjudgedResult, Failure> {
+    let independent = point.without_redundant(&unjudged_result.coordinates);
+    let last = newton::damped_newton::<search_space::Unconstrained>(
+        &independent,
+        &unjudged_result.coordinates,
+    )?;
     Ok(UnjudgedResult {
-        iterations: found.iterations + last.iterations,
-        left_unstable_region: found.left_unstable_region,
+        iterations: unjudged_result.iterations + last.iterations,
+        left_unstable_region: unjudged_result.left_unstable_region,
         ..last
     })
 }

@@ -517,7 +517,9 @@ fn ranges(all: &[core::ops::Range<u64>]) -> String {
 
 /// Why the nominal design lacks a response.
 fn nominally(reason: Option<&Error>) -> String {
-    reason.map_or_else(String::new, |own| format!(". At the nominal design, {own}"))
+    reason.map_or_else(String::new, |reason| {
+        format!(". At the nominal design, {reason}")
+    })
 }
 
 /// The mode in resonance, counted from 1 as in all messages.

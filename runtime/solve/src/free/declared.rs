@@ -43,7 +43,7 @@ pub(super) fn derivatives(
 ) -> Derivatives {
     let count = mechanism.description().held.len();
     let size = u.len() + b.len();
-    let mut found = Derivatives {
+    let mut derivatives = Derivatives {
         values: Vector::zeros(count),
         first: Matrix::zeros(count, size),
         along: Matrix::zeros(count, size),
@@ -58,16 +58,16 @@ pub(super) fn derivatives(
         mechanism.held_values_into(u, b, &mut values);
         values.clone()
     };
-    for (own, value) in found.values.iter_mut().zip(evaluate(&numbers)) {
+    for (own, value) in derivatives.values.iter_mut().zip(evaluate(&numbers)) {
         *own = value.value.value;
     }
     for j in 0..size {
         numbers[j].slope.value = 1.0;
         for (k, value) in evaluate(&numbers).iter().enumerate() {
-            found.first[k][j] = value.slope.value;
-            found.along[k][j] = value.slope.slope;
+            derivatives.first[k][j] = value.slope.value;
+            derivatives.along[k][j] = value.slope.slope;
         }
         numbers[j].slope.value = 0.0;
     }
-    found
+    derivatives
 }

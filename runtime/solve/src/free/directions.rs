@@ -104,7 +104,7 @@ impl FreeDirections {
         });
         let free = NullSpace::of(&moved, count).right;
         let n = stiffness.row_count();
-        let unit = |place: usize| Vector::from_fn(n, |i| if i == place { 1.0 } else { 0.0 });
+        let unit = |index: usize| Vector::from_fn(n, |i| if i == index { 1.0 } else { 0.0 });
         let combined = |shares: &Vector| {
             let mut row = Vector::zeros(n);
             for (share, own) in shares.iter().zip(&own.rows) {
@@ -158,9 +158,11 @@ impl FreeDirections {
         }
         let changes = derivatives(mechanism, at, along).along;
         for (held, column) in self.held.iter().zip(&self.columns) {
-            let Some(place) = held.declared else { continue };
+            let Some(declared) = held.declared else {
+                continue;
+            };
             let along = -dot(w, column);
-            let (inputs, design) = changes[place].split_at(by_input.len());
+            let (inputs, design) = changes[declared].split_at(by_input.len());
             add_to(by_input, along, inputs);
             add_to(by_design, along, design);
         }

@@ -206,11 +206,11 @@ impl Elimination {
 }
 
 fn placed(x: &[f64], order: &[usize]) -> Vector {
-    let mut found = Vector::zeros(x.len());
+    let mut vector = Vector::zeros(x.len());
     for (value, &place) in x.iter().zip(order) {
-        found[place] = *value;
+        vector[place] = *value;
     }
-    found
+    vector
 }
 
 /// An orthonormal basis of the space that independent vectors span.
@@ -253,15 +253,15 @@ mod tests {
         for unit in [[1.0; 4], [1.0, 1e-9, 3e5, 0.2], [1e8, 1e-8, 1e8, 1e-8]] {
             for least in [0, 1] {
                 let matrix = chain(&unit);
-                let found = NullSpace::of(&matrix, least);
-                assert_eq!(found.right.len(), 1);
-                assert!(found.remainder < 1e-14);
-                let x = &found.right[0];
+                let null_space = NullSpace::of(&matrix, least);
+                assert_eq!(null_space.right.len(), 1);
+                assert!(null_space.remainder < 1e-14);
+                let x = &null_space.right[0];
                 for (value, own) in x.iter().zip(unit) {
                     assert!((value * own / (x[0] * unit[0]) - 1.0).abs() < 1e-12);
                 }
-                assert_eq!(found.left, found.right);
-                assert!((dot(&found.rows[0], x) - 1.0).abs() < 1e-14);
+                assert_eq!(null_space.left, null_space.right);
+                assert!((dot(&null_space.rows[0], x) - 1.0).abs() < 1e-14);
             }
         }
     }
@@ -269,10 +269,10 @@ mod tests {
     #[test]
     fn left_and_right_null_vectors_differ_without_symmetry() {
         let matrix = Matrix::from([[1.0, 2.0, 3.0], [2.0, 4.0, 6.0], [0.0, 1.0, -1.0]]);
-        let found = NullSpace::of(&matrix, 0);
-        assert_eq!((found.right.len(), found.left.len()), (1, 1));
-        assert!(largest(&times(&matrix, &found.right[0])) < 1e-14);
-        assert!(largest(&times(&matrix.transpose(), &found.left[0])) < 1e-14);
+        let null_space = NullSpace::of(&matrix, 0);
+        assert_eq!((null_space.right.len(), null_space.left.len()), (1, 1));
+        assert!(largest(&times(&matrix, &null_space.right[0])) < 1e-14);
+        assert!(largest(&times(&matrix.transpose(), &null_space.left[0])) < 1e-14);
         assert!(
             NullSpace::of(&Matrix::from([[2.0, 1.0], [1.0, 1.0]]), 0)
                 .right
@@ -285,7 +285,7 @@ mod tests {
     fn a_regular_matrix_gives_its_least_resisted_direction() {
         let matrix = Matrix::from([[1.0, 0.0], [0.0, 1e-6]]);
         assert_eq!(NullSpace::of(&matrix, 0).right.len(), 0);
-        let found = NullSpace::of(&matrix, 1);
-        assert_eq!(found.right.len(), 1);
+        let null_space = NullSpace::of(&matrix, 1);
+        assert_eq!(null_space.right.len(), 1);
     }
 }

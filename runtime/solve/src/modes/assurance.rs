@@ -38,13 +38,13 @@ pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
     let own_sizes: Vec<_> = own_sizes.map(|(_, size, rate)| (size, rate)).collect();
     let others: Vec<_> = to.modes.iter().map(measured).collect();
     Matrix::from_fn(from.modes.len(), to.modes.len(), |i, j| {
-        let (own, (own_size, own_rate)) = (&from.modes[i], own_sizes[i]);
+        let (mode, (own_size, own_rate)) = (&from.modes[i], own_sizes[i]);
         let (weighted, size, rate) = &others[j];
         let scale = own_size * size;
-        let cosine = product(&own.shape, weighted).norm_sqr();
+        let cosine = product(&mode.shape, weighted).norm_sqr();
         let shapes = if scale > 0.0 { cosine / scale } else { 0.0 };
         if general {
-            shapes * same_eigenvalue(own.s, to.modes[j].s, own_rate, *rate)
+            shapes * same_eigenvalue(mode.s, to.modes[j].s, own_rate, *rate)
         } else {
             shapes
         }
@@ -129,18 +129,18 @@ pub fn match_with_assurance(
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
         let pairs = from.modes.iter().zip(&to.modes);
-        let own = pairs.map(|(own, other)| real_assurance(own, other, &linear.mass));
-        let own: Vector<_> = own.enumerate().map(Some).collect();
-        if own.iter().flatten().all(|&(_, same)| same > CERTAIN) {
-            return own;
+        let own = pairs.map(|(x, other)| real_assurance(x, other, &linear.mass));
+        let vector: Vector<_> = own.enumerate().map(Some).collect();
+        if vector.iter().flatten().all(|&(_, same)| same > CERTAIN) {
+            return vector;
         }
     }
     let table = assurance(from, to, linear);
-    let mut found = Vector::filled(here, None);
+    let mut vector = Vector::filled(here, None);
     let mut used = vec![false; there];
     for _ in 0..here.min(there) {
         let mut best = None;
-        for i in (0..here).filter(|&i| found[i].is_none()) {
+        for i in (0..here).filter(|&i| vector[i].is_none()) {
             for j in (0..there).filter(|&j| !used[j]) {
                 if best.is_none_or(|(_, _, most)| table[i][j] > most) {
                     best = Some((i, j, table[i][j]));
@@ -148,11 +148,11 @@ pub fn match_with_assurance(
             }
         }
         if let Some((i, j, most)) = best {
-            found[i] = Some((j, most));
+            vector[i] = Some((j, most));
             used[j] = true;
         }
     }
-    found
+    vector
 }
 
 impl Modes {
@@ -161,7 +161,7 @@ impl Modes {
     /// Modes without a predecessor come last, labelled from `next` on.
     #[doc(hidden)]
     pub fn arrange(&mut self, before: &Self, order: &[Option<usize>], mut next: usize) {
-        let in_place = |(i, place): (usize, &Option<usize>)| *place == Some(i);
+        let in_place = |(i, index): (usize, &Option<usize>)| *index == Some(i);
         if order.len() == self.modes.len() && order.iter().enumerate().all(in_place) {
             for (mode, before) in self.modes.iter_mut().zip(&before.modes) {
                 mode.label = before.label;
@@ -198,15 +198,15 @@ pub fn merged(modes: &Modes, r: usize) -> bool {
     /// Semisimple eigenvalues that meet are conditioned far better; defective ones that can still be told apart, far
     /// worse.
     const ILL_CONDITIONED: f64 = 1e5;
-    let own = &modes.modes[r];
-    let free = own.behaviour == Behaviour::Free;
-    if modes.family == Family::Undamped || free || own.condition <= ILL_CONDITIONED {
+    let mode = &modes.modes[r];
+    let free = mode.behaviour == Behaviour::Free;
+    if modes.family == Family::Undamped || free || mode.condition <= ILL_CONDITIONED {
         return false;
     }
     let others = modes.modes.iter().enumerate().filter(|(j, _)| *j != r);
-    let gaps = others.map(|(_, other)| (own.s - other.s).norm());
-    let conjugate = (own.s.im > 0.0).then_some(2.0 * own.s.im);
-    !own.condition.is_finite() || gaps.chain(conjugate).any(|gap| gap <= own.error)
+    let gaps = others.map(|(_, other)| (mode.s - other.s).norm());
+    let conjugate = (mode.s.im > 0.0).then_some(2.0 * mode.s.im);
+    !mode.condition.is_finite() || gaps.chain(conjugate).any(|gap| gap <= mode.error)
 }
 
 /// The groups of equal eigenvalues, each with the positions of its modes, ascending. The shapes in a group are an
@@ -250,9 +250,9 @@ pub fn clusters(modes: &Modes, gap: f64) -> Vec<bool> {
 /// Whether the eigenvalue of mode `i` lies within `gap` of another one, relative to the larger of the two.
 #[inline(always)]
 pub fn near_another(modes: &Modes, i: usize, gap: f64) -> bool {
-    let own = &modes.modes[i];
+    let mode = &modes.modes[i];
     let mut others = modes.modes.iter().enumerate().filter(|(j, _)| *j != i);
-    others.any(|(_, other)| near_each_other(modes.family, own, other, gap))
+    others.any(|(_, other)| near_each_other(modes.family, mode, other, gap))
 }
 
 /// Whether two eigenvalues are within `gap`, relative to the larger of the two.

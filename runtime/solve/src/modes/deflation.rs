@@ -167,7 +167,7 @@ struct Images {
 /// The pencil without the zeros of motions that drift; `None` if there are none.
 pub(crate) fn deflated(linear: &Linear, count: usize) -> Option<Linear> {
     let split = Split::new(linear, count)?;
-    Deflated::new(linear, split.drifting).map(|own| own.pencil())
+    Deflated::new(linear, split.drifting).map(|deflated| deflated.pencil())
 }
 
 /// The roots of a pencil with `count` free directions, those of the motions that drift first; `solve` finds the roots
@@ -282,7 +282,7 @@ pub(crate) fn first_order_roots(
         WithoutZeros::new(&rest.matrix, &space, drifting)
     });
     let innermost = again.as_ref().unwrap_or(&rest);
-    let mut found: Vec<Root> = right
+    let mut roots: Vec<Root> = right
         .iter()
         .zip(left)
         .map(|(z, w)| standing(z, w))
@@ -292,9 +292,9 @@ pub(crate) fn first_order_roots(
             root.right = level.right(root.s, &root.right);
             root.left = level.left(&root.left);
         }
-        found.push(root);
+        roots.push(root);
     }
-    Ok(found)
+    Ok(roots)
 }
 
 /// A matrix without some of its zero eigenvalues.
@@ -414,7 +414,7 @@ impl Split {
         };
         let across = |space: &[Vector]| {
             let rows = Matrix::from_fn(free.count(), free.count(), |i, j| {
-                space.get(i).map_or(0.0, |own| own[j])
+                space.get(i).map_or(0.0, |x| x[j])
             });
             NullSpace::of(&rows, 0).right
         };
@@ -527,26 +527,26 @@ fn others(vectors: impl IntoIterator<Item = Vector>) -> Vec<usize> {
 }
 
 fn placed(n: usize, places: &[usize], values: &[Complex64]) -> Vector<Complex64> {
-    let mut found = Vector::zeros(n);
+    let mut vector = Vector::zeros(n);
     for (&place, value) in places.iter().zip(values) {
-        found[place] = *value;
+        vector[place] = *value;
     }
-    found
+    vector
 }
 
 /// Vectors made orthonormal in the mass matrix.
 fn orthonormal_in(mass: &Matrix, vectors: &[Vector]) -> Vec<Vector> {
     let mut found: Vec<Vector> = Vec::new();
     for vector in vectors {
-        let mut own = vector.clone();
+        let mut vector = vector.clone();
         for _ in 0..2 {
             for other in &found {
-                let along = dot(&times(mass, other), &own);
-                add_to(&mut own, -along, other);
+                let along = dot(&times(mass, other), &vector);
+                add_to(&mut vector, -along, other);
             }
         }
-        let size = dot(&own, &times(mass, &own)).sqrt();
-        found.push(own.map(|value| value / size));
+        let size = dot(&vector, &times(mass, &vector)).sqrt();
+        found.push(vector.map(|value| value / size));
     }
     found
 }

@@ -57,8 +57,8 @@ pub fn inertia<'a>(
                 Complex::default()
             }
         });
-        let own = product(&motion, &times_complex(&weight, &motion)).re;
-        own > MASSLESS * greatest * product(&motion, &motion).re
+        let re = product(&motion, &times_complex(&weight, &motion)).re;
+        re > MASSLESS * greatest * product(&motion, &motion).re
     };
     if shapes.all(moves_mass) {
         return weight;

@@ -192,9 +192,9 @@ pub(crate) fn modes_at(
     family: Family,
     judged: Vec<Mode>,
 ) -> Result<Modes, Error> {
-    let mut found = Modes::empty(family, &at.description);
-    found.solve_at(at, judged)?;
-    Ok(found)
+    let mut modes = Modes::empty(family, &at.description);
+    modes.solve_at(at, judged)?;
+    Ok(modes)
 }
 
 /// Modes of given matrices that belong to the mechanism described by `description`.

@@ -26,9 +26,9 @@ pub fn sensitivities(
     at: &Equilibrium,
     modes: &Modes,
 ) -> Result<Sensitivities, Error> {
-    let mut found = Sensitivities::blank(at, modes, Method::Adjoint);
-    Adjoint::new(mechanism, modes.family).sensitivities_into(at, modes, &mut found)?;
-    Ok(found)
+    let mut sensitivities = Sensitivities::blank(at, modes, Method::Adjoint);
+    Adjoint::new(mechanism, modes.family).sensitivities_into(at, modes, &mut sensitivities)?;
+    Ok(sensitivities)
 }
 
 /// Computes [`sensitivities`] for a sequence of states.
@@ -61,7 +61,7 @@ impl<'a> Adjoint<'a> {
         &mut self,
         at: &Equilibrium,
         modes: &Modes,
-        found: &mut Sensitivities,
+        sensitivities: &mut Sensitivities,
     ) -> Result<(), Error> {
         let Self {
             mechanism,
@@ -96,21 +96,21 @@ impl<'a> Adjoint<'a> {
         };
         match (modes.family, matrices, residual) {
             (Family::Undamped, Some(matrices), Some(residual)) => {
-                assemble_into(at, modes, found, |own, mode| {
-                    shared.undamped_from_partials(matrices, residual, own, mode);
+                assemble_into(at, modes, sensitivities, |item, mode| {
+                    shared.undamped_from_partials(matrices, residual, item, mode);
                 })
             }
             (Family::Undamped, ..) => {
                 let (mut gradient, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
-                assemble_into(at, modes, found, |own, mode| {
-                    shared.undamped(&mut gradient, &mut room, own, mode);
+                assemble_into(at, modes, sensitivities, |item, mode| {
+                    shared.undamped(&mut gradient, &mut room, item, mode);
                 })
             }
             (Family::General, ..) => {
                 let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
                 let mut room = Gradient::zeros(sizes);
-                assemble_into(at, modes, found, |own, mode| {
-                    shared.general(matrices, &mut gradient, &mut room, own, mode);
+                assemble_into(at, modes, sensitivities, |item, mode| {
+                    shared.general(matrices, &mut gradient, &mut room, item, mode);
                 })
             }
         }
@@ -132,11 +132,12 @@ impl AdjointContext<'_> {
         &self,
         matrices: &PartialMatrices,
         (by_input, by_design): &ResidualPartials,
-        own: &mut ModeSensitivity,
+        mode_sensitivity: &mut ModeSensitivity,
         mode: &Mode,
     ) {
         let symmetric = self.at.description.symmetric_stiffness;
-        let [inputs, design] = own.make_undamped(mode, self.at.inputs.len(), self.at.design.len());
+        let [inputs, design] =
+            mode_sensitivity.make_undamped(mode, self.at.inputs.len(), self.at.design.len());
         for_size(
             mode.shape.len(),
             #[inline(always)]
@@ -162,7 +163,7 @@ impl AdjointContext<'_> {
         &self,
         gradient: &mut Gradient,
         room: &mut Gradient,
-        own: &mut ModeSensitivity,
+        mode_sensitivity: &mut ModeSensitivity,
         mode: &Mode,
     ) {
         let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
@@ -171,7 +172,7 @@ impl AdjointContext<'_> {
             .mode_gradient_into(q, u, b, &phi, mode.lambda, gradient);
         self.total(gradient, room);
         let (inputs, design) = (gradient.inputs.iter(), gradient.design.iter());
-        own.set_undamped(mode, inputs.copied(), design.copied());
+        mode_sensitivity.set_undamped(mode, inputs.copied(), design.copied());
     }
 
     /// The derivatives of a general mode.
@@ -180,7 +181,7 @@ impl AdjointContext<'_> {
         matrices: Option<&PartialMatrices>,
         gradient: &mut ComplexGradient,
         room: &mut Gradient,
-        own: &mut ModeSensitivity,
+        mode_sensitivity: &mut ModeSensitivity,
         mode: &Mode,
     ) {
         match matrices {
@@ -198,7 +199,7 @@ impl AdjointContext<'_> {
         let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
         let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
         let by_design = re.design.iter().zip(&im.design).map(slope);
-        own.set_general(mode, by_input, by_design);
+        mode_sensitivity.set_general(mode, by_input, by_design);
     }
 
     /// Adds the effect of the equilibrium shift to a gradient.

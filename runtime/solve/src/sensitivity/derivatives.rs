@@ -80,9 +80,9 @@ impl<'a> Shown<'a> {
     fn matters(&self, j: usize, variable: &Variable<'_>) -> bool {
         let effect = self.of.effect(j, variable);
         self.of.clustered
-            || effect.is_some_and(|own| match variable.value == 0.0 {
-                true => unless_rounding(own, self.most) != 0.0,
-                false => relevant(own, self.most),
+            || effect.is_some_and(|effect| match variable.value == 0.0 {
+                true => unless_rounding(effect, self.most) != 0.0,
+                false => relevant(effect, self.most),
             })
     }
 
@@ -115,10 +115,10 @@ pub fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derived]) {
     let exists = |of: &Derived| variables.is_empty() || !of.slopes.is_empty();
     for (what, exist) in [("All derivatives zero", true), ("No derivative", false)] {
         let own = still.iter().filter(|column| exists(column.of) == exist);
-        let own: Vec<String> = own.map(|column| column.of.heading()).collect();
-        let own: Vec<&str> = own.iter().map(String::as_str).collect();
-        if !own.is_empty() {
-            said.note(format!("{what}: {}.", names(&own, "columns")));
+        let texts: Vec<String> = own.map(|column| column.of.heading()).collect();
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        if !texts.is_empty() {
+            said.note(format!("{what}: {}.", names(&texts, "columns")));
         }
     }
     if !left.is_empty() && !columns.is_empty() {
@@ -135,7 +135,7 @@ pub fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derived]) {
 pub fn data(name: &str, what: &str, variables: &[Variable<'_>], all: &[Derived]) -> Table {
     let each = all.iter();
     let rows: Vec<_> = each
-        .flat_map(|of| variables.iter().enumerate().map(move |own| (of, own)))
+        .flat_map(|of| variables.iter().enumerate().map(move |x| (of, x)))
         .collect();
     let mut table = Columns::new(name, &rows);
     table.words(what, &|row| Some(row.0.name.clone()));

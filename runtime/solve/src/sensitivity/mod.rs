@@ -121,25 +121,25 @@ fn assemble(
     method: Method,
     set: impl FnMut(&mut ModeSensitivity, &Mode),
 ) -> Result<Sensitivities, Error> {
-    let mut found = Sensitivities::blank(at, modes, method);
-    assemble_into(at, modes, &mut found, set)?;
-    Ok(found)
+    let mut sensitivities = Sensitivities::blank(at, modes, method);
+    assemble_into(at, modes, &mut sensitivities, set)?;
+    Ok(sensitivities)
 }
 
 /// Like [`assemble`], overwriting derivatives of the same mechanism, family and method.
 fn assemble_into(
     at: &Equilibrium,
     modes: &Modes,
-    found: &mut Sensitivities,
+    sensitivities: &mut Sensitivities,
     mut set: impl FnMut(&mut ModeSensitivity, &Mode),
 ) -> Result<(), Error> {
     check_modes(at, modes)?;
-    found.inputs.clone_from(&at.inputs);
-    found
+    sensitivities.inputs.clone_from(&at.inputs);
+    sensitivities
         .modes
         .resize_with(modes.modes.len(), ModeSensitivity::blank);
     let mut finite = true;
-    for (position, (own, mode)) in found.modes.iter_mut().zip(&modes.modes).enumerate() {
+    for (position, (own, mode)) in sensitivities.modes.iter_mut().zip(&modes.modes).enumerate() {
         if mode.behaviour == Behaviour::Free {
             own.set_free(at.inputs.len(), at.design.len());
         } else if merged(modes, position) {
@@ -169,11 +169,11 @@ pub fn check_state(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Erro
 pub fn check_modes(at: &Equilibrium, modes: &Modes) -> Result<(), Error> {
     let expected = at.coordinates.len();
     let mut lengths = modes.modes.iter().map(|mode| mode.shape.len());
-    match lengths.find(|&found| found != expected) {
+    match lengths.find(|&length| length != expected) {
         None => Ok(()),
-        Some(found) => Err(Error::WrongLength {
+        Some(length) => Err(Error::WrongLength {
             kind: "components of a shape",
-            found,
+            found: length,
             expected,
         }),
     }

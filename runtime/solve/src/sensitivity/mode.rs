@@ -39,7 +39,7 @@ impl<T: Copy + Default> Slopes<T> {
     #[must_use]
     pub fn zip<S: Copy + Default>(&self, other: &Slopes<S>) -> Slopes<(T, S)> {
         let pairs =
-            |own: &[T], other: &[S]| own.iter().copied().zip(other.iter().copied()).collect();
+            |item: &[T], other: &[S]| item.iter().copied().zip(other.iter().copied()).collect();
         Slopes {
             by_input: pairs(&self.by_input, &other.by_input),
             by_design: pairs(&self.by_design, &other.by_design),
@@ -181,11 +181,11 @@ impl ModeSensitivity {
         by_design: impl ExactSizeIterator<Item = f64>,
     ) {
         let [inputs, design] = self.make_undamped(mode, by_input.len(), by_design.len());
-        for (own, slope) in inputs.iter_mut().zip(by_input) {
-            *own = slope;
+        for (input, slope) in inputs.iter_mut().zip(by_input) {
+            *input = slope;
         }
-        for (own, slope) in design.iter_mut().zip(by_design) {
-            *own = slope;
+        for (value, slope) in design.iter_mut().zip(by_design) {
+            *value = slope;
         }
     }
 
@@ -308,65 +308,74 @@ mod tests {
 
     #[test]
     fn a_frequency_whose_derivative_overflows_is_not_finite() {
-        let mut own = ModeSensitivity::blank();
+        let mut mode_sensitivity = ModeSensitivity::blank();
         for (slope, finite) in [(1e100, true), (1e200, false)] {
-            own.set_undamped(
+            mode_sensitivity.set_undamped(
                 &mode(Complex::new(0.0, 1e-150)),
                 [].into_iter(),
                 [slope].into_iter(),
             );
-            assert_eq!(own.finite(), finite);
-            assert_eq!(own.frequency().is_some(), finite);
+            assert_eq!(mode_sensitivity.finite(), finite);
+            assert_eq!(mode_sensitivity.frequency().is_some(), finite);
         }
         // At rest only `lambda` has a derivative.
-        own.set_undamped(&mode(Complex::ZERO), [].into_iter(), [1e200].into_iter());
-        assert!(own.finite() && own.s().is_none() && own.frequency().is_none());
-        own.set_undamped(
+        mode_sensitivity.set_undamped(&mode(Complex::ZERO), [].into_iter(), [1e200].into_iter());
+        assert!(
+            mode_sensitivity.finite()
+                && mode_sensitivity.s().is_none()
+                && mode_sensitivity.frequency().is_none()
+        );
+        mode_sensitivity.set_undamped(
             &mode(Complex::ZERO),
             [].into_iter(),
             [f64::INFINITY].into_iter(),
         );
-        assert!(!own.finite());
+        assert!(!mode_sensitivity.finite());
     }
 
     #[test]
     fn nothing_of_an_earlier_mode_remains() {
         let (s, ds) = (Complex::new(-0.5, 2.0), Complex::new(0.25, -3.0));
-        let mut own = ModeSensitivity::blank();
-        let general = |own: &mut ModeSensitivity, ds| {
-            own.set_general(&mode(s), [].into_iter(), [ds].into_iter());
+        let mut mode_sensitivity = ModeSensitivity::blank();
+        let general = |mode_sensitivity: &mut ModeSensitivity, ds| {
+            mode_sensitivity.set_general(&mode(s), [].into_iter(), [ds].into_iter());
         };
         for _ in 0..2 {
-            general(&mut own, ds);
-            assert!(!own.clustered && own.finite());
-            assert_eq!(own.s().map(|slopes| slopes.by_design[0]), Some(ds));
+            general(&mut mode_sensitivity, ds);
+            assert!(!mode_sensitivity.clustered && mode_sensitivity.finite());
             assert_eq!(
-                own.frequency().map(|slopes| slopes.by_design[0]),
+                mode_sensitivity.s().map(|slopes| slopes.by_design[0]),
+                Some(ds)
+            );
+            assert_eq!(
+                mode_sensitivity
+                    .frequency()
+                    .map(|slopes| slopes.by_design[0]),
                 Some(ds.im)
             );
-            assert_eq!(own.lambda.by_design[0], -2.0 * (s * ds).re);
+            assert_eq!(mode_sensitivity.lambda.by_design[0], -2.0 * (s * ds).re);
             // Where it merges with another, its derivatives are not finite.
-            general(&mut own, Complex::new(f64::NAN, 0.0));
-            assert!(own.clustered && own.finite());
+            general(&mut mode_sensitivity, Complex::new(f64::NAN, 0.0));
+            assert!(mode_sensitivity.clustered && mode_sensitivity.finite());
             assert!(
-                own.s().is_none()
+                mode_sensitivity.s().is_none()
                     && Quantity::ALL
                         .iter()
-                        .all(|quantity| own.of(*quantity).is_none())
+                        .all(|quantity| mode_sensitivity.of(*quantity).is_none())
             );
-            assert_eq!(own.lambda.by_design[0], 0.0);
+            assert_eq!(mode_sensitivity.lambda.by_design[0], 0.0);
         }
-        general(&mut own, ds);
-        own.set_merged(&mode(s), 0, 1);
-        assert!(own.clustered && own.s().is_none());
-        own.set_undamped(
+        general(&mut mode_sensitivity, ds);
+        mode_sensitivity.set_merged(&mode(s), 0, 1);
+        assert!(mode_sensitivity.clustered && mode_sensitivity.s().is_none());
+        mode_sensitivity.set_undamped(
             &mode(Complex::new(0.0, 2.0)),
             [].into_iter(),
             [4.0].into_iter(),
         );
-        assert!(!own.clustered);
+        assert!(!mode_sensitivity.clustered);
         assert_eq!(
-            own.s().map(|slopes| slopes.by_design[0]),
+            mode_sensitivity.s().map(|slopes| slopes.by_design[0]),
             Some(Complex::new(0.0, 1.0))
         );
     }

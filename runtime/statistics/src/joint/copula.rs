@@ -9,7 +9,7 @@ pub(super) fn normal_correlation(
     correlation: &[f64],
 ) -> Result<Vec<f64>, Error> {
     let count = variables.len();
-    let mut found = correlation.to_vec();
+    let mut values = correlation.to_vec();
     let mut series: Vec<Option<Expansion>> = vec![None; count];
     for i in 0..count {
         for j in 0..i {
@@ -19,8 +19,8 @@ pub(super) fn normal_correlation(
                 continue;
             }
             if a.sigma() == 0.0 || b.sigma() == 0.0 {
-                found[i * count + j] = 0.0;
-                found[j * count + i] = 0.0;
+                values[i * count + j] = 0.0;
+                values[j * count + i] = 0.0;
                 continue;
             }
             for k in [i, j] {
@@ -37,11 +37,11 @@ pub(super) fn normal_correlation(
                     "variables {j} and {i} with these distributions can have correlations from {least:.4} to {most:.4}, not {wanted}"
                 ),
             })?;
-            found[i * count + j] = r;
-            found[j * count + i] = r;
+            values[i * count + j] = r;
+            values[j * count + i] = r;
         }
     }
-    Ok(found)
+    Ok(values)
 }
 
 /// The argument in [-1, 1] at which an increasing function takes a value; otherwise the values at both ends.

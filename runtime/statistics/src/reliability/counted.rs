@@ -113,9 +113,12 @@ impl<'a> Counted<'a> {
     }
 
     /// The error for a missing value at this place.
-    pub(super) fn no_value(&self, place: &'static str) -> Error {
+    pub(super) fn no_value(&self, text: &'static str) -> Error {
         let reason = self.reason.borrow().clone();
-        Error::NoLimitValue { place, reason }
+        Error::NoLimitValue {
+            place: text,
+            reason,
+        }
     }
 
     pub(super) fn evaluations(&self) -> Evaluations {
@@ -126,7 +129,7 @@ impl<'a> Counted<'a> {
     }
 }
 
-fn is_finite(found: &LimitValue) -> bool {
-    let finite = found.gradient.iter().all(|x| x.is_finite());
-    found.value.is_finite() && finite && norm(&found.gradient).is_finite()
+fn is_finite(limit_value: &LimitValue) -> bool {
+    let finite = limit_value.gradient.iter().all(|x| x.is_finite());
+    limit_value.value.is_finite() && finite && norm(&limit_value.gradient).is_finite()
 }

@@ -49,8 +49,8 @@ fn correlations_by_hand() {
     assert!((pearson[0] - 7.0 / 70.0_f64.sqrt()).abs() < 1e-14);
     assert!((pearson[1] + 7.0 / 70.0_f64.sqrt()).abs() < 1e-14);
     // 1 - 6 sum of d^2 / (n (n^2 - 1)), one exchange of neighbours.
-    for (found, exact) in sample.spearman().into_iter().zip([0.8, -0.8, 0.8]) {
-        assert!((found - exact).abs() < 1e-14);
+    for (value, exact) in sample.spearman().into_iter().zip([0.8, -0.8, 0.8]) {
+        assert!((value - exact).abs() < 1e-14);
     }
     // Ranks 0.5, 0.5, 2, 3 of equal numbers: sums 4.5, 4.5 and 5.
     let inputs = [7.0, 7.0, 8.0, 9.0].map(|x| vec![x]);
@@ -109,14 +109,14 @@ fn rows_without_a_result_are_dropped_and_counted() {
     let mut results: Vec<Option<f64>> = inputs.iter().map(|row| Some(row[0] * row[1])).collect();
     let rest: Vec<Option<f64>> = results[2..].to_vec();
     results[..2].fill(None);
-    let found = Sample::new(&inputs, &results).unwrap();
+    let sample = Sample::new(&inputs, &results).unwrap();
     let expected = Sample::new(&inputs[2..], &rest).unwrap();
     assert_eq!(
-        (found.rows(), found.dropped(), expected.dropped()),
+        (sample.rows(), sample.dropped(), expected.dropped()),
         (18, 2, 0)
     );
-    assert_eq!(found.pearson(), expected.pearson());
-    assert_eq!(found.ranked().dropped(), 2);
+    assert_eq!(sample.pearson(), expected.pearson());
+    assert_eq!(sample.ranked().dropped(), 2);
 }
 
 #[test]

@@ -133,13 +133,13 @@ fn estimators_are_the_published_ones() {
             [correlation(1, i), 1.0 - correlation(0, i)],
         ];
         for (estimator, [first, total]) in ESTIMATORS.into_iter().zip(expected) {
-            let found = sobol_indices(3, &values, estimator, few()).unwrap();
+            let sobol_indices = sobol_indices(3, &values, estimator, few()).unwrap();
             assert!(
-                (found.first[input].value - first).abs() < 1e-12,
+                (sobol_indices.first[input].value - first).abs() < 1e-12,
                 "{estimator:?}"
             );
             assert!(
-                (found.total[input].value - total).abs() < 1e-12,
+                (sobol_indices.total[input].value - total).abs() < 1e-12,
                 "{estimator:?}"
             );
         }

@@ -22,7 +22,7 @@ pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<&'static str, D
     if let Some(own) = all.get(&word[..]) {
         return Ok(own);
     }
-    let own: &'static str = word.leak();
-    all.insert(own);
-    Ok(own)
+    let text: &'static str = word.leak();
+    all.insert(text);
+    Ok(text)
 }

@@ -28,14 +28,14 @@ impl Mask {
         self.0.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    pub(super) fn has(self, place: usize) -> bool {
-        let word = self.0.get(place / 64).copied().unwrap_or_default();
-        word >> (place % 64) & 1 == 1
+    pub(super) fn has(self, index: usize) -> bool {
+        let word = self.0.get(index / 64).copied().unwrap_or_default();
+        word >> (index % 64) & 1 == 1
     }
 
-    pub(super) fn set(&mut self, place: usize, to: bool) {
-        if let Some(word) = self.0.get_mut(place / 64) {
-            let bit = 1 << (place % 64);
+    pub(super) fn set(&mut self, index: usize, to: bool) {
+        if let Some(word) = self.0.get_mut(index / 64) {
+            let bit = 1 << (index % 64);
             *word = if to { *word | bit } else { *word & !bit };
         }
     }

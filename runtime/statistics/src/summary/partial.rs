@@ -68,8 +68,8 @@ impl Partial {
                 sketch.add_checked(mask.select(values, &mut room), &node.moments[k]);
             }
         }
-        for (own, other) in self.outcomes.iter_mut().zip(&chunk.outcomes) {
-            *own += other;
+        for (outcome, other) in self.outcomes.iter_mut().zip(&chunk.outcomes) {
+            *outcome += other;
         }
         if chunk.covered.is_full() {
             self.tree.insert(node);
@@ -97,13 +97,13 @@ impl Partial {
         for fragment in &other.fragments {
             self.keep(fragment);
         }
-        for (own, other) in self.sketches.iter_mut().zip(&other.sketches) {
-            if let (Some(own), Some(other)) = (own, other) {
+        for (sketch, other) in self.sketches.iter_mut().zip(&other.sketches) {
+            if let (Some(own), Some(other)) = (sketch, other) {
                 own.merge_checked(other);
             }
         }
-        for (own, other) in self.outcomes.iter_mut().zip(&other.outcomes) {
-            *own += other;
+        for (outcome, other) in self.outcomes.iter_mut().zip(&other.outcomes) {
+            *outcome += other;
         }
         Ok(())
     }
@@ -157,8 +157,8 @@ impl Partial {
     pub fn into_statistics(mut self) -> Vec<Option<Statistics>> {
         let mut all = vec![Moments::default(); self.plan.quantities()];
         self.fold(|node| {
-            for (all, own) in all.iter_mut().zip(&node.moments) {
-                all.merge(own);
+            for (all, moment) in all.iter_mut().zip(&node.moments) {
+                all.merge(moment);
             }
         });
         let sketches = self.sketches.drain(..);

@@ -48,11 +48,11 @@ impl Node {
 
     /// Adds the samples of a later node.
     pub(super) fn merge(&mut self, later: &Self) {
-        for (own, other) in self.moments.iter_mut().zip(&later.moments) {
-            own.merge(other);
+        for (moment, other) in self.moments.iter_mut().zip(&later.moments) {
+            moment.merge(other);
         }
-        for (own, other) in self.pairs.iter_mut().zip(&later.pairs) {
-            own.merge(other);
+        for (pair, other) in self.pairs.iter_mut().zip(&later.pairs) {
+            pair.merge(other);
         }
     }
 

@@ -87,10 +87,10 @@ impl Block<'_> {
     fn predict(&mut self, past: &Past) {
         let [(u0, q0), (u1, q1), (u2, q2)] = past;
         let (step, before, both) = (1.0 / (u0 - u1), 1.0 / (u1 - u2), 1.0 / (u0 - u2));
-        for (i, place) in self.coordinates.iter_mut().enumerate() {
+        for (i, coordinate) in self.coordinates.iter_mut().enumerate() {
             let slope = (q0[i] - q1[i]) * step;
             let bend = (slope - (q1[i] - q2[i]) * before) * both;
-            for (q, u) in place.0.iter_mut().zip(&self.values.0) {
+            for (q, u) in coordinate.0.iter_mut().zip(&self.values.0) {
                 *q = q0[i] + (u - u0) * (slope + (u - u1) * bend);
             }
         }

@@ -458,16 +458,16 @@ fn scale<V: Lanes, const N: usize>(n: usize, x: &mut Vector<V, N>) {
 /// Keeps the flag where every eigenvalue is clear of all others, and either real or clearly not real: then it is clear
 /// of the conjugates too.
 #[inline(always)]
-fn told_apart<V: Lanes, const N: usize>(found: &[Pair<V, N>], mut flag: V) -> V {
+fn told_apart<V: Lanes, const N: usize>(pairs: &[Pair<V, N>], mut flag: V) -> V {
     let zero = V::constant(0.0);
-    for (i, own) in found.iter().enumerate() {
+    for (i, own) in pairs.iter().enumerate() {
         let clear = V::constant(APART) * own.s.square().sqrt();
         let least = clear * clear;
         let real = keep(V::constant(1.0), own.s.im.abs().at_most(zero));
         let size = V::constant(0.5) * clear;
         let oscillates = keep(V::constant(1.0), size.at_most(own.s.im));
         flag = keep(flag, V::constant(1.0).at_most(real + oscillates));
-        for (j, other) in found.iter().enumerate() {
+        for (j, other) in pairs.iter().enumerate() {
             if i != j {
                 let distance = (own.s - other.s).square();
                 flag = keep(flag, least.at_most(distance));
@@ -483,33 +483,33 @@ fn told_apart<V: Lanes, const N: usize>(found: &[Pair<V, N>], mut flag: V) -> V 
 fn recognised<V: Lanes, const N: usize>(
     (n, damped): (usize, bool),
     known: &[ReferencePair],
-    found: &[Pair<V, N>],
+    pairs: &[Pair<V, N>],
     mut flag: V,
 ) -> V {
     if known.len() == 1 {
         return flag;
     }
     let mut own = [[V::constant(0.0); N]; 2];
-    let own = &mut own.as_flattened_mut()[..found.len()];
-    let measured = own_sizes(n, found);
-    let measured = &measured.as_flattened()[..found.len()];
+    let own = &mut own.as_flattened_mut()[..pairs.len()];
+    let measured = own_sizes(n, pairs);
+    let measured = &measured.as_flattened()[..pairs.len()];
     for (j, own) in own.iter_mut().enumerate() {
         let (size, rate) = measured[j];
         let assurance = assurance(
             (n, damped),
             &known[j],
-            &found[j],
-            found[j].size * size,
+            &pairs[j],
+            pairs[j].size * size,
             rate,
         );
         *own = assurance - V::constant(OWN);
     }
-    for i in 0..found.len() {
-        for j in 0..found.len() {
+    for i in 0..pairs.len() {
+        for j in 0..pairs.len() {
             if i != j {
                 let (size, rate) = measured[j];
-                let scale = found[i].size * size;
-                let other = assurance((n, damped), &known[i], &found[j], scale, rate);
+                let scale = pairs[i].size * size;
+                let other = assurance((n, damped), &known[i], &pairs[j], scale, rate);
                 flag = keep(flag, other.at_most(own[i]));
                 flag = keep(flag, other.at_most(own[j]));
             }
@@ -520,10 +520,10 @@ fn recognised<V: Lanes, const N: usize>(
 
 /// `phi^H M phi` and `|s|` of each pair.
 #[inline(always)]
-fn own_sizes<V: Lanes, const N: usize>(n: usize, found: &[Pair<V, N>]) -> [[(V, V); N]; 2] {
+fn own_sizes<V: Lanes, const N: usize>(n: usize, pairs: &[Pair<V, N>]) -> [[(V, V); N]; 2] {
     let zero = V::constant(0.0);
     let mut sizes = [[(zero, zero); N]; 2];
-    for (sizes, pair) in sizes.as_flattened_mut().iter_mut().zip(found) {
+    for (sizes, pair) in sizes.as_flattened_mut().iter_mut().zip(pairs) {
         let size = inner(n, &pair.right, &pair.weighed).re;
         *sizes = (size, pair.s.square().sqrt());
     }
@@ -535,13 +535,13 @@ fn own_sizes<V: Lanes, const N: usize>(n: usize, found: &[Pair<V, N>]) -> [[(V, 
 fn assurance<V: Lanes, const N: usize>(
     (n, damped): (usize, bool),
     known: &ReferencePair,
-    found: &Pair<V, N>,
+    pair: &Pair<V, N>,
     scale: V,
     rate: V,
 ) -> V {
-    let mut product = Complex::constant(known.right[0].conj()) * found.weighed[0];
+    let mut product = Complex::constant(known.right[0].conj()) * pair.weighed[0];
     for k in 1..n {
-        product = product + Complex::constant(known.right[k].conj()) * found.weighed[k];
+        product = product + Complex::constant(known.right[k].conj()) * pair.weighed[k];
     }
     let shapes = product.square() / scale;
     if !damped {
@@ -549,8 +549,8 @@ fn assurance<V: Lanes, const N: usize>(
     }
     let own = Complex::constant(known.s);
     let own_rate = V::constant(known.s.norm());
-    let turned = (own.conjugate() * found.s).re / (own_rate * rate);
+    let turned = (own.conjugate() * pair.s).re / (own_rate * rate);
     let phase = V::constant(0.5) + V::constant(0.5) * turned;
-    let distance = (own - found.s).square().sqrt() / (own_rate + rate);
+    let distance = (own - pair.s).square().sqrt() / (own_rate + rate);
     shapes * phase * (V::constant(1.0) - V::constant(EIGENVALUE_SHARE) * distance)
 }

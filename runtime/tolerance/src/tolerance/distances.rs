@@ -81,7 +81,7 @@ impl FirstOrder {
     /// The mode nearest to its critical state, and the distance, if that is near.
     #[doc(hidden)]
     pub fn nearest_critical(&self) -> Option<(usize, f64)> {
-        let distances = self.modes.iter().map(|own| own.distance_to_critical);
+        let distances = self.modes.iter().map(|mode| mode.distance_to_critical);
         let nearest = distances
             .enumerate()
             .min_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));

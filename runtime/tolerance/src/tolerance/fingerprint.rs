@@ -73,15 +73,15 @@ impl Fingerprint {
 
     /// The value of a fact that is an integer.
     pub(crate) fn number(&self, name: &str) -> Option<u64> {
-        let (_, value) = self.facts().find(|(own, _)| *own == name)?;
+        let (_, value) = self.facts().find(|(x, _)| *x == name)?;
         value.parse().ok()
     }
 
     /// Refuses the fingerprint of another run.
     pub(crate) fn check(&self, other: &Self) -> Result<(), Error> {
         let value_of = |all: &Self, name: &str| {
-            let found = all.facts().find(|(own, _)| *own == name);
-            found.map_or("not there".to_owned(), |(_, value)| value.to_owned())
+            let fact = all.facts().find(|(x, _)| *x == name);
+            fact.map_or("not there".to_owned(), |(_, value)| value.to_owned())
         };
         let names = self.facts().chain(other.facts()).map(|(name, _)| name);
         for name in names {

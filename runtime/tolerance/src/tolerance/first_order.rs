@@ -197,50 +197,59 @@ pub fn first_order(
 /// The spread of an undamped mode, without the distance to its neighbours.
 fn undamped(
     mode: &Mode,
-    own: &ModeSensitivity,
+    mode_sensitivity: &ModeSensitivity,
     tolerances: &Tolerances,
-    found: &mut ModeTolerance,
+    mode_tolerance: &mut ModeTolerance,
 ) {
-    let lambda = &mut found.lambda;
-    lambda.by_design.set(&own.lambda.by_design, |slope| *slope);
-    found.shift = lambda.finish(mode.lambda, tolerances);
-    found.behaviour = mode.behaviour;
-    found.value = mode.s;
-    found.distance_to_critical = match mode.behaviour {
+    let lambda = &mut mode_tolerance.lambda;
+    lambda
+        .by_design
+        .set(&mode_sensitivity.lambda.by_design, |slope| *slope);
+    mode_tolerance.shift = lambda.finish(mode.lambda, tolerances);
+    mode_tolerance.behaviour = mode.behaviour;
+    mode_tolerance.value = mode.s;
+    mode_tolerance.distance_to_critical = match mode.behaviour {
         Behaviour::Free => f64::INFINITY,
         // Along a free direction nothing vanishes that tolerances could bring back.
-        Behaviour::Neutral if found.lambda.sigma <= mode.error * mode.error => f64::INFINITY,
+        Behaviour::Neutral if mode_tolerance.lambda.sigma <= mode.error * mode.error => {
+            f64::INFINITY
+        }
         Behaviour::Neutral => 0.0,
-        _ => in_sigmas(found.lambda.mean, found.lambda.sigma),
+        _ => in_sigmas(mode_tolerance.lambda.mean, mode_tolerance.lambda.sigma),
     };
-    found.clustered = own.clustered;
+    mode_tolerance.clustered = mode_sensitivity.clustered;
 }
 
 /// The spread of a general mode, without the distance to its neighbours; each quantity is spread by its own
 /// derivatives.
-fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &mut ModeTolerance) {
-    let slopes = &own.lambda.by_design;
-    let lambda = &mut found.lambda;
-    match own.general() {
+fn general(
+    mode: &Mode,
+    mode_sensitivity: &ModeSensitivity,
+    tolerances: &Tolerances,
+    mode_tolerance: &mut ModeTolerance,
+) {
+    let slopes = &mode_sensitivity.lambda.by_design;
+    let lambda = &mut mode_tolerance.lambda;
+    match mode_sensitivity.general() {
         None => lambda.set_without_derivatives(mode.lambda, f64::INFINITY, slopes.len()),
         Some(_) => *lambda = Spread::new(mode.lambda, slopes.clone(), tolerances),
     }
     let all = Quantity::ALL.map(|quantity| {
-        let slopes = own.of(quantity)?.by_design;
+        let slopes = mode_sensitivity.of(quantity)?.by_design;
         Some(Spread::new(quantity.of(mode)?, slopes, tolerances))
     });
     let [_, natural, _, growth] = all.each_ref().map(Option::as_ref);
-    found.distance_to_critical = distance_to_zero(mode, natural, growth);
-    found.distance_to_instability = growth
+    mode_tolerance.distance_to_critical = distance_to_zero(mode, natural, growth);
+    mode_tolerance.distance_to_instability = growth
         .filter(|spread| !keeps_amplitude(mode, spread))
         .map_or(f64::INFINITY, |spread| match mode.behaviour {
             Behaviour::Oscillating(_) => 0.0,
             _ => in_sigmas(-spread.mean, spread.sigma),
         });
-    found.behaviour = mode.behaviour;
-    found.value = mode.s;
-    found.clustered = own.clustered;
-    found.general = Some(all);
+    mode_tolerance.behaviour = mode.behaviour;
+    mode_tolerance.value = mode.s;
+    mode_tolerance.clustered = mode_sensitivity.clustered;
+    mode_tolerance.general = Some(all);
 }
 
 /// Whether neither the growth nor the contribution of tolerances to it can be distinguished from zero.

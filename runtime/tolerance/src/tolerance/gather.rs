@@ -104,27 +104,27 @@ impl SampleRun<'_> {
         let mut part = Partial::new(plan.clone());
         let mut kept = Vec::new();
         let mut chunk: Option<Chunk> = None;
-        for own in chunks(samples) {
+        for range in chunks(samples) {
             if self.stopped() {
                 break;
             }
             let chunk = match &mut chunk {
                 Some(chunk) => {
-                    chunk.restart(own.clone())?;
+                    chunk.restart(range.clone())?;
                     chunk
                 }
-                None => chunk.insert(Chunk::new(plan, own.clone())?),
+                None => chunk.insert(Chunk::new(plan, range.clone())?),
             };
             let mut part_of_chunk = Part {
                 group,
-                samples: own.clone(),
+                samples: range.clone(),
                 chunk,
                 kept: &mut kept,
             };
             solve(room, &mut part_of_chunk)?;
             Instructions::best().run(Add(&mut part, chunk))?;
             if let Some(progress) = self.progress {
-                progress((own.end - own.start) as usize);
+                progress((range.end - range.start) as usize);
             }
         }
         Ok((part, kept))
@@ -133,7 +133,9 @@ impl SampleRun<'_> {
     /// Splits the ranges into pieces of whole chunks.
     fn pieces(&self, groups: &[Range<u64>]) -> impl Iterator<Item = (usize, Range<u64>)> {
         let size = CHUNK as u64;
-        let lengths = groups.iter().map(|own| own.end.saturating_sub(own.start));
+        let lengths = groups
+            .iter()
+            .map(|group| group.end.saturating_sub(group.start));
         let chunks: u64 = lengths.map(|length| length.div_ceil(size)).sum();
         let share = match self.threads {
             1 => u64::MAX / size,

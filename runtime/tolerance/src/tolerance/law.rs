@@ -48,11 +48,11 @@ pub fn distribution(
                     ),
                 });
             }
-            let value = |place: f64| {
-                if place == 1.0 {
+            let value = |value: f64| {
+                if value == 1.0 {
                     high
                 } else {
-                    low + place * (high - low)
+                    low + value * (high - low)
                 }
             };
             let values: Vec<(f64, f64)> = values

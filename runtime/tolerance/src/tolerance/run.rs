@@ -83,8 +83,8 @@ impl Run {
         let mut all: Vec<Range<u64>> = Vec::new();
         for (group, part) in self.parts.iter().enumerate() {
             let first = group as u64 * self.of_each;
-            for own in part.ranges() {
-                let own = own.start + first..own.end + first;
+            for range in part.ranges() {
+                let own = range.start + first..range.end + first;
                 match all.last_mut() {
                     Some(last) if last.end == own.start => last.end = own.end,
                     _ => all.push(own),
@@ -123,16 +123,16 @@ impl Run {
     pub fn merge(&mut self, other: Self) -> Result<(), Error> {
         self.fingerprint.check(&other.fingerprint)?;
         let added = other.ranges();
-        for own in self.ranges() {
+        for range in self.ranges() {
             for added in &added {
-                let (start, end) = (own.start.max(added.start), own.end.min(added.end));
+                let (start, end) = (range.start.max(added.start), range.end.min(added.end));
                 if start < end {
                     return Err(Error::SamplesOverlap { start, end });
                 }
             }
         }
-        for (own, added) in self.parts.iter_mut().zip(other.parts) {
-            own.merge(added)?;
+        for (part, added) in self.parts.iter_mut().zip(other.parts) {
+            part.merge(added)?;
         }
         Ok(())
     }
@@ -144,7 +144,7 @@ impl Run {
         let total = self.of_each.checked_mul(self.parts.len() as u64);
         let fits = |part: &Partial| {
             let ranges = part.ranges();
-            let done: u64 = ranges.iter().map(|own| own.end - own.start).sum();
+            let done: u64 = ranges.iter().map(|range| range.end - range.start).sum();
             let counted = part.outcomes().get(..outcomes);
             let counted = counted.and_then(|all| {
                 all.iter()

@@ -23,7 +23,8 @@ impl TryFrom<Unchecked> for Tolerances {
 
     fn try_from(read: Unchecked) -> Result<Self, &'static str> {
         let count = read.half_widths.len();
-        let square = |own: &Matrix| (own.row_count(), own.column_count()) == (count, count);
+        let square =
+            |matrix: &Matrix| (matrix.row_count(), matrix.column_count()) == (count, count);
         let together =
             |(joint, nominal): &(Joint, Vector)| joint.len() == count && nominal.len() == count;
         let fits = read.sigmas.len() == count

@@ -81,23 +81,23 @@ impl<'a> SideBySide<'a> {
         let mut eigenvalues = vec![Complex::ZERO; self.size.modes];
         for (k, row) in rows.iter().enumerate() {
             let (batch, member) = (&together[k / WIDTH], k % WIDTH);
-            for (own, all) in design.iter_mut().zip(&*batch.design) {
-                *own = all.0[member];
+            for (value, all) in design.iter_mut().zip(&*batch.design) {
+                *value = all.0[member];
             }
-            for (own, all) in coordinates.iter_mut().zip(&*batch.coordinates) {
-                *own = all.0[member];
+            for (coordinate, all) in coordinates.iter_mut().zip(&*batch.coordinates) {
+                *coordinate = all.0[member];
             }
-            for (own, s) in eigenvalues.iter_mut().zip(batch.eigenvalues(member)) {
-                *own = s;
+            for (eigenvalue, s) in eigenvalues.iter_mut().zip(batch.eigenvalues(member)) {
+                *eigenvalue = s;
             }
             // The check of which designs can exist only covered numbers below this bound.
             let usual = row.iter().all(|z| z.abs() < GREATEST_NORMAL);
             let solved = usual && batch.accepted >> member & 1 == 1;
-            let found = SolvedDesign {
+            let solved_design = SolvedDesign {
                 coordinates: &coordinates,
                 eigenvalues: &eigenvalues,
             };
-            each(k, &design, solved.then_some(found))?;
+            each(k, &design, solved.then_some(solved_design))?;
         }
         Ok(())
     }

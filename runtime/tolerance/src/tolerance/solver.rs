@@ -85,8 +85,8 @@ impl<'a> SampleSolver<'a> {
         for (k, quantity) in quantities.iter().enumerate() {
             for (r, mode) in self.modes.modes.iter().enumerate() {
                 let own = slopes.as_ref().and_then(|all| all.modes.get(r));
-                let own = own.and_then(|own| own.of(*quantity));
-                let by_design = own.as_ref().map(|own| &own.by_design[..]);
+                let own = own.and_then(|x| x.of(*quantity));
+                let by_design = own.as_ref().map(|x| &x.by_design[..]);
                 let (reference, scale) = self.tolerances.scale(quantity.of(mode), by_design);
                 plan = plan.sketch(k * count + r, reference, scale)?;
             }
@@ -193,9 +193,10 @@ impl<'a> SampleSolver<'a> {
 
     /// Whether an equilibrium lies on the nominal branch. Newton's method is asked only where the neighbourhood of the
     /// nominal equilibrium, by which samples side by side are judged, does not tell.
-    fn is_on_nominal_branch(&self, design: &[f64], found: &Equilibrium) -> bool {
-        let q = &found.coordinates;
-        let near = |own: &Prepared<'_>| own.is_continued_by(q, &found.linear.stiffness);
+    fn is_on_nominal_branch(&self, design: &[f64], equilibrium: &Equilibrium) -> bool {
+        let q = &equilibrium.coordinates;
+        let near =
+            |prepared: &Prepared<'_>| prepared.is_continued_by(q, &equilibrium.linear.stiffness);
         self.prepared.as_ref().is_some_and(near)
             || Branch::of(self.mechanism, self.nominal).holds(design, q)
     }

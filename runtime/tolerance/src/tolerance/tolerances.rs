@@ -67,8 +67,8 @@ impl Tolerances {
         let own = infos
             .iter()
             .map(|info| distribution(info.nominal, &info.tolerance, 3.0));
-        let own: Vec<Distribution> = own.collect::<Result<_, _>>()?;
-        Self::distributed(&nominal, own, 3.0, None)
+        let distributions: Vec<Distribution> = own.collect::<Result<_, _>>()?;
+        Self::distributed(&nominal, distributions, 3.0, None)
     }
 
     /// Normal distributions about the nominal values, with half-widths, SI, of `sigma_level` standard deviations each.
@@ -361,7 +361,13 @@ impl Tolerances {
         }
         let contributions = self.contributions(&parts.map(|part| part / size));
         let variance = sum(&contributions);
-        let shares = contributions.map(|own| if variance > 0.0 { own / variance } else { 0.0 });
+        let shares = contributions.map(|contribution| {
+            if variance > 0.0 {
+                contribution / variance
+            } else {
+                0.0
+            }
+        });
         // Rounding may make a fully compensated variance negative; NaN stays NaN.
         let variance = if variance < 0.0 { 0.0 } else { variance };
         (size * variance.sqrt() / unit / unit, shares)

@@ -41,7 +41,7 @@ pub struct Choices<'a> {
 
 impl Choices<'_> {
     pub(super) fn check(&self, requirements: &Requirements<'_>) -> Result<(), Error> {
-        let own = requirements.deviations().tolerances().half_widths();
+        let values = requirements.deviations().tolerances().half_widths();
         if self.half_widths.is_empty() {
             return refuse("allocation", "no half-width may be chosen".to_owned());
         }
@@ -59,13 +59,17 @@ impl Choices<'_> {
                 format!("{wrong} is not a probability inside (0, 1)"),
             );
         }
-        if let Some(wrong) = self.half_widths.iter().find_map(|own| own.cost.mistake()) {
+        if let Some(wrong) = self
+            .half_widths
+            .iter()
+            .find_map(|half_width| half_width.cost.mistake())
+        {
             return refuse("cost", wrong);
         }
         let half_widths = self
             .half_widths
             .iter()
-            .map(|own| (own.variable, own.limits));
+            .map(|half_width| (half_width.variable, half_width.limits));
         distinct(requirements, half_widths.clone())?;
         let design = &requirements.responses().nominal().description.design;
         for (variable, (low, high)) in half_widths {
@@ -75,7 +79,7 @@ impl Choices<'_> {
                     format!("the lower limit of `{name}` must be positive, not {low} (SI)");
                 return refuse("half-width", reason);
             }
-            if own[variable] == 0.0 {
+            if values[variable] == 0.0 {
                 let reason = format!(
                     "`{name}` does not vary: give it any tolerance, which says how it is distributed"
                 );
@@ -83,7 +87,10 @@ impl Choices<'_> {
             }
             in_order("half-width", name, (low, high))?;
         }
-        let mut nominals = self.nominals.iter().map(|own| (own.variable, own.limits));
+        let mut nominals = self
+            .nominals
+            .iter()
+            .map(|nominal| (nominal.variable, nominal.limits));
         distinct(requirements, nominals.clone())?;
         nominals.try_for_each(|(variable, limits)| {
             in_order("nominal value", &design[variable].name, limits)
@@ -96,8 +103,9 @@ impl Choices<'_> {
         for own in &self.nominals {
             nominal[own.variable] = nominal[own.variable].clamp(own.limits.0, own.limits.1);
         }
-        for own in &self.half_widths {
-            wide[own.variable] = wide[own.variable].clamp(own.limits.0, own.limits.1);
+        for half_width in &self.half_widths {
+            wide[half_width.variable] =
+                wide[half_width.variable].clamp(half_width.limits.0, half_width.limits.1);
         }
         (nominal, wide)
     }

@@ -87,8 +87,10 @@ impl Problem<'_> {
     pub(super) fn design(&self, x: &[f64]) -> (Vector, Vector) {
         let (mut nominal, mut wide) = (self.nominal.clone(), self.half_widths.clone());
         let (logarithms, parts) = x.split_at(self.choices.half_widths.len());
-        for (own, logarithm) in self.choices.half_widths.iter().zip(logarithms) {
-            wide[own.variable] = logarithm.exp().clamp(own.limits.0, own.limits.1);
+        for (half_width, logarithm) in self.choices.half_widths.iter().zip(logarithms) {
+            wide[half_width.variable] = logarithm
+                .exp()
+                .clamp(half_width.limits.0, half_width.limits.1);
         }
         for (own, part) in self.choices.nominals.iter().zip(parts) {
             let (low, high) = own.limits;
@@ -102,13 +104,13 @@ impl Problem<'_> {
         let logarithms = self.choices.half_widths.iter();
         let mut x: Vec<f64> = (logarithms
             .clone()
-            .map(|own| self.half_widths[own.variable].ln()))
+            .map(|logarithm| self.half_widths[logarithm.variable].ln()))
         .collect();
-        let bounds = logarithms.map(|own| (own.limits.0.ln(), own.limits.1.ln()));
+        let bounds = logarithms.map(|logarithm| (logarithm.limits.0.ln(), logarithm.limits.1.ln()));
         let mut bounds: Vec<(f64, f64)> = bounds.collect();
-        for own in &self.choices.nominals {
-            let (low, high) = own.limits;
-            x.push((self.nominal[own.variable] - low) / (high - low));
+        for nominal in &self.choices.nominals {
+            let (low, high) = nominal.limits;
+            x.push((self.nominal[nominal.variable] - low) / (high - low));
             bounds.push((0.0, 1.0));
         }
         (x, bounds)
@@ -120,11 +122,11 @@ impl Problem<'_> {
         let (cost, cost_slopes) = self.cost(x.len(), &wide)?;
         let mut reached: Vec<Reached> = Vec::new();
         for (requirement, failure) in self.choices.failure.iter().enumerate() {
-            let own = self
+            let limits = self
                 .limits
                 .iter()
                 .filter(|limit| limit.requirement == requirement);
-            let parts = own.map(|limit| self.limit(&deviations, &wide, limit));
+            let parts = limits.map(|limit| self.limit(&deviations, &wide, limit));
             let parts: Vec<Vec<(f64, Vec<f64>)>> = parts.collect::<Result<_, _>>()?;
             if !parts.is_empty() {
                 let (beta, slopes) = joined(&parts.concat(), x.len());
@@ -174,21 +176,18 @@ impl Problem<'_> {
             deviations,
         );
         let points = match failure_regions(&limit, &self.search.settings()) {
-            Ok(found) => found.design_points,
+            Ok(failure_regions) => failure_regions.design_points,
             Err(error) if out_of_reach(&error) => return Ok(Vec::new()),
             Err(error) => return Err(error.into()),
         };
         let part = |at: &DesignPoint| {
             let slopes = slopes_at(&limit, deviations, at)?;
-            let half_widths = self
-                .choices
-                .half_widths
-                .iter()
-                .map(|own| slopes.by_half_width[own.variable].beta * wide[own.variable]);
-            let nominals =
-                self.choices.nominals.iter().map(|own| {
-                    slopes.by_nominal[own.variable].beta * (own.limits.1 - own.limits.0)
-                });
+            let half_widths = self.choices.half_widths.iter().map(|half_width| {
+                slopes.by_half_width[half_width.variable].beta * wide[half_width.variable]
+            });
+            let nominals = self.choices.nominals.iter().map(|nominal| {
+                slopes.by_nominal[nominal.variable].beta * (nominal.limits.1 - nominal.limits.0)
+            });
             Ok((at.beta, half_widths.chain(nominals).collect()))
         };
         points.iter().map(part).collect()

@@ -101,7 +101,11 @@ pub fn allocate(
     }
     let (nominal, half_widths) = problem.design(&found.x);
     let stopped = watch.stopped();
-    if let Some(worst) = found.best.worst().filter(|own| own.shortfall() > ENOUGH) {
+    if let Some(worst) = found
+        .best
+        .worst()
+        .filter(|reached| reached.shortfall() > ENOUGH)
+    {
         if stopped {
             return Err(Error::Stopped);
         }
@@ -198,8 +202,10 @@ fn search(problem: &Problem<'_>, watch: Watch<'_>) -> Result<Found, Error> {
             }
         })
         .collect();
-    let constraints: Vec<&dyn Func<()>> =
-        constraints.iter().map(|own| own as &dyn Func<()>).collect();
+    let constraints: Vec<&dyn Func<()>> = constraints
+        .iter()
+        .map(|constraint| constraint as &dyn Func<()>)
+        .collect();
     let stop = StopTols {
         xtol_abs: vec![1e-10; start.len()],
         ..StopTols::default()
@@ -225,8 +231,8 @@ fn search(problem: &Problem<'_>, watch: Watch<'_>) -> Result<Found, Error> {
 }
 
 /// The shortfall passed to the optimiser: finite even if nothing fails.
-fn shortfall(own: &Reached) -> f64 {
-    own.shortfall().max(-1e3)
+fn shortfall(reached: &Reached) -> f64 {
+    reached.shortfall().max(-1e3)
 }
 
 /// Caches the last evaluation, because the optimiser queries cost and constraints of a choice one after the other.

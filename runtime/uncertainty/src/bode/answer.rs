@@ -56,8 +56,8 @@ impl Answer for Bode {
                 Some(row.amplitude()?.arg().to_degrees())
             })
             .digits(short);
-        table.number("Re", "", &|row| row.scaled(d, |own| own.re));
-        table.number("Im", "", &|row| row.scaled(d, |own| own.im));
+        table.number("Re", "", &|row| row.scaled(d, |row| row.re));
+        table.number("Im", "", &|row| row.scaled(d, |row| row.im));
         table.words("error", &|row| row.error.map(ToString::to_string));
         said.columns(table);
         self.bands(&mut said, &points);
@@ -68,9 +68,9 @@ impl Answer for Bode {
         if let Some(error) = self
             .points
             .iter()
-            .find_map(|own| own.vibration.as_ref().err())
+            .find_map(|point| point.vibration.as_ref().err())
         {
-            let failed = self.points.iter().filter(|own| own.vibration.is_err());
+            let failed = self.points.iter().filter(|point| point.vibration.is_err());
             let failed = failed.count();
             said.note(format!(
                 "{failed} of {all} points have no vibration; the first: {error}."
@@ -122,8 +122,8 @@ struct Band<'a> {
 }
 
 impl Band<'_> {
-    fn quantile(&self, place: usize) -> Option<f64> {
-        Some(self.spread?.quantiles.get(place)?.value)
+    fn quantile(&self, index: usize) -> Option<f64> {
+        Some(self.spread?.quantiles.get(index)?.value)
     }
 }
 
@@ -139,8 +139,8 @@ impl Bode {
                 error,
             };
             match &own.vibration {
-                Ok(found) => {
-                    for harmonic in &found.response.harmonics {
+                Ok(vibration) => {
+                    for harmonic in &vibration.response.harmonics {
                         let outputs = 0..harmonic.outputs.len();
                         rows.extend(outputs.map(|output| row(Some((harmonic, output)), None)));
                     }
@@ -205,11 +205,14 @@ impl Bode {
         table.number("error of 99 %", "", &|row| Some(row.check?.upper));
         said.columns(table);
         let checks = || rows.iter().filter_map(|row| row.check);
-        let worst = checks().map(|own| own.sigma.abs().max(own.upper.abs()));
+        let worst = checks().map(|py_result| py_result.sigma.abs().max(py_result.upper.abs()));
         let Some(worst) = worst.reduce(f64::max) else {
             return;
         };
-        let number = checks().map(|own| own.samples).max().unwrap_or_default();
+        let number = checks()
+            .map(|py_result| py_result.samples)
+            .max()
+            .unwrap_or_default();
         said.note(match worst > WORTH_SAYING {
             true => format!(
                 "Solving {number} designs anew at each point shows the bands up to {} off.",

@@ -80,7 +80,7 @@ impl fmt::Display for Unjudged {
 impl fmt::Display for Judgement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Judged(found) => found.fmt(f),
+            Self::Judged(judged) => judged.fmt(f),
             Self::Open(reason) => reason.fmt(f),
         }
     }
@@ -91,14 +91,14 @@ pub(crate) fn verdict(judgement: &Judgement, claimed: f64) -> String {
     let Some(judged) = judgement.judged() else {
         return "not verified".to_owned();
     };
-    let (found, interval) = (judged.probability.value, judged.interval());
+    let (value, interval) = (judged.probability.value, judged.interval());
     if judged.confirms(claimed) {
         "verified".to_owned()
     } else if !judged.settled || (interval.lower..=interval.upper).contains(&claimed) {
         "not verified".to_owned()
-    } else if claimed > 10.0 * found || found > 10.0 * claimed {
+    } else if claimed > 10.0 * value || value > 10.0 * claimed {
         "wrong".to_owned()
     } else {
-        format!("off by {}", percent(claimed / found - 1.0))
+        format!("off by {}", percent(claimed / value - 1.0))
     }
 }

@@ -62,7 +62,7 @@ impl Lines {
 
     /// The farthest distance.
     pub(crate) fn farthest(&self) -> f64 {
-        let all = self.directions.iter().map(|own| own.distance);
+        let all = self.directions.iter().map(|direction| direction.distance);
         all.fold(0.0, f64::max)
     }
 }

@@ -33,14 +33,14 @@ pub struct Judged {
 
 impl Judged {
     /// From lines that reach this many standard deviations to either side.
-    pub(super) fn new(found: &LineProbability, reach: f64) -> Self {
+    pub(super) fn new(line_probability: &LineProbability, reach: f64) -> Self {
         Self {
-            probability: found.probability,
-            untold: found.without_value,
+            probability: line_probability.probability,
+            untold: line_probability.without_value,
             unseen: 2.0 * normal::cdf(-reach),
-            settled: found.settled,
-            lines: found.lines,
-            designs: found.evaluations,
+            settled: line_probability.settled,
+            lines: line_probability.lines,
+            designs: line_probability.evaluations,
         }
     }
 
@@ -121,7 +121,7 @@ impl Judgement {
     #[must_use]
     pub fn judged(&self) -> Option<&Judged> {
         match self {
-            Self::Judged(found) => Some(found),
+            Self::Judged(judged) => Some(judged),
             Self::Open(_) => None,
         }
     }
@@ -129,12 +129,12 @@ impl Judgement {
     /// Whether designs were solved anew and agree with a claimed probability ([`Judged::agrees`]).
     #[must_use]
     pub fn agrees(&self, claimed: f64) -> bool {
-        self.judged().is_some_and(|own| own.agrees(claimed))
+        self.judged().is_some_and(|x| x.agrees(claimed))
     }
 
     /// Whether a claimed probability was confirmed ([`Judged::confirms`]).
     #[must_use]
     pub fn confirms(&self, claimed: f64) -> bool {
-        self.judged().is_some_and(|own| own.confirms(claimed))
+        self.judged().is_some_and(|x| x.confirms(claimed))
     }
 }

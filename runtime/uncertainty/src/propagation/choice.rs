@@ -56,8 +56,8 @@ pub fn propagate(
 ) -> Result<Propagation, Error> {
     let space = Space::new(responses.nominal(), tolerances)?;
     let dimensions = space.dimensions();
-    let with = |found: Result<Propagation, Error>, reason: String| {
-        found.map(|found| Propagation { reason, ..found })
+    let with = |propagation: Result<Propagation, Error>, reason: String| {
+        propagation.map(|found| Propagation { reason, ..found })
     };
     if dimensions == 0 {
         let found = first_order(mechanism, responses, tolerances);

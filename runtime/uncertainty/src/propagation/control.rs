@@ -92,10 +92,11 @@ pub fn controlled(
     let space = Space::new(at, tolerances)?;
     let expansions = expansions(mechanism, responses)?;
     let controls: Vec<Option<Control<'_>>> = (expansions.iter())
-        .map(|own| Some(Control::of(own.as_ref()?, tolerances)))
+        .map(|expansion| Some(Control::of(expansion.as_ref()?, tolerances)))
         .collect();
-    let scales = controls.iter().flat_map(|own| {
-        own.as_ref()
+    let scales = controls.iter().flat_map(|control| {
+        control
+            .as_ref()
             .map_or([(0.0, 1.0); QUANTITIES], Control::scales)
     });
     let task = Task {
@@ -111,7 +112,7 @@ pub fn controlled(
     let parts = task.gather(sampling)?;
     let samples = Gathered(&parts);
     let spreads = controls.iter().enumerate();
-    let spreads = spreads.map(|(i, own)| match own {
+    let spreads = spreads.map(|(i, item)| match item {
         None => Ok(None),
         Some(own) => own.spread(&samples, QUANTITIES * i),
     });
@@ -137,22 +138,22 @@ struct Control<'a> {
 }
 
 impl<'a> Control<'a> {
-    fn of(own: &'a Expansion, tolerances: &Tolerances) -> Self {
-        let second = (own.curvature.as_ref())
-            .map(|curvature| moments::second_order(own, curvature, tolerances))
+    fn of(expansion: &'a Expansion, tolerances: &Tolerances) -> Self {
+        let second = (expansion.curvature.as_ref())
+            .map(|curvature| moments::second_order(expansion, curvature, tolerances))
             .and_then(|exact| Some((exact.mean, exact.sigma?)));
         let (model, (mean, sigma)) = match second {
             Some(exact) => (Method::SecondOrder, exact),
             None => {
-                let exact = moments::first_order(own, tolerances);
+                let exact = moments::first_order(expansion, tolerances);
                 (
                     Method::FirstOrder,
-                    (exact.mean, tolerances.sigma(&own.slopes)),
+                    (exact.mean, tolerances.sigma(&expansion.slopes)),
                 )
             }
         };
         Self {
-            own,
+            own: expansion,
             model,
             mean,
             sigma,
@@ -184,13 +185,13 @@ impl<'a> Control<'a> {
     fn spread(
         &self,
         samples: &Gathered<'_>,
-        place: usize,
+        index: usize,
     ) -> Result<Option<ControlledSpread>, Error> {
-        if samples.count(place)? < samples.total() {
+        if samples.count(index)? < samples.total() {
             return Ok(None);
         }
-        let first = corrected(samples, place, self.mean)?;
-        let square = corrected(samples, place + 2, self.sigma * self.sigma)?;
+        let first = corrected(samples, index, self.mean)?;
+        let square = corrected(samples, index + 2, self.sigma * self.sigma)?;
         let (Some(first), Some(square)) = (first, square) else {
             return Ok(None);
         };
@@ -223,17 +224,17 @@ struct Corrected {
 
 /// The mean of the quantity at `place`, with the next quantity, whose mean `known` is exact, as control variate:
 /// `f - beta (g - known)`, `beta = Cov(f, g) / Var(g)`.
-fn corrected(samples: &Gathered<'_>, place: usize, known: f64) -> Result<Option<Corrected>, Error> {
+fn corrected(samples: &Gathered<'_>, index: usize, known: f64) -> Result<Option<Corrected>, Error> {
     let covariance = |i, j| samples.covariance(i, j);
     let all = (
-        covariance(place, place)?,
-        covariance(place, place + 1)?,
-        covariance(place + 1, place + 1)?,
+        covariance(index, index)?,
+        covariance(index, index + 1)?,
+        covariance(index + 1, index + 1)?,
     );
     let (Some(own), Some(both), Some(other)) = all else {
         return Ok(None);
     };
-    let (Some(f), Some(g)) = (samples.mean(place)?, samples.mean(place + 1)?) else {
+    let (Some(f), Some(g)) = (samples.mean(index)?, samples.mean(index + 1)?) else {
         return Ok(None);
     };
     let slope = if other > 0.0 { both / other } else { 0.0 };
@@ -242,7 +243,7 @@ fn corrected(samples: &Gathered<'_>, place: usize, known: f64) -> Result<Option<
     let exact = left <= 1e-14 * own;
     Ok(Some(Corrected {
         value: f - slope * (g - known),
-        error: (left / samples.count(place)? as f64).sqrt(),
+        error: (left / samples.count(index)? as f64).sqrt(),
         worth: match (own > 0.0, exact) {
             (false, _) => 1.0,
             (true, true) => f64::INFINITY,

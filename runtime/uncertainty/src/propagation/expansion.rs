@@ -39,9 +39,9 @@ pub(super) fn expansions(
     responses: &Responses<'_>,
 ) -> Result<Vec<Option<Expansion>>, Error> {
     let at = responses.nominal();
-    let found = responses.with_gradients(&mut responses.workspace(), &at.design)?;
+    let realisation = responses.with_gradients(&mut responses.workspace(), &at.design)?;
     let mut models = QuadraticModels::new(mechanism, responses);
-    let values = found.values.iter().zip(found.gradients);
+    let values = realisation.values.iter().zip(realisation.gradients);
     let all = responses.wanted().iter().zip(values);
     let each = all.map(|(response, (value, slopes))| {
         Some(Expansion {
@@ -85,9 +85,9 @@ impl Model for Polynomials<'_> {
                 *x = value - nominal;
             }
             let (first, second) = values.split_at_mut(self.expansions.len());
-            for (k, own) in self.expansions.iter().enumerate() {
-                first[k] = own.as_ref().map(|own| own.first_order(x));
-                second[k] = own.as_ref().and_then(|own| own.second_order(x));
+            for (k, expansion) in self.expansions.iter().enumerate() {
+                first[k] = expansion.as_ref().map(|item| item.first_order(x));
+                second[k] = expansion.as_ref().and_then(|item| item.second_order(x));
             }
             take(
                 k,

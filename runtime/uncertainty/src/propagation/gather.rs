@@ -29,12 +29,12 @@ pub(super) fn nominal_scales(
     tolerances: &Tolerances,
 ) -> Result<(Vec<Option<f64>>, Vec<Scale>), Error> {
     let design = &responses.nominal().design;
-    let found = responses.with_gradients(&mut responses.workspace(), design)?;
-    let slopes = found.gradients.iter().map(Option::as_deref);
-    let scales = found.values.iter().zip(slopes);
+    let realisation = responses.with_gradients(&mut responses.workspace(), design)?;
+    let slopes = realisation.gradients.iter().map(Option::as_deref);
+    let scales = realisation.values.iter().zip(slopes);
     let scales = scales.map(|(value, slopes)| tolerances.scale(*value, slopes));
     let scales = scales.collect();
-    Ok((found.values, scales))
+    Ok((realisation.values, scales))
 }
 
 /// The model to sample.
@@ -257,17 +257,17 @@ impl Gathered<'_> {
         };
         Ok(Some(ResponseSpread {
             nominal,
-            mean: Estimated::new(all.mean, errors(all.standard_error, &|own| Some(own.mean))),
+            mean: Estimated::new(all.mean, errors(all.standard_error, &|x| Some(x.mean))),
             sigma: (all.sigma).map(|sigma| {
                 Estimated::new(
                     sigma * divisor.sqrt(),
-                    errors(all.sigma_error, &|own| own.sigma),
+                    errors(all.sigma_error, &|x| x.sigma),
                 )
             }),
             skewness: (all.skewness).map(|value| {
                 Estimated::new(
                     value * unskewed,
-                    errors(all.skewness_error, &|own| own.skewness),
+                    errors(all.skewness_error, &|x| x.skewness),
                 )
             }),
             quantiles,
@@ -303,8 +303,8 @@ fn quantile_error(all: &Statistics, groups: &[Statistics], probability: f64) -> 
         return None;
     }
     let found = all.quantile(probability).ok()?;
-    let share = scatter(groups, &|own| {
-        Some(own.sketch()?.cdf(found.value).ok()?.value)
+    let share = scatter(groups, &|item| {
+        Some(item.sketch()?.cdf(found.value).ok()?.value)
     })?;
     // Definitions of a quantile differ by up to half a sample.
     let share = share.hypot(0.5 / all.count as f64);

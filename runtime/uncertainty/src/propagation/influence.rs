@@ -125,8 +125,8 @@ pub fn influence(
     let found = nominal.iter().enumerate().map(|(i, nominal)| {
         let mut own = table.response(i, &variables);
         own.nominal = *nominal;
-        for (own, [low, high]) in own.variables.iter_mut().zip(&ends) {
-            (own.at_low, own.at_high) = (low[i], high[i]);
+        for (variable, [low, high]) in own.variables.iter_mut().zip(&ends) {
+            (variable.at_low, variable.at_high) = (low[i], high[i]);
         }
         own
     });

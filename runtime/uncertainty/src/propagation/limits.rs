@@ -15,8 +15,8 @@ pub(super) fn limits(nominal: &[f64], tolerances: &Tolerances) -> Vec<(f64, f64)
         return all.map(|(mean, half)| (mean - half, mean + half)).collect();
     };
     let all = joint.variables().iter().zip(nominal.iter().zip(about));
-    all.map(|(own, (nominal, about))| {
-        let (low, high) = ends(own, level);
+    all.map(|(item, (nominal, about))| {
+        let (low, high) = ends(item, level);
         (low + (nominal - about), high + (nominal - about))
     })
     .collect()

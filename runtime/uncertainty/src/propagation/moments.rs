@@ -21,16 +21,16 @@ fn shape(tolerances: &Tolerances) -> Option<Vec<[f64; 2]>> {
     let variables = joint.variables().iter();
     (joint.is_independent()).then(|| {
         variables
-            .map(|own| [own.skewness(), own.excess_kurtosis()])
+            .map(|variable| [variable.skewness(), variable.excess_kurtosis()])
             .collect()
     })
 }
 
 /// First order: mean `f0 + S m`, variance `|a|^2`, third moment `sum a^3 g`, with `a = L^T S`, the shift `m` of the
 /// means, and the skewness `g` of each independent variable.
-pub(super) fn first_order(own: &Expansion, tolerances: &Tolerances) -> ExactMoments {
-    let sigma = tolerances.sigma(&own.slopes);
-    let a = times(&tolerances.factor().transpose(), &own.slopes);
+pub(super) fn first_order(expansion: &Expansion, tolerances: &Tolerances) -> ExactMoments {
+    let sigma = tolerances.sigma(&expansion.slopes);
+    let a = times(&tolerances.factor().transpose(), &expansion.slopes);
     let third = |shape: Vec<[f64; 2]>| {
         let parts = a.iter().zip(shape);
         parts
@@ -38,7 +38,7 @@ pub(super) fn first_order(own: &Expansion, tolerances: &Tolerances) -> ExactMome
             .sum()
     };
     ExactMoments {
-        mean: own.value + tolerances.mean_shift(&own.slopes),
+        mean: expansion.value + tolerances.mean_shift(&expansion.slopes),
         sigma: Some(sigma),
         skewness: shape(tolerances).filter(|_| sigma > 0.0).map(third),
     }
@@ -48,7 +48,7 @@ pub(super) fn first_order(own: &Expansion, tolerances: &Tolerances) -> ExactMome
 /// `f0 + S m + m^T H m / 2 + tr(B) / 2`. For independent variables of skewness `g` and excess kurtosis `k`, the
 /// variance is `sum a^2 + sum a_j B_jj g_j + sum B_jj^2 k_j / 4 + sum_jk B_jk^2 / 2`.
 pub(super) fn second_order(
-    own: &Expansion,
+    expansion: &Expansion,
     curvature: &Matrix,
     tolerances: &Tolerances,
 ) -> ExactMoments {
@@ -56,7 +56,12 @@ pub(super) fn second_order(
     let factor = tolerances.factor();
     let columns = factor.transpose();
     let bent = times(curvature, shifts);
-    let slopes: Vector = own.slopes.iter().zip(&bent).map(|(s, h)| s + h).collect();
+    let slopes: Vector = expansion
+        .slopes
+        .iter()
+        .zip(&bent)
+        .map(|(s, h)| s + h)
+        .collect();
     let a = times(&columns, &slopes);
     let size = a.len();
     let b = Matrix::from_fn(size, size, |j, k| form(&columns[j], curvature, &columns[k]));
@@ -74,7 +79,7 @@ pub(super) fn second_order(
         dot(&a, &a) + own.sum::<f64>() + 0.5 * squares
     };
     ExactMoments {
-        mean: own.first_order(shifts) + 0.5 * dot(shifts, &bent) + 0.5 * trace,
+        mean: expansion.first_order(shifts) + 0.5 * dot(shifts, &bent) + 0.5 * trace,
         sigma: shape(tolerances).map(|shape| variance(shape).max(0.0).sqrt()),
         skewness: None,
     }

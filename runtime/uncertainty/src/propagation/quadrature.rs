@@ -85,8 +85,8 @@ pub fn quadrature(
         Ok(())
     })?;
     found.refuse_missing()?;
-    let found = sums.propagation(grid.method(), responses, at, found.counts, &nominal)?;
-    Ok(found.doubted(doubts_of_models(responses, tolerances)))
+    let propagation = sums.propagation(grid.method(), responses, at, found.counts, &nominal)?;
+    Ok(propagation.doubted(doubts_of_models(responses, tolerances)))
 }
 
 /// Number of designs that [`quadrature`] evaluates; `None` if there is no such grid.
@@ -98,7 +98,7 @@ pub(super) fn cost(dimensions: usize, level: usize) -> Option<u64> {
 pub(super) fn refuse_discrete(tolerances: &Tolerances) -> Result<(), Error> {
     let joint = tolerances.joint();
     let variables = joint.map_or(&[][..], |(joint, _)| joint.variables());
-    if variables.iter().all(|own| own.is_continuous()) {
+    if variables.iter().all(|variable| variable.is_continuous()) {
         return Ok(());
     }
     Err(Error::Setting {

@@ -99,10 +99,10 @@ fn taylor(
     let second = method == Method::SecondOrder;
     let (mut spreads, mut covariance) = (Vec::new(), Matrix::zeros(count, count));
     let mut with_design = Matrix::from_fn(count, at.design.len(), |_, _| None);
-    for (i, own) in expansions.iter().enumerate() {
-        let Some(own) = own
+    for (i, expansion) in expansions.iter().enumerate() {
+        let Some(own) = expansion
             .as_ref()
-            .filter(|own| !second || own.curvature.is_some())
+            .filter(|x| !second || x.curvature.is_some())
         else {
             spreads.push(None);
             continue;
@@ -133,7 +133,7 @@ fn taylor(
     }
     let mut counts = Counts::default();
     counts.add(Outcome::from(at.stability), 1);
-    let found = Propagation {
+    let propagation = Propagation {
         method,
         reason: String::new(),
         wanted: responses.wanted().to_vec(),
@@ -146,15 +146,15 @@ fn taylor(
         inputs: at.inputs.clone(),
         description: at.description.clone(),
     };
-    Ok(found.doubted(doubts_of_models(responses, tolerances)))
+    Ok(propagation.doubted(doubts_of_models(responses, tolerances)))
 }
 
 /// Samples the expansions: to first order, then to second.
 fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Vec<Partial>, Error> {
-    let scale = |own: &Option<Expansion>| {
-        let own = own.as_ref();
-        let sigma = own.map_or(0.0, |own| space.tolerances.sigma(&own.slopes));
-        let value = own.map_or(0.0, |own| own.value);
+    let scale = |expansion: &Option<Expansion>| {
+        let own = expansion.as_ref();
+        let sigma = own.map_or(0.0, |x| space.tolerances.sigma(&x.slopes));
+        let value = own.map_or(0.0, |x| x.value);
         (
             value,
             if sigma > 0.0 && sigma.is_finite() {
@@ -181,20 +181,27 @@ struct Models<'a> {
 }
 
 impl Models<'_> {
-    fn spread(&self, i: usize, own: &Expansion, second: bool) -> Result<ResponseSpread, Error> {
-        let first = self.model(i, own, None)?;
-        let Some(curvature) = &own.curvature else {
+    fn spread(
+        &self,
+        i: usize,
+        expansion: &Expansion,
+        second: bool,
+    ) -> Result<ResponseSpread, Error> {
+        let first = self.model(i, expansion, None)?;
+        let Some(curvature) = &expansion.curvature else {
             return Ok(first.without_errors());
         };
-        let other = self.model(i, own, Some(curvature))?;
-        let ratio = self.ratio(own, curvature);
+        let other = self.model(i, expansion, Some(curvature))?;
+        let ratio = self.ratio(expansion, curvature);
         let (mut found, other, share) = match second {
             true => (other, first, ratio),
             false => (first, other, 1.0),
         };
         add_difference(&mut found, &other, share);
         let sigma = found.sigma.as_mut();
-        if let Some((sigma, error)) = sigma.and_then(|own| Some((own.value, own.error.as_mut()?))) {
+        if let Some((sigma, error)) =
+            sigma.and_then(|sigma| Some((sigma.value, sigma.error.as_mut()?)))
+        {
             *error += THIRD * ratio * ratio * sigma;
         }
         Ok(found)
@@ -202,7 +209,7 @@ impl Models<'_> {
 
     /// Ratio of the contributions of curvature (to the standard deviation and, if means are shifted, to the slopes) to
     /// that of the slopes; at most 1.
-    fn ratio(&self, own: &Expansion, curvature: &Matrix) -> f64 {
+    fn ratio(&self, expansion: &Expansion, curvature: &Matrix) -> f64 {
         let columns = self.tolerances.factor().transpose();
         let curved = columns.iter().map(|row| times(curvature, row));
         let squares: f64 = curved
@@ -212,7 +219,7 @@ impl Models<'_> {
         let bent = self
             .tolerances
             .sigma(&times(curvature, self.tolerances.shifts()));
-        let ratio = (squares.sqrt() + bent) / self.tolerances.sigma(&own.slopes);
+        let ratio = (squares.sqrt() + bent) / self.tolerances.sigma(&expansion.slopes);
         if ratio < 1.0 { ratio } else { 1.0 }
     }
 
@@ -220,7 +227,7 @@ impl Models<'_> {
     fn model(
         &self,
         i: usize,
-        own: &Expansion,
+        expansion: &Expansion,
         curvature: Option<&Matrix>,
     ) -> Result<ResponseSpread, Error> {
         let place = if curvature.is_some() {
@@ -229,10 +236,10 @@ impl Models<'_> {
             i
         };
         let exact = match curvature {
-            None => moments::first_order(own, self.tolerances),
-            Some(curvature) => moments::second_order(own, curvature, self.tolerances),
+            None => moments::first_order(expansion, self.tolerances),
+            Some(curvature) => moments::second_order(expansion, curvature, self.tolerances),
         };
-        let nominal = Some(own.value);
+        let nominal = Some(expansion.value);
         let sampled = self.samples.spread(place, nominal)?;
         let certain = |value: f64| Estimated::new(value, Some(0.0));
         let ExactMoments {
@@ -270,20 +277,20 @@ fn exactly_normal(mean: f64, sigma: f64) -> Vec<Quantile> {
 
 /// Adds the fraction `share` of the difference from another spread to each error, and the whole difference to that of
 /// the standard deviation.
-fn add_difference(own: &mut ResponseSpread, other: &ResponseSpread, share: f64) {
-    let further = |own: &mut Estimated, other: Option<Estimated>, share: f64| {
-        let difference = other.map(|other| share * (own.value - other.value).abs());
-        own.error = own.error.zip(difference).map(|(a, b)| a + b);
+fn add_difference(response_spread: &mut ResponseSpread, other: &ResponseSpread, share: f64) {
+    let further = |estimated: &mut Estimated, other: Option<Estimated>, share: f64| {
+        let difference = other.map(|other| share * (estimated.value - other.value).abs());
+        estimated.error = estimated.error.zip(difference).map(|(a, b)| a + b);
     };
-    further(&mut own.mean, Some(other.mean), share);
-    if let Some(sigma) = &mut own.sigma {
+    further(&mut response_spread.mean, Some(other.mean), share);
+    if let Some(sigma) = &mut response_spread.sigma {
         further(sigma, other.sigma, 1.0);
     }
-    if let Some(skewness) = &mut own.skewness {
+    if let Some(skewness) = &mut response_spread.skewness {
         further(skewness, other.skewness, share);
     }
-    for (own, other) in own.quantiles.iter_mut().zip(&other.quantiles) {
-        let difference = share * (own.value - other.value).abs();
-        own.error = own.error.map(|error| error + difference);
+    for (quantile, other) in response_spread.quantiles.iter_mut().zip(&other.quantiles) {
+        let difference = share * (quantile.value - other.value).abs();
+        quantile.error = quantile.error.map(|error| error + difference);
     }
 }

@@ -169,7 +169,7 @@ pub fn check_vibrations(
     let compared = |k: usize| {
         let sigma = |place| -> Result<_, Error> {
             let spread = gathered.spread(place, None)?;
-            Ok(spread.and_then(|own| Some(own.sigma?.value)))
+            Ok(spread.and_then(|spread| Some(spread.sigma?.value)))
         };
         let upper = |place| gathered.quantile(place, UPPER);
         let sigma = relative(sigma(count + k)?, sigma(k)?);
@@ -188,8 +188,8 @@ pub fn check_vibrations(
 const UPPER: f64 = 0.99;
 
 /// The relative error of a number of the model, if both exist.
-fn relative(own: Option<f64>, right: Option<f64>) -> Option<f64> {
-    let (own, right) = own.zip(right)?;
+fn relative(value: Option<f64>, right: Option<f64>) -> Option<f64> {
+    let (own, right) = value.zip(right)?;
     Some(match right == own {
         true => 0.0,
         false => own / right - 1.0,
@@ -227,7 +227,7 @@ impl Model for Both<'_> {
             self.model.evaluate(model, one, &mut |_, found| {
                 let exact = values.clone();
                 let alike = found.values.iter().zip(exact);
-                values.extend(alike.map(|(own, exact)| exact.and(*own)));
+                values.extend(alike.map(|(x, exact)| exact.and(*x)));
                 take(
                     k,
                     Evaluated {

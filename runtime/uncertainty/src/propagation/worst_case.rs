@@ -177,8 +177,8 @@ impl Search<'_> {
     fn look(&mut self, corner: &[i8]) -> Result<(), Error> {
         if !self.seen.contains_key(corner) {
             let design = self.design(corner);
-            let found = self.responses.with_gradients(&mut self.room, &design)?;
-            self.seen.insert(corner.to_vec(), found);
+            let realisation = self.responses.with_gradients(&mut self.room, &design)?;
+            self.seen.insert(corner.to_vec(), realisation);
         }
         Ok(())
     }
@@ -267,7 +267,7 @@ impl Search<'_> {
     /// The result, given the corners at which the searches for least and greatest ended. What lies between the
     /// evaluated designs and a corner without a value is unknown.
     fn found(&self, response: usize, ends: &[Corner; 2]) -> ResponseLimits {
-        let value = |found: &Realisation| found.values[response];
+        let value = |realisation: &Realisation| realisation.values[response];
         let missing = self.seen.iter().filter(|(_, found)| value(found).is_none());
         let known = |corner: &Corner| self.seen.get(corner).and_then(value).is_some();
         let elsewhere = missing.clone().any(|(corner, _)| !ends.contains(corner));

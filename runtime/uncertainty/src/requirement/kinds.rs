@@ -120,7 +120,7 @@ impl Requirement {
             match lost {
                 true => Some(
                     distance
-                        .filter(|own| *own <= 0.0)
+                        .filter(|distance| *distance <= 0.0)
                         .unwrap_or(f64::NEG_INFINITY),
                 ),
                 false => distance,
@@ -217,9 +217,9 @@ impl Requirement {
                 if limits.is_empty() {
                     return refuse("a band without a finite end asks for nothing".to_owned());
                 }
-                let band = |own: &Self| own.band(mechanism, &at.inputs, &at.design);
+                let band = |this: &Self| this.band(mechanism, &at.inputs, &at.design);
                 let all = |(low, high): (f64, f64)| low <= 0.0 && high == f64::INFINITY;
-                match self.response().filter(|own| own.never_negative()) {
+                match self.response().filter(|x| x.never_negative()) {
                     Some(response) if limits.iter().map(band).any(all) => refuse(format!(
                         "the upper limit of `{}`, which is never below zero, must be positive",
                         response.name(&at.description)

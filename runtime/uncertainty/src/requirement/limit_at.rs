@@ -22,14 +22,14 @@ impl<'a> LimitAt<'a> {
     /// Creates one of [`Requirement::limits`], for the response at position `place`.
     pub(crate) fn new(
         responses: &'a Responses<'a>,
-        place: usize,
+        index: usize,
         limit: Requirement,
         deviations: &'a Deviations<'a>,
     ) -> Self {
         Self {
             room: RefCell::new(responses.workspace()),
             responses,
-            place,
+            place: index,
             limit,
             deviations,
         }
@@ -95,9 +95,9 @@ impl<'a> LimitAt<'a> {
         found.map_err(|error| error.to_string())
     }
 
-    fn value_of(&self, found: &Realisation) -> Result<f64, String> {
-        let value = found.values.get(self.place).copied().flatten();
-        value.ok_or_else(|| missing(found.outcome).to_owned())
+    fn value_of(&self, realisation: &Realisation) -> Result<f64, String> {
+        let value = realisation.values.get(self.place).copied().flatten();
+        value.ok_or_else(|| missing(realisation.outcome).to_owned())
     }
 }
 

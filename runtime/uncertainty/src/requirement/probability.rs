@@ -131,9 +131,9 @@ impl Requirements<'_> {
             judgements = judge_requirements(self, sampling.samples as u64, &mut found)?;
             reliability = (!found.limits.is_empty()).then_some(found);
         }
-        let settled = |place: usize| {
-            let (judgement, described) = judgements.get(place)?;
-            let judged = judgement.judged().filter(|own| own.settled)?;
+        let settled = |index: usize| {
+            let (judgement, described) = judgements.get(index)?;
+            let judged = judgement.judged().filter(|x| x.settled)?;
             Some(FailureProbability::of_lines(judged, *described))
         };
         let count = self.wanted().len();
@@ -143,20 +143,20 @@ impl Requirements<'_> {
             true => None,
             false => Some(chances_of(self, deviations, sampling)?),
         };
-        let one = |place: usize| {
+        let one = |index: usize| {
             let sampled = |chances: &Chances| {
-                FailureProbability::of_samples(chances.each.get(place).unwrap_or(&chances.all))
+                FailureProbability::of_samples(chances.each.get(index).unwrap_or(&chances.all))
             };
             let sampled = chances.as_ref().map(sampled).transpose()?;
-            let sharpest = settled(place).into_iter().chain(sampled);
+            let sharpest = settled(index).into_iter().chain(sampled);
             sharpest
                 .min_by(|a, b| a.width().total_cmp(&b.width()))
                 .ok_or(Error::Stopped)
         };
         let each: Vec<FailureProbability> = (0..count).map(one).collect::<Result<_, _>>()?;
-        let sampled = chances.iter().flat_map(|own| &own.each);
-        let nothing = |(found, tally): (&FailureProbability, &Tally)| {
-            found.value <= NEGLIGIBLE && tally.untold == tally.samples()
+        let sampled = chances.iter().flat_map(|chance| &chance.each);
+        let nothing = |(failure_probability, tally): (&FailureProbability, &Tally)| {
+            failure_probability.value <= NEGLIGIBLE && tally.untold == tally.samples()
         };
         if let Some(place) = each.iter().zip(sampled).position(nothing) {
             return Err(self.untold(place));

@@ -69,11 +69,11 @@ impl RareFailure {
             value,
             standard_error,
         } = self.failure.probability;
-        let judged = self.judgement.judged().filter(|own| own.settled);
-        judged.is_some_and(|own| {
-            let Interval { lower, upper } = own.interval();
+        let judged = self.judgement.judged().filter(|x| x.settled);
+        judged.is_some_and(|judged| {
+            let Interval { lower, upper } = judged.interval();
             let known =
-                CLEARLY * standard_error + TRUSTED_PROBABILITY_ERROR * own.probability.value;
+                CLEARLY * standard_error + TRUSTED_PROBABILITY_ERROR * judged.probability.value;
             value + known < lower || value - known > upper
         })
     }
@@ -105,12 +105,14 @@ impl Requirements<'_> {
             coefficient_of_variation: accuracy,
             ..SamplingSettings::default()
         };
-        let found = about
+        let design_points = about
             .limits
             .iter()
-            .filter_map(|own| own.design_points.as_ref().ok());
-        let centres: Vec<reliability::DesignPoint> =
-            found.flatten().map(|point| point.normal.clone()).collect();
+            .filter_map(|limit| limit.design_points.as_ref().ok());
+        let centres: Vec<reliability::DesignPoint> = design_points
+            .flatten()
+            .map(|point| point.normal.clone())
+            .collect();
         if centres.is_empty() {
             return Err(Error::Setting {
                 setting: "design points",

@@ -126,20 +126,22 @@ impl Reliability {
     /// it has no design point.
     #[must_use]
     pub fn beta_of(&self, requirement: usize) -> Option<f64> {
-        let own = self
+        let limits = self
             .limits
             .iter()
-            .filter(|own| own.requirement == requirement);
-        let parts: Vec<f64> = own.filter_map(LimitReliability::probability).collect();
+            .filter(|limit| limit.requirement == requirement);
+        let parts: Vec<f64> = limits.filter_map(LimitReliability::probability).collect();
         (!parts.is_empty()).then(|| -normal::quantile(parts.iter().sum::<f64>().min(1.0)))
     }
 
     /// Requirements of which some failure has no design point although it may be within reach.
     pub(super) fn without_design_point(&self) -> Vec<usize> {
-        let lacks = |own: &&LimitReliability| own.design_points.is_err() && !own.out_of_reach();
+        let lacks = |limit_reliability: &&LimitReliability| {
+            limit_reliability.design_points.is_err() && !limit_reliability.out_of_reach()
+        };
         let limits = self.limits.iter().filter(lacks);
         let mut all = self.left_out.clone();
-        all.extend(limits.map(|own| own.requirement));
+        all.extend(limits.map(|limit| limit.requirement));
         all.sort_unstable();
         all.dedup();
         all
@@ -161,9 +163,9 @@ impl Requirements<'_> {
     /// density. A limit without a design point carries its own error.
     pub fn reliability(&self, settings: &FormSettings) -> Result<Reliability, Error> {
         check(self, self.deviations())?;
-        let mut found = reliability_of(self, self.deviations(), settings)?;
-        judge(self, self.deviations(), &mut found)?;
-        Ok(found)
+        let mut reliability = reliability_of(self, self.deviations(), settings)?;
+        judge(self, self.deviations(), &mut reliability)?;
+        Ok(reliability)
     }
 }
 
@@ -181,12 +183,12 @@ pub(crate) fn reliability_of(
         design_points: design_points(requirements, deviations, limit, settings),
         judgement: Judgement::Open(Unjudged::NotAsked),
     });
-    let found: Vec<LimitReliability> = found.collect();
+    let limit_reliabilities: Vec<LimitReliability> = found.collect();
     requirements.responses().go_on()?;
     let has_limit = |k: &usize| limits.iter().any(|limit| limit.requirement == *k);
     Ok(Reliability {
-        system: system(&found)?,
-        limits: found,
+        system: system(&limit_reliabilities)?,
+        limits: limit_reliabilities,
         left_out: (0..requirements.wanted().len())
             .filter(|k| !has_limit(k))
             .collect(),
@@ -236,8 +238,8 @@ fn design_points(
 ) -> Result<Vec<DesignPoint>, Error> {
     let at = |alone| LimitAt::new(requirements.responses(), limit.place, alone, deviations);
     let limit = at(limit.alone);
-    let found = failure_regions(&limit, settings)?.design_points;
-    let inside = found.first().is_some_and(|point| point.beta < 0.0);
+    let design_points = failure_regions(&limit, settings)?.design_points;
+    let inside = design_points.first().is_some_and(|point| point.beta < 0.0);
     let sides = limit.sides();
     if inside
         && !sides.is_empty()
@@ -250,7 +252,7 @@ fn design_points(
                     .to_owned(),
         });
     }
-    let points = found
+    let points = design_points
         .into_iter()
         .map(|point| DesignPoint::new(&limit, deviations, point));
     points.collect()
@@ -258,14 +260,14 @@ fn design_points(
 
 fn system(limits: &[LimitReliability]) -> Result<Option<SystemFailure>, Error> {
     let mut points: Vec<reliability::DesignPoint> = Vec::new();
-    for own in limits
+    for design_points in limits
         .iter()
-        .filter_map(|own| own.design_points.as_ref().ok())
+        .filter_map(|limit| limit.design_points.as_ref().ok())
     {
-        if own.len() > 1 && own.iter().any(|point| point.beta() < 0.0) {
+        if design_points.len() > 1 && design_points.iter().any(|point| point.beta() < 0.0) {
             return Ok(None);
         }
-        points.extend(own.iter().map(|point| point.normal.clone()));
+        points.extend(design_points.iter().map(|point| point.normal.clone()));
     }
     if points.is_empty() {
         return Ok(None);
@@ -286,13 +288,13 @@ const LEAST_STABLE: usize = 3;
 pub(crate) fn judge(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,
-    found: &mut Reliability,
+    reliability: &mut Reliability,
 ) -> Result<(), Error> {
     let about = About::new(requirements, deviations, 0);
-    let all = about.judge_limits(found)?;
-    found.judgement = match (&found.limits[..], &found.left_out[..]) {
+    let all = about.judge_limits(reliability)?;
+    reliability.judgement = match (&reliability.limits[..], &reliability.left_out[..]) {
         ([only], []) => only.judgement,
-        _ => about.judge_any(found, all)?,
+        _ => about.judge_any(reliability, all)?,
     };
     Ok(())
 }
@@ -303,16 +305,16 @@ pub(crate) fn judge(
 pub(super) fn judge_requirements(
     requirements: &Requirements<'_>,
     worth: u64,
-    found: &mut Reliability,
+    reliability: &mut Reliability,
 ) -> Result<Vec<(Judgement, bool)>, Error> {
     let about = About::new(requirements, requirements.deviations(), worth);
-    let all = about.judge_limits(found)?;
+    let all = about.judge_limits(reliability)?;
     let count = requirements.wanted().len();
     let mut judgements = Vec::with_capacity(count + 1);
     for k in 0..count {
-        let limits = found.limits.iter().zip(&all);
-        let own: Vec<_> = limits.filter(|(own, _)| own.requirement == k).collect();
-        let described = !own.is_empty() && own.iter().all(|(own, _)| own.described());
+        let limits = reliability.limits.iter().zip(&all);
+        let own: Vec<_> = limits.filter(|(x, _)| x.requirement == k).collect();
+        let described = !own.is_empty() && own.iter().all(|(x, _)| x.described());
         let judgement = match &own[..] {
             [(only, _)] => only.judgement,
             _ => {
@@ -324,12 +326,12 @@ pub(super) fn judge_requirements(
         };
         judgements.push((judgement, described));
     }
-    found.judgement = match &judgements[..] {
+    reliability.judgement = match &judgements[..] {
         [(only, _)] => *only,
-        _ => about.judge_any(found, all)?,
+        _ => about.judge_any(reliability, all)?,
     };
     let described = judgements.iter().all(|(_, described)| *described);
-    judgements.push((found.judgement, described));
+    judgements.push((reliability.judgement, described));
     Ok(judgements)
 }
 
@@ -353,18 +355,21 @@ impl<'a> About<'a> {
     }
 
     /// Judges every limit; returns along which lines.
-    fn judge_limits(&self, found: &mut Reliability) -> Result<Vec<Lines>, Error> {
+    fn judge_limits(&self, reliability: &mut Reliability) -> Result<Vec<Lines>, Error> {
         let mut all = Vec::new();
         let limits = self.requirements.limits();
         let responses = self.requirements.responses();
-        for (own, Limit { place, alone, .. }) in found.limits.iter_mut().zip(limits) {
+        for (limit, Limit { place, alone, .. }) in reliability.limits.iter_mut().zip(limits) {
             let mut lines = Lines {
                 worth: self.worth,
                 effort: EFFORT,
-                ..lines(self.requirements, self.deviations, place, own)
+                ..lines(self.requirements, self.deviations, place, limit)
             };
             if alone.response().is_some_and(Response::of_state) {
-                let known = own.design_points.as_ref().is_ok_and(|all| !all.is_empty());
+                let known = limit
+                    .design_points
+                    .as_ref()
+                    .is_ok_and(|all| !all.is_empty());
                 let farthest = if known {
                     lines.farthest()
                 } else {
@@ -372,12 +377,12 @@ impl<'a> About<'a> {
                 };
                 lines.directions.extend(self.unstable_within(farthest));
             }
-            own.judgement = self.event(&lines, &|design, found| {
+            limit.judgement = self.event(&lines, &|design, found| {
                 let value = found.values.get(place).copied().flatten();
                 alone.distance(responses, design, found.outcome, value)
             })?;
-            let described = own.described();
-            for point in own.design_points.iter_mut().flatten() {
+            let described = limit.described();
+            for point in limit.design_points.iter_mut().flatten() {
                 point.verified &= described;
             }
             all.push(lines);
@@ -386,8 +391,8 @@ impl<'a> About<'a> {
     }
 
     /// Judges all requirements together.
-    fn judge_any(&self, found: &Reliability, all: Vec<Lines>) -> Result<Judgement, Error> {
-        let lines = self.together(all.iter(), !found.left_out.is_empty());
+    fn judge_any(&self, reliability: &Reliability, all: Vec<Lines>) -> Result<Judgement, Error> {
+        let lines = self.together(all.iter(), !reliability.left_out.is_empty());
         self.event(&lines, &|design, found| {
             least(&self.requirements.distances(design, found))
         })
@@ -427,14 +432,14 @@ impl<'a> About<'a> {
 fn lines(
     requirements: &Requirements<'_>,
     deviations: &Deviations<'_>,
-    place: usize,
-    own: &LimitReliability,
+    index: usize,
+    limit_reliability: &LimitReliability,
 ) -> Lines {
-    let points = own.design_points.iter().flatten();
+    let points = limit_reliability.design_points.iter().flatten();
     let directions: Vec<Direction> = points
-        .map(|own| Direction {
-            along: own.normal.direction.clone(),
-            distance: own.beta(),
+        .map(|point| Direction {
+            along: point.normal.direction.clone(),
+            distance: point.beta(),
         })
         .collect();
     if !directions.is_empty() {
@@ -444,7 +449,12 @@ fn lines(
             effort: 0.0,
         };
     }
-    let limit = LimitAt::new(requirements.responses(), place, own.limit, deviations);
+    let limit = LimitAt::new(
+        requirements.responses(),
+        index,
+        limit_reliability.limit,
+        deviations,
+    );
     let origin = vec![0.0; deviations.dimension()];
     let (value, slopes) = limit.by_design(&origin).unwrap_or((0.0, origin.clone()));
     let slope = deviations.gradient(&origin, &slopes);

@@ -50,7 +50,7 @@ impl<'a> Requirements<'a> {
                 reason: "at least one is needed".to_owned(),
             });
         }
-        let check = |own: &Requirement| own.check(mechanism, nominal);
+        let check = |requirement: &Requirement| requirement.check(mechanism, nominal);
         wanted.iter().try_for_each(check)?;
         let about: Vec<Response> = wanted.iter().filter_map(Requirement::response).collect();
         Ok(Self {
@@ -99,33 +99,38 @@ impl<'a> Requirements<'a> {
     /// Whether the nominal design has every response.
     pub(super) fn nominal_has_all(&self) -> bool {
         let mut all = self.responses.wanted().iter();
-        all.all(|own| self.responses.missing(*own).is_none())
+        all.all(|x| self.responses.missing(*x).is_none())
     }
 
     /// The error of a requirement whose response no design has.
     pub(super) fn untold(&self, requirement: usize) -> Error {
         let response = self.wanted[requirement].response();
         let of = &self.responses.nominal().description;
-        let reason = response.and_then(|own| self.responses.missing(own));
+        let reason = response.and_then(|response| self.responses.missing(response));
         Error::NoDesignTells {
             requirement,
-            response: response.map_or_else(String::new, |own| own.name(of)),
+            response: response.map_or_else(String::new, |response| response.name(of)),
             reason: reason.map(Box::new),
         }
     }
 
     /// Whether each requirement is met.
-    pub(super) fn each_met(&self, design: &[f64], found: &Realisation) -> Vec<Option<bool>> {
-        let each = self.distances(design, found).into_iter();
+    pub(super) fn each_met(&self, design: &[f64], realisation: &Realisation) -> Vec<Option<bool>> {
+        let each = self.distances(design, realisation).into_iter();
         each.map(|distance| Some(distance? >= 0.0)).collect()
     }
 
     /// Distance from failing each requirement, as [`Requirement::distance`].
-    pub(super) fn distances(&self, design: &[f64], found: &Realisation) -> Vec<Option<f64>> {
-        let mut values = found.values.iter();
+    pub(super) fn distances(&self, design: &[f64], realisation: &Realisation) -> Vec<Option<f64>> {
+        let mut values = realisation.values.iter();
         let each = self.wanted.iter().map(|wanted| {
-            let own = wanted.response().and_then(|_| values.next().copied());
-            wanted.distance(&self.responses, design, found.outcome, own.flatten())
+            let value = wanted.response().and_then(|_| values.next().copied());
+            wanted.distance(
+                &self.responses,
+                design,
+                realisation.outcome,
+                value.flatten(),
+            )
         });
         each.collect()
     }
@@ -142,6 +147,6 @@ pub(super) fn all_met(each: &[Option<bool>]) -> Option<bool> {
 /// Distance from failing any requirement, as far as can be told: a single failure decides.
 pub(super) fn least(distances: &[Option<f64>]) -> Option<f64> {
     let known = distances.iter().flatten();
-    let least = known.fold(f64::INFINITY, |least, own| least.min(*own));
+    let least = known.fold(f64::INFINITY, |least, x| least.min(*x));
     (least < 0.0 || !distances.contains(&None)).then_some(least)
 }

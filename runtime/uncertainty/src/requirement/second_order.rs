@@ -77,7 +77,7 @@ pub fn second_order_failure(
     let limits = wanted.limits();
     let bands = limits
         .iter()
-        .map(|own| own.band(mechanism, &at.inputs, &at.design));
+        .map(|limit| limit.band(mechanism, &at.inputs, &at.design));
     let bands: Vec<(f64, f64)> = bands.collect();
     let mut margin = margin(&relative, tolerances, &bands)?;
     let derivatives = margin.derivatives.as_ref().zip(model.by_input.as_ref());
@@ -99,9 +99,9 @@ pub fn second_order_failure(
         })
     });
     let deviations = Deviations::new(tolerances, &at.design)?;
-    let distance = |design: &[f64], found: &Realisation| {
-        let value = found.values.first().copied().flatten();
-        wanted.distance(&responses, design, found.outcome, value)
+    let distance = |design: &[f64], realisation: &Realisation| {
+        let value = realisation.values.first().copied().flatten();
+        wanted.distance(&responses, design, realisation.outcome, value)
     };
     let lines = Lines::along(&deviations, &relative.slopes, margin.distance);
     let judgement = Event::new(&responses, &deviations, &distance).judge(&lines)?;
@@ -133,8 +133,8 @@ fn mixed_with(
     mode: usize,
 ) -> Result<Vec<usize>, Error> {
     let groups = groups(mechanism, at, modes, tolerances)?;
-    let own = groups.into_iter().find(|own| own.contains(&mode));
-    let mut others = own.unwrap_or_default();
+    let group = groups.into_iter().find(|group| group.contains(&mode));
+    let mut others = group.unwrap_or_default();
     others.retain(|other| *other != mode);
     Ok(others)
 }

@@ -172,8 +172,8 @@ impl Summary {
         let moved: Vec<_> = moved.collect();
         let mut table = Columns::new("damping ratios", &moved);
         table.cells("mode", &|(row, _)| (row.mode + 1).to_string());
-        table.cells("damping ratio", &|(_, own)| rough(own.mean));
-        table.cells("sigma: first order", &|(_, own)| rough(spread_of(own)));
+        table.cells("damping ratio", &|(_, x)| rough(x.mean));
+        table.cells("sigma: first order", &|(_, x)| rough(spread_of(x)));
         if self.sampled().is_some() {
             table.cells("sampled", &|(row, _)| {
                 or_dash(row.sampled(Quantity::DampingRatio), rough)
@@ -182,15 +182,15 @@ impl Summary {
         table.cells("to instability [sigma]", &|(row, _)| {
             far(row.first.distance_to_instability)
         });
-        table.cells("mostly from", &|(_, own)| {
-            mostly(&self.description, &own.variance_shares)
+        table.cells("mostly from", &|(_, item)| {
+            mostly(&self.description, &item.variance_shares)
         });
         said.text(table.finish().1);
     }
 
     fn doubted(&self, said: &mut Findings) {
         let modes = self.trust.iter();
-        let rows = modes.flat_map(|own| own.doubts.iter().map(move |doubt| (own.mode, doubt)));
+        let rows = modes.flat_map(|mode| mode.doubts.iter().map(move |doubt| (mode.mode, doubt)));
         let rows: Vec<_> = rows.collect();
         let mut table = Columns::new("doubts", &rows);
         table.whole("mode", &|(mode, _)| Some(mode + 1));

@@ -70,8 +70,8 @@ impl Sampled {
     /// Probability of an outcome.
     #[must_use]
     pub fn chance(&self, outcome: Outcome) -> Option<Chance> {
-        let found = self.outcomes.iter().find(|(own, _)| *own == outcome);
-        found.map(|(_, chance)| *chance)
+        let outcome = self.outcomes.iter().find(|(x, _)| *x == outcome);
+        outcome.map(|(_, chance)| *chance)
     }
 }
 

@@ -131,7 +131,7 @@ impl<'a> Judge<'a> {
             let spread = self.first.modes[mode].of(quantity);
             if quantity == Quantity::Frequency {
                 // Checked, or else nothing moves the frequency and the samples agree.
-                let still = spread.is_some_and(|own| own.sigma <= ROUNDING * prediction.size);
+                let still = spread.is_some_and(|spread| spread.sigma <= ROUNDING * prediction.size);
                 said.right = check.is_some_and(|check| check.first_order_error.is_some())
                     || (check.is_none() && still && count >= FEWEST);
             }
@@ -253,9 +253,9 @@ impl<'a> Judge<'a> {
 }
 
 /// The quantities of a mode to judge, each with the magnitude that it is compared to.
-fn quantities(own: &Mode) -> Vec<(Quantity, f64)> {
-    let damped = matches!(own.behaviour, Behaviour::Damped(_) | Behaviour::Flutter(_));
-    let mut all = vec![(Quantity::Frequency, own.s.norm())];
+fn quantities(mode: &Mode) -> Vec<(Quantity, f64)> {
+    let damped = matches!(mode.behaviour, Behaviour::Damped(_) | Behaviour::Flutter(_));
+    let mut all = vec![(Quantity::Frequency, mode.s.norm())];
     if damped {
         all.push((Quantity::DampingRatio, 1.0));
     }

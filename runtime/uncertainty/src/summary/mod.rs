@@ -151,7 +151,7 @@ pub fn summary_watched(
     };
     let own = || modes.modes.iter().enumerate();
     let predictions: Vec<Prediction<'_>> = own()
-        .flat_map(|(mode, own)| judge.predictions(mode, own))
+        .flat_map(|(mode, x)| judge.predictions(mode, x))
         .collect();
     let about = About {
         mechanism,
@@ -165,7 +165,7 @@ pub fn summary_watched(
         .collect();
     let found = about.sample(&predictions, &groups, budget)?;
     let trust = own()
-        .map(|(mode, own)| judge.verdict(mode, own, &predictions, &found))
+        .map(|(mode, x)| judge.verdict(mode, x, &predictions, &found))
         .collect();
     (summary.trust, summary.sampling) = (trust, found.sampling);
     Ok(summary)

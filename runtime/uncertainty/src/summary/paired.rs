@@ -74,10 +74,10 @@ impl Paired {
     }
 
     /// Adds a sample; `found` is `None` if it does not have the quantity.
-    pub(super) fn add(&mut self, found: Option<f64>, first: f64, second: f64) {
+    pub(super) fn add(&mut self, value: Option<f64>, first: f64, second: f64) {
         let group = &mut self.groups[self.samples % GROUPS];
         self.samples += 1;
-        if let Some(found) = found {
+        if let Some(found) = value {
             group.found.add(found);
         }
         group.first.add(first);
@@ -117,8 +117,8 @@ impl Paired {
     /// Whether the first-order predictions of the samples have about the standard deviation `sigma`, which they have in
     /// the limit of many samples.
     pub(super) fn represents(&self, sigma: f64) -> bool {
-        let found = self.jackknife(|group| group.first.sigma());
-        found.is_some_and(|found| {
+        let measured = self.jackknife(|group| group.first.sigma());
+        measured.is_some_and(|found| {
             let off = (found.value - sigma).abs();
             off <= REPRESENTATIVE * sigma || off <= UNLIKELY * found.standard_error
         })
@@ -164,14 +164,14 @@ mod tests {
         let mut paired = Paired::new();
         let value = |k: usize| ((k * 7919) % 1009) as f64;
         (0..10 * GROUPS).for_each(|k| paired.add(Some(value(k)), 0.0, 0.0));
-        let found = paired.jackknife(|group| group.found.mean());
+        let measured = paired.jackknife(|group| group.found.mean());
         let means: Vec<f64> = (0..GROUPS)
             .map(|g| (0..10).map(|k| value(g + GROUPS * k)).sum::<f64>() / 10.0)
             .collect();
         let mean = means.iter().sum::<f64>() / GROUPS as f64;
-        let squares: f64 = means.iter().map(|own| (own - mean).powi(2)).sum();
+        let squares: f64 = means.iter().map(|x| (x - mean).powi(2)).sum();
         let expected = (squares / (GROUPS * (GROUPS - 1)) as f64).sqrt();
-        let found = found.map(|found| (found.value / mean, found.standard_error / expected));
+        let found = measured.map(|found| (found.value / mean, found.standard_error / expected));
         assert!(found.is_some_and(|(a, b)| (a - 1.0).abs() < 1e-12 && (b - 1.0).abs() < 1e-9));
     }
 

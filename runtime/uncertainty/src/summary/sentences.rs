@@ -66,8 +66,9 @@ impl Summary {
     #[must_use]
     pub fn sentences(&self) -> Vec<Sentence> {
         let mut all = self.doubts();
-        let doubted = self.trust.iter().filter(|own| !own.trusted());
-        let checks = doubted.flat_map(|own| own.checks.iter().map(|check| (own.mode, check)));
+        let doubted = self.trust.iter().filter(|x| !x.trusted());
+        let checks =
+            doubted.flat_map(|doubted| doubted.checks.iter().map(|check| (doubted.mode, check)));
         let converges = |mode| self.second_order_sigma(mode).is_some();
         all.extend(checks.map(|(mode, check)| fact(measured(mode, check, converges(mode)))));
         all.extend(self.advice());
@@ -77,7 +78,7 @@ impl Summary {
     }
 
     fn doubts(&self) -> Vec<Sentence> {
-        let all: Vec<&[Doubt]> = self.trust.iter().map(|own| &own.doubts[..]).collect();
+        let all: Vec<&[Doubt]> = self.trust.iter().map(|x| &x.doubts[..]).collect();
         let bad = |text| Sentence {
             news: News::Bad,
             text,
@@ -91,12 +92,12 @@ impl Summary {
         }
         let all = [Advice::FirstOrder, Advice::SecondOrder, Advice::Sampling];
         let sentence = |advice: Advice| {
-            let oscillates = |own: &&Trust| !own.doubts.contains(&Doubt::NoFrequency);
+            let oscillates = |trust: &&Trust| !trust.doubts.contains(&Doubt::NoFrequency);
             let own = || {
                 let all = self.trust.iter().filter(oscillates);
-                all.filter(|own| own.advice == advice)
+                all.filter(|x| x.advice == advice)
             };
-            let modes: Vec<usize> = own().map(|own| own.mode).collect();
+            let modes: Vec<usize> = own().map(|x| x.mode).collect();
             let (news, text) = match advice {
                 Advice::FirstOrder => (
                     News::Good,
@@ -147,17 +148,16 @@ impl Summary {
                  rest on distances and second order."
             )],
             Sampling::Done(sampled) => {
-                let checks = || self.trust.iter().flat_map(|own| &own.checks);
+                let checks = || self.trust.iter().flat_map(|x| &x.checks);
                 let missing = checks().any(|check| check.count < check.samples).then(|| {
                     "Sampled sigmas are those of the samples that are stable and in which the mode oscillates; in others it has no \
                      frequency."
                         .to_owned()
                 });
                 let other = sampled.other_branch;
-                let other = other.and_then(|own| chance("Stable on another branch", own));
+                let other = other.and_then(|other| chance("Stable on another branch", other));
                 let outcomes = sampled.outcomes.iter();
-                let outcomes =
-                    outcomes.filter_map(|(outcome, own)| chance(name_of(*outcome)?, *own));
+                let outcomes = outcomes.filter_map(|(outcome, x)| chance(name_of(*outcome)?, *x));
                 missing.into_iter().chain(other).chain(outcomes).collect()
             }
         }
@@ -201,10 +201,10 @@ fn measured(mode: usize, check: &Check, converges: bool) -> String {
     };
     let sigma = rough(check.sigma.value);
     let first = check.first_order_error;
-    let first = first.map(|own| format!("; first order is off by {}", percent(own)));
+    let first = first.map(|item| format!("; first order is off by {}", percent(item)));
     let second = check.second_order_error;
-    let second = second.map(|own| match converges {
-        true => format!(", second order by {}", percent(own)),
+    let second = second.map(|item| match converges {
+        true => format!(", second order by {}", percent(item)),
         false => "; the second-order series does not converge".to_owned(),
     });
     let errors = first.unwrap_or_default() + &second.unwrap_or_default();

@@ -12,7 +12,10 @@ use crate::model::mechanism::{Beam, Frame, Mechanism};
 pub(crate) fn notes_on_beams(mechanism: &Mechanism) -> Vec<String> {
     let mut notes = Vec::new();
     for beam in &mechanism.beams {
-        let [torsion, about_y, about_z] = beam.coordinates.each_ref().map(|own| !own.is_empty());
+        let [torsion, about_y, about_z] = beam
+            .coordinates
+            .each_ref()
+            .map(|coordinate| !coordinate.is_empty());
         let root = &mechanism.bodies[beam.body.index()].name;
         if beam.whole != beam.name {
             notes.push(format!(
@@ -26,10 +29,10 @@ pub(crate) fn notes_on_beams(mechanism: &Mechanism) -> Vec<String> {
                 beam.whole
             ));
         }
-        for own in welded_to(mechanism, beam) {
+        for body_id in welded_to(mechanism, beam) {
             notes.push(format!(
                 "`{}` is fixed to `{}` and does not spin with its material; what does is held by a joint driven at the same speed",
-                mechanism.bodies[own.index()].name,
+                mechanism.bodies[body_id.index()].name,
                 beam.whole
             ));
         }
@@ -99,6 +102,6 @@ fn welded_to(mechanism: &Mechanism, beam: &Beam) -> Vec<BodyId> {
         _ => None,
     });
     others
-        .filter(|own| !mechanism.bodies[own.index()].parts.is_empty())
+        .filter(|x| !mechanism.bodies[x.index()].parts.is_empty())
         .collect()
 }

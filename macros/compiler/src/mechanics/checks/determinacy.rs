@@ -75,7 +75,7 @@ pub(crate) fn require_determinate_motion(
             );
         } else if !kernels_only {
             let steady = &context.mechanism.steady;
-            if steady.iter().any(|own| own.coordinate == coordinate(k)) {
+            if steady.iter().any(|x| x.coordinate == coordinate(k)) {
                 continue;
             }
             diagnostics.error_with_help(
@@ -152,15 +152,15 @@ fn with_constraints(
     let mut sum = mass.to_vec();
     let masses: Vec<f64> = (0..n)
         .map(|k| &mass[k * n + k])
-        .map(|own| {
-            if own.is_rounding(operations) {
+        .map(|item| {
+            if item.is_rounding(operations) {
                 0.0
             } else {
-                own.value()
+                item.value()
             }
         })
         .collect();
-    let most = masses.iter().fold(0.0, |most: f64, own| most.max(*own));
+    let most = masses.iter().fold(0.0, |most: f64, mass| most.max(*mass));
     for a in constraints.chunks_exact(n.max(1)) {
         let square: f64 = a.iter().map(|x| x.value() * x.value()).sum();
         let moved = a.iter().zip(&masses).filter(|(_, mass)| **mass > 0.0);

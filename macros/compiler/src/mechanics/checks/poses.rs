@@ -30,7 +30,7 @@ pub(crate) fn poses(g: &mut Graph, context: &Context) -> Vec<Pose> {
         }
     }
     for (beam, motion) in context.mechanism.beams.iter().zip(&kinematics.beams) {
-        let stations = motion.stations.iter().map(|own| &own.section);
+        let stations = motion.stations.iter().map(|station| &station.section);
         let sections = motion.sections.iter().chain(stations);
         poses.extend(sections.filter_map(|section| {
             Some(Pose {

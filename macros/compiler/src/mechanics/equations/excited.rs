@@ -195,10 +195,10 @@ fn axis(
 /// The mechanism with the loads of its excitations as forces, each times its parameter.
 fn with_loads(mechanism: &Mechanism, parameters: &[SymbolList], design: usize) -> Mechanism {
     let mut mechanism = mechanism.clone();
-    let mut place = design;
+    let mut design = design;
     for (excitation, list) in mechanism.excitations.clone().iter().zip(parameters) {
-        let parameter = Rc::new(Expr::Design(DesignId::new(place)));
-        place += list.ids.len();
+        let parameter = Rc::new(Expr::Design(DesignId::new(design)));
+        design += list.ids.len();
         let times = |value: &Expr| Expr::Multiply(parameter.clone(), Rc::new(value.clone()));
         let vector = |vector: &Vector| vector.each_ref().map(times);
         let law = match &excitation.law {

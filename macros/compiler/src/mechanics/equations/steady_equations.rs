@@ -44,7 +44,7 @@ impl Equations {
             .total(g, context);
         let outputs_in_motion = outputs(g, context, &running, &kinematics);
         let rates = [&symbols.phi, &symbols.pencil.left, &symbols.w];
-        let powers = rates.map(|own| parts.power(g, context, &motion, &own.values));
+        let powers = rates.map(|rate| parts.power(g, context, &motion, &rate.values));
         let rest = at_rest(g, symbols, &motion);
         let rest_inertia = at_rest(g, symbols, &inertia);
         let minus_applied = at_rest(g, symbols, &applied);

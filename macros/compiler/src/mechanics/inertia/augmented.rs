@@ -52,11 +52,11 @@ impl AugmentedBody {
     }
 
     /// Adds a point mass.
-    fn add_point(&mut self, g: &mut Graph, mass: ExprId, place: Vector3) {
-        let share = place.scale(g, mass);
+    fn add_point(&mut self, g: &mut Graph, mass: ExprId, vector: Vector3) {
+        let share = vector.scale(g, mass);
         self.mass = g.add(self.mass, mass);
         self.first = self.first.add(g, share);
-        self.add_product(g, share, place);
+        self.add_product(g, share, vector);
     }
 
     /// Adds `a b^T`, which becomes symmetric in the sum.

@@ -29,7 +29,7 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
     };
     let running = vec![g.zero(); symbols.running.ids.len()];
     let loads = inertial_at(g, &context, &running, ForceSelection::ALL);
-    let found = variation(g, &context, &running)?;
+    let variation = variation(g, &context, &running)?;
     let free = topology.free.iter();
     let along: Vec<ExprId> = free.map(|id| loads.along[id.index()]).collect();
     let along = runs.forces(g, &along);
@@ -37,7 +37,8 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
     let mut exact = columns(g, &along, &symbols.q).concat();
     exact.extend(columns(g, &along, &symbols.velocity).concat());
     let by_acceleration = columns(g, &along, &symbols.acceleration).concat();
-    let found = [found.by_position, found.by_velocity, found.mass].map(|matrix| matrix.concat());
+    let found = [variation.by_position, variation.by_velocity, variation.mass]
+        .map(|matrix| matrix.concat());
     let found = found.concat();
     let pairs = exact.iter().chain(&by_acceleration).zip(&found);
     let differences: Vec<ExprId> = pairs.map(|(&one, &other)| g.sub(one, other)).collect();

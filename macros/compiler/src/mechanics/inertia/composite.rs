@@ -64,11 +64,13 @@ impl Composite {
         add_symmetric(g, &mut self.second, |_, i, j| other.second[i][j]);
     }
 
-    fn add_point(&mut self, g: &mut Graph, mass: ExprId, place: Vector3) {
-        let share = place.scale(g, mass);
+    fn add_point(&mut self, g: &mut Graph, mass: ExprId, vector: Vector3) {
+        let share = vector.scale(g, mass);
         self.mass = g.add(self.mass, mass);
         self.first = self.first.add(g, share);
-        add_symmetric(g, &mut self.second, |g, i, j| g.mul(place.0[i], share.0[j]));
+        add_symmetric(g, &mut self.second, |g, i, j| {
+            g.mul(vector.0[i], share.0[j])
+        });
     }
 
     /// The composite about the parent's origin, in the axes of the parent's motion. Only `mass` is not part of the
@@ -120,9 +122,9 @@ pub(crate) fn accelerating(
     motion: &FrameMotion,
     carried: &Composite,
 ) -> Wrench {
-    let own = Composite::of_body(g, body, motion);
-    let mass = g.add(own.mass, carried.mass);
-    let first = own.first.add(g, carried.first);
+    let composite = Composite::of_body(g, body, motion);
+    let mass = g.add(composite.mass, carried.mass);
+    let first = composite.first.add(g, carried.first);
     let zero = Vector3::zero(g);
     let (mut force, mut moment) = (zero, zero);
     if let Some(axis) = step.turn {
@@ -196,8 +198,8 @@ impl Composites {
             let mut whole = this.carried[index];
             whole.add(g, &going_on[index]);
             let behind = whole.mass;
-            let own = Composite::of_body(g, &bodies[index], &motion.frame);
-            whole.add(g, &own);
+            let composite = Composite::of_body(g, &bodies[index], &motion.frame);
+            whole.add(g, &composite);
             let apart = if rides_on_seat(g, motion) {
                 behind
             } else {

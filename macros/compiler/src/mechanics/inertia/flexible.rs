@@ -71,7 +71,7 @@ impl BeamInertia {
             let mut sums: Vec<(ExprId, f64)> = Vec::new();
             for (a, &mass) in masses.iter().enumerate() {
                 let share = rule.weights[a] * of(a);
-                match sums.iter_mut().find(|(own, _)| *own == mass) {
+                match sums.iter_mut().find(|(x, _)| *x == mass) {
                     Some((_, sum)) => *sum += share,
                     None => sums.push((mass, share)),
                 }
@@ -130,7 +130,7 @@ impl BeamInertia {
             let energy = g.mul(momentum, spin);
             this.energy_of_spin = g.add(this.energy_of_spin, energy);
             this.spin.push(momentum);
-            let about = [about_y, about_z].map(|own| g.mul(share, own));
+            let about = [about_y, about_z].map(|x| g.mul(share, x));
             let [yy, yz, zz] = turned(g, about, twist);
             let own = [[inertia, zero, zero], [zero, yy, yz], [zero, yz, zz]];
             let along_root = curved(g, values, section).turn_symmetric(g, own);
@@ -143,9 +143,9 @@ impl BeamInertia {
     fn momenta(&self, g: &mut Graph, motion: &BeamMotion) -> Vec<Vector3> {
         let sections = motion.sections.iter().zip(&self.turning);
         let both = sections.zip(&self.spin);
-        both.map(|((section, inertia), &own)| {
+        both.map(|((section, inertia), &item)| {
             let mut momentum = inertia.apply(g, section.spin);
-            momentum.0[0] = g.add(momentum.0[0], own);
+            momentum.0[0] = g.add(momentum.0[0], item);
             momentum
         })
         .collect()
@@ -257,8 +257,8 @@ impl FromStations {
     pub(crate) fn turning(&self, g: &mut Graph, motion: &BeamMotion) -> BeamLoad {
         let zero = Vector3::zero(g);
         let directions = motion.directions.iter().zip(&self.brackets);
-        let moment = directions.fold(zero, |sum, (own, bracket)| {
-            let moment = own.vector.cross(g, *bracket);
+        let moment = directions.fold(zero, |sum, (item, bracket)| {
+            let moment = item.vector.cross(g, *bracket);
             sum.add(g, moment)
         });
         BeamLoad {

@@ -122,8 +122,8 @@ pub(crate) fn momenta(
     for branch in context.topology.branches.iter().rev() {
         let index = branch.body.index();
         let motion = kinematics.of(branch.body);
-        let own = Momentum::of_body(g, &bodies[index], motion);
-        momenta[index].add(g, &own);
+        let momentum = Momentum::of_body(g, &bodies[index], motion);
+        momenta[index].add(g, &momentum);
         momenta[index].set_names(g, &context.mechanism.bodies[index].name.to_string());
         if let Frame::Body(parent) = branch.parent {
             let along = (composites.whole[index].first, composites.apart[index]);

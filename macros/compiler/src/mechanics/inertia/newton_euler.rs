@@ -90,7 +90,7 @@ pub(crate) fn inertial(
         let index = branch.body.index();
         let motion = kinematics.of(branch.body);
         let name = mechanism.bodies[index].name.to_string();
-        let mut own = own_load(g, &bodies[index], &motion.frame, &gathered[index]);
+        let mut wrench = own_load(g, &bodies[index], &motion.frame, &gathered[index]);
         if let Some(id) = mechanism.beam(branch.body) {
             let (beam, from) = (&kinematics.beams[id.index()], &from_stations[id.index()]);
             let load = match selection.gravity || selection.inertia.contains(branch.body) {
@@ -98,20 +98,20 @@ pub(crate) fn inertial(
                 false => from.turning(g, beam),
             };
             load.add_along(g, context.sections, id, beam, &mut along_sections);
-            own.force = own.force.add(g, load.force);
-            own.moment = own.moment.add(g, load.moment);
+            wrench.force = wrench.force.add(g, load.force);
+            wrench.moment = wrench.moment.add(g, load.moment);
             beams.push(BeamForces {
                 id,
                 motion: beam.clone(),
                 load,
             });
         }
-        let rest = own.force.set_name(g, &format!("{name}_rest_of_force"));
+        let rest = wrench.force.set_name(g, &format!("{name}_rest_of_force"));
         let by_mass = motion.frame.acceleration.scale(g, bodies[index].mass);
         let force = by_mass
             .add(g, rest)
             .set_name(g, &format!("{name}_inertia_force"));
-        let turning = own
+        let turning = wrench
             .moment
             .add(g, gathered[index].moment)
             .set_name(g, &format!("{name}_inertia_moment"));

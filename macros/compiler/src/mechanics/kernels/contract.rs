@@ -56,7 +56,10 @@ pub(crate) fn kernels(
             .collect()
     });
     let partials = partials.filter(|arrays| {
-        let all: Vec<ExprId> = arrays.iter().flat_map(|own| own.values.clone()).collect();
+        let all: Vec<ExprId> = arrays
+            .iter()
+            .flat_map(|array| array.values.clone())
+            .collect();
         cost(g, &all).operations <= limits.partial_operations
     });
     let mode_functional = mode_functional(g, s, e);

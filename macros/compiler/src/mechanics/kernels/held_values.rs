@@ -10,10 +10,7 @@ use super::parameters::parameter;
 pub(crate) fn held_values(g: &mut Graph, context: &Context) -> Option<Function> {
     let steady = &context.mechanism.steady;
     let (symbols, values) = (context.symbols, context.values);
-    let values: Vec<ExprId> = steady
-        .iter()
-        .map(|own| values.scalar(g, &own.value))
-        .collect();
+    let values: Vec<ExprId> = steady.iter().map(|x| values.scalar(g, &x.value)).collect();
     (!values.is_empty()).then(|| Function {
         name: KernelName::HeldValues.name(),
         parameters: vec![parameter("u", &symbols.u), parameter("b", &symbols.b)],

@@ -198,12 +198,12 @@ impl<'a> Numbers<'a> {
 
     /// The pose of a section at its centre of mass, from its place on the axis and the axes it would have without twist and
     /// prebend.
-    fn section(&mut self, g: &mut Graph, (place, axes): (Vector3, Matrix3), section: &Section) {
+    fn section(&mut self, g: &mut Graph, (vector, axes): (Vector3, Matrix3), section: &Section) {
         let arm = offset(g, self.values, section);
         let arm = axes.apply(g, arm);
-        let center = place.add(g, arm);
-        let own = unbent(g, self.values, section);
-        self.pose(center, axes.multiply(g, own));
+        let center = vector.add(g, arm);
+        let matrix3 = unbent(g, self.values, section);
+        self.pose(center, axes.multiply(g, matrix3));
     }
 
     /// A declared beam, from its parts between loads.
@@ -211,7 +211,7 @@ impl<'a> Numbers<'a> {
         let mut sections = 0;
         for beam in parts {
             let places = beam.sections.iter().map(|(_, _, section)| section);
-            let tip = beam.stations.last().map(|own| &own.section);
+            let tip = beam.stations.last().map(|station| &station.section);
             for section in [&beam.root].into_iter().chain(places).chain(tip) {
                 section.size.iter().for_each(|size| self.number(g, size));
                 sections += 1;

@@ -57,8 +57,8 @@ fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
     let slices: Vec<Slice> = (0..context.mechanism.beams.len())
         .flat_map(|k| slices(g, context, k, &kinematics.beams[k]))
         .collect();
-    vectors.extend(slices.iter().map(|own| own.motion));
-    let vectors: Vec<ExprId> = vectors.iter().flatten().flat_map(|own| own.0).collect();
+    vectors.extend(slices.iter().map(|slice| slice.motion));
+    let vectors: Vec<ExprId> = vectors.iter().flatten().flat_map(|pair| pair.0).collect();
     let spins = by_body(&at_rest(g, symbols, &vectors));
     let mut moved = |name, along: &SymbolList| {
         let rates = symbols.velocity.with(&along.values).collect();
@@ -152,7 +152,10 @@ fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) ->
         .map(|(k, ((place, weight, section), moving))| {
             let share = g.scale(*weight, length);
             let mass = values.scalar(g, &section.mass);
-            let inertia = section.inertia.each_ref().map(|own| values.scalar(g, own));
+            let inertia = section
+                .inertia
+                .each_ref()
+                .map(|inertia| values.scalar(g, inertia));
             let polar = g.sum(inertia);
             let mut velocity = moving.frame.velocity;
             for (direction, reach) in motion.directions.iter().zip(rule.integrals_to(*place)) {
@@ -160,7 +163,7 @@ fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) ->
                 let own = direction.rate.scale(g, reach);
                 velocity = velocity.add(g, own);
             }
-            for (_, offset) in motion.offsets.iter().filter(|(own, _)| *own == k) {
+            for (_, offset) in motion.offsets.iter().filter(|(x, _)| *x == k) {
                 velocity = velocity.add(g, offset.rate);
             }
             Slice {

@@ -210,7 +210,7 @@ struct Running<'a> {
 impl State for Running<'_> {
     fn leaf(&self, leaf: &Expr) -> ExprId {
         if let Expr::Coordinate(id) = leaf
-            && let Some(k) = self.context.topology.running().position(|own| own == *id)
+            && let Some(k) = self.context.topology.running().position(|x| x == *id)
         {
             return self.context.symbols.running.values[k];
         }

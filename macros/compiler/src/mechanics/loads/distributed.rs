@@ -45,14 +45,14 @@ impl AppliedForces {
             force: zero,
             moment: zero,
         };
-        for (a, (&place, &weight)) in rule.points.iter().zip(&rule.weights).enumerate() {
+        for (a, (&point, &weight)) in rule.points.iter().zip(&rule.weights).enumerate() {
             let share = g.scale(weight, length);
             let along_root = curved(g, values, &beam.sections[a].2).apply(g, own);
             let axes = motion.sections[a].frame.orientation.axes;
             let along = axes.apply(g, along_root);
             let mut force = fixed.add(g, along);
             let reach: Vec<_> = rule
-                .integrals_to(place)
+                .integrals_to(point)
                 .into_iter()
                 .map(|part| g.scale(part, length))
                 .collect();

@@ -119,7 +119,9 @@ impl Strain {
 fn stressed(g: &mut Graph, context: &Context, id: BeamId) -> Vec<(Strain, Vec<ExprId>)> {
     let sections = context.sections;
     let beam = &context.mechanism.beams[id.index()];
-    let turns = sections.by_themselves(g, id).map(|own| own.position);
+    let turns = sections
+        .by_themselves(g, id)
+        .map(|of_beam| of_beam.position);
     let spin = context.values.scalar(g, &beam.spin);
     let lag = context.values.scalar(g, &beam.lag);
     let moving = sections.position.with(&sections.velocity.values);
@@ -168,7 +170,9 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
     let sections = context.sections;
     let mut along = vec![g.zero(); sections.rows.len()];
     for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
-        let turns = sections.by_themselves(g, id).map(|own| own.position);
+        let turns = sections
+            .by_themselves(g, id)
+            .map(|of_beam| of_beam.position);
         let beam = &context.mechanism.beams[id.index()];
         let rows = sections.of(id);
         for (k, (strain, stresses)) in stressed(g, context, id).into_iter().enumerate() {
@@ -182,7 +186,7 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
             let [y, z] = along_own_axes(g, [stresses[1], stresses[2]], back);
             let curved = motion::curved(g, context.values, section);
             let moment = curved.apply(g, Vector3([stresses[0], y, z]));
-            let [turn, slope] = [&turns.rotations[k], &turns.slopes[k]].map(|own| Vector3(*own));
+            let [turn, slope] = [&turns.rotations[k], &turns.slopes[k]].map(|x| Vector3(*x));
             let powers = bend_powers(g, turn, slope, moment);
             let turning = rows.rotations[k].iter().chain(&rows.slopes[k]);
             for (row, power) in turning.zip(powers) {
@@ -210,7 +214,7 @@ pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [Expr
     let values = context.values;
     let length = values.scalar(g, &beam.length);
     let bent = bend(g, Vector3(turn), Vector3(slope));
-    let bent = bent.0.map(|own| g.div(own, length));
+    let bent = bent.0.map(|x| g.div(x, length));
     let lag = values.scalar(g, &beam.lag);
     let spin = values.scalar(g, &beam.spin);
     let (unknowns, rates) = (&context.symbols.q, &context.symbols.velocity);
@@ -231,7 +235,7 @@ pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [Expr
     let [against_twist, about_y, about_z] = section
         .stiffness
         .each_ref()
-        .map(|own| values.scalar(g, own));
+        .map(|stiffness| values.scalar(g, stiffness));
     let curved = motion::curved(g, values, section);
     let [x, y, z] = curved.transpose().apply(g, Vector3([x, y, z])).0;
     let own = along_own_axes(g, [y, z], twist);
@@ -269,7 +273,7 @@ pub(crate) fn elastic_energy(g: &mut Graph, context: &Context) -> ExprId {
     let mut terms = Vec::new();
     for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
         let turns = context.sections.by_unknowns(g, context.symbols, id);
-        let turns = turns.map(|own| own.position);
+        let turns = turns.map(|turn| turn.position);
         for strain in strains(g, context, id, &turns) {
             terms.push(strain.energy(g));
         }

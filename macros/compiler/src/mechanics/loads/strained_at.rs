@@ -16,7 +16,7 @@ pub(crate) fn strained_at(g: &mut Graph, context: &Context, point: PointId) -> [
         let factors = polynomials(ids.len(), place);
         let mut terms = Vec::new();
         for (id, factor) in ids.iter().zip(factors) {
-            let unknown = unknowns.iter().position(|own| own == id);
+            let unknown = unknowns.iter().position(|unknown| unknown == id);
             let value = unknown.map(|k| context.symbols.q.values[k]);
             terms.extend(value.map(|value| g.scale(factor, value)));
         }

@@ -144,7 +144,7 @@ impl DirectionMotion {
     fn new(g: &mut Graph, root: &FrameMotion, section: &SectionMotion, heading: &Heading) -> Self {
         let frame = &section.frame;
         let axes = frame.orientation.axes;
-        let twice = |g: &mut Graph, v: Vector3| Vector3(v.0.map(|own| g.scale(2.0, own)));
+        let twice = |g: &mut Graph, v: Vector3| Vector3(v.0.map(|x| g.scale(2.0, x)));
         let vector = axes.apply(g, heading.value);
         let mut this = Self {
             vector,
@@ -229,9 +229,9 @@ impl SectionMotion {
         turns: [CoordinateMotion; 3],
         name: &str,
     ) -> Self {
-        let turn = Vector3(turns.map(|own| own.position));
-        let rate = Vector3(turns.map(|own| own.velocity));
-        let second = Vector3(turns.map(|own| own.acceleration));
+        let turn = Vector3(turns.map(|turn| turn.position));
+        let rate = Vector3(turns.map(|turn| turn.velocity));
+        let second = Vector3(turns.map(|turn| turn.acceleration));
         if let Some(axis) = only_axis(g, turn) {
             let unit = Matrix3::identity(g).0[axis];
             let rotation = Matrix3::rotation(g, unit, turn.0[axis]);
@@ -263,7 +263,7 @@ impl SectionMotion {
         let rotation = Matrix3(columns);
         let twist = |g: &mut Graph, rate: Vector3| {
             let across = turn.cross(g, rate);
-            let half_of_it = Vector3(across.0.map(|own| g.scale(0.5, own)));
+            let half_of_it = Vector3(across.0.map(|x| g.scale(0.5, x)));
             rate.add(g, half_of_it).scale(g, factor)
         };
         let spin = twist(g, rate);
@@ -365,12 +365,12 @@ impl StationMotion {
     ) -> Self {
         let zero = Vector3::zero(g);
         let (mut offset, mut rate, mut carried, mut second) = (zero, zero, zero, zero);
-        for (own, &share) in directions.iter().zip(&reach) {
+        for (direction, &share) in directions.iter().zip(&reach) {
             let sums = [
-                (&mut offset, own.vector),
-                (&mut rate, own.leaving),
-                (&mut carried, own.rate),
-                (&mut second, own.second_rate),
+                (&mut offset, direction.vector),
+                (&mut rate, direction.leaving),
+                (&mut carried, direction.rate),
+                (&mut second, direction.second_rate),
             ];
             for (sum, term) in sums {
                 let term = term.scale(g, share);

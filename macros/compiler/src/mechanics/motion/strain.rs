@@ -40,7 +40,9 @@ impl Heading {
 pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool) -> Vec<Heading> {
     let sections = context.sections;
     let rows = sections.of(id);
-    let turns = sections.by_themselves(g, id).map(|own| own.position);
+    let turns = sections
+        .by_themselves(g, id)
+        .map(|of_beam| of_beam.position);
     let strains = strains(g, context, id, &turns);
     let one = g.constant(1.0);
     let zero = Vector3::zero(g);
@@ -91,14 +93,15 @@ pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool
 
 /// [`headings`] in terms of the unknowns.
 pub(crate) fn headings_in_unknowns(g: &mut Graph, context: &Context, id: BeamId) -> Vec<Heading> {
-    let own = headings(g, context, id, true);
+    let headings = headings(g, context, id, true);
     let mut written = |v: Vector3| vector(&context.in_unknowns(g, &v.0));
-    own.into_iter()
-        .map(|own| Heading {
-            value: written(own.value),
-            rate: written(own.rate),
-            second: written(own.second),
-            slopes: own
+    headings
+        .into_iter()
+        .map(|item| Heading {
+            value: written(item.value),
+            rate: written(item.rate),
+            second: written(item.second),
+            slopes: item
                 .slopes
                 .iter()
                 .map(|(row, slope)| (*row, written(*slope)))
@@ -131,7 +134,7 @@ pub(crate) fn strains(
             let [_, about_y, about_z] = section
                 .stiffness
                 .each_ref()
-                .map(|own| values.scalar(g, own));
+                .map(|stiffness| values.scalar(g, stiffness));
             let twist = values.scalar(g, &section.twist);
             turned(g, [about_y, about_z], twist)
         })
@@ -147,13 +150,13 @@ pub(crate) fn strains(
             let bent = bend(g, rotation, slope);
             let change = bend_change(g, rotation, slope, curl);
             let mut grown = |component: usize| {
-                let all = stiffness.iter().map(|own| own[component]);
-                if all.clone().all(|own| own == stiffness[k][component]) {
+                let all = stiffness.iter().map(|x| x[component]);
+                if all.clone().all(|x| x == stiffness[k][component]) {
                     return g.zero();
                 }
                 let terms: Vec<ExprId> = all
                     .zip(&slopes[k])
-                    .map(|(own, share)| g.scale(*share, own))
+                    .map(|(x, share)| g.scale(*share, x))
                     .collect();
                 g.sum(terms)
             };
@@ -170,7 +173,7 @@ pub(crate) fn strains(
             let [_, shear_y, shear_z] = section
                 .against_strain
                 .each_ref()
-                .map(|own| values.scalar(g, own));
+                .map(|against_strain| values.scalar(g, against_strain));
             let one = g.constant(1.0);
             let mut compliance = |stiffness: ExprId| {
                 let of_length = g.mul(stiffness, square);

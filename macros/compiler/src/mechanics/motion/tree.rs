@@ -69,10 +69,10 @@ impl Tree {
             let motion = kinematics.of(branch.body);
             let arm = position.sub(g, motion.frame.position);
             if let Some((beam, station)) = motion.flexure {
-                let own = &kinematics.beams[beam.index()].stations[station];
-                let turning = own.section.relative.cross(g, arm);
-                velocity = velocity.add(g, own.velocity).add(g, turning);
-                angular = angular.add(g, own.section.relative);
+                let station = &kinematics.beams[beam.index()].stations[station];
+                let turning = station.section.relative.cross(g, arm);
+                velocity = velocity.add(g, station.velocity).add(g, turning);
+                angular = angular.add(g, station.section.relative);
             }
             for step in &motion.steps {
                 let rate = kinematics.coordinates[step.coordinate.index()].velocity;

@@ -6,7 +6,10 @@ use crate::model::mechanism::Section;
 
 /// The rotation of the axis of the beam from the root to a section: about one direction across the beam.
 pub(crate) fn curved(g: &mut Graph, values: &Values, section: &Section) -> Matrix3 {
-    let [about_y, about_z] = section.prebend.each_ref().map(|own| values.scalar(g, own));
+    let [about_y, about_z] = section
+        .prebend
+        .each_ref()
+        .map(|prebend| values.scalar(g, prebend));
     let [_, across, up] = Matrix3::identity(g).0;
     match [about_y, about_z].map(|angle| g.is(angle, 0.0)) {
         [_, true] => Matrix3::rotation(g, across, about_y),
@@ -29,7 +32,7 @@ fn about_both(g: &mut Graph, y: ExprId, z: ExprId) -> Matrix3 {
     let sine = alternating(g, square, |n| (2 * n) * (2 * n + 1));
     let half = g.constant(0.5);
     let sine = g.mul(half, sine);
-    let [b, d] = [y, z].map(|own| g.mul(sine, own));
+    let [b, d] = [y, z].map(|x| g.mul(sine, x));
     let mut twice = |a: ExprId, b: ExprId| {
         let product = g.mul(a, b);
         g.add(product, product)
@@ -38,8 +41,8 @@ fn about_both(g: &mut Graph, y: ExprId, z: ExprId) -> Matrix3 {
     let (cb, cd) = (twice(cosine, b), twice(cosine, d));
     let one = g.constant(1.0);
     let both = g.add(bb, dd);
-    let [less_both, less_b, less_d] = [both, bb, dd].map(|own| g.sub(one, own));
-    let [minus_cb, minus_cd] = [cb, cd].map(|own| g.neg(own));
+    let [less_both, less_b, less_d] = [both, bb, dd].map(|x| g.sub(one, x));
+    let [minus_cb, minus_cd] = [cb, cd].map(|x| g.neg(x));
     Matrix3([
         Vector3([less_both, cd, minus_cb]),
         Vector3([minus_cd, less_d, bd]),
@@ -68,7 +71,10 @@ pub(crate) fn unbent(g: &mut Graph, values: &Values, section: &Section) -> Matri
 
 /// From the axis to the centre of mass of a section, along the axes of the root.
 pub(crate) fn offset(g: &mut Graph, values: &Values, section: &Section) -> Vector3 {
-    let [y, z] = section.center.each_ref().map(|own| values.scalar(g, own));
-    let own = Vector3([g.zero(), y, z]);
-    unbent(g, values, section).apply(g, own)
+    let [y, z] = section
+        .center
+        .each_ref()
+        .map(|center| values.scalar(g, center));
+    let vector = Vector3([g.zero(), y, z]);
+    unbent(g, values, section).apply(g, vector)
 }

@@ -133,9 +133,9 @@ impl Runs {
                     &mut this.acceleration,
                 ];
                 for list in lists {
-                    let own = g.symbol_info(list.ids[k]).clone();
+                    let symbol = g.symbol_info(list.ids[k]).clone();
                     (list.ids[k], list.values[k]) =
-                        g.symbol(format!("{}_in_all", own.name), own.stage);
+                        g.symbol(format!("{}_in_all", symbol.name), symbol.stage);
                 }
             }
         }

@@ -53,7 +53,7 @@ pub(crate) struct OfBeam<T> {
 impl<T: Copy> OfBeam<T> {
     pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> OfBeam<U> {
         let mut all = |list: &[Components<T>]| -> Vec<Components<U>> {
-            list.iter().map(|own| own.map(&mut change)).collect()
+            list.iter().map(|x| x.map(&mut change)).collect()
         };
         OfBeam {
             rotations: all(&self.rotations),
@@ -103,7 +103,7 @@ impl Sections {
             };
             let last = ids.len().checked_sub(1)?;
             let factors = factors(last, x);
-            let unknown = |id| topology.free.iter().position(|own| own == id);
+            let unknown = |id| topology.free.iter().position(|x| x == id);
             let weights: Vec<(usize, f64)> = ids
                 .iter()
                 .zip(factors)
@@ -205,17 +205,17 @@ impl Sections {
         symbols: &Symbols,
         topology: &Topology,
         beam: &Beam,
-        place: f64,
+        value: f64,
     ) -> [Components<ExprId>; 2] {
         [integrals as fn(usize, f64) -> Vec<f64>, polynomials].map(|factors| {
             [0, 1, 2].map(|component| {
                 let ids = &beam.coordinates[component];
-                let factors = factors(ids.len(), place);
+                let factors = factors(ids.len(), value);
                 let terms: Vec<ExprId> = ids
                     .iter()
                     .zip(factors)
                     .filter_map(|(id, factor)| {
-                        let unknown = topology.free.iter().position(|own| own == id)?;
+                        let unknown = topology.free.iter().position(|x| x == id)?;
                         Some(g.scale(factor, symbols.q.values[unknown]))
                     })
                     .collect();
@@ -291,7 +291,7 @@ impl Sections {
     /// Forces along the unknowns, from forces along the unknowns followed by those along the sections.
     pub(crate) fn forces(&self, g: &mut Graph, along: &[ExprId]) -> Vec<ExprId> {
         let (own, sections) = along.split_at(along.len() - self.rows.len());
-        let mut terms: Vec<Vec<ExprId>> = own.iter().map(|own| vec![*own]).collect();
+        let mut terms: Vec<Vec<ExprId>> = own.iter().map(|x| vec![*x]).collect();
         for row in 0..self.rows.len() {
             let force = sections[row];
             let (sum, difference) = match self.mirrored(row) {

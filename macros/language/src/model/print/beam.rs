@@ -37,10 +37,13 @@ impl Names<'_> {
                 prebend,
                 size,
             } = section;
-            let [twisting, about_y, about_z] = stiffness.each_ref().map(|own| self.scalar(own));
-            let [axial, shear_y, shear_z] = against_strain.each_ref().map(|own| self.scalar(own));
-            let [width, height] = size.each_ref().map(|own| self.scalar(own));
-            let [inertia_y, inertia_z] = inertia.each_ref().map(|own| self.scalar(own));
+            let [twisting, about_y, about_z] =
+                stiffness.each_ref().map(|stiffness| self.scalar(stiffness));
+            let [axial, shear_y, shear_z] = against_strain
+                .each_ref()
+                .map(|against_strain| self.scalar(against_strain));
+            let [width, height] = size.each_ref().map(|size| self.scalar(size));
+            let [inertia_y, inertia_z] = inertia.each_ref().map(|inertia| self.scalar(inertia));
             write!(
                 f,
                 "  at {place} of weight {weight}: mass {} inertia {inertia_y} {inertia_z} GJ {twisting} EIy {about_y} EIz {about_z} EA {axial} GAy {shear_y} GAz {shear_z} twist {} size {width} {height}",
@@ -48,11 +51,11 @@ impl Names<'_> {
                 self.scalar(twist)
             )?;
             if *center != [Expr::Number(0.0), Expr::Number(0.0)] {
-                let [y, z] = center.each_ref().map(|own| self.scalar(own));
+                let [y, z] = center.each_ref().map(|center| self.scalar(center));
                 write!(f, " center {y} {z}")?;
             }
             if *prebend != [Expr::Number(0.0), Expr::Number(0.0)] {
-                let [y, z] = prebend.each_ref().map(|own| self.scalar(own));
+                let [y, z] = prebend.each_ref().map(|prebend| self.scalar(prebend));
                 write!(f, " prebend {y} {z}")?;
             }
             for (i, j, own) in coupling {

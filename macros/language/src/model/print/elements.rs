@@ -9,7 +9,7 @@ impl Mechanism {
     /// Gravity, drives, forces, constraints and curves, in the order of declaration of each kind.
     pub fn elements(&self) -> Vec<Element> {
         let names = Names(self);
-        let still = self.gravity.iter().all(|own| *own == Expr::Number(0.0));
+        let still = self.gravity.iter().all(|x| *x == Expr::Number(0.0));
         let gravity = (!still).then(|| Element {
             name: "gravity".to_owned(),
             kind: "gravity".to_owned(),

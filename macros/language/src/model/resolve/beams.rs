@@ -319,7 +319,7 @@ impl Resolver<'_> {
         declared: &mut Declared,
     ) -> Option<()> {
         let [y, z] = declared.prebend.clone();
-        let square = |own: Expr| simplify::power_integer(own, 2);
+        let square = |expr: Expr| simplify::power_integer(expr, 2);
         let turned = simplify::add(square(y), square(z));
         let rest = simplify::subtract(Expr::Number(TAU * TAU), turned);
         if matches!(rest, Expr::Number(rest) if rest <= 0.0) {
@@ -375,47 +375,35 @@ impl Resolver<'_> {
         type Of = fn(&Section) -> &Expr;
         type Asked = &'static [&'static str];
         let demands: [(&str, Dimension, usize, Asked, Of); 7] = [
-            ("mass per length", Dimension::LINE_DENSITY, 1, &[], |own| {
-                &own.mass
+            ("mass per length", Dimension::LINE_DENSITY, 1, &[], |x| {
+                &x.mass
             }),
-            (
-                "torsional stiffness",
-                bending,
-                torsion,
-                &["torsion"],
-                |own| &own.stiffness[0],
-            ),
+            ("torsional stiffness", bending, torsion, &["torsion"], |x| {
+                &x.stiffness[0]
+            }),
             (
                 "bending stiffness about y",
                 bending,
                 about_y,
                 &["bending_y", "bending"],
-                |own| &own.stiffness[1],
+                |x| &x.stiffness[1],
             ),
             (
                 "bending stiffness about z",
                 bending,
                 about_z,
                 &["bending_z", "bending"],
-                |own| &own.stiffness[2],
+                |x| &x.stiffness[2],
             ),
-            ("axial stiffness", force, stretch, &["stretch"], |own| {
-                &own.against_strain[0]
+            ("axial stiffness", force, stretch, &["stretch"], |item| {
+                &item.against_strain[0]
             }),
-            (
-                "shear stiffness along y",
-                force,
-                shear_y,
-                &["shear"],
-                |own| &own.against_strain[1],
-            ),
-            (
-                "shear stiffness along z",
-                force,
-                shear_z,
-                &["shear"],
-                |own| &own.against_strain[2],
-            ),
+            ("shear stiffness along y", force, shear_y, &["shear"], |x| {
+                &x.against_strain[1]
+            }),
+            ("shear stiffness along z", force, shear_z, &["shear"], |x| {
+                &x.against_strain[2]
+            }),
         ];
         let mut is_complete = true;
         for (what, dimension, used, asked, of) in demands {
@@ -424,7 +412,7 @@ impl Resolver<'_> {
             }
             let asked = asked.iter().find_map(|name| given.get(name));
             let extent = asked.map_or(word.into(), |value| value.extent);
-            let values = ends.each_ref().map(|own| of(own).clone());
+            let values = ends.each_ref().map(|end| of(end).clone());
             if !declared.table.gives(what, &values[0]) {
                 let message = format!("the {what} of `{name}` is not given, or zero");
                 let help = declared.table.help_with(what);

@@ -94,7 +94,7 @@ impl Resolver<'_> {
         index: usize,
         name: &Ident,
         arguments: &[Value],
-        place: ValueContext,
+        value_context: ValueContext,
     ) -> Option<Typed> {
         let curve = self.curves.get(index)?.clone()?;
         let [given] = arguments else {
@@ -104,7 +104,7 @@ impl Resolver<'_> {
             self.report(name, message, help);
             return None;
         };
-        let (argument, quantity) = self.scalar(given, place)?;
+        let (argument, quantity) = self.scalar(given, value_context)?;
         let what = format!("the argument of `{name}`");
         self.expect(quantity, curve.argument, &what, given)?;
         if is_known_before_the_motion(&argument) {

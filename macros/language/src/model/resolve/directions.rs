@@ -9,7 +9,11 @@ use crate::syntax::ast::{Value, ValueKind};
 
 impl Resolver<'_> {
     /// A unit vector. `x`, `y` and `z` always mean the axes here, whatever else is declared.
-    pub(super) fn direction(&mut self, value: &Value, place: ValueContext) -> Option<Vector> {
+    pub(super) fn direction(
+        &mut self,
+        value: &Value,
+        value_context: ValueContext,
+    ) -> Option<Vector> {
         if let Some(axis) = axis(value) {
             return Some(axis);
         }
@@ -25,7 +29,7 @@ impl Resolver<'_> {
             self.diagnostics.error_with_help(name, message, help);
             return None;
         }
-        let (vector, _) = self.vector(value, place)?;
+        let (vector, _) = self.vector(value, value_context)?;
         if let [Expr::Number(x), Expr::Number(y), Expr::Number(z)] = vector {
             return self.constant_direction([x, y, z], value);
         }

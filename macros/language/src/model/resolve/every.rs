@@ -94,7 +94,7 @@ impl Resolver<'_> {
     fn forces_of(
         &mut self,
         every: &Every,
-        own: &[Force],
+        forces: &[Force],
         given: &mut [Given],
     ) -> Option<Vec<Force>> {
         let index = self.quantity(&every.quantity);
@@ -134,7 +134,7 @@ impl Resolver<'_> {
                 .error_with_help(&every.quantity, message, help);
             return None;
         }
-        Some(laws(every, own, &coordinates, stiffness, damping, rest))
+        Some(laws(every, forces, &coordinates, stiffness, damping, rest))
     }
 
     /// The index of a kind of coordinate in the table.
@@ -171,7 +171,7 @@ impl Resolver<'_> {
 /// A spring and a damper on each coordinate that has none.
 fn laws(
     every: &Every,
-    own: &[Force],
+    forces: &[Force],
     coordinates: &[CoordinateId],
     stiffness: Option<Expr>,
     damping: Option<Expr>,
@@ -179,10 +179,10 @@ fn laws(
 ) -> Vec<Force> {
     let mut laws = Vec::new();
     for &id in coordinates {
-        let has_spring = own.iter().any(|force| {
+        let has_spring = forces.iter().any(|force| {
             matches!(force.law, ForceLaw::CoordinateSpring { coordinate, .. } if coordinate == id)
         });
-        let has_damper = own.iter().any(|force| {
+        let has_damper = forces.iter().any(|force| {
             matches!(force.law, ForceLaw::CoordinateDamper { coordinate, .. } if coordinate == id)
         });
         if let Some(stiffness) = stiffness.clone().filter(|_| !has_spring) {

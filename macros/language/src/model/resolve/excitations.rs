@@ -141,8 +141,13 @@ impl Resolver<'_> {
             ItemKind::Body(body) => Some(body),
             _ => None,
         });
-        let declared = bodies.find(|own| own.name == *body);
-        declared.is_some_and(|own| own.terms.iter().all(|term| term.shape.word == "massless"))
+        let declared = bodies.find(|x| x.name == *body);
+        declared.is_some_and(|declared| {
+            declared
+                .terms
+                .iter()
+                .all(|term| term.shape.word == "massless")
+        })
     }
 
     fn harmonic(&mut self, force: &Force) -> Option<Excitation> {
@@ -258,8 +263,8 @@ impl Resolver<'_> {
         match &shake.coordinate {
             None => (ids.len() == 1).then(|| ids[0]),
             Some(name) => ids.into_iter().find(|id| {
-                let own = self.coordinates.get(id.index());
-                own.is_some_and(|own| own.name == name)
+                let coordinate = self.coordinates.get(id.index());
+                coordinate.is_some_and(|x| x.name == name)
             }),
         }
     }

@@ -64,10 +64,10 @@ impl Expected {
 
     /// Whether a quantity fits. A number without a unit does not fit where degrees are declared: it would count as
     /// radians.
-    pub(super) fn admits(&self, found: Quantity, value: &Value) -> bool {
+    pub(super) fn admits(&self, quantity: Quantity, value: &Value) -> bool {
         let is_number = matches!(self.unit.as_str(), "" | "1" | "rad");
-        found.fits(self.dimension)
-            && (is_number || found == Quantity::Zero || bare_number(value).is_none())
+        quantity.fits(self.dimension)
+            && (is_number || quantity == Quantity::Zero || bare_number(value).is_none())
     }
 
     fn named(dimension: Dimension, name: &str, unit: &str) -> Self {

@@ -106,11 +106,11 @@ impl Resolver<'_> {
         &mut self,
         function: &Ident,
         arguments: &[Value],
-        place: ValueContext,
+        value_context: ValueContext,
     ) -> Option<Typed> {
         let name = function.to_string();
         if let Some(Meaning::Curve(index)) = self.scope.find(&name) {
-            return self.curve_at(index, function, arguments, place);
+            return self.curve_at(index, function, arguments, value_context);
         }
         let known = SIGNATURES.iter().find(|(known, ..)| *known == name);
         let Some(&(name, parameters, needs)) = known else {
@@ -138,13 +138,13 @@ impl Resolver<'_> {
             self.diagnostics.error_with_help(function, message, help);
             return None;
         }
-        if let Some((message, help)) = refusal(name, needs, place) {
+        if let Some((message, help)) = refusal(name, needs, value_context) {
             self.report(function, message, help);
             return None;
         }
         let result = match needs {
-            Arguments => self.of_arguments(name, function, arguments, place)?,
-            _ => self.of_motion(name, function, arguments, place)?,
+            Arguments => self.of_arguments(name, function, arguments, value_context)?,
+            _ => self.of_motion(name, function, arguments, value_context)?,
         };
         self.finite(result, function.into())
     }
@@ -154,15 +154,15 @@ impl Resolver<'_> {
         name: &str,
         function: &Ident,
         arguments: &[Value],
-        place: ValueContext,
+        value_context: ValueContext,
     ) -> Option<Typed> {
         match (name, arguments) {
             ("norm", [a]) => {
-                let (a, quantity) = self.vector(a, place)?;
+                let (a, quantity) = self.vector(a, value_context)?;
                 Some(Typed::Scalar(simplify::norm(&a), quantity))
             }
             ("dot" | "cross" | "angle", [a, b]) => {
-                let (a, b) = (self.vector(a, place), self.vector(b, place));
+                let (a, b) = (self.vector(a, value_context), self.vector(b, value_context));
                 let ((a, of_a), (b, of_b)) = (a?, b?);
                 if name == "angle" {
                     return Some(Typed::Scalar(simplify::angle(&a, &b), plain()));
@@ -175,7 +175,7 @@ impl Resolver<'_> {
                 })
             }
             ("atan2", [y, x]) => {
-                let (above, right) = (self.scalar(y, place), self.scalar(x, place));
+                let (above, right) = (self.scalar(y, value_context), self.scalar(x, value_context));
                 let ((above, of_y), (right, of_x)) = (above?, right?);
                 let Some(_) = of_y.unify(of_x) else {
                     let message = format!(
@@ -189,14 +189,19 @@ impl Resolver<'_> {
                 };
                 Some(Typed::Scalar(simplify::atan2(above, right), plain()))
             }
-            (_, [argument]) => self.elementary(name, argument, place),
+            (_, [argument]) => self.elementary(name, argument, value_context),
             // The number of arguments has already been checked.
             _ => None,
         }
     }
 
-    fn elementary(&mut self, name: &str, argument: &Value, place: ValueContext) -> Option<Typed> {
-        let (expr, quantity) = self.scalar(argument, place)?;
+    fn elementary(
+        &mut self,
+        name: &str,
+        argument: &Value,
+        value_context: ValueContext,
+    ) -> Option<Typed> {
+        let (expr, quantity) = self.scalar(argument, value_context)?;
         if name == "sqrt" {
             let half = self.in_range(quantity.dimension().power(1, 2), argument.extent)?;
             return Some(Typed::Scalar(simplify::call(Function::Sqrt, expr), half));
@@ -213,8 +218,12 @@ impl Resolver<'_> {
 }
 
 /// Why a function cannot be used at this place.
-fn refusal(name: &str, needs: Needs, place: ValueContext) -> Option<(String, Option<String>)> {
-    let message = match (needs, place) {
+fn refusal(
+    name: &str,
+    needs: Needs,
+    value_context: ValueContext,
+) -> Option<(String, Option<String>)> {
+    let message = match (needs, value_context) {
         // Whether a rate can be an output depends on the coordinate.
         (Arguments, _)
         | (Rates, ValueContext::GeneralizedForce | ValueContext::Output)

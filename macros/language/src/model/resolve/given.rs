@@ -116,13 +116,17 @@ pub fn design_tolerance(
         symbol => symbol.parse().expect("a unit that was read before"),
     };
     let nominal = design[variable];
-    let found = read_tolerance(text, unit, nominal, true)?;
-    let scale = if found.relative { nominal.abs() } else { 1.0 };
+    let tolerance = read_tolerance(text, unit, nominal, true)?;
+    let scale = if tolerance.relative {
+        nominal.abs()
+    } else {
+        1.0
+    };
     let mut points = resolver.design_points();
     for (point, value) in points.iter_mut().zip(design) {
         point.nominal = *value;
     }
-    points[variable].limits = [scale * found.lower, scale * found.upper];
+    points[variable].limits = [scale * tolerance.lower, scale * tolerance.upper];
     points[variable].extent = Some((&ast.name).into());
     physical::check_given(
         &resolver.requirements,
@@ -132,7 +136,7 @@ pub fn design_tolerance(
         items.inputs.len(),
         &mut resolver.diagnostics,
     );
-    resolver.diagnostics.into_result(found)
+    resolver.diagnostics.into_result(tolerance)
 }
 
 fn read_tolerance(
@@ -160,12 +164,12 @@ fn read_tolerance(
             Some(own) if matches!(own.limits, Limits::Values(_)) => {
                 resolver.design_tolerance(Some(own), Some((nominal, expected)))
             }
-            own => {
+            tolerance => {
                 if is_design {
                     let nominal = Some((nominal, expected.clone()));
-                    resolver.design_tolerance(own.as_ref(), nominal)?;
+                    resolver.design_tolerance(tolerance.as_ref(), nominal)?;
                 }
-                resolver.input_tolerance(own.as_ref(), Some(expected))
+                resolver.input_tolerance(tolerance.as_ref(), Some(expected))
             }
         }
     })
@@ -174,18 +178,18 @@ fn read_tolerance(
 /// Parses a declaration around a text, whose mistakes are told without the semicolon behind it.
 fn read(declaration: TokenStream) -> Result<Ast, Diagnostics> {
     parse(declaration).map_err(|mistakes| {
-        let mut own = Diagnostics::new();
+        let mut diagnostics = Diagnostics::new();
         for mistake in mistakes.iter() {
             let message = match mistake.message.strip_prefix("expected `;`, found ") {
                 Some(found) => format!("unexpected {found}"),
                 None => mistake.message.replace(", found `;`", ", found nothing"),
             };
-            own.push(Diagnostic {
+            diagnostics.push(Diagnostic {
                 message,
                 ..mistake.clone()
             });
         }
-        own
+        diagnostics
     })
 }
 

@@ -32,7 +32,7 @@ impl Resolver<'_> {
         let kind = self.kind(joint);
         let steps = kind.and_then(|kind| self.steps(joint, id, kind));
         let mut from = match &joint.from_station {
-            Some(place) => self.station_before_to(joint, place),
+            Some(from_station) => self.station_before_to(joint, from_station),
             None => self.frame(&joint.from),
         };
         let mut to = self.frame(&joint.to);
@@ -104,8 +104,8 @@ impl Resolver<'_> {
         Some(())
     }
 
-    fn station_before_to(&mut self, joint: &ast::Joint, place: &Value) -> Option<Frame> {
-        let station = self.station(&joint.from, place);
+    fn station_before_to(&mut self, joint: &ast::Joint, value: &Value) -> Option<Frame> {
+        let station = self.station(&joint.from, value);
         if station.is_none() {
             let message = "before `to` stands a place along a beam: `at tip` or `at 0.4 length`";
             let help = format!(
@@ -113,7 +113,7 @@ impl Resolver<'_> {
                 joint.from, joint.to
             );
             self.diagnostics
-                .error_with_help(place.extent, message, help);
+                .error_with_help(value.extent, message, help);
         }
         station.flatten()
     }

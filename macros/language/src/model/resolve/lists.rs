@@ -17,8 +17,8 @@ pub(super) struct Listed {
 }
 
 /// The content of a list and its spelling, for messages.
-fn words(place: ValueContext) -> (&'static str, &'static str) {
-    match place {
+fn words(value_context: ValueContext) -> (&'static str, &'static str) {
+    match value_context {
         ValueContext::Points => (
             "points of a curve",
             "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`",
@@ -32,8 +32,8 @@ fn words(place: ValueContext) -> (&'static str, &'static str) {
 
 impl Resolver<'_> {
     /// Numbers in brackets, without names.
-    pub(super) fn listed(&mut self, list: &Value, place: ValueContext) -> Option<Listed> {
-        let (what, help) = words(place);
+    pub(super) fn listed(&mut self, list: &Value, value_context: ValueContext) -> Option<Listed> {
+        let (what, help) = words(value_context);
         let ValueKind::Vector(elements, unit) = &list.bare().kind else {
             let message = format!("the {what} are listed in brackets");
             self.diagnostics.error_with_help(list.extent, message, help);
@@ -42,7 +42,7 @@ impl Resolver<'_> {
         let scale = self.optional_unit(unit.as_ref());
         let numbers: Vec<_> = elements
             .iter()
-            .map(|element| self.listed_number(element, place))
+            .map(|element| self.listed_number(element, value_context))
             .collect();
         let numbers: Vec<(f64, Quantity)> = numbers.into_iter().collect::<Option<_>>()?;
         let (numbers, quantities): (Vec<f64>, Vec<Quantity>) = numbers.into_iter().unzip();
@@ -69,8 +69,12 @@ impl Resolver<'_> {
         })
     }
 
-    fn listed_number(&mut self, element: &Value, place: ValueContext) -> Option<(f64, Quantity)> {
-        match self.scalar(element, place)? {
+    fn listed_number(
+        &mut self,
+        element: &Value,
+        value_context: ValueContext,
+    ) -> Option<(f64, Quantity)> {
+        match self.scalar(element, value_context)? {
             (Expr::Number(number), quantity) => Some((number, quantity)),
             // Names are refused, and numbers are combined immediately.
             _ => None,

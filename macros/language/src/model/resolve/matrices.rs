@@ -14,7 +14,7 @@ impl Resolver<'_> {
         rows: &[Value],
         unit: Option<&Unit>,
         extent: Extent,
-        place: ValueContext,
+        value_context: ValueContext,
     ) -> Option<Typed> {
         let unit = self.optional_unit(unit);
         if rows.len() != 3 {
@@ -26,7 +26,10 @@ impl Resolver<'_> {
             );
             return None;
         }
-        let resolved: Vec<_> = rows.iter().map(|row| self.row(row, place)).collect();
+        let resolved: Vec<_> = rows
+            .iter()
+            .map(|row| self.row(row, value_context))
+            .collect();
         let resolved: Vec<_> = resolved.into_iter().collect::<Option<_>>()?;
         let (vectors, quantities): (Vec<Vector>, Vec<_>) = resolved.into_iter().unzip();
         let common = self.common_quantity(&quantities, rows, "rows of a matrix")?;
@@ -35,7 +38,7 @@ impl Resolver<'_> {
         self.in_unit(Typed::Matrix(matrix, common), unit?, extent)
     }
 
-    fn row(&mut self, row: &Value, place: ValueContext) -> Option<(Vector, Quantity)> {
+    fn row(&mut self, row: &Value, value_context: ValueContext) -> Option<(Vector, Quantity)> {
         if let ValueKind::Vector(entries, _) = &row.bare().kind
             && entries.len() != 3
         {
@@ -46,7 +49,7 @@ impl Resolver<'_> {
             self.diagnostics.error(row.extent, message);
             return None;
         }
-        self.vector(row, place)
+        self.vector(row, value_context)
     }
 
     /// A matrix that must have the given dimension; a vector is taken as its diagonal. `what` names its role.

@@ -10,9 +10,9 @@ use crate::model::simplify;
 use crate::syntax::ast::{Binary, Operator, Value};
 
 impl Resolver<'_> {
-    pub(super) fn binary(&mut self, binary: &Binary, place: ValueContext) -> Option<Typed> {
-        let left = self.value(&binary.left, place);
-        let right = self.value(&binary.right, place);
+    pub(super) fn binary(&mut self, binary: &Binary, value_context: ValueContext) -> Option<Typed> {
+        let left = self.value(&binary.left, value_context);
+        let right = self.value(&binary.right, value_context);
         let (left, right) = (left?, right?);
         let result = match binary.operator {
             Operator::Add | Operator::Subtract => self.sum(binary, left, right),

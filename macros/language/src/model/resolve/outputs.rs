@@ -59,8 +59,8 @@ impl Resolver<'_> {
         match value {
             Expr::Coordinate(id) => {
                 let angle = Some(CoordinateQuantity::Angle);
-                let own = self.coordinates.get(id.index())?;
-                (own.quantity == angle).then_some(Measure::Angle)
+                let coordinate = self.coordinates.get(id.index())?;
+                (coordinate.quantity == angle).then_some(Measure::Angle)
             }
             Expr::KineticEnergy | Expr::PotentialEnergy => Some(Measure::Energy),
             Expr::Negate(a) => self.measure(a),

@@ -24,7 +24,7 @@ impl Resolver<'_> {
                 [] => String::new(),
                 _ => print::unit(&input.unit),
             };
-            let expected = dimension.map(|own| Expected::in_unit(own, &symbol));
+            let expected = dimension.map(|dimension| Expected::in_unit(dimension, &symbol));
             let tolerance = self.input_tolerance(input.tolerance.as_ref(), expected);
             self.inputs.push(dimension);
             inputs.push(Input {

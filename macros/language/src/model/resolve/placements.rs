@@ -32,7 +32,7 @@ impl Resolver<'_> {
         placement: Option<&ast::Placement>,
     ) -> (Option<Frame>, Option<Placement>) {
         let what = "a point's place";
-        let offset = placement.and_then(|own| Some((own, own.offset.as_ref()?)));
+        let offset = placement.and_then(|placement| Some((placement, placement.offset.as_ref()?)));
         if let Some((placement, offset)) = offset
             && let Some(station) = self.station(frame, offset)
         {

@@ -76,8 +76,8 @@ impl Resolver<'_> {
                 self.no_coordinate_of_its_name(name, id);
                 None
             }
-            found => {
-                self.wrong_reference(name, "coordinate", found, Meaning::is_coordinate);
+            meaning => {
+                self.wrong_reference(name, "coordinate", meaning, Meaning::is_coordinate);
                 None
             }
         }
@@ -110,8 +110,10 @@ impl Resolver<'_> {
             self.diagnostics.error(name, message);
             return;
         }
-        let own = self.coordinates.iter().filter(|other| other.joint == id);
-        let names: Vec<String> = own.map(|other| format!("`{}`", other.name)).collect();
+        let coordinates = self.coordinates.iter().filter(|other| other.joint == id);
+        let names: Vec<String> = coordinates
+            .map(|other| format!("`{}`", other.name))
+            .collect();
         if !names.is_empty() {
             let message = format!("`{name}` is a {} joint with several coordinates", kind.word);
             let help = format!("name one of them: {}", names.join(", "));
@@ -139,7 +141,9 @@ impl Resolver<'_> {
                 Meaning::Coordinate(id) if kind.starts_with("joint") => self
                     .coordinates
                     .get(id.index())
-                    .and_then(|own| coordinates::joints(self.ast).nth(own.joint.index()))
+                    .and_then(|coordinate| {
+                        coordinates::joints(self.ast).nth(coordinate.joint.index())
+                    })
                     .map(|joint| format!("its joint is `{}`", joint.name)),
                 _ => None,
             };

@@ -14,7 +14,7 @@ impl Resolver<'_> {
                 continue;
             };
             if let Some(steady) = self.steady(named) {
-                match all.iter().any(|own| own.coordinate == steady.coordinate) {
+                match all.iter().any(|x| x.coordinate == steady.coordinate) {
                     true => {
                         let message = format!("`{}` is given a steady value twice", named.name);
                         self.diagnostics.error(&named.name, message);

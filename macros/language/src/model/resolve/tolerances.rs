@@ -187,20 +187,20 @@ impl Resolver<'_> {
     /// Requires a deviation to have the dimension of its quantity; a bare number may also be meant in percent.
     fn expect_deviation(
         &mut self,
-        found: Quantity,
+        quantity: Quantity,
         expected: &Expected,
         what: &str,
         value: &Value,
     ) -> Option<()> {
         match bare_number(value) {
-            Some(written) if !expected.admits(found, value) => {
+            Some(written) if !expected.admits(quantity, value) => {
                 let message = expected.needs_unit(&written);
                 let help = format!("or in per cent: `{written}%`");
                 self.diagnostics
                     .error_with_help(value.extent, message, help);
                 None
             }
-            _ => self.expect(found, expected.clone(), what, value),
+            _ => self.expect(quantity, expected.clone(), what, value),
         }
     }
 

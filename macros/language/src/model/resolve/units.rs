@@ -57,7 +57,7 @@ impl Resolver<'_> {
     pub(super) fn swallowed(
         &self,
         value: &Value,
-        found: Dimension,
+        dimension: Dimension,
         expected: Dimension,
     ) -> Option<String> {
         let meant = |unit: &Unit, index: usize| {
@@ -65,7 +65,7 @@ impl Resolver<'_> {
             let declared = self.declared_dimension(&factor.name)?;
             let read = units::find(&factor.name)?.dimension;
             let change = declared.over(read)?.power(factor.exponent, 1)?;
-            (found.times(change)? == expected).then_some(())
+            (dimension.times(change)? == expected).then_some(())
         };
         let help = |value: &Value| {
             value.units().into_iter().find_map(|(number, unit)| {
@@ -90,9 +90,14 @@ impl Resolver<'_> {
     }
 
     /// Records a unit in which declared names could have been meant.
-    pub(super) fn may_be_unclear(&mut self, number: Option<f64>, unit: &Unit, place: ValueContext) {
-        if place.knows_names() && unit.factors.len() > 1 {
-            self.units.push((number, unit.clone(), place));
+    pub(super) fn may_be_unclear(
+        &mut self,
+        number: Option<f64>,
+        unit: &Unit,
+        value_context: ValueContext,
+    ) {
+        if value_context.knows_names() && unit.factors.len() > 1 {
+            self.units.push((number, unit.clone(), value_context));
         }
     }
 

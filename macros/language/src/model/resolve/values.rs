@@ -22,22 +22,22 @@ use crate::syntax::ast::{ItemKind, Unit, Value, ValueKind};
 /// All functions below return `None` for a mistake that has been reported.
 impl Resolver<'_> {
     /// A value of any kind and dimension.
-    pub(super) fn value(&mut self, value: &Value, place: ValueContext) -> Option<Typed> {
+    pub(super) fn value(&mut self, value: &Value, value_context: ValueContext) -> Option<Typed> {
         match &value.kind {
-            ValueKind::Number(number, unit) => self.number(*number, unit.as_ref(), place),
-            ValueKind::Name(name) => self.named_value(name, place),
+            ValueKind::Number(number, unit) => self.number(*number, unit.as_ref(), value_context),
+            ValueKind::Name(name) => self.named_value(name, value_context),
             ValueKind::Vector(components, unit) => {
-                self.vector_literal(components, unit.as_ref(), value.extent, place)
+                self.vector_literal(components, unit.as_ref(), value.extent, value_context)
             }
             ValueKind::Negate(operand) => {
-                let operand = self.value(operand, place)?;
+                let operand = self.value(operand, value_context)?;
                 let quantity = operand.quantity();
                 Some(operand.map(simplify::negate, quantity))
             }
-            ValueKind::Binary(binary) => self.binary(binary, place),
-            ValueKind::Call(function, arguments) => self.call(function, arguments, place),
-            ValueKind::Component(of, axis) => self.component(of, axis, place),
-            ValueKind::Parenthesised(inner) => self.value(inner, place),
+            ValueKind::Binary(binary) => self.binary(binary, value_context),
+            ValueKind::Call(function, arguments) => self.call(function, arguments, value_context),
+            ValueKind::Component(of, axis) => self.component(of, axis, value_context),
+            ValueKind::Parenthesised(inner) => self.value(inner, value_context),
             ValueKind::Sections(_) => {
                 let message = "a cross-section belongs to a beam";
                 self.diagnostics.error(value.extent, message);
@@ -51,7 +51,12 @@ impl Resolver<'_> {
         }
     }
 
-    fn number(&mut self, number: f64, unit: Option<&Unit>, place: ValueContext) -> Option<Typed> {
+    fn number(
+        &mut self,
+        number: f64,
+        unit: Option<&Unit>,
+        value_context: ValueContext,
+    ) -> Option<Typed> {
         let Some(unit) = unit else {
             let quantity = if number == 0.0 {
                 Quantity::Zero
@@ -61,7 +66,7 @@ impl Resolver<'_> {
             return Some(Typed::Scalar(Expr::Number(number), quantity));
         };
         let (dimension, scale) = self.unit(unit)?;
-        self.may_be_unclear(Some(number), unit, place);
+        self.may_be_unclear(Some(number), unit, value_context);
         let value = number * scale;
         if !value.is_finite() {
             self.diagnostics.error(
@@ -71,27 +76,27 @@ impl Resolver<'_> {
             return None;
         }
         // Tolerances are no lengths of the mechanism, and nominal values are noted by those who ask for them.
-        if place != ValueContext::Nominal {
+        if value_context != ValueContext::Nominal {
             self.note_length(value, dimension);
         }
         Some(Typed::number(value, dimension))
     }
 
-    fn named_value(&mut self, name: &Ident, place: ValueContext) -> Option<Typed> {
+    fn named_value(&mut self, name: &Ident, value_context: ValueContext) -> Option<Typed> {
         let text = name.to_string();
         if text == "pi" {
             return Some(Typed::number(std::f64::consts::PI, Dimension::NONE));
         }
-        if place == ValueContext::Tension
+        if value_context == ValueContext::Tension
             && let Some(word) = tension::word(&text)
         {
             return self.tension_word(word, name);
         }
         let Some(meaning) = self.scope.find_or_unclear(&text) else {
-            self.unknown_value(name, place);
+            self.unknown_value(name, value_context);
             return None;
         };
-        if let Some((what, help)) = of_numbers_only(place)
+        if let Some((what, help)) = of_numbers_only(value_context)
             && meaning != Meaning::Unclear
         {
             let message = format!(
@@ -114,13 +119,13 @@ impl Resolver<'_> {
             Meaning::Let(index) => self.lets.get(index)?.clone(),
             Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Coordinate(_) => {
                 let (coordinate, quantity) = self.coordinate(name)?;
-                self.coordinate_is_usable(name, coordinate, place)?;
+                self.coordinate_is_usable(name, coordinate, value_context)?;
                 Some(Typed::Scalar(
                     Expr::Coordinate(coordinate),
                     Quantity::Of(coordinates::dimension(quantity)),
                 ))
             }
-            Meaning::Point(_) if place.knows_places() => {
+            Meaning::Point(_) if value_context.knows_places() => {
                 self.diagnostics.error_with_help(
                     name,
                     format!("`{text}` is a point, not a value"),
@@ -187,9 +192,9 @@ impl Resolver<'_> {
         &mut self,
         name: &Ident,
         coordinate: CoordinateId,
-        place: ValueContext,
+        value_context: ValueContext,
     ) -> Option<()> {
-        let reason = match place {
+        let reason = match value_context {
             place if place.knows_places() => None,
             ValueContext::Tension => Some("a tension depends on `length` and `rate` only"),
             _ => Some(
@@ -202,9 +207,9 @@ impl Resolver<'_> {
             return None;
         }
         let motion = self.coordinates.get(coordinate.index())?.motion;
-        if motion == DeclaredMotion::Coasting && place != ValueContext::Equation {
+        if motion == DeclaredMotion::Coasting && value_context != ValueContext::Equation {
             let rate = format!("use `rate({name})`");
-            let help = (place != ValueContext::Energy).then_some(rate);
+            let help = (value_context != ValueContext::Energy).then_some(rate);
             let message =
                 format!("`{name}` is coasting: nothing may depend on how far it has gone");
             self.report(name, message, help);
@@ -213,16 +218,16 @@ impl Resolver<'_> {
         Some(())
     }
 
-    fn unknown_value(&mut self, name: &Ident, place: ValueContext) {
+    fn unknown_value(&mut self, name: &Ident, value_context: ValueContext) {
         let text = name.to_string();
         let usable = |meaning| match meaning {
             Meaning::Input(_) | Meaning::Design(_) | Meaning::Let(_) => {
-                of_numbers_only(place).is_none()
+                of_numbers_only(value_context).is_none()
             }
-            meaning => place.knows_places() && meaning.is_coordinate(),
+            meaning => value_context.knows_places() && meaning.is_coordinate(),
         };
         let near = self.scope.nearest(&text, usable);
-        let near = match place {
+        let near = match value_context {
             ValueContext::Tension => near.or_else(|| nearest(&text, tension::words())),
             _ => near,
         };
@@ -253,18 +258,18 @@ impl Resolver<'_> {
         components: &[Value],
         unit: Option<&Unit>,
         extent: Extent,
-        place: ValueContext,
+        value_context: ValueContext,
     ) -> Option<Typed> {
         if let Some(unit) = unit {
-            self.may_be_unclear(None, unit, place);
+            self.may_be_unclear(None, unit, value_context);
         }
         if is_matrix(components) {
-            return self.matrix_literal(components, unit, extent, place);
+            return self.matrix_literal(components, unit, extent, value_context);
         }
         let unit = self.optional_unit(unit);
         let resolved: Vec<_> = components
             .iter()
-            .map(|component| self.scalar(component, place))
+            .map(|component| self.scalar(component, value_context))
             .collect();
         if components.len() != 3 {
             let count = components.len();
@@ -342,8 +347,13 @@ impl Resolver<'_> {
         Some(typed.map(scaled, quantity))
     }
 
-    fn component(&mut self, of: &Value, axis: &Ident, place: ValueContext) -> Option<Typed> {
-        let (vector, quantity) = self.vector(of, place)?;
+    fn component(
+        &mut self,
+        of: &Value,
+        axis: &Ident,
+        value_context: ValueContext,
+    ) -> Option<Typed> {
+        let (vector, quantity) = self.vector(of, value_context)?;
         let [x, y, z] = vector;
         let component = match axis.to_string().as_str() {
             "x" => x,
@@ -362,9 +372,9 @@ impl Resolver<'_> {
     pub(super) fn scalar(
         &mut self,
         value: &Value,
-        place: ValueContext,
+        value_context: ValueContext,
     ) -> Option<(Expr, Quantity)> {
-        match self.value(value, place)? {
+        match self.value(value, value_context)? {
             Typed::Scalar(expr, quantity) => Some((expr, quantity)),
             Typed::Vector(..) => {
                 self.diagnostics.error_with_help(
@@ -386,9 +396,9 @@ impl Resolver<'_> {
     pub(super) fn vector(
         &mut self,
         value: &Value,
-        place: ValueContext,
+        value_context: ValueContext,
     ) -> Option<(Vector, Quantity)> {
-        match self.value(value, place)? {
+        match self.value(value, value_context)? {
             Typed::Vector(vector, quantity) => Some((vector, quantity)),
             Typed::Scalar(..) => {
                 self.diagnostics.error_with_help(
@@ -442,13 +452,13 @@ impl Resolver<'_> {
     /// Rejects a quantity of the wrong dimension; it is never converted, because it is a mistake in the model.
     pub(super) fn expect(
         &mut self,
-        found: Quantity,
+        quantity: Quantity,
         expected: impl Into<Expected>,
         what: &str,
         value: &Value,
     ) -> Option<()> {
         let expected = expected.into();
-        if expected.admits(found, value) {
+        if expected.admits(quantity, value) {
             return Some(());
         }
         if let Some(written) = bare_number(value) {
@@ -459,10 +469,10 @@ impl Resolver<'_> {
         let message = format!(
             "{what} must be {}, this is {}",
             expected.describe(),
-            found.dimension().describe()
+            quantity.dimension().describe()
         );
         let help = self
-            .swallowed(value, found.dimension(), expected.dimension)
+            .swallowed(value, quantity.dimension(), expected.dimension)
             .or_else(|| {
                 let (name, number) = self.declared_without_unit(value)?;
                 Some(match value.bare().kind {
@@ -474,7 +484,7 @@ impl Resolver<'_> {
                 })
             })
             .or_else(|| {
-                let weighed = found.dimension() == Dimension::FORCE;
+                let weighed = quantity.dimension() == Dimension::FORCE;
                 let weight = "what weighs 1 kgf has a mass of 1 kg, what weighs 1 lbf one of 1 lb";
                 (weighed && expected.dimension == Dimension::MASS).then(|| weight.to_owned())
             });
@@ -497,8 +507,8 @@ impl Resolver<'_> {
 }
 
 /// The content of a place that admits no names, and advice on what to do there.
-fn of_numbers_only(place: ValueContext) -> Option<(&'static str, &'static str)> {
-    match place {
+fn of_numbers_only(value_context: ValueContext) -> Option<(&'static str, &'static str)> {
+    match value_context {
         ValueContext::Nominal => Some((
             "a nominal value is",
             "use `let` for a value computed from others",

@@ -151,7 +151,8 @@ fn check_tolerance(
         let mut shifted: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
         shifted[index] += deviation;
         let values = Values::new(constants, inputs, &shifted);
-        let in_tolerance = |own: &&&Requirement| !matches!(own.demand, Demand::Amplitude(_));
+        let in_tolerance =
+            |requirement: &&&Requirement| !matches!(requirement.demand, Demand::Amplitude(_));
         for requirement in requirements.iter().filter(in_tolerance) {
             if let Some(Violation { what, problem, .. }) = violation(requirement, &values) {
                 let name = &variable.name;

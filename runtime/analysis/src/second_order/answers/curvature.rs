@@ -97,13 +97,17 @@ pub(crate) fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
 
 impl Pair<'_> {
     /// The second derivative with respect to both, inputs first, SI.
-    pub(crate) fn of<T: Copy>(&self, own: &SecondDerivatives<T>, inputs: usize) -> Option<T> {
+    pub(crate) fn of<T: Copy>(
+        &self,
+        second_derivatives: &SecondDerivatives<T>,
+        inputs: usize,
+    ) -> Option<T> {
         let [i, j] = self.places;
         match (i.checked_sub(inputs), j.checked_sub(inputs)) {
-            (None, None) => entry(&own.by_input, i, j),
-            (None, Some(j)) => entry(&own.by_input_and_design, i, j),
-            (Some(i), None) => entry(&own.by_input_and_design, j, i),
-            (Some(i), Some(j)) => entry(&own.by_design, i, j),
+            (None, None) => entry(&second_derivatives.by_input, i, j),
+            (None, Some(j)) => entry(&second_derivatives.by_input_and_design, i, j),
+            (Some(i), None) => entry(&second_derivatives.by_input_and_design, j, i),
+            (Some(i), Some(j)) => entry(&second_derivatives.by_design, i, j),
         }
     }
 

@@ -93,28 +93,28 @@ fn spreads(said: &mut Findings, rows: &[Row<'_>]) {
     table.words("error", &|row| Some(row.mode.as_ref().err()?.to_string()));
     table.words("doubts", &|row| joined(row.doubts));
     table.cells("nominal [rad/s]", &|row| {
-        row.cell(FREQUENCY, |own| number(own.model.value))
+        row.cell(FREQUENCY, |row| number(row.model.value))
     });
     table.cells("mean [rad/s]", &|row| {
-        row.cell(FREQUENCY, |own| number(own.moments.mean))
+        row.cell(FREQUENCY, |row| number(row.moments.mean))
     });
     table.cells("sigma, first order", &|row| {
-        row.cell(FREQUENCY, |own| {
-            sigma(own.moments.first_order_sigma, own.moments.mean)
+        row.cell(FREQUENCY, |row| {
+            sigma(row.moments.first_order_sigma, row.moments.mean)
         })
     });
     table.cells("sigma [rad/s]", &|row| {
-        row.cell(FREQUENCY, |own| sigma(own.moments.sigma, own.moments.mean))
+        row.cell(FREQUENCY, |row| sigma(row.moments.sigma, row.moments.mean))
     });
     table.cells("skewness", &|row| {
-        row.cell(FREQUENCY, |own| format!("{:+.3}", own.moments.skewness))
+        row.cell(FREQUENCY, |row| format!("{:+.3}", row.moments.skewness))
     });
     table.cells("damping ratio, mean", &|row| {
-        row.cell(DAMPING_RATIO, |own| rough(own.moments.mean))
+        row.cell(DAMPING_RATIO, |row| rough(row.moments.mean))
     });
     table.cells("sigma", &|row| {
-        row.cell(DAMPING_RATIO, |own| {
-            sigma(own.moments.sigma, own.moments.mean)
+        row.cell(DAMPING_RATIO, |row| {
+            sigma(row.moments.sigma, row.moments.mean)
         })
     });
     said.columns(table);
@@ -125,11 +125,11 @@ fn moments(table: &mut Columns<'_, Row<'_>>, name: &str, unit: &str, of: Quantit
     table.number(name, unit, &|row| Some(row.spread(of)?.model.value));
     type Pick = fn(ModelMoments) -> f64;
     let picks: [(&str, &str, Pick); 5] = [
-        ("mean", unit, |own| own.mean),
-        ("first-order sigma", unit, |own| own.first_order_sigma),
-        ("sigma", unit, |own| own.sigma),
-        ("skewness", "", |own| own.skewness),
-        ("excess kurtosis", "", |own| own.excess_kurtosis),
+        ("mean", unit, |x| x.mean),
+        ("first-order sigma", unit, |x| x.first_order_sigma),
+        ("sigma", unit, |x| x.sigma),
+        ("skewness", "", |x| x.skewness),
+        ("excess kurtosis", "", |x| x.excess_kurtosis),
     ];
     for (what, unit, pick) in picks {
         table.number(&format!("{what} of {name}"), unit, &|row| {

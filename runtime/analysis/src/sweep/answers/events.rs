@@ -172,24 +172,26 @@ pub(crate) fn event_columns<'a>(
 ) -> Option<Columns<'a, &'a EventTolerance>> {
     let one = all.first()?;
     let d = &one.description;
-    let spread = |own: &&'a EventTolerance| own.spread.as_ref().ok();
-    let error = |own: &&EventTolerance| Some(own.spread.as_ref().err()?.to_string());
+    let spread = |event_tolerance: &&'a EventTolerance| event_tolerance.spread.as_ref().ok();
+    let error = |event_tolerance: &&EventTolerance| {
+        Some(event_tolerance.spread.as_ref().err()?.to_string())
+    };
     let mut table = Columns::new(name, all);
-    table.cells("what happens", &|own| own.what_happens());
-    varied(&mut table, d, one.input, number, &|own| own.value);
-    meetings(&mut table, &|own| own.meeting());
-    table.words("whirl", &|own| own.sense());
+    table.cells("what happens", &|row| row.what_happens());
+    varied(&mut table, d, one.input, number, &|x| x.value);
+    meetings(&mut table, &|x| x.meeting());
+    table.words("whirl", &|row| row.sense());
     if let Some(info) = d.inputs.get(one.input.index()) {
-        table.measured("sigma", &info.unit, &|own| Some(spread(own)?.sigma));
-        let band = table.measured("band", &info.unit, &|own| Some(spread(own)?.band));
+        table.measured("sigma", &info.unit, &|row| Some(spread(row)?.sigma));
+        let band = table.measured("band", &info.unit, &|row| Some(spread(row)?.band));
         (band.digits(rough)).headed(&format!("{} sigma", one.sigma_level));
-        table.shares(d, &|own| Some(&spread(own)?.variance_shares[..]));
+        table.shares(d, &|row| Some(&spread(row)?.variance_shares[..]));
     }
-    table.number("sigma level", "", &|own| Some(own.sigma_level));
+    table.number("sigma level", "", &|row| Some(row.sigma_level));
     table.words("error", &error);
-    table.cells("mostly from", &|own| {
-        let shares = || spread(own).map(|own| mostly(d, &own.variance_shares));
-        error(own).or_else(shares).unwrap_or_default()
+    table.cells("mostly from", &|row| {
+        let shares = || spread(row).map(|x| mostly(d, &x.variance_shares));
+        error(row).or_else(shares).unwrap_or_default()
     });
     Some(table)
 }

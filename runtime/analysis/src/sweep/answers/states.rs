@@ -94,11 +94,11 @@ pub(super) fn critical_columns(all: &[CriticalState]) -> Option<Columns<'_, Crit
     let one = all.first()?;
     let d = &one.equilibrium.description;
     let mut table = Columns::new("critical states", all);
-    varied(&mut table, d, one.input, number, &|own| own.value);
+    varied(&mut table, d, one.input, number, &|x| x.value);
     table
-        .words("kind", &|own| Some(own.kind.to_string()))
+        .words("kind", &|row| Some(row.kind.to_string()))
         .shown();
-    table.unknowns(d, &|own| Some(&own.equilibrium.coordinates[..]));
+    table.unknowns(d, &|row| Some(&row.equilibrium.coordinates[..]));
     Some(table)
 }
 
@@ -106,15 +106,15 @@ fn crossing_columns(all: &[Crossing]) -> Option<Columns<'_, Crossing>> {
     let one = all.first()?;
     let d = &one.equilibrium.description;
     let mut table = Columns::new("crossings", all);
-    table.cells("what happens", &|own| own.what_happens());
-    varied(&mut table, d, one.input, number, &|own| own.value);
-    meetings(&mut table, &|own| Some((own.mode, own.condition)));
-    let frequency = |own: &Crossing| own.modes.modes.get(own.mode)?.frequency();
+    table.cells("what happens", &|row| row.what_happens());
+    varied(&mut table, d, one.input, number, &|x| x.value);
+    meetings(&mut table, &|x| Some((x.mode, x.condition)));
+    let frequency = |crossing: &Crossing| crossing.modes.modes.get(crossing.mode)?.frequency();
     table
         .number("frequency", "rad/s", &frequency)
         .digits(number);
-    table.unknowns(d, &|own| Some(&own.equilibrium.coordinates[..]));
-    let stability = table.words("stability", &|own| Some(own.equilibrium.stability_word()));
+    table.unknowns(d, &|row| Some(&row.equilibrium.coordinates[..]));
+    let stability = table.words("stability", &|row| Some(row.equilibrium.stability_word()));
     stability.shown().headed("state");
     Some(table)
 }

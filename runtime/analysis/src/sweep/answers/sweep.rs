@@ -97,29 +97,29 @@ fn columns<'a>(
 ) -> Columns<'a, SweepPoint> {
     let mut table = Columns::new("sweep", points);
     table.show_rows(shown(points.len()));
-    varied(&mut table, d, input, given, &|own| own.value);
-    table.unknowns(d, &|own| Some(&state(own)?.coordinates[..]));
+    varied(&mut table, d, input, given, &|x| x.value);
+    table.unknowns(d, &|row| Some(&state(row)?.coordinates[..]));
     moving.columns(&mut table, &state);
-    table.words("stability", &|own| Some(state(own)?.stability_word()));
+    table.words("stability", &|row| Some(state(row)?.stability_word()));
     for label in 0..motions {
         let number_of = label + 1;
-        let mode = |own: &SweepPoint, pick: fn(&Mode) -> Option<f64>| {
-            let modes = &own.modes.as_ref().ok()?.modes;
+        let mode = |sweep_point: &SweepPoint, pick: fn(&Mode) -> Option<f64>| {
+            let modes = &sweep_point.modes.as_ref().ok()?.modes;
             modes.iter().find(|mode| mode.label == label).and_then(pick)
         };
         let name = format!("frequency {number_of}");
-        let column = table.number(&name, "rad/s", &|own| mode(own, Mode::frequency));
+        let column = table.number(&name, "rad/s", &|row| mode(row, Mode::frequency));
         (column.digits(number)).headed(&format!("omega{number_of} [rad/s]"));
         let name = format!("damping ratio {number_of}");
-        table.number(&name, "", &|own| mode(own, Mode::damping_ratio));
+        table.number(&name, "", &|row| mode(row, Mode::damping_ratio));
         let name = format!("Re s {number_of}");
-        table.number(&name, "1/s", &|own| mode(own, |mode| Some(mode.s.re)));
+        table.number(&name, "1/s", &|row| mode(row, |mode| Some(mode.s.re)));
         let name = format!("Im s {number_of}");
-        table.number(&name, "1/s", &|own| mode(own, |mode| Some(mode.s.im)));
+        table.number(&name, "1/s", &|row| mode(row, |mode| Some(mode.s.im)));
     }
-    table.cells("state", &|own| {
-        let stability = || state(own).map(Equilibrium::stability_word);
-        error(own).or_else(stability).unwrap_or_default()
+    table.cells("state", &|row| {
+        let stability = || state(row).map(Equilibrium::stability_word);
+        error(row).or_else(stability).unwrap_or_default()
     });
     table.words("error", &error);
     table

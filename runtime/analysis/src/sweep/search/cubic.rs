@@ -197,7 +197,7 @@ impl Triple {
         let bend = 2.0 * (to.value - jet.value - jet.slope * distance) / (distance * distance);
         let depth = jet.slope * jet.slope / (2.0 * bend.abs());
         let inner = &run[1..run.len() - 1];
-        let near = inner.len() <= 1 || inner.iter().all(|own| own.value.abs() <= 2.0 * jet.error);
+        let near = inner.len() <= 1 || inner.iter().all(|x| x.value.abs() <= 2.0 * jet.error);
         if certain(bend, 0.0) == to.sign && near && depth <= jet.error {
             return Some(Passage::Touches);
         }

@@ -55,10 +55,10 @@ pub(super) fn divide(
     interval: Interval,
     finest: f64,
 ) -> Division {
-    let mut found = Division::default();
+    let mut division = Division::default();
     let [first, last] = interval.ends;
     let (begin, end) = (first.t, last.t);
-    found.states.push(first.clone());
+    division.states.push(first.clone());
     let mut open = vec![(first, last)];
     while let Some((a, b)) = open.pop() {
         let width = b.t - a.t;
@@ -66,22 +66,22 @@ pub(super) fn divide(
             .iter()
             .find_map(|share| source.state(a.t + share * width));
         let Some(middle) = middle else {
-            found.broken = true;
-            found.doubts.push(Doubt {
+            division.broken = true;
+            division.doubts.push(Doubt {
                 between: [a.t, b.t],
                 kind: Kind::Critical,
             });
-            found.states.push(b);
+            division.states.push(b);
             continue;
         };
         match wanted.events([&a, &middle, &b], interval.closes && b.t == end) {
             Stretch::Events(events) => {
-                found.events.extend(events);
-                found.states.extend([middle, b]);
+                division.events.extend(events);
+                division.states.extend([middle, b]);
             }
             Stretch::Divide(_, kind) if width <= finest => {
-                settle(wanted, [&a, &middle, &b], kind, &mut found);
-                found.states.push(b);
+                settle(wanted, [&a, &middle, &b], kind, &mut division);
+                division.states.push(b);
             }
             Stretch::Divide(t, _) => {
                 let off = (t - a.t).min(b.t - t);
@@ -92,12 +92,12 @@ pub(super) fn divide(
         }
     }
     if !interval.opens {
-        found
+        division
             .events
             .retain(|event| event.zero.between != [begin; 2]);
     }
     // Beside a root of a root nothing is smooth: such a doubt belongs to the event.
-    let Division { events, doubts, .. } = &mut found;
+    let Division { events, doubts, .. } = &mut division;
     doubts.retain(|doubt| {
         let [from, to] = [
             doubt.between[0] - 4.0 * finest,
@@ -107,12 +107,12 @@ pub(super) fn divide(
             |event: &Candidate| event.zero.between[1] >= from && event.zero.between[0] <= to;
         !events.iter().any(beside)
     });
-    found
+    division
 }
 
 /// Decides about a stretch as narrow as the search resolves: what changes by counting is an event, anything else is in
 /// doubt.
-fn settle(wanted: &Wanted, states: [&Rc<Spectrum>; 3], kind: Kind, found: &mut Division) {
+fn settle(wanted: &Wanted, states: [&Rc<Spectrum>; 3], kind: Kind, division: &mut Division) {
     let [a, middle, b] = states;
     let between = [a.t, b.t];
     let mut kinds = vec![kind];
@@ -123,7 +123,7 @@ fn settle(wanted: &Wanted, states: [&Rc<Spectrum>; 3], kind: Kind, found: &mut D
         kinds.sort_by_key(|kind| format!("{kind:?}"));
         kinds.dedup();
     }
-    let known = found.events.len();
+    let known = division.events.len();
     for kind in kinds {
         let counts = [a, b].map(|state| wanted.count(kind, state));
         let passage = match counts[1] > counts[0] {
@@ -132,7 +132,7 @@ fn settle(wanted: &Wanted, states: [&Rc<Spectrum>; 3], kind: Kind, found: &mut D
         };
         for _ in 0..counts[0].abs_diff(counts[1]) {
             let near = wanted.nearest(kind, middle);
-            found.events.push(Candidate {
+            division.events.push(Candidate {
                 kind,
                 zero: Zero {
                     between,
@@ -143,8 +143,8 @@ fn settle(wanted: &Wanted, states: [&Rc<Spectrum>; 3], kind: Kind, found: &mut D
             });
         }
     }
-    if found.events.len() == known && wanted.doubtful(kind, states) {
-        found.doubts.push(Doubt { between, kind });
+    if division.events.len() == known && wanted.doubtful(kind, states) {
+        division.doubts.push(Doubt { between, kind });
     }
 }
 

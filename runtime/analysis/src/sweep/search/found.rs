@@ -84,12 +84,12 @@ impl Events {
     /// The events up to a value at which the work was stopped.
     pub(crate) fn until(mut self, value: f64) -> Self {
         let Searched { low, high, .. } = self.searched;
-        let within = |own: f64| (value - own) * (high - low) >= 0.0;
-        self.critical.retain(|own| within(own.value));
-        self.crossings.retain(|own| within(own.value));
+        let within = |x: f64| (value - x) * (high - low) >= 0.0;
+        self.critical.retain(|critical| within(critical.value));
+        self.crossings.retain(|crossing| within(crossing.value));
         self.searched.high = value;
-        self.searched.unresolved.retain(|own| within(own.from));
-        self.searched.gaps.retain(|own| within(own.from));
+        self.searched.unresolved.retain(|x| within(x.from));
+        self.searched.gaps.retain(|gap| within(gap.from));
         self
     }
 }

@@ -36,18 +36,18 @@ pub(super) fn pick(
     match kind {
         Kind::Line(k) => {
             let (Line { ratio, offset }, [u, du]) = (wanted.lines[k], spectrum.input);
-            let (own, line) = (&roots[first?], ratio * u + offset);
+            let (root, line) = (&roots[first?], ratio * u + offset);
             match wanted.undamped {
                 true => alone(
-                    own.value.re - line * line,
-                    own.slope.re - 2.0 * line * ratio * du,
+                    root.value.re - line * line,
+                    root.slope.re - 2.0 * line * ratio * du,
                 ),
-                false => alone(own.value.im - line, own.slope.im - ratio * du),
+                false => alone(root.value.im - line, root.slope.im - ratio * du),
             }
         }
         Kind::Growth => {
-            let own = &roots[first?];
-            alone(own.value.re, own.slope.re)
+            let root = &roots[first?];
+            alone(root.value.re, root.slope.re)
         }
         Kind::Critical if near[0] != near[1] => {
             let (two, positions) = two_near(roots, near)?;

@@ -289,7 +289,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
 
     /// The start itself lacks stiffness.
     fn critical_at_start(&mut self, curve: &Curve<'_>, state: &Equilibrium, beside: &CurvePoint) {
-        let place = CurvePosition {
+        let curve_position = CurvePosition {
             q: state.coordinates.clone(),
             p: self.settings.low,
         };
@@ -299,7 +299,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         };
         let tangent = (&beside.frame, &beside.tangent);
         if self.wanted.critical
-            && let Ok(special) = curve.degenerate(&place, tangent, zero)
+            && let Ok(special) = curve.degenerate(&curve_position, tangent, zero)
         {
             self.critical(special, Change::Pass, false);
         }
@@ -316,16 +316,19 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let Stability::Neutral { zero } = end.stability else {
             return;
         };
-        let place = CurvePosition {
+        let curve_position = CurvePosition {
             q: end.coordinates.clone(),
             p: self.settings.high,
         };
         let Continuation { low, high, .. } = *self.settings;
-        let near = |own: &CriticalState| (own.value - high).abs() <= SAME * (high - low).abs();
+        let near = |critical_state: &CriticalState| {
+            (critical_state.value - high).abs() <= SAME * (high - low).abs()
+        };
         let known = self.events.critical.last().is_some_and(near);
         if self.wanted.critical
             && !known
-            && let Ok(special) = curve.degenerate(&place, (&beside.frame, &beside.tangent), zero)
+            && let Ok(special) =
+                curve.degenerate(&curve_position, (&beside.frame, &beside.tangent), zero)
             && zero > special.equilibrium.free.count()
         {
             self.critical(special, Change::Pass, stiff);
@@ -382,8 +385,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                     loses,
                 } => {
                     let stop = self.critical((*special).clone(), change, loses);
-                    let last = located.last().map(|own| &own.special);
-                    let ends = |own: &Located| own.ends_arm && own.special == *special;
+                    let last = located.last().map(|x| &x.special);
+                    let ends = |located: &Located| located.ends_arm && located.special == *special;
                     let arm = located.iter().any(ends) || turns && last == Some(&*special);
                     next = match stop {
                         true => Some(Next::Done),
@@ -539,12 +542,12 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
     ) -> bool {
         let modes = self.labelled(node);
         let places = pair.map(|k| {
-            let own = &node.modes.modes[k];
-            let same = |other: &Mode| other.s == own.s && other.shape == own.shape;
+            let mode = &node.modes.modes[k];
+            let same = |other: &Mode| other.s == mode.s && other.shape == mode.shape;
             modes.modes.iter().position(same).unwrap_or(k)
         });
         // Of two that merge, each could pass for either: the event is the first one's.
-        let label = |place: &usize| modes.modes[*place].label;
+        let label = |index: &usize| modes.modes[*index].label;
         let mode = places.into_iter().min_by_key(label).unwrap_or(pair[0]);
         let crossing = Crossing {
             input: self.events.input,
@@ -643,8 +646,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let mut fold = None;
         let home = station.place.clone();
         curve.walk(&station.reversed(), &home, |_, after, located| {
-            let turns = |own: &&Located| own.special.kind == SpecialKind::Fold;
-            fold = located.iter().find(turns).map(|own| own.special.clone());
+            let turns = |located: &&Located| located.special.kind == SpecialKind::Fold;
+            fold = located.iter().find(turns).map(|x| x.special.clone());
             if fold.is_some() || (after.place.p - limit) * self.forward() < 0.0 {
                 return Pass::Stop;
             }

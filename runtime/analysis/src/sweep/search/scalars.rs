@@ -67,7 +67,7 @@ const SAMPLES: usize = 8;
 impl Wanted {
     /// The events between three states; the last state is part of the stretch only if it `closes` the search.
     pub(super) fn events(&self, states: [&Spectrum; 3], closes: bool) -> Stretch {
-        let found = Search {
+        let search = Search {
             wanted: self,
             states,
             roots: moving(states.map(|state| &state.roots[..])),
@@ -75,7 +75,7 @@ impl Wanted {
             closes,
             events: Vec::new(),
         };
-        found.all()
+        search.all()
     }
 }
 
@@ -324,7 +324,7 @@ impl Search<'_> {
         let pairs = &chains.pairs;
         let roots: Vec<[Root; 3]> = pairs.iter().map(|&chain| self.roots(chain)).collect();
         let keeps = |root: &Root| root.value.re.abs() <= root.error;
-        let constant: Vec<bool> = roots.iter().map(|own| own.iter().all(keeps)).collect();
+        let constant: Vec<bool> = roots.iter().map(|root| root.iter().all(keeps)).collect();
         let mut merges = vec![false; pairs.len()];
         for i in 0..pairs.len() {
             for j in i + 1..pairs.len() {
@@ -473,8 +473,8 @@ impl Search<'_> {
 }
 
 /// The place, no farther than `reach` from a place, at which a function with one minimum there is the lowest.
-fn lowest(function: impl Fn(f64) -> f64, place: f64, reach: f64) -> f64 {
-    let (mut from, mut to) = (place - reach, place + reach);
+fn lowest(function: impl Fn(f64) -> f64, value: f64, reach: f64) -> f64 {
+    let (mut from, mut to) = (value - reach, value + reach);
     for _ in 0..60 {
         let third = (to - from) / 3.0;
         match function(from + third) < function(to - third) {

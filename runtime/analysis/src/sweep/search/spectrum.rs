@@ -126,9 +126,9 @@ fn across(middle: &[Root], both: [usize; 2], after: &Link) -> Option<Two> {
                 let (a, b) = (&middle[a], &middle[b]);
                 (a.value - b.value).norm() <= a.error + b.error
             };
-            let same = |own: &[usize; 2], [a, b]: [usize; 2]| equal(own[0], a) && equal(own[1], b);
-            let fits = |own: &[usize; 2]| same(own, both) || same(own, [both[1], both[0]]);
-            let (pair, _) = after.joined.iter().find(|(_, own)| fits(own))?;
+            let same = |x: &[usize; 2], [a, b]: [usize; 2]| equal(x[0], a) && equal(x[1], b);
+            let fits = |x: &[usize; 2]| same(x, both) || same(x, [both[1], both[0]]);
+            let (pair, _) = after.joined.iter().find(|(_, x)| fits(x))?;
             Some(Two::Pair(*pair))
         }
         _ => None,
@@ -149,28 +149,28 @@ fn link(first: &[Root], second: &[Root], h: f64) -> Option<Link> {
         }
     }
     costs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut found = Link {
+    let mut link = Link {
         ahead: vec![None; first.len()],
         behind: vec![None; second.len()],
         split: Vec::new(),
         joined: Vec::new(),
     };
     for (_, i, j) in costs {
-        if found.ahead[i].is_none() && found.behind[j].is_none() {
-            (found.ahead[i], found.behind[j]) = (Some(j), Some(i));
+        if link.ahead[i].is_none() && link.behind[j].is_none() {
+            (link.ahead[i], link.behind[j]) = (Some(j), Some(i));
         }
     }
-    let left = |own: &[Option<usize>], roots: &[Root]| {
-        let open = |&k: &usize| own[k].is_none();
+    let left = |item: &[Option<usize>], roots: &[Root]| {
+        let open = |&k: &usize| item[k].is_none();
         let all = (0..roots.len()).filter(open);
         let (pairs, real): (Vec<usize>, Vec<usize>) = all.partition(|&k| roots[k].paired);
         (pairs, real)
     };
-    let (pairs, real) = left(&found.ahead, first);
-    let (other_pairs, other_real) = left(&found.behind, second);
-    found.split = halves(first, &pairs, second, other_real, h)?;
-    found.joined = halves(second, &other_pairs, first, real, -h)?;
-    Some(found)
+    let (pairs, real) = left(&link.ahead, first);
+    let (other_pairs, other_real) = left(&link.behind, second);
+    link.split = halves(first, &pairs, second, other_real, h)?;
+    link.joined = halves(second, &other_pairs, first, real, -h)?;
+    Some(link)
 }
 
 /// For each of the `pairs`, the two real eigenvalues of the other state, at a distance `h`, whose sum and product it

@@ -174,9 +174,9 @@ impl<'a, 'b> Step<'a, 'b> {
         let share = (t - before.0) / h;
         let [a, b] = [end(&before)?, end(&after)?];
         let [predicted, rate] = curve_between(&a, &b, h, share);
-        let off = |own: &[CurvePosition; 2]| {
-            let along = own[1].dot(&self.normal);
-            own[1].plus(-along, &self.normal).norm() * h
+        let off = |curve_positions: &[CurvePosition; 2]| {
+            let along = curve_positions[1].dot(&self.normal);
+            curve_positions[1].plus(-along, &self.normal).norm() * h
         };
         let turn = off(&a) + off(&b);
         let slack = CLOSE * self.length * h + ROUNDED;
@@ -199,17 +199,17 @@ impl<'a, 'b> Step<'a, 'b> {
         closes: bool,
         finest: f64,
     ) -> Option<Findings> {
-        let mut found = Findings::default();
+        let mut findings = Findings::default();
         let mut events = Vec::new();
         let mut broken = false;
         let mut specials: Vec<(f64, &Located)> = (located.iter())
-            .map(|own| (self.place_of(&own.special), own))
+            .map(|x| (self.place_of(&x.special), x))
             .collect();
         specials.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The special points that are known divide the step.
         let mut from = (self.state(0.0)?, true);
         for special in specials.iter().map(Some).chain([None]) {
-            let place = special.map(|own| own.0);
+            let place = special.map(|pair| pair.0);
             let last = match special {
                 Some(own) => self.beside(own, -1.0, from.0.t),
                 None => Some(self.state(1.0)?),
@@ -221,15 +221,17 @@ impl<'a, 'b> Step<'a, 'b> {
                     closes: closes && place.is_none(),
                 };
                 let own = divide(self, wanted, interval, finest / self.length);
-                let doubts = own.doubts.iter().map(|own| (own.between, own.kind));
-                found.doubts.extend(doubts);
-                found.places.extend(own.states.iter().map(|state| state.t));
+                let doubts = own.doubts.iter().map(|doubt| (doubt.between, doubt.kind));
+                findings.doubts.extend(doubts);
+                findings
+                    .places
+                    .extend(own.states.iter().map(|state| state.t));
                 events.extend(own.events);
                 broken |= own.broken;
             } else {
                 broken = true;
                 let to = place.unwrap_or(1.0);
-                found.doubts.push(([from.0.t, to], Kind::Critical));
+                findings.doubts.push(([from.0.t, to], Kind::Critical));
             }
             if let Some(own) = special {
                 match self.beside(own, 1.0, 1.0) {
@@ -245,14 +247,16 @@ impl<'a, 'b> Step<'a, 'b> {
         }
         for candidate in &met {
             match self.meet(wanted, candidate) {
-                Some(event) => found.events.push(event),
+                Some(event) => findings.events.push(event),
                 None if candidate.zero.passage == Passage::Touches => {}
-                None => found.doubts.push((candidate.zero.between, candidate.kind)),
+                None => findings
+                    .doubts
+                    .push((candidate.zero.between, candidate.kind)),
             }
         }
-        self.criticals(wanted, critical, &specials, &mut found);
-        found.events.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Some(found)
+        self.criticals(wanted, critical, &specials, &mut findings);
+        findings.events.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Some(findings)
     }
 
     /// Locates the state at which a mode meets a condition.
@@ -267,7 +271,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let there = |step: &Self, node: &Node| match kind {
             Kind::Merging => growing(node) <= step.least(zero),
             Kind::Turning => pick(wanted, kind, &node.spectrum, near)
-                .is_some_and(|own| own.positions[0] == own.positions[1]),
+                .is_some_and(|picked| picked.positions[0] == picked.positions[1]),
             _ => true,
         };
         let side = match zero.passage {
@@ -329,9 +333,10 @@ impl<'a, 'b> Step<'a, 'b> {
         for _ in 0..MAX_STEPS {
             let node = self.node(t);
             let spectrum = node.as_ref().map(|node| &node.spectrum);
-            let picked = spectrum.and_then(|own| Some((own, pick(wanted, kind, own, near)?)));
+            let picked =
+                spectrum.and_then(|spectrum| Some((spectrum, pick(wanted, kind, spectrum, near)?)));
             let close = last < ROUNDING.sqrt();
-            let known = picked.filter(|(_, own)| own.jet.slope.is_finite() || !close);
+            let known = picked.filter(|(_, x)| x.jet.slope.is_finite() || !close);
             let Some((spectrum, picked)) = known else {
                 // Where eigenvalues merge they have no derivatives; a Newton step from beside it has led there.
                 return close.then_some((t, near));
@@ -384,22 +389,22 @@ impl<'a, 'b> Step<'a, 'b> {
         wanted: &Wanted,
         candidates: Vec<Candidate>,
         known: &[(f64, &Located)],
-        found: &mut Findings,
+        findings: &mut Findings,
     ) {
-        let (touching, mut crossing): (Vec<_>, Vec<_>) =
-            (candidates.into_iter()).partition(|own| own.zero.passage == Passage::Touches);
+        let (touching, mut crossing): (Vec<_>, Vec<_>) = (candidates.into_iter())
+            .partition(|candidate| candidate.zero.passage == Passage::Touches);
         for own in &mut crossing {
             own.zero.at = self.refined(wanted, own);
         }
         crossing.sort_by(|a, b| a.zero.at.total_cmp(&b.zero.at));
-        let of_walk = (known.iter()).map(|(t, own)| (*t, own.special.clone(), own.ends_arm));
+        let of_walk = (known.iter()).map(|(t, x)| (*t, x.special.clone(), x.ends_arm));
         let own = self.separated(&crossing).into_iter();
-        let mut specials: Vec<_> = own.map(|(t, own)| (t, own, false)).chain(of_walk).collect();
+        let mut specials: Vec<_> = own.map(|(t, x)| (t, x, false)).chain(of_walk).collect();
         specials.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let touching = touching.iter().map(|own| own.zero.at);
+        let touching = touching.iter().map(|x| x.zero.at);
         let touching = touching.filter_map(|t| Some((t, self.degenerate(t, 1)?)));
         for (t, special) in touching.collect::<Vec<_>>() {
-            found.events.push((
+            findings.events.push((
                 t,
                 Event::Critical {
                     special: special.into(),
@@ -421,7 +426,7 @@ impl<'a, 'b> Step<'a, 'b> {
                 0 => holds(self.ends[0]),
                 _ => self.holds_before(t),
             };
-            found.events.push((
+            findings.events.push((
                 t,
                 Event::Critical {
                     special: special.into(),
@@ -467,7 +472,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let mut t = zero.at;
         for _ in 0..MAX_STEPS {
             let picked = (self.node(t)).and_then(|node| pick(wanted, kind, &node.spectrum, near));
-            let Some(Jet { value, slope, .. }) = picked.map(|own| own.jet) else {
+            let Some(Jet { value, slope, .. }) = picked.map(|picked| picked.jet) else {
                 return t;
             };
             let next = t - value / slope;
@@ -489,7 +494,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let mut rest = crossing;
         let mut previous: Option<&Candidate> = None;
         while let Some(first) = rest.first() {
-            let same = |own: &&Candidate| own.zero.at - first.zero.at <= SAME;
+            let same = |candidate: &&Candidate| candidate.zero.at - first.zero.at <= SAME;
             let count = rest.iter().take_while(same).count();
             let (group, after) = rest.split_at(count);
             let last = &group[count - 1];
@@ -501,10 +506,8 @@ impl<'a, 'b> Step<'a, 'b> {
                 low = self.before(low).map_or(0.0, |node| node.spectrum.t);
                 high = self.after(high).map_or(1.0, |node| node.spectrum.t);
             }
-            low = previous.map_or(low, |own| low.max(middle(own, first)));
-            high = after
-                .first()
-                .map_or(high, |own| high.min(middle(last, own)));
+            low = previous.map_or(low, |previous| low.max(middle(previous, first)));
+            high = after.first().map_or(high, |x| high.min(middle(last, x)));
             let ends = [self.node(low), self.node(high)];
             let mut located = Vec::new();
             if let [Some(a), Some(b)] = &ends
@@ -514,7 +517,7 @@ impl<'a, 'b> Step<'a, 'b> {
                 let _ = self.curve.locate(&a.point, &b.point, &mut located);
             }
             let at: Vec<(f64, SpecialPoint)> = (located.into_iter())
-                .map(|own| (self.place_of(&own.special), own.special))
+                .map(|x| (self.place_of(&x.special), x.special))
                 .collect();
             match at.is_empty() {
                 false => found.extend(at),
@@ -583,10 +586,10 @@ fn curve_between(
 
 /// Whether none of these places where stiffness vanishes needs a shorter step, in which the walk sees it.
 fn explained(critical: &[Candidate]) -> bool {
-    critical.iter().all(|own| {
+    critical.iter().all(|item| {
         let Zero {
             between, passage, ..
-        } = own.zero;
+        } = item.zero;
         passage == Passage::Touches || between[0] == between[1]
     })
 }

@@ -25,22 +25,26 @@ pub(super) fn in_trouble(pair: &Pair) -> bool {
 }
 
 /// The pairs before or behind pair `i` that the pencil cannot tell from it, although they did not merge.
-fn crowd<'f>(found: &'f ComputedPairs, i: usize) -> impl Iterator<Item = usize> + use<'f> {
-    let pair = &found.pairs[i];
-    let near = move |j: &usize| (pair.s - found.pairs[*j].s).norm() <= pair.reach;
-    let others = (0..found.count).filter(move |&j| j != i && !pair.merged);
+fn crowd<'f>(computed_pairs: &'f ComputedPairs, i: usize) -> impl Iterator<Item = usize> + use<'f> {
+    let pair = &computed_pairs.pairs[i];
+    let near = move |j: &usize| (pair.s - computed_pairs.pairs[*j].s).norm() <= pair.reach;
+    let others = (0..computed_pairs.count).filter(move |&j| j != i && !pair.merged);
     others.filter(near)
 }
 
 /// Whether the pencil cannot tell pair `i` from another one, although they did not merge.
-pub(super) fn is_crowded(found: &ComputedPairs, i: usize) -> bool {
-    crowd(found, i).next().is_some()
+pub(super) fn is_crowded(computed_pairs: &ComputedPairs, i: usize) -> bool {
+    crowd(computed_pairs, i).next().is_some()
 }
 
 /// Whether pair `i` is the same as another one: one eigenvalue found twice in place of two.
-pub(super) fn is_repeated(solver: &mut PairSolver, found: &ComputedPairs, i: usize) -> bool {
-    crowd(found, i).any(|j| {
-        let (own, other) = (vector(found, i), vector(found, j));
+pub(super) fn is_repeated(
+    solver: &mut PairSolver,
+    computed_pairs: &ComputedPairs,
+    i: usize,
+) -> bool {
+    crowd(computed_pairs, i).any(|j| {
+        let (own, other) = (vector(computed_pairs, i), vector(computed_pairs, j));
         solver.pencil.multiply(own, false, &mut solver.of_right);
         modulus(solver.overlap(other, false)) > PARALLEL
     })
@@ -48,9 +52,9 @@ pub(super) fn is_repeated(solver: &mut PairSolver, found: &ComputedPairs, i: usi
 
 /// Whether the eigenvalues have the required sum, within their errors: an eigenvalue found twice in place of another
 /// spoils it.
-pub(super) fn is_complete(solver: &PairSolver, found: &ComputedPairs) -> bool {
+pub(super) fn is_complete(solver: &PairSolver, computed_pairs: &ComputedPairs) -> bool {
     let (mut sum, mut allowed) = (0.0, 0.0);
-    for pair in &found.pairs[..found.count] {
+    for pair in &computed_pairs.pairs[..computed_pairs.count] {
         let weight = if pair.conjugate { 2.0 } else { 1.0 };
         sum += weight * pair.s.re;
         allowed += weight * (pair.error + SUM * modulus(pair.s));
@@ -61,44 +65,56 @@ pub(super) fn is_complete(solver: &PairSolver, found: &ComputedPairs) -> bool {
 /// Fills in the second-order errors of the pairs that are `open`: from their residuals and the resolvent, to which every
 /// other eigenvalue contributes `phi_j psi_j^T / ((s_j - s) slope_j)`, or, where this is not small, by a correction.
 /// Eigenvalues that may be the same are left out: they share a cluster, or their errors are those of a defective one.
-pub(super) fn second_order(solver: &mut PairSolver, found: &mut ComputedPairs, open: &[bool]) {
+pub(super) fn second_order(
+    solver: &mut PairSolver,
+    computed_pairs: &mut ComputedPairs,
+    open: &[bool],
+) {
     if !open.contains(&true) {
         return;
     }
     let size = |x: &[Complex64]| x.iter().fold(0.0, |most: f64, x| most.max(bound(*x)));
     let n = solver.pencil.n;
-    let vectors = found.right.chunks_exact(n).zip(found.left.chunks_exact(n));
-    let pairs = found.pairs[..found.count].iter().zip(vectors);
+    let vectors = computed_pairs
+        .right
+        .chunks_exact(n)
+        .zip(computed_pairs.left.chunks_exact(n));
+    let pairs = computed_pairs.pairs[..computed_pairs.count]
+        .iter()
+        .zip(vectors);
     let weights: Vec<f64> = pairs
         .map(|(pair, (right, left))| size(right) * size(left) / modulus(pair.slope))
         .collect();
-    for i in (0..found.count).filter(|&i| open[i]) {
-        let pair = &found.pairs[i];
+    for i in (0..computed_pairs.count).filter(|&i| open[i]) {
+        let pair = &computed_pairs.pairs[i];
         let apart = |s: Complex64| {
             let distance = modulus(s - pair.s);
             (distance > pair.radius()).then_some(distance)
         };
-        let parts = others(found, i).filter_map(|(s, j, _)| Some(weights[j] / apart(s)?));
+        let parts = others(computed_pairs, i).filter_map(|(s, j, _)| Some(weights[j] / apart(s)?));
         let mut second = pair.second_order(1.0 / parts.sum::<f64>());
         if second > pair.doubt() {
             let place = i * n..(i + 1) * n;
-            let (right, left) = (&found.right[place.clone()], &found.left[place]);
+            let (right, left) = (
+                &computed_pairs.right[place.clone()],
+                &computed_pairs.left[place],
+            );
             second = second.min(solver.second_order(pair, right, left));
         }
-        found.pairs[i].second = second;
+        computed_pairs.pairs[i].second = second;
     }
 }
 
 /// Fills in the errors of all pairs that are not part of a cluster. Returns whether each eigenvalue is clearly
 /// distinct: of two that almost meet, one may be found in place of the other.
-pub(super) fn estimate(solver: &mut PairSolver, found: &mut ComputedPairs) -> bool {
+pub(super) fn estimate(solver: &mut PairSolver, computed_pairs: &mut ComputedPairs) -> bool {
     let mut all_told_apart = true;
-    for i in 0..found.count {
-        let told_apart = if found.pairs[i].merged {
-            found.pairs[i].condition <= DEFECTIVE
+    for i in 0..computed_pairs.count {
+        let told_apart = if computed_pairs.pairs[i].merged {
+            computed_pairs.pairs[i].condition <= DEFECTIVE
         } else {
-            let (error, told_apart) = error(solver, found, i);
-            found.pairs[i].error = error;
+            let (error, told_apart) = error(solver, computed_pairs, i);
+            computed_pairs.pairs[i].error = error;
             told_apart
         };
         all_told_apart &= told_apart;
@@ -107,14 +123,14 @@ pub(super) fn estimate(solver: &mut PairSolver, found: &mut ComputedPairs) -> bo
 }
 
 /// The error of an eigenvalue, and whether it is clearly distinct from the others.
-fn error(solver: &mut PairSolver, found: &ComputedPairs, i: usize) -> (f64, bool) {
-    let pair = &found.pairs[i];
+fn error(solver: &mut PairSolver, computed_pairs: &ComputedPairs, i: usize) -> (f64, bool) {
+    let pair = &computed_pairs.pairs[i];
     let step = modulus(pair.newton);
     let own = pair.own();
     let first = pair.doubt() + 2.0 * step + pair.second + own;
     let n = solver.pencil.n;
     let mut gap = f64::INFINITY;
-    for (s, _, _) in others(found, i) {
+    for (s, _, _) in others(computed_pairs, i) {
         gap = gap.min(modulus(s - pair.s));
     }
     if FAR * first <= gap && pair.residual <= INACCURATE && !in_trouble(pair) {
@@ -126,11 +142,11 @@ fn error(solver: &mut PairSolver, found: &ComputedPairs, i: usize) -> (f64, bool
     let mut partner = 0.0_f64;
     solver
         .pencil
-        .multiply(vector(found, i), false, &mut solver.of_right);
-    for (s, j, conjugate) in others(found, i) {
+        .multiply(vector(computed_pairs, i), false, &mut solver.of_right);
+    for (s, j, conjugate) in others(computed_pairs, i) {
         let distance = modulus(s - pair.s);
         let near = distance < FAR * error;
-        if near && modulus(solver.overlap(vector(found, j), conjugate)) > PARALLEL {
+        if near && modulus(solver.overlap(vector(computed_pairs, j), conjugate)) > PARALLEL {
             partner = partner.max(distance);
         }
     }
@@ -155,17 +171,17 @@ impl PairSolver<'_> {
     }
 }
 
-fn vector<'f>(found: &'f ComputedPairs, i: usize) -> &'f [Complex64] {
-    let n = found.right.len() / found.pairs.len();
-    &found.right[i * n..(i + 1) * n]
+fn vector<'f>(computed_pairs: &'f ComputedPairs, i: usize) -> &'f [Complex64] {
+    let n = computed_pairs.right.len() / computed_pairs.pairs.len();
+    &computed_pairs.right[i * n..(i + 1) * n]
 }
 
 /// The other eigenvalues: value, pair, and whether the value is the conjugate of that pair.
 fn others<'f>(
-    found: &'f ComputedPairs,
+    computed_pairs: &'f ComputedPairs,
     i: usize,
 ) -> impl Iterator<Item = (Complex64, usize, bool)> + use<'f> {
-    let pairs = &found.pairs[..found.count];
+    let pairs = &computed_pairs.pairs[..computed_pairs.count];
     let themselves = pairs.iter().enumerate().filter(move |(j, _)| *j != i);
     let conjugates = pairs.iter().enumerate().filter(|(_, pair)| pair.conjugate);
     themselves

@@ -43,11 +43,11 @@ pub fn solve_near(
         rate,
     } = scaled(problem, &mut real)?;
     if n > DIRECT
-        && let Some(found) = oscillations(&pencil)
+        && let Some(oscillations) = oscillations(&pencil)
     {
         census::note(|census| census.conservative += 1);
-        let root = |own: Oscillation| own.root(rate, right_units);
-        return Ok(found.into_iter().map(root).collect());
+        let root = |oscillation: Oscillation| oscillation.root(rate, right_units);
+        return Ok(oscillations.into_iter().map(root).collect());
     }
     census::note(|census| census.general += 1);
     let count = pencil.degree.eigenvalues(n);
@@ -74,7 +74,7 @@ pub fn solve_near(
         order,
         iteration: None,
     };
-    let mut found = ComputedPairs {
+    let mut computed_pairs = ComputedPairs {
         count: 0,
         pairs: &mut work.pairs[..count],
         right: take(&mut complex, count * n),
@@ -85,10 +85,19 @@ pub fn solve_near(
         true => {
             for (i, near) in near.iter().enumerate() {
                 let place = i * n..(i + 1) * n;
-                start(&mut found.right[place.clone()], near.right, right_units);
-                start(&mut found.left[place], near.left, left_units);
+                start(
+                    &mut computed_pairs.right[place.clone()],
+                    near.right,
+                    right_units,
+                );
+                start(&mut computed_pairs.left[place], near.left, left_units);
             }
-            find(&mut solver, &mut found, Values::near(values), label)
+            find(
+                &mut solver,
+                &mut computed_pairs,
+                Values::near(values),
+                label,
+            )
         }
         false => usize::MAX,
     };
@@ -101,30 +110,33 @@ pub fn solve_near(
         let (pencil, order) = (&solver.pencil, &mut *solver.order);
         linear_values(pencil, &mut copy, spare, order, open, values);
         solver.iteration = (n > DIRECT).then(|| Iteration::new(form, &solver.linearisation));
-        troubles = find(&mut solver, &mut found, Values::of(values), label);
+        troubles = find(&mut solver, &mut computed_pairs, Values::of(values), label);
         if troubles > 0 {
             let second = take(&mut complex, count);
-            if second_values(&mut solver, &found, second, spare, open, marked) {
+            if second_values(&mut solver, &computed_pairs, second, spare, open, marked) {
                 let second = Values::own(second, marked);
-                if find(&mut solver, &mut found, second, label) >= troubles {
-                    find(&mut solver, &mut found, Values::of(values), label);
+                if find(&mut solver, &mut computed_pairs, second, label) >= troubles {
+                    find(&mut solver, &mut computed_pairs, Values::of(values), label);
                 }
             }
         }
     }
-    if !accuracy::is_complete(&solver, &found) {
+    if !accuracy::is_complete(&solver, &computed_pairs) {
         return Err(not_found());
     }
-    let places = &mut label[..found.count];
+    let places = &mut label[..computed_pairs.count];
     for (i, place) in places.iter_mut().enumerate() {
         *place = i;
     }
-    sort(places, |&i| found.pairs[i].s);
-    let mut roots = Vec::with_capacity(found.count);
+    sort(places, |&i| computed_pairs.pairs[i].s);
+    let mut roots = Vec::with_capacity(computed_pairs.count);
     for (mode, &i) in places.iter().enumerate() {
-        let pair = &found.pairs[i];
+        let pair = &computed_pairs.pairs[i];
         let vectors = i * n..(i + 1) * n;
-        let (phi, psi) = (&found.right[vectors.clone()], &found.left[vectors]);
+        let (phi, psi) = (
+            &computed_pairs.right[vectors.clone()],
+            &computed_pairs.left[vectors],
+        );
         let Some(residual) = accepted(&mut solver, pair, phi, psi) else {
             let residual = pair.residual;
             return Err(EigenproblemError::Inaccurate { mode, residual });

@@ -143,8 +143,8 @@ impl PairSolver<'_> {
                 normalise(&self.pencil, x, &mut self.of_right);
             }
             self.pencil.multiply(x, false, &mut self.of_right);
-            let own = self.pencil.weighed(&self.of_right);
-            weighed[k * n..(k + 1) * n].copy_from_slice(own);
+            let complex64s = self.pencil.weighed(&self.of_right);
+            weighed[k * n..(k + 1) * n].copy_from_slice(complex64s);
         }
     }
 
@@ -219,8 +219,8 @@ impl PairSolver<'_> {
         cluster: &Cluster,
         k: usize,
         conjugate: bool,
-        place: usize,
-        found: &mut ComputedPairs,
+        index: usize,
+        computed_pairs: &mut ComputedPairs,
     ) {
         let n = self.pencil.n;
         let regular = k < cluster.regular;
@@ -230,8 +230,8 @@ impl PairSolver<'_> {
         } else {
             cluster.regular + (k - cluster.regular) % defective
         };
-        let right = &mut found.right[place * n..(place + 1) * n];
-        let left = &mut found.left[place * n..(place + 1) * n];
+        let right = &mut computed_pairs.right[index * n..(index + 1) * n];
+        let left = &mut computed_pairs.left[index * n..(index + 1) * n];
         right.copy_from_slice(&self.basis_right[vector * n..(vector + 1) * n]);
         left.copy_from_slice(&self.basis_left[vector * n..(vector + 1) * n]);
         let mut pair = self.examine(cluster.s, right, left);
@@ -255,7 +255,7 @@ impl PairSolver<'_> {
                 .min(size * relative.powf(0.5 / n as f64));
         }
         pair.merged = true;
-        found.pairs[place] = pair;
+        computed_pairs.pairs[index] = pair;
     }
 }
 

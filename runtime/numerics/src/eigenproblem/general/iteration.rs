@@ -55,9 +55,9 @@ impl<'a> Iteration<'a> {
         right: &mut [Complex64],
         left: &mut [Complex64],
     ) {
-        let fill = |own: &mut Self, k: usize, side| {
-            own.factor_shifted(values[k]);
-            own.iterate(side);
+        let fill = |this: &mut Self, k: usize, side| {
+            this.factor_shifted(values[k]);
+            this.iterate(side);
         };
         self.blocks(linearisation, values.len(), fill, (right, left));
     }
@@ -72,7 +72,7 @@ impl<'a> Iteration<'a> {
     ) {
         let count = right.len() / linearisation.n;
         self.factor_shifted(s + ASIDE * linearisation.size);
-        let fill = |own: &mut Self, k: usize, side| own.iterate_from(side, k);
+        let fill = |this: &mut Self, k: usize, side| this.iterate_from(side, k);
         self.blocks(linearisation, count, fill, (right, left));
     }
 

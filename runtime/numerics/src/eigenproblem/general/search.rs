@@ -93,7 +93,7 @@ impl<'a> Values<'a> {
 /// that failed; a pair that would be refused counts more than all others.
 pub(super) fn find(
     solver: &mut PairSolver,
-    found: &mut ComputedPairs,
+    computed_pairs: &mut ComputedPairs,
     from: Values,
     label: &mut [usize],
 ) -> usize {
@@ -102,33 +102,47 @@ pub(super) fn find(
     let upper: Vec<Complex64> = values.iter().copied().filter(|s| s.im >= 0.0).collect();
     let mut open = vec![false; upper.len()];
     if let Some(iteration) = &mut solver.iteration {
-        iteration.vectors(&solver.linearisation, &upper, found.right, found.left);
+        iteration.vectors(
+            &solver.linearisation,
+            &upper,
+            computed_pairs.right,
+            computed_pairs.left,
+        );
     }
-    found.count = 0;
+    computed_pairs.count = 0;
     for (i, &s) in values.iter().enumerate() {
         if s.im < 0.0 {
             continue;
         }
         let gap = from.gap(i);
-        let place = found.count * n..(found.count + 1) * n;
-        let (right, left) = (&mut found.right[place.clone()], &mut found.left[place]);
+        let place = computed_pairs.count * n..(computed_pairs.count + 1) * n;
+        let (right, left) = (
+            &mut computed_pairs.right[place.clone()],
+            &mut computed_pairs.left[place],
+        );
         let mut pair = Pair::NONE;
         if solver.iteration.is_some() && from.own.get(i) != Some(&true) {
             pair = solver.polished((s, gap), right, left);
-            open[found.count] = pair.condition <= SURE && !accuracy::in_trouble(&pair);
+            open[computed_pairs.count] = pair.condition <= SURE && !accuracy::in_trouble(&pair);
         }
-        if !open[found.count] {
+        if !open[computed_pairs.count] {
             pair = solver.pair(s, gap, from.near, right, left);
         }
-        found.pairs[found.count] = pair;
-        found.count += 1;
+        computed_pairs.pairs[computed_pairs.count] = pair;
+        computed_pairs.count += 1;
     }
-    accuracy::second_order(solver, found, &open);
-    let mut troubles = usize::from(cluster::merge(solver, found, label));
-    for (i, pair) in found.pairs[..found.count].iter().enumerate() {
+    accuracy::second_order(solver, computed_pairs, &open);
+    let mut troubles = usize::from(cluster::merge(solver, computed_pairs, label));
+    for (i, pair) in computed_pairs.pairs[..computed_pairs.count]
+        .iter()
+        .enumerate()
+    {
         let vectors = i * n..(i + 1) * n;
-        let (right, left) = (&found.right[vectors.clone()], &found.left[vectors]);
-        troubles += usize::from(accuracy::is_repeated(solver, found, i));
+        let (right, left) = (
+            &computed_pairs.right[vectors.clone()],
+            &computed_pairs.left[vectors],
+        );
+        troubles += usize::from(accuracy::is_repeated(solver, computed_pairs, i));
         if accuracy::in_trouble(pair) {
             troubles += 1;
             if accepted(solver, pair, right, left).is_none() {
@@ -136,9 +150,9 @@ pub(super) fn find(
             }
         }
     }
-    let told_apart = accuracy::estimate(solver, found);
+    let told_apart = accuracy::estimate(solver, computed_pairs);
     troubles += usize::from(from.near && !told_apart);
-    if !accuracy::is_complete(solver, found) {
+    if !accuracy::is_complete(solver, computed_pairs) {
         troubles += 4 * n;
     }
     troubles
@@ -149,15 +163,18 @@ pub(super) fn find(
 #[cold]
 pub(super) fn second_values(
     solver: &mut PairSolver,
-    found: &ComputedPairs,
+    computed_pairs: &ComputedPairs,
     second: &mut [Complex64],
     spare: &mut [Complex64],
     open: &mut [bool],
     marked: &mut [bool],
 ) -> bool {
     let mut filled = 0;
-    for (i, pair) in found.pairs[..found.count].iter().enumerate() {
-        let crowded = accuracy::is_crowded(found, i);
+    for (i, pair) in computed_pairs.pairs[..computed_pairs.count]
+        .iter()
+        .enumerate()
+    {
+        let crowded = accuracy::is_crowded(computed_pairs, i);
         let unsure = solver.noise(pair.condition) > 1e-3 * pair.s.norm();
         let bad = unsure || crowded || accuracy::in_trouble(pair);
         let reach = pair.newton.norm().max(if crowded {

@@ -45,8 +45,10 @@ pub(crate) fn solve(
     }
     let small = SMALL * largest(lambda);
     for r in (0..n).filter(|&r| lambda[r].abs() <= small) {
-        let own = Residual::new(matrices, lambda[r], &shapes[r * n..]);
-        let parts = shapes.chunks_exact(n).map(|shape| dot(shape, &own.values));
+        let residual = Residual::new(matrices, lambda[r], &shapes[r * n..]);
+        let parts = shapes
+            .chunks_exact(n)
+            .map(|shape| dot(shape, &residual.values));
         errors[r] += second_order(lambda, r, parts);
     }
     shapes.chunks_exact_mut(n).for_each(fix_sign);

@@ -41,7 +41,7 @@ impl Matrices<'_> {
             };
             row(self.k) - lambda[r] * row(self.m)
         });
-        let part = |own: &[f64]| own.iter().zip(&rest).map(|(a, b)| a * b).sum();
+        let part = |values: &[f64]| values.iter().zip(&rest).map(|(a, b)| a * b).sum();
         second_order(lambda, r, shapes.chunks_exact(n).map(part))
     }
 

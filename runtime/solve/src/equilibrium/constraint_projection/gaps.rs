@@ -22,7 +22,7 @@ pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Opt
         point
             .mechanism
             .residual_and_stiffness(x, point.inputs, point.design);
-    let mut found = Gaps {
+    let mut gaps = Gaps {
         gaps: residual[structure.position_rows()].into(),
         rows: Matrix::zeros(structure.position_constraints, x.len()),
         each: relative_gaps(point, x, &residual, &stiffness),
@@ -30,17 +30,17 @@ pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Opt
         worst: 0,
     };
     for (k, row) in structure.position_rows().enumerate() {
-        found.rows[k][..structure.coordinates]
+        gaps.rows[k][..structure.coordinates]
             .copy_from_slice(&stiffness[row][..structure.coordinates]);
-        let finite = found.gaps[k].is_finite() && found.rows[k].iter().all(|v| v.is_finite());
+        let finite = gaps.gaps[k].is_finite() && gaps.rows[k].iter().all(|v| v.is_finite());
         if !finite {
             return None;
         }
-        if found.each[k] > found.relative {
-            (found.relative, found.worst) = (found.each[k], k);
+        if gaps.each[k] > gaps.relative {
+            (gaps.relative, gaps.worst) = (gaps.each[k], k);
         }
     }
-    Some(found)
+    Some(gaps)
 }
 
 /// Restricts rows to the coordinates that are not held.

@@ -37,8 +37,7 @@ impl<K: ?Sized> DeviatingInputs<'_, K> {
         match (shapes, results) {
             ([.., [_, Extent::Design]], [before @ .., by_input, by_design]) => {
                 let mut narrow = self.deviations.narrow(by_design.len());
-                let mut narrowed: Vec<&mut [f64]> =
-                    before.iter_mut().map(|own| &mut **own).collect();
+                let mut narrowed: Vec<&mut [f64]> = before.iter_mut().map(|x| &mut **x).collect();
                 narrowed.extend([&mut **by_input, &mut narrow[..]]);
                 kernel(own, &mut narrowed);
                 self.deviations.join_rows(by_design, by_input, &narrow);
@@ -111,9 +110,11 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         partials: &mut PartialMatrices,
     ) {
         let (u, b) = self.applied(u, b);
-        let mut own = PartialMatrices::zeros(self.kernels.sizes());
-        self.kernels.linear_partials_into(q, &u, b, &mut own);
-        self.deviations.partial_matrices(&own, partials);
+        let mut partial_matrices = PartialMatrices::zeros(self.kernels.sizes());
+        self.kernels
+            .linear_partials_into(q, &u, b, &mut partial_matrices);
+        self.deviations
+            .partial_matrices(&partial_matrices, partials);
     }
 
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {

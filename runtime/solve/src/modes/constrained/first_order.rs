@@ -87,8 +87,8 @@ impl System<'_> {
         for (k, place) in structure.speed_range().enumerate() {
             psi[place] = nu[f + k] * self.units[k];
         }
-        for (k, place) in structure.velocity_rows().enumerate() {
-            psi[place] = Complex::new(re[k], im[k]);
+        for (k, velocity_row) in structure.velocity_rows().enumerate() {
+            psi[velocity_row] = Complex::new(re[k], im[k]);
         }
         let rest = pencil_transposed_times(self.linear, s, &psi);
         let rest = Vector::from_fn(rest.len(), |i| {
@@ -106,8 +106,8 @@ impl System<'_> {
             .tangent
             .positions
             .multipliers(&rest.map(|value| value.im));
-        for (k, place) in structure.position_rows().enumerate() {
-            psi[place] = Complex::new(re[k], im[k]);
+        for (k, position_row) in structure.position_rows().enumerate() {
+            psi[position_row] = Complex::new(re[k], im[k]);
         }
         psi
     }

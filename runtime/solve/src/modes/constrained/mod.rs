@@ -216,20 +216,20 @@ impl<'a> Gathered<'a> {
             return Err(inaccurate(f64::INFINITY));
         }
         let mut s = reduced.s;
-        let mut found = Measure::new(self.linear, motions, s, &right, &left);
+        let mut measure = Measure::new(self.linear, motions, s, &right, &left);
         let simple = !shared && reduced.condition.is_finite();
         if simple {
-            let unimproved = (s, right.clone(), left.clone(), found);
+            let unimproved = (s, right.clone(), left.clone(), measure);
             for _ in 0..2 {
                 // A step this long is not rounding of the smaller problem.
-                let next = s - found.newton;
-                let near = found.newton.norm() <= 1e-6 * (s.norm() + reduced.error);
+                let next = s - measure.newton;
+                let near = measure.newton.norm() <= 1e-6 * (s.norm() + reduced.error);
                 if !near || (s.im > 0.0) != (next.im > 0.0) {
                     break;
                 }
                 s = next;
-                found = Measure::new(self.linear, motions, s, &right, &left);
-                if found.residual <= measure::INACCURATE {
+                measure = Measure::new(self.linear, motions, s, &right, &left);
+                if measure.residual <= measure::INACCURATE {
                     break;
                 }
                 let improved = measure::inverse_iteration(self.linear, s, &right, &left);
@@ -240,22 +240,22 @@ impl<'a> Gathered<'a> {
                     break;
                 }
                 let better = Measure::new(self.linear, motions, s, &new_right, &new_left);
-                if better.residual < found.residual {
-                    (right, left, found) = (new_right, new_left, better);
+                if better.residual < measure.residual {
+                    (right, left, measure) = (new_right, new_left, better);
                 }
             }
             // Next to a double root the step is a quotient of two rounding errors.
-            if found.residual > measure::INACCURATE.max(unimproved.3.residual) {
-                (s, right, left, found) = unimproved;
+            if measure.residual > measure::INACCURATE.max(unimproved.3.residual) {
+                (s, right, left, measure) = unimproved;
             }
         }
-        if found.residual.is_nan() || found.residual > measure::ACCEPTED {
-            if !found.rounding_only {
-                return Err(inaccurate(found.residual));
+        if measure.residual.is_nan() || measure.residual > measure::ACCEPTED {
+            if !measure.rounding_only {
+                return Err(inaccurate(measure.residual));
             }
-            found.residual = measure::ROUNDING;
+            measure.residual = measure::ROUNDING;
         }
-        let own = found.doubt + 2.0 * found.newton.norm() + f64::EPSILON * s.norm();
+        let own = measure.doubt + 2.0 * measure.newton.norm() + f64::EPSILON * s.norm();
         let error = if reduced.condition.is_finite() && own.is_finite() {
             reduced.error.max(own)
         } else {
@@ -265,7 +265,7 @@ impl<'a> Gathered<'a> {
             s,
             right,
             left,
-            residual: found.residual,
+            residual: measure.residual,
             error,
             condition: reduced.condition,
         });

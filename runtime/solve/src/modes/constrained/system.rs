@@ -61,8 +61,8 @@ impl<'a> System<'a> {
             })
         };
         // The velocities over all unknowns.
-        let unit = |(place, unit): (usize, &f64)| {
-            Vector::from_fn(structure.size(), |i| if i == place { *unit } else { 0.0 })
+        let unit = |(index, unit): (usize, &f64)| {
+            Vector::from_fn(structure.size(), |i| if i == index { *unit } else { 0.0 })
         };
         let directions: Vec<Vector> = tangent
             .basis
@@ -92,8 +92,8 @@ impl<'a> System<'a> {
             }
         }
         let rows = structure.velocity_rows();
-        let row = |place: usize| {
-            let (c, b) = (&linear.damping[place], &linear.stiffness[place]);
+        let row = |index: usize| {
+            let (c, b) = (&linear.damping[index], &linear.stiffness[index]);
             let row = by_velocity(c, b);
             // Lengths in the mass metric, in which the basis is orthonormal.
             let part = |value: f64, i: usize| value * value / inertias[i];

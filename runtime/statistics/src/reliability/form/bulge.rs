@@ -19,15 +19,15 @@ pub(super) struct Bulge {
 
 impl Bulge {
     /// The bulge at a design point, unless that is the origin. If the origin fails, the bulge is negative.
-    pub(super) fn over(found: &DesignPoint) -> Option<Self> {
-        if found.beta == 0.0 {
+    pub(super) fn over(design_point: &DesignPoint) -> Option<Self> {
+        if design_point.beta == 0.0 {
             return None;
         }
         let relative_height = (1.0 - (SHIFT / RADIUS).powi(2)).powi(-2);
         Some(Self {
-            centre: found.point.clone(),
-            height: relative_height * SHIFT * found.beta * found.gradient_norm,
-            square_of_radius: (RADIUS * found.beta).powi(2),
+            centre: design_point.point.clone(),
+            height: relative_height * SHIFT * design_point.beta * design_point.gradient_norm,
+            square_of_radius: (RADIUS * design_point.beta).powi(2),
         })
     }
 

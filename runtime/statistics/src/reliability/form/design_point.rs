@@ -44,10 +44,10 @@ impl fmt::Display for Closest {
         write!(f, "the best point has value {}, ", self.value)?;
         match self.residuals {
             None => write!(f, "no gradient")?,
-            Some(found) => write!(
+            Some(residuals) => write!(
                 f,
                 "is {:.1e} off the limit and {:.1e} off its normal",
-                found.limit, found.direction
+                residuals.limit, residuals.direction
             )?,
         }
         let Evaluations {

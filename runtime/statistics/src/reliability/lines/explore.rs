@@ -35,7 +35,7 @@ struct Central {
 
 impl Central {
     fn distance(&self) -> f64 {
-        let all = self.failing.iter().map(|own| nearest(own).abs());
+        let all = self.failing.iter().map(|x| nearest(x).abs());
         all.fold(f64::INFINITY, f64::min)
     }
 
@@ -109,7 +109,7 @@ impl<L: LimitState> Explorer<'_, L> {
             let central = self.central(regions.direction(k).to_vec());
             let turned = central.nearest().and_then(|point| self.towards(&point));
             let central = turned.map_or(central, |direction| self.central(direction));
-            if !known.iter().any(|own| own.is_like(&central)) {
+            if !known.iter().any(|x| x.is_like(&central)) {
                 known.push(central);
             }
         }
@@ -120,7 +120,7 @@ impl<L: LimitState> Explorer<'_, L> {
             let least = all.fold(f64::INFINITY, f64::min);
             points.retain(|point| {
                 norm(point).powi(2) <= least * least + 2.0 * LESS
-                    && !known.iter().any(|own| own.explains(point))
+                    && !known.iter().any(|x| x.explains(point))
             });
             let nearest = points.iter().enumerate();
             let nearest = nearest.min_by(|(_, a), (_, b)| norm(a).total_cmp(&norm(b)));
@@ -130,7 +130,7 @@ impl<L: LimitState> Explorer<'_, L> {
                 break;
             };
             let central = self.central(direction);
-            if !known.iter().any(|own| own.is_like(&central)) {
+            if !known.iter().any(|x| x.is_like(&central)) {
                 known.push(central);
             }
         }
@@ -187,11 +187,11 @@ impl<L: LimitState> Explorer<'_, L> {
             let [back, ahead] = [-SHIFT, SHIFT].map(|shift| {
                 let across = scaled(-shift * direction[k], &direction);
                 let across: Vec<f64> = (across.iter().enumerate())
-                    .map(|(j, own)| if j == k { own + shift } else { *own })
+                    .map(|(j, x)| if j == k { x + shift } else { *x })
                     .collect();
                 let around = (distance - AROUND, distance + AROUND);
                 let places = self.line(&across, &direction, around);
-                let changes = places.iter().map(|own| nearest(own) - distance);
+                let changes = places.iter().map(|x| nearest(x) - distance);
                 changes.min_by(|a, b| a.abs().total_cmp(&b.abs()))
             });
             normal[k] -= (ahead.unwrap_or(0.0) - back.unwrap_or(0.0)) / (2.0 * SHIFT);

@@ -204,11 +204,11 @@ impl LineSampler {
     /// The estimate from lines of each region.
     fn estimate(&self, lines: &[Vec<Line>]) -> LineProbability {
         let all = |of: fn(&Line) -> f64| -> Estimate {
-            let each = lines.iter().map(|own| mean(own, of));
-            let (value, variance) = each.fold((0.0, 0.0), |(value, variance), own| {
+            let each = lines.iter().map(|line| mean(line, of));
+            let (value, variance) = each.fold((0.0, 0.0), |(value, variance), item| {
                 (
-                    value + own.value,
-                    variance + own.standard_error * own.standard_error,
+                    value + item.value,
+                    variance + item.standard_error * item.standard_error,
                 )
             });
             Estimate {
@@ -218,7 +218,7 @@ impl LineSampler {
         };
         let probability = all(|line| line.fails);
         let count: usize = lines.iter().map(Vec::len).sum();
-        let enough = count >= FEWEST && lines.iter().all(|own| !own.is_empty());
+        let enough = count >= FEWEST && lines.iter().all(|line| !line.is_empty());
         let settled = self.alone() || enough && probability.value > 0.0 && is_certain(lines);
         let wished = self.settings.coefficient_of_variation * probability.value;
         LineProbability {
@@ -261,12 +261,12 @@ impl LineSampler {
         let count: usize = lines.iter().map(Vec::len).sum();
         let share = EVENLY * count as f64 / lines.len() as f64;
         let doubtful = !is_certain(lines);
-        let uncertain = |own: &Vec<Line>| if doubtful { uncertain(own) } else { 0.0 };
-        let scatter = |own: &Vec<Line>| {
-            let error = failure(own).standard_error;
-            error / (evaluations(core::slice::from_ref(own)) as f64).sqrt()
+        let uncertain = |lines: &Vec<Line>| if doubtful { uncertain(lines) } else { 0.0 };
+        let scatter = |lines: &Vec<Line>| {
+            let error = failure(lines).standard_error;
+            error / (evaluations(core::slice::from_ref(lines)) as f64).sqrt()
         };
-        let lacking = |own: &Vec<Line>| share - own.len() as f64;
+        let lacking = |lines: &Vec<Line>| share - lines.len() as f64;
         (most(&lacking).or_else(|| most(&uncertain)))
             .or_else(|| most(&scatter))
             .unwrap_or(0)
@@ -296,9 +296,9 @@ impl LineSampler {
     pub fn run<L: LimitState>(&self, limit: &L) -> LineProbability {
         let (sampler, spent) = self.explored(limit);
         let evaluations = sampler.settings.evaluations.saturating_sub(spent);
-        let mut found = sampler.draw(limit, evaluations);
-        found.evaluations += spent;
-        found
+        let mut line_probability = sampler.draw(limit, evaluations);
+        line_probability.evaluations += spent;
+        line_probability
     }
 
     /// The same along the directions in which failures were found, if finding them leaves enough evaluations; and the
@@ -359,17 +359,17 @@ fn mean(lines: &[Line], of: fn(&Line) -> f64) -> Estimate {
 }
 
 /// The probability in a region, if its scatter is not known.
-fn uncertain(own: &[Line]) -> f64 {
-    match contribute(own) {
+fn uncertain(lines: &[Line]) -> f64 {
+    match contribute(lines) {
         true => 0.0,
-        false => failure(own).value,
+        false => failure(lines).value,
     }
 }
 
 /// Whether the scatter is known of all that matters.
 fn is_certain(lines: &[Vec<Line>]) -> bool {
-    let all = lines.iter().map(|own| failure(own).value).sum::<f64>();
-    lines.iter().map(|own| uncertain(own)).sum::<f64>() <= SHARE * all
+    let all = lines.iter().map(|line| failure(line).value).sum::<f64>();
+    lines.iter().map(|line| uncertain(line)).sum::<f64>() <= SHARE * all
 }
 
 fn failure(lines: &[Line]) -> Estimate {

@@ -29,20 +29,20 @@ pub(super) struct Regions {
 
 impl Regions {
     pub(super) fn new(dimension: usize, variables: &[usize], directions: &[Direction]) -> Self {
-        let within = |own: &Direction| {
+        let within = |item: &Direction| {
             let mut along = vec![0.0; dimension];
             for &k in variables {
-                along[k] = *own.along.get(k)?;
+                along[k] = *item.along.get(k)?;
             }
             Some(Region {
                 direction: unit(&along)?,
-                distance: own.distance.max(NEAR),
+                distance: item.distance.max(NEAR),
             })
         };
         let mut all: Vec<Region> = directions.iter().filter_map(within).collect();
-        all.retain(|own| own.distance.is_finite());
+        all.retain(|x| x.distance.is_finite());
         all.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        let nearest = all.first().map_or(NEAR, |own| own.distance);
+        let nearest = all.first().map_or(NEAR, |x| x.distance);
         let rare = -normal::quantile(0.5 * RARE / variables.len() as f64);
         let known = all.len();
         let mut expected = known;

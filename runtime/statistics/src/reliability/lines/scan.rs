@@ -151,7 +151,7 @@ impl<F: Fn(f64) -> f64> Scan<F> {
     /// The changes between two points: secants, moved a little towards the middle so that both ends close in (Oliveira
     /// and Takahashi 2020, *An enhancement of the bisection method average performance*), and every third time a
     /// bisection, which makes sure of a jump.
-    fn between(&self, a: Point, b: Point, depth: usize, found: &mut Stretches) {
+    fn between(&self, a: Point, b: Point, depth: usize, stretches: &mut Stretches) {
         if a.side() == b.side() {
             return;
         }
@@ -160,7 +160,7 @@ impl<F: Fn(f64) -> f64> Scan<F> {
         let narrow = if known { NARROW } else { NARROW_JUMP };
         let middle = a.s + 0.5 * width;
         if width <= narrow || middle <= a.s || middle >= b.s {
-            found.enter(middle, b.side());
+            stretches.enter(middle, b.side());
             return;
         }
         let secant = a.s + width * a.value / (a.value - b.value);
@@ -168,8 +168,8 @@ impl<F: Fn(f64) -> f64> Scan<F> {
         let secant = secant + (middle - secant).clamp(-moved, moved);
         let inside = known && depth % 3 != 2 && a.s < secant && secant < b.s;
         let next = self.at(if inside { secant } else { middle });
-        self.between(a, next, depth + 1, found);
-        self.between(next, b, depth + 1, found);
+        self.between(a, next, depth + 1, stretches);
+        self.between(next, b, depth + 1, stretches);
     }
 }
 
@@ -221,10 +221,10 @@ mod tests {
         everywhere(value, 64).fails
     }
 
-    fn close(found: f64, expected: f64) {
+    fn close(value: f64, expected: f64) {
         assert!(
-            (found - expected).abs() <= 1e-5 * expected,
-            "{found:e}, not {expected:e}"
+            (value - expected).abs() <= 1e-5 * expected,
+            "{value:e}, not {expected:e}"
         );
     }
 
@@ -250,10 +250,10 @@ mod tests {
         for (from, to) in [(1.0, 4.0), (1.0, f64::INFINITY), (1.0, 1.4)] {
             for place in [1.001, 1.04, 1.2] {
                 let layer = |s: f64| (s - place).abs() - 1e-5;
-                let found = scan(layer, (from, to), 8.0, 0.5).line.fails;
-                close(found, cdf(place + 1e-5) - cdf(place - 1e-5));
+                let fails = scan(layer, (from, to), 8.0, 0.5).line.fails;
+                close(fails, cdf(place + 1e-5) - cdf(place - 1e-5));
                 let mirrored = scan(|s| layer(-s), (-to, -from), 8.0, 0.5).line.fails;
-                close(mirrored, found);
+                close(mirrored, fails);
             }
         }
     }

@@ -106,7 +106,7 @@ impl Proposal {
                 reason: format!("{weight} is not inside (0, 1)"),
             });
         }
-        self.weights.iter_mut().for_each(|own| *own *= 1.0 - weight);
+        self.weights.iter_mut().for_each(|x| *x *= 1.0 - weight);
         self.weights.push(weight);
         self.centres.push(vec![0.0; self.dimension()]);
         Ok(self)

@@ -91,10 +91,10 @@ mod tests {
             assert!((flat / normal::cdf(-beta) - 1.0).abs() < 1e-10, "{beta}");
             for kappa in [-0.5, -0.08, 0.02, 0.4, 3.0] {
                 let exact = by_conditioning(beta, kappa);
-                let found = probability_beyond(beta, &[kappa]).unwrap();
+                let value = probability_beyond(beta, &[kappa]).unwrap();
                 assert!(
-                    (found / exact - 1.0).abs() < 1e-9,
-                    "{beta} {kappa}: {found} {exact}"
+                    (value / exact - 1.0).abs() < 1e-9,
+                    "{beta} {kappa}: {value} {exact}"
                 );
             }
         }

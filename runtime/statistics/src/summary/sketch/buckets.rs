@@ -109,13 +109,13 @@ impl Buckets {
         let last = other.first + other.octaves.len() as i32 - 1;
         self.reach(other.first * OCTAVE, last * OCTAVE);
         let start = (other.first - self.first).unsigned_abs() as usize;
-        for (own, other) in self.octaves[start..].iter_mut().zip(&other.octaves) {
-            match (own, other) {
-                (own @ None, other) => own.clone_from(other),
+        for (octave, other) in self.octaves[start..].iter_mut().zip(&other.octaves) {
+            match (octave, other) {
+                (octave @ None, other) => octave.clone_from(other),
                 (Some(own), Some(other)) => {
                     own.iter_mut()
                         .zip(&**other)
-                        .for_each(|(own, other)| *own += other);
+                        .for_each(|(x, other)| *x += other);
                 }
                 (Some(_), None) => {}
             }

@@ -78,7 +78,7 @@ fn solved(reference: &Reference, here: &[Linear; WIDTH]) -> Found {
     };
     let bits = |(all, flags): &Found| {
         let accepted = all.iter().zip(flags).filter(|(_, flag)| **flag);
-        let numbers = accepted.flat_map(|(own, _)| own.iter());
+        let numbers = accepted.flat_map(|(x, _)| x.iter());
         let numbers: Vec<_> = numbers
             .flat_map(|(s, error)| [s.re, s.im, *error].map(f64::to_bits))
             .collect();

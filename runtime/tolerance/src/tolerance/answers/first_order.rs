@@ -24,7 +24,7 @@ pub fn far(distance: f64) -> String {
 
 /// Whether no tolerance moves the mode, alone or relative to others.
 pub fn unmoved(mode: &ModeTolerance) -> bool {
-    let moved = |spread: Option<Spread>| spread.is_some_and(|own| spread_of(&own) != 0.0);
+    let moved = |spread: Option<Spread>| spread.is_some_and(|spread| spread_of(&spread) != 0.0);
     !mode.clustered
         && mode.distance_to_neighbour == f64::INFINITY
         && mode.lambda.sigma == 0.0
@@ -168,7 +168,7 @@ impl FirstOrder {
             Quantity::Frequency => {
                 table.cells("mean [rad/s]", &|row| {
                     let nominal = row.mode.behaviour.frequency();
-                    optional(of(row).map(|own| own.mean).or(nominal))
+                    optional(of(row).map(|x| x.mean).or(nominal))
                 });
                 table.cells("sigma [rad/s]", &|row| row.sigma(row.mode.frequency()));
                 table.cells(&format!("{} sigma [rad/s]", self.sigma_level), &|row| {
@@ -179,7 +179,7 @@ impl FirstOrder {
             }
             Quantity::DampingRatio if general => {
                 table.cells("damping ratio", &|row| {
-                    or_dash(row.mode.damping_ratio().map(|own| own.mean), rough)
+                    or_dash(row.mode.damping_ratio().map(|x| x.mean), rough)
                 });
                 table.cells("sigma", &|row| row.sigma(row.mode.damping_ratio()));
             }
@@ -190,16 +190,16 @@ impl FirstOrder {
     /// The rates of modes without a frequency.
     fn rates(&self, said: &mut Findings) {
         for (r, mode) in self.modes.iter().enumerate() {
-            let rate = mode.growth().filter(|own| {
-                mode.behaviour.frequency().is_none() && !mode.clustered && spread_of(own) != 0.0
+            let rate = mode.growth().filter(|item| {
+                mode.behaviour.frequency().is_none() && !mode.clustered && spread_of(item) != 0.0
             });
-            let Some(own) = rate else { continue };
-            let verb = if own.mean > 0.0 { "grows" } else { "decays" };
+            let Some(rate) = rate else { continue };
+            let verb = if rate.mean > 0.0 { "grows" } else { "decays" };
             said.note(format!(
                 "Mode {} {verb} at {} 1/s, sigma {} 1/s.",
                 r + 1,
-                number(own.mean.abs()),
-                rough(own.sigma)
+                number(rate.mean.abs()),
+                rough(rate.sigma)
             ));
         }
     }

@@ -84,26 +84,28 @@ impl MonteCarlo {
         statistics(&mut table, "damping ratio", "", &|row| row.damping);
         origin(&mut table, self);
         table.cells("mean [rad/s]", &|row| {
-            row.shown(|own| Some(own.mean), number)
+            row.shown(|row| Some(row.mean), number)
         });
         table.cells("std. error", &|row| {
-            row.shown(|own| own.standard_error, short)
+            row.shown(|row| row.standard_error, short)
         });
         table.cells("sigma [rad/s]", &|row| row.shown(sigma, rough));
-        table.cells("min", &|row| row.shown(|own| Some(own.min), number));
-        table.cells("max", &|row| row.shown(|own| Some(own.max), number));
-        let complete = |own: &Statistics| own.count == self.counts.stable as u64;
+        table.cells("min", &|row| row.shown(|row| Some(row.min), number));
+        table.cells("max", &|row| row.shown(|row| Some(row.max), number));
+        let complete = |statistics: &Statistics| statistics.count == self.counts.stable as u64;
         if !self.modes.iter().flatten().all(complete) {
             table.cells("samples", &|row| {
-                row.frequency.map_or(0, |own| own.count).to_string()
+                row.frequency
+                    .map_or(0, |frequency| frequency.count)
+                    .to_string()
             });
         }
         if self.family == Family::General {
             table.cells("damping ratio", &|row| {
-                or_dash(row.damping.map(|own| own.mean), rough)
+                or_dash(row.damping.map(|damping| damping.mean), rough)
             });
             table.cells("sigma", &|row| {
-                or_dash(row.damping.and_then(|own| own.sigma), rough)
+                or_dash(row.damping.and_then(|damping| damping.sigma), rough)
             });
         }
         said.columns(table);
@@ -175,9 +177,9 @@ impl MonteCarlo {
         }
         if self.samples < self.planned {
             let ranges = self.ranges.iter();
-            let ranges = ranges.map(|own| match own.end.saturating_sub(1) {
-                last if last == own.start => last.to_string(),
-                last => format!("{} to {last}", own.start),
+            let ranges = ranges.map(|range| match range.end.saturating_sub(1) {
+                last if last == range.start => last.to_string(),
+                last => format!("{} to {last}", range.start),
             });
             let ranges: Vec<String> = ranges.collect();
             if !ranges.is_empty() {
@@ -192,12 +194,14 @@ impl MonteCarlo {
         let mut head = vec!["not symmetric".to_owned(), "skewness".to_owned()];
         head.extend(QUANTILES.map(|p| format!("{} %", given(100.0 * p))));
         let mut table = Grid::new(head);
-        let frequencies = self.modes.iter().map(|own| ("frequency", own));
-        let dampings = self.damping_ratios.iter().map(|own| ("damping ratio", own));
+        let frequencies = self.modes.iter().map(|mode| ("frequency", mode));
+        let dampings = self
+            .damping_ratios
+            .iter()
+            .map(|damping_ratio| ("damping ratio", damping_ratio));
         let both = frequencies.enumerate().chain(dampings.enumerate());
         for (r, (name, own)) in both {
-            let Some((own, skewness)) = own.as_ref().and_then(|own| Some((own, own.skewness?)))
-            else {
+            let Some((own, skewness)) = own.as_ref().and_then(|x| Some((x, x.skewness?))) else {
                 continue;
             };
             let moves = own
@@ -209,7 +213,7 @@ impl MonteCarlo {
             if skewness.abs() < SKEWED || !told || !moves {
                 continue;
             }
-            let quantile = |p: f64| or_dash(own.quantile(p).ok().map(|own| own.value), rough);
+            let quantile = |p: f64| or_dash(own.quantile(p).ok().map(|x| x.value), rough);
             let mut row = vec![format!("{name} {}", r + 1), format!("{skewness:+.2}")];
             row.extend(QUANTILES.map(quantile));
             table.row(row);

@@ -21,19 +21,19 @@ impl Row<'_> {
     }
 
     fn mean(&self) -> f64 {
-        self.in_unit(self.spread.map_or(self.nominal, |own| own.mean))
+        self.in_unit(self.spread.map_or(self.nominal, |spread| spread.mean))
     }
 
     /// The standard deviation that the text shows.
     fn sigma(&self) -> Option<f64> {
-        self.spread.map(|own| self.in_unit(spread_of(own)))
+        self.spread.map(|spread| self.in_unit(spread_of(spread)))
     }
 }
 
 /// The shares in the variance of an output that moves.
 fn shares_of<'a>(row: &'a Row<'_>) -> Option<&'a [f64]> {
-    let own = row.spread?;
-    (spread_of(own) != 0.0).then_some(&own.variance_shares[..])
+    let spread = row.spread?;
+    (spread_of(spread) != 0.0).then_some(&spread.variance_shares[..])
 }
 
 /// `output tolerances`: a row for each output, numbers in its `unit`.

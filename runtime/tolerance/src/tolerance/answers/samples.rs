@@ -15,7 +15,7 @@ pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table
     let numbered = samples.iter().enumerate();
     let rows: Vec<_> = numbered.map(|(k, sample)| (first + k, sample)).collect();
     // A sample has a slot for each nominal mode, even where the mode was not found.
-    let modes = samples.iter().map(|own| own.frequencies.len()).max();
+    let modes = samples.iter().map(|sample| sample.frequencies.len()).max();
     samples_columns(d, modes.unwrap_or(0), &rows).finish().0
 }
 
@@ -50,24 +50,20 @@ pub(super) fn samples_columns<'a>(
 ) -> Columns<'a, (usize, &'a Sample)> {
     let mut table = Columns::new("samples", rows);
     table.whole("sample", &|(number, _)| Some(number + 1));
-    table.words("outcome", &|(_, own)| Some(own.outcome.word().to_owned()));
-    table.design(d, &|(_, own)| Some(&own.design[..]));
-    table.unknowns(d, &|(_, own)| own.coordinates.as_deref());
+    table.words("outcome", &|(_, x)| Some(x.outcome.word().to_owned()));
+    table.design(d, &|(_, x)| Some(&x.design[..]));
+    table.unknowns(d, &|(_, x)| x.coordinates.as_deref());
     for r in 0..modes {
         let number = r + 1;
-        table.number(&format!("frequency {number}"), "rad/s", &|(_, own)| {
-            *own.frequencies.get(r)?
+        table.number(&format!("frequency {number}"), "rad/s", &|(_, x)| {
+            *x.frequencies.get(r)?
         });
-        table.number(&format!("damping ratio {number}"), "", &|(_, own)| {
-            *own.damping_ratios.get(r)?
+        table.number(&format!("damping ratio {number}"), "", &|(_, item)| {
+            *item.damping_ratios.get(r)?
         });
-        let s = move |own: &Sample| *own.eigenvalues.get(r)?;
-        table.number(&format!("Re s {number}"), "1/s", &|(_, own)| {
-            Some(s(own)?.re)
-        });
-        table.number(&format!("Im s {number}"), "1/s", &|(_, own)| {
-            Some(s(own)?.im)
-        });
+        let s = move |sample: &Sample| *sample.eigenvalues.get(r)?;
+        table.number(&format!("Re s {number}"), "1/s", &|(_, x)| Some(s(x)?.re));
+        table.number(&format!("Im s {number}"), "1/s", &|(_, x)| Some(s(x)?.im));
     }
     table
 }

@@ -15,15 +15,15 @@ pub fn statistics<R>(
 ) {
     type Pick = fn(&Statistics) -> Option<f64>;
     table.whole(&format!("samples of {name}"), &|row| {
-        Some(of(row).map_or(0, |own| own.count as usize))
+        Some(of(row).map_or(0, |x| x.count as usize))
     });
     let picks: [(&str, &str, Pick); 6] = [
-        ("mean", unit, |own| Some(own.mean)),
-        ("standard error", unit, |own| own.standard_error),
-        ("sigma", unit, |own| own.sigma),
-        ("skewness", "", |own| own.skewness),
-        ("least", unit, |own| Some(own.min)),
-        ("greatest", unit, |own| Some(own.max)),
+        ("mean", unit, |x| Some(x.mean)),
+        ("standard error", unit, |x| x.standard_error),
+        ("sigma", unit, |x| x.sigma),
+        ("skewness", "", |x| x.skewness),
+        ("least", unit, |x| Some(x.min)),
+        ("greatest", unit, |x| Some(x.max)),
     ];
     for (what, unit, pick) in picks {
         table.number(&format!("{what} of {name}"), unit, &|row| pick(of(row)?));

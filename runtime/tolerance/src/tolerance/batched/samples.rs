@@ -124,9 +124,9 @@ impl SampleBatch<'_> {
     /// Puts the modes of a group of equal nominal ones in ascending order, in every member.
     pub(super) fn put_in_order(&mut self, group: &[usize]) {
         for k in 0..self.members {
-            let size = |own: &Self, r: usize| own.rates[r].0[k].hypot(own.frequencies[r].0[k]);
-            in_order(group, self, size, |own, i, j| {
-                for parts in [&mut *own.rates, &mut *own.frequencies] {
+            let size = |this: &Self, r: usize| this.rates[r].0[k].hypot(this.frequencies[r].0[k]);
+            in_order(group, self, size, |item, i, j| {
+                for parts in [&mut *item.rates, &mut *item.frequencies] {
                     let (a, b) = (parts[i].0[k], parts[j].0[k]);
                     (parts[i].0[k], parts[j].0[k]) = (b, a);
                 }

@@ -25,18 +25,18 @@ impl Answer for Controlled {
         let rows = Row::each(&self.wanted, d, self.spreads.iter().map(Option::as_ref));
         let mut table = Columns::new("controlled spreads", &rows);
         responses(&mut table);
-        estimates(&mut table, "mean", &|own| Some(own.as_ref()?.mean));
+        estimates(&mut table, "mean", &|x| Some(x.as_ref()?.mean));
         table.number("worth of mean", "", &|row| Some(row.own?.worth));
-        table.cells("worth", &|row| or_dash(row.own.map(|own| own.worth), short));
-        estimates(&mut table, "sigma", &|own| Some(own.as_ref()?.sigma));
+        table.cells("worth", &|row| or_dash(row.own.map(|x| x.worth), short));
+        estimates(&mut table, "sigma", &|x| Some(x.as_ref()?.sigma));
         table.number("worth of sigma", "", &|row| Some(row.own?.worth_of_sigma));
         table.cells("worth", &|row| {
-            or_dash(row.own.map(|own| own.worth_of_sigma), short)
+            or_dash(row.own.map(|x| x.worth_of_sigma), short)
         });
         table.words("model", &|row| Some(row.own?.model.to_string()));
         table.cells("model", &|row| {
             row.own
-                .map_or_else(|| "not controlled".to_owned(), |own| own.model.to_string())
+                .map_or_else(|| "not controlled".to_owned(), |x| x.model.to_string())
         });
         said.columns(table);
         said.note("Worth: how many plain samples give the same error as one of these.");

@@ -26,7 +26,7 @@ impl Answer for Influence {
         let mut all = Vec::new();
         for (response, own) in self.wanted.iter().zip(&self.responses) {
             let variables = own.variables.iter();
-            let rows = variables.map(|own| Row::new(response, d, own));
+            let rows = variables.map(|variable| Row::new(response, d, variable));
             let rows: Vec<_> = rows.collect();
             described(&mut said, &rows, d);
             if own.missing > 0 {
@@ -48,7 +48,7 @@ type Of<'a> = Row<&'a VariableInfluence>;
 /// What the text says of one response.
 fn described(said: &mut Findings, rows: &[Of<'_>], d: &Description) {
     let negligible = |row: &Of<'_>| {
-        let none = |index: Option<Estimate>| index.is_some_and(|own| !relevant(own.upper, 1.0));
+        let none = |index: Option<Estimate>| index.is_some_and(|index| !relevant(index.upper, 1.0));
         none(row.own.first) && none(row.own.total)
     };
     let (left, shown): (Vec<usize>, Vec<usize>) =
@@ -87,18 +87,18 @@ fn influences<'a, 'o>(
         Some(d.design.get(row.own.variable)?.name.to_string())
     });
     of.shown().headed(&label);
-    index(&mut table, "first", &|own| own.first);
-    index(&mut table, "total", &|own| own.total);
+    index(&mut table, "first", &|x| x.first);
+    index(&mut table, "total", &|x| x.total);
     type Pick = fn(&VariableInfluence) -> Option<f64>;
     let picks: [(&str, Pick); 3] = [
-        ("correlation", |own| own.correlation),
-        ("rank correlation", |own| own.rank_correlation),
-        ("regression", |own| own.regression),
+        ("correlation", |x| x.correlation),
+        ("rank correlation", |x| x.rank_correlation),
+        ("regression", |x| x.regression),
     ];
     for (name, pick) in picks {
         table.number(name, "", &|row| pick(row.own)).digits(short);
     }
-    let ends: [(&str, Pick); 2] = [("at low", |own| own.at_low), ("at high", |own| own.at_high)];
+    let ends: [(&str, Pick); 2] = [("at low", |x| x.at_low), ("at high", |x| x.at_high)];
     for (name, pick) in ends {
         let value = table.number(name, "", &|row| Some(row.in_unit(pick(row.own)?)));
         value.digits(number);
@@ -120,7 +120,7 @@ fn index(
         let own = of(row.own);
         own.map_or_else(
             || "-".to_owned(),
-            |own| format!("{} to {}", short(own.lower), short(own.upper)),
+            |item| format!("{} to {}", short(item.lower), short(item.upper)),
         )
     });
 }

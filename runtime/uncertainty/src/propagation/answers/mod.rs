@@ -35,7 +35,7 @@ impl<T> Row<T> {
         all: impl IntoIterator<Item = T>,
     ) -> Vec<Self> {
         let pairs = responses.iter().zip(all);
-        pairs.map(|(of, own)| Self::new(of, d, own)).collect()
+        pairs.map(|(of, x)| Self::new(of, d, x)).collect()
     }
 
     /// A value in the unit of the response.

@@ -57,13 +57,13 @@ impl Row<Spread<'_>> {
 
     /// The standard deviation that the text shows.
     fn sigma(&self) -> Option<f64> {
-        let own = self.own.spread?;
-        let sigma = unless_rounding(own.sigma?.value, own.mean.value);
+        let spread = self.own.spread?;
+        let sigma = unless_rounding(spread.sigma?.value, spread.mean.value);
         Some(self.in_unit(sigma))
     }
 
     fn quantiles(&self) -> &[Quantile] {
-        self.own.spread.map_or(&[], |own| &own.quantiles)
+        self.own.spread.map_or(&[], |spread| &spread.quantiles)
     }
 }
 
@@ -76,12 +76,12 @@ impl Propagation {
             Some(_) => optional(row.nominal()),
             None => "no value".to_owned(),
         });
-        estimates(&mut table, "mean", &|own| Some(own.spread?.mean));
+        estimates(&mut table, "mean", &|x| Some(x.spread?.mean));
         table.number("sigma", "", &|row| {
             Some(row.in_unit(row.own.spread?.sigma?.value))
         });
         table.cells("sigma", &|row| optional(row.sigma()));
-        errors(&mut table, "sigma", &|own| own.spread?.sigma);
+        errors(&mut table, "sigma", &|x| x.spread?.sigma);
         let skewness = table.number("skewness", "", &|row| Some(row.own.spread?.skewness?.value));
         skewness.digits(short);
         let error = table.number("error of skewness", "", &|row| {
@@ -103,7 +103,7 @@ impl Propagation {
         square.cells("correlation", &|(_, row)| row.name.clone());
         for (j, with) in &all {
             square.cells(&with.name, &|(i, _)| {
-                or_dash(self.correlation(*i, *j), |own| format!("{own:.3}"))
+                or_dash(self.correlation(*i, *j), |x| format!("{x:.3}"))
             });
         }
         said.text(square.finish().1);
@@ -128,19 +128,23 @@ fn quantiles(said: &mut Findings, rows: &[Row<Spread<'_>>]) {
     text.cells("quantile", &|row| row.label());
     for (k, p) in QUANTILES.into_iter().enumerate() {
         text.cells(&format!("{:.3} %", 100.0 * p), &|row| {
-            optional(row.quantiles().get(k).map(|own| row.in_unit(own.value)))
+            optional(
+                row.quantiles()
+                    .get(k)
+                    .map(|quantile| row.in_unit(quantile.value)),
+            )
         });
     }
     said.text(text.finish().1);
     let each = known.iter();
-    let each = each.flat_map(|row| row.quantiles().iter().map(move |own| (row, own)));
+    let each = each.flat_map(|row| row.quantiles().iter().map(move |quantile| (row, quantile)));
     let each: Vec<_> = each.collect();
     let mut table = Columns::new("quantiles", &each);
     table.words("response", &|(row, _)| Some(row.name.clone()));
     table.words("unit", &|(row, _)| Some(row.unit.symbol.to_string()));
-    table.number("probability", "", &|(_, own)| Some(own.probability));
-    table.number("value", "", &|(row, own)| Some(row.in_unit(own.value)));
-    table.number("error", "", &|(row, own)| Some(row.in_unit(own.error?)));
+    table.number("probability", "", &|(_, x)| Some(x.probability));
+    table.number("value", "", &|(row, x)| Some(row.in_unit(x.value)));
+    table.number("error", "", &|(row, x)| Some(row.in_unit(x.error?)));
     said.columns(table);
 }
 

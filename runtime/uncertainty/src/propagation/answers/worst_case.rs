@@ -41,9 +41,9 @@ fn extremes(said: &mut Findings, rows: &[Limits<'_>], d: &Description) {
     responses(&mut table);
     type Pick = fn(&ResponseLimits) -> Option<f64>;
     let picks: [(&str, Pick); 3] = [
-        ("nominal", |own| own.nominal),
-        ("least", |own| Some(own.least.as_ref()?.value)),
-        ("greatest", |own| Some(own.greatest.as_ref()?.value)),
+        ("nominal", |x| x.nominal),
+        ("least", |x| Some(x.least.as_ref()?.value)),
+        ("greatest", |x| Some(x.greatest.as_ref()?.value)),
     ];
     for (name, pick) in picks {
         let value = table.number(name, "", &|row| Some(row.in_unit(pick(row.own)?)));
@@ -91,7 +91,7 @@ impl WorstCase {
         for (response, own) in self.wanted.iter().zip(&self.responses) {
             for (end, extreme) in [("least", &own.least), ("greatest", &own.greatest)] {
                 let extreme = extreme.iter();
-                rows.extend(extreme.map(|own| Row::new(response, d, (end, own))));
+                rows.extend(extreme.map(|extreme| Row::new(response, d, (end, extreme))));
             }
         }
         let mut table = Columns::new("worst designs", &rows);

@@ -54,7 +54,7 @@ impl Chances {
     /// Each and all in one table of the text, in two of data.
     fn tallies(&self, said: &mut Findings) {
         let each = self.each.iter().enumerate();
-        let each = each.map(|(k, own)| (Some(k + 1), own));
+        let each = each.map(|(k, x)| (Some(k + 1), x));
         let mut rows: Vec<Row<'_>> = each.collect();
         let mut table = Columns::new("chances", &rows);
         table.whole("requirement", &|(number, _)| *number);
@@ -75,18 +75,17 @@ impl Chances {
 }
 
 fn tallies(table: &mut Columns<'_, Row<'_>>) {
-    let interval = |own: &Tally| own.clopper_pearson(CONFIDENCE).ok();
-    table.whole("met", &|(_, own)| Some(own.met)).shown();
-    table.whole("failed", &|(_, own)| Some(own.failed)).shown();
-    table.whole("untold", &|(_, own)| Some(own.untold)).shown();
-    let failure = table.number("probability of failure", "", &|(_, own)| {
-        Some(own.failure())
-    });
+    let interval = |tally: &Tally| tally.clopper_pearson(CONFIDENCE).ok();
+    table.whole("met", &|(_, x)| Some(x.met)).shown();
+    table.whole("failed", &|(_, x)| Some(x.failed)).shown();
+    table.whole("untold", &|(_, x)| Some(x.untold)).shown();
+    let failure = table.number("probability of failure", "", &|(_, x)| Some(x.failure()));
     failure.digits(rough).headed("P(failed)");
-    table.number("95 % from", "", &|(_, own)| Some(interval(own)?.lower));
-    table.number("95 % to", "", &|(_, own)| Some(interval(own)?.upper));
-    table.cells("95 % interval (Clopper-Pearson)", &|(_, own)| {
-        let text = |own: Interval| format!("{} to {}", short(own.lower), short(own.upper));
-        interval(own).map_or_else(|| "-".to_owned(), text)
+    table.number("95 % from", "", &|(_, x)| Some(interval(x)?.lower));
+    table.number("95 % to", "", &|(_, x)| Some(interval(x)?.upper));
+    table.cells("95 % interval (Clopper-Pearson)", &|(_, item)| {
+        let text =
+            |interval: Interval| format!("{} to {}", short(interval.lower), short(interval.upper));
+        interval(item).map_or_else(|| "-".to_owned(), text)
     });
 }

@@ -26,7 +26,7 @@ impl Answer for Probabilities {
             said.data(table);
         }
         let all = self.each.iter().chain([&self.any]);
-        let untold = all.fold(0.0, |most: f64, own| most.max(own.untold));
+        let untold = all.fold(0.0, |most: f64, x| most.max(x.untold));
         if untold > CHANCE {
             said.note(format!(
                 "Designs with a probability of up to {} lack the response needed to tell; they do not count as failures.",
@@ -63,10 +63,10 @@ impl Probabilities {
     fn found(&self, said: &mut Findings) {
         let d = &self.description;
         let each = self.wanted.iter().zip(&self.each).enumerate();
-        let each = each.map(|(k, (wanted, own))| Row {
+        let each = each.map(|(k, (wanted, item))| Row {
             number: Some(k + 1),
             requirement: wanted.text(d),
-            own,
+            own: item,
         });
         let any = Row {
             number: None,
@@ -101,15 +101,15 @@ impl Probabilities {
 
 /// The most probable way to fail each limit.
 fn most_probable(said: &mut Findings, of: &Reliability) {
-    for own in &of.limits {
-        let mut points = own.design_points.iter().flatten();
+    for limit in &of.limits {
+        let mut points = limit.design_points.iter().flatten();
         let Some(nearest) = points.find(|point| point.verified) else {
             continue;
         };
         said.note(format!(
             "Requirement {}: {}, most probably fails {} standard deviations from the mean.",
-            own.requirement + 1,
-            own.limit.text(&of.description),
+            limit.requirement + 1,
+            limit.limit.text(&of.description),
             rough(nearest.beta().abs())
         ));
         variables(said, nearest, &of.description);

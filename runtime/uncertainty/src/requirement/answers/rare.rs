@@ -13,27 +13,27 @@ impl Answer for RareFailure {
     }
 
     fn findings(&self) -> Findings {
-        let found = &self.failure;
+        let failure = &self.failure;
         let mut said = Findings::titled(format!(
             "{}: {} importance samples about {}",
             title(&self.description, &self.inputs),
-            found.samples,
+            failure.samples,
             counted(self.centres, "design point")
         ));
         said.data(self.row());
         said.note(format!(
             "At least one requirement fails with probability {} +- {} ({} failed, {} undecided).",
-            rough(found.probability.value),
-            short(found.probability.standard_error),
-            counted(found.failures, "sample"),
-            found.without_value
+            rough(failure.probability.value),
+            short(failure.probability.standard_error),
+            counted(failure.failures, "sample"),
+            failure.without_value
         ));
         if self.contradicted() {
             said.note(format!(
                 "Not to be relied on: along lines of designs, the probability is {}.",
                 self.judgement
             ));
-        } else if !found.reached {
+        } else if !failure.reached {
             said.note("Not settled: the samples did not reach their target.");
         }
         if !self.without_design_point.is_empty() {
@@ -53,14 +53,14 @@ displayed!(RareFailure);
 
 impl RareFailure {
     fn row(&self) -> Table {
-        let found = &self.failure;
+        let failure = &self.failure;
         let whole = |count: u64| [usize::try_from(count).ok()];
         let mut table = Table::new("rare failure");
-        table.numbers("probability of failure", "", [found.probability.value]);
-        table.numbers("standard error", "", [found.probability.standard_error]);
-        table.whole("samples", whole(found.samples));
-        table.whole("failures", whole(found.failures));
-        table.whole("without value", whole(found.without_value));
+        table.numbers("probability of failure", "", [failure.probability.value]);
+        table.numbers("standard error", "", [failure.probability.standard_error]);
+        table.whole("samples", whole(failure.samples));
+        table.whole("failures", whole(failure.failures));
+        table.whole("without value", whole(failure.without_value));
         table.whole("design points", [self.centres]);
         table.numbers("unseen", "", [self.unseen]);
         table.flags("trusted", [self.trusted()]);

@@ -59,10 +59,8 @@ impl Reliability {
         let rows: Vec<Row<'_>> = self.limits.iter().flat_map(points).collect();
         let d = &self.description;
         design_points(said, &rows, d);
-        let found = rows
-            .iter()
-            .filter_map(|(limit, own)| Some((*limit, (*own)?)));
-        let entries = found.flat_map(|(limit, own)| entries(limit.requirement, own, d));
+        let found = rows.iter().filter_map(|(limit, x)| Some((*limit, (*x)?)));
+        let entries = found.flat_map(|(limit, x)| entries(limit.requirement, x, d));
         let entries: Vec<Entry<'_>> = entries.collect();
         said.data(entry_columns(&entries, Vec::new()).finish().0);
         if let Some(own) = &self.system {
@@ -73,57 +71,64 @@ impl Reliability {
 
 fn points(limit: &LimitReliability) -> Vec<Row<'_>> {
     match &limit.design_points {
-        Ok(points) => points.iter().map(|own| (limit, Some(own))).collect(),
+        Ok(points) => points.iter().map(|point| (limit, Some(point))).collect(),
         Err(_) => vec![(limit, None)],
     }
 }
 
 fn design_points(said: &mut Findings, rows: &[Row<'_>], d: &Description) {
     let mut table = Columns::new("design points", rows);
-    table.whole("requirement", &|(own, _)| Some(own.requirement + 1));
-    table.words("response", &|(own, _)| Some(own.limit.response()?.name(d)));
-    table.number("beta", "", &|(_, own)| Some(own.as_ref()?.beta()));
-    table.number("probability of failure, first order", "", &|(_, own)| {
-        Some(own.as_ref()?.probability())
+    table.whole("requirement", &|(x, _)| Some(x.requirement + 1));
+    table.words("response", &|(x, _)| Some(x.limit.response()?.name(d)));
+    table.number("beta", "", &|(_, x)| Some(x.as_ref()?.beta()));
+    table.number("probability of failure, first order", "", &|(_, item)| {
+        Some(item.as_ref()?.probability())
     });
-    table.number("probability of failure, second order", "", &|(_, own)| {
-        own.as_ref()?.second_order
+    table.number("probability of failure, second order", "", &|(_, x)| {
+        x.as_ref()?.second_order
     });
-    table.flag("verified", &|(_, own)| Some(own.as_ref()?.verified));
-    judged(&mut table, &|(own, _)| &own.judgement);
-    table.words("error", &|(own, _)| {
-        Some(own.design_points.as_ref().err()?.to_string())
+    table.flag("verified", &|(_, x)| Some(x.as_ref()?.verified));
+    judged(&mut table, &|(x, _)| &x.judgement);
+    table.words("error", &|(item, _)| {
+        Some(item.design_points.as_ref().err()?.to_string())
     });
     said.columns(table);
 }
 
-fn system(own: &SystemFailure) -> Table {
+fn system(system_failure: &SystemFailure) -> Table {
     let mut table = Table::new("system");
-    table.numbers("probability of failure", "", [own.probability.value]);
-    table.numbers("from", "", [own.bounds.lower]);
-    table.numbers("to", "", [own.bounds.upper]);
+    table.numbers(
+        "probability of failure",
+        "",
+        [system_failure.probability.value],
+    );
+    table.numbers("from", "", [system_failure.bounds.lower]);
+    table.numbers("to", "", [system_failure.bounds.upper]);
     table
 }
 
 /// What the text says of a limit.
-fn limit(said: &mut Findings, own: &LimitReliability, d: &Description) {
-    let number = own.requirement + 1;
-    let text = own.limit.text(d);
-    said.note(match &own.design_points {
+fn limit(said: &mut Findings, limit_reliability: &LimitReliability, d: &Description) {
+    let number = limit_reliability.requirement + 1;
+    let text = limit_reliability.limit.text(d);
+    said.note(match &limit_reliability.design_points {
         Ok(_) => format!("Requirement {number}: {text}"),
         Err(error) => format!("Requirement {number}: {text}: {error}."),
     });
     said.note(format!(
         "Designs solved anew: probability of failure {}.",
-        own.judgement
+        limit_reliability.judgement
     ));
-    let doubtful = |claimed| own.judgement.confirms(claimed) && !own.verified();
-    let verdict = own.probability().map(|claimed| match doubtful(claimed) {
-        true => "not verified".to_owned(),
-        false => verdict(&own.judgement, claimed),
-    });
+    let doubtful =
+        |claimed| limit_reliability.judgement.confirms(claimed) && !limit_reliability.verified();
+    let verdict = limit_reliability
+        .probability()
+        .map(|claimed| match doubtful(claimed) {
+            true => "not verified".to_owned(),
+            false => verdict(&limit_reliability.judgement, claimed),
+        });
     let verdict = verdict.unwrap_or_default();
-    for at in own.design_points.iter().flatten() {
+    for at in limit_reliability.design_points.iter().flatten() {
         said.note(format!(
             "beta {}, probability of failure {} (first order), {} (second order); design point {verdict}",
             rough(at.beta()),

@@ -94,7 +94,7 @@ impl SecondOrderFailure {
                 None => "integration error",
                 Some(_) => "error of second order",
             });
-        judged(&mut table, &|own| &own.judgement);
+        judged(&mut table, &|x| &x.judgement);
         said.columns(table);
     }
 

@@ -65,9 +65,7 @@ fn by_symmetry(system: &System, design: u64) -> Option<Count> {
     let idle: Vec<usize> = velocities.filter(|&k| is_idle(&state, k)).collect();
     let slips = slips(system, &state, &idle, &symmetries);
     let places = independent(system, &state, &idle) - rank(&slips, state.operations);
-    let resting = system
-        .equilibria(design)
-        .find(|own| !is_singular(&state, own));
+    let resting = system.equilibria(design).find(|x| !is_singular(&state, x));
     let proven = dimension(system, &state, &symmetries, resting.as_ref()) + places;
     let shown = resting.map_or(0, |resting| unresisted(system, &resting).len());
     Some(Count {

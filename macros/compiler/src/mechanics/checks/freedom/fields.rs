@@ -60,8 +60,8 @@ impl Fields {
                 Frame::Ground => Vec::new(),
                 Frame::Body(parent) => paths[parent.index()].clone(),
             };
-            let own = kinematics.of(branch.body).steps.iter();
-            let own = own.filter_map(|step| {
+            let steps = kinematics.of(branch.body).steps.iter();
+            let own = steps.filter_map(|step| {
                 let place = topology.free.iter().position(|&id| id == step.coordinate)?;
                 Some((place, *step, branch.body))
             });
@@ -278,7 +278,7 @@ impl<'a> Inverse<'a> {
 
     fn times(&self, twist: &[Disturbed]) -> Vec<Disturbed> {
         let n = self.twists.len();
-        let mut x: Vec<Disturbed> = self.twists.iter().map(|own| product(own, twist)).collect();
+        let mut x: Vec<Disturbed> = self.twists.iter().map(|x| product(x, twist)).collect();
         for i in 0..n {
             for k in 0..i {
                 x[i] = x[i] - self.factors[i][k] * x[k];

@@ -28,7 +28,10 @@ pub(super) fn unbalanced(
     let conserved = conserved(system, design, friction);
     let loaded = |combinations: &Combinations| {
         let mut directions = readable(system, combinations, state.operations);
-        let along: Vec<_> = directions.iter().map(|own| exact(own)).collect();
+        let along: Vec<_> = directions
+            .iter()
+            .map(|direction| exact(direction))
+            .collect();
         let powers = powers(&state, &along, &state.residual, system.fields.free);
         let mut works = powers
             .iter()
@@ -151,7 +154,10 @@ fn mistake(loads: &[&Cause], directions: &[Direction]) -> Diagnostic {
         [] => vec!["a load".to_owned()],
         loads => loads.iter().map(|load| load.text()).collect(),
     };
-    let along: Vec<String> = directions.iter().map(|own| own.text.clone()).collect();
+    let along: Vec<String> = directions
+        .iter()
+        .map(|direction| direction.text.clone())
+        .collect();
     let verb = if names.len() == 1 { "acts" } else { "act" };
     let message = format!(
         "{} {verb} along {}, which nothing holds",

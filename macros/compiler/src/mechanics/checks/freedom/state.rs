@@ -103,11 +103,11 @@ impl<'a> System<'a> {
         let state = RandomState { design, motion: 1 };
         let free = self.fields.free;
         if self.size() == free {
-            let place = IteratedValues {
+            let iterated_values = IteratedValues {
                 values: vec![0.0; free],
                 rounding: vec![0.0; free],
             };
-            return self.at_place(&place, state);
+            return self.at_place(&iterated_values, state);
         }
         let columns = self.stiffness[free..].iter().flatten();
         let roots: Vec<ExprId> = self.rest.iter().chain(columns).copied().collect();
@@ -147,31 +147,42 @@ impl<'a> System<'a> {
                 LAST => vec![0.0; self.size()],
                 _ => self.start(state, 0..moving),
             };
-            let place = self.minimum_norm_newton(state, &roots, start, 0)?;
-            self.at_place(&place, state)
+            let iterated_values = self.minimum_norm_newton(state, &roots, start, 0)?;
+            self.at_place(&iterated_values, state)
         })
     }
 
     /// Linearises where all equations hold.
-    fn at_place(&self, place: &IteratedValues, state: RandomState) -> Option<Linearised> {
+    fn at_place(&self, iterated_values: &IteratedValues, state: RandomState) -> Option<Linearised> {
         let residual = Evaluator::new(self.g, self.rest);
-        let gaps = residual.at(state.motion, |symbol| self.found(place, state, symbol));
+        let gaps = residual.at(state.motion, |symbol| {
+            self.found(iterated_values, state, symbol)
+        });
         let holds = |gap: &Disturbed| gap.is_finite() && gap.is_rounding(residual.operations());
         if !gaps.iter().all(holds) {
             return None;
         }
         let evaluator = Evaluator::new(self.g, &self.roots);
-        let values = evaluator.at(state.motion, |symbol| self.found(place, state, symbol));
+        let values = evaluator.at(state.motion, |symbol| {
+            self.found(iterated_values, state, symbol)
+        });
         self.linearised(&values, evaluator.operations())
     }
 
     /// The value of a symbol where unknowns have been found by iteration.
-    fn found(&self, place: &IteratedValues, state: RandomState, symbol: SymbolId) -> Disturbed {
+    fn found(
+        &self,
+        iterated_values: &IteratedValues,
+        state: RandomState,
+        symbol: SymbolId,
+    ) -> Disturbed {
         let unknowns = &self.context.symbols.q.ids;
-        match unknowns.iter().position(|own| *own == symbol) {
-            Some(k) if k < place.values.len() => {
-                Disturbed::rounded(place.values[k], place.rounding[k], u64::from(symbol.0))
-            }
+        match unknowns.iter().position(|unknown| *unknown == symbol) {
+            Some(k) if k < iterated_values.values.len() => Disturbed::rounded(
+                iterated_values.values[k],
+                iterated_values.rounding[k],
+                u64::from(symbol.0),
+            ),
             _ => Disturbed::exact(state.value(self.context, symbol)),
         }
     }
@@ -224,7 +235,7 @@ impl<'a> System<'a> {
         let (mut least, mut stalled, mut arrived) = (f64::INFINITY, 0, false);
         while stalled < PATIENCE {
             let entries = evaluate(self.g, roots, |symbol| {
-                match unknowns.iter().position(|own| *own == symbol) {
+                match unknowns.iter().position(|unknown| *unknown == symbol) {
                     Some(k) => values[k],
                     None => state.value(self.context, symbol),
                 }

@@ -85,7 +85,7 @@ fn common(
     candidates: usize,
     rows: impl Fn(&Linearised) -> Rows,
 ) -> Combinations {
-    let mut found: Option<Combinations> = None;
+    let mut combinations: Option<Combinations> = None;
     let mut confirmed = 0;
     for motion in 1..=ATTEMPTS {
         let Some(state) = system.at(RandomState { design, motion }, friction) else {
@@ -93,30 +93,30 @@ fn common(
         };
         let mut rows = rows(&state);
         let lead = rows.first().map_or(0, Vec::len).saturating_sub(candidates);
-        if let Some(found) = &found {
+        if let Some(found) = &combinations {
             for row in &mut rows {
                 let own = row.split_off(lead);
                 row.extend(times(&[own], found).concat());
             }
         }
         let next = NullSpace::new(rows, lead, state.operations).vectors;
-        let next = match &found {
+        let next = match &combinations {
             None => next,
             Some(found) => combined(found, &next),
         };
-        let before = found.as_ref().map_or(candidates, Vec::len);
+        let before = combinations.as_ref().map_or(candidates, Vec::len);
         confirmed = if next.len() == before {
             confirmed + 1
         } else {
             0
         };
         let done = next.is_empty() || confirmed == CONFIRMED;
-        found = Some(next);
+        combinations = Some(next);
         if done {
             break;
         }
     }
-    found.unwrap_or_default()
+    combinations.unwrap_or_default()
 }
 
 /// What remains of the motions of space that the joints do not allow, after `before` zeros and followed by `after`.

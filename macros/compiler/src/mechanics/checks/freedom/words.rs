@@ -75,7 +75,12 @@ fn without(
     candidates: impl Iterator<Item = usize>,
     operations: usize,
 ) -> Vec<Vec<f64>> {
-    let shares = candidates.map(|k| combinations.iter().map(|own| own[k]).collect());
+    let shares = candidates.map(|k| {
+        combinations
+            .iter()
+            .map(|combination| combination[k])
+            .collect()
+    });
     let weights = NullSpace::new(shares.collect(), 0, operations).vectors;
     reduced(&combined(combinations, &weights))
 }
@@ -89,10 +94,10 @@ pub(super) fn independent(
     let mut chosen: Vec<Vec<f64>> = Vec::new();
     for candidate in combinations {
         chosen.push(candidate);
-        let all: Combinations = chosen.iter().map(|own| exact(own)).collect();
+        let all: Combinations = chosen.iter().map(|x| exact(x)).collect();
         let mut motions = rates(system, state, &all);
         let coasting = system.fields.len()..all[0].len();
-        motions.extend(coasting.map(|k| all.iter().map(|own| own[k]).collect()));
+        motions.extend(coasting.map(|k| all.iter().map(|x| x[k]).collect()));
         if !NullSpace::new(motions, 0, state.operations)
             .vectors
             .is_empty()
@@ -137,7 +142,7 @@ fn reduced(vectors: &[Vec<Disturbed>]) -> Vec<Vec<f64>> {
             if k != done {
                 row.iter_mut()
                     .zip(&own)
-                    .for_each(|(x, own)| *x -= factor * own);
+                    .for_each(|(x, item)| *x -= factor * item);
             }
         }
         done += 1;
@@ -151,13 +156,13 @@ pub(super) fn described(context: &Context, fields: &Fields, combination: &[f64])
     let (coordinates, others) = combination.split_at(fields.free);
     let (mut space, coasting) = others.split_at(fields.len() - fields.free);
     let coordinates = [coordinates, coasting].concat();
-    let moved = |own: &&[f64]| own.iter().any(|x| x.abs() > NOTHING);
+    let moved = |values: &&[f64]| values.iter().any(|x| x.abs() > NOTHING);
     let carried = fields.carriers.iter().map(|carrier| {
         let (own, rest) = space.split_at(carrier.len());
         space = rest;
         (carrier, own)
     });
-    let carried: Vec<_> = carried.filter(|(_, own)| moved(own)).collect();
+    let carried: Vec<_> = carried.filter(|(_, x)| moved(x)).collect();
     let Some((carrier, twist)) = carried.first() else {
         return Direction {
             text: together(context, &coordinates),

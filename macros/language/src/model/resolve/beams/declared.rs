@@ -38,13 +38,15 @@ impl Declared {
         self
     }
 
-    pub(super) fn section(&self, place: f64) -> Section {
-        self.table.section(place, (&self.twist, &self.prebend))
+    pub(super) fn section(&self, value: f64) -> Section {
+        self.table.section(value, (&self.twist, &self.prebend))
     }
 
     /// Whether the axis is curved about the second and about the third axis before the beam bends.
     pub(super) fn is_curved(&self) -> [bool; 2] {
-        self.prebend.each_ref().map(|own| *own != Expr::Number(0.0))
+        self.prebend
+            .each_ref()
+            .map(|prebend| *prebend != Expr::Number(0.0))
     }
 
     /// The sections of a part of it: their places within the part, their weights, and what they are.

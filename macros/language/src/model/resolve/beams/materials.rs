@@ -102,9 +102,9 @@ impl Resolver<'_> {
         name: &Ident,
         given: &Arguments<'_>,
     ) -> Option<Properties> {
-        let own = self.properties(name, given);
+        let properties = self.properties(name, given);
         let Some(value) = given.get("material") else {
-            return own;
+            return properties;
         };
         let ValueKind::Name(wanted) = &value.kind else {
             let message = "`material` is the name of a declared material";

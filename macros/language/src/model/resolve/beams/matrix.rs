@@ -55,7 +55,7 @@ impl Resolver<'_> {
         }
         let entries: Vec<Expr> = entries.into_iter().collect::<Option<_>>()?;
         let at = |i: usize, j: usize| &entries[6 * i + j];
-        let numbers: Vec<f64> = entries.iter().map(|own| self.nominal_of(own)).collect();
+        let numbers: Vec<f64> = entries.iter().map(|entry| self.nominal_of(entry)).collect();
         for (i, row) in rows.iter().enumerate() {
             for (j, entry) in row.iter().enumerate().take(i) {
                 let (here, there) = (numbers[6 * i + j], numbers[6 * j + i]);
@@ -131,7 +131,7 @@ fn pivots(entries: &[Expr]) -> Vec<(usize, Expr)> {
     let mut list = Vec::new();
     for k in 0..6 {
         let given = &entries[6 * k..6 * k + 6];
-        if given.iter().all(|own| *own == Expr::Number(0.0)) {
+        if given.iter().all(|x| *x == Expr::Number(0.0)) {
             continue;
         }
         let row = rest[6 * k..6 * k + 6].to_vec();

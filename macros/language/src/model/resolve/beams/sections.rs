@@ -166,11 +166,11 @@ impl Resolver<'_> {
                 let Some(value) = given.get(argument) else {
                     return Some(Expr::Number(0.0));
                 };
-                let own = self.scalar_of(value, dimension, &format!("`{argument}`"))?;
+                let expr = self.scalar_of(value, dimension, &format!("`{argument}`"))?;
                 if dimension == Dimension::LENGTH {
-                    self.require_of_beam(name, argument, &own, dimension, value);
+                    self.require_of_beam(name, argument, &expr, dimension, value);
                 }
-                Some(own)
+                Some(expr)
             })
             .collect();
         let mut all: Vec<Expr> = all.into_iter().collect::<Option<_>>()?;
@@ -344,7 +344,7 @@ impl Resolver<'_> {
         let design: Vec<f64> = self
             .design
             .iter()
-            .map(|own| own.as_ref().map_or(f64::NAN, |own| own.value))
+            .map(|value| value.as_ref().map_or(f64::NAN, |x| x.value))
             .collect();
         let inputs = vec![1.0; self.inputs.len()];
         let values = crate::model::evaluate::Values::new(&self.constants, &inputs, &design);
@@ -357,10 +357,10 @@ fn both_ends(
     root: &[(usize, usize, Expr)],
     tip: &[(usize, usize, Expr)],
 ) -> [Vec<(usize, usize, Expr)>; 2] {
-    let missing = |own: &[(usize, usize, Expr)], other: &[(usize, usize, Expr)]| {
-        let mut all = own.to_vec();
+    let missing = |item: &[(usize, usize, Expr)], other: &[(usize, usize, Expr)]| {
+        let mut all = item.to_vec();
         for (i, j, _) in other {
-            if !own.iter().any(|(a, b, _)| (a, b) == (i, j)) {
+            if !item.iter().any(|(a, b, _)| (a, b) == (i, j)) {
                 all.push((*i, *j, Expr::Number(0.0)));
             }
         }

@@ -37,14 +37,14 @@ impl Resolver<'_> {
     pub(in crate::model::resolve) fn station(
         &mut self,
         frame: &Ident,
-        place: &Value,
+        value: &Value,
     ) -> Option<Option<Frame>> {
         let beam = self
             .stations
             .beams
             .iter()
             .position(|(name, _)| name == frame);
-        let fraction = match &place.kind {
+        let fraction = match &value.kind {
             ValueKind::Fraction(fraction) => *fraction,
             ValueKind::Name(word) if beam.is_some() && word == "tip" => 1.0,
             ValueKind::Name(word) if beam.is_some() && word == "root" => 0.0,
@@ -54,14 +54,14 @@ impl Resolver<'_> {
             let message = format!("`{frame}` is not a beam: it has no places along it");
             let help = format!("place it by a vector: `{frame} at [0.1 m, 0, 0]`");
             self.diagnostics
-                .error_with_help(place.extent, message, help);
+                .error_with_help(value.extent, message, help);
             return Some(None);
         };
         if !(0.0..=1.0).contains(&fraction) {
             let message = format!("{fraction} is outside the beam, which goes from 0 to 1 length");
             let help = format!("write a fraction: `{frame} at 0.4 length`, or `{frame} at tip`");
             self.diagnostics
-                .error_with_help(place.extent, message, help);
+                .error_with_help(value.extent, message, help);
             return Some(None);
         }
         let root = self.frame(frame);
@@ -72,7 +72,7 @@ impl Resolver<'_> {
             .stations
             .used
             .iter()
-            .position(|own| *own == (beam, fraction));
+            .position(|x| *x == (beam, fraction));
         let index = known.unwrap_or_else(|| {
             self.stations.used.push((beam, fraction));
             self.stations.used.len() - 1
@@ -82,12 +82,12 @@ impl Resolver<'_> {
     }
 
     pub(in crate::model::resolve) fn is_beam(&self, name: &Ident) -> bool {
-        self.stations.beams.iter().any(|(own, _)| own == name)
+        self.stations.beams.iter().any(|(x, _)| x == name)
     }
 
     /// Whether a beam stretches or shears by coordinates of its own; `None` if it is wrong.
     pub(in crate::model::resolve) fn strains(&self, name: &Ident) -> Option<bool> {
-        let (_, beam) = self.stations.beams.iter().find(|(own, _)| own == name)?;
+        let (_, beam) = self.stations.beams.iter().find(|(x, _)| x == name)?;
         Some(beam.as_ref()?.strains != [0; 3])
     }
 
@@ -267,7 +267,7 @@ impl Resolver<'_> {
             let arguments = call.arguments.iter().flatten();
             names.extend(
                 arguments
-                    .flat_map(|own| own.value.names())
+                    .flat_map(|argument| argument.value.names())
                     .map(Ident::to_string),
             );
         }

@@ -89,9 +89,7 @@ impl Table {
             return true;
         }
         match self.kind {
-            Kind::Numbers => self.ends[0][4..6]
-                .iter()
-                .any(|own| *own != Expr::Number(0.0)),
+            Kind::Numbers => self.ends[0][4..6].iter().any(|x| *x != Expr::Number(0.0)),
             _ => true,
         }
     }
@@ -106,21 +104,19 @@ impl Table {
         self.centers
             .as_flattened()
             .iter()
-            .any(|own| *own != Expr::Number(0.0))
+            .any(|center| *center != Expr::Number(0.0))
     }
 
     /// The section at a fraction of the length.
-    pub(super) fn section(&self, place: f64, turned: (&Expr, &[Expr; 2])) -> Section {
+    pub(super) fn section(&self, value: f64, turned: (&Expr, &[Expr; 2])) -> Section {
         let [root, tip] = &self.ends;
         let both = root.iter().zip(tip);
-        let at: Vec<Expr> = both.map(|(root, tip)| between(root, tip, place)).collect();
-        let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], place));
+        let at: Vec<Expr> = both.map(|(root, tip)| between(root, tip, value)).collect();
+        let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], value));
         let pairs = self.coupling[0].iter().zip(&self.coupling[1]);
-        let pairs = pairs.map(|((i, j, root), (.., tip))| (*i, *j, between(root, tip, place)));
-        let coupling = pairs
-            .filter(|(.., own)| *own != Expr::Number(0.0))
-            .collect();
-        let share = |whole: &Expr| multiply(Expr::Number(place), whole.clone());
+        let pairs = pairs.map(|((i, j, root), (.., tip))| (*i, *j, between(root, tip, value)));
+        let coupling = pairs.filter(|(.., x)| *x != Expr::Number(0.0)).collect();
+        let share = |whole: &Expr| multiply(Expr::Number(value), whole.clone());
         let (twist, prebend) = (share(turned.0), turned.1.each_ref().map(share));
         if let [
             mass,
@@ -269,12 +265,12 @@ impl Table {
 }
 
 /// What changes linearly from the root to the tip.
-fn between(root: &Expr, tip: &Expr, place: f64) -> Expr {
+fn between(root: &Expr, tip: &Expr, value: f64) -> Expr {
     match root == tip {
         true => root.clone(),
         false => add(
-            multiply(Expr::Number(1.0 - place), root.clone()),
-            multiply(Expr::Number(place), tip.clone()),
+            multiply(Expr::Number(1.0 - value), root.clone()),
+            multiply(Expr::Number(value), tip.clone()),
         ),
     }
 }

@@ -168,14 +168,15 @@ impl Resolver<'_> {
 
     fn is_driven(&self, id: CoordinateId) -> bool {
         let declared = self.coordinates.get(id.index());
-        declared.is_some_and(|own| own.motion.is_given())
+        declared.is_some_and(|declared| declared.motion.is_given())
     }
 
     /// Whether a coordinate keeps moving in steady motion; `None` if its joint is wrong.
     pub(in crate::model::resolve) fn runs(&self, id: CoordinateId) -> Option<bool> {
         let declared = self.coordinates.get(id.index())?;
         let mut resolved = self.declared_coordinates.iter();
-        let own = resolved.find(|own| own.joint == declared.joint && own.name == *declared.name);
-        own.map(|own| own.motion.runs())
+        let own = resolved
+            .find(|resolved| resolved.joint == declared.joint && resolved.name == *declared.name);
+        own.map(|x| x.motion.runs())
     }
 }

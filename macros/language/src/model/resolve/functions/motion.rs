@@ -20,7 +20,7 @@ impl Resolver<'_> {
         name: &str,
         function: &Ident,
         arguments: &[Value],
-        place: ValueContext,
+        value_context: ValueContext,
     ) -> Option<Typed> {
         let length = Quantity::Of(Dimension::LENGTH);
         let energy = Quantity::Of(Dimension::MOMENT);
@@ -32,14 +32,14 @@ impl Resolver<'_> {
                 Typed::Scalar(simplify::norm(&apart), length)
             }
             ("distance_from_axis", [point, axis]) => {
-                let (point, axis) = (self.position_of(point), self.direction(axis, place));
+                let (point, axis) = (self.position_of(point), self.direction(axis, value_context));
                 let arm = simplify::cross(&axis?, &point?);
                 Typed::Scalar(simplify::norm(&arm), length)
             }
             ("rate", [coordinate]) => {
                 let name = self.name_of(coordinate, "coordinate")?;
                 let (coordinate, quantity) = self.coordinate(name)?;
-                if place == ValueContext::Output {
+                if value_context == ValueContext::Output {
                     self.rate_is_constant(function, name, coordinate)?;
                 }
                 let rate = Quantity::Of(coordinates::rate_dimension(quantity));
@@ -151,8 +151,8 @@ impl Resolver<'_> {
     /// The force inside a beam is what its outer part transmits: the beam ends there, and another continues it.
     fn cut_open_at(&mut self, name: &Ident) -> Option<()> {
         let placement = self.declared_point(name)?.placement.as_ref();
-        let place = placement.and_then(|own| own.offset.as_ref());
-        let is_inside = place.is_some_and(|place| match &place.kind {
+        let offset = placement.and_then(|placement| placement.offset.as_ref());
+        let is_inside = offset.is_some_and(|place| match &place.kind {
             ValueKind::Fraction(fraction) => *fraction > 0.0,
             ValueKind::Name(word) => word == "tip",
             _ => false,

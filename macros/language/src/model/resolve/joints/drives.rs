@@ -108,17 +108,17 @@ impl Resolver<'_> {
     fn say(
         &mut self,
         motions: &mut Motions,
-        place: usize,
+        index: usize,
         motion: DeclaredMotion,
         name: Option<&Ident>,
         keyword: Extent,
     ) -> Option<()> {
-        let before = std::mem::replace(&mut motions.said[place], motion);
+        let before = std::mem::replace(&mut motions.said[index], motion);
         if before == DeclaredMotion::Free {
             return Some(());
         }
         if before != motion {
-            let name = self.coordinates.get(motions.ids[place].index())?.name;
+            let name = self.coordinates.get(motions.ids[index].index())?.name;
             let message = format!("`{name}` is both {} and {}", before.word(), motion.word());
             let help = match (before, motion) {
                 (DeclaredMotion::Shaken, _) | (_, DeclaredMotion::Shaken) => {
@@ -168,7 +168,7 @@ impl Resolver<'_> {
     ) -> Option<usize> {
         let word = motion.word();
         self.has_motions(kind, &format!("be {word}"), keyword)?;
-        let place = match coordinate {
+        let index = match coordinate {
             Some(name) => self.place_named(name, ids)?,
             None if ids.len() == 1 => 0,
             None => {
@@ -189,7 +189,7 @@ impl Resolver<'_> {
             }
         };
         self.is_not_cut(joint, &format!("be {word}"), keyword)?;
-        Some(place)
+        Some(index)
     }
 
     fn has_motions(&mut self, kind: &Kind, verb: &str, keyword: Extent) -> Option<()> {
@@ -217,8 +217,8 @@ impl Resolver<'_> {
     fn place_named(&mut self, name: &Ident, ids: &[CoordinateId]) -> Option<usize> {
         let (names, quoted) = self.names_of(ids);
         let text = name.to_string();
-        let place = names.iter().position(|other| *other == text);
-        if place.is_none() && !names.is_empty() {
+        let index = names.iter().position(|other| *other == text);
+        if index.is_none() && !names.is_empty() {
             let message = format!("`{text}` is not a coordinate of this joint");
             let help = match nearest(&text, names.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean `{near}`?"),
@@ -226,7 +226,7 @@ impl Resolver<'_> {
             };
             self.diagnostics.error_with_help(name, message, help);
         }
-        place
+        index
     }
 
     /// Names of coordinates, and their list for messages.

@@ -11,11 +11,11 @@ fn conservative(pencil: &Linear) -> Option<Vec<Root>> {
     let n = pencil.mass.row_count();
     let mut store = vec![0.0; 6 * n * n + 2 * n];
     let scaled = scaled(Eigenproblem::Quadratic(pencil), &mut &mut store[..]).unwrap();
-    let found = oscillations(&scaled.pencil)?;
-    let root = |own: crate::eigenproblem::general::gyroscopic::Oscillation| {
-        own.root(scaled.rate, scaled.right)
+    let oscillations = oscillations(&scaled.pencil)?;
+    let root = |oscillation: crate::eigenproblem::general::gyroscopic::Oscillation| {
+        oscillation.root(scaled.rate, scaled.right)
     };
-    Some(found.into_iter().map(root).collect())
+    Some(oscillations.into_iter().map(root).collect())
 }
 
 fn compare(rounds: u64) {
@@ -30,7 +30,7 @@ fn compare(rounds: u64) {
         checks::check(&pencil, &special).unwrap_or_else(|what| panic!("round {round}: {what}"));
         let general = with_errors(&solve(&pencil).unwrap());
         for (s, error) in with_errors(&special) {
-            let nearest = general.iter().map(|(other, own)| (s - other).norm() - own);
+            let nearest = general.iter().map(|(other, x)| (s - other).norm() - x);
             let off = nearest.fold(f64::INFINITY, f64::min);
             assert!(
                 off <= error,

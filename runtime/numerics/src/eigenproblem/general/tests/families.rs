@@ -69,7 +69,7 @@ pub(crate) fn spinning_chain(n: usize, speed: f64) -> Linear {
         .map(|i| 9.81 * ((n / 2 - i) as f64 - 0.5))
         .collect();
     let stiffness = sum(&diagonal(&weight), -speed * speed, &mass);
-    let [mass, stiffness] = [mass, stiffness].map(|own| mirrored(&in_joint_angles(&own)));
+    let [mass, stiffness] = [mass, stiffness].map(|x| mirrored(&in_joint_angles(&x)));
     let coriolis = twice(&mass, TURN).map(|x| 2.0 * speed * x);
     linear(twice(&mass, BOTH), coriolis, twice(&stiffness, BOTH))
 }

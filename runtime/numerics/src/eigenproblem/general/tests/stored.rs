@@ -48,11 +48,11 @@ fn compare(name: &str, roots: &[Root], eigenvalues: &[Complex64]) {
             .map(Complex64::conj),
     );
     for s in all(roots) {
-        let own = roots.iter().find(|root| root.s == s || root.s.conj() == s);
+        let root = roots.iter().find(|root| root.s == s || root.s.conj() == s);
         let apart = |other: &Complex64| (s - other).norm();
         let nearest = (0..left.len()).min_by(|&a, &b| apart(&left[a]).total_cmp(&apart(&left[b])));
         let exact = left.swap_remove(nearest.unwrap());
-        let (off, error) = (apart(&exact), own.unwrap().error);
+        let (off, error) = (apart(&exact), root.unwrap().error);
         assert!(
             off <= error,
             "{name}: {s} is off by {off:e}, error {error:e}"
@@ -120,9 +120,9 @@ fn units_that_are_powers_of_two_round_nothing() {
         );
         let (roots, others) = (solve(&stored.linear).unwrap(), solve(&other).unwrap());
         assert_eq!(roots.len(), others.len(), "{}", stored.name);
-        for (own, other) in roots.iter().zip(&others) {
-            assert_eq!(own.s / TIME, other.s, "{}", stored.name);
-            assert_eq!(own.error / TIME, other.error, "{}", stored.name);
+        for (root, other) in roots.iter().zip(&others) {
+            assert_eq!(root.s / TIME, other.s, "{}", stored.name);
+            assert_eq!(root.error / TIME, other.error, "{}", stored.name);
         }
     }
 }
@@ -130,12 +130,12 @@ fn units_that_are_powers_of_two_round_nothing() {
 #[test]
 fn the_same_bits_again_and_in_other_threads() {
     let pencils = stored();
-    let once: Vec<_> = pencils.iter().map(|own| solve(&own.linear)).collect();
+    let once: Vec<_> = pencils.iter().map(|pencil| solve(&pencil.linear)).collect();
     std::thread::scope(|scope| {
         for _ in 0..2 {
             scope.spawn(|| {
-                for (own, once) in pencils.iter().zip(&once) {
-                    assert_eq!(solve(&own.linear), *once, "{}", own.name);
+                for (pencil, once) in pencils.iter().zip(&once) {
+                    assert_eq!(solve(&pencil.linear), *once, "{}", pencil.name);
                 }
             });
         }
