@@ -102,8 +102,8 @@ fn regrouped_kernels(functions: &mut Functions) -> Vec<Function> {
     for function in others {
         kernels.extend(regrouped(&mut functions.graph, &[function]));
     }
-    let place = |name: &str| functions.functions.iter().position(|f| f.name == name);
-    kernels.sort_by_key(|kernel| place(kernel.name));
+    let position = |name: &str| functions.functions.iter().position(|f| f.name == name);
+    kernels.sort_by_key(|kernel| position(kernel.name));
     kernels
 }
 

@@ -124,7 +124,7 @@ pub(crate) fn assemble(
             pose: Pose::default(),
         });
     }
-    for (place, (index, name)) in joint_names.iter().enumerate() {
+    for (number, (index, name)) in joint_names.iter().enumerate() {
         let joint = &robot.joints[*index];
         let (group, pose) = &tree.place[joint.parent];
         moving.push(Moving {
@@ -132,7 +132,7 @@ pub(crate) fn assemble(
             kind: kind(joint.kind),
             coordinates: coordinates(joint, name, &mut names),
             from: body_names[*group].clone(),
-            to: body_names[place + 1].clone(),
+            to: body_names[number + 1].clone(),
             pose: pose.then(&joint.pose),
         });
     }
@@ -307,8 +307,8 @@ fn bodies(
             .copied()
             .filter(|&link| is_heavy(robot, link))
             .collect();
-        let found = mass(robot, tree, &heavy);
-        match found.and_then(|mass| judged(robot, &heavy, mass, options, notes)) {
+        let total = mass(robot, tree, &heavy);
+        match total.and_then(|mass| judged(robot, &heavy, mass, options, notes)) {
             Ok(mass) => bodies.push(Body {
                 name: name.clone(),
                 mass,

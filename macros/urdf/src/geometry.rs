@@ -94,14 +94,14 @@ impl Moments {
         let turn = frame.matrix();
         let mass = inertial.mass;
         let half = (0..3).map(|k| inertial.inertia[k][k]).sum::<f64>() / 2.0;
-        let own = matrix(|i, j| half * identity(i, j) - inertial.inertia[i][j]);
+        let local = matrix(|i, j| half * identity(i, j) - inertial.inertia[i][j]);
         let back = matrix(|i, j| turn[j][i]);
-        let own = product(&product(&turn, &own), &back);
+        let central = product(&product(&turn, &local), &back);
         let center = frame.offset;
         Self {
             mass,
             first: center.map(|x| mass * x),
-            second: matrix(|i, j| own[i][j] + mass * center[i] * center[j]),
+            second: matrix(|i, j| central[i][j] + mass * center[i] * center[j]),
         }
     }
 

@@ -7,7 +7,7 @@ use roxmltree::{Document, Node};
 
 use crate::error::{ImportError, Mistake, Reason};
 use crate::geometry::{Inertial, Matrix, Pose, Vector, norm};
-use crate::robot::{Joint, JointKind, Link, Mimic, Place, Robot};
+use crate::robot::{Joint, JointKind, Link, Mimic, Robot, SourcePosition};
 
 const KINDS: [(&str, JointKind); 6] = [
     ("revolute", JointKind::Revolute),
@@ -20,12 +20,12 @@ const KINDS: [(&str, JointKind); 6] = [
 
 /// Reads a file.
 pub(crate) fn read(text: &str) -> Result<Robot, ImportError> {
-    let only = |place: Place, reason| ImportError {
+    let only = |place: SourcePosition, reason| ImportError {
         mistakes: vec![place.mistake(reason)],
     };
     let document = Document::parse(text).map_err(|error| {
         let at = error.pos();
-        let place = Place {
+        let place = SourcePosition {
             line: at.row,
             column: at.col,
         };
@@ -86,9 +86,9 @@ fn child<'a>(node: Node<'a, 'a>, tag: &str) -> Option<Node<'a, 'a>> {
 }
 
 impl<'a> Reader<'a> {
-    fn place(&self, node: Node) -> Place {
+    fn place(&self, node: Node) -> SourcePosition {
         let at = self.document.text_pos_at(node.range().start);
-        Place {
+        SourcePosition {
             line: at.row,
             column: at.col,
         }
@@ -113,8 +113,8 @@ impl<'a> Reader<'a> {
     }
 
     fn attribute(&mut self, node: Node<'a, 'a>, attribute: &'static str) -> Option<&'a str> {
-        let found = node.attribute(attribute).map(str::trim);
-        let text = found.filter(|text| !text.is_empty());
+        let trimmed = node.attribute(attribute).map(str::trim);
+        let text = trimmed.filter(|text| !text.is_empty());
         if text.is_none() {
             let element = node.tag_name().name().to_owned();
             self.report(node, Reason::MissingAttribute { element, attribute });
@@ -261,8 +261,8 @@ impl<'a> Reader<'a> {
     }
 
     fn kind(&mut self, node: Node, word: &str) -> Option<JointKind> {
-        let found = KINDS.iter().find(|(known, _)| *known == word);
-        if found.is_none() {
+        let entry = KINDS.iter().find(|(known, _)| *known == word);
+        if entry.is_none() {
             let near = nearest(word, KINDS.map(|(known, _)| known));
             let near = KINDS
                 .iter()
@@ -271,7 +271,7 @@ impl<'a> Reader<'a> {
             let word = word.to_owned();
             self.report(node, Reason::JointType { found: word, near });
         }
-        found.map(|(_, kind)| *kind)
+        entry.map(|(_, kind)| *kind)
     }
 
     fn link_of(
@@ -283,8 +283,8 @@ impl<'a> Reader<'a> {
     ) -> Option<usize> {
         let end = self.needed(node, element, joint)?;
         let name = self.attribute(end, "link")?;
-        let found = links.iter().position(|link| link.name == name);
-        if found.is_none() {
+        let index = links.iter().position(|link| link.name == name);
+        if index.is_none() {
             let near = nearest(name, links.iter().map(|link| link.name.as_str()));
             let reason = Reason::Unknown {
                 what: "link",
@@ -293,7 +293,7 @@ impl<'a> Reader<'a> {
             };
             self.report(end, reason);
         }
-        found
+        index
     }
 
     fn mimic(&mut self, node: Node<'a, 'a>, names: &[&str]) -> Option<Mimic> {
@@ -301,8 +301,8 @@ impl<'a> Reader<'a> {
         let ratio = self.number(node, "multiplier", 1.0);
         let offset = self.number(node, "offset", 0.0);
         let name = name?;
-        let found = names.iter().position(|known| *known == name);
-        if found.is_none() {
+        let index = names.iter().position(|known| *known == name);
+        if index.is_none() {
             let near = nearest(name, names.iter().copied());
             // A copied limb may have a prefix that its `mimic` lacks.
             let longer = || names.iter().copied().find(|known| known.ends_with(name));
@@ -314,7 +314,7 @@ impl<'a> Reader<'a> {
             self.report(node, reason);
         }
         Some(Mimic {
-            of: found?,
+            of: index?,
             ratio: ratio?,
             offset: offset?,
         })

@@ -8,7 +8,7 @@ use crate::geometry::{Inertial, Pose, Vector};
 #[derive(Clone, Debug)]
 pub(crate) struct Robot {
     pub(crate) name: String,
-    pub(crate) at: Place,
+    pub(crate) at: SourcePosition,
     pub(crate) links: Vec<Link>,
     pub(crate) joints: Vec<Joint>,
     /// Elements of the file that this type does not represent, by kind of owner (`joints`) and element, with the
@@ -19,14 +19,14 @@ pub(crate) struct Robot {
 #[derive(Clone, Debug)]
 pub(crate) struct Link {
     pub(crate) name: String,
-    pub(crate) at: Place,
+    pub(crate) at: SourcePosition,
     pub(crate) inertial: Option<Inertial>,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) struct Joint {
     pub(crate) name: String,
-    pub(crate) at: Place,
+    pub(crate) at: SourcePosition,
     pub(crate) kind: JointKind,
     pub(crate) parent: usize,
     pub(crate) child: usize,
@@ -63,12 +63,12 @@ pub(crate) struct Mimic {
 
 /// Position in the file: line and column, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Place {
+pub(crate) struct SourcePosition {
     pub(crate) line: u32,
     pub(crate) column: u32,
 }
 
-impl Place {
+impl SourcePosition {
     pub(crate) fn mistake(self, reason: Reason) -> Mistake {
         Mistake {
             line: self.line,

@@ -186,7 +186,7 @@ pub fn campbell_each(
         critical: true,
     };
     let way = (mechanism, (u, b), start);
-    let (found, route) = between(way, &following, (input, values), &sought)?;
+    let (all_events, route) = between(way, &following, (input, values), &sought)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input).on(route);
     let mut unreached = values.len();
     for &value in values {
@@ -222,10 +222,10 @@ pub fn campbell_each(
         (1.., Some(last)) => events.until(last.value),
         _ => events,
     };
-    if let Some(found) = found.map(until) {
+    if let Some(events) = all_events.map(until) {
         let spread = |state| critical_tolerance(mechanism, state, tolerances);
-        diagram.critical = found.critical.iter().map(spread).collect();
-        for crossing in &found.crossings {
+        diagram.critical = events.critical.iter().map(spread).collect();
+        for crossing in &events.crossings {
             let event = labelled(
                 crossing,
                 crossing_tolerance(mechanism, crossing, tolerances),
@@ -235,7 +235,7 @@ pub fn campbell_each(
                 Condition::FlutterOnset => diagram.flutter_onsets.push(event),
             }
         }
-        diagram.searched = Some(found.searched);
+        diagram.searched = Some(events.searched);
     }
     // By engine order; the sort is stable, so events stay in the order found.
     let order = |event: &EventTolerance| match event.event {
@@ -264,9 +264,9 @@ fn describe(
     let slopes: Option<Sensitivities> = sensitivities(mechanism, state, modes).ok();
     let whirls = whirls(mechanism, state, modes);
     let one = |(r, mode): (usize, &Mode)| {
-        let own = slopes.as_ref().map(|slopes| &slopes.modes[r]);
+        let sensitivity = slopes.as_ref().map(|slopes| &slopes.modes[r]);
         let spread = |quantity: Quantity| {
-            let by_design = own?.of(quantity)?.by_design;
+            let by_design = sensitivity?.of(quantity)?.by_design;
             Some(Spread::new(quantity.of(mode)?, by_design, tolerances))
         };
         CampbellMode {
@@ -276,7 +276,7 @@ fn describe(
             frequency: spread(Quantity::Frequency),
             damping_ratio: spread(Quantity::DampingRatio),
             whirl: whirls[r],
-            clustered: own.is_some_and(|x| x.clustered),
+            clustered: sensitivity.is_some_and(|x| x.clustered),
         }
     };
     modes.modes.iter().enumerate().map(one).collect()

@@ -57,19 +57,22 @@ impl<'a> QuadraticModels<'a> {
         match response {
             Response::Mode { mode, quantity } => self.of_mode(mode, quantity),
             Response::Output(output) => {
-                let own = output_curvature(mechanism, at, output)?;
+                let expansion = output_curvature(mechanism, at, output)?;
                 Ok(QuadraticModel {
                     quadratic: Quadratic {
-                        value: own.value,
-                        slopes: own.first.by_design,
-                        curvature: own.second.by_design,
+                        value: expansion.value,
+                        slopes: expansion.first.by_design,
+                        curvature: expansion.second.by_design,
                     },
-                    by_input: Some((own.first.by_input, own.second.by_input_and_design)),
+                    by_input: Some((
+                        expansion.first.by_input,
+                        expansion.second.by_input_and_design,
+                    )),
                 })
             }
             Response::Vibration(vibration) => {
-                let found = vibration.quadratic(mechanism, at)?;
-                let ((value, first), second) = found.ok_or(missing)?;
+                let derivatives = vibration.quadratic(mechanism, at)?;
+                let ((value, first), second) = derivatives.ok_or(missing)?;
                 Ok(QuadraticModel {
                     quadratic: Quadratic {
                         value,
@@ -96,13 +99,13 @@ impl<'a> QuadraticModels<'a> {
     fn of_mode(&mut self, mode: usize, quantity: Quantity) -> Result<QuadraticModel, Error> {
         let modes = self.responses.modes();
         let solve = || mode_curvature(self.mechanism, self.responses.nominal(), modes, mode);
-        let own = self.of_mode.entry(mode).or_insert_with(solve);
-        let own = own.as_ref().map_err(Clone::clone)?;
+        let entry = self.of_mode.entry(mode).or_insert_with(solve);
+        let curvature = entry.as_ref().map_err(Clone::clone)?;
         let lambda = modes.modes[mode].lambda;
         let silent = || Error::NotOscillating { mode, lambda };
-        let quadratic = own.quadratic(quantity).ok_or_else(silent)?;
-        let first = own.first.of(quantity).ok_or_else(silent)?;
-        let second = own.of(quantity).ok_or_else(silent)?;
+        let quadratic = curvature.quadratic(quantity).ok_or_else(silent)?;
+        let first = curvature.first.of(quantity).ok_or_else(silent)?;
+        let second = curvature.of(quantity).ok_or_else(silent)?;
         Ok(QuadraticModel {
             quadratic,
             by_input: Some((first.by_input, second.by_input_and_design)),

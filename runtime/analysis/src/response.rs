@@ -366,7 +366,7 @@ impl<'a> Responses<'a> {
             values: Vec::with_capacity(self.wanted.len()),
             gradients: Vec::new(),
         };
-        let mut own = Own::default();
+        let mut derivatives = LazyDerivatives::default();
         for response in &self.wanted {
             let (value, gradient) = match response {
                 Response::Critical(range) => {
@@ -395,9 +395,9 @@ impl<'a> Responses<'a> {
                 Response::Mode { mode, quantity } => {
                     let value = solved.mode(*mode).and_then(|mode| quantity.of(mode));
                     let slopes = value.filter(|_| slopes);
-                    let place = solved.place(*mode);
-                    let gradient = slopes.and(place).and_then(|mask| {
-                        let all = own.of_modes(self.mechanism, solved)?;
+                    let index = solved.place(*mode);
+                    let gradient = slopes.and(index).and_then(|mask| {
+                        let all = derivatives.of_modes(self.mechanism, solved)?;
                         let mode = all.modes.get(mask)?;
                         match mode.clustered {
                             false => Some(mode.of(*quantity)?.by_design),
@@ -408,12 +408,12 @@ impl<'a> Responses<'a> {
                 }
                 Response::Vibration(vibration) => {
                     let state = &solved.state;
-                    let forced_response = own.of_vibrations(self.mechanism, solved);
+                    let forced_response = derivatives.of_vibrations(self.mechanism, solved);
                     let value = forced_response.and_then(|found| vibration.of(found));
                     let gradient = value.filter(|_| slopes).and_then(|_| {
                         let all = forced::sensitivities(self.mechanism, state).ok()?;
-                        let place = vibration.place(&state.description)?;
-                        let slopes = all.modulus(place, vibration.output, vibration.measure)?;
+                        let harmonic = vibration.place(&state.description)?;
+                        let slopes = all.modulus(harmonic, vibration.output, vibration.measure)?;
                         Some(slopes.by_design)
                     });
                     (value, gradient)
@@ -426,7 +426,7 @@ impl<'a> Responses<'a> {
                     let value = values.get(k).copied().filter(|value| value.is_finite());
                     let slopes = value.filter(|_| slopes);
                     let gradient = slopes.and_then(|_| {
-                        let all = own.of_outputs(self.mechanism, solved)?;
+                        let all = derivatives.of_outputs(self.mechanism, solved)?;
                         all.by_design.get(k)?.clone()
                     });
                     (value, gradient)
@@ -458,14 +458,16 @@ impl<'a> Responses<'a> {
                     s.and_then(|s| quantity.of_stable(*s))
                 }
                 Response::Vibration(vibration) => {
-                    let found = forced.get_or_insert_with(|| {
+                    let forced_response = forced.get_or_insert_with(|| {
                         state.coordinates.copy_from_slice(solved.coordinates);
                         state.design.copy_from_slice(design);
                         let (q, u) = (&state.coordinates, &state.inputs);
                         self.mechanism.linear_into(q, u, design, &mut state.linear);
                         forced::response(self.mechanism, state).ok()
                     });
-                    found.as_ref().and_then(|found| vibration.of(found))
+                    forced_response
+                        .as_ref()
+                        .and_then(|forced_response| vibration.of(forced_response))
                 }
                 _ => None,
             };
@@ -557,20 +559,20 @@ fn check_mode(mode: usize, modes: &Modes) -> Result<(), Error> {
 
 /// Derivatives at one design, computed when first needed.
 #[derive(Default)]
-struct Own {
+struct LazyDerivatives {
     modes: Option<Option<crate::Sensitivities>>,
     outputs: Option<Option<crate::sensitivity::OutputSensitivities>>,
     vibrations: Option<Option<ForcedResponse>>,
 }
 
-impl Own {
+impl LazyDerivatives {
     fn of_modes(
         &mut self,
         mechanism: &dyn Kernels,
         solved: &Solution,
     ) -> Option<&crate::Sensitivities> {
-        let found = || sensitivities(mechanism, &solved.state, solved.modes()).ok();
-        self.modes.get_or_insert_with(found).as_ref()
+        let computed = || sensitivities(mechanism, &solved.state, solved.modes()).ok();
+        self.modes.get_or_insert_with(computed).as_ref()
     }
 
     fn of_vibrations(
@@ -578,8 +580,8 @@ impl Own {
         mechanism: &dyn Kernels,
         solved: &Solution,
     ) -> Option<&ForcedResponse> {
-        let found = || forced::response(mechanism, &solved.state).ok();
-        self.vibrations.get_or_insert_with(found).as_ref()
+        let computed = || forced::response(mechanism, &solved.state).ok();
+        self.vibrations.get_or_insert_with(computed).as_ref()
     }
 
     fn of_outputs(
@@ -587,7 +589,7 @@ impl Own {
         mechanism: &dyn Kernels,
         solved: &Solution,
     ) -> Option<&crate::sensitivity::OutputSensitivities> {
-        let found = || output_sensitivities(mechanism, &solved.state).ok();
-        self.outputs.get_or_insert_with(found).as_ref()
+        let computed = || output_sensitivities(mechanism, &solved.state).ok();
+        self.outputs.get_or_insert_with(computed).as_ref()
     }
 }

@@ -25,8 +25,8 @@ pub(crate) fn remember(machine: &Interpreted) {
     let picture = machine.picture_info();
     let beams = picture.beams.iter().map(|beam| beam.name.to_string());
     let closed = unknowns().any(|x| x.role == Role::PositionReaction);
-    let found = beams.filter(|beam| closed && !stretches(beam)).collect();
-    let _ = INEXTENSIBLE.set(found);
+    let inextensible = beams.filter(|beam| closed && !stretches(beam)).collect();
+    let _ = INEXTENSIBLE.set(inextensible);
 }
 
 /// Advice on a failure of that machine.

@@ -154,12 +154,12 @@ fn named<'a, T>(
 fn meant<'a, T>(name: &str, all: &'a [T], name_of: impl Fn(&'a T) -> &'a str) -> Option<&'a T> {
     let plain = |text: &str| text.to_lowercase().replace(['-', '_'], " ");
     let name = plain(name);
-    if let Some(found) = all.iter().find(|x| plain(name_of(x)) == name) {
-        return Some(found);
+    if let Some(exact) = all.iter().find(|x| plain(name_of(x)) == name) {
+        return Some(exact);
     }
     let begins = |item: &&'a T| plain(name_of(item)).starts_with(&format!("{name} "));
-    let mut found = all.iter().filter(begins);
-    found.next().filter(|_| found.next().is_none())
+    let mut candidates = all.iter().filter(begins);
+    candidates.next().filter(|_| candidates.next().is_none())
 }
 
 #[cfg(test)]

@@ -106,9 +106,9 @@ fn byte(source: &str, (line, column): (usize, usize)) -> usize {
         .map(str::len)
         .sum();
     let line = lines.nth(line.saturating_sub(1)).unwrap_or("");
-    let own = line.trim_end_matches(['\n', '\r']);
-    let inside = own.char_indices().nth(column.saturating_sub(1));
-    before + inside.map_or(own.len(), |(at, _)| at)
+    let text = line.trim_end_matches(['\n', '\r']);
+    let inside = text.char_indices().nth(column.saturating_sub(1));
+    before + inside.map_or(text.len(), |(at, _)| at)
 }
 
 #[cfg(test)]
@@ -118,14 +118,14 @@ mod tests {
     #[test]
     fn lines_and_characters_become_bytes() {
         let text = "ab\nµ c\r\nd";
-        for (place, expected) in [
+        for (location, expected) in [
             ((1, 1), 0),
             ((2, 1), 3),
             ((2, 2), 5),
             ((2, 9), 7),
             ((3, 1), 9),
         ] {
-            assert_eq!(byte(text, place), expected, "{place:?}");
+            assert_eq!(byte(text, location), expected, "{location:?}");
         }
         assert_eq!(byte(text, (9, 1)), text.len());
         assert_eq!(byte("", (1, 1)), 0);

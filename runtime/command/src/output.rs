@@ -7,8 +7,8 @@ use clap::Args;
 use eigentol_tables::Table;
 
 use crate::answer::{Answer, Form};
+use crate::destination::{Destination, is_same};
 use crate::failure::Failure;
-use crate::place::{Place, is_same};
 use crate::rows::Rows;
 
 /// Form and place of the answer.
@@ -30,7 +30,7 @@ pub(crate) struct Output {
     #[arg(long, value_name = "NAME")]
     table: Option<String>,
     #[command(flatten)]
-    place: Place,
+    place: Destination,
 }
 
 impl Output {
@@ -110,10 +110,10 @@ impl Output {
         (kind, table): (&str, &str),
         make: impl Fn(&[T]) -> Table + 'a,
     ) -> Result<Option<Rows<'a, T>>, Failure> {
-        let own = |wanted: &Option<String>, name: &str| {
+        let matches = |wanted: &Option<String>, name: &str| {
             wanted.as_deref().is_none_or(|wanted| wanted == name)
         };
-        let asked = own(&self.result, kind) && own(&self.table, table);
+        let asked = matches(&self.result, kind) && matches(&self.table, table);
         match self.form() {
             form if form.has_rows() && asked => {
                 Rows::begin(&self.place, form, Box::new(make)).map(Some)

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use eigentol_figures::{Figure, Form, Style};
 
+use crate::destination::Target;
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::place::Target;
 use crate::point::Question;
 use crate::study_file::FrequencyUnit;
 

@@ -77,11 +77,11 @@ impl Question {
 
     /// The same question of the equilibrium with this number.
     fn of_equilibrium(mut self, number: usize) -> Result<Self, Failure> {
-        let found = self.study.equilibria(&self.search()?)?;
-        let Some(state) = number.checked_sub(1).and_then(|k| found.get(k)) else {
+        let equilibria = self.study.equilibria(&self.search()?)?;
+        let Some(state) = number.checked_sub(1).and_then(|k| equilibria.get(k)) else {
             let message = format!(
                 "there is no equilibrium {number}: the search finds {}",
-                found.len()
+                equilibria.len()
             );
             return Err(Failure::usage(message, "`eigentol equilibria` lists them"));
         };
@@ -115,8 +115,8 @@ pub(crate) fn exact<N: FromStr>(text: &str) -> Result<N, String> {
 }
 
 /// The number of samples of the command line or else the study file.
-pub(crate) fn samples(own: Option<usize>, file: &StudyFile) -> Result<usize, Failure> {
-    match own.or(file.samples).unwrap_or(3000) {
+pub(crate) fn samples(option: Option<usize>, file: &StudyFile) -> Result<usize, Failure> {
+    match option.or(file.samples).unwrap_or(3000) {
         0 => {
             let help = "take at least 1: `--samples 3000`";
             Err(Failure::usage("0 samples have no result", help))
@@ -144,7 +144,7 @@ impl Point {
         if let Some(level) = self.sigma_level.or(file.sigma_level) {
             study = study.sigma_level(positive_level(level)?);
         }
-        for (option, given, own) in [
+        for (option, given, options) in [
             ("set", &file.set, &self.set),
             ("start", &file.start, &self.start),
             ("guess", &file.guess, &self.guess),
@@ -153,13 +153,13 @@ impl Point {
             for (name, value) in given {
                 study = set(study, option, (name, &value.to_string()))?;
             }
-            for (name, value) in own {
+            for (name, value) in options {
                 study = set(study, option, (name, value))?;
             }
         }
         let given = file.tolerance.iter();
-        let own = self.tol.iter().map(|(name, text)| (name, text));
-        for (name, text) in given.chain(own) {
+        let options = self.tol.iter().map(|(name, text)| (name, text));
+        for (name, text) in given.chain(options) {
             study = tolerate(study, &compilation, name, text)?;
         }
         study = correlate(study, &file.correlation)?;
@@ -167,9 +167,9 @@ impl Point {
             study = study.stay();
         }
         let given = file.between.iter();
-        let own = self.between.iter().map(|(name, text)| (name, text));
+        let options = self.between.iter().map(|(name, text)| (name, text));
         let between = given
-            .chain(own)
+            .chain(options)
             .map(|(name, text)| bounds(&study, name, text));
         let question = Question {
             between: between.collect::<Result<_, _>>()?,
@@ -249,7 +249,7 @@ fn tolerate(
 ) -> Result<Study<Interpreted>, Failure> {
     let (parameter, unit) = parameter(&study, name)?;
     let refused = |mistakes| Failure::value(format!("tolerance {name}={text}"), &mistakes);
-    let (value, found) = match parameter {
+    let (value, parsed) = match parameter {
         Parameter::Input(input) => {
             let value = study.input_values()[input.index()];
             (value, tolerance(text, &unit, value))
@@ -264,7 +264,7 @@ fn tolerate(
         upper,
         relative,
         law,
-    } = found.map_err(refused)?;
+    } = parsed.map_err(refused)?;
     let study = if !relative {
         study.limits(parameter, lower, upper)
     } else if lower == -upper {
@@ -290,18 +290,18 @@ fn correlate(
     let (design, inputs) = (study.design_values().len(), study.deviating_inputs());
     let count = design + inputs.len();
     let mut matrix = Matrix::from_fn(count, count, |i, j| if i == j { 1.0 } else { 0.0 });
-    let place = |name: &str| match parameter(&study, name)?.0 {
+    let index_of = |name: &str| match parameter(&study, name)?.0 {
         Parameter::Design(variable) => Ok(variable.index()),
         Parameter::Input(input) => {
-            let found = inputs.iter().position(|x| *x == input);
-            found.map(|k| design + k).ok_or_else(|| {
+            let position = inputs.iter().position(|x| *x == input);
+            position.map(|k| design + k).ok_or_else(|| {
                 let message = format!("correlation of `{name}`, which has no tolerance");
                 Failure::usage(message, format!("give `{name}` a tolerance"))
             })
         }
     };
     for (first, second, correlation) in pairs {
-        let (i, j) = (place(first)?, place(second)?);
+        let (i, j) = (index_of(first)?, index_of(second)?);
         matrix[i][j] = *correlation;
         matrix[j][i] = *correlation;
     }
@@ -413,8 +413,8 @@ pub(crate) fn unknown<'a>(
 }
 
 /// Reads a value from a study file.
-pub(crate) fn written(place: &str, text: &Written, unit: &Unit) -> Result<f64, Failure> {
+pub(crate) fn written(label: &str, text: &Written, unit: &Unit) -> Result<f64, Failure> {
     let text = text.to_string();
-    let refused = |mistakes| Failure::value(format!("{place} = \"{text}\""), &mistakes);
-    value(&text, unit, &format!("`{place}`")).map_err(refused)
+    let refused = |mistakes| Failure::value(format!("{label} = \"{text}\""), &mistakes);
+    value(&text, unit, &format!("`{label}`")).map_err(refused)
 }

@@ -52,11 +52,11 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
         return Ok(require);
     }
     let limits = [">=", "<=", " outside ", " within ", " away from "];
-    let found = limits.into_iter().find_map(|word| {
+    let split = limits.into_iter().find_map(|word| {
         let (what, limit) = text.split_once(word)?;
         Some((what, word.trim(), limit.trim()))
     });
-    let (what, word, limit) = found.ok_or_else(refused)?;
+    let (what, word, limit) = split.ok_or_else(refused)?;
     let written = |text: &str| Written::Text(text.trim().to_owned());
     let ends = || limit.split_once("..").ok_or_else(refused);
     match word {
@@ -123,7 +123,7 @@ fn requirement(study: &Study<Interpreted>, require: &Require) -> Result<Requirem
     }
     let response = response(study, require)?;
     let unit = response.unit(study.description());
-    let read = |place: &str, text: &Written| written(place, text, &unit);
+    let read = |label: &str, text: &Written| written(label, text, &unit);
     if let Some(text) = &require.away_from {
         return away(study, response, text);
     }
@@ -236,22 +236,29 @@ fn about_a_number(require: &Require) -> bool {
 fn response(study: &Study<Interpreted>, require: &Require) -> Result<Response, Failure> {
     let mode = || {
         let help = "modes are counted from 1: `mode = 1`";
-        let place = require.mode.and_then(|mode| mode.checked_sub(1));
-        place.ok_or_else(|| Failure::usage("there is no such mode", help))
+        let index = require.mode.and_then(|mode| mode.checked_sub(1));
+        index.ok_or_else(|| Failure::usage("there is no such mode", help))
     };
     let along = |text: &str| {
-        let found = range(study, text)?;
-        Ok::<_, Failure>(Range::new(found.input.any(), found.low, found.high))
+        let interval = range(study, text)?;
+        Ok::<_, Failure>(Range::new(
+            interval.input.any(),
+            interval.low,
+            interval.high,
+        ))
     };
     // Which event is the first must not depend on the direction in which the range is written.
     let crossing = |condition, text: &str| {
         let mode = mode()?;
-        let found = range(study, text)?;
-        let (low, high) = (found.low.min(found.high), found.low.max(found.high));
+        let interval = range(study, text)?;
+        let (low, high) = (
+            interval.low.min(interval.high),
+            interval.low.max(interval.high),
+        );
         Ok(Response::Crossing {
             mode,
             condition,
-            range: Range::new(found.input.any(), low, high),
+            range: Range::new(interval.input.any(), low, high),
         })
     };
     let stated = [
@@ -396,7 +403,7 @@ fn output(study: &Study<Interpreted>, name: &str) -> Result<Output, Failure> {
     let all = &study.description().outputs;
     study
         .find_output(name)
-        .map(|found| found.any())
+        .map(|handle| handle.any())
         .map_err(|_| {
             let known = all.iter().map(|info| &info.name);
             unknown(study.description(), "output", name, known)

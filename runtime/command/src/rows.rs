@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use eigentol_tables::{Error, Table, csv, parquet};
 
 use crate::answer::Form;
+use crate::destination::{Begun, Destination, Unfinished};
 use crate::failure::Failure;
-use crate::place::{Begun, Place, Unfinished};
 
 /// Items per block of rows: small for CSV, which is read while it grows; large for Parquet, where each block is a row
 /// group.
@@ -17,7 +17,7 @@ const PATIENCE: Duration = Duration::from_millis(200);
 
 /// The rows of one table, made from items of one type.
 pub(crate) struct Rows<'a, T> {
-    place: &'a Place,
+    place: &'a Destination,
     file: File,
     // Declared after the file, so that leftovers are removed once it is closed.
     target: Unfinished,
@@ -36,10 +36,14 @@ enum File {
 }
 
 impl<'a, T> Rows<'a, T> {
-    pub(crate) fn begin(place: &'a Place, form: Form, make: Make<'a, T>) -> Result<Self, Failure> {
-        let (target, begun) = place.begin()?;
+    pub(crate) fn begin(
+        destination: &'a Destination,
+        form: Form,
+        make: Make<'a, T>,
+    ) -> Result<Self, Failure> {
+        let (target, begun) = destination.begin()?;
         Ok(Self {
-            place,
+            place: destination,
             target,
             file: match form {
                 Form::Parquet => File::Parquet(parquet::Writer::new(begun)),
@@ -68,13 +72,13 @@ impl<'a, T> Rows<'a, T> {
     /// Writes the remaining rows and moves the file into place. Without rows, a file has only headings.
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
         self.write()?;
-        let place = self.place;
+        let destination = self.place;
         let complete = match self.file {
             File::Csv(file) => file.finish().map(drop),
             File::Parquet(file) => file.finish(),
         };
-        complete.map_err(|error| failure(place, error))?;
-        (self.target.move_into_place()).map_err(|source| place.failure(source))
+        complete.map_err(|error| failure(destination, error))?;
+        (self.target.move_into_place()).map_err(|source| destination.failure(source))
     }
 
     /// Writes the waiting rows, if any.
@@ -94,9 +98,9 @@ impl<'a, T> Rows<'a, T> {
     }
 }
 
-fn failure(place: &Place, error: Error) -> Failure {
+fn failure(destination: &Destination, error: Error) -> Failure {
     match error {
-        Error::Write(source) => place.failure(source),
+        Error::Write(source) => destination.failure(source),
         error => error.into(),
     }
 }

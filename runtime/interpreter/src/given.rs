@@ -45,8 +45,8 @@ pub fn value(text: &str, unit: &Unit, what: &str) -> Result<f64, Mistakes> {
 /// # Errors
 /// The mistakes in the text; lines and columns refer to it.
 pub fn tolerance(text: &str, unit: &Unit, nominal: f64) -> Result<ToleranceInfo, Mistakes> {
-    let found = given::tolerance(tokens(text)?, declared(unit)?, nominal)?;
-    Ok(description::tolerance(&found))
+    let parsed = given::tolerance(tokens(text)?, declared(unit)?, nominal)?;
+    Ok(description::tolerance(&parsed))
 }
 
 /// Parses the tolerance of a design variable like [`tolerance`], and checks it like a declared one: its ends must be

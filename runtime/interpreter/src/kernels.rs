@@ -19,15 +19,15 @@ use crate::tape::Tape;
 /// Copies a result out of the registers.
 #[inline]
 fn copy<T: Copy>(registers: &[T], places: &[u32], to: &mut [T]) {
-    for (to, place) in to.iter_mut().zip(places) {
-        *to = registers[*place as usize];
+    for (to, register) in to.iter_mut().zip(places) {
+        *to = registers[*register as usize];
     }
 }
 
 /// Copies the derivatives of a result out of the registers.
 fn copy_slopes(registers: &[Dual<f64>], places: &[u32], to: &mut [f64]) {
-    for (to, place) in to.iter_mut().zip(places) {
-        *to = registers[*place as usize].slope;
+    for (to, register) in to.iter_mut().zip(places) {
+        *to = registers[*register as usize].slope;
     }
 }
 
@@ -121,8 +121,8 @@ fn run_along_each<const N: usize>(
         along_each(tape, &moved.each_ref().map(Vec::as_slice), |registers| {
             for (lane, gradient) in gradients.iter_mut().enumerate() {
                 for (to, places) in gradient_results(gradient).into_iter().zip(&tape.results) {
-                    for (to, place) in to.iter_mut().zip(places) {
-                        *to = registers[*place as usize].slope.0[lane];
+                    for (to, register) in to.iter_mut().zip(places) {
+                        *to = registers[*register as usize].slope.0[lane];
                     }
                 }
             }
@@ -206,7 +206,7 @@ impl Kernels for Interpreted {
         let tape = self.shared.tapes.violation.as_ref()?;
         let values = |registers: &[f64]| {
             let places = tape.results.first()?;
-            let of = places.iter().map(|place| registers[*place as usize]);
+            let of = places.iter().map(|register| registers[*register as usize]);
             let mut failing = of.zip(&self.shared.requirements);
             // NaN violates every requirement.
             failing.find(|(value, _)| value.is_nan() || *value <= 0.0)
@@ -231,14 +231,16 @@ impl Kernels for Interpreted {
         let registers = once(tape, &[&fixed, &around]);
         let zero = Interval::about(0.0, 0.0);
         let mut places = tape.results.iter().flatten();
-        places.all(|place| registers[*place as usize] > zero)
+        places.all(|register| registers[*register as usize] > zero)
     }
 
     fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {
         let tape = self.shared.tapes.pose_margin.as_ref()?;
         let least = |registers: &[f64]| {
             let places = tape.results.first()?;
-            let margins = places.iter().map(|place| registers[*place as usize].abs());
+            let margins = places
+                .iter()
+                .map(|register| registers[*register as usize].abs());
             let poses = margins.zip(&self.shared.poses);
             let poses = poses.map(|(margin, (joint, least))| PoseMargin {
                 joint: joint.clone(),

@@ -121,10 +121,10 @@ fn evaluate<T: Kept, R>(
         for (register, constant) in registers.iter_mut().zip(&tape.constants) {
             *register = T::constant(*constant);
         }
-        let mut place = tape.constants.len();
+        let mut offset = tape.constants.len();
         for (argument, count) in arguments.iter().zip(&tape.arguments) {
-            registers[place..place + count].copy_from_slice(argument);
-            place += count;
+            registers[offset..offset + count].copy_from_slice(argument);
+            offset += count;
         }
         run(registers);
         read(registers)

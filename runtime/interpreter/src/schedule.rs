@@ -87,8 +87,8 @@ fn partners(instructions: &[Instruction]) -> Vec<Option<usize>> {
             .iter()
             .position(|&(other, sine, _)| other == angle && sine != is_sine);
         match other {
-            Some(place) => {
-                let (_, _, other) = open.swap_remove(place);
+            Some(position) => {
+                let (_, _, other) = open.swap_remove(position);
                 partners[index] = Some(other);
                 partners[other] = Some(index);
             }

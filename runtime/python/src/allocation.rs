@@ -63,13 +63,13 @@ impl Study {
             moving.push(Nominal { variable, limits });
         }
         let py_result = self.ask_stoppably(py, move |study| {
-            let own = |(variable, limits, (fixed, factor, power))| HalfWidth {
+            let half_width = |(variable, limits, (fixed, factor, power))| HalfWidth {
                 variable,
                 limits,
                 cost: Cost::reciprocal(fixed, factor, power),
             };
             let choices = allocation::Choices {
-                half_widths: half_widths.into_iter().map(own).collect(),
+                half_widths: half_widths.into_iter().map(half_width).collect(),
                 nominals: moving,
                 failure,
             };
@@ -115,7 +115,7 @@ attributes! {
         cost_before: f64 = self.0.cost_before;
         /// Share of the samples that fail each requirement, shape (k,).
         sampled_failure: Array1<'py> =
-            vector(py, self.0.chances.each.iter().map(|own| own.failure()));
+            vector(py, self.0.chances.each.iter().map(|chance| chance.failure()));
         /// Positions of the requirements that the samples refute: first order failed there, allow less.
         refuted: Vec<usize> = self.0.refuted.clone();
         /// Greatest probability of failing each requirement that was allowed, shape (k,).

@@ -73,11 +73,11 @@ macro_rules! lengths {
 }
 
 lengths! {
-    Bode: |own| own.points;
-    Branch: |own| own.points;
-    Branches: |own| own.branches;
-    Campbell: |own| own.points;
-    Clusters: |own| own;
-    Modes: |own| own.modes;
-    Sweep: |own| own.points;
+    Bode: |bode| bode.points;
+    Branch: |branch| branch.points;
+    Branches: |branches| branches.branches;
+    Campbell: |campbell| campbell.points;
+    Clusters: |clusters| clusters;
+    Modes: |modes| modes.modes;
+    Sweep: |sweep| sweep.points;
 }

@@ -110,9 +110,9 @@ fn types(py: Python<'_>) -> PyResult<&Vec<Py<PyType>>> {
 }
 
 pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    for own in types(module.py())? {
-        let own = own.bind(module.py());
-        module.add(own.name()?, own)?;
+    for exception in types(module.py())? {
+        let exception = exception.bind(module.py());
+        module.add(exception.name()?, exception)?;
     }
     Ok(())
 }

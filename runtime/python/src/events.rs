@@ -74,13 +74,13 @@ attributes! {
         /// Whirl of the mode there: minor over major axis of the orbit, positive along the rotation; None where it does not
         /// apply.
         whirl: Option<f64> = match self.0.event {
-            eigentol::sweep::Event::Crossing { whirl, .. } => whirl.map(|own| own.ratio),
+            eigentol::sweep::Event::Crossing { whirl, .. } => whirl.map(|x| x.ratio),
             _ => None,
         };
         /// Multiple of the input that a frequency meets in a crossing.
-        order: Option<f64> = self.line().map(|own| own.ratio);
+        order: Option<f64> = self.line().map(|x| x.ratio);
         /// What is added to that, rad/s.
-        offset: Option<f64> = self.line().map(|own| own.offset);
+        offset: Option<f64> = self.line().map(|x| x.offset);
         /// The nominal value of the input, SI.
         value: f64 = self.0.value;
         /// Its standard deviation to first order, SI; None where it has no derivative.
@@ -88,9 +88,9 @@ attributes! {
         /// Half-width of the band that holds as many standard deviations as the tolerances do, SI.
         band: Option<f64> = Some(self.0.spread.as_ref().ok()?.band);
         /// Derivatives per SI unit of each variable, shape (variables,); NaN where there are none: `failure` says why.
-        gradient: Array1<'py> = vector(py, self.each(|own| &own.by_design));
+        gradient: Array1<'py> = vector(py, self.each(|x| &x.by_design));
         /// Shares of the variables in the variance, shape (variables,).
-        shares: Array1<'py> = vector(py, self.each(|own| &own.variance_shares));
+        shares: Array1<'py> = vector(py, self.each(|x| &x.variance_shares));
         /// Why it has no derivatives: a text, or None.
         failure: Option<String> = Some(self.0.spread.as_ref().err()?.to_string());
         /// Names of the variables.

@@ -136,8 +136,8 @@ kernels! { self, py;
         let found = py.detach(|| self.kernels().linear_partials(&q, &u, &b));
         let lists = [&found.by_coordinate, &found.by_input, &found.by_design];
         let every = lists.into_iter().flatten();
-        let every = every.flat_map(|own| [&own.mass, &own.damping, &own.stiffness]);
-        self.finite(py, &q, every.map(|own| own.as_flattened()))?;
+        let every = every.flat_map(|x| [&x.mass, &x.damping, &x.stiffness]);
+        self.finite(py, &q, every.map(|x| x.as_flattened()))?;
         let of = |matrix: fn(&Linear) -> &Matrix| {
             let by = |list: &[Linear]| {
                 let all: Vec<&Matrix> = list.iter().map(matrix).collect();
@@ -145,14 +145,14 @@ kernels! { self, py;
             };
             PyResult::Ok((by(lists[0])?, by(lists[1])?, by(lists[2])?))
         };
-        Ok((of(|own| &own.mass)?, of(|own| &own.damping)?, of(|own| &own.stiffness)?))
+        Ok((of(|x| &x.mass)?, of(|x| &x.damping)?, of(|x| &x.stiffness)?))
     };
     /// Explicit derivatives of the residual at rest by inputs, shape (n, inputs), and by design variables, shape (n,
     /// design), SI.
     residual_partials() -> (Array2<'py>, Array2<'py>) = |q, u, b| {
         let (by_input, by_design) = py.detach(|| self.kernels().residual_partials(&q, &u, &b));
         let all = [&by_input, &by_design];
-        self.finite(py, &q, all.into_iter().map(|own| own.as_flattened()))?;
+        self.finite(py, &q, all.into_iter().map(|x| x.as_flattened()))?;
         Ok((arrays::matrix(py, &by_input)?, arrays::matrix(py, &by_design)?))
     };
     /// Explicit gradient of `phi^T (Khat - lambda Mhat) phi`, SI, by unknowns, inputs and design variables: arrays of
@@ -198,7 +198,7 @@ kernels! { self, py;
             self.kernels().evaluate(Kernel::Forcing, &[&q, &u, &b], results);
         });
         let all = [&cosine, &frequency, &direct_cosine, &sine, &direct_sine];
-        self.finite(py, &q, all.into_iter().map(|own| &own[..]))?;
+        self.finite(py, &q, all.into_iter().map(|x| &x[..]))?;
         let complex = |cosine: &[f64], sine: &[f64], count| {
             let all = cosine.iter().zip(sine).map(|(re, im)| Complex::new(*re, -im));
             arrays::vector(py, all).reshape([rows, count])
@@ -218,8 +218,8 @@ kernels! { self, py;
             let results = &mut all.each_mut().map(Matrix::as_flattened_mut);
             self.kernels().evaluate(Kernel::OutputMotion, &[&q, &u, &b], results);
         });
-        self.finite(py, &q, all.iter().map(|own| own.as_flattened()))?;
-        let [acceleration, velocity, position] = all.map(|own| arrays::matrix(py, &own));
+        self.finite(py, &q, all.iter().map(|x| x.as_flattened()))?;
+        let [acceleration, velocity, position] = all.map(|x| arrays::matrix(py, &x));
         Ok((acceleration?, velocity?, position?))
     };
     /// Residual of the equations of the full nonlinear motion, N or N m, shape (n,): the forces that this motion would

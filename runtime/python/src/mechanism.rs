@@ -70,25 +70,25 @@ attributes! {
         excitations: Vec<&str> = names::excitations(self.inner.description());
         /// What each excitation was declared as: "unbalance", "harmonic" or "shaken".
         excitation_kinds: Vec<&str> =
-            self.inner.description().excitations.iter().map(|own| &*own.kind).collect();
+            self.inner.description().excitations.iter().map(|excitation| &*excitation.kind).collect();
         /// The frequency of each excitation in terms of the speeds of running coordinates: "1 spin"; empty for a frequency
         /// of its own.
         excitation_orders: Vec<&str> =
-            self.inner.description().excitations.iter().map(|own| &*own.order).collect();
+            self.inner.description().excitations.iter().map(|excitation| &*excitation.order).collect();
         /// The harmonics of a forced response, each a list of the excitations that have one frequency in every design.
         harmonics: Vec<Vec<&str>> = names::harmonics(self.inner.description());
         /// The nominal design, SI, by name.
         nominal: PyResult<Nominal<'py>> = {
             let all = self.inner.description().design.iter();
-            all.map(|own| (&*own.name, own.nominal)).into_py_dict(py)
+            all.map(|x| (&*x.name, x.nominal)).into_py_dict(py)
         };
         /// The declared unit of every input, design variable, unknown and output, by name: "rpm".
         units: PyResult<Units<'py>> = {
             let of = self.inner.description();
-            let outputs = of.outputs.iter().map(|own| (own.name.clone(), own.unit.clone()));
+            let outputs = of.outputs.iter().map(|output| (output.name.clone(), output.unit.clone()));
             let lists = [List::Coordinates, List::Design, List::Inputs];
             let others = lists.into_iter().flat_map(|list| list.quantities(of));
-            let all = outputs.chain(others.map(|own| (own.name, own.unit)));
+            let all = outputs.chain(others.map(|other| (other.name, other.unit)));
             all.map(|(name, unit)| (name.to_string(), unit.symbol.to_string())).into_py_dict(py)
         };
     }

@@ -92,11 +92,11 @@ attributes! {
         names: Vec<String> = {
             let of = |role: Role| {
                 let all = self.description().coordinates.iter();
-                all.filter(move |own| own.role == role)
+                all.filter(move |x| x.role == role)
             };
-            let positions = of(Role::Position).map(|own| own.name.to_string());
-            let rates = of(Role::Position).map(|own| format!("{}'", own.name));
-            let speeds = of(Role::Speed).map(|own| own.name.to_string());
+            let positions = of(Role::Position).map(|x| x.name.to_string());
+            let rates = of(Role::Position).map(|x| format!("{}'", x.name));
+            let speeds = of(Role::Speed).map(|x| x.name.to_string());
             positions.chain(rates).chain(speeds).collect()
         };
     }

@@ -29,8 +29,8 @@ pub(crate) fn harmonics(description: &Description) -> Vec<Vec<&str>> {
     let all = &description.excitations;
     let firsts = (0..all.len()).filter(|&k| all[k].with == k);
     let members = |first| {
-        let own = all.iter().filter(move |info| info.with == first);
-        own.map(|info| &*info.name).collect()
+        let excitations = all.iter().filter(move |info| info.with == first);
+        excitations.map(|info| &*info.name).collect()
     };
     firsts.map(members).collect()
 }

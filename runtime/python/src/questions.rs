@@ -151,9 +151,9 @@ impl Study {
         low: &hints::Value<'_>,
         high: &hints::Value<'_>,
     ) -> PyResult<(Input<Interpreted>, f64, f64)> {
-        let (place, unit) = List::Inputs.find(py, self.inner.description(), input)?;
+        let (index, unit) = List::Inputs.find(py, self.inner.description(), input)?;
         let (low, high) = (number(low, &unit, input)?, number(high, &unit, input)?);
-        Ok((Input::new(place), low, high))
+        Ok((Input::new(index), low, high))
     }
 
     /// An input and its values, SI.
@@ -164,7 +164,7 @@ impl Study {
         values: &hints::ArrayLike<'_>,
         unit: Option<&str>,
     ) -> PyResult<(Input<Interpreted>, Vec<f64>)> {
-        let (place, declared) = List::Inputs.find(py, self.inner.description(), input)?;
+        let (index, declared) = List::Inputs.find(py, self.inner.description(), input)?;
         let scale = match unit {
             None => 1.0,
             Some(unit) => {
@@ -172,7 +172,7 @@ impl Study {
                 number(one.as_any(), &declared, input)?
             }
         };
-        let found = match numbers(values, input) {
+        let converted = match numbers(values, input) {
             Ok(values) => values.into_iter().map(|value| value * scale).collect(),
             Err(error) => {
                 let each = values.try_iter().map_err(|_| error)?;
@@ -180,9 +180,9 @@ impl Study {
                     .collect::<PyResult<_>>()?
             }
         };
-        let values: Vec<f64> = found;
+        let values: Vec<f64> = converted;
         match values.iter().find(|value| !value.is_finite()) {
-            None => Ok((Input::new(place), values)),
+            None => Ok((Input::new(index), values)),
             Some(other) => Err(not_finite(py, input, *other)),
         }
     }
@@ -212,7 +212,7 @@ impl Study {
         py: Python<'_>,
         given: Vec<Bound<'_, PyTuple>>,
     ) -> PyResult<Vec<Vibration>> {
-        let own = |response| match response {
+        let vibration_of = |response| match response {
             Response::Vibration(vibration) => Ok(vibration),
             other => {
                 let name = other.name(self.inner.description());
@@ -222,7 +222,7 @@ impl Study {
                 Err(invalid(py, message))
             }
         };
-        self.wanted(given)?.into_iter().map(own).collect()
+        self.wanted(given)?.into_iter().map(vibration_of).collect()
     }
 }
 
@@ -327,10 +327,10 @@ impl Study {
         let mut within = Vec::new();
         for (name, ends) in bounds.into_iter().flatten() {
             let name = name.extract::<String>()?;
-            let (place, unit) = List::Coordinates.find(py, of, &name)?;
+            let (index, unit) = List::Coordinates.find(py, of, &name)?;
             let (low, high) = ends.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()?;
             let end = |end: &Bound<'_, PyAny>| number(end, &unit, &name);
-            within.push((Coordinate::new(place), end(&low)?, end(&high)?));
+            within.push((Coordinate::new(index), end(&low)?, end(&high)?));
         }
         let mut search = self.ask(py, |study| study.search(&within))?;
         search.starts = starts.unwrap_or(search.starts);

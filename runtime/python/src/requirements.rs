@@ -26,10 +26,10 @@ fn requirement(
         return Ok(requirement::Requirement::Stable);
     }
     if let Some((response, input, fraction, order)) = around(given) {
-        let (place, _) = List::Inputs.find(given.py(), study.description(), &input)?;
+        let (index, _) = List::Inputs.find(given.py(), study.description(), &input)?;
         return Ok(requirement::Requirement::Away {
             response: response_of(study, &response)?,
-            input: Input::new(place),
+            input: Input::new(index),
             order,
             fraction,
         });
@@ -211,10 +211,10 @@ result! {
 /// In Python `Literal["design point", "lines", "samples"]`.
 type FoundBy = str;
 
-fn found_by(own: requirement::Found) -> &'static FoundBy {
-    match own {
-        requirement::Found::DesignPoint => "design point",
-        requirement::Found::Lines => "lines",
+fn found_by(method: requirement::EstimatedBy) -> &'static FoundBy {
+    match method {
+        requirement::EstimatedBy::DesignPoint => "design point",
+        requirement::EstimatedBy::Lines => "lines",
         _ => "samples",
     }
 }
@@ -222,15 +222,15 @@ fn found_by(own: requirement::Found) -> &'static FoundBy {
 attributes! {
     Probabilities(self, py) {
         /// Probability of failing each requirement, shape (k,).
-        failure: Array1<'py> = vector(py, self.0.each.iter().map(|own| own.value));
+        failure: Array1<'py> = vector(py, self.0.each.iter().map(|x| x.value));
         /// Lower ends of their 95 % intervals, shape (k,).
-        lower: Array1<'py> = vector(py, self.0.each.iter().map(|own| own.interval.lower));
+        lower: Array1<'py> = vector(py, self.0.each.iter().map(|x| x.interval.lower));
         /// Upper ends, shape (k,).
-        upper: Array1<'py> = vector(py, self.0.each.iter().map(|own| own.interval.upper));
+        upper: Array1<'py> = vector(py, self.0.each.iter().map(|x| x.interval.upper));
         /// Probabilities that a design lacks the response needed to tell, shape (k,).
-        untold: Array1<'py> = vector(py, self.0.each.iter().map(|own| own.untold));
+        untold: Array1<'py> = vector(py, self.0.each.iter().map(|x| x.untold));
         /// How each was found: "design point", "lines" or "samples".
-        found_by: Vec<&'static FoundBy> = self.0.each.iter().map(|own| found_by(own.by)).collect();
+        found_by: Vec<&'static FoundBy> = self.0.each.iter().map(|x| found_by(x.by)).collect();
         /// Probability of failing any requirement.
         any_failure: f64 = self.0.any.value;
         /// Its 95 % interval.
@@ -239,9 +239,9 @@ attributes! {
         reliability: Option<Reliability> = self.0.reliability.clone().map(Reliability);
         /// The requirements, in words.
         names: Vec<String> =
-            self.0.wanted.iter().map(|own| own.text(&self.0.description)).collect();
+            self.0.wanted.iter().map(|name| name.text(&self.0.description)).collect();
         /// Numbers of designs that were solved for each, shape (k,).
-        designs: Array1<'py, i64> = vector(py, self.0.each.iter().map(|own| own.designs as i64));
+        designs: Array1<'py, i64> = vector(py, self.0.each.iter().map(|x| x.designs as i64));
         /// Probability that a design lacks a response needed to tell of any.
         any_untold: f64 = self.0.any.untold;
         /// How `any_failure` was found.
@@ -271,17 +271,17 @@ attributes! {
         /// Number of samples.
         samples: usize = self.0.all.samples();
         /// How many samples meet each requirement, shape (k,).
-        met: Array1<'py, i64> = vector(py, self.0.each.iter().map(|own| own.met as i64));
+        met: Array1<'py, i64> = vector(py, self.0.each.iter().map(|x| x.met as i64));
         /// Share of the samples that meet all requirements.
         all_met: f64 = self.0.all.yield_of();
         /// Lower ends of the 95 % intervals of `failure`, shape (k,).
-        lower: Array1<'py> = optional(py, self.0.each.iter().map(|own| Some(interval(own)?.0)));
+        lower: Array1<'py> = optional(py, self.0.each.iter().map(|x| Some(interval(x)?.0)));
         /// Upper ends, shape (k,).
-        upper: Array1<'py> = optional(py, self.0.each.iter().map(|own| Some(interval(own)?.1)));
+        upper: Array1<'py> = optional(py, self.0.each.iter().map(|x| Some(interval(x)?.1)));
         /// How many samples fail each requirement, shape (k,).
-        failed: Array1<'py, i64> = vector(py, self.0.each.iter().map(|own| own.failed as i64));
+        failed: Array1<'py, i64> = vector(py, self.0.each.iter().map(|x| x.failed as i64));
         /// How many samples lack the response needed to tell, shape (k,).
-        untold: Array1<'py, i64> = vector(py, self.0.each.iter().map(|own| own.untold as i64));
+        untold: Array1<'py, i64> = vector(py, self.0.each.iter().map(|x| x.untold as i64));
         /// Share of the samples that fail any requirement.
         any_failure: f64 = self.0.all.failure();
         /// Its 95 % interval.
@@ -328,27 +328,27 @@ attributes! {
         /// Probability that each limit is passed by designs solved anew, which judges the design points, shape (l,); NaN
         /// where that was not done.
         solved_anew: Array1<'py> =
-            self.each(py, |own| Some(own.judgement.judged()?.probability.value));
+            self.each(py, |wa| Some(wa.judgement.judged()?.probability.value));
         /// Half-widths of their 95 % intervals, shape (l,).
-        error: Array1<'py> = self.each(py, |own| {
-            let interval = own.judgement.judged()?.interval();
+        error: Array1<'py> = self.each(py, |item| {
+            let interval = item.judgement.judged()?.interval();
             Some(0.5 * (interval.upper - interval.lower))
         });
         /// Whether designs solved anew confirm the probability to first order of each limit, within 10 %.
         verified: Vec<bool> =
             self.0.limits.iter().map(LimitReliability::verified).collect();
         /// Probability that any limit is passed, to first order; None where it is not known.
-        any_failure: Option<f64> = self.0.system.as_ref().map(|own| own.probability.value);
+        any_failure: Option<f64> = self.0.system.as_ref().map(|x| x.probability.value);
         /// The limits: the position of the requirement, and the name of the response.
         limits: Vec<(usize, String)> = {
-            let name = |own: &LimitReliability| Some(own.limit.response()?.name(&self.0.description));
+            let name = |limit_reliability: &LimitReliability| Some(limit_reliability.limit.response()?.name(&self.0.description));
             let all = self.0.limits.iter();
-            all.map(|own| (own.requirement, name(own).unwrap_or_default())).collect()
+            all.map(|x| (x.requirement, name(x).unwrap_or_default())).collect()
         };
         /// Where each response fails: "below", "above" or "between", and the ends, SI; "around", and order and fraction.
         edges: Vec<(&'static str, Vec<f64>)> = {
             let all = self.0.limits.iter();
-            all.map(|own| match own.limit {
+            all.map(|item| match item.limit {
                 Limit::Within { low, .. } if low.is_finite() => ("below", vec![low]),
                 Limit::Within { high, .. } => ("above", vec![high]),
                 Limit::Outside { low, high, .. } => ("between", vec![low, high]),
@@ -362,19 +362,19 @@ attributes! {
         /// Names of the design variables, and after them of the inputs that have a tolerance.
         names: Vec<&str> = names::design(&self.0.description);
         /// The most probable design that fails for each limit, SI, shape (l, variables); NaN without one.
-        design_points: PyResult<Array2<'py>> = self.points(py, |own| own.design.to_vec());
+        design_points: PyResult<Array2<'py>> = self.points(py, |point| point.design.to_vec());
         /// Shares of the variables in each `beta`, shape (l, variables).
-        importance: PyResult<Array2<'py>> = self.points(py, |own| own.importance.to_vec());
+        importance: PyResult<Array2<'py>> = self.points(py, |point| point.importance.to_vec());
         /// Derivatives of each `beta` by nominal values, per SI unit, shape (l, variables).
         beta_by_nominal: PyResult<Array2<'py>> =
-            self.points(py, |own| own.by_nominal.iter().map(|own| own.beta).collect());
+            self.points(py, |x| x.by_nominal.iter().map(|point| point.beta).collect());
         /// The same by half-widths of tolerances, shape (l, variables).
         beta_by_half_width: PyResult<Array2<'py>> =
-            self.points(py, |own| own.by_half_width.iter().map(|own| own.beta).collect());
+            self.points(py, |x| x.by_half_width.iter().map(|point| point.beta).collect());
         /// Number of design points of each limit, shape (l,).
         point_counts: Array1<'py, i64> = {
-            let points = self.0.limits.iter().map(|own| own.design_points.as_ref());
-            vector(py, points.map(|own| own.map_or(0, |own| own.len() as i64)))
+            let points = self.0.limits.iter().map(|limit| limit.design_points.as_ref());
+            vector(py, points.map(|x| x.map_or(0, |point| point.len() as i64)))
         };
         /// Whether no design within reach passes the limit, shape (l,).
         out_of_reach: Array1<'py, bool> =
@@ -382,10 +382,10 @@ attributes! {
         /// Why a limit has no design point: a text for each limit, or None.
         failures: Vec<Option<String>> =
             self.0.limits.iter()
-                .map(|own| Some(own.design_points.as_ref().err()?.to_string())).collect();
+                .map(|limit| Some(limit.design_points.as_ref().err()?.to_string())).collect();
         /// What the designs solved anew say of each limit, by name; under "open" why there are none.
         judgements: PyResult<Vec<Bound<'py, PyDict>>> =
-            self.0.limits.iter().map(|own| judgement(py, &own.judgement)).collect();
+            self.0.limits.iter().map(|limit| judgement(py, &limit.judgement)).collect();
         /// The same of failing any requirement, those without a limit included.
         any_judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
         /// Whether designs solved anew confirm `any_failure`.
@@ -453,13 +453,13 @@ impl SecondOrderFailure {
         py: Python<'py>,
         of: impl Fn(&MarginDerivatives) -> &Vector,
     ) -> Array1<'py> {
-        let own = self
+        let derivatives = self
             .0
             .margin
             .derivatives
             .as_ref()
             .map(|derivative| &of(derivative)[..]);
-        slopes(py, self.0.description.design.len(), own)
+        slopes(py, self.0.description.design.len(), derivatives)
     }
 }
 
@@ -472,10 +472,10 @@ attributes! {
         /// Probability to first order.
         first_order: f64 = self.0.margin.first_order;
         /// Probability by designs solved anew, which judges the other two; None where that is too dear.
-        solved_anew: Option<f64> = self.0.judgement.judged().map(|own| own.probability.value);
+        solved_anew: Option<f64> = self.0.judgement.judged().map(|x| x.probability.value);
         /// 95 % interval of that.
         interval: Option<(f64, f64)> =
-            self.0.judgement.judged().map(|own| own.interval()).map(|own| (own.lower, own.upper));
+            self.0.judgement.judged().map(|x| x.interval()).map(|x| (x.lower, x.upper));
         /// Whether designs solved anew confirm the probability of the second-order model.
         verified: bool = self.0.verified();
         /// Positions of the other modes that tolerances mix with this one. If there are any, neither model can be relied on.
@@ -498,9 +498,9 @@ attributes! {
         by_input: Array1<'py> =
             slopes(py, self.0.description.inputs.len(), self.0.by_input.as_deref());
         /// The same by nominal values of design variables, shape (design,).
-        by_design: Array1<'py> = self.slopes(py, |own| &own.by_design);
+        by_design: Array1<'py> = self.slopes(py, |slope| &slope.by_design);
         /// The same by half-widths of their tolerances, shape (design,).
-        by_half_width: Array1<'py> = self.slopes(py, |own| &own.by_half_width);
+        by_half_width: Array1<'py> = self.slopes(py, |slope| &slope.by_half_width);
     }
 }
 

@@ -181,10 +181,10 @@ fn range(
     first: usize,
 ) -> PyResult<Range> {
     let name = given.get_item(first)?.extract::<String>()?;
-    let (place, unit) = List::Inputs.find(given.py(), study.description(), &name)?;
+    let (index, unit) = List::Inputs.find(given.py(), study.description(), &name)?;
     let low = number(&given.get_item(first + 1)?, &unit, &name)?;
     let high = number(&given.get_item(first + 2)?, &unit, &name)?;
-    Ok(Range::new(eigentol::Input::new(place), low, high))
+    Ok(Range::new(eigentol::Input::new(index), low, high))
 }
 
 #[pymethods]
@@ -212,11 +212,11 @@ impl Study {
         let variables = match variables {
             None => (0..description.design.len()).collect(),
             Some(names) => {
-                let place = |name: &String| {
-                    let found = List::Design.find(py, description, name)?;
-                    Ok(found.0)
+                let index_of = |name: &String| {
+                    let handle = List::Design.find(py, description, name)?;
+                    Ok(handle.0)
                 };
-                names.iter().map(place).collect::<PyResult<_>>()?
+                names.iter().map(index_of).collect::<PyResult<_>>()?
             }
         };
         let nominal = slf.get().ask(py, |study| {
@@ -320,8 +320,8 @@ impl Response {
     ) -> PyResult<Bound<'py, PyAny>> {
         let (designs, single) = self.designs(x)?;
         let values = self.evaluate(py, &designs, |responses, room, design| {
-            let found = responses.at(room, design)?;
-            Ok(or_nan(found.values[0]))
+            let realisation = responses.at(room, design)?;
+            Ok(or_nan(realisation.values[0]))
         })?;
         if single {
             return Ok(values[0].into_pyobject(py)?.into_any());
@@ -338,11 +338,11 @@ impl Response {
         let (designs, single) = self.designs(x)?;
         let values = self.evaluate(py, &designs, |responses, room, design| {
             let realisation = responses.with_gradients(room, design)?;
-            let own = |index: &usize| match &realisation.gradients[0] {
+            let derivative = |index: &usize| match &realisation.gradients[0] {
                 Some(gradient) => gradient[*index],
                 None => f64::NAN,
             };
-            Ok(self.variables.iter().map(own).collect::<Vec<f64>>())
+            Ok(self.variables.iter().map(derivative).collect::<Vec<f64>>())
         })?;
         let all = rows(py, self.variables.len(), values)?;
         if single {

@@ -78,7 +78,7 @@ fn options(py: Python<'_>, given: Option<&UrdfOptions<'_>>) -> PyResult<Options>
         linear_damping,
     } = &mut options.resistance
     {
-        for (name, place) in [
+        for (name, slot) in [
             ("stiffness", stiffness),
             ("damping", damping),
             ("linear_stiffness", linear_stiffness),
@@ -87,10 +87,10 @@ fn options(py: Python<'_>, given: Option<&UrdfOptions<'_>>) -> PyResult<Options>
             let Some(value) = given.get_item(name)? else {
                 continue;
             };
-            *place = value.extract()?;
-            if !(place.is_finite() && *place >= 0.0) {
+            *slot = value.extract()?;
+            if !(slot.is_finite() && *slot >= 0.0) {
                 let message =
-                    format!("`{name}` is {place}: give a finite value that is not negative");
+                    format!("`{name}` is {slot}: give a finite value that is not negative");
                 return Err(errors::invalid(py, message));
             }
         }
@@ -114,8 +114,8 @@ fn read(
 ) -> PyResult<eigentol_urdf::Import> {
     let options = options(py, given)?;
     let text = std::fs::read_to_string(path).map_err(|source| errors::unreadable(path, &source))?;
-    let found = py.detach(|| import(&text, &options));
-    found.map_err(|error| errors::urdf(py, &error, path))
+    let imported = py.detach(|| import(&text, &options));
+    imported.map_err(|error| errors::urdf(py, &error, path))
 }
 
 /// The declaration of a robot from its URDF file.
@@ -134,9 +134,9 @@ pub(crate) fn import_urdf(
     path: PathBuf,
     options: Option<&UrdfOptions<'_>>,
 ) -> PyResult<Import> {
-    let found = read(py, &path, options)?;
-    let notes = found.notes.iter().map(ToString::to_string).collect();
-    let (declaration, names) = (found.declaration, found.names);
+    let imported = read(py, &path, options)?;
+    let notes = imported.notes.iter().map(ToString::to_string).collect();
+    let (declaration, names) = (imported.declaration, imported.names);
     Ok(Import {
         declaration,
         names,
@@ -170,7 +170,7 @@ impl Mechanism {
         path: PathBuf,
         options: Option<&UrdfOptions<'_>>,
     ) -> PyResult<Self> {
-        let found = read(class.py(), &path, options)?;
-        Self::read(class.py(), found.declaration)
+        let imported = read(class.py(), &path, options)?;
+        Self::read(class.py(), imported.declaration)
     }
 }

@@ -176,10 +176,10 @@ pub(crate) fn merged<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let all = copied(settings)?;
     for (key, value) in copied(others)? {
-        let own = all.get_item(&key)?;
-        let own = own.as_ref().and_then(|x| x.cast::<PyDict>().ok());
-        match (own, value.cast::<PyDict>()) {
-            (Some(own), Ok(value)) => own.update(value.as_mapping())?,
+        let existing = all.get_item(&key)?;
+        let inner = existing.as_ref().and_then(|x| x.cast::<PyDict>().ok());
+        match (inner, value.cast::<PyDict>()) {
+            (Some(nested), Ok(value)) => nested.update(value.as_mapping())?,
             _ => all.set_item(key, value)?,
         }
     }
@@ -190,9 +190,9 @@ pub(crate) fn merged<'py>(
 pub(crate) fn copied<'py>(settings: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
     let all = settings.copy()?;
     for (name, ..) in SETTINGS {
-        let own = all.get_item(name)?;
-        if let Some(own) = own.as_ref().and_then(|x| x.cast::<PyDict>().ok()) {
-            all.set_item(name, own.copy()?)?;
+        let existing = all.get_item(name)?;
+        if let Some(nested) = existing.as_ref().and_then(|x| x.cast::<PyDict>().ok()) {
+            all.set_item(name, nested.copy()?)?;
         }
     }
     Ok(all)
@@ -208,11 +208,11 @@ pub(crate) fn whole<'py, T: FromPyObjectOwned<'py>>(
     given: &Bound<'py, PyAny>,
     name: &str,
 ) -> PyResult<T> {
-    let found = match given.is_instance_of::<PyBool>() {
+    let extracted = match given.is_instance_of::<PyBool>() {
         true => None,
         false => given.extract().ok(),
     };
-    found.ok_or_else(|| {
+    extracted.ok_or_else(|| {
         PyTypeError::new_err(format!(
             "`{name}`: a whole number that is not negative is needed"
         ))
@@ -248,8 +248,8 @@ fn values(
     set: impl Fn(Study<Interpreted>, usize, f64) -> Study<Interpreted>,
 ) -> PyResult<Study<Interpreted>> {
     each(study, given, setting, |study, name, value| {
-        let (place, unit) = list.find(value.py(), study.description(), name)?;
-        Ok(set(study, place, number(value, &unit, name)?))
+        let (index, unit) = list.find(value.py(), study.description(), name)?;
+        Ok(set(study, index, number(value, &unit, name)?))
     })
 }
 
@@ -260,12 +260,12 @@ fn parameter(
     name: &str,
 ) -> PyResult<(Parameter<Interpreted>, Unit, f64)> {
     let of = study.description();
-    if let Ok((place, unit)) = List::Inputs.find(py, of, name) {
-        return Ok((Input::new(place).into(), unit, study.input_values()[place]));
+    if let Ok((index, unit)) = List::Inputs.find(py, of, name) {
+        return Ok((Input::new(index).into(), unit, study.input_values()[index]));
     }
-    let (place, unit) = List::Design.find(py, of, name)?;
-    let value = study.design_values()[place];
-    Ok((DesignVariable::new(place).into(), unit, value))
+    let (index, unit) = List::Design.find(py, of, name)?;
+    let value = study.design_values()[index];
+    Ok((DesignVariable::new(index).into(), unit, value))
 }
 
 /// A half-width (SI), a text ("3%", "+/- 0.1 mm uniform", "+0.2 -0.1 mm", "one of [1.9, 2.1] mm"), or both limits as

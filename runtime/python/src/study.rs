@@ -63,8 +63,8 @@ impl Study {
         py: Python<'_>,
         question: impl FnOnce(&eigentol::Study<Interpreted>) -> Result<R, Error> + Send,
     ) -> PyResult<R> {
-        let found = py.detach(|| question(&self.inner));
-        found.map_err(|error| self.explain(py, error))
+        let answer = py.detach(|| question(&self.inner));
+        answer.map_err(|error| self.explain(py, error))
     }
 
     /// The exception for a failure. Where values may be to blame, it names the inputs that were never given any.
@@ -128,10 +128,10 @@ impl Study {
                     break Some(interrupt);
                 }
             };
-            let found = py.detach(|| work.join());
-            match (interrupted, found) {
+            let joined = py.detach(|| work.join());
+            match (interrupted, joined) {
                 (Some(interrupt), _) => Err(interrupt),
-                (None, Ok(found)) => Ok(found),
+                (None, Ok(answer)) => Ok(answer),
                 (None, Err(panic)) => std::panic::resume_unwind(panic),
             }
         })
@@ -177,10 +177,10 @@ impl Study {
     /// The same study with other settings. Dictionaries by name change the names in them only.
     #[pyo3(signature = (**settings))]
     fn replace(&self, py: Python<'_>, settings: Option<&Settings<'_>>) -> PyResult<Self> {
-        let own = self.settings.bind(py);
+        let current = self.settings.bind(py);
         let all = match settings {
-            Some(others) => settings::merged(own, others)?,
-            None => settings::copied(own)?,
+            Some(others) => settings::merged(current, others)?,
+            None => settings::copied(current)?,
         };
         Self::with(self.mechanism.bind(py), all)
     }

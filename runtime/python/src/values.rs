@@ -14,7 +14,7 @@ use crate::names::did_you_mean;
 pub(crate) fn number(given: &Bound<'_, PyAny>, unit: &Unit, name: &str) -> PyResult<f64> {
     let py = given.py();
     let what = format!("`{name}`");
-    let found = match given.cast::<PyString>() {
+    let parsed = match given.cast::<PyString>() {
         Ok(text) => {
             let text = text.to_cow()?;
             value(&text, unit, &what).map_err(|mistakes| refused(py, &text, &mistakes))?
@@ -27,10 +27,10 @@ pub(crate) fn number(given: &Bound<'_, PyAny>, unit: &Unit, name: &str) -> PyRes
             }
         })?,
     };
-    if found.is_finite() {
-        Ok(found)
+    if parsed.is_finite() {
+        Ok(parsed)
     } else {
-        Err(not_finite(py, name, found))
+        Err(not_finite(py, name, parsed))
     }
 }
 
@@ -40,8 +40,8 @@ pub(crate) fn not_finite(py: Python<'_>, name: &str, value: f64) -> PyErr {
 
 /// The index of a mode, from 0.
 pub(crate) fn mode_number(py: Python<'_>, mode: i64) -> PyResult<usize> {
-    let found = usize::try_from(mode);
-    found.map_err(|_| invalid(py, format!("mode {mode}: modes are counted from 0")))
+    let number = usize::try_from(mode);
+    number.map_err(|_| invalid(py, format!("mode {mode}: modes are counted from 0")))
 }
 
 /// The exception for a text that is not a value.
@@ -114,9 +114,9 @@ impl List {
         of: &Description,
         name: &str,
     ) -> PyResult<(usize, Unit)> {
-        let own = self.quantities(of);
-        if let Some(place) = own.iter().position(|one| one.name == *name) {
-            return Ok((place, own[place].unit.clone()));
+        let quantities = self.quantities(of);
+        if let Some(index) = quantities.iter().position(|one| one.name == *name) {
+            return Ok((index, quantities[index].unit.clone()));
         }
         Err(unknown(py, of, self, name))
     }
@@ -145,8 +145,8 @@ impl List {
         if let Ok(named) = given.cast::<PyDict>() {
             for (name, value) in named {
                 let name = name.extract::<String>()?;
-                let (place, unit) = self.find(py, of, &name)?;
-                values[place] = number(&value, &unit, &name)?;
+                let (index, unit) = self.find(py, of, &name)?;
+                values[index] = number(&value, &unit, &name)?;
             }
             return Ok(values);
         }
@@ -185,21 +185,21 @@ impl List {
 }
 
 fn named<'a>(all: impl Iterator<Item = (&'a Text, &'a Unit)>) -> Vec<Quantity> {
-    let own = |(name, unit): (&Text, &Unit)| Quantity {
+    let quantity = |(name, unit): (&Text, &Unit)| Quantity {
         name: name.clone(),
         unit: unit.clone(),
     };
-    all.map(own).collect()
+    all.map(quantity).collect()
 }
 
 /// The exception for a name missing from this list; another list may have it.
 fn unknown(py: Python<'_>, of: &Description, list: List, name: &str) -> PyErr {
     let all = [List::Coordinates, List::Inputs, List::Design];
     let other = all.into_iter().find(|other| {
-        let own = other.quantities(of);
-        own.iter().any(|one| one.name == *name)
+        let quantities = other.quantities(of);
+        quantities.iter().any(|one| one.name == *name)
     });
-    let own = list.quantities(of);
+    let quantities = list.quantities(of);
     if let Some(other) = other {
         let (mechanism, kind, other) = (&of.name, list.kind(), other.kind());
         let article = if other == "input" { "an" } else { "a" };
@@ -210,7 +210,7 @@ fn unknown(py: Python<'_>, of: &Description, list: List, name: &str) -> PyErr {
         kind: list.kind(),
         name: name.to_owned(),
         mechanism: of.name.clone(),
-        known: own.into_iter().map(|one| one.name).collect(),
+        known: quantities.into_iter().map(|one| one.name).collect(),
     };
     raise(py, error)
 }
@@ -232,8 +232,8 @@ pub(crate) fn word<T: Copy>(
     given: &str,
     words: &[(&'static str, T)],
 ) -> PyResult<T> {
-    if let Some((_, own)) = words.iter().find(|(word, _)| *word == given) {
-        return Ok(*own);
+    if let Some((_, meaning)) = words.iter().find(|(word, _)| *word == given) {
+        return Ok(*meaning);
     }
     let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
     let near = did_you_mean(given, known.iter().copied());

@@ -3,8 +3,8 @@
 use eigentol::Error;
 
 /// Separates errors of the caller from refusals of an analysis, which are answers.
-pub(crate) fn answer<T>(found: Result<T, Error>) -> Result<Result<T, Error>, Error> {
-    match found {
+pub(crate) fn answer<T>(outcome: Result<T, Error>) -> Result<Result<T, Error>, Error> {
+    match outcome {
         Err(
             mistake @ (Error::Setting { .. }
             | Error::NotFinite { .. }
@@ -12,6 +12,6 @@ pub(crate) fn answer<T>(found: Result<T, Error>) -> Result<Result<T, Error>, Err
             | Error::UnknownHandle { .. }
             | Error::Threads(_)),
         ) => Err(mistake),
-        found => Ok(found),
+        outcome => Ok(outcome),
     }
 }

@@ -76,8 +76,8 @@ fn header(html: &mut Html, content: &Content) {
             "<noscript><p class=\"refused\">Charts, the view in 3-D and the copy buttons need JavaScript. Words and tables are here without it.</p></noscript>",
         );
         html.element("nav", &[("aria-label", "Sections")], |html| {
-            for own in sections::of(content) {
-                html.leaf("a", &[("href", &format!("#{}", own.id))], own.heading);
+            for section in sections::of(content) {
+                html.leaf("a", &[("href", &format!("#{}", section.id))], section.heading);
             }
         });
     });

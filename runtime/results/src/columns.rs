@@ -160,8 +160,8 @@ impl Added<'_> {
 
     /// What the text calls it instead.
     pub fn headed(self, heading: &str) {
-        if let Some((own, _)) = self.text.last_mut() {
-            heading.clone_into(own);
+        if let Some((title, _)) = self.text.last_mut() {
+            heading.clone_into(title);
         }
     }
 }

@@ -134,12 +134,12 @@ pub fn with_unit(number: String, unit: &Unit) -> String {
 /// A user-chosen value as the user wrote it: 3000 rpm, not 3000.0000000000005. Rounded to 15 digits if these give the
 /// same SI value.
 pub fn as_written(value: f64, unit: &Unit) -> f64 {
-    let own = converted(value, unit);
-    let short = format!("{own:.14e}").parse().unwrap_or(own);
+    let number = converted(value, unit);
+    let short = format!("{number:.14e}").parse().unwrap_or(number);
     if unit.to_si(short) == value {
         short
     } else {
-        own
+        number
     }
 }
 

@@ -143,14 +143,14 @@ impl Table {
     /// Adds a column. A name the table already has gets a number appended, `mode 2`.
     fn add(&mut self, name: &str, unit: &str, values: Values) {
         let taken = |name: &str| self.columns.iter().any(|column| column.name == name);
-        let mut own = name.to_owned();
+        let mut unique = name.to_owned();
         let mut number = 2;
-        while taken(&own) {
-            own = format!("{name} {number}");
+        while taken(&unique) {
+            unique = format!("{name} {number}");
             number += 1;
         }
         self.columns.push(Column {
-            name: own,
+            name: unique,
             unit: unit.to_owned(),
             values,
         });

@@ -99,13 +99,13 @@ impl<M: PictureKernels> Study<M> {
         amplitude: f64,
     ) -> Result<VibrationPictures, Error> {
         let state = self.settings.regular(&self.mechanism)?;
-        let found = forced::response(&self.mechanism, state)?;
-        let harmonic = found.harmonic(excitation);
+        let response = forced::response(&self.mechanism, state)?;
+        let harmonic = response.harmonic(excitation);
         let harmonic = harmonic.ok_or_else(|| Error::UnknownHandle {
             kind: "excitation",
             index: excitation.index(),
-            mechanism: found.description.name.clone(),
-            count: found.description.excitations.len(),
+            mechanism: response.description.name.clone(),
+            count: response.description.excitations.len(),
         })?;
         picture::vibration_pictures(&self.mechanism, state, harmonic, phases, amplitude)
     }

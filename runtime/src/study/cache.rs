@@ -11,7 +11,7 @@ impl<T: Default> Cache<T> {
     /// Forgets the results, here but not in clones.
     pub(super) fn clear(&mut self) {
         match Arc::get_mut(&mut self.0) {
-            Some(own) => *own = T::default(),
+            Some(inner) => *inner = T::default(),
             None => *self = Self::default(),
         }
     }

@@ -307,7 +307,7 @@ impl Along<'_> {
         let from = (axes.input, first_of(axes.values));
         let (start, following) = self.way(self.plain, from)?;
         let (tolerances, watch) = (settings.tolerances()?, settings.watch());
-        let each = |found| go_on(each(found), watch);
+        let each = |campbell_point| go_on(each(campbell_point), watch);
         campbell::campbell_each(kernels, point, &start, following, axes, tolerances, each)
     }
 

@@ -19,15 +19,15 @@ impl<M: SummaryKernels> Study<M> {
     /// As [`Study::modes`] and [`Study::tolerances`]; [`Error::NoSuchMode`], [`Error::UnknownHandle`],
     /// [`Error::Setting`] for an invalid response; [`Error::Threads`].
     pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        let responses = own.responses(wanted)?;
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        let responses = toleranced.responses(wanted)?;
         let sampling = self.settings.sampling();
         // At least one solution for each sample.
         let solutions = SOLUTIONS.max(sampling.samples as u64);
         propagation::propagate(
-            own.kernels(),
+            toleranced.kernels(),
             &responses,
-            own.tolerances,
+            toleranced.tolerances,
             solutions,
             &sampling,
         )
@@ -49,9 +49,9 @@ impl<M: SummaryKernels> Study<M> {
         wanted: &[Response],
         sampling: &Sampling<'_>,
     ) -> Result<Samples, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        let responses = own.responses(wanted)?.watched(Watch::default());
-        propagation::sampled(&responses, own.tolerances, sampling)
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        let responses = toleranced.responses(wanted)?.watched(Watch::default());
+        propagation::sampled(&responses, toleranced.tolerances, sampling)
     }
 
     /// Smallest and largest value of each response over the box of tolerance limits ([`propagation::worst_case`]).
@@ -62,9 +62,9 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`].
     pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        let responses = own.responses(wanted)?;
-        propagation::worst_case(&responses, own.tolerances)
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        let responses = toleranced.responses(wanted)?;
+        propagation::worst_case(&responses, toleranced.tolerances)
     }
 
     /// Means and standard deviations of the responses from few random samples, with the Taylor model as a control
@@ -76,11 +76,16 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for fewer than three samples.
     pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        let responses = own.responses(wanted)?;
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        let responses = toleranced.responses(wanted)?;
         // The designs report themselves.
         let sampling = self.settings.sampling().progress(None).stop(None);
-        propagation::controlled(own.kernels(), &responses, own.tolerances, &sampling)
+        propagation::controlled(
+            toleranced.kernels(),
+            &responses,
+            toleranced.tolerances,
+            &sampling,
+        )
     }
 
     /// Attributes the scatter of the responses to the variables ([`propagation::influence`]).
@@ -91,16 +96,16 @@ impl<M: SummaryKernels> Study<M> {
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for too few samples.
     pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        let responses = own.responses(wanted)?;
-        propagation::influence(&responses, own.tolerances, &self.settings.sampling())
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        let responses = toleranced.responses(wanted)?;
+        propagation::influence(&responses, toleranced.tolerances, &self.settings.sampling())
     }
 }
 
 /// What responses are about.
-type Own<'a> = Toleranced<'a, dyn SummaryKernels + 'a>;
+type TolerancedMachine<'a> = Toleranced<'a, dyn SummaryKernels + 'a>;
 
-impl Own<'_> {
+impl TolerancedMachine<'_> {
     fn responses(&self, wanted: &[Response]) -> Result<Responses<'_>, Error> {
         let ((state, modes), settings) = (self.solved(), self.settings());
         let responses = Responses::side_by_side(self.kernels(), state, modes, wanted.to_vec())?;

@@ -24,8 +24,10 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::probabilities`].
     pub fn probability(&self, wanted: &[Requirement]) -> Result<Probabilities, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        let requirements = own.requirements(wanted)?.watched(self.settings.watch());
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        let requirements = toleranced
+            .requirements(wanted)?
+            .watched(self.settings.watch());
         // The designs report themselves.
         requirements.probabilities(&self.sampling().progress(None))
     }
@@ -60,8 +62,8 @@ impl<M: CurvatureKernels> Study<M> {
         wanted: &[Requirement],
         sampling: &Sampling<'_>,
     ) -> Result<Chances, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        own.requirements(wanted)?.chances(sampling)
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        toleranced.requirements(wanted)?.chances(sampling)
     }
 
     /// Failure probabilities from design points, with importance factors and exact derivatives
@@ -76,8 +78,10 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::reliability`].
     pub fn reliability(&self, wanted: &[Requirement]) -> Result<Reliability, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        let requirements = own.requirements(wanted)?.watched(self.settings.watch());
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        let requirements = toleranced
+            .requirements(wanted)?
+            .watched(self.settings.watch());
         requirements.reliability(&FormSettings::default())
     }
 
@@ -97,8 +101,10 @@ impl<M: CurvatureKernels> Study<M> {
         sampling: &Sampling<'_>,
         accuracy: f64,
     ) -> Result<RareFailure, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        let requirements = own.requirements(wanted)?.watched(self.settings.watch());
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        let requirements = toleranced
+            .requirements(wanted)?
+            .watched(self.settings.watch());
         let about = requirements.reliability(&FormSettings::default())?;
         requirements.rare_failure(&about, sampling, accuracy)
     }
@@ -124,8 +130,8 @@ impl<M: CurvatureKernels> Study<M> {
         wanted: &[Requirement],
         choices: &Choices<'_>,
     ) -> Result<Allocation, Error> {
-        let own = Own::of(&self.settings, &self.mechanism)?;
-        allocate(&own.requirements(wanted)?, choices, &self.sampling())
+        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
+        allocate(&toleranced.requirements(wanted)?, choices, &self.sampling())
     }
 }
 
@@ -155,9 +161,9 @@ impl<M: CurvatureKernels> Study<M> {
 }
 
 /// What requirements are about.
-type Own<'a> = Toleranced<'a, dyn CurvatureKernels + 'a>;
+type TolerancedMachine<'a> = Toleranced<'a, dyn CurvatureKernels + 'a>;
 
-impl Own<'_> {
+impl TolerancedMachine<'_> {
     fn requirements(&self, wanted: &[Requirement]) -> Result<Requirements<'_>, Error> {
         let (state, modes) = self.solved();
         Requirements::new(

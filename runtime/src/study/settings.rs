@@ -96,7 +96,7 @@ impl Settings {
     /// Sets the value of a parameter.
     pub(super) fn set_value(&mut self, parameter: Parameter, value: Value) {
         let value = self.si(parameter, value);
-        let (place, is_fixed) = match parameter {
+        let (slot, is_fixed) = match parameter {
             Parameter::Design(variable) => (
                 self.design.get_mut(variable.index()),
                 self.design_variations.iter().all(Variation::is_fixed),
@@ -106,7 +106,7 @@ impl Settings {
                 self.input_variations.iter().all(Variation::is_none),
             ),
         };
-        set(place, value, &mut self.fault);
+        set(slot, value, &mut self.fault);
         self.solution.clear();
         if !is_fixed {
             self.tolerances.clear();
@@ -131,11 +131,11 @@ impl Settings {
     )]
     pub(super) fn of(&self, description: Shared<Description>, at: &Equilibrium) -> Self {
         let unknowns = &description.coordinates;
-        let place = |item: usize| {
+        let index_of = |item: usize| {
             let name = &self.description.coordinates.get(item)?.name;
             unknowns.iter().position(|info| info.name == *name)
         };
-        let held = |held: &Held| Some(Held::at(place(held.unknown)?, held.value));
+        let held = |held: &Held| Some(Held::at(index_of(held.unknown)?, held.value));
         let mut settings = Self {
             start: Vector::zeros(unknowns.len()),
             named: vec![false; unknowns.len()],
@@ -144,10 +144,10 @@ impl Settings {
             solution: Cache::default(),
             ..self.clone()
         };
-        for (own, value) in at.coordinates.iter().enumerate() {
-            if let Some(place) = place(own) {
+        for (index, value) in at.coordinates.iter().enumerate() {
+            if let Some(place) = index_of(index) {
                 settings.start[place] = *value;
-                settings.named[place] = self.named[own];
+                settings.named[place] = self.named[index];
             }
         }
         settings.description = description;
@@ -167,10 +167,10 @@ impl Settings {
             Some(info) => Ok(value.si(&info.unit)),
             None => Err(self.unknown("coordinate", coordinate.index(), self.start.len())),
         };
-        let place = self.start.get_mut(coordinate.index());
-        set(place, value, &mut self.fault);
-        if let Some(place) = self.named.get_mut(coordinate.index()) {
-            *place = named;
+        let slot = self.start.get_mut(coordinate.index());
+        set(slot, value, &mut self.fault);
+        if let Some(slot) = self.named.get_mut(coordinate.index()) {
+            *slot = named;
         }
         self.solution.clear();
     }
@@ -202,8 +202,8 @@ impl Settings {
             Parameter::Design(variable) => (&mut self.design_variations, variable.index()),
             Parameter::Input(input) => (&mut self.input_variations, input.index()),
         };
-        if let Some(own) = all.get_mut(index) {
-            change(own);
+        if let Some(variation) = all.get_mut(index) {
+            change(variation);
         } else if let Err(error) = self.unit(parameter).cloned() {
             self.refuse(error);
         }
@@ -306,11 +306,11 @@ impl Settings {
     /// A search for equilibria held as the study is; if there is none, `None` or only the equilibrium from `start`.
     pub(super) fn held_in(&self, search: Option<&Search>, start: &[f64]) -> Option<Search> {
         let search = search.cloned();
-        let own = search
+        let search = search
             .or_else(|| (!self.holds.is_empty()).then(|| Search::new(start, start).starts(0)))?;
-        Some(match own.held.is_empty() {
-            true => own.held(self.holds.clone()),
-            false => own,
+        Some(match search.held.is_empty() {
+            true => search.held(self.holds.clone()),
+            false => search,
         })
     }
 
@@ -364,10 +364,10 @@ impl Settings {
     /// The start values, and which of them are given; those of unknowns with declared steady values are these.
     fn beginning(&self, mechanism: &dyn Kernels) -> (Cow<'_, [f64]>, Cow<'_, [bool]>) {
         let (mut start, mut named) = (Cow::from(&self.start[..]), Cow::from(&self.named));
-        for own in declared(mechanism, &self.inputs, &self.design) {
-            if self.holds.iter().all(|held| held.unknown != own.unknown) {
-                start.to_mut()[own.unknown] = own.value;
-                named.to_mut()[own.unknown] = true;
+        for hold in declared(mechanism, &self.inputs, &self.design) {
+            if self.holds.iter().all(|held| held.unknown != hold.unknown) {
+                start.to_mut()[hold.unknown] = hold.value;
+                named.to_mut()[hold.unknown] = true;
             }
         }
         (start, named)
@@ -435,9 +435,9 @@ impl Settings {
 }
 
 /// Stores a value, or records the first error.
-fn set<T>(place: Option<&mut T>, value: Result<T, Error>, fault: &mut Option<Error>) {
-    match (place, value) {
-        (Some(place), Ok(value)) => *place = value,
+fn set<T>(slot: Option<&mut T>, value: Result<T, Error>, fault: &mut Option<Error>) {
+    match (slot, value) {
+        (Some(slot), Ok(value)) => *slot = value,
         (_, Err(error)) => {
             fault.get_or_insert(error);
         }

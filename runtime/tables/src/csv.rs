@@ -49,11 +49,11 @@ impl<W: Write> Writer<W> {
         check(table)?;
         let headings: Vec<String> = table.columns.iter().map(Column::heading).collect();
         match &self.headings {
-            Some(own) if *own == headings => {}
-            Some(own) => {
+            Some(written) if *written == headings => {}
+            Some(written) => {
                 return Err(Error::OtherColumns {
                     found: headings.join(", "),
-                    expected: own.join(", "),
+                    expected: written.join(", "),
                 });
             }
             None => {
@@ -189,14 +189,14 @@ fn values(cells: Vec<String>) -> Values {
     if cells.iter().all(String::is_empty) {
         return Values::Numbers(vec![None; cells.len()]);
     }
-    if let Some(own) = all(&cells, |cell| cell.parse().ok()) {
-        return Values::Whole(own);
+    if let Some(integers) = all(&cells, |cell| cell.parse().ok()) {
+        return Values::Whole(integers);
     }
-    if let Some(own) = all(&cells, finite) {
-        return Values::Numbers(own);
+    if let Some(numbers) = all(&cells, finite) {
+        return Values::Numbers(numbers);
     }
-    if let Some(own) = all(&cells, |cell| cell.parse().ok()) {
-        return Values::Flags(own);
+    if let Some(flags) = all(&cells, |cell| cell.parse().ok()) {
+        return Values::Flags(flags);
     }
     let word = |cell: String| Some(cell).filter(|cell| !cell.is_empty());
     Values::Texts(cells.into_iter().map(word).collect())

@@ -222,9 +222,9 @@ fn lengths(description: &Value, result: &Value) -> String {
             Value::Object(fields) => {
                 // Sorted, because other programs may reorder fields.
                 let fields: BTreeMap<&String, &Value> = fields.iter().collect();
-                for (name, own) in fields {
+                for (name, value) in fields {
                     add(hash, name.as_bytes());
-                    walk(hash, own);
+                    walk(hash, value);
                 }
             }
             _ => {}
@@ -242,11 +242,11 @@ fn leave_out(value: &mut Value, description: &Value) {
     match value {
         Value::Array(all) => all.iter_mut().for_each(|x| leave_out(x, description)),
         Value::Object(fields) => {
-            for (name, own) in fields {
-                if name == "description" && own == description {
-                    *own = Value::Null;
+            for (name, value) in fields {
+                if name == "description" && value == description {
+                    *value = Value::Null;
                 } else {
-                    leave_out(own, description);
+                    leave_out(value, description);
                 }
             }
         }
@@ -258,11 +258,11 @@ fn put_back(value: &mut Value, description: &Value) {
     match value {
         Value::Array(all) => all.iter_mut().for_each(|x| put_back(x, description)),
         Value::Object(fields) => {
-            for (name, own) in fields {
-                if name == "description" && own.is_null() {
-                    *own = description.clone();
+            for (name, value) in fields {
+                if name == "description" && value.is_null() {
+                    *value = description.clone();
                 } else {
-                    put_back(own, description);
+                    put_back(value, description);
                 }
             }
         }

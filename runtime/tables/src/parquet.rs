@@ -76,19 +76,19 @@ impl<W: Write + Send> Writer<W> {
     /// from the previous rows; [`Error::Lengths`].
     pub fn write(&mut self, table: &Table) -> Result<(), Error> {
         check(table)?;
-        let own: Vec<(String, Physical)> = (table.columns.iter())
+        let schema: Vec<(String, Physical)> = (table.columns.iter())
             .map(|column| (column.heading(), physical(&column.values)))
             .collect();
         match std::mem::replace(&mut self.state, State::Failed) {
             State::Failed => Err(Error::Write(io::Error::other("writing failed before"))),
             State::Empty(file) => {
                 let file = begin(file, table).map_err(writing)?;
-                self.group(Box::new(file), own, table)
+                self.group(Box::new(file), schema, table)
             }
-            State::Begun { file, columns } if columns == own => self.group(file, own, table),
+            State::Begun { file, columns } if columns == schema => self.group(file, schema, table),
             State::Begun { file, columns } => {
                 let error = Error::OtherColumns {
-                    found: listed(&own),
+                    found: listed(&schema),
                     expected: listed(&columns),
                 };
                 self.state = State::Begun { file, columns };
@@ -319,7 +319,7 @@ fn entries<T: DataType>(reader: ColumnReader, rows: usize) -> Result<Vec<Option<
 fn writing(error: ParquetError) -> Error {
     Error::Write(match error {
         ParquetError::External(source) => match source.downcast::<io::Error>() {
-            Ok(own) => *own,
+            Ok(io_error) => *io_error,
             Err(source) => io::Error::other(source),
         },
         error => io::Error::other(error),

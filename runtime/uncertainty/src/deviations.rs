@@ -58,8 +58,8 @@ impl<'a> Deviations<'a> {
 
     /// The deviations about another nominal design, with other half-widths; those that are zero stay zero.
     pub(crate) fn moved(&self, nominal: &[f64], half_widths: &[f64]) -> Self {
-        let own = half_widths.iter().zip(self.tolerances.half_widths());
-        let scales = own.map(|(new, old)| if *old > 0.0 { new / old } else { 1.0 });
+        let pairs = half_widths.iter().zip(self.tolerances.half_widths());
+        let scales = pairs.map(|(new, old)| if *old > 0.0 { new / old } else { 1.0 });
         Self {
             nominal: nominal.into(),
             scales: scales.collect(),
@@ -148,12 +148,12 @@ impl<'a> Deviations<'a> {
         let by_normal = self.gradient(z, by_design);
         let square: f64 = by_normal.iter().map(|slope| slope * slope).sum();
         let size = self.dimension();
-        let own = |k: usize| {
+        let share = |k: usize| {
             let mut alone = vec![0.0; size];
             alone[k] = by_design[k];
             let each = self.gradient(z, &alone);
             each.iter().zip(&by_normal).map(|(a, b)| a * b).sum::<f64>() / square
         };
-        (0..size).map(own).collect()
+        (0..size).map(share).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The spinning bar of normally distributed length, in 400 combinations of speed, tolerance and limit.
 
 use eigentol::judge::Judgement;
-use eigentol::requirement::{Found, Requirement};
+use eigentol::requirement::{EstimatedBy, Requirement};
 use eigentol::response::Response;
 use eigentol::tolerance::Outcome;
 use eigentol::tolerance::Sampling;
@@ -132,7 +132,7 @@ impl Called {
         }
         let answer = study.probability(&[wanted]).unwrap();
         let own = &answer.each[0];
-        self.settled += usize::from(own.by != Found::Samples);
+        self.settled += usize::from(own.by != EstimatedBy::Samples);
         assert!(within(own.value, 1e-6 * exact), "{at}\n{answer}");
         let interval = own.interval;
         let rounding = 1e-6 * exact + NOTHING;
@@ -143,7 +143,7 @@ impl Called {
         let mut points = found.limits[0].design_points.iter().flatten();
         let described = points.any(|own| own.verified);
         assert_eq!(
-            own.by == Found::DesignPoint,
+            own.by == EstimatedBy::DesignPoint,
             described,
             "{at}\n{answer}\n{found}"
         );

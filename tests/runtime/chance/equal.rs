@@ -1,6 +1,6 @@
 //! Two equal springs: a double eigenvalue, whose modes have no identity but their order.
 
-use eigentol::requirement::{Found, Requirement};
+use eigentol::requirement::{EstimatedBy, Requirement};
 use eigentol::response::{Response, Responses};
 use eigentol::{Quantity, Study, mechanism};
 
@@ -100,7 +100,7 @@ fn the_lowest_of_two_equal_frequencies_fails_for_either() {
     let interval = run.each[0].clopper_pearson(0.9999).unwrap();
     assert!(interval.lower < exact && exact < interval.upper, "{run}");
     let answer = study.probability(&wanted).unwrap();
-    assert_eq!(answer.each[0].by, Found::Lines, "{answer}");
+    assert_eq!(answer.each[0].by, EstimatedBy::Lines, "{answer}");
     assert!(
         (answer.each[0].value - exact).abs() < 0.05 * exact,
         "{answer}"

@@ -1,7 +1,7 @@
 //! Other machines and other limits: growth, damping, stability, two variables, loops, against closed forms and plain
 //! samples.
 
-use eigentol::requirement::{Found, Requirement};
+use eigentol::requirement::{EstimatedBy, Requirement};
 use eigentol::response::Response;
 use eigentol::{Mechanism, Quantity, Study, mechanism};
 
@@ -73,7 +73,7 @@ fn growth_has_a_value_on_both_sides_of_stability() {
         let own = &answer.each[0];
         assert!((own.value / exact - 1.0).abs() < 1e-5, "{answer}");
         let described = wanted != Requirement::Stable;
-        assert_eq!(own.by == Found::DesignPoint, described, "{answer}");
+        assert_eq!(own.by == EstimatedBy::DesignPoint, described, "{answer}");
     }
     let found = block()
         .reliability(&[Requirement::at_most(growth, 0.0)])

@@ -151,7 +151,7 @@ impl Function {
             Some(format!("{}.cast_const(), {entries}", answer.name))
         });
         let all = arguments.chain(answers).enumerate();
-        let places = all.filter_map(|(k, place)| Some(format!("({}, {})", k + 1, place?)));
+        let places = all.filter_map(|(k, array)| Some(format!("({}, {})", k + 1, array?)));
         places.collect::<Vec<_>>().join(", ")
     }
 

@@ -94,7 +94,7 @@ impl<'a> Body<'a> {
                     Statement::Let(_, pattern, value) => {
                         writeln!(text, "{keyword}{pattern} = {value};")
                     }
-                    Statement::Store(place, value) => writeln!(text, "{place} = {value};"),
+                    Statement::Store(target, value) => writeln!(text, "{target} = {value};"),
                 };
             }
         }
@@ -193,9 +193,9 @@ impl<'a> Body<'a> {
     /// Stores a value at its places in the results.
     fn store(&mut self, index: usize) {
         let places = std::mem::take(&mut self.places[index]);
-        for place in places {
+        for target in places {
             let value = self.text(Operand::Instruction(index)).text;
-            self.statements.push(Statement::Store(place, value));
+            self.statements.push(Statement::Store(target, value));
         }
     }
 

@@ -51,8 +51,8 @@ pub(super) fn info(picture: &Picture) -> TokenStream {
         quote! { ::eigentol::ElementInfo { name: #name, kind: #kind, law: #law } }
     });
     let numbers = picture.numbers.iter().map(|value| quote!(#value));
-    let computed = picture.computed.iter().map(|&place| {
-        let literal = Literal::u32_unsuffixed(place);
+    let computed = picture.computed.iter().map(|&index| {
+        let literal = Literal::u32_unsuffixed(index);
         quote!(#literal)
     });
     let (bodies, beams) = (list(bodies), list(beams));

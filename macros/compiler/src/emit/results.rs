@@ -160,8 +160,8 @@ impl<'a> Results<'a> {
                     Operand::Instruction(_) => true,
                 };
                 if !known {
-                    let place = self.place(array, entry);
-                    let _ = writeln!(text, "{place} = {};", body.text(value).text);
+                    let target = self.place(array, entry);
+                    let _ = writeln!(text, "{target} = {};", body.text(value).text);
                 }
             }
         }

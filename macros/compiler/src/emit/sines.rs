@@ -37,19 +37,19 @@ pub(super) fn groups(kernel: &Kernel) -> (Vec<Group>, Vec<Option<usize>>) {
             }
         };
         depth[index] = below + 1;
-        let place = if kernel.instructions.len() <= FEW {
+        let group_index = if kernel.instructions.len() <= FEW {
             below
         } else {
-            let own = |group: &Group| group.angles.iter().any(|(known, _)| *known == angle);
-            groups.iter().position(own).unwrap_or(groups.len())
+            let has_angle = |group: &Group| group.angles.iter().any(|(known, _)| *known == angle);
+            groups.iter().position(has_angle).unwrap_or(groups.len())
         };
-        if groups.len() == place {
+        if groups.len() == group_index {
             groups.push(Group {
                 angles: Vec::new(),
                 last: index,
             });
         }
-        let group = &mut groups[place];
+        let group = &mut groups[group_index];
         group.last = index;
         match group.angles.iter_mut().find(|(known, _)| *known == angle) {
             Some((_, functions)) => functions[which] = Some(index),

@@ -30,7 +30,7 @@ pub(super) fn info(tolerance: &Tolerance) -> TokenStream {
         Law::OneOf(values) => {
             let values = values
                 .iter()
-                .map(|(place, weight)| quote!((#place, #weight)));
+                .map(|(fraction, weight)| quote!((#fraction, #weight)));
             quote!(OneOf(::eigentol::List::Static(&[#(#values),*])))
         }
     };

@@ -140,13 +140,13 @@ fn derived(
 
 /// The positions of the unknowns with a steady value.
 fn held(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<usize> {
-    let place = |id: CoordinateId| {
+    let index_of = |id: CoordinateId| {
         let is = |role: Role| matches!(role, Role::Position(own) | Role::Speed(own) if own == id);
-        let place = unknowns.iter().position(|unknown| is(unknown.role));
-        place.expect("what has a steady value is not driven, and its joint is not cut")
+        let index = unknowns.iter().position(|unknown| is(unknown.role));
+        index.expect("what has a steady value is not driven, and its joint is not cut")
     };
     let steady = mechanism.steady.iter();
-    steady.map(|steady| place(steady.coordinate)).collect()
+    steady.map(|steady| index_of(steady.coordinate)).collect()
 }
 
 /// The meaning of each entry of `q`.

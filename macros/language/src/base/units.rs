@@ -86,10 +86,10 @@ pub fn find(name: &str) -> Option<NamedUnit> {
     }
     PREFIXES.iter().find_map(|(prefix, power)| {
         let base = name.strip_prefix(prefix)?;
-        let &(_, dimension, factor, own) = PREFIXED.iter().find(|entry| entry.0 == base)?;
+        let &(_, dimension, factor, exponent) = PREFIXED.iter().find(|entry| entry.0 == base)?;
         Some(NamedUnit {
             dimension,
-            scale: factor * power_of_ten(power + own),
+            scale: factor * power_of_ten(power + exponent),
         })
     })
 }

@@ -62,7 +62,7 @@ impl Beam {
         let rule = self
             .sections
             .iter()
-            .map(|(place, weight, _)| (place, weight));
+            .map(|(fraction, weight, _)| (fraction, weight));
         let (points, weights) = rule.unzip();
         Gauss { points, weights }
     }

@@ -116,8 +116,8 @@ impl Mechanism {
 
     /// The beam that a body is.
     pub fn beam(&self, body: BodyId) -> Option<BeamId> {
-        let place = self.beams.iter().position(|beam| beam.body == body);
-        place.map(BeamId::new)
+        let index = self.beams.iter().position(|beam| beam.body == body);
+        index.map(BeamId::new)
     }
 
     /// Design variables that nothing refers to.

@@ -250,7 +250,7 @@ fn tolerance(tolerance: &Tolerance) -> String {
         Law::OneOf(values) => {
             let each = values
                 .iter()
-                .map(|(place, weight)| format!("{place}: {weight}"));
+                .map(|(fraction, weight)| format!("{fraction}: {weight}"));
             text += &format!(" one of [{}]", each.collect::<Vec<_>>().join(", "));
         }
         law => text += &format!(" {law}"),

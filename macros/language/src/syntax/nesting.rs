@@ -47,7 +47,7 @@ pub(crate) fn too_deep(text: &str) -> Option<(usize, usize)> {
 /// The length of the comment or string at the start of a text, up to the end of the text if it is not closed.
 #[cfg(feature = "locations")]
 fn passed_over(text: &str) -> Option<usize> {
-    let up_to = |found: Option<usize>| Some(found.unwrap_or(text.len()));
+    let up_to = |position: Option<usize>| Some(position.unwrap_or(text.len()));
     if text.starts_with("//") {
         return up_to(text.find('\n'));
     }

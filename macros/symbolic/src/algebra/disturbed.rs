@@ -109,7 +109,7 @@ impl<'a> Evaluator<'a> {
     pub fn at(&self, seed: u64, symbol: impl Fn(SymbolId) -> Disturbed) -> Vec<Disturbed> {
         let mut values: Vec<[f64; LANES]> = Vec::with_capacity(self.part.len());
         let read = |values: &[[f64; LANES]], id: ExprId| match self.part.place(id) {
-            Some(place) => values[place],
+            Some(index) => values[index],
             None => unreachable!("operands are among the nodes below the roots"),
         };
         for &id in self.part.nodes() {

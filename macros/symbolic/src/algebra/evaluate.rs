@@ -9,7 +9,7 @@ use crate::base::ids::{ExprId, SymbolId};
 pub fn evaluate(graph: &Graph, roots: &[ExprId], symbol: impl Fn(SymbolId) -> f64) -> Vec<f64> {
     let part = Reached::below(graph, roots);
     let mut values: Vec<f64> = Vec::with_capacity(part.len());
-    let read = |values: &[f64], id: ExprId| part.place(id).map_or(f64::NAN, |place| values[place]);
+    let read = |values: &[f64], id: ExprId| part.place(id).map_or(f64::NAN, |index| values[index]);
     for &id in part.nodes() {
         values.push(match graph.node(id) {
             Node::Constant(bits) => f64::from_bits(bits),

@@ -95,15 +95,15 @@ impl Default for Table {
 
 impl Table {
     fn find(&self, nodes: &[Node], node: Node, hash: u64) -> Option<ExprId> {
-        let mut place = self.first_place(hash);
+        let mut bucket = self.first_place(hash);
         loop {
-            let slot = self.slots[place];
+            let slot = self.slots[bucket];
             match number(slot) {
                 0 => return None,
                 number if is(slot, hash) && nodes[number - 1] == node => {
                     return Some(ExprId::new(number - 1));
                 }
-                _ => place = self.next_place(place),
+                _ => bucket = self.next_place(bucket),
             }
         }
     }
@@ -122,11 +122,11 @@ impl Table {
     }
 
     fn place(&mut self, hash: u64, slot: Slot) {
-        let mut place = self.first_place(hash);
-        while self.slots[place] != 0 {
-            place = self.next_place(place);
+        let mut bucket = self.first_place(hash);
+        while self.slots[bucket] != 0 {
+            bucket = self.next_place(bucket);
         }
-        self.slots[place] = slot;
+        self.slots[bucket] = slot;
     }
 
     fn first_place(&self, hash: u64) -> usize {

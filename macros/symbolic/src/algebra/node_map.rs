@@ -26,8 +26,8 @@ impl<'a> NodeMap<'a> {
 
     /// Sets the image of one of the nodes; that of any other is not kept.
     pub(super) fn set(&mut self, id: ExprId, image: ExprId) {
-        if let Some(place) = self.part.place(id) {
-            self.images[place] = image.0 + 1;
+        if let Some(index) = self.part.place(id) {
+            self.images[index] = image.0 + 1;
         }
     }
 }

@@ -339,8 +339,11 @@ fn regrouping_keeps_values_and_saves_operations() {
 fn disturbed(g: &Graph, id: ExprId, x: f64) -> (f64, bool) {
     let roots = [id];
     let evaluator = Evaluator::new(g, &roots);
-    let found = evaluator.at(1, |_| Disturbed::exact(x))[0];
-    (found.value(), found.is_rounding(evaluator.operations()))
+    let disturbed_value = evaluator.at(1, |_| Disturbed::exact(x))[0];
+    (
+        disturbed_value.value(),
+        disturbed_value.is_rounding(evaluator.operations()),
+    )
 }
 
 /// The rounding residue of constants that cancel cannot be recognised by its value alone.

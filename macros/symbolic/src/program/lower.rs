@@ -93,8 +93,8 @@ impl<'a> Lowering<'a> {
             Node::Constant(_) | Node::Symbol(_) => unreachable!("leaves are operands"),
         };
         self.count += 1;
-        if let Some(place) = self.needed.place(id) {
-            self.done[place] = self.count;
+        if let Some(index) = self.needed.place(id) {
+            self.done[index] = self.count;
         }
         Instruction {
             name: self.graph.given_name(id).cloned(),
@@ -108,8 +108,8 @@ impl<'a> Lowering<'a> {
             Node::Constant(bits) => Operand::Constant(f64::from_bits(bits)),
             Node::Symbol(symbol) => self.parameter(symbol),
             _ => {
-                let place = self.needed.place(id);
-                let number = place.and_then(|place| self.done[place].checked_sub(1));
+                let index = self.needed.place(id);
+                let number = index.and_then(|index| self.done[index].checked_sub(1));
                 Operand::Instruction(number.expect("operands come before their users") as usize)
             }
         }

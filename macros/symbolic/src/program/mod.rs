@@ -116,7 +116,7 @@ impl Kernel {
                 continue;
             }
             match counts.binary_search_by_key(&instruction.stage, |&(stage, _)| stage) {
-                Ok(found) => counts[found].1 += 1,
+                Ok(position) => counts[position].1 += 1,
                 Err(error) => counts.insert(error, (instruction.stage, 1)),
             }
         }

@@ -35,7 +35,7 @@ fn sines(graph: &Graph, needed: &Reached) -> Vec<ExprId> {
     let mut depths: Vec<u32> = Vec::with_capacity(needed.len());
     let mut sines = Vec::new();
     for &id in needed.nodes() {
-        let depth = |id| needed.place(id).map_or(0, |place| depths[place]);
+        let depth = |id| needed.place(id).map_or(0, |index| depths[index]);
         depths.push(match graph.node(id) {
             Node::Constant(_) | Node::Symbol(_) => 0,
             Node::Unary(Unary::Sin | Unary::Cos, a) => {
@@ -93,8 +93,8 @@ impl<'a> Schedule<'a> {
     }
 
     fn index(&self, id: ExprId) -> usize {
-        let place = self.needed.place(id);
-        place.expect("results need their operands")
+        let index = self.needed.place(id);
+        index.expect("results need their operands")
     }
 
     /// Places a value after everything that it needs.

@@ -108,8 +108,8 @@ impl Answer for SpecialPoint {
     fn findings(&self) -> Findings {
         let d = &self.equilibrium.description;
         let title = title_along(d, &self.equilibrium.inputs, self.input);
-        let place = place(d, self.input, self.value);
-        let mut said = Findings::titled(format!("{title}: {} at {place}", self.kind));
+        let location = place(d, self.input, self.value);
+        let mut said = Findings::titled(format!("{title}: {} at {location}", self.kind));
         said.quote(self.equilibrium.findings());
         critical_vectors(&mut said, d, &self.v, &self.w);
         let mut table = Columns::new("special points", slice::from_ref(self));
@@ -154,7 +154,7 @@ impl Branches {
             let [first, last] = &branch.ends;
             let (text, number) = (format!("{first} to {last}"), (k + 1).to_string());
             match said.iter_mut().find(|(known, _)| *known == text) {
-                Some((_, own)) => own.push(number),
+                Some((_, numbers)) => numbers.push(number),
                 None => said.push((text, vec![number])),
             }
         }

@@ -83,8 +83,8 @@ mod tests {
             lu.solve_transposed(&[backward[0], backward[1]], [backward[2], backward[3]]),
         ];
         for (head, tail) in solutions {
-            for (found, expected) in head.iter().chain(&tail).zip(x) {
-                assert!((found - expected).abs() < 1e-14);
+            for (solved, expected) in head.iter().chain(&tail).zip(x) {
+                assert!((solved - expected).abs() < 1e-14);
             }
         }
         assert!(lu.negative_determinant());

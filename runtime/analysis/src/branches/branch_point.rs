@@ -62,16 +62,16 @@ impl Curve<'_> {
             let reduced = self.reduced(frame, &local, 0.0, &borders)?;
             local = local.plus(1.0, &reduced.correction);
         }
-        let place = frame.place(&local);
+        let position = frame.place(&local);
         let reduced = self.reduced(frame, &local, 0.0, &borders)?;
         let [first, second] = directions(&reduced)?;
         let own_is_first = first.dot(&end).abs() >= second.dot(&end).abs();
-        let (own, other) = if own_is_first {
+        let (incoming, other) = if own_is_first {
             (first, second)
         } else {
             (second, first)
         };
-        let own = own.scaled(if own.dot(&end) < 0.0 { -1.0 } else { 1.0 });
+        let incoming = incoming.scaled(if incoming.dot(&end) < 0.0 { -1.0 } else { 1.0 });
         let stationary = |direction: &CurvePosition| direction.p.abs() <= STATIONARY;
         let v = critical(&reduced.tangents).ok_or_else(not_simple)?;
         let pitchfork = |crossed| -> Result<SpecialKind, ContinuationFailure> {
@@ -80,10 +80,10 @@ impl Curve<'_> {
                 supercritical: self.supercritical(frame, &local, known, [crossed, &v])?,
             })
         };
-        let kind = match (stationary(&own), stationary(&other)) {
+        let kind = match (stationary(&incoming), stationary(&other)) {
             (true, true) => return Err(not_simple()),
             (false, false) => SpecialKind::Transcritical,
-            (false, true) => pitchfork(&own)?,
+            (false, true) => pitchfork(&incoming)?,
             (true, false) => pitchfork(&other)?,
         };
         let critical = frame.stretched(&v);
@@ -96,11 +96,11 @@ impl Curve<'_> {
         let gap = reduced.mu.abs() / size;
         let also = ACCEPTED * gap / CROSSING;
         let weights = frame.weights(&reduced.w);
-        let special = self.special(kind, &place, (&critical.q, &weights), 1, Some(also))?;
+        let special = self.special(kind, &position, (&critical.q, &weights), 1, Some(also))?;
         Ok(Junction {
             special,
-            frame: frame.at(place),
-            own,
+            frame: frame.at(position),
+            incoming,
             other,
         })
     }
@@ -215,8 +215,8 @@ impl Curve<'_> {
         mu: f64,
         borders: &Borders,
     ) -> Result<Reduced, ContinuationFailure> {
-        let place = frame.place(local);
-        let scaled = frame.scaled(&self.system(&place)?);
+        let position = frame.place(local);
+        let scaled = frame.scaled(&self.system(&position)?);
         let [first, second] = &borders.normals;
         let factors = Bordered::new(
             &scaled.stiffness,
@@ -236,7 +236,7 @@ impl Curve<'_> {
         let (w, slopes) = factors.solve_transposed(&Vector::zeros(n), [0.0, 1.0]);
         let weights = frame.weights(&w);
         let bend = |tangent: &CurvePosition| -> Result<CurvePosition, ContinuationFailure> {
-            let curvature = self.curvature(&place, &weights, &frame.stretched(tangent))?;
+            let curvature = self.curvature(&position, &weights, &frame.stretched(tangent))?;
             Ok(frame.stretched(&curvature))
         };
         let bent = [bend(&tangents[0])?, bend(&tangents[1])?];
@@ -357,5 +357,5 @@ fn unit(x: &[f64]) -> Option<Vector> {
         q: x.into(),
         p: 0.0,
     };
-    direction.unit().map(|place| place.q)
+    direction.unit().map(|normalised| normalised.q)
 }

@@ -371,12 +371,12 @@ impl<'a> Curve<'a> {
         let mut stalled = false;
         let most = self.settings.max_corrections;
         for iterations in 0..=most {
-            let place = frame.place(&local);
-            let system = self.system(&place)?;
+            let position = frame.place(&local);
+            let system = self.system(&position)?;
             if last <= LAST_STEP || stalled {
                 return Ok(Corrected {
                     local,
-                    place,
+                    place: position,
                     system,
                     iterations,
                 });
@@ -406,11 +406,11 @@ impl<'a> Curve<'a> {
             }
         }
         if last <= ROUNDING {
-            let place = frame.place(&local);
-            let system = self.system(&place)?;
+            let position = frame.place(&local);
+            let system = self.system(&position)?;
             return Ok(Corrected {
                 local,
-                place,
+                place: position,
                 system,
                 iterations: most,
             });

@@ -96,12 +96,12 @@ impl Curve<'_> {
         judged: SolvedState,
     ) -> Result<CurvePoint, ContinuationFailure> {
         let equilibrium = &judged.state;
-        let place = CurvePosition {
+        let position = CurvePosition {
             q: equilibrium.coordinates.clone(),
             p: equilibrium.inputs[self.settings.input.index()],
         };
-        let system = self.system(&place)?;
-        let frame = self.frame(&place, &system);
+        let system = self.system(&position)?;
+        let frame = self.frame(&position, &system);
         let scaled = frame.scaled(&system);
         let axis = |k: Option<usize>| CurvePosition {
             q: Vector::from_fn(self.size(), |i| if k == Some(i) { 1.0 } else { 0.0 }),
@@ -124,7 +124,7 @@ impl Curve<'_> {
         let tangent = best.ok_or(ContinuationFailure::Missed(NotFound::NotIsolated))?;
         let tangent = tangent.scaled(if tangent.p * forward < 0.0 { -1.0 } else { 1.0 });
         let direction = frame.stretched(&tangent);
-        self.station(&place, &system, judged, &direction, None)
+        self.station(&position, &system, judged, &direction, None)
     }
 }
 

@@ -25,12 +25,12 @@ impl Curve<'_> {
         corrected: &Corrected,
         before: &CurvePoint,
     ) -> Result<CurvePoint, ContinuationFailure> {
-        let (place, system) = (&corrected.place, &corrected.system);
-        let judged = self.equilibrium(place, system, corrected.iterations, None)?;
-        let frame = self.frame(place, system);
+        let (position, system) = (&corrected.place, &corrected.system);
+        let judged = self.equilibrium(position, system, corrected.iterations, None)?;
+        let frame = self.frame(position, system);
         let tangent = frame.direction(&before.direction()).unit();
         Ok(CurvePoint {
-            place: place.clone(),
+            place: position.clone(),
             equilibrium: judged.state,
             judged: judged.modes,
             frame,
@@ -116,12 +116,12 @@ impl Curve<'_> {
         if !(step.norm() <= BESIDE && step.dot(&at.tangent) > 0.0) {
             return None;
         }
-        let mut place = at.frame.place(&step);
-        place.p = bound;
-        let system = self.system(&place).ok()?;
+        let mut position = at.frame.place(&step);
+        position.p = bound;
+        let system = self.system(&position).ok()?;
         let corrected = Corrected {
             local: step,
-            place,
+            place: position,
             system,
             iterations: 0,
         };

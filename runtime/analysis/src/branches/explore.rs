@@ -220,7 +220,7 @@ impl Curve<'_> {
     }
 
     fn explore(&self, states: Vec<Equilibrium>, mut each: impl FnMut(&Branch)) -> Branches {
-        let mut found: Vec<Branch> = Vec::new();
+        let mut all_branches: Vec<Branch> = Vec::new();
         let mut leads = VecDeque::new();
         for state in states {
             match self.begin(&state) {
@@ -228,18 +228,18 @@ impl Curve<'_> {
                 Err(trouble) => {
                     let alone = self.lone_point(state, trouble);
                     each(&alone);
-                    found.push(alone);
+                    all_branches.push(alone);
                 }
             }
         }
         let mut entered: Vec<CurvePosition> = Vec::new();
         while let Some(lead) = leads.pop_front() {
-            let Some((branch, junctions)) = self.follow(&lead, &found) else {
+            let Some((branch, junctions)) = self.follow(&lead, &all_branches) else {
                 continue;
             };
-            if found.len() >= self.settings.max_branches {
+            if all_branches.len() >= self.settings.max_branches {
                 return Branches {
-                    branches: found,
+                    branches: all_branches,
                     truncated: true,
                 };
             }
@@ -249,10 +249,10 @@ impl Curve<'_> {
                     continue;
                 }
                 entered.push(junction.frame.origin.clone());
-                let (own, other) = (junction.own.clone(), junction.other.clone());
+                let (incoming, other) = (junction.incoming.clone(), junction.other.clone());
                 if ends_arm {
                     leads.push_back(Lead::Through(junction.clone(), other));
-                    leads.push_back(Lead::Arm(junction, own));
+                    leads.push_back(Lead::Arm(junction, incoming));
                 } else if matches!(junction.special.kind, SpecialKind::Pitchfork { .. }) {
                     let opposite = other.scaled(-1.0);
                     leads.push_back(Lead::Arm(junction.clone(), other));
@@ -263,16 +263,16 @@ impl Curve<'_> {
             }
             each(&branch);
             let stopped = branch.ends.contains(&BranchEnd::Stopped);
-            found.push(branch);
+            all_branches.push(branch);
             if stopped {
                 return Branches {
-                    branches: found,
+                    branches: all_branches,
                     truncated: true,
                 };
             }
         }
         Branches {
-            branches: found,
+            branches: all_branches,
             truncated: false,
         }
     }
@@ -289,7 +289,7 @@ impl Curve<'_> {
             let direction = junction.frame.stretched(direction);
             Some(self.special_point(&junction.special, &direction))
         };
-        let (mut branch, junctions, place) = match lead {
+        let (mut branch, junctions, index) = match lead {
             Lead::Start(station) => {
                 return fresh(station).then(|| self.both_ways(station));
             }
@@ -326,17 +326,17 @@ impl Curve<'_> {
                         BranchEnd::BranchPoint
                     })
                 };
-                let place = back.as_ref().map_or(0, |walk| walk.special.len());
+                let index = back.as_ref().map_or(0, |walk| walk.special.len());
                 let (branch, junctions) = self.joined(
                     back.unwrap_or_else(stopped),
                     at(junction, direction),
                     front.unwrap_or_else(stopped),
                 );
-                (branch, junctions, place)
+                (branch, junctions, index)
             }
         };
         let special = junction_of(lead).map(|junction| junction.special.clone());
-        branch.special.splice(place..place, special);
+        branch.special.splice(index..index, special);
         Some((branch, junctions))
     }
 }

@@ -39,8 +39,8 @@ impl Curve<'_> {
         let zeros = Vector::zeros(self.size());
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
-            let place = frame.place(&local);
-            let scaled = frame.scaled(&self.system(&place)?);
+            let position = frame.place(&local);
+            let scaled = frame.scaled(&self.system(&position)?);
             let (d, c) = (
                 unit(&v).ok_or_else(singular)?,
                 unit(&w).ok_or_else(singular)?,
@@ -57,11 +57,11 @@ impl Curve<'_> {
             let weights = frame.weights(&w);
             if last <= LAST_STEP {
                 let special =
-                    self.special(SpecialKind::Fold, &place, (&along.q, &weights), 1, None)?;
+                    self.special(SpecialKind::Fold, &position, (&along.q, &weights), 1, None)?;
                 let direction = along.scaled(dot(&v, &end.q).signum());
                 return Ok((special, direction));
             }
-            let slope = frame.stretched(&self.curvature(&place, &weights, &along)?);
+            let slope = frame.stretched(&self.curvature(&position, &weights, &along)?);
             let slope = slope.scaled(-1.0);
             let (q, [p]) = Bordered::new(
                 &scaled.stiffness,

@@ -97,12 +97,12 @@ impl Curve<'_> {
                 Err(_) => return Ok(None),
             };
             let pitchfork = matches!(junction.special.kind, SpecialKind::Pitchfork { .. });
-            let ends_arm = pitchfork && junction.own.p.abs() < junction.other.p.abs();
+            let ends_arm = pitchfork && junction.incoming.p.abs() < junction.other.p.abs();
             let explained = changes.is(false, true, 1) && !ends_arm;
             let explained_arm = changes.is(true, true, 0) && ends_arm;
             return Ok((explained || explained_arm).then(|| Located {
                 special: junction.special.clone(),
-                direction: junction.frame.stretched(&junction.own),
+                direction: junction.frame.stretched(&junction.incoming),
                 junction: Some(junction),
                 ends_arm,
             }));
@@ -199,11 +199,11 @@ impl Curve<'_> {
             });
         }
         let from = end.scaled(fraction);
-        let place = match self.correct(&a.frame, &from, &normal, 0.5 * end.norm()) {
+        let position = match self.correct(&a.frame, &from, &normal, 0.5 * end.norm()) {
             Ok(corrected) => corrected.place,
             Err(_) => a.frame.place(&from),
         };
-        let special = self.degenerate(&place, (&a.frame, &normal), zero)?;
+        let special = self.degenerate(&position, (&a.frame, &normal), zero)?;
         Ok(Located {
             special,
             direction: a.frame.stretched(&normal),

@@ -79,7 +79,7 @@ pub(crate) struct Junction {
     /// Frame at the junction, with the units of a regular point nearby.
     pub(crate) frame: Frame,
     /// Local unit direction, along the walk, of the branch on which the junction was found.
-    pub(crate) own: CurvePosition,
+    pub(crate) incoming: CurvePosition,
     /// Local unit direction of the other branch.
     pub(crate) other: CurvePosition,
 }

@@ -55,7 +55,7 @@ impl Curve<'_> {
         }
         let tolerance = CLOSE.min(0.01 * length);
         match self.correct(&frame, &normal.scaled(along), &normal, length) {
-            Ok(found) => found.local.plus(-1.0, &target).norm() <= tolerance,
+            Ok(corrected) => corrected.local.plus(-1.0, &target).norm() <= tolerance,
             Err(_) => across <= tolerance,
         }
     }

@@ -273,11 +273,11 @@ impl Curve<'_> {
         towards: &CurvePosition,
         before: Option<&CurvePoint>,
     ) -> Result<CurvePoint, ContinuationFailure> {
-        let place = &corrected.place;
+        let position = &corrected.place;
         let system = &corrected.system;
-        let judged = self.equilibrium(place, system, corrected.iterations, None)?;
+        let judged = self.equilibrium(position, system, corrected.iterations, None)?;
         let before = before.map(|station| &station.signs);
-        self.station(place, system, judged, towards, before)
+        self.station(position, system, judged, towards, before)
     }
 
     /// Whether the step from a station passes a point.
@@ -292,7 +292,7 @@ impl Curve<'_> {
             return false;
         };
         self.correct(&at.frame, &end.scaled(along), &normal, end.norm())
-            .is_ok_and(|found| found.local.plus(-1.0, &target).norm() <= SAME)
+            .is_ok_and(|corrected| corrected.local.plus(-1.0, &target).norm() <= SAME)
     }
 }
 

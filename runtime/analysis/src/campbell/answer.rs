@@ -111,8 +111,8 @@ impl<'a> Row<'a> {
 impl CampbellMode {
     /// The standard deviation of one of its spreads, which a member of a cluster does not have.
     fn sigma(&self, spread: Option<&Spread>) -> Option<f64> {
-        let own = spread.filter(|_| !self.clustered);
-        own.map(|x| x.sigma)
+        let separate = spread.filter(|_| !self.clustered);
+        separate.map(|x| x.sigma)
     }
 }
 
@@ -227,7 +227,7 @@ impl Campbell {
         let Some(info) = self.description.inputs.get(self.input.index()) else {
             return;
         };
-        let place = |value: Option<f64>| {
+        let formatted = |value: Option<f64>| {
             value.map_or_else(|| "-".to_owned(), |value| given_in(value, &info.unit))
         };
         let labels = self.labels().into_iter();
@@ -246,16 +246,18 @@ impl Campbell {
             or_dash(pair.widest().map(|pair| pair.1), rough)
         });
         let at = format!("at {}", info.name);
-        table.cells(&at, &|pair| place(pair.widest().map(|pair| pair.0)));
+        table.cells(&at, &|pair| formatted(pair.widest().map(|pair| pair.0)));
         if self.family == Family::General {
             table.cells("least damping ratio", &|row| {
                 or_dash(row.least_damped().map(|(.., x)| x.mean), rough)
             });
             table.cells("sigma", &|row| {
-                let own = row.least_damped().filter(|(_, mode, _)| !mode.clustered);
-                or_dash(own.map(|(.., x)| spread_of(x)), rough)
+                let separate = row.least_damped().filter(|(_, mode, _)| !mode.clustered);
+                or_dash(separate.map(|(.., x)| spread_of(x)), rough)
             });
-            table.cells(&at, &|pair| place(pair.least_damped().map(|pair| pair.0)));
+            table.cells(&at, &|pair| {
+                formatted(pair.least_damped().map(|pair| pair.0))
+            });
         }
         table.cells("whirl", &Motion::senses);
         table.cells("motion", &Motion::behaviours);

@@ -22,8 +22,8 @@ impl Listed for ClusterTolerance {
 
     fn findings(all: &[Self]) -> Findings {
         let mut said = Findings::default();
-        for own in all {
-            said.join(own.said());
+        for cluster in all {
+            said.join(cluster.said());
         }
         if all.is_empty() {
             said.note("tolerances bring no modes together");
@@ -87,16 +87,16 @@ impl ClusterTolerance {
         let quantities = [("frequency", &spread.frequency)].into_iter();
         let quantities = quantities.chain(damping.map(|damping| ("damping ratio", damping)));
         let mut rows = Vec::new();
-        for (quantity, own) in quantities {
+        for (quantity, spreads) in quantities {
             let member = |name, value| Member {
                 cluster: self,
                 quantity,
                 name,
                 value,
             };
-            let each = own.members.iter().enumerate();
+            let each = spreads.members.iter().enumerate();
             rows.extend(each.map(|(k, x)| member((k + 1).to_string(), x.value.as_ref())));
-            rows.push(member("splitting".to_owned(), own.splitting.as_ref()));
+            rows.push(member("splitting".to_owned(), spreads.splitting.as_ref()));
         }
         rows
     }

@@ -267,20 +267,21 @@ impl PairSpreads {
             let variance = sigma * sigma;
             match modes.family {
                 Family::Undamped => {
-                    let own = undamped.couplings(&change);
+                    let projection = undamped.couplings(&change);
                     for i in 0..count {
                         for j in 0..count {
-                            apart[i][j] += variance * (own[i][i] - own[j][j]).powi(2);
-                            coupling[i][j] += variance * own[i][j].powi(2);
+                            apart[i][j] += variance * (projection[i][i] - projection[j][j]).powi(2);
+                            coupling[i][j] += variance * projection[i][j].powi(2);
                         }
                     }
                 }
                 Family::General => {
-                    let own = general(at, &members, &change);
+                    let projection = general(at, &members, &change);
                     for i in 0..count {
                         for j in 0..count {
-                            apart[i][j] += variance * (own[i][i] - own[j][j]).norm_sqr();
-                            coupling[i][j] += variance * own[i][j].norm_sqr();
+                            apart[i][j] +=
+                                variance * (projection[i][i] - projection[j][j]).norm_sqr();
+                            coupling[i][j] += variance * projection[i][j].norm_sqr();
                         }
                     }
                 }

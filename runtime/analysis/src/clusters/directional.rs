@@ -64,30 +64,30 @@ pub fn directional_derivatives(
             *sum += slope * change;
         }
     }
-    let mut found = vec![Complex::ZERO; m];
+    let mut derivatives = vec![Complex::ZERO; m];
     let finite = matrix.iter().all(|value| value.is_finite());
-    if !(finite && eigenvalues(&mut matrix, &mut found)) {
+    if !(finite && eigenvalues(&mut matrix, &mut derivatives)) {
         return Err(outside_domain(at));
     }
     if modes.family == Family::Undamped {
         // The matrix is symmetric: an imaginary part is rounding.
-        found.iter_mut().for_each(|value| value.im = 0.0);
+        derivatives.iter_mut().for_each(|value| value.im = 0.0);
     }
-    found.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
+    derivatives.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
     let mode = &modes.modes[mode];
     let frequencies = mode.frequency().map(|omega| {
         let slope = |value: &Complex| match modes.family {
             Family::Undamped => value.re / (2.0 * omega),
             Family::General => value.im,
         };
-        let mut slopes: Vec<f64> = found.iter().map(slope).collect();
+        let mut slopes: Vec<f64> = derivatives.iter().map(slope).collect();
         slopes.sort_by(f64::total_cmp);
         slopes
     });
     Ok(DirectionalDerivatives {
         modes: cluster,
         family: modes.family,
-        eigenvalues: found,
+        eigenvalues: derivatives,
         frequencies,
         inputs: at.inputs.clone(),
         description: at.description.clone(),

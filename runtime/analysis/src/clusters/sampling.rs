@@ -286,11 +286,11 @@ impl<'a> Work<'a> {
                 true
             }
             Self::Undamped { matrix, room, .. } => {
-                let Some(found) = room.eigenvalues(matrix) else {
+                let Some(eigenvalues) = room.eigenvalues(matrix) else {
                     return false;
                 };
-                for (value, found) in values.iter_mut().zip(found) {
-                    *value = (*found).into();
+                for (value, eigenvalue) in values.iter_mut().zip(eigenvalues) {
+                    *value = (*eigenvalue).into();
                 }
                 true
             }

@@ -238,7 +238,7 @@ fn tolerance(
     modes: &Modes,
     tolerances: &Tolerances,
 ) -> ClusterTolerance {
-    let own = |index: usize| &modes.modes[couplings.modes[index]];
+    let mode_at = |index: usize| &modes.modes[couplings.modes[index]];
     let count = couplings.modes.len();
     let mut defective = couplings.modes.iter().any(|&mode| merged(modes, mode));
     let mut distance = f64::INFINITY;
@@ -246,10 +246,10 @@ fn tolerance(
     for i in 0..count {
         for j in 0..i {
             let pair = Pair::new(couplings, (i, j), tolerances);
-            let condition = own(i).condition.max(own(j).condition);
+            let condition = mode_at(i).condition.max(mode_at(j).condition);
             defective = defective || pair.hidden_by_rounding(condition);
             distance = distance.min(pair.distance());
-            let values = [i, j].map(|place| couplings.eigenvalues[place].norm());
+            let values = [i, j].map(|index| couplings.eigenvalues[index].norm());
             equal &= pair.gap + pair.apart + pair.mixing <= EQUAL * values[0].max(values[1]);
         }
     }

@@ -58,7 +58,7 @@ impl Convergence {
                 continue;
             };
             match modes.last_mut() {
-                Some((last, own)) if *last == mode => *own = own.max(most),
+                Some((last, greatest)) if *last == mode => *greatest = greatest.max(most),
                 _ => modes.push((mode, most)),
             }
         }
@@ -98,9 +98,9 @@ fn verdict<T: Clone>(all: &[(T, f64)], name: impl Fn(&[T]) -> String) -> Option<
         parts.push(format!("{} {} {by}", called(&known), verb(&known)));
     }
     let (told, rest) = others.split_at(others.len().min(TOLD));
-    for own in told {
+    for entry in told {
         let verb = if parts.is_empty() { " changes" } else { "" };
-        parts.push(format!("{}{verb} by {}", called(&[own]), share(own.1)));
+        parts.push(format!("{}{verb} by {}", called(&[entry]), share(entry.1)));
     }
     if !rest.is_empty() {
         parts.push(format!("{} by up to {}", called(rest), share(worst(rest))));

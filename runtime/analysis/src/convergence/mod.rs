@@ -114,11 +114,14 @@ pub fn convergence(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Convergenc
 fn of_modes(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Vec<Change> {
     let refined = refined.map(Solved::oscillating);
     let mut changes = Vec::new();
-    for (k, (mode, own)) in declared.oscillating().into_iter().enumerate() {
-        let damped = matches!(own.behaviour, Behaviour::Damped(_) | Behaviour::Flutter(_));
+    for (k, (mode, eigenmode)) in declared.oscillating().into_iter().enumerate() {
+        let damped = matches!(
+            eigenmode.behaviour,
+            Behaviour::Damped(_) | Behaviour::Flutter(_)
+        );
         let ratio = damped.then_some(Quantity::DampingRatio);
         for quantity in [Quantity::Frequency].into_iter().chain(ratio) {
-            let Some(value) = quantity.of(own) else {
+            let Some(value) = quantity.of(eigenmode) else {
                 continue;
             };
             let others = (refined.each_ref()).map(|all| quantity.of(all.get(k)?.1));

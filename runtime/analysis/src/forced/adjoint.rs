@@ -68,7 +68,7 @@ impl<'a> OutputAdjoint<'a> {
         let weights = Matrix::from_fn(z.len(), outputs.len(), |i, k| rows[first + k][i]);
         let lefts = vibration.stiffness.solve_transposed(&weights);
         let of_matrices = pencil_slope_times(&solved.at.linear, s, z);
-        let own = |output: usize| {
+        let adjoint = |output: usize| {
             let finite = !vibration.stiffness.seen_by(&rows[output]);
             finite.then(|| {
                 let left = lefts.column(output - first);
@@ -85,7 +85,7 @@ impl<'a> OutputAdjoint<'a> {
                 }
             })
         };
-        outputs.map(own).collect()
+        outputs.map(adjoint).collect()
     }
 
     /// The gradient of `-h` at fixed equilibrium.
@@ -259,16 +259,16 @@ impl Weights {
         motion: &Motion,
         (call, fixed): (Call, f64),
     ) -> Self {
-        let mut own = Self::zeros(sizes);
+        let mut weights = Self::zeros(sizes);
         let shares = vibration.harmonic.shares.iter();
         let members = shares.filter(|share| share.turn() == call.turn);
-        members.for_each(|share| own.share[share.excitation] = fixed);
+        members.for_each(|share| weights.share[share.excitation] = fixed);
         if call.first {
-            own.motion = motion
+            weights.motion = motion
                 .each_ref()
                 .map(|x| x.map(|value| call.part.of(value)));
         }
-        own
+        weights
     }
 
     /// For an output; what does not depend on `factors` is multiplied by `fixed`.
@@ -299,10 +299,10 @@ impl Weights {
 
     /// Of the frequency of a harmonic alone.
     pub(super) fn of_frequency(sizes: Sizes, vibration: &Vibration) -> Self {
-        let mut own = Self::zeros(sizes);
+        let mut weights = Self::zeros(sizes);
         let first = &vibration.harmonic.shares[0];
-        own.frequency[first.excitation] = first.turn();
-        own
+        weights.frequency[first.excitation] = first.turn();
+        weights
     }
 
     /// All arguments, after these of the state or of its direction.

@@ -95,9 +95,9 @@ impl ForcedResponse {
     fn rows(&self) -> Vec<Row<'_>> {
         let harmonics = self.harmonics.iter().enumerate();
         harmonics
-            .flat_map(|(place, harmonic)| {
+            .flat_map(|(index, harmonic)| {
                 (0..harmonic.outputs.len()).map(move |output| Row {
-                    place,
+                    place: index,
                     harmonic,
                     output,
                 })
@@ -256,9 +256,13 @@ impl Answer for ForcedSensitivities {
             let phase = self.phase(row.place, output, measure);
             others.push(derived(name("phase"), unit("rad"), phase));
         }
-        for (harmonic, own) in of.harmonics.iter().zip(&self.harmonics) {
+        for (harmonic, sensitivity) in of.harmonics.iter().zip(&self.harmonics) {
             let name = format!("frequency {}", short(harmonic.frequency));
-            others.push(derived(name, unit("rad/s"), Some(own.frequency.clone())));
+            others.push(derived(
+                name,
+                unit("rad/s"),
+                Some(sensitivity.frequency.clone()),
+            ));
         }
         say(&mut said, &variables, &amplitudes);
         amplitudes.append(&mut others);

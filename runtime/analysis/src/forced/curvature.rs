@@ -219,7 +219,7 @@ pub(super) struct Moved<'a> {
 
 /// An output's adjoint gradient, prepared for differentiation.
 pub(super) struct Curved<'a> {
-    own: OutputAdjoint<'a>,
+    output_adjoint: OutputAdjoint<'a>,
     adjoint: &'a Adjoint<'a>,
     /// `Khat^T w = -dh/dq`, real and imaginary part.
     w: [Vector; 2],
@@ -236,7 +236,7 @@ impl<'a> Curved<'a> {
         let w = (total.each_mut()).map(|part| adjoint.total(part, &mut room));
         (
             Self {
-                own: output_adjoint,
+                output_adjoint,
                 adjoint,
                 w,
             },
@@ -250,8 +250,8 @@ impl<'a> Curved<'a> {
         mechanism: &dyn CurvatureKernels,
         moved: &Moved<'_>,
     ) -> Option<Slopes<Complex>> {
-        let (at, along) = (self.own.solved.at, moved.along);
-        let (vibration, fixed) = (self.own.vibration, &self.own.factors);
+        let (at, along) = (self.output_adjoint.solved.at, moved.along);
+        let (vibration, fixed) = (self.output_adjoint.vibration, &self.output_adjoint.factors);
         let motion = &vibration.motion();
         let (change, motion_change) = &self.change(moved)?;
         let zeros = || Gradient::zeros(mechanism.sizes());
@@ -267,15 +267,15 @@ impl<'a> Curved<'a> {
         );
         let weights = |motion, factors, of| {
             let mut weights = Weights::of(mechanism.sizes(), vibration, motion, of);
-            weights.set_output(&self.own, factors, of);
+            weights.set_output(&self.output_adjoint, factors, of);
             weights
         };
         for (total, part) in total.iter_mut().zip(PARTS) {
             for call in vibration.calls(part) {
-                let own = weights(motion, fixed, (call, 1.0));
+                let base_weights = weights(motion, fixed, (call, 1.0));
                 let changes = weights(motion_change, change, (call, 0.0));
-                let own = (&own, &changes);
-                gradient_along(mechanism, at, own, &along.direction, &mut room);
+                let weight_pair = (&base_weights, &changes);
+                gradient_along(mechanism, at, weight_pair, &along.direction, &mut room);
                 subtract(total, &room);
             }
         }
@@ -289,9 +289,16 @@ impl<'a> Curved<'a> {
     fn change(&self, moved: &Moved<'_>) -> Option<(Factors, Motion)> {
         let Moved { along, ds, dz } = moved;
         let (dz, ds) = (dz.as_ref()?, *ds);
-        let (vibration, seen, o) = (self.own.vibration, &self.own.solved.seen, self.own.output);
+        let (vibration, seen, o) = (
+            self.output_adjoint.vibration,
+            &self.output_adjoint.solved.seen,
+            self.output_adjoint.output,
+        );
         let (s, z) = (vibration.harmonic.s(), &vibration.harmonic.unknowns);
-        let (p, linear) = (&self.own.factors.left, &self.own.solved.at.linear);
+        let (p, linear) = (
+            &self.output_adjoint.factors.left,
+            &self.output_adjoint.solved.at.linear,
+        );
         let n = z.len();
         let (dc, slope) = (along.seen.row(o, s), seen.row_slope(o, s));
         let of_matrices = pencil_times(&along.transposed, s, p);
@@ -361,8 +368,8 @@ pub(super) fn frequency_rows(
     let first = slopes(&partial);
     let still = Weights::zeros(sizes);
     let row = |along: &Along<'_>| {
-        let own = (&weights, &still);
-        gradient_along(mechanism, at, own, &along.direction, &mut partial);
+        let weight_pair = (&weights, &still);
+        gradient_along(mechanism, at, weight_pair, &along.direction, &mut partial);
         adjoint.total_along(&mut partial, &w, &along.direction, &mut room);
         slopes(&partial)
     };

@@ -232,8 +232,8 @@ fn vanishing_direction(factors: &Lu<Complex>, regular: bool, n: usize) -> Option
         size = 1.0 / norm(&image);
         left = unit(&image).unwrap_or(left);
     }
-    let found = !(regular && size > ROUNDING * n as f64);
-    found.then_some(Vanishing { left, right })
+    let is_singular = !(regular && size > ROUNDING * n as f64);
+    is_singular.then_some(Vanishing { left, right })
 }
 
 /// Whether a force has a share along a direction.

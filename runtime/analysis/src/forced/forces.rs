@@ -68,9 +68,14 @@ impl Forces {
     }
 
     pub(super) fn finite(&self) -> bool {
-        let own = &self.0;
-        let parts = [&own.cosine, &own.sine, &own.direct_cosine, &own.direct_sine];
-        all_finite(&own.frequency) && parts.into_iter().all(all_finite_matrix)
+        let forces = &self.0;
+        let parts = [
+            &forces.cosine,
+            &forces.sine,
+            &forces.direct_cosine,
+            &forces.direct_sine,
+        ];
+        all_finite(&forces.frequency) && parts.into_iter().all(all_finite_matrix)
     }
 }
 
@@ -103,9 +108,9 @@ impl Seen {
     }
 
     fn filled(sizes: Sizes, evaluate: impl FnOnce(&mut [&mut [f64]])) -> Self {
-        let mut own = [(); 3].map(|()| Matrix::zeros(sizes.outputs, sizes.coordinates));
-        evaluate(&mut own.each_mut().map(Matrix::as_flattened_mut));
-        Self(own)
+        let mut matrices = [(); 3].map(|()| Matrix::zeros(sizes.outputs, sizes.coordinates));
+        evaluate(&mut matrices.each_mut().map(Matrix::as_flattened_mut));
+        Self(matrices)
     }
 
     /// `c = s^2 o_qddot + s o_qdot + o_q`, with which an output sees the vibration `z e^{s t}`.

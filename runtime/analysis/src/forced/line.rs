@@ -66,7 +66,7 @@ pub(crate) fn along_input(
     };
     let only = output.index()..output.index() + 1;
     let output_adjoint = OutputAdjoint::each(&solved, vibration, only);
-    let own = output_adjoint
+    let this_adjoint = output_adjoint
         .into_iter()
         .flatten()
         .next()
@@ -74,10 +74,10 @@ pub(crate) fn along_input(
     let terms = terms(
         &at.linear,
         frequency.value,
-        &own.factors.left,
+        &this_adjoint.factors.left,
         &vibration.harmonic.unknowns,
     );
-    let (curved, total) = Curved::new(own, &adjoint);
+    let (curved, total) = Curved::new(this_adjoint, &adjoint);
     let moved = along[0].of(vibration, &frequency.slopes);
     let row = curved.along(mechanism, &moved).ok_or(none)?;
     let y = vibration.harmonic.outputs[output.index()];

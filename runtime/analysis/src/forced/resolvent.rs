@@ -278,19 +278,19 @@ fn near_null_space(
 fn orthonormal(mut vectors: Vec<Vector<Complex>>) -> Option<Vec<Vector<Complex>>> {
     for k in 0..vectors.len() {
         let (done, rest) = vectors.split_at_mut(k);
-        let own = rest.first_mut()?;
+        let vector = rest.first_mut()?;
         for _ in 0..2 {
             for other in &*done {
-                let along: Complex = other.iter().zip(&**own).map(|(a, b)| a.conj() * b).sum();
-                for (value, other) in own.iter_mut().zip(other) {
+                let along: Complex = other.iter().zip(&**vector).map(|(a, b)| a.conj() * b).sum();
+                for (value, other) in vector.iter_mut().zip(other) {
                     *value -= along * other;
                 }
             }
-            let length = own.iter().map(Complex::norm_sqr).sum::<f64>().sqrt();
+            let length = vector.iter().map(Complex::norm_sqr).sum::<f64>().sqrt();
             if !(length > 0.0 && length.is_finite()) {
                 return None;
             }
-            own.iter_mut().for_each(|value| *value /= length);
+            vector.iter_mut().for_each(|value| *value /= length);
         }
     }
     Some(vectors)

@@ -301,8 +301,8 @@ const NEAR: f64 = 1e-6;
 /// The error of a resonance, with the mode at this frequency if there is one.
 pub(crate) fn resonance(at: &Equilibrium, excitation: usize, frequency: f64) -> Error {
     let mode = modes(at).ok().and_then(|modes| {
-        let own = modes.frequencies().into_iter().enumerate();
-        let away = own.filter_map(|(mode, x)| Some((mode, (x? - frequency).abs())));
+        let frequencies = modes.frequencies().into_iter().enumerate();
+        let away = frequencies.filter_map(|(mode, x)| Some((mode, (x? - frequency).abs())));
         let nearest = away.min_by(|a, b| a.1.total_cmp(&b.1))?;
         (nearest.1 <= NEAR * frequency).then_some(nearest.0)
     });

@@ -49,10 +49,10 @@ impl ForcedSensitivities {
         output: Output,
         measure: Measure,
     ) -> Option<Slopes<Complex>> {
-        let (of, own) = self.pair(harmonic)?;
-        let slopes = own.outputs.get(output.index())?.as_ref()?;
+        let (of, sensitivity) = self.pair(harmonic)?;
+        let slopes = sensitivity.outputs.get(output.index())?.as_ref()?;
         let value = (of.frequency, *of.outputs.get(output.index())?);
-        let both = own.frequency.zip(slopes);
+        let both = sensitivity.frequency.zip(slopes);
         Some(both.map(|(dw, dy)| measure.slope(value, dw, dy)))
     }
 
@@ -85,8 +85,8 @@ impl ForcedSensitivities {
         measure: Measure,
     ) -> Option<Complex> {
         let (of, _) = self.pair(harmonic)?;
-        let own = of.amplitude(output, measure)?;
-        (own != Complex::ZERO).then_some(own)
+        let amplitude = of.amplitude(output, measure)?;
+        (amplitude != Complex::ZERO).then_some(amplitude)
     }
 
     pub(super) fn pair(&self, harmonic: usize) -> Option<(&Harmonic, &HarmonicSensitivity)> {

@@ -51,9 +51,9 @@ impl<'a> SideBySide<'a> {
     }
 
     /// Takes the next set, in which the factors at these places have their own values.
-    pub(super) fn push(&mut self, own: &[(usize, &[f64])]) {
+    pub(super) fn push(&mut self, factors: &[(usize, &[f64])]) {
         let lane = self.waiting;
-        for (k, from) in own {
+        for (k, from) in factors {
             for (to, value) in self.factors[*k].iter_mut().zip(*from) {
                 to.0[lane] = *value;
             }

@@ -68,14 +68,14 @@ impl Vibration {
         at: &Equilibrium,
     ) -> Result<Option<((f64, Slopes<f64>), SecondDerivatives<f64>)>, Error> {
         let all = second_derivatives(mechanism, at)?;
-        let found = || {
-            let (place, output) = (self.place(&at.description)?, self.output);
+        let model = || {
+            let (harmonic, output) = (self.place(&at.description)?, self.output);
             let value = self.of(&all.first.response)?;
-            let first = all.first.modulus(place, output, self.measure)?;
-            let second = all.modulus(place, output, self.measure)?;
+            let first = all.first.modulus(harmonic, output, self.measure)?;
+            let second = all.modulus(harmonic, output, self.measure)?;
             Some(((value, first), second))
         };
-        Ok(found())
+        Ok(model())
     }
 
     /// Refuses handles of another mechanism.

@@ -47,8 +47,8 @@ impl Listed for Peaks {
             [] => Findings::titled("no peaks".to_owned()),
             _ => Findings::default(),
         };
-        for own in all {
-            own.say(&mut said);
+        for peaks in all {
+            peaks.say(&mut said);
         }
         let rows: Vec<Row<'_>> = all.iter().flat_map(Peaks::rows).collect();
         if let Some(first) = all.first() {
@@ -177,8 +177,8 @@ impl Peaks {
             .into_iter()
             .enumerate()
         {
-            let place = |row: &Row<'_>| Some(row.2.half_power[k].place()?.value);
-            table.measured(what, &units[0], &place).digits(number);
+            let location = |row: &Row<'_>| Some(row.2.half_power[k].place()?.value);
+            table.measured(what, &units[0], &location).digits(number);
             table.words(&format!("{what} missing"), &|row| {
                 Some(missing(&row.2.half_power[k])?.to_owned())
             });
@@ -190,14 +190,14 @@ impl Peaks {
     fn reasons(&self, said: &mut Findings) {
         let (d, input) = (&self.description, self.range.input);
         for peak in &self.peaks {
-            for (side, place) in [
+            for (side, word) in [
                 (&peak.half_power[0], "before"),
                 (&peak.half_power[1], "after"),
             ] {
                 if let Some(reason) = missing(side) {
                     let value = value_of(d, input, peak.place.value);
                     said.note(format!(
-                        "No half-power point {place} the peak at {value}: {reason}."
+                        "No half-power point {word} the peak at {value}: {reason}."
                     ));
                 }
             }

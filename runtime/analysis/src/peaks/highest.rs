@@ -31,14 +31,14 @@ pub(crate) fn highest(
     (vibration, range, quantity): (Vibration, Range, PeakQuantity),
 ) -> Result<(f64, Option<Vector>), Error> {
     let along = Along::new(mechanism, values, Following::default(), (range, vibration))?;
-    let found = scan(&along, &range, start)?;
-    if let Some(gap) = found.gaps.first() {
+    let scanned = scan(&along, &range, start)?;
+    if let Some(gap) = scanned.gaps.first() {
         return Err(gap.reason.clone());
     }
     let none = || range.without("peak", &mechanism.description());
     let search = Search {
         along: &along,
-        scan: &found,
+        scan: &scanned,
         ascending: range.high > range.low,
         tolerances: None,
     };
@@ -46,10 +46,10 @@ pub(crate) fn highest(
     let tops = tops.iter().map(|top| &top.1);
     let (value, slopes) = match quantity {
         PeakQuantity::Height => {
-            let ends = [found.states.first(), found.states.last()];
+            let ends = [scanned.states.first(), scanned.states.last()];
             let all = tops.chain(ends.into_iter().flatten());
-            let own = all.max_by(lower).ok_or_else(none)?;
-            (own.square().value.sqrt(), own.modulus_by_design())
+            let greatest = all.max_by(lower).ok_or_else(none)?;
+            (greatest.square().value.sqrt(), greatest.modulus_by_design())
         }
         PeakQuantity::Place => {
             let top = tops.max_by(lower).ok_or_else(none)?;

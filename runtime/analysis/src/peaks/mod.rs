@@ -149,10 +149,10 @@ pub fn peaks(
         tolerances.check_count(b.len())?;
     }
     let along = Along::new(mechanism, (u, b), following.into(), (range, vibration))?;
-    let found = scan(&along, &range, start)?;
+    let scanned = scan(&along, &range, start)?;
     let search = Search {
         along: &along,
-        scan: &found,
+        scan: &scanned,
         ascending: range.high > range.low,
         tolerances,
     };
@@ -163,8 +163,8 @@ pub fn peaks(
         vibration,
         range,
         peaks,
-        states: found.states.len(),
-        gaps: found.gaps,
+        states: scanned.states.len(),
+        gaps: scanned.gaps,
         sigma_level: tolerances.map(Tolerances::sigma_level),
         inputs: u.into(),
         description: mechanism.description(),
@@ -207,8 +207,8 @@ impl Search<'_> {
             let rises = self.rises(a) && !self.rises(b);
             if rises && !self.scan.after_gap.contains(&k) && a.line.audible {
                 let top = self.zero((a, b), |state| {
-                    let own = state.square();
-                    (own.slope, own.bend)
+                    let square = state.square();
+                    (square.slope, square.bend)
                 })?;
                 tops.push((k, top));
             }
@@ -270,7 +270,7 @@ impl Search<'_> {
             _ => None,
         };
         let moving = |value, by_design| Moving::new(value, by_design, self.tolerances);
-        let half_power = [before, after].map(|found| match found {
+        let half_power = [before, after].map(|side| match side {
             Ok(half) => HalfPower::At(half.place.into()),
             Err(missing) => missing,
         });
@@ -306,8 +306,8 @@ impl Search<'_> {
             }
             if up {
                 let lowest = self.zero((last, next), |state| {
-                    let own = state.square();
-                    (own.slope, own.bend)
+                    let square = state.square();
+                    (square.slope, square.bend)
                 })?;
                 if lowest.square().value > half {
                     return Ok(Err(HalfPower::RisesAgain));
@@ -320,19 +320,19 @@ impl Search<'_> {
     }
 
     fn half(&self, top: &State, half: f64, between: (&State, &State)) -> Result<Half, Error> {
-        let found = self.zero(between, |state| {
-            let own = state.square();
-            (own.value - half, own.slope)
+        let zero = self.zero(between, |state| {
+            let square = state.square();
+            (square.value - half, square.slope)
         })?;
-        let slope = found.square().slope;
-        let (peak, vector) = (top.square_by_design(), found.square_by_design());
+        let slope = zero.square().slope;
+        let (peak, vector) = (top.square_by_design(), zero.square_by_design());
         let pairs = peak.iter().zip(&vector);
         let by_design: Vector = pairs.map(|(peak, x)| (0.5 * peak - x) / slope).collect();
-        let frequency = found.line.frequency.slopes.by_design.iter().zip(&by_design);
-        let frequency = frequency.map(|(dw, du)| dw + found.frequency_slope() * du);
+        let frequency = zero.line.frequency.slopes.by_design.iter().zip(&by_design);
+        let frequency = frequency.map(|(dw, du)| dw + zero.frequency_slope() * du);
         Ok(Half {
-            frequency: (found.line.frequency.value, frequency.collect()),
-            place: Moving::new(found.value, by_design, self.tolerances),
+            frequency: (zero.line.frequency.value, frequency.collect()),
+            place: Moving::new(zero.value, by_design, self.tolerances),
         })
     }
 }

@@ -87,8 +87,8 @@ impl Scan {
     /// Takes a state over.
     fn begin(&mut self, end: &mut End) {
         if let End::Found(_) = end {
-            let place = self.states.len();
-            let taken = End::Taken(place, end.value(), end.coordinates(&[]));
+            let index = self.states.len();
+            let taken = End::Taken(index, end.value(), end.coordinates(&[]));
             if let End::Found(state) = core::mem::replace(end, taken) {
                 self.states.push(*state);
             }
@@ -113,8 +113,8 @@ impl Scan {
                 }
                 return Ok(b);
             }
-            (End::Taken(place, ..), End::Found(state)) => {
-                let before = &self.states[*place];
+            (End::Taken(index, ..), End::Found(state)) => {
+                let before = &self.states[*index];
                 if resolved(before, state) {
                     self.begin(&mut b);
                     return Ok(b);

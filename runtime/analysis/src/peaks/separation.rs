@@ -63,10 +63,10 @@ impl Peaks {
 }
 
 fn margin(peak: &Peak, [low, high]: [f64; 2]) -> SeparationMargin {
-    let place = &peak.place;
+    let location = &peak.place;
     let (slope, value, extra) = match () {
-        () if place.value < low => (-1.0 / low, 1.0 - place.value / low, 0.0),
-        () if place.value > high => (1.0 / high, place.value / high - 1.0, 0.10),
+        () if location.value < low => (-1.0 / low, 1.0 - location.value / low, 0.0),
+        () if location.value > high => (1.0 / high, location.value / high - 1.0, 0.10),
         () => (0.0, 0.0, 0.0),
     };
     let required = peak.amplification.as_ref().map(|amplification| {
@@ -77,7 +77,7 @@ fn margin(peak: &Peak, [low, high]: [f64; 2]) -> SeparationMargin {
         }
     });
     SeparationMargin {
-        actual: place.scaled(slope, value),
+        actual: location.scaled(slope, value),
         required,
     }
 }
@@ -108,15 +108,15 @@ impl Listed for Separation {
             [] => Findings::titled("no separation margins".to_owned()),
             _ => Findings::default(),
         };
-        for own in all {
-            let of = &own.peaks;
+        for margins in all {
+            let of = &margins.peaks;
             let title = title_along(&of.description, &of.inputs, of.range.input);
             said.join(Findings::titled(format!(
                 "{title}: separation margins of {}, in the manner of API 617",
                 of.name()
             )));
-            let rows: Vec<Row<'_>> = own.rows().collect();
-            said.text(own.columns(&rows).finish().1);
+            let rows: Vec<Row<'_>> = margins.rows().collect();
+            said.text(margins.columns(&rows).finish().1);
         }
         let rows: Vec<Row<'_>> = all.iter().flat_map(Separation::rows).collect();
         if let Some(first) = all.first() {
@@ -164,8 +164,8 @@ impl Separation {
             table.words("unit", &|row| Some(unit(row)?.symbol.to_string()));
             let doubled = |row: &Row<'_>| Some(converted(2.0 * row.1.height.value, &unit(row)?));
             let column = table.number("peak to peak", "", &doubled).digits(rough);
-            if let Some(own) = self.peaks.vibration.unit(d) {
-                column.headed(&heading("peak to peak", &own));
+            if let Some(peak_unit) = self.peaks.vibration.unit(d) {
+                column.headed(&heading("peak to peak", &peak_unit));
             }
         }
         table

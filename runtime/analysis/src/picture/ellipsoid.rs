@@ -80,9 +80,9 @@ mod tests {
             let expected = (5.0 / 12.0_f64).sqrt() * edge;
             let along =
                 |axis: &[f64; 3]| -> f64 { axis.iter().zip(direction).map(|(a, d)| a * d).sum() };
-            let found = axes.iter().zip(semi_axes);
-            let found = found.filter(|(axis, _)| along(axis).abs() > 1.0 - 1e-12);
-            let values: Vec<f64> = found.map(|(_, semi_axis)| semi_axis).collect();
+            let pairs = axes.iter().zip(semi_axes);
+            let parallel = pairs.filter(|(axis, _)| along(axis).abs() > 1.0 - 1e-12);
+            let values: Vec<f64> = parallel.map(|(_, semi_axis)| semi_axis).collect();
             assert_eq!(values.len(), 1, "{direction:?}");
             assert!((values[0] - expected).abs() < 1e-12, "{direction:?}");
         }

@@ -88,8 +88,8 @@ pub(super) fn bounds(scene: &Scene) -> [[f64; 3]; 2] {
     let seats = scene.joints.iter().flat_map(|joint| [joint.from, joint.to]);
     let seats = seats.map(|seat| (seat.body, seat.place));
     let points = scene.points.iter().map(|point| (point.body, point.place));
-    for (body, place) in seats.chain(points) {
-        include(scene.place(body, place), [0.0; 3]);
+    for (body, point) in seats.chain(points) {
+        include(scene.place(body, point), [0.0; 3]);
     }
     for wheel in &scene.wheels {
         if let Some(point) = scene.points.get(wheel.center) {

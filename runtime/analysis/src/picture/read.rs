@@ -169,8 +169,8 @@ impl Numbers {
             });
         }
         let mut all = info.numbers.to_vec();
-        for (&place, value) in info.computed.iter().zip(computed) {
-            if let Some(number) = all.get_mut(place as usize) {
+        for (&index, value) in info.computed.iter().zip(computed) {
+            if let Some(number) = all.get_mut(index as usize) {
                 *number = value;
             }
         }

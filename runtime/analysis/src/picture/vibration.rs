@@ -36,13 +36,13 @@ pub fn mode_pictures(
     phases: usize,
     amplitude: f64,
 ) -> Result<ModePictures, Error> {
-    let Some(found) = modes.modes.get(mode) else {
+    let Some(chosen) = modes.modes.get(mode) else {
         return Err(Error::NoSuchMode {
             mode,
             count: modes.modes.len(),
         });
     };
-    let (amplitude, frames) = over_a_period(mechanism, at, &found.shape, phases, amplitude)?;
+    let (amplitude, frames) = over_a_period(mechanism, at, &chosen.shape, phases, amplitude)?;
     Ok(ModePictures {
         mode,
         amplitude,
@@ -161,9 +161,9 @@ impl Motion<'_> {
             either(Complex::new(step, 0.0))?,
             either(Complex::new(0.0, step))?,
         );
-        let travel = farthest(&scene, |body, place| {
+        let travel = farthest(&scene, |body, point| {
             [&first, &second].map(|[ahead, behind]| {
-                let (ahead, behind) = (ahead[body].place(place), behind[body].place(place));
+                let (ahead, behind) = (ahead[body].place(point), behind[body].place(point));
                 core::array::from_fn(|i| (ahead[i] - behind[i]) / 2.0)
             })
         });
@@ -184,8 +184,8 @@ impl Motion<'_> {
 /// The largest displacement of the visible parts of the bodies and of the centre lines of beams; `displaced` gives the
 /// displacements of a place on a body, or on a section after all bodies, at two phases a quarter of a period apart.
 fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2]) -> f64 {
-    let solids = scene.bodies.iter().enumerate().flat_map(|(body, found)| {
-        let tips = found.solids.iter().flat_map(|solid| solid.tips());
+    let solids = scene.bodies.iter().enumerate().flat_map(|(body, parts)| {
+        let tips = parts.solids.iter().flat_map(|solid| solid.tips());
         tips.map(move |tip| (body, tip))
     });
     let seats = scene.joints.iter().flat_map(|joint| [joint.from, joint.to]);
@@ -193,11 +193,11 @@ fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2])
     let points = scene.points.iter().map(|point| (point.body, point.place));
     let fixed = seats
         .chain(points)
-        .filter_map(|(body, place)| Some((body?, place)));
+        .filter_map(|(body, point)| Some((body?, point)));
     let sections = (scene.bodies.len()..scene.poses()).map(|section| (section, [0.0; 3]));
     let places = solids.chain(fixed).chain(sections);
     places
-        .map(|(body, place)| semi_major(displaced(body, place)))
+        .map(|(body, point)| semi_major(displaced(body, point)))
         .fold(0.0, f64::max)
 }
 

@@ -18,24 +18,26 @@ impl Responses<'_> {
         let name = |output: Output| d.outputs[output.index()].name.clone();
         match response {
             Response::Mode { mode, quantity } => {
-                let own = self.modes().modes.get(mode)?;
-                let lambda = own.lambda;
-                let still = quantity.of(own).is_none();
+                let eigenmode = self.modes().modes.get(mode)?;
+                let lambda = eigenmode.lambda;
+                let still = quantity.of(eigenmode).is_none();
                 still.then_some(Error::NotOscillating { mode, lambda })
             }
             Response::Output(output) => {
                 let kernels: &dyn Kernels = mechanism;
-                let found = kernels.outputs(&at.coordinates, &at.inputs, &at.design);
-                let finite = found.get(output.index())?.is_finite();
+                let outputs = kernels.outputs(&at.coordinates, &at.inputs, &at.design);
+                let finite = outputs.get(output.index())?.is_finite();
                 (!finite).then(|| Error::InfiniteOutput {
                     output: name(output),
                     coordinates: at.coordinates.to_vec(),
                 })
             }
             Response::Vibration(vibration) => match forced::response(mechanism, at) {
-                Ok(found) => (vibration.of(&found).is_none()).then(|| Error::NotSmooth {
-                    output: name(vibration.output),
-                }),
+                Ok(forced_response) => {
+                    (vibration.of(&forced_response).is_none()).then(|| Error::NotSmooth {
+                        output: name(vibration.output),
+                    })
+                }
                 Err(error) => Some(error),
             },
             Response::Peak {

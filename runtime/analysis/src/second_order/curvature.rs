@@ -95,11 +95,11 @@ pub(super) fn mode_curvatures(
     modes: &Modes,
     positions: Range<usize>,
 ) -> Vec<Result<ModeCurvature, Error>> {
-    let mut owns: Vec<Result<Own<'_>, Error>> = positions
+    let mut owns: Vec<Result<PendingMode<'_>, Error>> = positions
         .clone()
         .map(|mode| match is_free(modes, mode) {
             true => Err(Error::NotOscillating { mode, lambda: 0.0 }),
-            false => Own::new(mechanism, at, modes, mode),
+            false => PendingMode::new(mechanism, at, modes, mode),
         })
         .collect();
     if owns.iter().any(Result::is_ok) {
@@ -108,7 +108,7 @@ pub(super) fn mode_curvatures(
                 let all: Vec<Direction> = directions.collect();
                 let n = at.coordinates.len();
                 let shift = Matrix::from_fn(all.len(), n, |k, i| all[k].coordinates[i]);
-                let mut ready: Vec<&mut Own<'_>> = owns.iter_mut().flatten().collect();
+                let mut ready: Vec<&mut PendingMode<'_>> = owns.iter_mut().flatten().collect();
                 for directions in all.chunks(TOGETHER) {
                     let changes = directions
                         .iter()
@@ -119,12 +119,12 @@ pub(super) fn mode_curvatures(
                             undamped_along(&mut ready, (directions, &shift), &changes);
                         }
                         Family::General => {
-                            for own in &mut ready {
+                            for mode in &mut ready {
                                 let each = directions.iter().zip(&changes);
                                 let rows = each.map(|(direction, change)| {
-                                    own.gradient.along(direction, change, &own.shapes)
+                                    mode.gradient.along(direction, change, &mode.shapes)
                                 });
-                                own.rows.extend(rows);
+                                mode.rows.extend(rows);
                             }
                         }
                     }
@@ -150,7 +150,7 @@ fn is_free(modes: &Modes, position: usize) -> bool {
 }
 
 /// A mode whose curvature is being computed.
-struct Own<'a> {
+struct PendingMode<'a> {
     position: usize,
     mode: &'a Mode,
     gradient: AdjointGradient<'a>,
@@ -159,7 +159,7 @@ struct Own<'a> {
     rows: Vec<Slopes<Complex>>,
 }
 
-impl<'a> Own<'a> {
+impl<'a> PendingMode<'a> {
     fn new(
         mechanism: &'a dyn CurvatureKernels,
         at: &'a Equilibrium,
@@ -219,7 +219,7 @@ impl<'a> Own<'a> {
 /// The derivatives of the gradients of undamped modes along several directions, with the products of all matrices and
 /// shapes, and the solutions for all directions, formed together.
 fn undamped_along(
-    modes: &mut [&mut Own<'_>],
+    modes: &mut [&mut PendingMode<'_>],
     (directions, shift): (&[Direction], &Matrix),
     changes: &[Linear],
 ) {

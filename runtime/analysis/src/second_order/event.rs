@@ -51,10 +51,11 @@ pub fn crossing_curvature(
 ) -> Result<EventCurvature, Error> {
     let at = &crossing.equilibrium;
     let first = crossing_sensitivity(mechanism, crossing)?;
-    let own = mode_curvature(mechanism, at, &crossing.modes, crossing.mode)?;
+    let curvature = mode_curvature(mechanism, at, &crossing.modes, crossing.mode)?;
     let (quantity, ratio) = crossing.condition.sides();
     let i = crossing.input.index();
-    let (Some(slopes), Some(second)) = (own.first.of(quantity), own.of(quantity)) else {
+    let (Some(slopes), Some(second)) = (curvature.first.of(quantity), curvature.of(quantity))
+    else {
         return Err(Error::NoSensitivity {
             reason: NoDerivative::NotSmooth,
         });
@@ -70,7 +71,7 @@ pub fn crossing_curvature(
         value: crossing.value,
         second: Matrix::from_fn(first.len(), first.len(), bend),
         first,
-        asymmetry: own.asymmetry,
+        asymmetry: curvature.asymmetry,
         description: at.description.clone(),
     }
     .finite(at)

@@ -154,8 +154,8 @@ fn mode_second_order(
     let mode = curvature.mode;
     let lambda = modes.modes[mode].lambda;
     let spread = |quantity| {
-        let found = second_order_spread(curvature, quantity, tolerances).transpose();
-        found.unwrap_or(Err(Error::NotOscillating { mode, lambda }))
+        let second_order = second_order_spread(curvature, quantity, tolerances).transpose();
+        second_order.unwrap_or(Err(Error::NotOscillating { mode, lambda }))
     };
     let frequency = spread(Quantity::Frequency)?;
     if modes.family == Family::General {

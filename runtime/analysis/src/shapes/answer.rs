@@ -23,10 +23,10 @@ impl Answer for ShapeSensitivity {
         let mut rows = Vec::new();
         for (unknown, info) in d.coordinates.iter().enumerate() {
             let each = variables.iter().enumerate();
-            rows.extend(each.map(|(place, by)| Row {
+            rows.extend(each.map(|(column, by)| Row {
                 unknown,
                 name: &info.name,
-                place,
+                place: column,
                 by: *by,
             }));
         }
@@ -68,7 +68,7 @@ impl Row<'_> {
     ) -> Option<Complex> {
         match self.place.checked_sub(inputs) {
             None => entry(by_input, self.place, self.unknown),
-            Some(place) => entry(by_design, place, self.unknown),
+            Some(column) => entry(by_design, column, self.unknown),
         }
     }
 }

@@ -38,16 +38,16 @@ pub fn critical_state(
         critical: true,
         ..Sought::default()
     };
-    let mut found = None;
+    let mut first_state = None;
     let (events, _) = search(&along, &sought, |event| match event {
         Met::Critical(state, true) => {
-            found = Some(state.clone());
+            first_state = Some(state.clone());
             true
         }
         Met::Gap => true,
         _ => false,
     })?;
-    if let Some(state) = found {
+    if let Some(state) = first_state {
         return Ok(state);
     }
     let escapes = |error: &Error| {

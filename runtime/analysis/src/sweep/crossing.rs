@@ -42,13 +42,13 @@ fn along<'a>(
     following: Following,
     range: Range,
 ) -> Along<'a> {
-    let own = || Family::of(&mechanism.description());
+    let default_family = || Family::of(&mechanism.description());
     Along {
         mechanism,
         values,
         start,
         policy: following.policy,
-        family: following.family.unwrap_or_else(own),
+        family: following.family.unwrap_or_else(default_family),
         range,
         held: following.held,
     }
@@ -104,8 +104,8 @@ pub(crate) fn first_crossing(
     // Labels at the start are positions; modes that end on the way change the positions of others.
     let wanted = |crossing: &Crossing| crossing.modes.modes[crossing.mode].label == mode;
     let along = along(mechanism, values, start, following, range);
-    let found = meetings(&along, condition, wanted)?;
-    Ok(found.into_iter().find(wanted))
+    let crossings = meetings(&along, condition, wanted)?;
+    Ok(crossings.into_iter().find(wanted))
 }
 
 /// Finds the crossings in a range until one of them is `enough`.

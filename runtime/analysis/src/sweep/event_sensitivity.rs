@@ -25,7 +25,8 @@ const MERGED: f64 = 1e5;
 pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Result<Vector, Error> {
     let all = sensitivities(mechanism, &crossing.equilibrium, &crossing.modes)?;
     let mode = crossing.mode;
-    let (Some(own), Some(there)) = (all.modes.get(mode), crossing.modes.modes.get(mode)) else {
+    let (Some(sensitivity), Some(there)) = (all.modes.get(mode), crossing.modes.modes.get(mode))
+    else {
         let count = all.modes.len();
         return Err(Error::NoSuchMode { mode, count });
     };
@@ -35,11 +36,14 @@ pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Res
             reason: NoDerivative::Merge,
         });
     }
-    if own.clustered {
+    if sensitivity.clustered {
         return Err(Error::ClusteredMode { mode });
     }
     let (quantity, other) = crossing.condition.sides();
-    let Some(slopes) = own.of(quantity).filter(|_| there.frequency().is_some()) else {
+    let Some(slopes) = sensitivity
+        .of(quantity)
+        .filter(|_| there.frequency().is_some())
+    else {
         let lambda = there.lambda;
         return Err(Error::NotOscillating { mode, lambda });
     };

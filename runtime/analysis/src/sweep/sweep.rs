@@ -61,7 +61,7 @@ pub fn sweep_each(
         ..Sought::default()
     };
     let way = (mechanism as &dyn DirectionalKernels, (u, b), start);
-    let (found, _) = between(way, &following, (input, values), &sought)?;
+    let (all_events, _) = between(way, &following, (input, values), &sought)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let mut unreached = values.len();
     let mut last = f64::NAN;
@@ -74,8 +74,8 @@ pub fn sweep_each(
         0 => events,
         _ => events.until(last),
     };
-    let (critical, flutter_onsets, searched) = match found.map(until) {
-        Some(found) => (found.critical, found.crossings, Some(found.searched)),
+    let (critical, flutter_onsets, searched) = match all_events.map(until) {
+        Some(events) => (events.critical, events.crossings, Some(events.searched)),
         None => Default::default(),
     };
     Ok(Sweep {

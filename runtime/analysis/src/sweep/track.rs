@@ -269,20 +269,20 @@ impl<'a> Tracker<'a> {
         loop {
             match self.step(next, halvings) {
                 Ok(step) => match (step, after.pop()) {
-                    (Step::TooFar(middle), place) => {
-                        after.extend(place);
+                    (Step::TooFar(middle), pending) => {
+                        after.extend(pending);
                         halvings -= 1;
                         after.push((next, halvings));
                         next = middle;
                     }
-                    (_, Some(place)) => (next, halvings) = place,
+                    (_, Some(pending)) => (next, halvings) = pending,
                     (Step::WithoutModes(point, error), None) => return Ok(Some((point, error))),
                     (Step::Arrived, None) => return Ok(None),
                 },
                 Err(error) => match after.pop() {
                     None => return Err(error),
                     // Accept this value, doubtful or not.
-                    Some((place, _)) => (next, halvings) = (place, 0),
+                    Some((target, _)) => (next, halvings) = (target, 0),
                 },
             }
         }
@@ -299,10 +299,10 @@ impl<'a> Tracker<'a> {
             })
         });
         point.value = value;
-        let (state, found) = point.solved_mut().map_err(|error| error.clone())?;
+        let (state, point_modes) = point.solved_mut().map_err(|error| error.clone())?;
         let at = (value, self.policy);
         let judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
-        if let Err(error) = found.solve_at(state, judged) {
+        if let Err(error) = point_modes.solve_at(state, judged) {
             self.from.clone_from(&state.coordinates);
             self.path.go(value, state.coordinates.iter().copied());
             return Ok(Step::WithoutModes(point, error));
@@ -310,9 +310,10 @@ impl<'a> Tracker<'a> {
         if let Some(last) = &self.last
             && let Ok(modes) = &last.modes
         {
-            let order = match_with_assurance(modes, found, &state.linear);
+            let order = match_with_assurance(modes, point_modes, &state.linear);
             // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
-            let repeated = |r: usize| merged(found, r) || near_another(found, r, CLUSTER_GAP);
+            let repeated =
+                |r: usize| merged(point_modes, r) || near_another(point_modes, r, CLUSTER_GAP);
             let doubtful = order
                 .iter()
                 .flatten()
@@ -324,11 +325,11 @@ impl<'a> Tracker<'a> {
                 return Ok(Step::TooFar(middle));
             }
             let order = order.map(position);
-            found.arrange(modes, &order, self.unused);
+            point_modes.arrange(modes, &order, self.unused);
         }
         self.from.clone_from(&state.coordinates);
         self.path.go(value, state.coordinates.iter().copied());
-        let labels = found.modes.iter().map(|mode| mode.label + 1);
+        let labels = point_modes.modes.iter().map(|mode| mode.label + 1);
         self.unused = labels.fold(self.unused, usize::max);
         self.spare = self.last.replace(point);
         Ok(Step::Arrived)

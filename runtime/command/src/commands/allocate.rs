@@ -142,8 +142,8 @@ fn place(
         Parameter::Design(variable) => return Ok(variable.index()),
         Parameter::Input(input) => input,
     };
-    let found = study.deviating_inputs().iter().position(|x| *x == input);
-    found
+    let position = study.deviating_inputs().iter().position(|x| *x == input);
+    position
         .map(|k| study.design_values().len() + k)
         .ok_or_else(|| {
             let help =

@@ -8,9 +8,9 @@ use eigentol_interpreter::description;
 
 use crate::color::Color;
 use crate::declaration::Declaration;
+use crate::destination::print;
 use crate::diagnostics;
 use crate::failure::{Failure, plural};
-use crate::place::print;
 use crate::verdict::Verdict;
 
 /// Check declarations: every mistake with its line and column, or what they declare, which design variables are unused,
@@ -30,8 +30,8 @@ impl Check {
             for warning in &compilation.mechanism.warnings() {
                 diagnostics::warn(&declaration, &warning.into(), color);
             }
-            let found = summary(&description(&compilation));
-            print(&format!("{}: {found}\n", declaration.name))?;
+            let overview = summary(&description(&compilation));
+            print(&format!("{}: {overview}\n", declaration.name))?;
             for steady in &compilation.mechanism.steady {
                 let name = &steady.name;
                 print(&format!(

@@ -3,8 +3,8 @@
 use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 
+use crate::destination::print;
 use crate::failure::Failure;
-use crate::place::print;
 use crate::verdict::Verdict;
 
 /// Print the completion script of a shell: `eigentol completions bash > /etc/bash_completion.d/eigentol`

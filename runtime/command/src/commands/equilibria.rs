@@ -1,7 +1,7 @@
 //! All equilibria at one operating point.
 
 use clap::Args;
-use eigentol::equilibrium::Equilibria as Found;
+use eigentol::equilibrium::Equilibria as AllEquilibria;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -21,11 +21,11 @@ impl Equilibria {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
-        let found: Found = question.study.equilibria(&question.search()?)?;
+        let states: AllEquilibria = question.study.equilibria(&question.search()?)?;
         let mut answer = self.output.answer();
-        answer.add(&found)?;
+        answer.add(&states)?;
         self.output.write(&answer)?;
-        Ok(match found.iter().any(|state| state.stability.holds()) {
+        Ok(match states.iter().any(|state| state.stability.holds()) {
             true => Verdict::Yes,
             false => Verdict::No("no stable equilibrium was found".to_owned()),
         })

@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 use eigentol_compiler::{Compilation, formatted};
 
 use crate::declaration::Declaration;
+use crate::destination::Destination;
 use crate::failure::Failure;
-use crate::place::Place;
 use crate::verdict::Verdict;
 
 /// Show what the compiler makes of a declaration: Rust, any earlier stage, or the cost of each kernel
@@ -21,7 +21,7 @@ pub(crate) struct Expand {
     #[arg(long, value_enum, default_value = "rust")]
     stage: Stage,
     #[command(flatten)]
-    place: Place,
+    place: Destination,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -8,10 +8,10 @@ use eigentol_interpreter::value;
 use eigentol_urdf::{Options, Resistance};
 
 use crate::declaration::Declaration;
+use crate::destination::Destination;
 use crate::diagnostics;
 use crate::failure::Failure;
 use crate::mistake::Mistake;
-use crate::place::Place;
 use crate::verdict::Verdict;
 
 /// Translate a robot in a URDF file into a declaration; notes say what a mechanism cannot express
@@ -51,7 +51,7 @@ pub(crate) struct Import {
     #[arg(long, short)]
     quiet: bool,
     #[command(flatten)]
-    place: Place,
+    place: Destination,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -118,7 +118,7 @@ impl Import {
             linear_damping,
         } = &mut springs
         {
-            for (place, option, text, unit) in [
+            for (slot, option, text, unit) in [
                 (stiffness, "stiffness", &self.stiffness, "N*m/rad"),
                 (damping, "damping", &self.damping, "N*m*s/rad"),
                 (
@@ -135,7 +135,7 @@ impl Import {
                 ),
             ] {
                 if let Some(text) = text {
-                    *place = si(option, text, unit)?;
+                    *slot = si(option, text, unit)?;
                 }
             }
         }
@@ -148,6 +148,6 @@ fn si(option: &str, text: &str, symbol: &str) -> Result<f64, Failure> {
         symbol: symbol.to_owned().into(),
         scale: 1.0,
     };
-    let found = value(text, &unit, &format!("`{option}`"));
-    found.map_err(|mistakes| Failure::value(format!("--{option} {text}"), &mistakes))
+    let parsed = value(text, &unit, &format!("`{option}`"));
+    parsed.map_err(|mistakes| Failure::value(format!("--{option} {text}"), &mistakes))
 }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::destination::print;
 use crate::failure::Failure;
-use crate::place::print;
 use crate::verdict::Verdict;
 
 const MANIFEST: &str = include_str!("../../starter/manifest.toml");

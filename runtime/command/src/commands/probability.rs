@@ -68,31 +68,33 @@ impl Probability {
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let wanted = requirements(&study, required)?;
-        let found = study.probability(&wanted);
+        let outcome = study.probability(&wanted);
         bar.finish_and_clear();
-        let found = found?;
+        let probabilities = outcome?;
         let mut answer = self.output.answer();
-        answer.add(&found)?;
-        if let Some(reliability) = &found.reliability {
+        answer.add(&probabilities)?;
+        if let Some(reliability) = &probabilities.reliability {
             answer.add_aside(reliability)?;
         }
-        if let Some(chances) = &found.chances {
+        if let Some(chances) = &probabilities.chances {
             answer.add_aside(chances)?;
         }
         self.output.write(&answer)?;
-        Ok(verdict(required, &found))
+        Ok(verdict(required, &probabilities))
     }
 }
 
 /// No if a requirement fails more often than is allowed.
 fn verdict(required: &[Require], probabilities: &Probabilities) -> Verdict {
     let all = required.iter().zip(&probabilities.each).enumerate();
-    let mut exceeded = all.filter_map(|(k, (item, found))| {
-        let allowed = item.failure.filter(|allowed| found.value > *allowed)?;
+    let mut exceeded = all.filter_map(|(k, (item, probability))| {
+        let allowed = item
+            .failure
+            .filter(|allowed| probability.value > *allowed)?;
         Some(format!(
             "requirement {} fails with a probability of {:.3e}, and {allowed} is allowed",
             k + 1,
-            found.value
+            probability.value
         ))
     });
     exceeded.next().map_or(Verdict::Yes, Verdict::No)

@@ -3,10 +3,10 @@
 use clap::Args;
 use eigentol::Output;
 
+use crate::destination::Destination;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::picture::Wording;
-use crate::place::Place;
 use crate::point::{Point, Question, exact, samples, whole};
 use crate::progress;
 use crate::requirements::named_pair;
@@ -39,7 +39,7 @@ pub(crate) struct Report {
     #[command(flatten)]
     wording: Wording,
     #[command(flatten)]
-    place: Place,
+    place: Destination,
 }
 
 impl Report {

@@ -100,19 +100,19 @@ impl Response {
         let bar = progress::bar("values", Some(values.len() as u64));
         question.study = progress::watched(question.study, &bar);
         let (study, input) = (&question.study, range.input);
-        let found = match self.bands {
+        let bode = match self.bands {
             true => study.bode_bands(input, &values, &wanted, self.checked.unwrap_or(CHECKED))?,
             false => study.bode(input, &values)?,
         };
         bar.finish_and_clear();
-        self.figure(&question, &range, &found, wanted.first().copied())?;
+        self.figure(&question, &range, &bode, wanted.first().copied())?;
         let mut answer = self.output.answer();
-        answer.add(&found)?;
+        answer.add(&bode)?;
         self.output.write(&answer)?;
-        if found.points.len() < values.len() {
-            return Ok(Verdict::stopped(found.points.len(), values.len(), "values"));
+        if bode.points.len() < values.len() {
+            return Ok(Verdict::stopped(bode.points.len(), values.len(), "values"));
         }
-        match found.points.iter().any(|point| point.vibration.is_ok()) {
+        match bode.points.iter().any(|point| point.vibration.is_ok()) {
             true => Ok(Verdict::Yes),
             false => Ok(Verdict::No(
                 "no value of the range has a vibration".to_owned(),

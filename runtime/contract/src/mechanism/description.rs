@@ -59,8 +59,8 @@ impl Description {
         };
         let mut k = 0;
         while k < kernels.len() {
-            if let Shared::Static(own) = &kernels[k].name
-                && same(own.as_bytes(), name.as_bytes())
+            if let Shared::Static(kernel_name) = &kernels[k].name
+                && same(kernel_name.as_bytes(), name.as_bytes())
             {
                 return Some(&kernels[k]);
             }

@@ -12,13 +12,13 @@ const TICK: i32 = 15;
 
 /// Converts positions in a panel to pixels.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct PlotArea {
     x: [f64; 2],
     y: [f64; 2],
     frame: Frame,
 }
 
-impl Place {
+impl PlotArea {
     pub(super) fn of(panel: &Panel, frame: &Frame) -> Self {
         let (x, y) = (panel.x.range, panel.y.range);
         Self {
@@ -49,7 +49,7 @@ impl Place {
 
 /// Draws grid lines, ticks with their numbers, and headings.
 pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &Frame) -> Outcome {
-    let place = Place::of(panel, frame);
+    let place = PlotArea::of(panel, frame);
     let Frame {
         left,
         right,
@@ -95,8 +95,8 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
         right - left,
     )?;
     if panel.y.categories.is_empty() {
-        let (heading, place) = (panel.y.heading(), (px(18), middle.1));
-        pen.fitted(&heading, place, 17, Anchor::Upwards, bottom - top)?;
+        let (heading, point) = (panel.y.heading(), (px(18), middle.1));
+        pen.fitted(&heading, point, 17, Anchor::Upwards, bottom - top)?;
     }
     Ok(())
 }

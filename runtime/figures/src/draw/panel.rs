@@ -3,7 +3,7 @@
 use plotters::prelude::DrawingBackend;
 
 use super::area::Outcome;
-use super::axes::{self, Place};
+use super::axes::{self, PlotArea};
 use super::clip::{clip, clip_band};
 use super::labels::Labels;
 use super::layout::{Frame, px};
@@ -12,7 +12,7 @@ use crate::figure::{Panel, Point};
 
 /// Draws a panel, clipped to the ranges of its axes.
 pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &Frame) -> Outcome {
-    let place = Place::of(panel, frame);
+    let place = PlotArea::of(panel, frame);
     axes::draw(pen, panel, frame)?;
     let ([left, right], [low, high]) = (panel.x.range, panel.y.range);
     for band in &panel.bands {

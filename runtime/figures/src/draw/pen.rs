@@ -54,8 +54,8 @@ pub(super) struct Pen<'a, B: DrawingBackend> {
 
 type Pixel = (i32, i32);
 
-fn colour(own: Colour) -> RGBColor {
-    let [red, green, blue] = own.rgb();
+fn colour(tint: Colour) -> RGBColor {
+    let [red, green, blue] = tint.rgb();
     RGBColor(red, green, blue)
 }
 
@@ -89,7 +89,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         at: Pixel,
         size: i32,
         anchor: Anchor,
-        own: Colour,
+        tint: Colour,
     ) -> Outcome {
         let (horizontal, turn) = match anchor {
             Anchor::Left => (HPos::Left, FontTransform::None),
@@ -101,7 +101,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         let style = (FONT, size * SCALE)
             .into_font()
             .transform(turn)
-            .color(&colour(own))
+            .color(&colour(tint))
             .pos(Pos::new(horizontal, VPos::Center));
         self.area.draw(&Text::new(text, at, style)).map_err(words)
     }
@@ -122,8 +122,8 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// A solid line of this width, as shown.
-    pub(super) fn line(&self, points: Vec<Pixel>, own: Colour, width: i32) -> Outcome {
-        let style = colour(own).stroke_width(px(width) as u32);
+    pub(super) fn line(&self, points: Vec<Pixel>, tint: Colour, width: i32) -> Outcome {
+        let style = colour(tint).stroke_width(px(width) as u32);
         self.area
             .draw(&PathElement::new(points, style))
             .map_err(words)
@@ -138,15 +138,15 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// A faint area.
-    pub(super) fn shade(&self, outline: Vec<Pixel>, own: Colour) -> Outcome {
-        let style = colour(own).mix(0.22).filled();
+    pub(super) fn shade(&self, outline: Vec<Pixel>, tint: Colour) -> Outcome {
+        let style = colour(tint).mix(0.22).filled();
         self.area.draw(&Polygon::new(outline, style)).map_err(words)
     }
 
     /// A bar with an outline.
-    pub(super) fn bar(&self, corners: [Pixel; 2], own: Colour) -> Outcome {
-        let strength = if own == Colour::Grey { 0.35 } else { 0.75 };
-        let fill = Rectangle::new(corners, colour(own).mix(strength).filled());
+    pub(super) fn bar(&self, corners: [Pixel; 2], tint: Colour) -> Outcome {
+        let strength = if tint == Colour::Grey { 0.35 } else { 0.75 };
+        let fill = Rectangle::new(corners, colour(tint).mix(strength).filled());
         self.area.draw(&fill).map_err(words)?;
         self.outline(corners, BLACK.mix(0.7).stroke_width(SCALE as u32))
     }
@@ -167,10 +167,10 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// A marker.
-    pub(super) fn marker(&self, (x, y): Pixel, own: Colour, shape: Shape) -> Outcome {
+    pub(super) fn marker(&self, (x, y): Pixel, tint: Colour, shape: Shape) -> Outcome {
         let (thin, filled) = (
-            colour(own).stroke_width(px(4) as u32 / 3),
-            colour(own).filled(),
+            colour(tint).stroke_width(px(4) as u32 / 3),
+            colour(tint).filled(),
         );
         let size = px(4);
         let drawn = match shape {

@@ -149,16 +149,16 @@ mod tests {
     /// CIE 1976 L*, a*, b* of a colour as such a reader perceives it.
     fn lab(colour: Colour, reader: &Matrix) -> [f64; 3] {
         let linear = |channel: u8| {
-            let own = f64::from(channel) / 255.0;
-            match own <= 0.04045 {
-                true => own / 12.92,
-                false => ((own + 0.055) / 1.055).powf(2.4),
+            let intensity = f64::from(channel) / 255.0;
+            match intensity <= 0.04045 {
+                true => intensity / 12.92,
+                false => ((intensity + 0.055) / 1.055).powf(2.4),
             }
         };
         let seen = apply(reader, colour.rgb().map(linear)).map(|x| x.clamp(0.0, 1.0));
-        let (own, white) = (apply(&XYZ, seen), apply(&XYZ, [1.0; 3]));
+        let (tristimulus, white) = (apply(&XYZ, seen), apply(&XYZ, [1.0; 3]));
         let [x, y, z] = core::array::from_fn(|k| {
-            let share: f64 = own[k] / white[k];
+            let share: f64 = tristimulus[k] / white[k];
             match share > (6.0_f64 / 29.0).powi(3) {
                 true => share.cbrt(),
                 false => share / (3.0 * (6.0_f64 / 29.0).powi(2)) + 4.0 / 29.0,

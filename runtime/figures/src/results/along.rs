@@ -36,7 +36,7 @@ pub(crate) mod sealed {
         Campbell, Complex, Description, Equilibrium, Error, Input, Sense, SpecialKind, Sweep, Whirl,
     };
 
-    type Found = (usize, Complex, Option<f64>, Option<Sense>);
+    type ModeAt = (usize, Complex, Option<f64>, Option<Sense>);
 
     pub trait Along {
         fn description(&self) -> &Description;
@@ -44,7 +44,7 @@ pub(crate) mod sealed {
         fn inputs(&self) -> &[f64];
         /// Values, SI, with their equilibria and with the labels, eigenvalues, frequencies and whirl senses of their
         /// modes.
-        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)>;
+        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)>;
         /// Values, SI, at which stiffness is lost, with the equilibrium if it changes without a jump.
         fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)>;
     }
@@ -62,7 +62,7 @@ pub(crate) mod sealed {
             &self.inputs
         }
 
-        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)> {
+        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)> {
             let each = self.points.iter().map(|point| {
                 let modes = point.modes.iter().flat_map(|mode| &mode.modes);
                 let modes = modes.map(|mode| (mode.label, mode.s, mode.frequency(), None));
@@ -94,7 +94,7 @@ pub(crate) mod sealed {
             &self.inputs
         }
 
-        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)> {
+        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)> {
             let each = self.points.iter().map(|point| {
                 let modes = point.modes.iter().flatten().map(|mode| {
                     let sense = mode.whirl.map(Whirl::sense);
@@ -127,7 +127,7 @@ pub(crate) struct Course<'a> {
 impl<'a> Course<'a> {
     pub(crate) fn of<R: Along + ?Sized>(result: &'a R) -> Self {
         let (description, input) = (result.description(), result.input());
-        let own = |value: f64| match description.inputs.get(input.index()) {
+        let to_unit = |value: f64| match description.inputs.get(input.index()) {
             Some(info) => in_unit(value, &info.unit),
             None => value,
         };
@@ -140,10 +140,10 @@ impl<'a> Course<'a> {
                 sense,
             };
             stations.push(Station {
-                value: own(value),
+                value: to_unit(value),
                 modes: modes.into_iter().map(sample).collect(),
             });
-            equilibria.push((own(value), equilibrium.ok()));
+            equilibria.push((to_unit(value), equilibrium.ok()));
         }
         let critical = result.critical();
         let soft = critical
@@ -155,8 +155,8 @@ impl<'a> Course<'a> {
             inputs: result.inputs(),
             stations,
             equilibria,
-            critical: critical.iter().map(|(value, _)| own(*value)).collect(),
-            soft: soft.map(|(value, state)| (own(value), state)).collect(),
+            critical: critical.iter().map(|(value, _)| to_unit(*value)).collect(),
+            soft: soft.map(|(value, state)| (to_unit(value), state)).collect(),
         }
     }
 
@@ -178,9 +178,9 @@ impl<'a> Course<'a> {
             self.inputs,
             Some(self.input),
         )];
-        let own = self.equilibria.iter().find_map(|(_, x)| *x);
-        if let Some(own) = own {
-            lines.push(design(self.description, &own.design, &[]));
+        let equilibrium = self.equilibria.iter().find_map(|(_, x)| *x);
+        if let Some(equilibrium) = equilibrium {
+            lines.push(design(self.description, &equilibrium.design, &[]));
         }
         with_notes(lines, style, self.description)
     }

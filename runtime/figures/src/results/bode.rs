@@ -132,7 +132,7 @@ pub fn polar(
         path.iter().map(|pair| pair.1),
     ));
     panel.markers("", Colour::Grey, Shape::Cross, [[0.0, 0.0]]);
-    let is_peak = |value: f64| course.places().any(|place| place == value);
+    let is_peak = |value: f64| course.places().any(|peak| peak == value);
     let known: Vec<(f64, Point)> = (path.iter())
         .filter_map(|(value, point)| Some((*value, (*point)?)))
         .filter(|(value, _)| !is_peak(*value))
@@ -207,16 +207,16 @@ fn spaced(path: &[(f64, Point)]) -> Vec<(f64, Point)> {
         .collect();
     let whole = lengths.last().copied().unwrap_or_default();
     let mut next = 0.0;
-    let mut found = Vec::new();
-    for (k, (own, length)) in path.iter().zip(&lengths).enumerate() {
+    let mut kept = Vec::new();
+    for (k, (point, length)) in path.iter().zip(&lengths).enumerate() {
         let last = k + 1 == path.len();
         let share = whole / STRETCHES as f64;
-        if last || *length >= next && (whole - length > 0.5 * share || found.is_empty()) {
-            found.push(*own);
+        if last || *length >= next && (whole - length > 0.5 * share || kept.is_empty()) {
+            kept.push(*point);
             next = length + share;
         }
     }
-    found
+    kept
 }
 
 /// A vibration at the values of an input.
@@ -237,8 +237,8 @@ impl<'a> Course<'a> {
         let unit = input_unit(d, result.input);
         let amplitude = |point: &BodePoint| {
             let response = &point.vibration.as_ref().ok()?.response;
-            let own = response.harmonic(vibration.excitation)?;
-            own.amplitude(vibration.output, vibration.measure)
+            let harmonic = response.harmonic(vibration.excitation)?;
+            harmonic.amplitude(vibration.output, vibration.measure)
         };
         let mut values: Vec<(f64, Option<Complex>)> = (result.points.iter())
             .map(|point| (in_unit(point.value, &unit), amplitude(point)))
@@ -248,9 +248,9 @@ impl<'a> Course<'a> {
                 "there is no such vibration at any of the values",
             ));
         }
-        let own =
+        let belongs =
             |peaks: &&Peaks| peaks.vibration == vibration && peaks.range.input == result.input;
-        let peaks: Vec<&Peak> = (peaks.iter().filter(own))
+        let peaks: Vec<&Peak> = (peaks.iter().filter(belongs))
             .flat_map(|peak| &peak.peaks)
             .collect();
         for peak in &peaks {
@@ -303,10 +303,10 @@ impl<'a> Course<'a> {
     /// The spread of the vibration at each value, in the unit of the input.
     fn spreads(&self) -> Vec<(f64, Option<&'a ResponseSpread>)> {
         let banded = &self.result.banded;
-        let place = banded.iter().position(|x| *x == self.vibration);
+        let index = banded.iter().position(|x| *x == self.vibration);
         let spread = |point: &'a BodePoint| {
             let all = &point.bands.as_ref()?.spread.spreads;
-            all.get(place?)?.as_ref()
+            all.get(index?)?.as_ref()
         };
         let unit = input_unit(&self.result.description, self.result.input);
         let points = self.result.points.iter();
@@ -329,8 +329,8 @@ impl<'a> Course<'a> {
         let in_unit = |value: f64| in_unit(value, &self.unit);
         let median = spreads.iter().map(|(value, spread)| {
             let all = &(*spread)?.quantiles;
-            let own = all.iter().find(|x| x.probability == 0.5)?;
-            Some([*value, in_unit(own.value)])
+            let quantile = all.iter().find(|x| x.probability == 0.5)?;
+            Some([*value, in_unit(quantile.value)])
         });
         let median = Curve::new("median", Colour::Black, median).stroke(Stroke::Dashed);
         panel.curve(median);
@@ -358,21 +358,21 @@ impl<'a> Course<'a> {
     fn draw_peaks(&self, panel: &mut Panel) -> Vec<String> {
         let unit = input_unit(&self.result.description, self.result.input);
         let height = |peak: &Peak| in_unit(peak.height.value, &self.unit);
-        let place = |moving: &Moving| in_unit(moving.value, &unit);
+        let abscissa = |moving: &Moving| in_unit(moving.value, &unit);
         let bars = self.peaks.iter().map(|peak| {
             let spread = peak.place.spread.as_ref();
             let half = spread.map_or(0.0, |spread| in_unit(spread.band, &unit));
-            ErrorBar::level([place(&peak.place), height(peak)], half)
+            ErrorBar::level([abscissa(&peak.place), height(peak)], half)
         });
         panel.error_bars("peak", Colour::Series(1), Shape::Diamond, bars);
         let sides = self.peaks.iter().flat_map(|peak| {
             let places = peak.half_power.iter().filter_map(HalfPower::place);
-            places.map(|item| [place(item), height(peak) / std::f64::consts::SQRT_2])
+            places.map(|item| [abscissa(item), height(peak) / std::f64::consts::SQRT_2])
         });
         panel.markers("half power", Colour::Series(1), Shape::Cross, sides);
         let each = self.peaks.iter().enumerate();
         each.map(|(k, peak)| {
-            let at = [place(&peak.place), height(peak)];
+            let at = [abscissa(&peak.place), height(peak)];
             panel.label(at, format!("({})", k + 1));
             self.peak(k, peak)
         })
@@ -426,8 +426,8 @@ fn insert(values: &mut Vec<(f64, Option<Complex>)>, value: f64, amplitude: Compl
         };
         (value - a) * (value - b) < 0.0 && before.is_some() && after.is_some()
     };
-    if let Some(place) = values.windows(2).position(between) {
-        values.insert(place + 1, (value, Some(amplitude)));
+    if let Some(index) = values.windows(2).position(between) {
+        values.insert(index + 1, (value, Some(amplitude)));
     }
 }
 

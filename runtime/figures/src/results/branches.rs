@@ -70,8 +70,8 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
             let points = here.filter_map(|here| place(here.value, &here.equilibrium));
             panel.markers(word, Colour::Black, shape, points);
         }
-        for (place_of, own) in special.iter().enumerate() {
-            if let Some(at) = place(own.value, &own.equilibrium) {
+        for (place_of, point) in special.iter().enumerate() {
+            if let Some(at) = place(point.value, &point.equilibrium) {
                 panel.label(at, (place_of + 1).to_string());
             }
         }
@@ -150,8 +150,8 @@ fn add(
     let curve = Curve::new(label, colour, points).stroke(stroke);
     let known = |x: &&mut Curve| x.label == curve.label && x.stroke == stroke;
     match panel.curves.iter_mut().find(known) {
-        Some(own) if curve.pieces.iter().all(|piece| piece.len() > 1) => {
-            own.pieces.extend(curve.pieces);
+        Some(existing) if curve.pieces.iter().all(|piece| piece.len() > 1) => {
+            existing.pieces.extend(curve.pieces);
         }
         _ => panel.curve(curve),
     }

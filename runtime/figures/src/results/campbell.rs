@@ -136,10 +136,11 @@ pub(super) fn bands(
 ) -> f64 {
     let unit = input_unit(&result.description, result.input);
     let quantity = |mode: &CampbellMode| {
-        let own = quantity(mode).filter(|_| !mode.clustered)?;
-        own.band
+        let spread = quantity(mode).filter(|_| !mode.clustered)?;
+        spread
+            .band
             .is_finite()
-            .then_some((scale * own.mean, scale * own.band))
+            .then_some((scale * spread.mean, scale * spread.band))
     };
     let modes = result
         .points
@@ -178,8 +179,8 @@ fn orders(panel: &mut Panel, result: &Campbell, scale: f64) {
         let ends: [Point; 2] = [[low, value(low)], [high, value(high)]];
         panel.curve(Curve::new(label(k == 0), Colour::Grey, ends.map(Some)).stroke(Stroke::Dotted));
         let inside = |t: &f64| (bottom..=0.97 * top).contains(&value(low + t * (high - low)));
-        let place = (1..=19).rev().map(|k| 0.05 * f64::from(k)).find(inside);
-        if let Some(t) = place.filter(|_| line.ratio != 0.0) {
+        let fraction = (1..=19).rev().map(|k| 0.05 * f64::from(k)).find(inside);
+        if let Some(t) = fraction.filter(|_| line.ratio != 0.0) {
             let at = low + t * (high - low);
             panel.label([at, value(at)], format!("{} x", number(line.ratio)));
         }

@@ -25,12 +25,12 @@ pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
     let infos = course.description.coordinates.iter().enumerate();
     for (k, info) in infos.filter(|(_, info)| resting(info.role)) {
         let known = |panel: &Panel| panel.y.unit == *info.unit.symbol;
-        let place = panels.iter().position(known).unwrap_or_else(|| {
+        let index = panels.iter().position(known).unwrap_or_else(|| {
             let y = Axis::new("equilibrium", &*info.unit.symbol);
             panels.push(Panel::new(course.axis(), y));
             panels.len() - 1
         });
-        let panel = &mut panels[place];
+        let panel = &mut panels[index];
         let value = |equilibrium: &Equilibrium| {
             equilibrium
                 .coordinates

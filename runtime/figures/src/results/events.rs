@@ -50,7 +50,7 @@ pub(crate) fn draw(
     let unit = input_unit(&campbell.description, campbell.input);
     let mut lines = Vec::new();
     let mut groups: Vec<(&str, Shape, Vec<ErrorBar>)> = Vec::new();
-    for (place, event) in events(campbell).into_iter().enumerate() {
+    for (index, event) in events(campbell).into_iter().enumerate() {
         let Some(height) = height(&event.event) else {
             continue;
         };
@@ -63,8 +63,8 @@ pub(crate) fn draw(
             Some(group) => group.2.push(bar),
             None => groups.push((words, shape, vec![bar])),
         }
-        panel.label([value, height], (place + 1).to_string());
-        lines.push(line(place + 1, event, style, &unit));
+        panel.label([value, height], (index + 1).to_string());
+        lines.push(line(index + 1, event, style, &unit));
     }
     for (words, shape, bars) in groups {
         panel.error_bars(words, Colour::Black, shape, bars);

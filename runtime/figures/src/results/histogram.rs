@@ -66,15 +66,15 @@ impl<'a> Histogram<'a> {
 
     /// Adds the normal density with the first-order mean and standard deviation.
     #[must_use]
-    pub fn first_order(mut self, found: &'a FirstOrder) -> Self {
-        self.first_order = Some(found);
+    pub fn first_order(mut self, model: &'a FirstOrder) -> Self {
+        self.first_order = Some(model);
         self
     }
 
     /// Adds the density of the second-order model.
     #[must_use]
-    pub fn second_order(mut self, found: &'a SecondOrder, tolerances: &'a Tolerances) -> Self {
-        self.second_order = Some((found, tolerances));
+    pub fn second_order(mut self, model: &'a SecondOrder, tolerances: &'a Tolerances) -> Self {
+        self.second_order = Some((model, tolerances));
         self
     }
 
@@ -85,11 +85,11 @@ impl<'a> Histogram<'a> {
     /// [`Error::Solver`] if the second-order model has no probabilities.
     pub fn figure(&self, style: &Style) -> Result<Figure, Error> {
         let (mode, modes) = (self.mode, self.sampled.modes.len());
-        let own = self.sampled.modes.get(mode);
-        let own = own.ok_or(Error::UnknownMode { mode, modes })?;
+        let mode_statistics = self.sampled.modes.get(mode);
+        let mode_statistics = mode_statistics.ok_or(Error::UnknownMode { mode, modes })?;
         let name = style.mode(mode);
         let d = &*self.sampled.description;
-        let statistics = own.as_ref();
+        let statistics = mode_statistics.as_ref();
         let sketch = statistics.and_then(|statistic| statistic.sketch());
         let bins = |count: u64| ((2.0 * (count as f64).cbrt()) as usize).clamp(8, 60);
         let histogram = statistics.zip(sketch).and_then(|(statistic, sketch)| {
@@ -124,8 +124,8 @@ impl<'a> Histogram<'a> {
         let second = self
             .second_order
             .map(|(x, tolerances)| (x.modes.get(mode), tolerances));
-        if let Some((Some(Ok(own)), tolerances)) = second {
-            let (model, moments) = (&own.frequency.model, &own.frequency.moments);
+        if let Some((Some(Ok(expansion)), tolerances)) = second {
+            let (model, moments) = (&expansion.frequency.model, &expansion.frequency.moments);
             let points = quadratic(model, tolerances, (moments.mean, moments.sigma), scale)?;
             let curve = Curve::new("second-order model", Colour::Series(5), points);
             panel.curve(curve.stroke(Stroke::Dashed));
@@ -133,10 +133,12 @@ impl<'a> Histogram<'a> {
         let mut lines = vec![operating_point(d, &self.sampled.inputs, None), {
             let (mean, sigma) = (
                 scale * statistics.mean,
-                statistics.sigma.map(|own| scale * own),
+                statistics
+                    .sigma
+                    .map(|mode_statistics| scale * mode_statistics),
             );
-            let sigma = sigma.map_or_else(String::new, |own| {
-                format!(", sigma {} {symbol}", number(own))
+            let sigma = sigma.map_or_else(String::new, |mode_statistics| {
+                format!(", sigma {} {symbol}", number(mode_statistics))
             });
             {
                 let samples = self.sampled.drawn();
@@ -258,10 +260,10 @@ fn density_panel(name: &str, symbol: &str) -> Panel {
 }
 
 fn normal(mean: f64, sigma: f64) -> Vec<Option<Point>> {
-    let place = |k: usize| REACH * (2.0 * k as f64 / (POINTS - 1) as f64 - 1.0);
+    let abscissa = |k: usize| REACH * (2.0 * k as f64 / (POINTS - 1) as f64 - 1.0);
     let height = |z: f64| (-0.5 * z * z).exp() / (sigma * std::f64::consts::TAU.sqrt());
     let point = |z: f64| (sigma > 0.0).then(|| [mean + z * sigma, height(z)]);
-    (0..POINTS).map(|k| point(place(k))).collect()
+    (0..POINTS).map(|k| point(abscissa(k))).collect()
 }
 
 /// The mean density of each interval, at its midpoint.
@@ -278,8 +280,8 @@ fn quadratic(
     let mut points = Vec::with_capacity(INTERVALS);
     for k in 0..INTERVALS {
         let low = mean - REACH * sigma + width * k as f64;
-        let own = model.probability(tolerances, (low, low + width))?;
-        let density = own.value / (scale * width);
+        let probability = model.probability(tolerances, (low, low + width))?;
+        let density = probability.value / (scale * width);
         points.push(Some([scale * (low + 0.5 * width), density]));
     }
     Ok(points)

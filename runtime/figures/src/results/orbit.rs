@@ -29,9 +29,9 @@ pub fn orbit<M>(
     style: &Style,
 ) -> Result<Figure, Error> {
     let d = &*result.description;
-    let found = result.harmonic(excitation);
+    let harmonic = result.harmonic(excitation);
     let pair = [x, y].map(|output| d.outputs.get(output.index()));
-    let (Some(found), [Some(first), Some(second)]) = (found, pair) else {
+    let (Some(harmonic), [Some(first), Some(second)]) = (harmonic, pair) else {
         return Err(Error::nothing("there is no such vibration"));
     };
     if first.unit != second.unit {
@@ -39,7 +39,7 @@ pub fn orbit<M>(
         return Err(Error::nothing(text));
     }
     let unit = &first.unit;
-    let amplitudes = [x, y].map(|output| found.outputs.get(output.index()).copied());
+    let amplitudes = [x, y].map(|output| harmonic.outputs.get(output.index()).copied());
     let [Some(across), Some(up)] = amplitudes else {
         return Err(Error::nothing("there is no such vibration"));
     };
@@ -63,7 +63,7 @@ pub fn orbit<M>(
     panel.markers(later, Colour::Black, Shape::Disc, [at(LATER)]);
     let names = [&*first.name, &*second.name];
     let (scale, symbol) = style.frequency(None);
-    let frequency = format!("{} {symbol}", number(scale * found.frequency));
+    let frequency = format!("{} {symbol}", number(scale * harmonic.frequency));
     let vibration = Response::Vibration(Vibration::new(x, excitation)).name(d);
     let under = vibration.split_once(" under ").map_or("?", |pair| pair.1);
     let caption = vec![

@@ -40,12 +40,18 @@ pub fn mode_shapes(result: &Modes, style: &Style) -> Result<Figure, Error> {
     let mut upper = panel(result, if real { "shape" } else { "magnitude" }, "");
     let mut lower = panel(result, "phase", "deg");
     for (r, mode) in shown.iter().enumerate() {
-        let own = relative(result, mode);
-        let heights = own.iter().map(|x| if real { x.re } else { x.norm() });
+        let components = relative(result, mode);
+        let heights = components
+            .iter()
+            .map(|x| if real { x.re } else { x.norm() });
         let bars: Vec<[f64; 4]> = columns(heights, r, shown.len()).collect();
         upper.bars(label(mode, style), Colour::Series(r), bars);
-        let phases = columns(own.iter().map(|x| x.arg().to_degrees()), r, shown.len());
-        let phases = phases.zip(&own).filter(|(_, x)| x.norm() >= VISIBLE);
+        let phases = columns(
+            components.iter().map(|x| x.arg().to_degrees()),
+            r,
+            shown.len(),
+        );
+        let phases = phases.zip(&components).filter(|(_, x)| x.norm() >= VISIBLE);
         let points = phases.map(|([left, right, low, high], _)| {
             [0.5 * (left + right), if low < 0.0 { low } else { high }]
         });
@@ -102,8 +108,8 @@ pub fn participation(result: &Modes, at: &Equilibrium, style: &Style) -> Result<
         let all =
             all.ok_or_else(|| Error::nothing("the equilibrium is that of another mechanism"))?;
         let whole: f64 = all.iter().sum();
-        let own = resting(result).map(|k| 100.0 * all[k] / whole);
-        let bars: Vec<[f64; 4]> = columns(own, r, shown.len()).collect();
+        let percentages = resting(result).map(|k| 100.0 * all[k] / whole);
+        let bars: Vec<[f64; 4]> = columns(percentages, r, shown.len()).collect();
         panel.bars(label(mode, style), Colour::Series(r), bars);
     }
     if panel.is_empty() {
@@ -175,7 +181,7 @@ fn label(mode: &Mode, style: &Style) -> String {
     let (scale, symbol) = style.frequency(None);
     let name = style.mode(mode.label);
     match mode.frequency() {
-        Some(own) => format!("{name}, {} {symbol}", number(scale * own)),
+        Some(frequency) => format!("{name}, {} {symbol}", number(scale * frequency)),
         None => format!("{name}, s = {} 1/s", number(mode.s.re)),
     }
 }

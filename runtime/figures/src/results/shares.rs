@@ -73,9 +73,9 @@ pub fn shares_of_all(result: &FirstOrder, style: &Style) -> Result<Figure, Error
 
 fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
     let modes = result.modes.len();
-    let own = result.modes.get(mode);
-    let own = own.ok_or(Error::UnknownMode { mode, modes })?;
-    let shares = own
+    let this_mode = result.modes.get(mode);
+    let this_mode = this_mode.ok_or(Error::UnknownMode { mode, modes })?;
+    let shares = this_mode
         .variance_shares()
         .iter()
         .zip(result.description.design.iter());

@@ -100,8 +100,8 @@ impl<'a> Spreads<'a> {
         let panel = |what: &str| Panel::new(input_axis(d, self.input), Axis::new(what, symbol));
         let mut upper = panel("sigma of the frequency");
         let mut lower = panel("mean less nominal");
-        for (k, own) in self.series.iter().enumerate() {
-            self.add(own, k, (d, scale), [&mut upper, &mut lower]);
+        for (k, series) in self.series.iter().enumerate() {
+            self.add(series, k, (d, scale), [&mut upper, &mut lower]);
         }
         if upper.is_empty() {
             return Err(nothing());
@@ -126,8 +126,8 @@ impl<'a> Spreads<'a> {
             );
         }
         lower.x.range = upper.x.range;
-        if let Some(own) = self.series.iter().find_map(|x| x.sampled.first()) {
-            let samples = own.drawn();
+        if let Some(monte_carlo) = self.series.iter().find_map(|x| x.sampled.first()) {
+            let samples = monte_carlo.drawn();
             caption.push(format!("Monte Carlo: {samples}; bars are standard errors."));
         }
         let panels = match lower.is_empty() {
@@ -196,7 +196,7 @@ impl<'a> Spreads<'a> {
     /// The nominal frequency at these input values.
     fn nominal(&self, series: &Series<'_>, inputs: &[f64]) -> Option<f64> {
         let same = |first_order: &&FirstOrder| first_order.inputs.iter().eq(inputs.iter());
-        let found = series.first_order.iter().find(same)?;
-        found.modes.get(self.mode)?.behaviour.frequency()
+        let matching = series.first_order.iter().find(same)?;
+        matching.modes.get(self.mode)?.behaviour.frequency()
     }
 }

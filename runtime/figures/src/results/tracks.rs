@@ -82,8 +82,8 @@ impl Lines {
     /// Adds a stretch of a motion, extending a piece that ends where it begins.
     fn stretch(&mut self, label: usize, motion: Motion, states: &[State]) {
         let known = |track: &Track| track.label == label && track.motion == motion;
-        let place = self.tracks.iter().position(known);
-        let place = place.unwrap_or_else(|| {
+        let existing = self.tracks.iter().position(known);
+        let index = existing.unwrap_or_else(|| {
             self.tracks.push(Track {
                 label,
                 motion,
@@ -91,7 +91,7 @@ impl Lines {
             });
             self.tracks.len() - 1
         });
-        let pieces = &mut self.tracks[place].pieces;
+        let pieces = &mut self.tracks[index].pieces;
         match pieces.last_mut() {
             Some(piece) if piece.last() == states.first() => piece.extend(&states[1..]),
             _ => pieces.push(states.to_vec()),
@@ -156,21 +156,21 @@ impl Lines {
         let mut reals: Vec<&Sample> = gained.iter().filter(|x| !x.oscillates).collect();
         reals.sort_by(|a, b| a.s.re.total_cmp(&b.s.re));
         let backwards = pair.value > single.value;
-        for own in lost.iter().filter(|x| x.oscillates) {
+        for sample in lost.iter().filter(|x| x.oscillates) {
             let two = (0..reals.len().saturating_sub(1)).min_by(|&a, &b| {
-                let far = |k: usize| (middle(&reals[k..k + 2]) - own.s.re).abs();
+                let far = |k: usize| (middle(&reals[k..k + 2]) - sample.s.re).abs();
                 far(a).total_cmp(&far(b))
             });
-            let first = -own.s.im * own.s.im;
-            let (found, last, mean) = match two {
-                Some(k) if own.s.re != 0.0 || reals[k].s.re * reals[k + 1].s.re >= 0.0 => {
+            let first = -sample.s.im * sample.s.im;
+            let (partners, last, mean) = match two {
+                Some(k) if sample.s.re != 0.0 || reals[k].s.re * reals[k + 1].s.re >= 0.0 => {
                     let half = 0.5 * (reals[k + 1].s.re - reals[k].s.re);
                     let mean = middle(&reals[k..k + 2]);
-                    let found = vec![reals.remove(k), reals.remove(k)];
-                    (found, half * half, mean)
+                    let partners = vec![reals.remove(k), reals.remove(k)];
+                    (partners, half * half, mean)
                 }
-                _ => match reals.iter().position(|real| real.label == own.label) {
-                    Some(k) if own.s.re == 0.0 => {
+                _ => match reals.iter().position(|real| real.label == sample.label) {
+                    Some(k) if sample.s.re == 0.0 => {
                         let real = reals.remove(k);
                         (vec![real], real.s.re * real.s.re, 0.0)
                     }
@@ -183,11 +183,11 @@ impl Lines {
                 0.5
             };
             let value = critical
-                .filter(|_| own.s.re == 0.0)
+                .filter(|_| sample.s.re == 0.0)
                 .unwrap_or(pair.value + share * (single.value - pair.value));
-            let at = Complex::new(own.s.re + share * (mean - own.s.re), 0.0);
-            self.half(&[own], pair.value, value, at, backwards);
-            self.half(&found, single.value, value, at, !backwards);
+            let at = Complex::new(sample.s.re + share * (mean - sample.s.re), 0.0);
+            self.half(&[sample], pair.value, value, at, backwards);
+            self.half(&partners, single.value, value, at, !backwards);
         }
     }
 

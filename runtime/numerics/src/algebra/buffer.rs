@@ -26,8 +26,8 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     pub(super) fn from_slice(values: &[T]) -> Self {
         if values.len() <= FEW {
             let mut few = [T::default(); FEW];
-            for (place, value) in few.iter_mut().zip(values) {
-                *place = *value;
+            for (slot, value) in few.iter_mut().zip(values) {
+                *slot = *value;
             }
             Self::Few(values.len(), few)
         } else {
@@ -40,8 +40,8 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     pub(super) fn from_fn(count: usize, mut value: impl FnMut(usize) -> T) -> Self {
         if count <= FEW {
             let mut few = [T::default(); FEW];
-            for (k, place) in few.iter_mut().enumerate().take(count) {
-                *place = value(k);
+            for (k, slot) in few.iter_mut().enumerate().take(count) {
+                *slot = value(k);
             }
             Self::Few(count, few)
         } else {
@@ -53,7 +53,7 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     #[inline(always)]
     pub(super) fn make_room(&mut self, count: usize) -> &mut [T] {
         match self {
-            Self::Few(own, _) if count <= FEW => *own = count,
+            Self::Few(length, _) if count <= FEW => *length = count,
             Self::Many(many) if many.len() == count => {}
             _ => self.renew(count),
         }
@@ -82,8 +82,8 @@ fn fill<T>(places: &mut [T], values: impl Iterator<Item = T>) -> usize {
     let most = values.size_hint().1.unwrap_or(usize::MAX);
     let most = most.min(places.len());
     let mut written = 0;
-    for (place, value) in places[..most].iter_mut().zip(values) {
-        *place = value;
+    for (slot, value) in places[..most].iter_mut().zip(values) {
+        *slot = value;
         written += 1;
     }
     written

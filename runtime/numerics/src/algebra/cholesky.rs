@@ -54,12 +54,12 @@ impl Cholesky {
     /// Orthonormalises vectors `x_i` whose products form `matrix`: `sum_j x_j L^-T D^-1/2`.
     pub fn orthonormalise(&self, vectors: &mut [Vector]) {
         for i in 0..vectors.len() {
-            let (before, own) = vectors.split_at_mut(i);
-            let own = &mut own[0];
+            let (before, rest) = vectors.split_at_mut(i);
+            let vector = &mut rest[0];
             for (k, other) in before.iter().enumerate() {
                 let factor = -self.lower[i][k];
-                for (own, other) in own.iter_mut().zip(other) {
-                    *own += factor * other;
+                for (value, other) in vector.iter_mut().zip(other) {
+                    *value += factor * other;
                 }
             }
         }
@@ -105,22 +105,22 @@ pub fn factor_rows(
     let (matrix, lower, pivots) = (&matrix[..n * n], &mut lower[..n * n], &mut pivots[..n]);
     for i in 0..n {
         let row = &matrix[i * n..(i + 1) * n];
-        let (above, own) = lower.split_at_mut(i * n);
-        let own = &mut own[..n];
+        let (above, rest) = lower.split_at_mut(i * n);
+        let lower_row = &mut rest[..n];
         let mut pivot = row[i];
         for j in 0..i {
             let mut sum = row[j];
             let other = &above[j * n..j * n + j];
             for k in 0..j {
-                sum -= own[k] * other[k];
+                sum -= lower_row[k] * other[k];
             }
             // Scaled by its pivot until the row is complete.
-            own[j] = sum;
+            lower_row[j] = sum;
         }
         for j in 0..i {
-            let scaled = own[j];
-            own[j] = scaled / pivots[j];
-            pivot -= scaled * own[j];
+            let scaled = lower_row[j];
+            lower_row[j] = scaled / pivots[j];
+            pivot -= scaled * lower_row[j];
         }
         if pivot > threshold * row[i].abs() && pivot < f64::INFINITY {
             pivots[i] = pivot;

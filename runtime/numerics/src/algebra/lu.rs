@@ -170,8 +170,8 @@ impl<T: Field> Lu<T> {
             }
         }
         let mut x = Vector::zeros(n);
-        for (&place, value) in self.order.iter().zip(y) {
-            x[place] = value;
+        for (&index, value) in self.order.iter().zip(y) {
+            x[index] = value;
         }
         x
     }
@@ -197,8 +197,8 @@ impl<T: Field> Lu<T> {
             combine_rows(&mut open[i * count..], (done, n - i - 1), factor, minus);
         }
         let mut x = Matrix::zeros(n, count);
-        for (&place, row) in self.order.iter().zip(y.iter()) {
-            x[place].copy_from_slice(row);
+        for (&index, row) in self.order.iter().zip(y.iter()) {
+            x[index].copy_from_slice(row);
         }
         x
     }
@@ -288,8 +288,8 @@ mod tests {
             };
             let x = [1.0, -1.0, unit];
             let solution = lu.solve(&times(&matrix, &x));
-            for (found, expected) in solution.iter().zip(x) {
-                assert!((found / expected - 1.0).abs() < 1e-14, "{solution:?}");
+            for (solved, expected) in solution.iter().zip(x) {
+                assert!((solved / expected - 1.0).abs() < 1e-14, "{solution:?}");
             }
             // What is left of two springs that cancel is rounding, at any size.
             assert!(Lu::new(&tied(unit, -unit)).is_none());

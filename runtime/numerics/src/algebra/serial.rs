@@ -73,7 +73,7 @@ impl<'de, T: Exact + Copy + Default> Deserialize<'de> for Matrix<T> {
         let places = matrix.as_flattened_mut().iter_mut();
         places
             .zip(entries)
-            .for_each(|(place, entry)| *place = T::read(entry));
+            .for_each(|(slot, entry)| *slot = T::read(entry));
         Ok(matrix)
     }
 }

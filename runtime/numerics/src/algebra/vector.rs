@@ -80,8 +80,8 @@ impl<T: Copy + Default> Vector<T> {
     /// Overwrites the entries with other values, in the same storage.
     #[inline]
     pub fn assign(&mut self, values: impl ExactSizeIterator<Item = T>) {
-        for (place, value) in self.make_room(values.len()).iter_mut().zip(values) {
-            *place = value;
+        for (slot, value) in self.make_room(values.len()).iter_mut().zip(values) {
+            *slot = value;
         }
     }
 }

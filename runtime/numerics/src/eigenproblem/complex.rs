@@ -21,7 +21,7 @@ pub fn eigenvalues(matrix: &mut [Complex], values: &mut [Complex]) -> bool {
         return true;
     }
     matrix.iter_mut().for_each(|x| *x /= size);
-    let found = match *matrix {
+    let converged = match *matrix {
         [a, b, c, d] => {
             values.copy_from_slice(&two(a, b, c, d));
             true
@@ -32,7 +32,7 @@ pub fn eigenvalues(matrix: &mut [Complex], values: &mut [Complex]) -> bool {
         }
     };
     values.iter_mut().for_each(|x| *x *= size);
-    found
+    converged
 }
 
 /// Eigenvalues of `[[a, b], [c, d]]`.

@@ -152,16 +152,16 @@ pub(super) fn cholesky(n: usize, matrix: &[f64], lower: &mut [f64]) -> Result<()
         || {
             lower.fill(0.0);
             for i in 0..n {
-                let (above, own) = lower.split_at_mut(i * n);
+                let (above, row) = lower.split_at_mut(i * n);
                 for j in 0..i {
                     let other = &above[j * n..j * n + j + 1];
-                    own[j] = (matrix[i * n + j] - dot(&own[..j], &other[..j])) / other[j];
+                    row[j] = (matrix[i * n + j] - dot(&row[..j], &other[..j])) / other[j];
                 }
-                let pivot = matrix[i * n + i] - dot(&own[..i], &own[..i]);
+                let pivot = matrix[i * n + i] - dot(&row[..i], &row[..i]);
                 if !(pivot > threshold * matrix[i * n + i].abs() && pivot.is_finite()) {
                     return Err(i);
                 }
-                own[i] = pivot.sqrt();
+                row[i] = pivot.sqrt();
             }
             Ok(())
         },

@@ -29,8 +29,8 @@ fn tridiagonal(matrix: &mut [f64], n: usize, vector: &mut [f64]) -> bool {
     let (values, rest) = room.split_at_mut(n);
     let (beside, product) = rest.split_at_mut(n);
     let (whole, turned) = (&mut matrix.to_vec(), &mut vector.to_vec());
-    let found = decompose(whole, turned, [&mut *values, beside, product]);
-    if found {
+    let converged = decompose(whole, turned, [&mut *values, beside, product]);
+    if converged {
         matrix
             .iter_mut()
             .step_by(n + 1)
@@ -38,7 +38,7 @@ fn tridiagonal(matrix: &mut [f64], n: usize, vector: &mut [f64]) -> bool {
             .for_each(|(to, value)| *to = *value);
         vector.copy_from_slice(turned);
     }
-    found
+    converged
 }
 
 /// By cyclic rotations (Golub and Van Loan, Matrix Computations, section 8.5).

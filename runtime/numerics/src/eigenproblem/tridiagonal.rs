@@ -42,12 +42,12 @@ impl Tridiagonal {
     /// Householder's reduction and QL with implicit shifts (Golub and Van Loan, Matrix Computations, sections 8.3.1 and
     /// 8.3.3).
     pub fn eigenvalues(&mut self, matrix: &mut [f64]) -> Option<&[f64]> {
-        let found = decompose(
+        let converged = decompose(
             matrix,
             &mut [],
             [&mut self.diagonal, &mut self.beside, &mut self.product],
         );
-        found.then_some(&self.diagonal[..])
+        converged.then_some(&self.diagonal[..])
     }
 }
 
@@ -70,9 +70,9 @@ pub(super) fn decompose(
     if columns > 0 {
         reflect(matrix, diagonal.len(), carried, columns);
     }
-    let found = ql(diagonal, beside, carried);
+    let converged = ql(diagonal, beside, carried);
     diagonal.iter_mut().for_each(|value| *value *= size);
-    found
+    converged
 }
 
 /// To tridiagonal form; the vector of each reflection is left in its row.
@@ -248,10 +248,10 @@ mod tests {
                 diagonalise(&mut rotated, n, &mut []);
                 let expected: Vec<f64> = (0..n).map(|i| rotated[i * n + i]).collect();
                 let mut room = Tridiagonal::new(n);
-                let found = room.eigenvalues(&mut matrix).map(sorted);
-                let found = found.unwrap_or_default();
-                assert_eq!(found.len(), n);
-                for (a, b) in found.iter().zip(sorted(&expected)) {
+                let sorted_values = room.eigenvalues(&mut matrix).map(sorted);
+                let eigenvalues = sorted_values.unwrap_or_default();
+                assert_eq!(eigenvalues.len(), n);
+                for (a, b) in eigenvalues.iter().zip(sorted(&expected)) {
                     assert!(
                         (a - b).abs() <= 1e-13 * size * n as f64,
                         "{n} {kind}: {a} {b}"
@@ -315,11 +315,11 @@ mod tests {
             }
         }
         let mut room = Tridiagonal::new(n);
-        let found = room
+        let eigenvalues = room
             .eigenvalues(&mut matrix)
             .map(sorted)
             .unwrap_or_default();
-        for (k, value) in found.iter().enumerate() {
+        for (k, value) in eigenvalues.iter().enumerate() {
             let angle = std::f64::consts::PI * (k + 1) as f64 / (2.0 * (n + 1) as f64);
             assert!((value - (2.0 * angle.sin()).powi(2)).abs() < 1e-13);
         }

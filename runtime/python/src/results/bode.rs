@@ -1,7 +1,7 @@
 //! Forced vibration along an input.
 
 use eigentol::bode::BodePoint;
-use eigentol::forced::{ForcedSensitivities as Found, Measure};
+use eigentol::forced::{ForcedSensitivities as Sensitivities, Measure};
 use eigentol::propagation::{QUANTILES, ResponseSpread, VibrationCheck};
 use eigentol::sensitivity::Slopes;
 use eigentol::{Complex, Output, Vector};
@@ -33,7 +33,7 @@ impl Bode {
     fn each<'a, T: Copy>(
         &'a self,
         (count, none): (usize, T),
-        of: impl Fn(&'a Found) -> Vec<T>,
+        of: impl Fn(&'a Sensitivities) -> Vec<T>,
     ) -> Vec<T> {
         let points = self.0.points.iter();
         let all = points.map(|point| point.vibration.as_ref().ok().map(&of));
@@ -56,7 +56,7 @@ impl Bode {
         &self,
         py: Python<'py>,
         (columns, none): (usize, T),
-        of: impl Fn(&Found, usize, Output) -> Option<Slopes<T>>,
+        of: impl Fn(&Sensitivities, usize, Output) -> Option<Slopes<T>>,
         part: fn(&Slopes<T>) -> &Vector<T>,
     ) -> PyResult<Array4<'py, T>> {
         let [harmonics, outputs] = self.counts();
@@ -76,7 +76,7 @@ impl Bode {
         &self,
         py: Python<'py>,
         none: T,
-        of: impl Fn(&Found, usize, Output) -> Option<Slopes<T>>,
+        of: impl Fn(&Sensitivities, usize, Output) -> Option<Slopes<T>>,
     ) -> PyResult<AlongOf<'py, T>> {
         let (inputs, design) = (
             self.0.description.inputs.len(),
@@ -115,14 +115,14 @@ fn check(of: &BodePoint, band: usize) -> Option<&VibrationCheck> {
 attributes! {
     Bode(self, py) {
         /// Values of the input, SI, shape (k,).
-        values: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.value));
+        values: Array1<'py> = vector(py, self.0.points.iter().map(|point| point.value));
         /// Names of the excitations that act together in each harmonic.
         harmonics: Vec<Vec<&str>> = names::harmonics(&self.0.description);
         /// Frequencies of the harmonics, rad/s, shape (k, h).
         frequencies: PyResult<Array2<'py>> = {
             let count = self.counts()[0];
-            let all = self.each((count, f64::NAN), |own| {
-                own.response.harmonics.iter().map(|own| own.frequency).collect()
+            let all = self.each((count, f64::NAN), |point| {
+                point.response.harmonics.iter().map(|harmonic| harmonic.frequency).collect()
             });
             vector(py, all).reshape([self.0.points.len(), count])
         };
@@ -131,49 +131,49 @@ attributes! {
         /// Total derivatives of the complex amplitudes by inputs, the varied one included, shape (k, h, o, inputs), per
         /// SI unit.
         by_input: PyResult<Array4<'py, Complex>> = {
-            let of = |own: &Found, h, o| own.complex(h, o, Measure::Displacement);
+            let of = |slopes: &Sensitivities, h, o| slopes.complex(h, o, Measure::Displacement);
             Ok(self.both(py, NONE, of)?.0)
         };
         /// Total derivatives of the complex amplitudes by design variables, shape (k, h, o, design), per SI unit.
         by_design: PyResult<Array4<'py, Complex>> = {
-            let of = |own: &Found, h, o| own.complex(h, o, Measure::Displacement);
+            let of = |slopes: &Sensitivities, h, o| slopes.complex(h, o, Measure::Displacement);
             Ok(self.both(py, NONE, of)?.1)
         };
         /// The vibration with its derivatives at each value, or None.
         vibrations: Vec<Option<ForcedSensitivities>> =
             self.0.points.iter()
-                .map(|own| own.vibration.clone().ok().map(ForcedSensitivities)).collect();
+                .map(|point| point.vibration.clone().ok().map(ForcedSensitivities)).collect();
         /// Why there is no vibration at each value: a text, or None where there is one.
         failures: Vec<Option<String>> =
             self.0.points.iter()
-                .map(|own| own.vibration.as_ref().err().map(ToString::to_string)).collect();
+                .map(|point| point.vibration.as_ref().err().map(ToString::to_string)).collect();
         /// Names of the vibrations that have bands.
         banded: Vec<String> = {
             let each = self.0.banded.iter().copied().map(eigentol::response::Response::Vibration);
-            each.map(|own| own.name(&self.0.description)).collect()
+            each.map(|excitation| excitation.name(&self.0.description)).collect()
         };
         /// The spreads of these amplitudes at each value, or None.
         spreads: Vec<Option<Propagation>> = {
-            let spread = |own: &BodePoint| own.bands.as_ref().map(|own| own.spread.clone());
-            self.0.points.iter().map(|own| spread(own).map(Propagation)).collect()
+            let spread = |point: &BodePoint| point.bands.as_ref().map(|point| point.spread.clone());
+            self.0.points.iter().map(|point| spread(point).map(Propagation)).collect()
         };
         /// Means of the banded amplitudes, SI, shape (k, v).
         mean: PyResult<Array2<'py>> =
-            self.bands(py, |own, band| Some(spread(own, band)?.mean.value));
+            self.bands(py, |point, band| Some(spread(point, band)?.mean.value));
         /// Their standard deviations, SI, shape (k, v).
         sigma: PyResult<Array2<'py>> =
-            self.bands(py, |own, band| Some(spread(own, band)?.sigma?.value));
+            self.bands(py, |point, band| Some(spread(point, band)?.sigma?.value));
         /// Their quantiles, SI, shape (k, v, 7), for the probabilities of -3, -2 ... 3 standard deviations of a normal
         /// variable.
         quantiles: PyResult<Array3<'py>> = {
             let count = self.0.banded.len();
-            let each = |own, band, place: usize| {
-                Some(spread(own, band)?.quantiles.get(place)?.value)
+            let each = |point, band, index: usize| {
+                Some(spread(point, band)?.quantiles.get(index)?.value)
             };
             let points = self.0.points.iter();
-            let all = points.flat_map(|own| {
+            let all = points.flat_map(|point| {
                 (0..count).flat_map(move |band| {
-                    (0..QUANTILES.len()).map(move |place| or_nan(each(own, band, place)))
+                    (0..QUANTILES.len()).map(move |index| or_nan(each(point, band, index)))
                 })
             });
             vector(py, all).reshape([self.0.points.len(), count, QUANTILES.len()])
@@ -182,11 +182,11 @@ attributes! {
         probabilities: Array1<'py> = vector(py, QUANTILES);
         /// Numbers of designs solved anew that have the vibration, shape (k, v); NaN where none was asked for.
         checked: PyResult<Array2<'py>> =
-            self.bands(py, |own, band| Some(check(own, band)?.samples as f64));
+            self.bands(py, |point, band| Some(check(point, band)?.samples as f64));
         /// Relative errors of the standard deviations that these show, shape (k, v).
-        sigma_errors: PyResult<Array2<'py>> = self.bands(py, |own, band| Some(check(own, band)?.sigma));
+        sigma_errors: PyResult<Array2<'py>> = self.bands(py, |point, band| Some(check(point, band)?.sigma));
         /// Relative errors of the values below which 99 % of the designs lie, shape (k, v).
-        upper_errors: PyResult<Array2<'py>> = self.bands(py, |own, band| Some(check(own, band)?.upper));
+        upper_errors: PyResult<Array2<'py>> = self.bands(py, |point, band| Some(check(point, band)?.upper));
         /// Number of values that were not reached.
         unreached: usize = self.0.unreached;
     }
@@ -204,13 +204,13 @@ attributes! {
         /// design), SI; NaN also where the modulus is zero.
         modulus: Along<'py> = {
             let wanted = self::measure(py, measure)?;
-            self.both(py, f64::NAN, |own, h, o| own.modulus(h, o, wanted))
+            self.both(py, f64::NAN, |point, h, o| point.modulus(h, o, wanted))
         };
         /// Derivatives of the phases, rad, by inputs, shape (k, h, o, inputs), and by design variables, shape (k, h, o,
         /// design), per SI unit; NaN also where the modulus is zero.
         phase: Along<'py> = {
             let wanted = self::measure(py, measure)?;
-            self.both(py, f64::NAN, |own, h, o| own.phase(h, o, wanted))
+            self.both(py, f64::NAN, |point, h, o| point.phase(h, o, wanted))
         };
     }
 }

@@ -21,12 +21,12 @@ impl Convergence {
 attributes! {
     Convergence(self, py) {
         /// Names of the answers, modes counted from 1: "frequency 1".
-        names: Vec<String> = self.each(|own| own.answer.name(&self.0.description)).collect();
+        names: Vec<String> = self.each(|x| x.answer.name(&self.0.description)).collect();
         /// Values with the declared coordinates, SI, shape (k,).
-        values: Array1<'py> = vector(py, self.each(|own| own.value));
+        values: Array1<'py> = vector(py, self.each(|x| x.value));
         /// What one and two more coordinates add, relative to the larger of the two values compared, shape (k, 2); NaN where
         /// the answer no longer exists.
         changes: PyResult<Array2<'py>> =
-            rows(py, 2, self.each(|own| own.relative.map(or_nan).to_vec()));
+            rows(py, 2, self.each(|row| row.relative.map(or_nan).to_vec()));
     }
 }

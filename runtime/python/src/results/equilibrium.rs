@@ -57,8 +57,8 @@ attributes! {
         /// The joint of three turns or the beam that is closest to its singular pose, and how far: 1 at best, 0 there.
         /// None without such joints and beams.
         pose: Option<(String, f64)> = {
-            let own = self.0.pose.as_ref()?;
-            Some((own.joint.to_string(), own.margin))
+            let pose = self.0.pose.as_ref()?;
+            Some((pose.joint.to_string(), own.margin))
         };
         /// Whether the search passed an unstable region: the start was not in the valley of the answer.
         left_unstable_region: bool = self.0.left_unstable_region;
@@ -128,6 +128,6 @@ attributes! {
         redundant: usize = self.0.constraints.redundant;
         /// Names of the constraints that depend on each other.
         dependent_constraints: Vec<String> =
-            self.0.dependent_constraints().map(|own| own.to_string()).collect();
+            self.0.dependent_constraints().map(|dependent_constraint| dependent_constraint.to_string()).collect();
     }
 }

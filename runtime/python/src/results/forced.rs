@@ -45,38 +45,38 @@ impl ForcedResponse {
 attributes! {
     ForcedResponse(self, py) {
         /// Frequencies of the harmonics, rad/s, positive, shape (h,).
-        frequencies: Array1<'py> = vector(py, self.0.harmonics.iter().map(|own| own.frequency));
+        frequencies: Array1<'py> = vector(py, self.0.harmonics.iter().map(|harmonic| harmonic.frequency));
         /// Names of the excitations that act together in each harmonic.
         harmonics: Vec<Vec<&str>> = {
             let all = names::excitations(&self.0.description);
-            let of = |own: &Harmonic| own.shares.iter().map(|own| all[own.excitation]).collect();
+            let of = |harmonic: &Harmonic| harmonic.shares.iter().map(|share| all[share.excitation]).collect();
             self.0.harmonics.iter().map(of).collect()
         };
         /// Amplitudes of the outputs, complex, SI, shape (h, o).
         outputs: PyResult<Array2<'py, Complex>> = {
-            let all = self.0.harmonics.iter().map(|own| own.outputs.to_vec());
+            let all = self.0.harmonics.iter().map(|harmonic| harmonic.outputs.to_vec());
             rows(py, self.0.description.outputs.len(), all)
         };
         /// Amplitudes of the unknowns, complex, SI, shape (h, n): displacements of coordinates, speeds, reactions.
         unknowns: PyResult<Array2<'py, Complex>> = {
-            let all = self.0.harmonics.iter().map(|own| own.unknowns.to_vec());
+            let all = self.0.harmonics.iter().map(|harmonic| harmonic.unknowns.to_vec());
             rows(py, self.0.description.coordinates.len(), all)
         };
         /// Names of the excitations: the rows of `shares`.
         excitations: Vec<&str> = names::excitations(&self.0.description);
         /// What each excitation contributes to the outputs, complex, SI, shape (e, o).
         shares: PyResult<Array2<'py, Complex>> = {
-            let all = self.contributions().into_iter().map(|own| own.outputs.to_vec());
+            let all = self.contributions().into_iter().map(|contribution| contribution.outputs.to_vec());
             rows(py, self.0.description.outputs.len(), all)
         };
         /// What each excitation contributes to the unknowns, complex, SI, shape (e, n).
         unknown_shares: PyResult<Array2<'py, Complex>> = {
-            let all = self.contributions().into_iter().map(|own| own.unknowns.to_vec());
+            let all = self.contributions().into_iter().map(|contribution| contribution.unknowns.to_vec());
             rows(py, self.0.description.coordinates.len(), all)
         };
         /// Whether the declared frequency of each excitation is negative, shape (e,).
         reversed: Array1<'py, bool> =
-            vector(py, self.contributions().into_iter().map(|own| own.reversed));
+            vector(py, self.contributions().into_iter().map(|contribution| contribution.reversed));
     }
 }
 
@@ -86,7 +86,7 @@ attributes! {
         /// second, as "acceleration" per second squared.
         amplitudes: Array2<'py, Complex> = {
             let wanted = self::measure(py, measure)?;
-            let all = self.0.harmonics.iter().map(|own| amplitudes(own, wanted).collect());
+            let all = self.0.harmonics.iter().map(|harmonic| amplitudes(harmonic, wanted).collect());
             rows(py, self.0.description.outputs.len(), all)
         };
     }
@@ -95,8 +95,8 @@ attributes! {
 impl ForcedResponse {
     fn output(&self, py: Python<'_>, name: &str) -> PyResult<Output> {
         let of = &self.0.description;
-        let place = of.outputs.iter().position(|output| output.name == *name);
-        place.map(Output::new).ok_or_else(|| {
+        let index = of.outputs.iter().position(|output| output.name == *name);
+        index.map(Output::new).ok_or_else(|| {
             let error = Error::UnknownName {
                 kind: "output",
                 name: name.to_owned(),
@@ -332,12 +332,12 @@ attributes! {
         by_design: PyResult<Array3<'py, Complex>> = Ok(self.as_declared(py)?.1);
         /// Derivatives of the frequencies by inputs, rad/s per SI unit, shape (h, inputs).
         frequency_by_input: PyResult<Array2<'py>> = {
-            let all = self.0.harmonics.iter().map(|own| own.frequency.by_input.to_vec());
+            let all = self.0.harmonics.iter().map(|harmonic| harmonic.frequency.by_input.to_vec());
             rows(py, self.0.response.description.inputs.len(), all)
         };
         /// Derivatives of the frequencies by design variables, rad/s per SI unit, shape (h, design).
         frequency_by_design: PyResult<Array2<'py>> = {
-            let all = self.0.harmonics.iter().map(|own| own.frequency.by_design.to_vec());
+            let all = self.0.harmonics.iter().map(|harmonic| harmonic.frequency.by_design.to_vec());
             rows(py, self.0.response.description.design.len(), all)
         };
     }
@@ -463,17 +463,17 @@ attributes! {
         /// Second derivatives of the frequencies by design variables, rad/s per SI units, shape (h, design, design).
         frequency_hessian: PyResult<Array3<'py>> = {
             let design = self.counts().1;
-            self.of_frequencies(py, |own| &own.by_design, [design, design])
+            self.of_frequencies(py, |of_frequency| &of_frequency.by_design, [design, design])
         };
         /// Second derivatives of the frequencies by inputs, shape (h, inputs, inputs).
         frequency_by_input: PyResult<Array3<'py>> = {
             let inputs = self.counts().0;
-            self.of_frequencies(py, |own| &own.by_input, [inputs, inputs])
+            self.of_frequencies(py, |of_frequency| &of_frequency.by_input, [inputs, inputs])
         };
         /// Second derivatives of the frequencies by an input and a design variable, shape (h, inputs, design).
         frequency_by_input_and_design: PyResult<Array3<'py>> = {
             let (inputs, design) = self.counts();
-            self.of_frequencies(py, |own| &own.by_input_and_design, [inputs, design])
+            self.of_frequencies(py, |of_frequency| &of_frequency.by_input_and_design, [inputs, design])
         };
     }
 }

@@ -14,8 +14,8 @@ result! {
     Modes(eigentol::Modes)
 }
 
-pub(crate) fn family(own: Family) -> &'static hints::Family {
-    match own {
+pub(crate) fn family(kind: Family) -> &'static hints::Family {
+    match kind {
         Family::Undamped => "undamped",
         Family::General => "general",
     }

@@ -40,7 +40,7 @@ impl Peaks {
     fn slopes<'py>(&self, py: Python<'py>, of: Of) -> PyResult<Array2<'py>> {
         let count = self.0.description.design.len();
         let row = |peak: &Peak| match of(peak) {
-            Some(own) => own.by_design.to_vec(),
+            Some(derivatives) => derivatives.by_design.to_vec(),
             None => vec![f64::NAN; count],
         };
         rows(py, count, self.0.peaks.iter().map(row))
@@ -128,22 +128,22 @@ attributes! {
         operating: (f64, f64) = self.0.operating.into();
         /// Distances of the peaks from the nearest end of the range, relative to that end, shape (k,); zero within the
         /// range.
-        margins: Array1<'py> = vector(py, self.actual().map(|own| own.value));
+        margins: Array1<'py> = vector(py, self.actual().map(|x| x.value));
         /// Their standard deviations to first order, shape (k,).
         margin_sigmas: Array1<'py> = {
-            optional(py, self.actual().map(|own| Some(own.spread.as_ref()?.sigma)))
+            optional(py, self.actual().map(|x| Some(x.spread.as_ref()?.sigma)))
         };
         /// Their total derivatives by design variables, shape (k, design), per SI unit.
         margins_by_design: PyResult<Array2<'py>> = {
             let count = self.0.peaks.description.design.len();
-            rows(py, count, self.actual().map(|own| own.by_design.to_vec()))
+            rows(py, count, self.actual().map(|row| row.by_design.to_vec()))
         };
         /// The margins that the amplification factors ask for, shape (k,); zero for a peak that is damped away, NaN
         /// without an amplification factor.
-        required: Array1<'py> = optional(py, self.0.margins.iter().map(|own| own.required));
+        required: Array1<'py> = optional(py, self.0.margins.iter().map(|margin| margin.required));
         /// Whether each peak keeps away far enough; None if what is required is not known.
         sufficient: Vec<Option<bool>> = {
-            self.0.margins.iter().map(|own| own.sufficient()).collect()
+            self.0.margins.iter().map(|margin| margin.sufficient()).collect()
         };
     }
 }

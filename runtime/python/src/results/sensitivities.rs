@@ -63,24 +63,24 @@ attributes! {
         /// Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where
         /// `s` has none.
         by_design: PyResult<Array2<'py, Complex>> =
-            self.complex(py, self.counts().1, |own| own.by_design.to_vec());
+            self.complex(py, self.counts().1, |count| count.by_design.to_vec());
         /// Derivatives of the eigenvalues `s` by inputs, 1/s per SI unit, complex, shape (m, inputs); NaN where `s` has
         /// none.
         by_input: PyResult<Array2<'py, Complex>> =
-            self.complex(py, self.counts().0, |own| own.by_input.to_vec());
+            self.complex(py, self.counts().0, |count| count.by_input.to_vec());
         /// Derivatives of `lambda = -Re s^2` by design variables, 1/s^2 per SI unit, shape (m, design).
         lambda_by_design: PyResult<Array2<'py>> =
-            self.rows(py, self.counts().1, |own| {
-                Some(own.lambda.by_design.to_vec())
+            self.rows(py, self.counts().1, |count| {
+                Some(count.lambda.by_design.to_vec())
             });
         /// Derivatives of `lambda = -Re s^2` by inputs, 1/s^2 per SI unit, shape (m, inputs).
         lambda_by_input: PyResult<Array2<'py>> =
-            self.rows(py, self.counts().0, |own| {
-                Some(own.lambda.by_input.to_vec())
+            self.rows(py, self.counts().0, |count| {
+                Some(count.lambda.by_input.to_vec())
             });
         /// Whether each mode is one of a cluster of nearly equal eigenvalues: then its derivatives belong to the computed
         /// basis only.
-        clustered: Vec<bool> = self.0.modes.iter().map(|own| own.clustered).collect();
+        clustered: Vec<bool> = self.0.modes.iter().map(|mode| mode.clustered).collect();
     }
 }
 
@@ -120,16 +120,16 @@ impl ModeCurvature {
         if name == "lambda" {
             return Ok(self.0.first.lambda.clone());
         }
-        let found = self.0.first.of(quantity(py, name)?);
-        found.ok_or_else(|| self.none(py, name))
+        let slopes = self.0.first.of(quantity(py, name)?);
+        slopes.ok_or_else(|| self.none(py, name))
     }
 
     fn second(&self, py: Python<'_>, name: &str) -> PyResult<SecondDerivatives<f64>> {
         if name == "lambda" {
             return Ok(self.0.lambda.clone());
         }
-        let found = self.0.of(quantity(py, name)?);
-        found.ok_or_else(|| self.none(py, name))
+        let derivatives = self.0.of(quantity(py, name)?);
+        derivatives.ok_or_else(|| self.none(py, name))
     }
 
     fn none(&self, py: Python<'_>, name: &str) -> PyErr {
@@ -236,12 +236,12 @@ attributes! {
         values: Array1<'py> = vector(py, self.0.values.clone());
         /// Derivatives by inputs, shape (o, inputs); NaN where there is none.
         by_input: PyResult<Array2<'py>> = {
-            let all = self.0.by_input.iter().map(|row| row.as_ref().map(|own| own.to_vec()));
+            let all = self.0.by_input.iter().map(|row| row.as_ref().map(|x| x.to_vec()));
             optional_rows(py, self.0.description.inputs.len(), all)
         };
         /// Derivatives by design variables, shape (o, design); NaN where there is none.
         by_design: PyResult<Array2<'py>> = {
-            let all = self.0.by_design.iter().map(|row| row.as_ref().map(|own| own.to_vec()));
+            let all = self.0.by_design.iter().map(|row| row.as_ref().map(|x| x.to_vec()));
             optional_rows(py, self.0.description.design.len(), all)
         };
     }

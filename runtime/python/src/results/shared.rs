@@ -79,7 +79,7 @@ macro_rules! result {
             #[getter]
             fn tables(&self) -> Vec<String> {
                 let all = eigentol_tables::Answer::tables(&self.0);
-                all.into_iter().map(|own| own.name).collect()
+                all.into_iter().map(|x| x.name).collect()
             }
 
             /// The sentences of its text: what to know besides the tables.

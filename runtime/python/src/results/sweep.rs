@@ -45,8 +45,8 @@ impl Sweep {
     }
 }
 
-fn message<T>(found: &Result<T, Error>) -> Option<String> {
-    found.as_ref().err().map(ToString::to_string)
+fn message<T>(answer: &Result<T, Error>) -> Option<String> {
+    answer.as_ref().err().map(ToString::to_string)
 }
 
 attributes! {
@@ -58,15 +58,15 @@ attributes! {
         /// Damping ratios, shape (k, motions).
         damping_ratios: PyResult<Array2<'py>> = self.by_label(py, f64::NAN, Mode::damping_ratio);
         /// Values of the input at which the stable equilibrium loses its stiffness, SI.
-        critical: Array1<'py> = vector(py, self.0.critical.iter().map(|own| own.value));
+        critical: Array1<'py> = vector(py, self.0.critical.iter().map(|x| x.value));
         /// What happens at each of these, in words.
         critical_kinds: Vec<String> =
-            self.0.critical.iter().map(|own| own.kind.to_string()).collect();
+            self.0.critical.iter().map(|critical_kind| critical_kind.kind.to_string()).collect();
         /// Values of the input at which an oscillation begins or ceases to grow, SI.
-        flutter_onsets: Array1<'py> = vector(py, self.0.flutter_onsets.iter().map(|own| own.value));
+        flutter_onsets: Array1<'py> = vector(py, self.0.flutter_onsets.iter().map(|flutter_onset| flutter_onset.value));
         /// The modes at each value, or None.
         modes: Vec<Option<Modes>> =
-            self.0.points.iter().map(|own| own.modes.clone().ok().map(Modes)).collect();
+            self.0.points.iter().map(|point| point.modes.clone().ok().map(Modes)).collect();
     }
 }
 
@@ -139,7 +139,7 @@ attributes! {
             self.by_label(py, f64::NAN, |mode| sigma(&mode.frequency));
         /// Means of the damping ratios, shape (k, motions).
         damping_ratios: PyResult<Array2<'py>> = {
-            let mean = |mode: &CampbellMode| mode.damping_ratio.as_ref().map(|own| own.mean);
+            let mean = |mode: &CampbellMode| mode.damping_ratio.as_ref().map(|x| x.mean);
             self.by_label(py, f64::NAN, mean)
         };
         /// Standard deviations of the damping ratios to first order, shape (k, motions).
@@ -148,7 +148,7 @@ attributes! {
         /// Whirl, shape (k, motions): minor over major axis of the orbit, positive along the rotation; NaN where it does
         /// not apply.
         whirls: PyResult<Array2<'py>> = {
-            let ratio = |mode: &CampbellMode| mode.whirl.map(|own| own.ratio);
+            let ratio = |mode: &CampbellMode| mode.whirl.map(|x| x.ratio);
             self.by_label(py, f64::NAN, |mode| Some(or_nan(ratio(mode))))
         };
         /// Where a frequency meets a line, with spreads.
@@ -163,32 +163,32 @@ attributes! {
         };
         /// The direction of each whirl, in words, a list for each value; None where it does not apply.
         whirl_senses: Vec<Vec<Option<String>>> =
-            self.words(&|mode| mode.whirl.map(|own| own.sense().to_string()));
+            self.words(&|mode| mode.whirl.map(|word| word.sense().to_string()));
         /// Whether each motion is nearly equal to another, so that its spreads mean nothing, shape (k, motions).
         clustered: PyResult<Array2<'py, bool>> =
             self.by_label(py, false, |mode| Some(mode.clustered));
         /// The lines whose crossings were searched for: multiple of the input, and offset in rad/s.
-        orders: Vec<(f64, f64)> = self.0.orders.iter().map(|own| (own.ratio, own.offset)).collect();
+        orders: Vec<(f64, f64)> = self.0.orders.iter().map(|order| (order.ratio, order.offset)).collect();
     }
 }
 
 attributes! {
     Sweep, Campbell(self, py) {
         /// Values of the input, SI, shape (k,).
-        values: Array1<'py> = vector(py, self.0.points.iter().map(|own| own.value));
+        values: Array1<'py> = vector(py, self.0.points.iter().map(|point| point.value));
         /// Unknowns of the equilibria, shape (k, n); NaN where there is none.
         coordinates: PyResult<Array2<'py>> = {
-            let all = self.0.points.iter().map(|own| own.equilibrium.as_ref().ok());
-            let all = all.map(|own| own.map(|own| own.coordinates.to_vec()));
+            let all = self.0.points.iter().map(|point| point.equilibrium.as_ref().ok());
+            let all = all.map(|item| item.map(|x| x.coordinates.to_vec()));
             optional_rows(py, self.0.description.coordinates.len(), all)
         };
         /// Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both.
         failures: Vec<Option<String>> =
             self.0.points.iter()
-                .map(|own| message(&own.equilibrium).or_else(|| message(&own.modes))).collect();
+                .map(|point| message(&point.equilibrium).or_else(|| message(&point.modes))).collect();
         /// The equilibrium at each value, or None.
         equilibria: Vec<Option<Equilibrium>> =
-            self.0.points.iter().map(|own| own.equilibrium.clone().ok().map(Equilibrium)).collect();
+            self.0.points.iter().map(|point| point.equilibrium.clone().ok().map(Equilibrium)).collect();
         /// The range that was searched for events, SI: its ends, and how close two of them may be; or None.
         searched: Option<(f64, f64, f64)> = searched(self.0.searched.as_ref());
         /// Stretches of it, SI, in which something may have been missed.

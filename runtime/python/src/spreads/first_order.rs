@@ -41,7 +41,7 @@ attributes! {
         names: Vec<&str> = names::design(&self.0.description);
         /// Standard deviations between each mode and the state where its stiffness vanishes, shape (m,); may be infinite.
         distances_to_critical: Array1<'py> =
-            vector(py, self.0.modes.iter().map(|own| own.distance_to_critical));
+            vector(py, self.0.modes.iter().map(|mode| mode.distance_to_critical));
         /// For each mode the doubts that distances raise about its standard deviations: texts, none where they are large.
         /// They do not tell how large an error is; `summary` lets samples decide.
         doubts: Vec<Vec<String>> =
@@ -57,34 +57,34 @@ attributes! {
         distance_to_critical: f64 = self.0.distance_to_critical;
         /// Standard deviations between the growth of each mode and zero, shape (m,); may be infinite.
         distances_to_instability: Array1<'py> =
-            vector(py, self.0.modes.iter().map(|own| own.distance_to_instability));
+            vector(py, self.0.modes.iter().map(|mode| mode.distance_to_instability));
         /// Standard deviations between the eigenvalue of each mode and the nearest one, shape (m,); may be infinite.
         distances_to_neighbour: Array1<'py> =
-            vector(py, self.0.modes.iter().map(|own| own.distance_to_neighbour));
+            vector(py, self.0.modes.iter().map(|mode| mode.distance_to_neighbour));
         /// Whether each mode is one of a cluster of nearly equal eigenvalues, shape (m,).
-        clustered: Array1<'py, bool> = vector(py, self.0.modes.iter().map(|own| own.clustered));
+        clustered: Array1<'py, bool> = vector(py, self.0.modes.iter().map(|mode| mode.clustered));
         /// What each mode does, in words.
         behaviours: Vec<String> =
-            self.0.modes.iter().map(|own| own.behaviour.to_string()).collect();
+            self.0.modes.iter().map(|mode| mode.behaviour.to_string()).collect();
     }
 }
 
 attributes! {
     FirstOrder(self, py, quantity: hints::QuantityOrLambda = "frequency") {
         /// Means, shape (m,).
-        mean: Array1<'py> = Ok(optional(py, self.each(py, quantity, |own| own.mean)?));
+        mean: Array1<'py> = Ok(optional(py, self.each(py, quantity, |x| x.mean)?));
         /// Standard deviations, shape (m,).
-        sigma: Array1<'py> = Ok(optional(py, self.each(py, quantity, |own| own.sigma)?));
+        sigma: Array1<'py> = Ok(optional(py, self.each(py, quantity, |x| x.sigma)?));
         /// Half-widths of the bands that hold as many standard deviations as the tolerances do, shape (m,).
-        band: Array1<'py> = Ok(optional(py, self.each(py, quantity, |own| own.band)?));
+        band: Array1<'py> = Ok(optional(py, self.each(py, quantity, |x| x.band)?));
         /// Derivatives per SI unit of each variable, shape (m, variables).
         gradient: Array2<'py> = {
-            let all = self.each(py, quantity, |own| own.by_design.to_vec())?;
+            let all = self.each(py, quantity, |x| x.by_design.to_vec())?;
             optional_rows(py, self.0.description.design.len(), all)
         };
         /// Shares of the variables in the variance, shape (m, variables).
         shares: Array2<'py> = {
-            let all = self.each(py, quantity, |own| own.variance_shares.to_vec())?;
+            let all = self.each(py, quantity, |x| x.variance_shares.to_vec())?;
             optional_rows(py, self.0.description.design.len(), all)
         };
     }
@@ -114,17 +114,17 @@ attributes! {
         /// and shares.
         variables: Vec<&str> = names::design(&self.0.description);
         /// Means, SI, shape (o,).
-        mean: Array1<'py> = optional(py, self.each(|own| own.mean));
+        mean: Array1<'py> = optional(py, self.each(|x| x.mean));
         /// Standard deviations, SI, shape (o,).
-        sigma: Array1<'py> = optional(py, self.each(|own| own.sigma));
+        sigma: Array1<'py> = optional(py, self.each(|x| x.sigma));
         /// Half-widths of the bands that hold as many standard deviations as the tolerances do, SI, shape (o,).
-        band: Array1<'py> = optional(py, self.each(|own| own.band));
+        band: Array1<'py> = optional(py, self.each(|x| x.band));
         /// Derivatives per SI unit of each variable, shape (o, variables).
         gradient: PyResult<Array2<'py>> =
-            optional_rows(py, self.variables(py).len(), self.each(|own| own.by_design.to_vec()));
+            optional_rows(py, self.variables(py).len(), self.each(|variable| variable.by_design.to_vec()));
         /// Shares of the variables in the variance, shape (o, variables).
         shares: PyResult<Array2<'py>> = {
-            let all = self.each(|own| own.variance_shares.to_vec());
+            let all = self.each(|x| x.variance_shares.to_vec());
             optional_rows(py, self.variables(py).len(), all)
         };
     }

@@ -62,34 +62,34 @@ attributes! {
         on_another_branch: usize = self.0.left_nominal_branch;
         /// Design variables of the samples, SI, shape (N, design). The samples have to be kept (`keep_samples=True`).
         designs: PyResult<Array2<'py>> = {
-            let all = self.kept(py)?.iter().map(|own| own.design.to_vec());
+            let all = self.kept(py)?.iter().map(|x| x.design.to_vec());
             rows(py, self.0.description.design.len(), all)
         };
         /// Equilibria of the samples, SI, shape (N, n); NaN where there is none.
         coordinates: PyResult<Array2<'py>> = {
             let all = self.kept(py)?.iter();
-            let all = all.map(|own| own.coordinates.as_ref().map(|own| own.to_vec()));
+            let all = all.map(|item| item.coordinates.as_ref().map(|coordinate| coordinate.to_vec()));
             optional_rows(py, self.0.description.coordinates.len(), all)
         };
         /// Eigenvalues of the samples, 1/s, complex, shape (N, m); NaN where there is none.
         eigenvalues: PyResult<Array2<'py, Complex>> = {
             let none = Complex::new(f64::NAN, f64::NAN);
-            let row = |own: &Sample| own.eigenvalues.iter().map(|s| s.unwrap_or(none)).collect();
+            let row = |sample: &Sample| sample.eigenvalues.iter().map(|s| s.unwrap_or(none)).collect();
             rows(py, self.0.modes.len(), self.kept(py)?.iter().map(row))
         };
         /// Frequencies of the samples, rad/s, shape (N, m).
-        frequencies: PyResult<Array2<'py>> = self.of_samples(py, |own| &own.frequencies);
+        frequencies: PyResult<Array2<'py>> = self.of_samples(py, |of_sample| &of_sample.frequencies);
         /// Damping ratios of the samples, shape (N, m).
-        damping_ratios: PyResult<Array2<'py>> = self.of_samples(py, |own| &own.damping_ratios);
+        damping_ratios: PyResult<Array2<'py>> = self.of_samples(py, |of_sample| &of_sample.damping_ratios);
         /// What became of each sample: "Stable", "Divergent", "Flutter", "NoEquilibrium" ...
         outcomes: PyResult<Vec<String>> = {
             let all = self.kept(py)?.iter();
-            Ok(all.map(|own| format!("{:?}", own.outcome)).collect())
+            Ok(all.map(|x| format!("{:?}", x.outcome)).collect())
         };
         /// Number of samples that were asked for: more than `samples` if the run was stopped or is a part.
         planned: usize = self.0.planned;
         /// First sample and the one behind the last of each range that is done.
-        ranges: Vec<(u64, u64)> = self.0.ranges.iter().map(|own| (own.start, own.end)).collect();
+        ranges: Vec<(u64, u64)> = self.0.ranges.iter().map(|range| (range.start, range.end)).collect();
         /// Whether samples were solved side by side in vectors.
         side_by_side: bool = self.0.side_by_side;
         /// Whether some nominal modes have equal eigenvalues, and are told apart by their order only.
@@ -100,27 +100,27 @@ attributes! {
 attributes! {
     MonteCarlo(self, py, quantity: hints::Quantity = "frequency") {
         /// Means of "frequency" (rad/s) or "damping_ratio" over the stable samples, shape (m,).
-        mean: Array1<'py> = self.statistics(py, quantity, |own| Some(own.mean));
+        mean: Array1<'py> = self.statistics(py, quantity, |statistics| Some(statistics.mean));
         /// Standard deviations likewise, shape (m,).
-        sigma: Array1<'py> = self.statistics(py, quantity, |own| own.sigma);
+        sigma: Array1<'py> = self.statistics(py, quantity, |statistics| statistics.sigma);
         /// Standard errors of the means, shape (m,); those of the standard deviations are `sigma_error`.
-        standard_error: Array1<'py> = self.statistics(py, quantity, |own| own.standard_error);
+        standard_error: Array1<'py> = self.statistics(py, quantity, |statistics| statistics.standard_error);
         /// Standard errors of the standard deviations, shape (m,), for any distribution.
-        sigma_error: Array1<'py> = self.statistics(py, quantity, |own| own.sigma_error);
+        sigma_error: Array1<'py> = self.statistics(py, quantity, |statistics| statistics.sigma_error);
         /// Number of samples in which each mode has the quantity, shape (m,).
-        count: Array1<'py> = self.statistics(py, quantity, |own| Some(own.count as f64));
+        count: Array1<'py> = self.statistics(py, quantity, |statistics| Some(statistics.count as f64));
         /// Skewness, shape (m,).
-        skewness: Array1<'py> = self.statistics(py, quantity, |own| own.skewness);
+        skewness: Array1<'py> = self.statistics(py, quantity, |statistics| statistics.skewness);
         /// Standard errors of the skewness of normal values, shape (m,).
-        skewness_error: Array1<'py> = self.statistics(py, quantity, |own| own.skewness_error);
+        skewness_error: Array1<'py> = self.statistics(py, quantity, |statistics| statistics.skewness_error);
         /// Excess kurtosis, shape (m,).
-        excess_kurtosis: Array1<'py> = self.statistics(py, quantity, |own| own.excess_kurtosis);
+        excess_kurtosis: Array1<'py> = self.statistics(py, quantity, |statistics| statistics.excess_kurtosis);
         /// Standard errors of the kurtosis of normal values, shape (m,).
-        kurtosis_error: Array1<'py> = self.statistics(py, quantity, |own| own.kurtosis_error);
+        kurtosis_error: Array1<'py> = self.statistics(py, quantity, |statistics| statistics.kurtosis_error);
         /// Least values, shape (m,).
-        least: Array1<'py> = self.statistics(py, quantity, |own| Some(own.min));
+        least: Array1<'py> = self.statistics(py, quantity, |statistics| Some(statistics.min));
         /// Greatest values, shape (m,).
-        greatest: Array1<'py> = self.statistics(py, quantity, |own| Some(own.max));
+        greatest: Array1<'py> = self.statistics(py, quantity, |statistics| Some(statistics.max));
     }
 }
 

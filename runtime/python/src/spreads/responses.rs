@@ -65,37 +65,37 @@ fn value(of: Option<Estimated>) -> Option<f64> {
 attributes! {
     Propagation(self, py) {
         /// For each response the doubts that distances raise about the model: texts; none for samples, which need no model.
-        doubts: Vec<Vec<String>> = self.0.doubts.iter().map(|own| texts(own)).collect();
+        doubts: Vec<Vec<String>> = self.0.doubts.iter().map(|doubt| texts(doubt)).collect();
         /// How it was found, in words.
         method: String = self.0.method.to_string();
         /// Why it was found that way.
         reason: &str = &self.0.reason;
         /// Values at the nominal design, shape (k,).
-        nominal: Array1<'py> = self.each(py, |own| own.nominal);
+        nominal: Array1<'py> = self.each(py, |x| x.nominal);
         /// Means, shape (k,).
-        mean: Array1<'py> = self.each(py, |own| Some(own.mean.value));
+        mean: Array1<'py> = self.each(py, |x| Some(x.mean.value));
         /// Standard deviations, shape (k,).
-        sigma: Array1<'py> = self.each(py, |own| value(own.sigma));
+        sigma: Array1<'py> = self.each(py, |x| value(x.sigma));
         /// Errors of the standard deviations by the method's own estimate, shape (k,); NaN where nothing is known.
-        sigma_error: Array1<'py> = self.each(py, |own| own.sigma?.error);
+        sigma_error: Array1<'py> = self.each(py, |x| x.sigma?.error);
         /// Skewness, shape (k,).
-        skewness: Array1<'py> = self.each(py, |own| value(own.skewness));
+        skewness: Array1<'py> = self.each(py, |x| value(x.skewness));
         /// Quantiles, shape (k, 7), for the probabilities of -3, -2 ... 3 standard deviations of a normal variable.
-        quantiles: PyResult<Array2<'py>> = self.quantile_rows(py, |own| own.value);
+        quantiles: PyResult<Array2<'py>> = self.quantile_rows(py, |quantile_row| quantile_row.value);
         /// Covariances of the responses, shape (k, k).
         covariance: PyResult<Array2<'py>> = optional_matrix(py, &self.0.covariance);
         /// Shares of the designs that have each response, shape (k,).
-        share: Array1<'py> = self.each(py, |own| Some(own.share));
+        share: Array1<'py> = self.each(py, |x| Some(x.share));
         /// Designs that were evaluated.
         evaluations: u64 = self.0.evaluations;
         /// Names of the responses.
         names: Vec<String> = responses(&self.0.wanted, &self.0.description);
         /// Errors of the means by the method's own estimate, shape (k,); NaN where nothing is known.
-        mean_error: Array1<'py> = self.each(py, |own| own.mean.error);
+        mean_error: Array1<'py> = self.each(py, |x| x.mean.error);
         /// The same of the skewness, shape (k,).
-        skewness_error: Array1<'py> = self.each(py, |own| own.skewness?.error);
+        skewness_error: Array1<'py> = self.each(py, |x| x.skewness?.error);
         /// The same of the quantiles, shape (k, 7).
-        quantile_errors: PyResult<Array2<'py>> = self.quantile_rows(py, |own| or_nan(own.error));
+        quantile_errors: PyResult<Array2<'py>> = self.quantile_rows(py, |quantile_row| or_nan(quantile_row.error));
         /// Probabilities of the quantiles, shape (7,).
         probabilities: Array1<'py> = vector(py, QUANTILES);
         /// Covariances of the responses with the design variables, SI, shape (k, design).
@@ -150,36 +150,36 @@ attributes! {
         /// Names of the variables that vary.
         names: Vec<String> = {
             let design = &self.0.description.design;
-            let all = self.0.responses.iter().take(1).flat_map(|own| &own.variables);
-            all.map(|own| design[own.variable].name.to_string()).collect()
+            let all = self.0.responses.iter().take(1).flat_map(|response| &response.variables);
+            all.map(|x| design[x.variable].name.to_string()).collect()
         };
         /// Sobol' indices of first order, shape (k, variables).
-        first: PyResult<Array2<'py>> = self.each(py, |own| own.first.as_ref().map(|own| own.value));
+        first: PyResult<Array2<'py>> = self.each(py, |item| item.first.as_ref().map(|x| x.value));
         /// Total Sobol' indices, shape (k, variables).
-        total: PyResult<Array2<'py>> = self.each(py, |own| own.total.as_ref().map(|own| own.value));
+        total: PyResult<Array2<'py>> = self.each(py, |item| item.total.as_ref().map(|x| x.value));
         /// Correlations (Pearson), shape (k, variables).
-        correlation: PyResult<Array2<'py>> = self.each(py, |own| own.correlation);
+        correlation: PyResult<Array2<'py>> = self.each(py, |x| x.correlation);
         /// Responses with a variable at its lower limit, all others nominal, SI, shape (k, variables).
-        at_low: PyResult<Array2<'py>> = self.each(py, |own| own.at_low);
+        at_low: PyResult<Array2<'py>> = self.each(py, |x| x.at_low);
         /// The same at the upper limit.
-        at_high: PyResult<Array2<'py>> = self.each(py, |own| own.at_high);
+        at_high: PyResult<Array2<'py>> = self.each(py, |x| x.at_high);
         /// Names of the responses: the rows.
         responses: Vec<String> = responses(&self.0.wanted, &self.0.description);
         /// Values at the nominal design, SI, shape (k,).
-        nominal: Array1<'py> = optional(py, self.0.responses.iter().map(|own| own.nominal));
+        nominal: Array1<'py> = optional(py, self.0.responses.iter().map(|response| response.nominal));
         /// Ends of the 95 % intervals of `first`, shape (k, variables, 2).
-        first_interval: PyResult<Array3<'py>> = self.interval(py, |own| own.first.as_ref());
+        first_interval: PyResult<Array3<'py>> = self.interval(py, |x| x.first.as_ref());
         /// Ends of the 95 % intervals of `total`, shape (k, variables, 2).
-        total_interval: PyResult<Array3<'py>> = self.interval(py, |own| own.total.as_ref());
+        total_interval: PyResult<Array3<'py>> = self.interval(py, |x| x.total.as_ref());
         /// Rank correlations (Spearman), shape (k, variables).
-        rank_correlation: PyResult<Array2<'py>> = self.each(py, |own| own.rank_correlation);
+        rank_correlation: PyResult<Array2<'py>> = self.each(py, |x| x.rank_correlation);
         /// Standardised regression coefficients, shape (k, variables).
-        regression: PyResult<Array2<'py>> = self.each(py, |own| own.regression);
+        regression: PyResult<Array2<'py>> = self.each(py, |x| x.regression);
         /// Shares of the variance that the linear fit explains, shape (k,).
         determination: Array1<'py> =
-            optional(py, self.0.responses.iter().map(|own| own.determination));
+            optional(py, self.0.responses.iter().map(|response| response.determination));
         /// Numbers of evaluations without a value, which are left out, shape (k,).
-        missing: Array1<'py, i64> = vector(py, self.0.responses.iter().map(|own| own.missing as i64));
+        missing: Array1<'py, i64> = vector(py, self.0.responses.iter().map(|response| response.missing as i64));
         /// Least and greatest values of all design variables, SI, shape (design, 2).
         limits: PyResult<Array2<'py>> = pairs(py, &self.0.limits);
     }
@@ -214,31 +214,31 @@ impl WorstCase {
 attributes! {
     WorstCase(self, py) {
         /// Least values, shape (k,); NaN where there is none.
-        least: Array1<'py> = self.values(py, |own| &own.least);
+        least: Array1<'py> = self.values(py, |x| &x.least);
         /// Greatest values, shape (k,); NaN where there is none.
-        greatest: Array1<'py> = self.values(py, |own| &own.greatest);
+        greatest: Array1<'py> = self.values(py, |x| &x.greatest);
         /// Names of the responses.
         names: Vec<String> = responses(&self.0.wanted, &self.0.description);
         /// Values at the nominal design, SI, shape (k,).
-        nominal: Array1<'py> = optional(py, self.0.responses.iter().map(|own| own.nominal));
+        nominal: Array1<'py> = optional(py, self.0.responses.iter().map(|response| response.nominal));
         /// Designs of the least values, SI, shape (k, design).
-        least_designs: PyResult<Array2<'py>> = self.designs(py, |own| &own.least);
+        least_designs: PyResult<Array2<'py>> = self.designs(py, |design| &design.least);
         /// Designs of the greatest values, SI, shape (k, design).
-        greatest_designs: PyResult<Array2<'py>> = self.designs(py, |own| &own.greatest);
+        greatest_designs: PyResult<Array2<'py>> = self.designs(py, |design| &design.greatest);
         /// Whether no design near that of the least and of the greatest value is worse, a pair for each response.
         confirmed: Vec<(bool, bool)> = {
-            let sure = |own: &Option<Extreme>| own.as_ref().is_some_and(|own| own.confirmed);
-            self.0.responses.iter().map(|own| (sure(&own.least), sure(&own.greatest))).collect()
+            let sure = |option: &Option<Extreme>| option.as_ref().is_some_and(|x| x.confirmed);
+            self.0.responses.iter().map(|response| (sure(&response.least), sure(&response.greatest))).collect()
         };
         /// For each response the names of the variables in which it is not monotonic.
         turning: Vec<Vec<String>> = {
             let name = |k: &usize| self.0.description.design[*k].name.to_string();
-            self.0.responses.iter().map(|own| own.turning.iter().map(name).collect()).collect()
+            self.0.responses.iter().map(|response| response.turning.iter().map(name).collect()).collect()
         };
         /// For each response the designs at corners of the limits that lack it, SI, and what became of them.
         missing: Vec<Vec<(Vec<f64>, String)>> = {
-            let corner = |own: &MissingCorner| (own.design.to_vec(), format!("{:?}", own.outcome));
-            self.0.responses.iter().map(|own| own.missing.iter().map(corner).collect()).collect()
+            let corner = |missing_corner: &MissingCorner| (missing_corner.design.to_vec(), format!("{:?}", missing_corner.outcome));
+            self.0.responses.iter().map(|response| response.missing.iter().map(corner).collect()).collect()
         };
         /// Least and greatest values of all design variables, SI, shape (design, 2).
         limits: PyResult<Array2<'py>> = pairs(py, &self.0.limits);

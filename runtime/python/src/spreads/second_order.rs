@@ -40,7 +40,7 @@ impl SecondOrder {
 attributes! {
     SecondOrder(self, py) {
         /// For each mode the doubts that distances raise, as those of first order.
-        doubts: Vec<Vec<String>> = self.0.doubts.iter().map(|own| texts(own)).collect();
+        doubts: Vec<Vec<String>> = self.0.doubts.iter().map(|doubt| texts(doubt)).collect();
         /// Why a mode has no second order: a text for each mode, or None.
         failures: Vec<Option<String>> =
             self.0.modes.iter().map(|mode| mode.as_ref().err().map(ToString::to_string)).collect();
@@ -50,22 +50,22 @@ attributes! {
 attributes! {
     SecondOrder(self, py, quantity: hints::Quantity = "frequency") {
         /// Means, shape (m,).
-        mean: Array1<'py> = self.each(py, quantity, |own| own.moments.mean);
+        mean: Array1<'py> = self.each(py, quantity, |x| x.moments.mean);
         /// Standard deviations, shape (m,).
-        sigma: Array1<'py> = self.each(py, quantity, |own| own.moments.sigma);
+        sigma: Array1<'py> = self.each(py, quantity, |x| x.moments.sigma);
         /// Skewness, shape (m,).
-        skewness: Array1<'py> = self.each(py, quantity, |own| own.moments.skewness);
+        skewness: Array1<'py> = self.each(py, quantity, |x| x.moments.skewness);
         /// Excess kurtosis, shape (m,).
-        excess_kurtosis: Array1<'py> = self.each(py, quantity, |own| own.moments.excess_kurtosis);
+        excess_kurtosis: Array1<'py> = self.each(py, quantity, |x| x.moments.excess_kurtosis);
         /// Shifts of the means by curvature, shape (m,).
-        mean_shift: Array1<'py> = self.each(py, quantity, |own| own.moments.mean_shift);
+        mean_shift: Array1<'py> = self.each(py, quantity, |x| x.moments.mean_shift);
         /// Standard deviations to first order, shape (m,).
         first_order_sigma: Array1<'py> =
-            self.each(py, quantity, |own| own.moments.first_order_sigma);
+            self.each(py, quantity, |deviation| deviation.moments.first_order_sigma);
         /// Part of the standard deviations that curvature adds (its square is added to that of first order), shape (m,).
-        curvature_sigma: Array1<'py> = self.each(py, quantity, |own| own.moments.curvature_sigma);
+        curvature_sigma: Array1<'py> = self.each(py, quantity, |x| x.moments.curvature_sigma);
         /// Relative errors of the standard deviations to first order by this model, shape (m,).
         first_order_error: Array1<'py> =
-            self.each(py, quantity, |own| own.nonlinearity.sigma_error());
+            self.each(py, quantity, |x| x.nonlinearity.sigma_error());
     }
 }

@@ -8,16 +8,16 @@ use pyo3::types::{IntoPyDict, PyDict};
 use crate::hints;
 
 /// How many samples became what, by name.
-pub(crate) fn counts<'py>(py: Python<'py>, own: &Counts) -> PyResult<hints::Counts<'py>> {
+pub(crate) fn counts<'py>(py: Python<'py>, tally: &Counts) -> PyResult<hints::Counts<'py>> {
     let all = Outcome::ALL.into_iter();
-    all.map(|outcome| (format!("{outcome:?}"), own.of(outcome)))
+    all.map(|outcome| (format!("{outcome:?}"), tally.of(outcome)))
         .into_py_dict(py)
 }
 
 /// What designs solved anew say.
-pub(crate) fn judgement<'py>(py: Python<'py>, own: &Judgement) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn judgement<'py>(py: Python<'py>, verdict: &Judgement) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
-    match own {
+    match verdict {
         Judgement::Judged(judged) => {
             let (interval, estimate) = (judged.interval(), judged.probability);
             all.set_item("probability", estimate.value)?;

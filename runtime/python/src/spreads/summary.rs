@@ -30,12 +30,12 @@ attributes! {
         /// Whether every mode is trusted.
         trusted: bool = self.0.trusted();
         /// For each mode why its standard deviation is in doubt: texts, none where it can be trusted.
-        doubts: Vec<Vec<String>> = self.0.trust.iter().map(|own| texts(&own.doubts)).collect();
+        doubts: Vec<Vec<String>> = self.0.trust.iter().map(|x| texts(&x.doubts)).collect();
         /// Whether each mode is trusted, shape (m,).
         trusted_modes: Array1<'py, bool> = vector(py, self.0.trust.iter().map(Trust::trusted));
         /// What to use for each mode: "first order", "second order", "cluster" or "samples".
         use_instead: Vec<&'static Advised> = {
-            let word = |own: &Trust| match own.advice {
+            let word = |trust: &Trust| match trust.advice {
                 Advice::FirstOrder => "first order",
                 Advice::SecondOrder => "second order",
                 Advice::Cluster => "cluster",
@@ -46,11 +46,11 @@ attributes! {
         /// The modes that tolerances bring together.
         clusters: Clusters = Clusters(self.0.clusters.clone());
         /// Number of samples that judged; None where none were needed or they are too dear.
-        samples: Option<usize> = self.0.sampled().map(|own| own.samples);
+        samples: Option<usize> = self.0.sampled().map(|x| x.samples);
         /// How probable each outcome is by the samples, by name: 95 % interval.
         outcomes: BTreeMap<String, (f64, f64)> = {
-            let all = self.0.sampled().into_iter().flat_map(|own| &own.outcomes);
-            all.map(|(own, chance)| (format!("{own:?}"), (chance.lower, chance.upper))).collect()
+            let all = self.0.sampled().into_iter().flat_map(|x| &x.outcomes);
+            all.map(|(direction, chance)| (format!("{direction:?}"), (chance.lower, chance.upper))).collect()
         };
         /// How probable it is that a design settles on another branch: 95 % interval; None where it was not looked for.
         on_another_branch: Option<(f64, f64)> = {
@@ -76,17 +76,17 @@ impl Summary {
 attributes! {
     Summary(self, py, quantity: hints::Quantity = "frequency") {
         /// Means of a quantity over the samples that judged, shape (m,); NaN where there are none.
-        sampled_mean: Array1<'py> = self.checks(py, quantity, |own| Some(own.mean));
+        sampled_mean: Array1<'py> = self.checks(py, quantity, |check| Some(check.mean));
         /// Standard deviations likewise, shape (m,).
-        sampled_sigma: Array1<'py> = self.checks(py, quantity, |own| Some(own.sigma.value));
+        sampled_sigma: Array1<'py> = self.checks(py, quantity, |check| Some(check.sigma.value));
         /// Standard errors of these, shape (m,).
         sampled_sigma_error: Array1<'py> =
-            self.checks(py, quantity, |own| Some(own.sigma.standard_error));
+            self.checks(py, quantity, |check| Some(check.sigma.standard_error));
         /// Relative errors of the standard deviations to first order by the same samples, shape (m,).
         first_order_error: Array1<'py> =
-            self.checks(py, quantity, |own| own.first_order_error.map(|own| own.value));
+            self.checks(py, quantity, |x| x.first_order_error.map(|check| check.value));
         /// Relative errors of those to second order, shape (m,).
         second_order_error: Array1<'py> =
-            self.checks(py, quantity, |own| own.second_order_error.map(|own| own.value));
+            self.checks(py, quantity, |x| x.second_order_error.map(|check| check.value));
     }
 }

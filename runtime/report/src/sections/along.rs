@@ -25,7 +25,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 }
 
 fn states(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error> {
-    let found = match &along.branches {
+    let all_branches = match &along.branches {
         Ok(branches) => branches,
         Err(error) => {
             refused(html, "branches of equilibria were not followed", error);
@@ -35,30 +35,30 @@ fn states(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error
     chart(
         html,
         &branches(
-            found,
+            all_branches,
             &content.style.clone().title("Branches of equilibria"),
         ),
     )?;
-    if found.truncated {
+    if all_branches.truncated {
         html.paragraph("There are more branches than were followed.");
     }
-    for own in found.tables() {
-        if own.name == "special points" {
-            table(html, "Folds and branch points", &own, &[])?;
+    for listing in all_branches.tables() {
+        if listing.name == "special points" {
+            table(html, "Folds and branch points", &listing, &[])?;
         }
     }
     Ok(())
 }
 
 fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error> {
-    let found = match &along.campbell {
+    let diagram = match &along.campbell {
         Ok(campbell) => campbell,
         Err(error) => {
             refused(html, "frequencies along the input are not known", error);
             return Ok(());
         }
     };
-    let failed = found
+    let failed = diagram
         .points
         .iter()
         .filter(|point| point.modes.is_err())
@@ -66,15 +66,15 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
     if failed > 0 {
         let text = format!(
             "At {failed} of {} values there are no modes: the table says why.",
-            found.points.len()
+            diagram.points.len()
         );
         html.leaf("p", &[("class", "refused")], &text);
     }
     chart(
         html,
-        &campbell(found, &content.style.clone().title("Campbell diagram")),
+        &campbell(diagram, &content.style.clone().title("Campbell diagram")),
     )?;
-    let damped = found
+    let damped = diagram
         .points
         .iter()
         .flat_map(|point| point.modes.iter().flatten());
@@ -83,21 +83,21 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
     if damped.any(is_damped) {
         chart(
             html,
-            &damping_ratios(found, &content.style.clone().title("Damping ratios")),
+            &damping_ratios(diagram, &content.style.clone().title("Damping ratios")),
         )?;
         chart(
             html,
-            &root_locus(found, &content.style.clone().title("Root locus")),
+            &root_locus(diagram, &content.style.clone().title("Root locus")),
         )?;
     }
-    for own in found.tables() {
-        let caption = match &*own.name {
+    for listing in diagram.tables() {
+        let caption = match &*listing.name {
             "crossings" => "Where a frequency is a multiple of the input",
             "critical states" => "Where the equilibrium loses its stiffness",
             "flutter onsets" => "Where an oscillation begins or ceases to grow",
             _ => "All modes along the input",
         };
-        table(html, caption, &own, &on_a_page(&own))?;
+        table(html, caption, &listing, &on_a_page(&listing))?;
     }
     Ok(())
 }

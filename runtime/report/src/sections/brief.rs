@@ -118,10 +118,13 @@ fn moves(behaviour: Behaviour) -> String {
 
 /// ` +- 0.2 (3 sigma), mostly by l (97 %)`.
 fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
-    let Some(own) = first.modes.get(mode).filter(|mode| !mode.clustered) else {
+    let Some(this_mode) = first.modes.get(mode).filter(|mode| !mode.clustered) else {
         return String::new();
     };
-    let Some(spread) = own.frequency().filter(|x| !is_rounding(x.sigma, x.mean)) else {
+    let Some(spread) = this_mode
+        .frequency()
+        .filter(|x| !is_rounding(x.sigma, x.mean))
+    else {
         return String::new();
     };
     let shares = spread

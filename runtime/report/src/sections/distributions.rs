@@ -18,7 +18,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         html.leaf("p", &[("class", "refused")], NOTHING_VARIES);
         return Ok(());
     };
-    let found = match &spread.monte_carlo {
+    let monte_carlo = match &spread.monte_carlo {
         Ok(monte_carlo) => monte_carlo,
         Err(error) => {
             refused(html, "there are no samples", error);
@@ -27,18 +27,18 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     };
     html.paragraph(&format!(
         "Monte Carlo ({}): in each sample the variables have other values within their tolerances, and it is solved anew. {}",
-        found.drawn(),
-        stable_samples(found).1
+        monte_carlo.drawn(),
+        stable_samples(monte_carlo).1
     ));
-    if found.samples < found.planned {
-        let planned = found.planned;
+    if monte_carlo.samples < monte_carlo.planned {
+        let planned = monte_carlo.planned;
         html.paragraph(&format!("Not complete: {planned} samples were asked for."));
     }
-    let count = found.modes.len();
+    let count = monte_carlo.modes.len();
     let figures = (0..count.min(MODES)).map(|mode| {
         let style = &content.brief_style;
         let style = style.clone().title(capital(&style.mode(mode)));
-        let mut histogram = Histogram::new(found, mode);
+        let mut histogram = Histogram::new(monte_carlo, mode);
         if let Ok(summary) = &spread.summary {
             histogram = histogram.first_order(&summary.first);
         }
@@ -46,15 +46,15 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     });
     charts(html, figures)?;
     beyond(html, count, "distributions of");
-    for own in found.tables() {
-        if own.name == "outcomes" && found.counts.stable == found.samples {
+    for listing in monte_carlo.tables() {
+        if listing.name == "outcomes" && monte_carlo.counts.stable == monte_carlo.samples {
             continue;
         }
-        let caption = match &*own.name {
-            "outcomes" => format!("What became of {}", found.drawn()),
-            _ => format!("Statistics of {}", found.drawn()),
+        let caption = match &*listing.name {
+            "outcomes" => format!("What became of {}", monte_carlo.drawn()),
+            _ => format!("Statistics of {}", monte_carlo.drawn()),
         };
-        let columns: &[&str] = match &*own.name {
+        let columns: &[&str] = match &*listing.name {
             "outcomes" => &["outcome", "samples"],
             _ => &[
                 "mode",
@@ -67,7 +67,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
                 "greatest of frequency",
             ],
         };
-        table(html, &caption, &own, columns)?;
+        table(html, &caption, &listing, columns)?;
     }
     Ok(())
 }

@@ -39,8 +39,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
                 outputs.sigma_level
             );
             let columns = ["output", "unit", "mean", "sigma", "band"];
-            for own in outputs.tables() {
-                table(html, &caption, &own, &columns)?;
+            for listing in outputs.tables() {
+                table(html, &caption, &listing, &columns)?;
             }
         }
         Err(error) => refused(html, "outputs have no spread", error),

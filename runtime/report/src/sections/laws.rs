@@ -27,11 +27,11 @@ pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) 
         return;
     }
     html.element("div", &[("class", "laws")], |html| {
-        for (own, law) in varying.iter().take(MOST) {
+        for (variable, law) in varying.iter().take(MOST) {
             html.element("div", &[("class", "law")], |html| {
-                html.leaf("strong", &[], own.name);
-                drawing(html, own, law);
-                html.leaf("p", &[], &words(own, law, sigma_level));
+                html.leaf("strong", &[], variable.name);
+                drawing(html, variable, law);
+                html.leaf("p", &[], &words(variable, law, sigma_level));
             });
         }
     });

@@ -43,8 +43,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         html.paragraph("Some of the variables are correlated.");
     }
     if let Ok(pictures) = &content.pictures {
-        for (caption, own) in parts::tables(&pictures.scene) {
-            table(html, caption, &own, &[])?;
+        for (caption, listing) in parts::tables(&pictures.scene) {
+            table(html, caption, &listing, &[])?;
         }
     }
     if let Some(text) = &content.declaration {

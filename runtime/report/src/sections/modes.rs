@@ -32,8 +32,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         );
     }
     let columns = ["mode", "frequency", "damping ratio", "Re s", "motion"];
-    for own in modes.tables() {
-        table(html, "Natural modes", &own, &columns)?;
+    for listing in modes.tables() {
+        table(html, "Natural modes", &listing, &columns)?;
     }
     if content.description.coordinates.len() < 2 {
         // With one component, every shape is the same.

@@ -36,12 +36,12 @@ fn bodies(scene: &Scene) -> Table {
     table
 }
 
-fn beam(own: &Beam) -> String {
-    let size = |[width, height]: [f64; 2]| match own.round {
+fn beam(member: &Beam) -> String {
+    let size = |[width, height]: [f64; 2]| match member.round {
         true => format!("diameter {}", number(width)),
         false => format!("{} x {}", number(width), number(height)),
     };
-    let ends = [own.sections.first(), own.sections.last()];
+    let ends = [member.sections.first(), member.sections.last()];
     let [Some(root), Some(tip)] = ends.map(|end| end.map(|section| section.size)) else {
         return "beam".to_owned();
     };
@@ -54,9 +54,9 @@ fn beam(own: &Beam) -> String {
     }
 }
 
-fn solid(own: &Solid) -> String {
-    let text = shape(&own.shape);
-    if own.hole {
+fn solid(part: &Solid) -> String {
+    let text = shape(&part.shape);
+    if part.hole {
         format!("less a {text}")
     } else {
         text
@@ -97,8 +97,8 @@ fn shape(shape: &Shape) -> String {
 
 /// The name of a body; `None` is the ground.
 fn body(scene: &Scene, number: Option<usize>) -> Option<String> {
-    let found = number.map(|number| scene.bodies.get(number).map(|body| body.name.to_string()));
-    found.unwrap_or_else(|| Some("ground".to_owned()))
+    let name = number.map(|number| scene.bodies.get(number).map(|body| body.name.to_string()));
+    name.unwrap_or_else(|| Some("ground".to_owned()))
 }
 
 fn joints(scene: &Scene) -> Table {

@@ -42,7 +42,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         &by_variable(first, &content.brief_style),
         &[],
     )?;
-    for own in first.tables() {
+    for listing in first.tables() {
         let columns = [
             "mode",
             "frequency",
@@ -50,7 +50,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             "band of frequency",
             "cluster",
         ];
-        table(html, "First order, mode by mode", &own, &columns)?;
+        table(html, "First order, mode by mode", &listing, &columns)?;
     }
     Ok(())
 }

@@ -83,7 +83,7 @@ pub(super) fn table(all: &[Variable<'_>]) -> Table {
 impl Setup {
     /// Index of an input's tolerance; those of inputs follow those of the design variables.
     fn place_of_input(&self, input: usize) -> Option<usize> {
-        let place = self.deviating.iter().position(|x| *x == input)?;
-        Some(self.design.len() + place)
+        let index = self.deviating.iter().position(|x| *x == input)?;
+        Some(self.design.len() + index)
     }
 }

@@ -48,8 +48,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         "Spread of the frequencies; a band holds {} standard deviations of first order",
         summary.first.sigma_level
     );
-    if let Some(own) = summary.tables().first() {
-        table(html, &caption, own, &columns)?;
+    if let Some(listing) = summary.tables().first() {
+        table(html, &caption, listing, &columns)?;
     }
     let mixed = summary
         .trust
@@ -60,8 +60,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             "Modes that tolerances mix, and the mean of each group",
             "The same modes by size: lowest, highest, and what lies between",
         ];
-        for (own, caption) in summary.clusters.tables().iter().zip(captions) {
-            table(html, caption, own, &[])?;
+        for (listing, caption) in summary.clusters.tables().iter().zip(captions) {
+            table(html, caption, listing, &[])?;
         }
     }
     Ok(())

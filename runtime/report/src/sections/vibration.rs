@@ -26,7 +26,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 }
 
 fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), Error> {
-    let found = match &forced.response {
+    let response = match &forced.response {
         Ok(response) => response,
         Err(error) => {
             refused(html, "there is no steady vibration", error);
@@ -37,12 +37,12 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
         "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).",
     );
     motion(html, content);
-    let several = found
+    let several = response
         .harmonics
         .iter()
         .any(|harmonic| harmonic.shares.len() > 1);
-    for own in found.tables() {
-        match &*own.name {
+    for listing in response.tables() {
+        match &*listing.name {
             "forced response" => {
                 let columns = [
                     "excitations",
@@ -52,19 +52,24 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
                     "amplitude",
                     "phase",
                 ];
-                table(html, "Vibration at the operating point", &own, &columns)?;
+                table(html, "Vibration at the operating point", &listing, &columns)?;
             }
-            "shares" if several => table(html, "What each excitation contributes", &own, &[])?,
+            "shares" if several => table(html, "What each excitation contributes", &listing, &[])?,
             _ => {}
         }
     }
-    orbits(html, content, found)?;
+    orbits(html, content, response)?;
     match &forced.spread {
         Some(Ok(spread)) => {
             let columns = ["response", "unit", "nominal", "mean", "sigma", "skewness"];
-            for own in spread.tables() {
-                if own.name == "spreads" {
-                    table(html, "How tolerances spread the amplitudes", &own, &columns)?;
+            for listing in spread.tables() {
+                if listing.name == "spreads" {
+                    table(
+                        html,
+                        "How tolerances spread the amplitudes",
+                        &listing,
+                        &columns,
+                    )?;
                 }
             }
         }
@@ -114,20 +119,20 @@ fn motion(html: &mut Html, content: &Content) {
 }
 
 fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Result<(), Error> {
-    let found = match &along.bode {
+    let sweep = match &along.bode {
         Ok(bode) => bode,
         Err(error) => {
             refused(html, "vibration along the input is not known", error);
             return Ok(());
         }
     };
-    let failed = found
+    let failed = sweep
         .points
         .iter()
         .filter(|point| point.vibration.is_err())
         .count();
     if failed > 0 {
-        let all = found.points.len();
+        let all = sweep.points.len();
         let text =
             format!("At {failed} of {all} values there is no vibration: the table says why.");
         html.leaf("p", &[("class", "refused")], &text);
@@ -139,10 +144,10 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
         let name = Response::Vibration(vibration).name(&content.description);
         let style = content.style.clone();
         let style = style.title(format!("Bode plot of {name}"));
-        chart(html, &bode(found, vibration, &peaks, &style))?;
+        chart(html, &bode(sweep, vibration, &peaks, &style))?;
         let style = content.brief_style.clone();
         let style = style.title(format!("Polar plot of {name}"));
-        chart(html, &polar(found, vibration, &peaks, &style))?;
+        chart(html, &polar(sweep, vibration, &peaks, &style))?;
     }
     if wanted.len() > MODES {
         let more = wanted.len() - MODES;
@@ -151,16 +156,16 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
     for (_, error) in along
         .peaks
         .iter()
-        .filter_map(|(x, found)| Some((x, found.as_ref().err()?)))
+        .filter_map(|(x, answer)| Some((x, answer.as_ref().err()?)))
     {
         refused(html, "peaks are not known", error);
     }
-    for own in found.tables() {
-        let caption = match &*own.name {
+    for listing in sweep.tables() {
+        let caption = match &*listing.name {
             "bands" => "How tolerances spread the amplitudes along the input",
             _ => "Vibration along the input",
         };
-        table(html, caption, &own, &on_a_page(&own))?;
+        table(html, caption, &listing, &on_a_page(&listing))?;
     }
     Ok(())
 }

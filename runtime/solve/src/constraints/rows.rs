@@ -375,8 +375,8 @@ where
 /// Row `k`, mutable, and row `i` before it.
 fn pair(matrix: &mut Matrix, i: usize, k: usize) -> (&[f64], &mut [f64]) {
     let n = matrix.column_count();
-    let (before, own) = matrix.as_flattened_mut().split_at_mut(k * n);
-    (&before[i * n..(i + 1) * n], &mut own[..n])
+    let (before, rest) = matrix.as_flattened_mut().split_at_mut(k * n);
+    (&before[i * n..(i + 1) * n], &mut rest[..n])
 }
 
 /// Divides each value by its scale.

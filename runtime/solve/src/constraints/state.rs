@@ -44,7 +44,7 @@ impl ConstraintState {
         tangent: &Tangent,
     ) -> Self {
         let structure = tangent.structure;
-        let mut found = Self {
+        let mut state = Self {
             freedom: tangent.freedom,
             redundant: tangent.redundant(),
             ..Self::open(structure.size())
@@ -53,11 +53,11 @@ impl ConstraintState {
         for k in 0..tangent.redundant() {
             let share = tangent.all.null_left_scaled(k);
             for (i, &value) in share.iter().enumerate().take(structure.constraints()) {
-                found.dependent[first + i] |= value.abs() > TAKES_PART * tangent.all.size[i];
+                state.dependent[first + i] |= value.abs() > TAKES_PART * tangent.all.size[i];
             }
         }
-        found.singular = singular(mechanism, (q, u, b), tangent);
-        found
+        state.singular = singular(mechanism, (q, u, b), tangent);
+        state
     }
 }
 

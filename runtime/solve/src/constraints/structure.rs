@@ -19,7 +19,7 @@ pub struct Structure {
 impl Structure {
     #[doc(hidden)]
     pub fn of(description: &Description) -> Self {
-        let mut found = Self {
+        let mut structure = Self {
             coordinates: 0,
             speeds: 0,
             position_constraints: 0,
@@ -27,13 +27,13 @@ impl Structure {
         };
         for unknown in description.coordinates.iter() {
             match unknown.role {
-                Role::Position => found.coordinates += 1,
-                Role::Speed => found.speeds += 1,
-                Role::PositionReaction => found.position_constraints += 1,
-                Role::VelocityReaction => found.velocity_constraints += 1,
+                Role::Position => structure.coordinates += 1,
+                Role::Speed => structure.speeds += 1,
+                Role::PositionReaction => structure.position_constraints += 1,
+                Role::VelocityReaction => structure.velocity_constraints += 1,
             }
         }
-        found
+        structure
     }
 
     /// Number of all unknowns.

@@ -64,11 +64,11 @@ impl Answer for Equilibria {
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let found = match self.len() {
+        let count = match self.len() {
             1 => "1 equilibrium".to_owned(),
             several => format!("{several} equilibria"),
         };
-        let mut said = Findings::titled(format!("{}: {found}", title(d, &self.inputs)));
+        let mut said = Findings::titled(format!("{}: {count}", title(d, &self.inputs)));
         if self.is_empty() {
             return said;
         }

@@ -96,7 +96,7 @@ pub fn assemble(
     let mut fixed = vec![false; point.size()];
     for coordinate in held {
         match fixed.get_mut(coordinate.index()) {
-            Some(place) => *place = true,
+            Some(slot) => *slot = true,
             None => {
                 return Err(Error::UnknownHandle {
                     kind: "coordinate",
@@ -126,11 +126,15 @@ fn assembled(
     let free_rows = Rows::balanced(free(&at.rows, held));
     let all = Rows::balanced(at.rows.clone());
     let linear = point.linear(&x)?;
-    let place = (&x[..], point.inputs, point.design);
+    let arguments = (&x[..], point.inputs, point.design);
     let constraints = if structure.open() {
         ConstraintState::open(point.size())
     } else {
-        ConstraintState::new(point.mechanism, place, &Tangent::new(&linear, structure))
+        ConstraintState::new(
+            point.mechanism,
+            arguments,
+            &Tangent::new(&linear, structure),
+        )
     };
     let margin = if free_rows.rank < all.rank {
         0.0

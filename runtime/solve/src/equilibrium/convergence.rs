@@ -212,14 +212,14 @@ fn relative_to_passed_on(
         }
     }
     (0..n).fold(0.0, |most, i| {
-        let own = if i < motions {
+        let imbalance = if i < motions {
             ratio(residual[i] * small[i], work[i])
         } else if i < motions + gaps.len() {
             gaps[i - motions]
         } else {
             relative(residual[i], 0.0, &q[..motions], &stiffness[i])
         };
-        greater(most, own)
+        greater(most, imbalance)
     })
 }
 
@@ -271,13 +271,13 @@ pub(crate) fn relative_of(
             0.0
         };
         let scale = scale(force, &small[..motions], row);
-        let own = if scale > 0.0 && scale < f64::INFINITY {
+        let imbalance = if scale > 0.0 && scale < f64::INFINITY {
             residual[i].abs() / scale
         } else {
             let force = if force.is_finite() { force } else { 0.0 };
             relative(residual[i], force, &q[..motions], row)
         };
-        most = greater(most, own);
+        most = greater(most, imbalance);
     }
     most
 }
@@ -345,11 +345,11 @@ pub(crate) fn relative_gaps(
     for row in rows.clone() {
         arms[kind(row)] = greater(arms[kind(row)], arm(row));
     }
-    let own = |row: usize| {
+    let imbalance = |row: usize| {
         let rounded = ROUNDED * arms[kind(row)];
         relative(residual[row], rounded, motions, &stiffness[row])
     };
-    rows.map(own).collect()
+    rows.map(imbalance).collect()
 }
 
 /// One equation's residual relative to `force` and the row of stiffnesses times the motions `q`; a scale that overflows

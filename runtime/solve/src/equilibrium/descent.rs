@@ -98,10 +98,10 @@ where
                 radius,
                 iterations,
             };
-            if let Some(found) = straight(search_state) {
+            if let Some(direct) = straight(search_state) {
                 return Ok(UnjudgedResult {
                     left_unstable_region,
-                    ..found
+                    ..direct
                 });
             }
         }
@@ -114,7 +114,7 @@ where
             left_unstable_region |= curved.unstable;
             curved.step(&slopes)
         };
-        let found = |end: Candidate, iterations| UnjudgedResult {
+        let outcome = |end: Candidate, iterations| UnjudgedResult {
             left_unstable_region,
             ..UnjudgedResult::new(end, iterations)
         };
@@ -128,7 +128,7 @@ where
         if progress == Progress::Finished {
             let curved = curved.as_ref().filter(|curved| curved.unstable);
             let Some(curved) = curved.filter(|_| !convex) else {
-                return Ok(found(here(base), iterations));
+                return Ok(outcome(here(base), iterations));
             };
             departures += 1;
             if departures > MAX_DEPARTURES {
@@ -153,7 +153,7 @@ where
                 base.space.lift(factors.solve(&base.space.slopes(rest)))
             })
         {
-            return Ok(found(end, iterations + 1));
+            return Ok(outcome(end, iterations + 1));
         }
         let size = point.size_of(&step);
         let limited = size > radius;
@@ -163,7 +163,7 @@ where
         let Some(next) = search(point, &base, &step, &mut trial) else {
             let relative = relative_residual(point, &base.q, at.0, at.1);
             if relative <= TOLERANCE && convex {
-                return Ok(found(here(base), iterations));
+                return Ok(outcome(here(base), iterations));
             }
             let reason = NotFound::NoDescent;
             return Err(failure(point, reason, &base.q, iterations));

@@ -111,10 +111,10 @@ fn choice(
     }
     let mut chosen = Independent::new(&space.basis);
     let mut held: Vec<Held> = Vec::new();
-    for own in &point.held {
-        if held.len() < dimension && chosen.take(own.unknown) {
-            held.push(own.clone());
-        } else if own.declared.is_none() || held.iter().all(|other| other.declared.is_some()) {
+    for hold in &point.held {
+        if held.len() < dimension && chosen.take(hold.unknown) {
+            held.push(hold.clone());
+        } else if hold.declared.is_none() || held.iter().all(|other| other.declared.is_some()) {
             return Err(refused(point, dimension));
         }
     }
@@ -126,9 +126,9 @@ fn choice(
     let structure = point.structure;
     let named = point.named().map(|unknown| plain(unknown, start[unknown]));
     let others = structure.speed_range().chain(0..structure.coordinates);
-    for own in named.chain(others.map(|unknown| plain(unknown, q[unknown]))) {
-        if held.len() < dimension && chosen.take(own.unknown) {
-            held.push(own);
+    for hold in named.chain(others.map(|unknown| plain(unknown, q[unknown]))) {
+        if held.len() < dimension && chosen.take(hold.unknown) {
+            held.push(hold);
         }
     }
     Ok((held.len() == dimension).then_some(held))

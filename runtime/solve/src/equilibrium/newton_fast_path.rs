@@ -185,9 +185,9 @@ mod tests {
     #[test]
     fn the_way_is_that_of_descent() {
         let alone = Cell::new(0);
-        let fast = |point: &OperatingPoint<'_>, place| {
+        let fast = |point: &OperatingPoint<'_>, search_state| {
             let mut state = point.blank_state();
-            newton_fast_path(point, place, &mut state)?;
+            newton_fast_path(point, search_state, &mut state)?;
             alone.set(alone.get() + 1);
             Ok(state)
         };
@@ -195,8 +195,8 @@ mod tests {
         for omega in [0.0, 1.0, 3.0, 3.3, 5.0, 9.0] {
             let inputs = [omega];
             let point = OperatingPoint::unchecked(&DoublePendulum, &inputs, &[]);
-            let straight = |place| {
-                let equilibrium: Result<Equilibrium, SearchState> = fast(&point, place);
+            let straight = |search_state| {
+                let equilibrium: Result<Equilibrium, SearchState> = fast(&point, search_state);
                 let found = equilibrium.ok()?;
                 let end = Candidate {
                     coordinates: found.coordinates,
@@ -216,7 +216,7 @@ mod tests {
                     panic!("no state from {start:?}")
                 };
                 let left = expected.left_unstable_region;
-                let found = match fast(&point, SearchState::first(&start)) {
+                let coordinates = match fast(&point, SearchState::first(&start)) {
                     Ok(state) => {
                         assert!(!left, "{omega} {start:?}");
                         state.coordinates
@@ -233,7 +233,7 @@ mod tests {
                         found.coordinates
                     }
                 };
-                let apart = add_scaled(&found, -1.0, &expected.coordinates);
+                let apart = add_scaled(&coordinates, -1.0, &expected.coordinates);
                 assert!(largest(&apart) < 1e-9, "{omega} {start:?}: {apart:?}");
             }
         }

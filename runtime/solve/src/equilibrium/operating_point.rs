@@ -125,9 +125,9 @@ impl<'a> OperatingPoint<'a> {
         let mut held = held.to_vec();
         if held.iter().any(|x| x.declared.is_some()) {
             let declared = declared(self.mechanism, self.inputs, self.design);
-            for own in &mut held {
-                if let Some(place) = own.declared {
-                    own.clone_from(&declared[place]);
+            for hold in &mut held {
+                if let Some(index) = hold.declared {
+                    hold.clone_from(&declared[index]);
                 }
             }
         }
@@ -178,8 +178,11 @@ impl<'a> OperatingPoint<'a> {
     /// This point with the place held as at another state.
     #[doc(hidden)]
     pub fn placed(self, free_directions: &'a FreeDirections) -> Self {
-        let place = (!free_directions.is_empty()).then_some(free_directions);
-        Self { place, ..self }
+        let directions = (!free_directions.is_empty()).then_some(free_directions);
+        Self {
+            place: directions,
+            ..self
+        }
     }
 
     /// This point without the constraints marked in `dropped`.
@@ -236,9 +239,9 @@ impl<'a> OperatingPoint<'a> {
             }
         }
         match self.place {
-            Some(place) if finite => {
-                place.hold(stiffness);
-                place.lead(residual, q, &self.held);
+            Some(directions) if finite => {
+                directions.hold(stiffness);
+                directions.lead(residual, q, &self.held);
             }
             None if finite && self.free() > 0 => fix_place(stiffness, self.free()),
             _ => {}
@@ -290,8 +293,8 @@ impl<'a> OperatingPoint<'a> {
     /// Like [`Self::evaluate`], but with every constraint, and without fixing the gauge.
     pub(crate) fn evaluate_plain(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
         let kernels = self.mechanism;
-        let found = kernels.residual_and_stiffness(q, self.inputs, self.design);
-        (all_finite(&found.0) && all_finite_matrix(&found.1)).then_some(found)
+        let evaluated = kernels.residual_and_stiffness(q, self.inputs, self.design);
+        (all_finite(&evaluated.0) && all_finite_matrix(&evaluated.1)).then_some(evaluated)
     }
 
     pub(crate) fn evaluate_start(&self, q: &[f64]) -> Result<(Vector, Matrix), Failure> {

@@ -51,8 +51,8 @@ pub fn constraint_state(
         return Ok(ConstraintState::open(point.size()));
     }
     let tangent = Tangent::new(linear, structure);
-    let place = (q, point.inputs, point.design);
-    let mut constraint_state = ConstraintState::new(point.mechanism, place, &tangent);
+    let arguments = (q, point.inputs, point.design);
+    let mut constraint_state = ConstraintState::new(point.mechanism, arguments, &tangent);
     if constraint_state.singular || tangent.all.hardly_supported().next().is_none() {
         return Ok(constraint_state);
     }
@@ -66,8 +66,8 @@ pub fn constraint_state(
     let rows = || structure.constraint_rows().enumerate();
     let share = |(k, index): (usize, usize)| (weak.combination[index] * tangent.all.size[k]).abs();
     let most = rows().map(share).fold(0.0, greater);
-    for (k, place) in rows() {
-        constraint_state.dependent[place] |= share((k, place)) > TAKES_PART * most;
+    for (k, row) in rows() {
+        constraint_state.dependent[row] |= share((k, row)) > TAKES_PART * most;
     }
     let force = weak.force(point, q);
     if force == 0.0 {
@@ -186,12 +186,12 @@ fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linea
         true => 1.0,
         false => 0.0,
     });
-    let place = (q, point.inputs, point.design);
+    let arguments = (q, point.inputs, point.design);
     Vector::from_fn(q.len(), |i| {
         let mut terms = parts.inertia[i].abs() + parts.applied[i].abs();
         terms += magnitude(&linear.stiffness[i], &size);
         if point.structure.position_rows().contains(&i) {
-            let bent = curvature(point.mechanism, place, point.structure, i);
+            let bent = curvature(point.mechanism, arguments, point.structure, i);
             let by_row: Vector = bent.iter().map(|row| magnitude(row, &size)).collect();
             terms += magnitude(&by_row, &size);
             let slope = magnitude(&linear.stiffness[i], &slides);

@@ -135,9 +135,10 @@ impl SearchSpace for Unconstrained {
         trial: &mut Trial,
     ) -> bool {
         let n = q.len();
-        let (place, direction, step) = (&mut trial.q[..n], &mut trial.direction[..n], &step[..n]);
+        let (coordinates, direction, step) =
+            (&mut trial.q[..n], &mut trial.direction[..n], &step[..n]);
         for i in 0..n {
-            place[i] = q[i] + length * step[i];
+            coordinates[i] = q[i] + length * step[i];
             direction[i] = step[i];
         }
         point.evaluate_into(&trial.q, &mut trial.residual, &mut trial.stiffness)
@@ -316,10 +317,10 @@ impl SearchSpace for ConstraintManifold {
         (step, length): (&[f64], f64),
         trial: &mut Trial,
     ) -> bool {
-        let found = self.along(point, q, (step, length));
-        let exists = found.is_some();
-        if let Some(found) = found {
-            *trial = found;
+        let candidate = self.along(point, q, (step, length));
+        let exists = candidate.is_some();
+        if let Some(candidate) = candidate {
+            *trial = candidate;
         }
         exists
     }

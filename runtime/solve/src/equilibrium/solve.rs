@@ -43,7 +43,7 @@ pub fn solve_into(
     if point.structure.holonomic() {
         member::refuse_held(point)?;
     }
-    let found = if policy == Policy::Stable && has_open_potential(point) {
+    let solved = if policy == Policy::Stable && has_open_potential(point) {
         let search_state = descent::SearchState::first(start);
         match newton_fast_path::newton_fast_path(point, search_state, state) {
             Ok(()) => return judge(point, state),
@@ -52,8 +52,8 @@ pub fn solve_into(
     } else {
         solve_slowly(point, start, policy)?
     };
-    *state = found.state;
-    Ok(found.modes)
+    *state = solved.state;
+    Ok(solved.modes)
 }
 
 /// Whether stable states are minima of a potential in coordinates that no constraint restricts.
@@ -164,12 +164,12 @@ fn solve_by_descent(
     if let Some(held) = gyroscopically_stabilised(point, start) {
         return Ok(held);
     }
-    let found = if structure.open() {
+    let minimum = if structure.open() {
         descent::minimise_potential::<search_space::Unconstrained>(
             point,
             start,
             search_state,
-            |place| straight(point, place),
+            |state| straight(point, state),
         )
     } else {
         descent::minimise_potential::<search_space::ConstraintManifold>(
@@ -180,13 +180,13 @@ fn solve_by_descent(
         )
         .and_then(|unjudged_result| polished(point, unjudged_result))
     };
-    found
+    minimum
         .or_else(|failure| match failure {
             Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
             _ => nearest(point, start).map_err(|_| failure),
         })
-        .and_then(|found| bounded(point, found))
-        .and_then(|found| finish(point, found))
+        .and_then(|candidate| bounded(point, candidate))
+        .and_then(|candidate| finish(point, candidate))
         .map_err(|failure| match failure {
             Failure::NotFound {
                 ref coordinates, ..
@@ -231,15 +231,15 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
             return None;
         }
     }
-    let found = nearest(point, start).ok()?;
+    let candidate = nearest(point, start).ok()?;
     let is_there = |unknown: usize| {
-        let (asked, coordinate) = (start[unknown], found.coordinates[unknown]);
+        let (asked, coordinate) = (start[unknown], candidate.coordinates[unknown]);
         (asked - coordinate).abs() <= NAMED * (asked.abs() + SMALL_MOTION)
     };
     if !point.named().all(is_there) {
         return None;
     }
-    let mut judged = finish(point, found).ok()?;
+    let mut judged = finish(point, candidate).ok()?;
     if !judged.state.stability.holds() {
         judged.state.notes.push(Note::Stays);
     }
@@ -272,7 +272,8 @@ fn straight(
 /// Like [`nearest`], also where the search comes to rest at a state whose stiffness is singular, as from a critical state:
 /// it goes on from either side of it. Of two results, one that is stable is preferred.
 fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<SolvedState, Failure> {
-    let search = |start: &[f64]| nearest(point, start).and_then(|found| finish(point, found));
+    let search =
+        |start: &[f64]| nearest(point, start).and_then(|candidate| finish(point, candidate));
     search(start).or_else(|failure| {
         let Failure::NotFound {
             reason: NotFound::Minimum,
@@ -293,8 +294,8 @@ fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<SolvedSta
             newton::along_softest_direction::<search_space::ConstraintManifold>(point, coordinates)
         };
         let sides = sides.unwrap_or_default().into_iter();
-        let found = sides.filter_map(|side| search(&side).ok());
-        let best = found.reduce(|first, second| {
+        let solutions = sides.filter_map(|side| search(&side).ok());
+        let best = solutions.reduce(|first, second| {
             if second.state.stability.holds() && !first.state.stability.holds() {
                 second
             } else {
@@ -353,8 +354,8 @@ fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Optio
     if Cholesky::new(&stiffness).is_ok() {
         return None;
     }
-    let found = nearest(point, start).ok()?;
-    let judged = finish(point, found).ok()?;
+    let candidate = nearest(point, start).ok()?;
+    let judged = finish(point, candidate).ok()?;
     let stability = judged.state.stability;
     matches!(stability, Stability::GyroscopicallyStabilised { .. }).then_some(judged)
 }

@@ -166,15 +166,15 @@ fn by_eigenvalues(
     (negative, free): (usize, usize),
     floor: f64,
 ) -> Verdict {
-    let mut found = Modes::empty(Family::General, description);
-    if found
+    let mut spectrum = Modes::empty(Family::General, description);
+    if spectrum
         .solve_near(linear, (description.free_directions, floor), nearby)
         .is_err()
     {
         return Verdict::without_modes(Stability::Undecided, floor);
     }
     let count = |wanted: fn(Behaviour) -> bool| {
-        let behaviours = found.modes.iter().map(|mode| mode.behaviour);
+        let behaviours = spectrum.modes.iter().map(|mode| mode.behaviour);
         behaviours.filter(|&behaviour| wanted(behaviour)).count()
     };
     let divergent = count(|behaviour| matches!(behaviour, Behaviour::Divergent(_)));
@@ -202,7 +202,7 @@ fn by_eigenvalues(
     Verdict {
         stability,
         rounding: floor,
-        modes: found.modes,
+        modes: spectrum.modes,
     }
 }
 

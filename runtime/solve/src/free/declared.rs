@@ -12,12 +12,12 @@ pub fn declared(mechanism: &dyn Kernels, u: &[f64], b: &[f64]) -> Vec<Held> {
         return Vec::new();
     }
     let still = (Vector::zeros(u.len()), Vector::zeros(b.len()));
-    let found = derivatives(mechanism, (u, b), (&still.0, &still.1));
+    let declared_values = derivatives(mechanism, (u, b), (&still.0, &still.1));
     let held = places.iter().enumerate().map(|(k, &unknown)| {
-        let (by_input, by_design) = found.first[k].split_at(u.len());
+        let (by_input, by_design) = declared_values.first[k].split_at(u.len());
         Held {
             unknown,
-            value: found.values[k],
+            value: declared_values.values[k],
             by_input: by_input.into(),
             by_design: by_design.into(),
             declared: Some(k),
@@ -58,8 +58,8 @@ pub(super) fn derivatives(
         mechanism.held_values_into(u, b, &mut values);
         values.clone()
     };
-    for (own, value) in derivatives.values.iter_mut().zip(evaluate(&numbers)) {
-        *own = value.value.value;
+    for (slot, value) in derivatives.values.iter_mut().zip(evaluate(&numbers)) {
+        *slot = value.value.value;
     }
     for j in 0..size {
         numbers[j].slope.value = 1.0;

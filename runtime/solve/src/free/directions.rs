@@ -93,22 +93,24 @@ impl FreeDirections {
     /// for each of these held unknowns besides `count` free ones.
     #[doc(hidden)]
     pub fn of_member(stiffness: &Matrix, count: usize, held: Vec<Held>) -> Self {
-        let own = Self::of(stiffness, count + held.len());
-        if own.is_empty() {
-            return own;
+        let directions = Self::of(stiffness, count + held.len());
+        if directions.is_empty() {
+            return directions;
         }
         // How the held unknowns move along the directions; what moves none of them is free.
-        let moved = Matrix::from_fn(own.count(), own.count(), |i, k| match held.get(i) {
-            Some(held) => own.motions[k][held.unknown],
-            None => 0.0,
+        let moved = Matrix::from_fn(directions.count(), directions.count(), |i, k| {
+            match held.get(i) {
+                Some(held) => directions.motions[k][held.unknown],
+                None => 0.0,
+            }
         });
         let free = NullSpace::of(&moved, count).right;
         let n = stiffness.row_count();
         let unit = |index: usize| Vector::from_fn(n, |i| if i == index { 1.0 } else { 0.0 });
         let combined = |shares: &Vector| {
             let mut row = Vector::zeros(n);
-            for (share, own) in shares.iter().zip(&own.rows) {
-                add_to(&mut row, *share, own);
+            for (share, direction) in shares.iter().zip(&directions.rows) {
+                add_to(&mut row, *share, direction);
             }
             row
         };
@@ -116,7 +118,7 @@ impl FreeDirections {
         Self {
             rows: rows.chain(free.iter().take(count).map(combined)).collect(),
             held,
-            ..own
+            ..directions
         }
     }
 
@@ -191,12 +193,16 @@ impl FreeDirections {
 
     /// The same if the deviations of these inputs follow the design variables.
     pub(crate) fn with_deviations(&self, inputs: &[usize]) -> Self {
-        let mut own = self.clone();
-        for held in own.held.iter_mut().filter(|held| held.declared.is_some()) {
+        let mut extended = self.clone();
+        for held in extended
+            .held
+            .iter_mut()
+            .filter(|held| held.declared.is_some())
+        {
             let deviations = inputs.iter().map(|&input| held.by_input[input]);
             held.by_design = held.by_design.iter().copied().chain(deviations).collect();
         }
-        own
+        extended
     }
 
     /// Adds to a residual nearby the forces that lead held unknowns to their values. They vanish at the member of the
@@ -222,9 +228,9 @@ pub fn fix_place(stiffness: &mut Matrix, count: usize) {
 
 fn hold(stiffness: &mut Matrix, columns: &[Vector], rows: &[Vector]) {
     for (column, row) in columns.iter().zip(rows) {
-        for (own, amount) in stiffness.iter_mut().zip(column) {
-            for (own, row) in own.iter_mut().zip(row) {
-                *own += amount * row;
+        for (matrix_row, amount) in stiffness.iter_mut().zip(column) {
+            for (entry, row) in matrix_row.iter_mut().zip(row) {
+                *entry += amount * row;
             }
         }
     }

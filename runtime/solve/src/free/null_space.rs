@@ -207,8 +207,8 @@ impl Elimination {
 
 fn placed(x: &[f64], order: &[usize]) -> Vector {
     let mut vector = Vector::zeros(x.len());
-    for (value, &place) in x.iter().zip(order) {
-        vector[place] = *value;
+    for (value, &index) in x.iter().zip(order) {
+        vector[index] = *value;
     }
     vector
 }
@@ -218,9 +218,9 @@ fn orthonormal(mut vectors: Vec<Vector>) -> Vec<Vector> {
     for k in 0..vectors.len() {
         for _ in 0..2 {
             for i in 0..k {
-                let (before, own) = vectors.split_at_mut(k);
-                let along = dot(&before[i], &own[0]);
-                add_to(&mut own[0], -along, &before[i]);
+                let (before, rest) = vectors.split_at_mut(k);
+                let along = dot(&before[i], &rest[0]);
+                add_to(&mut rest[0], -along, &before[i]);
             }
             let most = largest(&vectors[k]);
             vectors[k].iter_mut().for_each(|value| *value /= most);
@@ -257,8 +257,8 @@ mod tests {
                 assert_eq!(null_space.right.len(), 1);
                 assert!(null_space.remainder < 1e-14);
                 let x = &null_space.right[0];
-                for (value, own) in x.iter().zip(unit) {
-                    assert!((value * own / (x[0] * unit[0]) - 1.0).abs() < 1e-12);
+                for (value, scale) in x.iter().zip(unit) {
+                    assert!((value * scale / (x[0] * unit[0]) - 1.0).abs() < 1e-12);
                 }
                 assert_eq!(null_space.left, null_space.right);
                 assert!((dot(&null_space.rows[0], x) - 1.0).abs() < 1e-14);

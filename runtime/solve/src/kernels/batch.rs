@@ -365,14 +365,14 @@ pub(super) fn lane_by_lane(
     mut evaluate: impl FnMut(&[&[f64]], &mut [&mut [f64]]),
 ) {
     for lane in 0..WIDTH {
-        let own = |list: &&[Batch]| list.iter().map(|value| value.0[lane]).collect();
-        let lists: Vec<Vec<f64>> = arguments.iter().map(own).collect();
+        let lane_of = |list: &&[Batch]| list.iter().map(|value| value.0[lane]).collect();
+        let lists: Vec<Vec<f64>> = arguments.iter().map(lane_of).collect();
         let mut values: Vec<Vec<f64>> = results.iter().map(|to| vec![0.0; to.len()]).collect();
         let lists: Vec<&[f64]> = lists.iter().map(Vec::as_slice).collect();
         let mut to: Vec<&mut [f64]> = values.iter_mut().map(Vec::as_mut_slice).collect();
         evaluate(&lists, &mut to);
-        for (to, found) in results.iter_mut().zip(&values) {
-            for (to, value) in to.iter_mut().zip(found) {
+        for (to, numbers) in results.iter_mut().zip(&values) {
+            for (to, value) in to.iter_mut().zip(numbers) {
                 to.0[lane] = *value;
             }
         }

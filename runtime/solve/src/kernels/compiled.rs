@@ -276,9 +276,9 @@ impl<M: Mechanism> Kernels for M {
             return;
         }
         // A few results go straight from registers to memory.
-        let found = self.residual_and_stiffness_inlined(q, u, b);
-        copy_array(&found.0, residual);
-        copy_rows(&found.1, stiffness);
+        let computed = self.residual_and_stiffness_inlined(q, u, b);
+        copy_array(&computed.0, residual);
+        copy_rows(&computed.1, stiffness);
     }
 
     fn parts_and_linear_into(
@@ -295,9 +295,9 @@ impl<M: Mechanism> Kernels for M {
             return;
         }
         let (q, u, b) = point::<M>(q, u, b);
-        let found = self.residual_parts_inlined(q, u, b);
-        copy_array(&found.inertia, &mut parts.inertia);
-        copy_array(&found.applied, &mut parts.applied);
+        let computed = self.residual_parts_inlined(q, u, b);
+        copy_array(&computed.inertia, &mut parts.inertia);
+        copy_array(&computed.applied, &mut parts.applied);
         copy_linear::<M>(&self.linear_inlined(q, u, b), &mut linear_results(linear));
     }
 
@@ -341,9 +341,9 @@ impl<M: Mechanism> Kernels for M {
             #[inline(always)]
             || {
                 copy_partials::<M>(&self.linear_partials_inlined(q, u, b), matrices);
-                let found = self.residual_partials_inlined(q, u, b);
-                copy_rows(&found.0, residual.0.as_flattened_mut());
-                copy_rows(&found.1, residual.1.as_flattened_mut());
+                let computed = self.residual_partials_inlined(q, u, b);
+                copy_rows(&computed.0, residual.0.as_flattened_mut());
+                copy_rows(&computed.1, residual.1.as_flattened_mut());
             },
         );
     }

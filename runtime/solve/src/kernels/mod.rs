@@ -296,8 +296,8 @@ impl dyn Kernels + '_ {
     pub fn deviation(&self, input: usize, b: &[f64]) -> f64 {
         let of_input =
             |(design, _): &(usize, &f64)| self.input_of_deviation(*design) == Some(input);
-        let own = b.iter().enumerate().filter(of_input);
-        own.map(|(_, deviation)| deviation).sum()
+        let deviations = b.iter().enumerate().filter(of_input);
+        deviations.map(|(_, deviation)| deviation).sum()
     }
 
     /// Residual at rest.

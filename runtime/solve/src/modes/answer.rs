@@ -136,16 +136,16 @@ impl<'a> Shapes<'a> {
 
     /// The largest components of a shape by name.
     fn largest(&self, mode: &Mode) -> String {
-        let own = self.moving.iter();
-        let own = own.map(|moving| (moving.1, shown(mode, moving), moving.2));
-        let mut own: Vec<_> = own.collect();
-        own.retain(|(_, value, most)| relevant(value.norm(), *most));
-        own.sort_by(|(_, a, _), (_, b, _)| b.norm().total_cmp(&a.norm()));
-        let named = own.iter().take(NAMED);
+        let components = self.moving.iter();
+        let components = components.map(|moving| (moving.1, shown(mode, moving), moving.2));
+        let mut components: Vec<_> = components.collect();
+        components.retain(|(_, value, most)| relevant(value.norm(), *most));
+        components.sort_by(|(_, a, _), (_, b, _)| b.norm().total_cmp(&a.norm()));
+        let named = components.iter().take(NAMED);
         let named = named.map(|(info, value, _)| format!("{} {}", info.name, component(*value)));
         let mut text: Vec<String> = named.collect();
-        if own.len() > NAMED {
-            text.push(format!("{} more", own.len() - NAMED));
+        if components.len() > NAMED {
+            text.push(format!("{} more", components.len() - NAMED));
         }
         text.join(", ")
     }

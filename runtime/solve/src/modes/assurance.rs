@@ -25,8 +25,8 @@ const CERTAIN: f64 = 0.6;
 /// and the matrices must belong to one mechanism.
 #[must_use]
 pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
-    let own = kinetic(from, to, linear);
-    let mass = own.as_ref().unwrap_or(&linear.mass);
+    let kinetic_mass = kinetic(from, to, linear);
+    let mass = kinetic_mass.as_ref().unwrap_or(&linear.mass);
     let general = from.family == Family::General || to.family == Family::General;
     let weighted = |mode: &Mode| times_complex(mass, &mode.shape);
     let measured = |mode: &Mode| {
@@ -104,14 +104,14 @@ fn real_form(n: usize, x: &[Complex], mass: &[f64], y: &[Complex]) -> f64 {
 /// result is deterministic.
 #[must_use]
 pub fn match_modes(from: &Modes, to: &Modes, linear: &Linear) -> Vec<Option<usize>> {
-    let found = match_with_assurance(from, to, linear).into_iter();
-    found.map(position).collect()
+    let matches = match_with_assurance(from, to, linear).into_iter();
+    matches.map(position).collect()
 }
 
 /// The position in a match found by [`match_with_assurance`].
 #[inline]
-pub fn position(found: Option<(usize, f64)>) -> Option<usize> {
-    found.map(|(position, _)| position)
+pub fn position(matched: Option<(usize, f64)>) -> Option<usize> {
+    matched.map(|(position, _)| position)
 }
 
 /// Like [`match_modes`], with the assurance of each pair.
@@ -129,8 +129,8 @@ pub fn match_with_assurance(
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
         let pairs = from.modes.iter().zip(&to.modes);
-        let own = pairs.map(|(x, other)| real_assurance(x, other, &linear.mass));
-        let vector: Vector<_> = own.enumerate().map(Some).collect();
+        let assurances = pairs.map(|(x, other)| real_assurance(x, other, &linear.mass));
+        let vector: Vector<_> = assurances.enumerate().map(Some).collect();
         if vector.iter().flatten().all(|&(_, same)| same > CERTAIN) {
             return vector;
         }
@@ -171,18 +171,18 @@ impl Modes {
         let continued = order
             .iter()
             .zip(&before.modes)
-            .filter_map(|(place, mode)| place.map(|place| (place, Some(mode.label))));
+            .filter_map(|(index, mode)| index.map(|index| (index, Some(mode.label))));
         let new = (0..self.modes.len())
-            .filter(|place| !order.contains(&Some(*place)))
-            .map(|place| (place, None));
-        let modes = continued.chain(new).map(|(place, label)| {
+            .filter(|index| !order.contains(&Some(*index)))
+            .map(|index| (index, None));
+        let modes = continued.chain(new).map(|(index, label)| {
             let label = label.unwrap_or_else(|| {
                 next += 1;
                 next - 1
             });
             Mode {
                 label,
-                ..self.modes[place].clone()
+                ..self.modes[index].clone()
             }
         });
         self.modes = modes.collect();

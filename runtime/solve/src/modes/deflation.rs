@@ -83,14 +83,15 @@ impl<'a> Deflated<'a> {
         } = self.linear;
         let (m, c) = (self.images(mass), self.images(damping));
         let block = |matrix: &Matrix, pairs: &[(&Images, &Images)]| {
-            let mut own = Matrix::from_fn(self.kept_left.len(), self.kept_right.len(), |i, j| {
-                let (i, j) = (self.kept_left[i], self.kept_right[j]);
-                pairs.iter().fold(matrix[i][j], |sum, (of_right, of_left)| {
-                    sum - self.coupling(of_right, of_left, i, j)
-                })
-            });
-            restore_symmetry(&mut own, matrix);
-            own
+            let mut reduced =
+                Matrix::from_fn(self.kept_left.len(), self.kept_right.len(), |i, j| {
+                    let (i, j) = (self.kept_left[i], self.kept_right[j]);
+                    pairs.iter().fold(matrix[i][j], |sum, (of_right, of_left)| {
+                        sum - self.coupling(of_right, of_left, i, j)
+                    })
+                });
+            restore_symmetry(&mut reduced, matrix);
+            reduced
         };
         Linear {
             mass: block(mass, &[(&m, &m)]),
@@ -187,7 +188,7 @@ pub(crate) fn roots(
     let damped = standing(&split.damped);
     let drifting = standing(&split.drifting);
     let zeros = damped.len();
-    let (mut found, rest) = match Deflated::new(linear, split.drifting) {
+    let (mut zero_roots, rest) = match Deflated::new(linear, split.drifting) {
         Some(deflated) => {
             let mut rest = solve(&deflated.pencil())?;
             for root in rest.iter_mut().skip(zeros) {
@@ -198,15 +199,15 @@ pub(crate) fn roots(
         }
         None => (Vec::new(), solve(linear)?),
     };
-    found.extend(damped);
+    zero_roots.extend(damped);
     // The smallest of the others are the zeros of the damped motions, known exactly.
-    found.extend(rest.into_iter().skip(zeros));
-    for root in &mut found {
+    zero_roots.extend(rest.into_iter().skip(zeros));
+    for root in &mut zero_roots {
         for vector in [&mut root.right, &mut root.left] {
             super::constrained::normalise_by_mass(vector, &linear.mass);
         }
     }
-    Ok(found)
+    Ok(zero_roots)
 }
 
 /// The eigenpairs of symmetric matrices with `count` free directions, which come first.
@@ -326,8 +327,8 @@ impl WithoutZeros {
             (0..left_out.len()).fold(0.0, |sum, i| sum + inverse[k][i] * rows[i][j])
         });
         let matrix = Matrix::from_fn(kept.len(), kept.len(), |i, j| {
-            let own = zeros.iter().enumerate();
-            own.fold(whole[kept[i]][kept[j]], |sum, (k, z)| {
+            let numbered = zeros.iter().enumerate();
+            numbered.fold(whole[kept[i]][kept[j]], |sum, (k, z)| {
                 sum - z[kept[i]] * amounts[k][j]
             })
         });
@@ -356,9 +357,9 @@ impl WithoutZeros {
     fn left(&self, e: &[Complex64]) -> Vector<Complex64> {
         let mut y = placed(self.kept.len() + self.left_out.len(), &self.kept, e);
         let along: Vec<Complex64> = self.zeros.iter().map(|z| product_with(z, &y)).collect();
-        for (i, &place) in self.left_out.iter().enumerate() {
+        for (i, &index) in self.left_out.iter().enumerate() {
             let column = along.iter().enumerate();
-            y[place] = -column
+            y[index] = -column
                 .map(|(k, along)| along * self.inverse[k][i])
                 .sum::<Complex64>();
         }
@@ -434,9 +435,9 @@ fn damping_among(damping: &Matrix, right: &[Vector], left: &[Vector]) -> Matrix 
         .as_flattened_mut()
         .iter_mut()
         .zip(terms.as_flattened());
-    for (own, terms) in both {
-        if own.abs() <= UNDAMPED * terms {
-            *own = 0.0;
+    for (entry, terms) in both {
+        if entry.abs() <= UNDAMPED * terms {
+            *entry = 0.0;
         }
     }
     coupled
@@ -446,8 +447,8 @@ fn damping_among(damping: &Matrix, right: &[Vector], left: &[Vector]) -> Matrix 
 fn combined(all: &[Vector], shares: &[Vector]) -> Vec<Vector> {
     let sum = |shares: &Vector| {
         let mut sum = Vector::zeros(all[0].len());
-        for (share, own) in shares.iter().zip(all) {
-            add_to(&mut sum, *share, own);
+        for (share, vector) in shares.iter().zip(all) {
+            add_to(&mut sum, *share, vector);
         }
         sum
     };
@@ -477,9 +478,9 @@ fn inverse(matrix: &Matrix) -> Option<Matrix> {
     let n = matrix.row_count();
     let unit = |k: usize| Vector::from_fn(n, |i| if i == k { 1.0 } else { 0.0 });
     let columns: Vec<Vector> = (0..n).map(|k| factors.solve(&unit(k))).collect();
-    let mut found = Matrix::from_fn(n, n, |i, j| columns[j][i]);
-    restore_symmetry(&mut found, matrix);
-    Some(found)
+    let mut inverted = Matrix::from_fn(n, n, |i, j| columns[j][i]);
+    restore_symmetry(&mut inverted, matrix);
+    Some(inverted)
 }
 
 /// Makes `matrix` exactly symmetric or skew-symmetric if `like` is.
@@ -517,10 +518,10 @@ fn others(vectors: impl IntoIterator<Item = Vector>) -> Vec<usize> {
             return kept;
         };
         kept.retain(|&i| i != pivot);
-        let own = rest[k].clone();
+        let pivot_vector = rest[k].clone();
         for other in &mut rest[k + 1..] {
-            let factor = -other[pivot] / own[pivot];
-            add_to(other, factor, &own);
+            let factor = -other[pivot] / pivot_vector[pivot];
+            add_to(other, factor, &pivot_vector);
         }
     }
     kept
@@ -528,25 +529,25 @@ fn others(vectors: impl IntoIterator<Item = Vector>) -> Vec<usize> {
 
 fn placed(n: usize, places: &[usize], values: &[Complex64]) -> Vector<Complex64> {
     let mut vector = Vector::zeros(n);
-    for (&place, value) in places.iter().zip(values) {
-        vector[place] = *value;
+    for (&index, value) in places.iter().zip(values) {
+        vector[index] = *value;
     }
     vector
 }
 
 /// Vectors made orthonormal in the mass matrix.
 fn orthonormal_in(mass: &Matrix, vectors: &[Vector]) -> Vec<Vector> {
-    let mut found: Vec<Vector> = Vec::new();
+    let mut basis: Vec<Vector> = Vec::new();
     for vector in vectors {
         let mut vector = vector.clone();
         for _ in 0..2 {
-            for other in &found {
+            for other in &basis {
                 let along = dot(&times(mass, other), &vector);
                 add_to(&mut vector, -along, other);
             }
         }
         let size = dot(&vector, &times(mass, &vector)).sqrt();
-        found.push(vector.map(|value| value / size));
+        basis.push(vector.map(|value| value / size));
     }
-    found
+    basis
 }

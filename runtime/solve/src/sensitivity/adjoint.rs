@@ -7,7 +7,7 @@
 use super::gradients::{Source, changes, of_general, rate};
 use super::pencil::{BilinearForm, ComplexGradient, form_gradient};
 use super::{
-    Method, ModeSensitivity, Sensitivities, assemble_into, check_state, place, redundancy,
+    Method, ModeSensitivity, Sensitivities, assemble_into, check_state, free_directions, redundancy,
 };
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
 use crate::kernels::{
@@ -71,7 +71,7 @@ impl<'a> Adjoint<'a> {
         } = self;
         check_state(*mechanism, at)?;
         redundancy::check(*mechanism, at)?;
-        place::check(*mechanism, at)?;
+        free_directions::check(*mechanism, at)?;
         let factors = Factors::new(at)?;
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
         let (matrices, residual) = match source {

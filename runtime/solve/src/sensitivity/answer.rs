@@ -43,9 +43,9 @@ impl Sensitivities {
                 true => Vec::new(),
                 false => slopes(mode, of),
             });
-            let own = |j| slopes.each_ref().map(|slopes| slopes.get(j).copied());
+            let values_of = |j| slopes.each_ref().map(|slopes| slopes.get(j).copied());
             let each = variables.iter().enumerate();
-            rows.extend(each.map(|(j, variable)| (r, variable, own(j))));
+            rows.extend(each.map(|(j, variable)| (r, variable, values_of(j))));
         }
         let mut table = Columns::new("sensitivities", &rows);
         table.whole("mode", &|row| Some(row.0 + 1));

@@ -89,9 +89,9 @@ impl<'a> Shown<'a> {
     /// The derivative per declared unit of the variable.
     fn cell(&self, j: usize, variable: &Variable<'_>) -> String {
         let effect = self.of.effect(j, variable);
-        let own = effect.map(|effect| unless_rounding(effect, self.most));
+        let rounded = effect.map(|effect| unless_rounding(effect, self.most));
         let slope = self.of.slope(j).map(|slope| slope * variable.unit.scale);
-        let slope = if own == Some(0.0) { own } else { slope };
+        let slope = if rounded == Some(0.0) { rounded } else { slope };
         of_mode(slope, self.of.clustered, rough)
     }
 }
@@ -114,8 +114,8 @@ pub fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derived]) {
     said.text(grid);
     let exists = |of: &Derived| variables.is_empty() || !of.slopes.is_empty();
     for (what, exist) in [("All derivatives zero", true), ("No derivative", false)] {
-        let own = still.iter().filter(|column| exists(column.of) == exist);
-        let texts: Vec<String> = own.map(|column| column.of.heading()).collect();
+        let selected = still.iter().filter(|column| exists(column.of) == exist);
+        let texts: Vec<String> = selected.map(|column| column.of.heading()).collect();
         let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
         if !texts.is_empty() {
             said.note(format!("{what}: {}.", names(&texts, "columns")));

@@ -62,10 +62,10 @@ impl Source {
 fn pays(
     modes: usize,
     (shared, use_of_it): (Option<usize>, usize),
-    (own, calls): (Option<usize>, usize),
+    (separate, calls): (Option<usize>, usize),
 ) -> bool {
-    match (shared, own) {
-        (Some(shared), Some(own)) => shared + modes * use_of_it < modes * calls * own,
+    match (shared, separate) {
+        (Some(shared), Some(separate)) => shared + modes * use_of_it < modes * calls * separate,
         _ => false,
     }
 }
@@ -83,9 +83,9 @@ pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric
     let Linear {
         mass, stiffness, ..
     } = parts(&change[..entries_of(n)]);
-    let (mut own, mut mixed) = (-0.0, -0.0);
+    let (mut diagonal, mut mixed) = (-0.0, -0.0);
     for i in 0..n {
-        own += phi[i] * phi[i] * (stiffness[i * n + i] - lambda * mass[i * n + i]);
+        diagonal += phi[i] * phi[i] * (stiffness[i * n + i] - lambda * mass[i * n + i]);
         for j in 0..i {
             let below = stiffness[i * n + j];
             let stiffness = if symmetric {
@@ -96,7 +96,7 @@ pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric
             mixed += phi[i] * phi[j] * (stiffness - lambda * mass[i * n + j]);
         }
     }
-    own + (mixed + mixed)
+    diagonal + (mixed + mixed)
 }
 
 /// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi` from explicit partials, with vectors and eigenvalue held fixed.

@@ -7,11 +7,11 @@ mod answer;
 pub mod derivatives;
 mod explicit;
 mod finite_difference;
+mod free_directions;
 mod gradients;
 mod mode;
 mod outputs;
 mod pencil;
-mod place;
 mod quantity;
 mod redundancy;
 mod shift;
@@ -26,6 +26,8 @@ pub use explicit::Rate;
 pub use explicit::{sensitivities_explicit, sensitivities_with_frozen_equilibrium};
 pub use finite_difference::sensitivities_by_finite_difference;
 #[doc(hidden)]
+pub use free_directions::depends;
+#[doc(hidden)]
 pub use gradients::Source;
 #[doc(hidden)]
 pub use mode::root_rate;
@@ -35,8 +37,6 @@ pub use outputs::{OutputSensitivities, output_sensitivities};
 pub use pencil::{
     BilinearForm, ComplexGradient, Direction, form_gradient, form_gradient_along, subtract,
 };
-#[doc(hidden)]
-pub use place::depends;
 pub use quantity::Quantity;
 #[doc(hidden)]
 pub use quantity::{eigenvalue_curvature, eigenvalue_slope};
@@ -139,16 +139,18 @@ fn assemble_into(
         .modes
         .resize_with(modes.modes.len(), ModeSensitivity::blank);
     let mut finite = true;
-    for (position, (own, mode)) in sensitivities.modes.iter_mut().zip(&modes.modes).enumerate() {
+    for (position, (sensitivity, mode)) in
+        sensitivities.modes.iter_mut().zip(&modes.modes).enumerate()
+    {
         if mode.behaviour == Behaviour::Free {
-            own.set_free(at.inputs.len(), at.design.len());
+            sensitivity.set_free(at.inputs.len(), at.design.len());
         } else if merged(modes, position) {
-            own.set_merged(mode, at.inputs.len(), at.design.len());
+            sensitivity.set_merged(mode, at.inputs.len(), at.design.len());
         } else {
-            set(own, mode);
-            own.clustered |= near_another(modes, position, CLUSTER_GAP);
+            set(sensitivity, mode);
+            sensitivity.clustered |= near_another(modes, position, CLUSTER_GAP);
         }
-        finite &= own.finite();
+        finite &= sensitivity.finite();
     }
     if finite {
         Ok(())

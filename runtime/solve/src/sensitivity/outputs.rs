@@ -1,6 +1,6 @@
 //! Total derivatives of the declared outputs.
 
-use super::place;
+use super::free_directions;
 use super::shift::equilibrium_shift;
 use crate::algebra::{Matrix, Vector, add_to, all_finite};
 use crate::kernels::Kernels;
@@ -51,7 +51,7 @@ pub fn output_sensitivities(
     let rows = |slopes: &Matrix| {
         let rows = slopes.iter().zip(by_coordinate.iter());
         rows.map(|(row, rates)| {
-            let exists = all_finite(row) && !place::depends(at, rates);
+            let exists = all_finite(row) && !free_directions::depends(at, rates);
             exists.then(|| row.into())
         })
         .collect()

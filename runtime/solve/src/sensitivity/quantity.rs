@@ -145,8 +145,8 @@ mod tests {
 
     #[test]
     fn all_are_in_the_order_of_their_declaration() {
-        for (place, quantity) in Quantity::ALL.into_iter().enumerate() {
-            assert_eq!(quantity as usize, place);
+        for (index, quantity) in Quantity::ALL.into_iter().enumerate() {
+            assert_eq!(quantity as usize, index);
         }
     }
 }

@@ -87,8 +87,8 @@ impl Scale {
         let broken = |j: usize| {
             let column = partials.column(j);
             let terms = dot(&self.weights, &column.map(f64::abs));
-            let own = self.opened / (SMALL_MOTION + values[j].abs());
-            dot(n, &column).abs() > ROUNDING * (terms + own)
+            let opening = self.opened / (SMALL_MOTION + values[j].abs());
+            dot(n, &column).abs() > ROUNDING * (terms + opening)
         };
         let j = (0..partials.column_count()).find(|&j| broken(j))?;
         let share = |i: usize| (n[i] * partials[i][j]).abs();

@@ -1,7 +1,7 @@
 //! The shift of the equilibrium: `Khat dq* = -dg` for every input and design variable, with one factorisation.
 
 use super::pencil::Direction;
-use super::{check_state, place, redundancy};
+use super::{check_state, free_directions, redundancy};
 use crate::algebra::{Lu, Matrix, Vector, all_finite_matrix};
 use crate::kernels::Kernels;
 use crate::scalar::Real as _;
@@ -33,7 +33,7 @@ pub fn equilibrium_shift(
 ) -> Result<EquilibriumShift, Error> {
     check_state(mechanism, at)?;
     redundancy::check(mechanism, at)?;
-    place::check(mechanism, at)?;
+    free_directions::check(mechanism, at)?;
     let factors = Lu::new(&at.held_stiffness()).ok_or(Error::CriticalState)?;
     let mut partials = mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
     at.free.add_to_partials(&mut partials);

@@ -55,8 +55,8 @@ impl Note {
             Self::Member { dimension } => {
                 let held = state.free.held.iter();
                 let held = held.map(|held| {
-                    let found = value(held.unknown, state.coordinates[held.unknown]);
-                    format!("{} = {found}", infos[held.unknown].name)
+                    let text = value(held.unknown, state.coordinates[held.unknown]);
+                    format!("{} = {text}", infos[held.unknown].name)
                 });
                 let parameters = match dimension {
                     1 => "one parameter".to_owned(),

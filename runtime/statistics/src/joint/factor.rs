@@ -30,9 +30,9 @@ pub fn semidefinite_factor(matrix: &[f64], size: usize) -> Result<Vec<f64>, Erro
     let at = |i: usize, j: usize| i * size + j;
     let mut lower = vec![0.0; size * size];
     for i in 0..size {
-        let own = matrix[at(i, i)];
-        if (own - 1.0).abs() > ROUNDING || own.is_nan() {
-            return wrong(format!("element ({i}, {i}) is {own} and must be 1"));
+        let diagonal = matrix[at(i, i)];
+        if (diagonal - 1.0).abs() > ROUNDING || diagonal.is_nan() {
+            return wrong(format!("element ({i}, {i}) is {diagonal} and must be 1"));
         }
         for j in 0..=i {
             let (here, mirrored) = (matrix[at(i, j)], matrix[at(j, i)]);

@@ -117,9 +117,9 @@ impl Joint {
     /// If an index is out of range.
     #[must_use]
     pub fn covariance(&self, i: usize, j: usize) -> f64 {
-        let own = if i == j { 1.0 } else { 0.0 };
+        let delta = if i == j { 1.0 } else { 0.0 };
         let correlation =
-            (self.dependence.as_ref()).map_or(own, |all| all.correlation[i * self.len() + j]);
+            (self.dependence.as_ref()).map_or(delta, |all| all.correlation[i * self.len() + j]);
         correlation * self.variables[i].sigma() * self.variables[j].sigma()
     }
 
@@ -129,8 +129,8 @@ impl Joint {
     /// If an index is out of range.
     #[must_use]
     pub fn normal_factor(&self, i: usize, j: usize) -> f64 {
-        let own = if i == j { 1.0 } else { 0.0 };
-        (self.dependence.as_ref()).map_or(own, |all| all.factor[i * self.len() + j])
+        let delta = if i == j { 1.0 } else { 0.0 };
+        (self.dependence.as_ref()).map_or(delta, |all| all.factor[i * self.len() + j])
     }
 
     /// Writes the values of the variables for independent standard normal numbers, one per variable.

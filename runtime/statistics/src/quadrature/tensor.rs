@@ -63,9 +63,9 @@ impl TensorGrid {
         let mut places: Vec<usize> = (self.rules.iter().rev())
             .map(|rule| {
                 let number = rule.nodes.len() as u64;
-                let place = rest % number;
+                let digit = rest % number;
                 rest /= number;
-                place as usize
+                digit as usize
             })
             .collect();
         places.reverse();
@@ -122,9 +122,9 @@ impl TensorWalk<'_> {
 
     fn update(&mut self) {
         for j in self.changed..self.places.len() {
-            let (rule, place) = (&self.rules[j], self.places[j]);
-            self.point[j] = rule.nodes[place];
-            self.products[j + 1] = self.products[j] * rule.weights[place];
+            let (rule, index) = (&self.rules[j], self.places[j]);
+            self.point[j] = rule.nodes[index];
+            self.products[j + 1] = self.products[j] * rule.weights[index];
         }
     }
 

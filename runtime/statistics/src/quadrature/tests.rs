@@ -38,11 +38,11 @@ fn rules_agree_with_reference_values() {
         let rule = gauss_hermite(nodes).unwrap();
         for sign in [-1.0, 1.0] {
             let near = |z: &&f64| (**z - sign * node).abs() < 1e-14 * node;
-            let place = rule.nodes.iter().position(|z| near(&z));
-            let found = rule.weights[place.expect("a node there")];
+            let index = rule.nodes.iter().position(|z| near(&z));
+            let computed = rule.weights[index.expect("a node there")];
             assert!(
-                (found / weight - 1.0).abs() < 2e-14,
-                "{nodes} {node} {found:e}"
+                (computed / weight - 1.0).abs() < 2e-14,
+                "{nodes} {node} {computed:e}"
             );
         }
     }

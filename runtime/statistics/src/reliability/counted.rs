@@ -66,18 +66,18 @@ impl<'a> Counted<'a> {
     /// Value and gradient at `z`, if they exist.
     pub(super) fn evaluate(&self, z: &[f64]) -> Option<LimitValue> {
         self.total.set(self.total.get() + 1);
-        let found = match self.limit.evaluate(z) {
+        let checked = match self.limit.evaluate(z) {
             Err(reason) => Err(reason),
-            Ok(found) if found.gradient.len() != self.dimension => Err(format!(
+            Ok(limit) if limit.gradient.len() != self.dimension => Err(format!(
                 "its gradient has {} entries, expected {}",
-                found.gradient.len(),
+                limit.gradient.len(),
                 self.dimension
             )),
-            Ok(found) if !is_finite(&found) => Err("its value or gradient is not finite".into()),
-            Ok(found) => Ok(found),
+            Ok(limit) if !is_finite(&limit) => Err("its value or gradient is not finite".into()),
+            Ok(limit) => Ok(limit),
         };
-        match found {
-            Ok(found) => Some(found),
+        match checked {
+            Ok(limit) => Some(limit),
             Err(reason) => {
                 self.without_value.set(self.without_value.get() + 1);
                 self.reason.replace(reason);

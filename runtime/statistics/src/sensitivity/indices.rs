@@ -191,10 +191,10 @@ fn drawn(rows: usize, seed: u64, stream: u64) -> Vec<f64> {
 
 /// Quantile of sorted values, by linear interpolation.
 fn quantile(sorted: &[f64], probability: f64) -> f64 {
-    let place = probability * (sorted.len() - 1) as f64;
-    let (below, above) = (place.floor(), place.ceil());
+    let rank = probability * (sorted.len() - 1) as f64;
+    let (below, above) = (rank.floor(), rank.ceil());
     let (low, high) = (sorted[below as usize], sorted[above as usize]);
-    low + (place - below) * (high - low)
+    low + (rank - below) * (high - low)
 }
 
 pub(super) fn at_least(kind: &'static str, found: usize, needed: usize) -> Result<(), Error> {

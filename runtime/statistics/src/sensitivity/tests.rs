@@ -33,11 +33,11 @@ fn assert_indices(f: impl Fn(&[f64]) -> f64, first: &[f64], total: &[f64], toler
     let values = evaluate(&quasi_random(first.len(), 1 << 12), f);
     for estimator in ESTIMATORS {
         let indices = sobol_indices(first.len(), &values, estimator, few()).unwrap();
-        for (found, exact) in [(&indices.first, first), (&indices.total, total)] {
-            for (found, exact) in found.iter().zip(exact) {
-                let error = (found.value - exact).abs();
-                assert!(error < tolerance, "{estimator:?} {found:?} {exact}");
-                assert!(found.lower <= found.value && found.value <= found.upper);
+        for (estimates, exact) in [(&indices.first, first), (&indices.total, total)] {
+            for (estimate, exact) in estimates.iter().zip(exact) {
+                let error = (estimate.value - exact).abs();
+                assert!(error < tolerance, "{estimator:?} {estimate:?} {exact}");
+                assert!(estimate.lower <= estimate.value && estimate.value <= estimate.upper);
             }
         }
     }

@@ -97,11 +97,11 @@ mod tests {
     /// The polynomials are all the primitive ones, in order of degree and coefficients; found here independently.
     #[test]
     fn polynomials_are_the_primitive_ones_in_order() {
-        let found = (1..)
+        let primitive = (1..)
             .flat_map(|degree| (0..1_u64 << (degree - 1)).map(move |a| (degree, a)))
             .filter(|&(degree, a)| is_primitive(1 << degree | a << 1 | 1, degree));
         let table = rows().map(|(a, m)| (m.len(), a));
-        assert!(found.take(MAX_DIMENSIONS - 1).eq(table));
+        assert!(primitive.take(MAX_DIMENSIONS - 1).eq(table));
     }
 
     #[test]

@@ -19,8 +19,8 @@ pub fn serialize<S: Serializer>(word: &str, to: S) -> Result<S::Ok, S::Error> {
 pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<&'static str, D::Error> {
     let word = String::deserialize(from)?;
     let mut all = READ.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(own) = all.get(&word[..]) {
-        return Ok(own);
+    if let Some(known) = all.get(&word[..]) {
+        return Ok(known);
     }
     let text: &'static str = word.leak();
     all.insert(text);

@@ -100,16 +100,16 @@ impl Chunk {
     /// If there is no such sample or quantity in this chunk. The value itself is checked when the chunk is added.
     pub fn set(&mut self, sample: u64, quantity: usize, value: Option<f64>) -> Result<(), Error> {
         check_below("quantity", quantity, self.present.len())?;
-        let place = (sample % CHUNK as u64) as usize;
-        if sample / CHUNK as u64 != self.index || !self.covered.has(place) {
+        let offset = (sample % CHUNK as u64) as usize;
+        if sample / CHUNK as u64 != self.index || !self.covered.has(offset) {
             let reason = format!("{sample} is not among the samples of this chunk");
             return Err(Error::Setting {
                 setting: "sample",
                 reason,
             });
         }
-        self.present[quantity].set(place, value.is_some());
-        self.values[quantity * CHUNK + place] = value.unwrap_or_default();
+        self.present[quantity].set(offset, value.is_some());
+        self.values[quantity * CHUNK + offset] = value.unwrap_or_default();
         Ok(())
     }
 
@@ -161,8 +161,8 @@ impl Chunk {
                 reason,
             });
         }
-        let place = quantity * CHUNK + start;
-        self.values[place..place + count].copy_from_slice(values);
+        let offset = quantity * CHUNK + start;
+        self.values[offset..offset + count].copy_from_slice(values);
         self.present[quantity].put(start, count, having);
         Ok(())
     }
@@ -191,8 +191,8 @@ impl Chunk {
         let (to, _) = self.values.as_chunks_mut::<CHUNK>();
         let (from, _) = other.values.as_chunks::<CHUNK>();
         for (k, (to, from)) in to.iter_mut().zip(from).enumerate() {
-            for place in other.present[k].places() {
-                to[place] = from[place];
+            for index in other.present[k].places() {
+                to[index] = from[index];
             }
             self.present[k] = self.present[k].or(other.present[k]);
         }
@@ -201,8 +201,8 @@ impl Chunk {
     /// The ranges of samples covered.
     pub(super) fn samples(&self) -> impl Iterator<Item = Range<u64>> {
         let first = self.index * CHUNK as u64;
-        self.covered.places().map(move |place| {
-            let sample = first + place as u64;
+        self.covered.places().map(move |offset| {
+            let sample = first + offset as u64;
             sample..sample + 1
         })
     }

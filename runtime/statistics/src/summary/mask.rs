@@ -68,8 +68,8 @@ impl Mask {
     #[inline]
     pub(super) fn has_all(&self, start: usize, count: usize) -> bool {
         let has = |(word, among): (usize, u64)| {
-            let own = self.0.get(word).copied().unwrap_or(0);
-            own & among == among
+            let bits = self.0.get(word).copied().unwrap_or(0);
+            bits & among == among
         };
         let words = Self::words(start, Self::first(count));
         count <= 64 && words.into_iter().all(has)
@@ -114,8 +114,8 @@ impl Mask {
             return values;
         }
         let mut count = 0;
-        for (to, place) in room.iter_mut().zip(self.places()) {
-            *to = values[place];
+        for (to, index) in room.iter_mut().zip(self.places()) {
+            *to = values[index];
             count += 1;
         }
         &room[..count]
@@ -152,7 +152,7 @@ mod tests {
                     expected.set(start + k, bits >> k & 1 == 1);
                 }
                 assert_eq!(mask, expected, "{start} {count}");
-                let whole = (start..start + count).all(|place| expected.has(place));
+                let whole = (start..start + count).all(|index| expected.has(index));
                 assert_eq!(mask.has_all(start, count), whole, "{start} {count}");
             }
         }

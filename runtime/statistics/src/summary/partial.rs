@@ -183,7 +183,7 @@ impl Partial {
     /// If the plan does not include it.
     pub fn comoments(&self, first: usize, second: usize) -> Result<Comoments, Error> {
         let pair = (first.min(second), first.max(second));
-        let Ok(place) = self.plan.pairs.binary_search(&pair) else {
+        let Ok(index) = self.plan.pairs.binary_search(&pair) else {
             let reason = format!(
                 "that of {first} and {second} is not planned; ask for it with `Plan::covariances`"
             );
@@ -193,7 +193,7 @@ impl Partial {
             });
         };
         let mut all = Comoments::default();
-        self.fold(|node| all.merge(&node.pairs[place]));
+        self.fold(|node| all.merge(&node.pairs[index]));
         if first > second {
             all.means.reverse();
             all.squares.reverse();
@@ -210,10 +210,10 @@ impl Partial {
     }
 
     fn keep(&mut self, part: &Chunk) {
-        let place = self
+        let position = self
             .fragments
             .binary_search_by_key(&part.index, |chunk| chunk.index);
-        let at = place.unwrap_or_else(|at| {
+        let at = position.unwrap_or_else(|at| {
             let mut empty = Chunk::empty(&self.plan, part.index);
             empty.outcomes.clear();
             self.fragments.insert(at, empty);
@@ -233,16 +233,16 @@ impl Partial {
             .checked_sub(1);
         let in_tree =
             before.is_some_and(|at| (chunk.index - nodes[at].start) >> nodes[at].level == 0);
-        let place = self
+        let position = self
             .fragments
             .binary_search_by_key(&chunk.index, |other| other.index);
         let in_fragment =
-            place.is_ok_and(|at| !self.fragments[at].covered.and(chunk.covered).is_empty());
+            position.is_ok_and(|at| !self.fragments[at].covered.and(chunk.covered).is_empty());
         if !in_tree && !in_fragment {
             return Ok(());
         }
-        let own: Vec<_> = ranges::joined(chunk.samples());
-        let common = ranges::overlap(&self.ranges(), &own).unwrap_or_default();
+        let chunk_ranges: Vec<_> = ranges::joined(chunk.samples());
+        let common = ranges::overlap(&self.ranges(), &chunk_ranges).unwrap_or_default();
         Err(Error::Overlap {
             start: common.start,
             end: common.end,
@@ -255,12 +255,12 @@ fn not_a_number(chunk: &Chunk) -> Error {
     let mut values = (0..chunk.present.len()).flat_map(|k| {
         let column = chunk.column(k).into_iter();
         column.flat_map(move |(values, mask)| {
-            mask.places().map(move |place| (k, place, values[place]))
+            mask.places().map(move |offset| (k, offset, values[offset]))
         })
     });
     let found = values.find(|(_, _, value)| value.is_nan() || value.abs() > LARGEST);
-    let (quantity, place, value) = found.unwrap_or((0, 0, f64::NAN));
-    let sample = chunk.index * CHUNK as u64 + place as u64;
+    let (quantity, offset, value) = found.unwrap_or((0, 0, f64::NAN));
+    let sample = chunk.index * CHUNK as u64 + offset as u64;
     Error::Value {
         quantity,
         sample,

@@ -148,9 +148,9 @@ pub(crate) fn eigenpairs<V: Lanes, const N: usize>(
         vectors[1][1] = second;
         // cos^2 = (L J)_rr^2 / m_rr
         let clear = V::constant(algebra::CLEAR);
-        let own = cosine * cosine;
+        let cosine_squared = cosine * cosine;
         let turned = l10 * sine + cosine * (m11 - l10 * l10) * r1;
-        let flag = keep(one, clear.at_most(own));
+        let flag = keep(one, clear.at_most(cosine_squared));
         let flag = keep(flag, (m11 * clear).at_most(turned * turned));
         (lambda, vectors, flag)
     } else {

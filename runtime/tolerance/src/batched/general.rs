@@ -109,21 +109,21 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
             right: [none; N],
             weighed: [none; N],
         };
-        let mut found = [[blank; N]; 2];
-        let found = found.as_flattened_mut();
+        let mut storage = [[blank; N]; 2];
+        let slots = storage.as_flattened_mut();
         let mut flag = V::constant(1.0);
-        let pairs = &reference.pairs[..reference.pairs.len().min(found.len())];
-        let found = &mut found[..pairs.len()];
-        for (found, known) in found.iter_mut().zip(pairs) {
-            let (pair, own) = self.pair(known);
-            flag = keep(flag, V::constant(1.0).at_most(own));
-            *found = pair;
+        let pairs = &reference.pairs[..reference.pairs.len().min(slots.len())];
+        let continued = &mut slots[..pairs.len()];
+        for (slot, known) in continued.iter_mut().zip(pairs) {
+            let (pair, pair_flag) = self.pair(known);
+            flag = keep(flag, V::constant(1.0).at_most(pair_flag));
+            *slot = pair;
         }
-        flag = told_apart(found, flag);
-        flag = recognised((n, damped), pairs, found, flag);
+        flag = told_apart(continued, flag);
+        flag = recognised((n, damped), pairs, continued, flag);
         let mut all = [[(none, zero); N]; 2];
         let rate = V::constant(reference.rate);
-        for (to, pair) in all.as_flattened_mut().iter_mut().zip(&*found) {
+        for (to, pair) in all.as_flattened_mut().iter_mut().zip(&*continued) {
             *to = (pair.s.times(rate), pair.error * rate);
         }
         (all, flag)
@@ -412,10 +412,10 @@ impl<V: Lanes, const N: usize> Products<V, N> {
         let zero = V::constant(0.0);
         let (mut sum, mut most, mut greatest) = (zero, zero, zero);
         for i in 0..n {
-            let own = self.value(s, i).bound();
+            let size = self.value(s, i).bound();
             let terms = self.terms(s, i);
-            sum = sum + own;
-            most = V::choose(own.at_most(most), most, own);
+            sum = sum + size;
+            most = V::choose(size.at_most(most), most, size);
             greatest = V::choose(terms.at_most(greatest), greatest, terms);
         }
         let accurate = most.at_most(greatest * V::constant(INACCURATE));
@@ -446,8 +446,8 @@ fn inner<V: Lanes, const N: usize>(n: usize, x: &Vector<V, N>, y: &Vector<V, N>)
 fn scale<V: Lanes, const N: usize>(n: usize, x: &mut Vector<V, N>) {
     let mut most = x[0].bound();
     for i in 1..n {
-        let own = x[i].bound();
-        most = V::choose(own.at_most(most), most, own);
+        let size = x[i].bound();
+        most = V::choose(size.at_most(most), most, size);
     }
     let factor = V::constant(1.0) / most;
     for x in &mut x[..n] {
@@ -489,11 +489,11 @@ fn recognised<V: Lanes, const N: usize>(
     if known.len() == 1 {
         return flag;
     }
-    let mut own = [[V::constant(0.0); N]; 2];
-    let own = &mut own.as_flattened_mut()[..pairs.len()];
+    let mut thresholds = [[V::constant(0.0); N]; 2];
+    let thresholds = &mut thresholds.as_flattened_mut()[..pairs.len()];
     let measured = own_sizes(n, pairs);
     let measured = &measured.as_flattened()[..pairs.len()];
-    for (j, own) in own.iter_mut().enumerate() {
+    for (j, threshold) in thresholds.iter_mut().enumerate() {
         let (size, rate) = measured[j];
         let assurance = assurance(
             (n, damped),
@@ -502,7 +502,7 @@ fn recognised<V: Lanes, const N: usize>(
             pairs[j].size * size,
             rate,
         );
-        *own = assurance - V::constant(OWN);
+        *threshold = assurance - V::constant(OWN);
     }
     for i in 0..pairs.len() {
         for j in 0..pairs.len() {
@@ -510,8 +510,8 @@ fn recognised<V: Lanes, const N: usize>(
                 let (size, rate) = measured[j];
                 let scale = pairs[i].size * size;
                 let other = assurance((n, damped), &known[i], &pairs[j], scale, rate);
-                flag = keep(flag, other.at_most(own[i]));
-                flag = keep(flag, other.at_most(own[j]));
+                flag = keep(flag, other.at_most(thresholds[i]));
+                flag = keep(flag, other.at_most(thresholds[j]));
             }
         }
     }
@@ -547,10 +547,10 @@ fn assurance<V: Lanes, const N: usize>(
     if !damped {
         return shapes;
     }
-    let own = Complex::constant(known.s);
+    let eigenvalue = Complex::constant(known.s);
     let own_rate = V::constant(known.s.norm());
-    let turned = (own.conjugate() * pair.s).re / (own_rate * rate);
+    let turned = (eigenvalue.conjugate() * pair.s).re / (own_rate * rate);
     let phase = V::constant(0.5) + V::constant(0.5) * turned;
-    let distance = (own - pair.s).square().sqrt() / (own_rate + rate);
+    let distance = (eigenvalue - pair.s).square().sqrt() / (own_rate + rate);
     shapes * phase * (V::constant(1.0) - V::constant(EIGENVALUE_SHARE) * distance)
 }

@@ -56,8 +56,8 @@ impl Block<'_> {
     /// Writes the derivatives of these modes.
     pub fn read_slopes(&self, lane: usize, modes: &Modes, slopes: &mut Sensitivities) {
         let (inputs, design) = (self.inputs.len(), self.design.len());
-        for (r, (own, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
-            let [by_input, by_design] = own.make_undamped(mode, inputs, design);
+        for (r, (sensitivity, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
+            let [by_input, by_design] = sensitivity.make_undamped(mode, inputs, design);
             read(inputs, &self.by_input[r * inputs..], lane, by_input);
             read(design, &self.by_design[r * design..], lane, by_design);
         }

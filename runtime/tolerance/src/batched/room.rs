@@ -22,8 +22,8 @@ impl<'a> BatchArena<'a> {
     /// Takes batches that hold the same number in every lane.
     pub(crate) fn constants(&mut self, values: &[f64]) -> &'a mut [Batch] {
         let taken = self.take(values.len());
-        for (place, value) in taken.iter_mut().zip(values) {
-            *place = Batch::all(*value);
+        for (slot, value) in taken.iter_mut().zip(values) {
+            *slot = Batch::all(*value);
         }
         taken
     }

@@ -268,33 +268,33 @@ impl<V: Lanes, const N: usize> Change<V, N> {
     fn load(n: usize, changes: &BatchLinear<'_>, k: usize, at: usize) -> Self {
         let stiffness = &changes.stiffness[k * n * n..][..n * n];
         let mass = &changes.mass[k * n * n..][..n * n];
-        let mut own = Self {
+        let mut change = Self {
             stiffness: [[V::constant(0.0); N]; N],
             mass: [[V::constant(0.0); N]; N],
         };
         for i in 0..n {
             for j in 0..=i {
-                own.stiffness[i][j] = V::load(&stiffness[i * n + j], at);
-                own.mass[i][j] = V::load(&mass[i * n + j], at);
+                change.stiffness[i][j] = V::load(&stiffness[i * n + j], at);
+                change.mass[i][j] = V::load(&mass[i * n + j], at);
             }
         }
-        own
+        change
     }
 
     /// `phi^T (dKhat - lambda dMhat) phi`.
     #[inline(always)]
     fn rate(&self, n: usize, phi: &Row<V, N>, lambda: V) -> V {
-        let (mut own, mut mixed) = (V::constant(-0.0), V::constant(-0.0));
+        let (mut diagonal, mut mixed) = (V::constant(-0.0), V::constant(-0.0));
         for i in 0..n {
             for j in 0..=i {
                 let change = self.stiffness[i][j] - lambda * self.mass[i][j];
                 if i == j {
-                    own = own + phi[i] * phi[j] * change;
+                    diagonal = diagonal + phi[i] * phi[j] * change;
                 } else {
                     mixed = mixed + phi[i] * phi[j] * change;
                 }
             }
         }
-        own + (mixed + mixed)
+        diagonal + (mixed + mixed)
     }
 }

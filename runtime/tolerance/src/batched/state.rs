@@ -134,8 +134,8 @@ fn remainder<V: Lanes, const N: usize>(
         for j in 0..n {
             scale = scale + stiffness[i][j].abs() * small[j];
         }
-        let own = residual[i].abs() / scale;
-        most = V::choose(own.at_most(most), most, own);
+        let imbalance = residual[i].abs() / scale;
+        most = V::choose(imbalance.at_most(most), most, imbalance);
     }
     let (solver, mut flag) = FactoredMatrix::new(n, stiffness, POSITIVE);
     flag = keep(flag, most.at_most(V::constant(TOLERANCE)));

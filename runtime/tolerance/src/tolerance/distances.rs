@@ -20,8 +20,9 @@ impl ModeTolerance {
     /// standard deviation, `Im s / (2 sigma)`. `None` for undamped modes and those that do not oscillate.
     #[doc(hidden)]
     pub fn distance_to_critical_damping(&self, family: Family) -> Option<f64> {
-        let own = self.of(Quantity::Frequency)?;
-        (family == Family::General && own.sigma > 0.0).then(|| 0.5 * own.mean / own.sigma)
+        let frequency = self.of(Quantity::Frequency)?;
+        (family == Family::General && frequency.sigma > 0.0)
+            .then(|| 0.5 * frequency.mean / frequency.sigma)
     }
 }
 
@@ -32,38 +33,38 @@ impl FirstOrder {
     #[must_use]
     pub fn doubts(&self, mode: usize) -> Vec<Doubt> {
         let mut doubts = Vec::new();
-        let Some(own) = self.modes.get(mode) else {
+        let Some(this_mode) = self.modes.get(mode) else {
             return doubts;
         };
-        if own.behaviour == Behaviour::Free {
+        if this_mode.behaviour == Behaviour::Free {
             return doubts;
         }
-        let oscillates = own.behaviour.frequency().is_some();
+        let oscillates = this_mode.behaviour.frequency().is_some();
         if !oscillates {
             doubts.push(Doubt::NoFrequency);
         }
-        if own.clustered {
+        if this_mode.clustered {
             doubts.push(Doubt::EqualNeighbours);
         }
-        let distance = own.distance_to_critical;
+        let distance = this_mode.distance_to_critical;
         let near_critical = near(distance.abs());
         if near_critical {
             doubts.push(Doubt::NearCritical { distance });
         } else if let Some((mode, distance)) = self.nearest_critical() {
             doubts.push(Doubt::BranchNear { mode, distance });
         }
-        let distance = own.distance_to_instability;
+        let distance = this_mode.distance_to_instability;
         if oscillates && near(distance) {
             doubts.push(Doubt::NearInstability { distance });
         }
-        if let Some(distance) = own.distance_to_critical_damping(self.family)
+        if let Some(distance) = this_mode.distance_to_critical_damping(self.family)
             && near(distance)
             && !near_critical
         {
             doubts.push(Doubt::NearCriticalDamping { distance });
         }
-        if !own.clustered && near(own.distance_to_neighbour) {
-            let distance = own.distance_to_neighbour;
+        if !this_mode.clustered && near(this_mode.distance_to_neighbour) {
+            let distance = this_mode.distance_to_neighbour;
             doubts.push(Doubt::NearNeighbour { distance });
         }
         doubts

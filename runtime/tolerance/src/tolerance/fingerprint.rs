@@ -196,8 +196,8 @@ mod tests {
         let one = Fingerprint(Vec::new()).with("seed", 3).with("stream", 1);
         assert_eq!(one.check(&one.clone()), Ok(()));
         let other = Fingerprint(Vec::new()).with("seed", 3).with("stream", 2);
-        let found = one.check(&other).map_err(|error| error.to_string());
-        assert!(found.is_err_and(|text| text.contains("stream is 1 here and 2 there")));
+        let difference = one.check(&other).map_err(|error| error.to_string());
+        assert!(difference.is_err_and(|text| text.contains("stream is 1 here and 2 there")));
         let longer = one.clone().with("points", "Sobol");
         assert!(one.check(&longer).is_err() && longer.check(&one).is_err());
     }

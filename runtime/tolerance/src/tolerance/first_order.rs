@@ -164,28 +164,28 @@ pub fn first_order(
 ) -> Result<FirstOrder, Error> {
     tolerances.check_count(sensitivities.description.design.len())?;
     let count = modes.modes.len().min(sensitivities.modes.len());
-    let mut found = Vec::with_capacity(count);
-    found.resize_with(count, ModeTolerance::blank);
+    let mut spreads = Vec::with_capacity(count);
+    spreads.resize_with(count, ModeTolerance::blank);
     let of_modes = modes.modes.iter().zip(&sensitivities.modes);
-    for (spread, (mode, own)) in found.iter_mut().zip(of_modes) {
+    for (spread, (mode, sensitivity)) in spreads.iter_mut().zip(of_modes) {
         match modes.family {
-            Family::Undamped => undamped(mode, own, tolerances, spread),
-            Family::General => general(mode, own, tolerances, spread),
+            Family::Undamped => undamped(mode, sensitivity, tolerances, spread),
+            Family::General => general(mode, sensitivity, tolerances, spread),
         }
     }
-    for r in 0..found.len() {
+    for r in 0..spreads.len() {
         for other in 0..r {
-            let own = distances(r, other, modes, sensitivities, tolerances);
-            for (place, distance) in [r, other].into_iter().zip(own) {
-                let least = &mut found[place].distance_to_neighbour;
+            let gaps = distances(r, other, modes, sensitivities, tolerances);
+            for (index, distance) in [r, other].into_iter().zip(gaps) {
+                let least = &mut spreads[index].distance_to_neighbour;
                 *least = least.min(distance);
             }
         }
     }
-    let distances = found.iter().map(|mode| mode.distance_to_critical);
+    let distances = spreads.iter().map(|mode| mode.distance_to_critical);
     Ok(FirstOrder {
         distance_to_critical: distances.fold(f64::INFINITY, f64::min),
-        modes: found,
+        modes: spreads,
         sigma_level: tolerances.sigma_level(),
         varies: tolerances.vary(),
         family: modes.family,

@@ -79,14 +79,14 @@ impl SampleRun<'_> {
                 break;
             }
             let work = |room: &mut R, at: usize| self.piece(plan, round[at].clone(), room, &solve);
-            let found = pool::run(self.threads, self.size, round.len(), &room, work)?;
-            for ((group, _), piece) in round.iter().zip(found) {
-                let (part, own) = piece?;
+            let solved = pool::run(self.threads, self.size, round.len(), &room, work)?;
+            for ((group, _), piece) in round.iter().zip(solved) {
+                let (part, retained) = piece?;
                 match &mut all[*group] {
                     Some(all) => all.merge(part)?,
                     none => *none = Some(part),
                 }
-                kept.extend(own);
+                kept.extend(retained);
             }
         }
         let done = |part: Option<Partial>| part.unwrap_or_else(|| Partial::new(plan.clone()));
@@ -146,13 +146,13 @@ impl SampleRun<'_> {
         let pieces = move |(group, samples): (usize, &Range<u64>)| {
             let (mut start, end) = (samples.start, samples.end);
             core::iter::from_fn(move || {
-                let own = start
+                let range = start
                     ..(start / size)
                         .saturating_add(share)
                         .saturating_mul(size)
                         .min(end);
-                start = own.end;
-                (!own.is_empty()).then_some((group, own))
+                start = range.end;
+                (!range.is_empty()).then_some((group, range))
             })
         };
         groups.iter().enumerate().flat_map(pieces)

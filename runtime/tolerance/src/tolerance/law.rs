@@ -37,14 +37,14 @@ pub fn distribution(
         Law::Triangular => Distribution::triangular(low, middle, high),
         Law::Beta { alpha, beta } => Distribution::beta((*alpha, *beta), (low, high)),
         Law::OneOf(values) => {
-            if let Some((place, _)) = values
+            if let Some((fraction, _)) = values
                 .iter()
-                .find(|(place, _)| !(0.0..=1.0).contains(place))
+                .find(|(fraction, _)| !(0.0..=1.0).contains(fraction))
             {
                 return Err(Error::Setting {
                     setting: "place of a value",
                     reason: format!(
-                        "{place} is not between 0, the lower limit, and 1, the upper one"
+                        "{fraction} is not between 0, the lower limit, and 1, the upper one"
                     ),
                 });
             }
@@ -57,7 +57,7 @@ pub fn distribution(
             };
             let values: Vec<(f64, f64)> = values
                 .iter()
-                .map(|&(place, weight)| (value(place), weight))
+                .map(|&(fraction, weight)| (value(fraction), weight))
                 .collect();
             Distribution::discrete(&values)
         }

@@ -100,13 +100,16 @@ mod tests {
         let all = probabilities();
         for set in Instructions::available() {
             for start in 0..all.len() {
-                let place = |shift: usize| all[(start + shift) % all.len()];
-                let (radii, angles) = (Batch::from_fn(|k| place(177 * k)), Batch::from_fn(place));
+                let shifted = |shift: usize| all[(start + shift) % all.len()];
+                let (radii, angles) = (
+                    Batch::from_fn(|k| shifted(177 * k)),
+                    Batch::from_fn(shifted),
+                );
                 let pairs = set.run(All(&radii, &angles));
                 for state in 0..WIDTH {
                     let (x, y) = standard_normal_pair(radii.0[state], angles.0[state]);
-                    let found = pairs.map(|batch| batch.0[state].to_bits());
-                    assert_eq!(found, [x.to_bits(), y.to_bits()]);
+                    let bits = pairs.map(|batch| batch.0[state].to_bits());
+                    assert_eq!(bits, [x.to_bits(), y.to_bits()]);
                 }
             }
         }

@@ -84,10 +84,10 @@ impl Run {
         for (group, part) in self.parts.iter().enumerate() {
             let first = group as u64 * self.of_each;
             for range in part.ranges() {
-                let own = range.start + first..range.end + first;
+                let shifted = range.start + first..range.end + first;
                 match all.last_mut() {
-                    Some(last) if last.end == own.start => last.end = own.end,
-                    _ => all.push(own),
+                    Some(last) if last.end == shifted.start => last.end = shifted.end,
+                    _ => all.push(shifted),
                 }
             }
         }

@@ -80,14 +80,14 @@ impl Solution {
         if self.state.regular().is_err() {
             return;
         }
-        let (found, state) = (&mut self.modes, &self.state);
-        match found.solve_judged(state, judged, &modes.modes) {
+        let (solved, state) = (&mut self.modes, &self.state);
+        match solved.solve_judged(state, judged, &modes.modes) {
             Ok(()) => {
-                let mut places = match_with_assurance(modes, found, &state.linear).map(position);
+                let mut places = match_with_assurance(modes, solved, &state.linear).map(position);
                 let size = |places: &Vector<Option<usize>>, r: usize| match places[r] {
                     None => f64::INFINITY,
-                    Some(place) if found.family == Family::Undamped => found.modes[place].lambda,
-                    Some(place) => found.modes[place].s.norm(),
+                    Some(index) if solved.family == Family::Undamped => solved.modes[index].lambda,
+                    Some(index) => solved.modes[index].s.norm(),
                 };
                 for group in &self.groups {
                     in_order(group, &mut places, size, |places, i, j| places.swap(i, j));
@@ -146,13 +146,13 @@ impl Solution {
 
     /// Converts the solution to a sample with the given number of nominal modes.
     pub(crate) fn sample(&self, design: &[f64], modes: usize) -> Sample {
-        let own = || (0..modes).map(|r| self.mode(r));
+        let each_mode = || (0..modes).map(|r| self.mode(r));
         Sample {
             design: design.into(),
             outcome: self.outcome,
-            eigenvalues: own().map(|mode| Some(mode?.s)).collect(),
-            frequencies: own().map(|mode| mode?.frequency()).collect(),
-            damping_ratios: own().map(|mode| mode?.damping_ratio()).collect(),
+            eigenvalues: each_mode().map(|mode| Some(mode?.s)).collect(),
+            frequencies: each_mode().map(|mode| mode?.frequency()).collect(),
+            damping_ratios: each_mode().map(|mode| mode?.damping_ratio()).collect(),
             coordinates: self.solved.then(|| self.state.coordinates.clone()),
         }
     }

@@ -70,8 +70,8 @@ impl<'a> SideBySide<'a> {
             batch.members = rows.len();
             batch.given = true;
             for (member, row) in rows.iter().enumerate() {
-                for (place, z) in batch.standard.iter_mut().zip(row) {
-                    place.0[member] = *z;
+                for (slot, z) in batch.standard.iter_mut().zip(row) {
+                    slot.0[member] = *z;
                 }
             }
         }

@@ -28,10 +28,10 @@ impl Spread {
     /// The spread of a quantity from its value and its derivatives with respect to the design variables.
     #[must_use]
     pub fn new(mean: f64, by_design: Vector, tolerances: &Tolerances) -> Self {
-        let mut found = Self::blank();
-        found.by_design = by_design;
-        found.finish(mean, tolerances);
-        found
+        let mut spread = Self::blank();
+        spread.by_design = by_design;
+        spread.finish(mean, tolerances);
+        spread
     }
 
     /// An empty spread, to be overwritten.
@@ -72,9 +72,9 @@ impl Spread {
 
     /// The spread of a quantity that these variables do not change.
     pub(super) fn still(&self, mean: f64) -> Self {
-        let mut found = Self::blank();
-        found.set_without_derivatives(mean, 0.0, self.by_design.len());
-        found
+        let mut spread = Self::blank();
+        spread.set_without_derivatives(mean, 0.0, self.by_design.len());
+        spread
     }
 
     /// Overwrites this with the spread of a quantity that nothing changes (`sigma` zero) or that changes without bound

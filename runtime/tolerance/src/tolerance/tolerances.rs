@@ -64,10 +64,10 @@ impl Tolerances {
             return Self::new(normal.flatten().collect::<Vector>(), 3.0, None);
         }
         let nominal: Vector = infos.iter().map(|info| info.nominal).collect();
-        let own = infos
+        let laws = infos
             .iter()
             .map(|info| distribution(info.nominal, &info.tolerance, 3.0));
-        let distributions: Vec<Distribution> = own.collect::<Result<_, _>>()?;
+        let distributions: Vec<Distribution> = laws.collect::<Result<_, _>>()?;
         Self::distributed(&nominal, distributions, 3.0, None)
     }
 
@@ -310,8 +310,8 @@ impl Tolerances {
             *contributions = self.contributions(&self.parts(slopes, 1.0));
         } else {
             let places = contributions.make_room(slopes.len()).iter_mut();
-            for ((own, slope), sigma) in places.zip(slopes).zip(&self.sigmas) {
-                *own = (slope * sigma) * (slope * sigma);
+            for ((contribution, slope), sigma) in places.zip(slopes).zip(&self.sigmas) {
+                *contribution = (slope * sigma) * (slope * sigma);
             }
         }
         sum(contributions)

@@ -68,8 +68,8 @@ impl Allocation {
         allowed.digits(given);
         let beta = table.number("beta", "", &|(k, _)| self.reliability.beta_of(*k));
         beta.digits(short);
-        let found = table.number("probability of failure, sampled", "", &|(k, _)| sampled(*k));
-        found
+        let column = table.number("probability of failure, sampled", "", &|(k, _)| sampled(*k));
+        column
             .digits(|value| chance(value, 0.0))
             .headed("P(failed), sampled");
         let refuted = table.flag("refuted", &|(k, _)| Some(self.refuted.contains(k)));

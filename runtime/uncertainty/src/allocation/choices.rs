@@ -100,8 +100,9 @@ impl Choices<'_> {
     /// Start of the search: the current design and half-widths, clamped to the limits.
     pub(super) fn start(&self, nominal: &[f64], half_widths: &[f64]) -> (Vector, Vector) {
         let (mut nominal, mut wide) = (Vector::from(nominal), Vector::from(half_widths));
-        for own in &self.nominals {
-            nominal[own.variable] = nominal[own.variable].clamp(own.limits.0, own.limits.1);
+        for choice in &self.nominals {
+            nominal[choice.variable] =
+                nominal[choice.variable].clamp(choice.limits.0, choice.limits.1);
         }
         for half_width in &self.half_widths {
             wide[half_width.variable] =
@@ -140,7 +141,7 @@ fn distinct(
                 let name = &state.description.design[variable].name;
                 return refuse("allocation", format!("`{name}` is chosen twice"));
             }
-            Some(place) => *place = true,
+            Some(flag) => *flag = true,
         }
     }
     Ok(())

@@ -92,9 +92,9 @@ impl Problem<'_> {
                 .exp()
                 .clamp(half_width.limits.0, half_width.limits.1);
         }
-        for (own, part) in self.choices.nominals.iter().zip(parts) {
-            let (low, high) = own.limits;
-            nominal[own.variable] = (low + part * (high - low)).clamp(low, high);
+        for (choice, part) in self.choices.nominals.iter().zip(parts) {
+            let (low, high) = choice.limits;
+            nominal[choice.variable] = (low + part * (high - low)).clamp(low, high);
         }
         (nominal, wide)
     }
@@ -147,9 +147,9 @@ impl Problem<'_> {
 
     fn cost(&self, size: usize, wide: &[f64]) -> Result<(f64, Vec<f64>), Error> {
         let (mut sum, mut slopes) = (0.0, vec![0.0; size]);
-        for (own, place) in self.choices.half_widths.iter().zip(&mut slopes) {
-            let half_width = wide[own.variable];
-            let (cost, slope) = own.cost.of(half_width);
+        for (choice, place) in self.choices.half_widths.iter().zip(&mut slopes) {
+            let half_width = wide[choice.variable];
+            let (cost, slope) = choice.cost.of(half_width);
             if !(cost.is_finite() && slope.is_finite()) {
                 return Err(Error::Setting {
                     setting: "cost",
@@ -213,8 +213,8 @@ fn joined(parts: &[(f64, Vec<f64>)], size: usize) -> (f64, Vec<f64>) {
                 least
             };
             let mut slopes = vec![0.0; size];
-            for (own, by) in parts {
-                let weight = (0.5 * (beta - own) * (beta + own)).exp();
+            for (reliability_index, by) in parts {
+                let weight = (0.5 * (beta - reliability_index) * (beta + reliability_index)).exp();
                 for (sum, slope) in slopes.iter_mut().zip(by) {
                     *sum += weight * slope;
                 }

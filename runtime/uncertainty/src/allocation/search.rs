@@ -90,18 +90,18 @@ pub fn allocate(
         let moved = deviations.moved(&design.0, &design.1);
         reliability_of(requirements, &moved, &FormSettings::default())
     };
-    let mut found = search(&problem, watch)?;
-    let mut reliability = reliability_at(&problem.design(&found.x))?;
-    let mut evaluations = found.evaluations;
+    let mut optimum = search(&problem, watch)?;
+    let mut reliability = reliability_at(&problem.design(&optimum.x))?;
+    let mut evaluations = optimum.evaluations;
     if !watch.stopped() && !reaches(&reliability, &choices.failure) {
         problem.search = Search::Thorough;
-        found = search(&problem, watch)?;
-        reliability = reliability_at(&problem.design(&found.x))?;
-        evaluations += found.evaluations;
+        optimum = search(&problem, watch)?;
+        reliability = reliability_at(&problem.design(&optimum.x))?;
+        evaluations += optimum.evaluations;
     }
-    let (nominal, half_widths) = problem.design(&found.x);
+    let (nominal, half_widths) = problem.design(&optimum.x);
     let stopped = watch.stopped();
-    if let Some(worst) = found
+    if let Some(worst) = optimum
         .best
         .worst()
         .filter(|reached| reached.shortfall() > ENOUGH)
@@ -130,8 +130,8 @@ pub fn allocate(
         reliability,
         nominal,
         half_widths,
-        cost: found.best.cost,
-        cost_before: found.cost_before,
+        cost: optimum.best.cost,
+        cost_before: optimum.cost_before,
         failure: choices.failure.clone(),
         chances,
         refuted,
@@ -152,14 +152,14 @@ fn reaches(reliability: &Reliability, failure: &[f64]) -> bool {
 }
 
 /// The result of a search: the best choice, its evaluation, the cost at the start, and the number of choices tried.
-struct Found {
+struct Optimum {
     x: Vec<f64>,
     best: Evaluated,
     cost_before: f64,
     evaluations: usize,
 }
 
-fn search(problem: &Problem<'_>, watch: Watch<'_>) -> Result<Found, Error> {
+fn search(problem: &Problem<'_>, watch: Watch<'_>) -> Result<Optimum, Error> {
     let (start, bounds) = problem.start();
     let first = problem.evaluate(&start)?;
     let (before, scale) = (first.cost, first.cost.abs().max(f64::MIN_POSITIVE));
@@ -172,33 +172,33 @@ fn search(problem: &Problem<'_>, watch: Watch<'_>) -> Result<Found, Error> {
     });
     let objective = |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
         let mut progress = progress.borrow_mut();
-        let Some(found) = progress.at(problem, watch, x) else {
+        let Some(evaluation) = progress.at(problem, watch, x) else {
             return f64::INFINITY;
         };
         if let Some(gradient) = gradient {
-            for (entry, slope) in gradient.iter_mut().zip(&found.cost_slopes) {
+            for (entry, slope) in gradient.iter_mut().zip(&evaluation.cost_slopes) {
                 *entry = slope / scale;
             }
         }
-        found.cost / scale
+        evaluation.cost / scale
     };
     let constraints: Vec<_> = (0..constrained)
         .map(|k| {
             let progress = &progress;
             move |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
                 let mut progress = progress.borrow_mut();
-                let Some(own) = progress
+                let Some(requirement) = progress
                     .at(problem, watch, x)
-                    .and_then(|found| found.requirements.get(k))
+                    .and_then(|evaluation| evaluation.requirements.get(k))
                 else {
                     return f64::INFINITY;
                 };
                 if let Some(gradient) = gradient {
-                    for (entry, slope) in gradient.iter_mut().zip(&own.slopes) {
+                    for (entry, slope) in gradient.iter_mut().zip(&requirement.slopes) {
                         *entry = -slope;
                     }
                 }
-                shortfall(own)
+                shortfall(requirement)
             }
         })
         .collect();
@@ -222,7 +222,7 @@ fn search(problem: &Problem<'_>, watch: Watch<'_>) -> Result<Found, Error> {
     );
     let progress = progress.into_inner();
     let (x, best) = progress.best;
-    Ok(Found {
+    Ok(Optimum {
         x,
         best,
         cost_before: before,

@@ -130,15 +130,15 @@ impl Band<'_> {
 impl Bode {
     fn rows(&self) -> Vec<Row<'_>> {
         let mut rows = Vec::new();
-        for (point, own) in self.points.iter().enumerate() {
-            let value = own.value;
-            let row = |found, error| Row {
+        for (point, bode_point) in self.points.iter().enumerate() {
+            let value = bode_point.value;
+            let row = |harmonic_output, error| Row {
                 point,
                 value,
-                found,
+                found: harmonic_output,
                 error,
             };
-            match &own.vibration {
+            match &bode_point.vibration {
                 Ok(vibration) => {
                     for harmonic in &vibration.response.harmonics {
                         let outputs = 0..harmonic.outputs.len();
@@ -154,14 +154,14 @@ impl Bode {
     fn bands(&self, said: &mut Findings, points: &[usize]) {
         let d = &self.description;
         let mut rows = Vec::new();
-        for (point, own) in self.points.iter().enumerate() {
-            let Some(Bands { spread, checks }) = &own.bands else {
+        for (point, bode_point) in self.points.iter().enumerate() {
+            let Some(Bands { spread, checks }) = &bode_point.bands else {
                 continue;
             };
             for (k, vibration) in self.banded.iter().enumerate() {
                 rows.push(Band {
                     point,
-                    value: own.value,
+                    value: bode_point.value,
                     vibration,
                     spread: spread.spreads.get(k).and_then(Option::as_ref),
                     check: checks.get(k).and_then(Option::as_ref),
@@ -193,9 +193,9 @@ impl Bode {
         table
             .number("sigma", "", &|row| scaled(row, row.spread?.sigma?.value))
             .digits(short);
-        for (place, name) in [(1, "2.3 %"), (3, "50 %"), (5, "97.7 %"), (6, "99.9 %")] {
+        for (index, name) in [(1, "2.3 %"), (3, "50 %"), (5, "97.7 %"), (6, "99.9 %")] {
             table
-                .number(name, "", &|row| scaled(row, row.quantile(place)?))
+                .number(name, "", &|row| scaled(row, row.quantile(index)?))
                 .digits(number);
         }
         table.whole("designs solved anew", &|row| {

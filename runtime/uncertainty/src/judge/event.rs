@@ -114,19 +114,19 @@ impl<'a> Event<'a> {
                 budget,
             }));
         }
-        let found = sampler.run(self);
+        let probability = sampler.run(self);
         self.responses.go_on()?;
-        Ok(Judgement::Judged(Judged::new(&found, settings.reach)))
+        Ok(Judgement::Judged(Judged::new(&probability, settings.reach)))
     }
 
     fn at(&self, z: &[f64]) -> Option<f64> {
         let design: Vector = self.deviations.design(z);
-        let found = self
+        let realisation = self
             .responses
             .at(&mut self.room.borrow_mut(), &design)
             .ok()?;
         // A design on the limit meets it.
-        (self.distance)(&design, &found).map(|value| {
+        (self.distance)(&design, &realisation).map(|value| {
             if value == 0.0 {
                 f64::MIN_POSITIVE
             } else {

@@ -60,8 +60,8 @@ pub fn propagate(
         propagation.map(|found| Propagation { reason, ..found })
     };
     if dimensions == 0 {
-        let found = first_order(mechanism, responses, tolerances);
-        return with(found, "no tolerance is declared".to_owned());
+        let linear = first_order(mechanism, responses, tolerances);
+        return with(linear, "no tolerance is declared".to_owned());
     }
     let price = responses.price();
     let (affordable, wanted) = (solutions / price, sampling.samples as u64);
@@ -107,9 +107,9 @@ pub fn propagate(
                 return sample(affordable, reason);
             }
             Err(Error::NoResponse { .. }) => {}
-            found => {
+            integrated => {
                 return with(
-                    found,
+                    integrated,
                     format!("{dear}; {dimensions} variables are few enough for quadrature"),
                 );
             }

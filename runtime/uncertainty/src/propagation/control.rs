@@ -131,7 +131,7 @@ const QUANTITIES: usize = 4;
 
 /// A model with exact mean and standard deviation.
 struct Control<'a> {
-    own: &'a Expansion,
+    expansion: &'a Expansion,
     model: Method,
     mean: f64,
     sigma: f64,
@@ -153,7 +153,7 @@ impl<'a> Control<'a> {
             }
         };
         Self {
-            own: expansion,
+            expansion,
             model,
             mean,
             sigma,
@@ -175,10 +175,10 @@ impl<'a> Control<'a> {
 
     fn value(&self, x: &[f64]) -> f64 {
         match self.model {
-            Method::SecondOrder => self.own.second_order(x),
+            Method::SecondOrder => self.expansion.second_order(x),
             _ => None,
         }
-        .unwrap_or_else(|| self.own.first_order(x))
+        .unwrap_or_else(|| self.expansion.first_order(x))
     }
 
     /// The spread from the samples, whose quantities for this response start at `place`.
@@ -231,23 +231,23 @@ fn corrected(samples: &Gathered<'_>, index: usize, known: f64) -> Result<Option<
         covariance(index, index + 1)?,
         covariance(index + 1, index + 1)?,
     );
-    let (Some(own), Some(both), Some(other)) = all else {
+    let (Some(variance), Some(both), Some(other)) = all else {
         return Ok(None);
     };
     let (Some(f), Some(g)) = (samples.mean(index)?, samples.mean(index + 1)?) else {
         return Ok(None);
     };
     let slope = if other > 0.0 { both / other } else { 0.0 };
-    let left = (own - slope * both).max(0.0);
+    let left = (variance - slope * both).max(0.0);
     // A fully explained variance, up to rounding.
-    let exact = left <= 1e-14 * own;
+    let exact = left <= 1e-14 * variance;
     Ok(Some(Corrected {
         value: f - slope * (g - known),
         error: (left / samples.count(index)? as f64).sqrt(),
-        worth: match (own > 0.0, exact) {
+        worth: match (variance > 0.0, exact) {
             (false, _) => 1.0,
             (true, true) => f64::INFINITY,
-            (true, false) => own / left,
+            (true, false) => variance / left,
         },
     }))
 }
@@ -273,10 +273,10 @@ impl Model for Pairs<'_> {
         take: &mut Take<'_>,
     ) -> Result<(), Error> {
         let mut values = vec![None; QUANTITIES * self.controls.len()];
-        self.designs.evaluate(room, points, &mut |k, found| {
-            let moved = found.design.iter().zip(self.nominal);
+        self.designs.evaluate(room, points, &mut |k, evaluated| {
+            let moved = evaluated.design.iter().zip(self.nominal);
             let x: Vector = moved.map(|(value, nominal)| value - nominal).collect();
-            let all = self.controls.iter().zip(found.values);
+            let all = self.controls.iter().zip(evaluated.values);
             values.fill(None);
             for ((control, value), places) in all.zip(values.chunks_exact_mut(QUANTITIES)) {
                 if let (Some(control), Some(f)) = (control, value) {
@@ -289,7 +289,7 @@ impl Model for Pairs<'_> {
                 k,
                 Evaluated {
                     values: &values,
-                    ..found
+                    ..evaluated
                 },
             )
         })

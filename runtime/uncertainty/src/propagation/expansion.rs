@@ -50,7 +50,7 @@ pub(super) fn expansions(
             curvature: models
                 .of(*response)
                 .ok()
-                .map(|found| found.quadratic.curvature),
+                .map(|model| model.quadratic.curvature),
         })
     });
     Ok(each.collect())

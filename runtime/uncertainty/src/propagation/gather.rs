@@ -109,8 +109,8 @@ impl<M: Model> Task<'_, M> {
                 };
                 points.push(self.space.standard(normals(probabilities)));
             }
-            self.model.evaluate(room, &points, &mut |k, found| {
-                take(chunk, first + k as u64, &found, &variables)
+            self.model.evaluate(room, &points, &mut |k, evaluated| {
+                take(chunk, first + k as u64, &evaluated, &variables)
             })?;
         }
         Ok(())
@@ -199,13 +199,13 @@ impl Gathered<'_> {
     fn statistics(&self, quantity: usize) -> Result<Option<Statistics>, Error> {
         let mut sketch: Option<Sketch> = None;
         for part in self.0 {
-            let own = part.statistics(quantity)?;
-            let Some(own) = own.as_ref().and_then(Statistics::sketch) else {
+            let statistics = part.statistics(quantity)?;
+            let Some(part_sketch) = statistics.as_ref().and_then(Statistics::sketch) else {
                 continue;
             };
             match &mut sketch {
-                None => sketch = Some(own.clone()),
-                Some(all) => all.merge(own)?,
+                None => sketch = Some(part_sketch.clone()),
+                Some(all) => all.merge(part_sketch)?,
             }
         }
         Ok(Statistics::of(&self.moments(quantity)?, sketch))
@@ -302,16 +302,16 @@ fn quantile_error(all: &Statistics, groups: &[Statistics], probability: f64) -> 
     if all.count as f64 * probability.min(1.0 - probability) < 1.0 {
         return None;
     }
-    let found = all.quantile(probability).ok()?;
+    let quantile = all.quantile(probability).ok()?;
     let share = scatter(groups, &|item| {
-        Some(item.sketch()?.cdf(found.value).ok()?.value)
+        Some(item.sketch()?.cdf(quantile.value).ok()?.value)
     })?;
     // Definitions of a quantile differ by up to half a sample.
     let share = share.hypot(0.5 / all.count as f64);
     let [lower, upper] =
         [-share, share].map(|change| all.quantile((probability + change).clamp(0.0, 1.0)).ok());
     // In a bucket of the sketch any value is as likely as any other.
-    let bucket = found.error / 3.0_f64.sqrt();
+    let bucket = quantile.error / 3.0_f64.sqrt();
     Some((0.5 * (upper?.value - lower?.value)).hypot(bucket))
 }
 

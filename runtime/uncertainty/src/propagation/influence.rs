@@ -122,17 +122,17 @@ pub fn influence(
         let (low, high) = limits[variable];
         ends.push([at_limit(low)?, at_limit(high)?]);
     }
-    let found = nominal.iter().enumerate().map(|(i, nominal)| {
-        let mut own = table.response(i, &variables);
-        own.nominal = *nominal;
-        for (variable, [low, high]) in own.variables.iter_mut().zip(&ends) {
+    let influences = nominal.iter().enumerate().map(|(i, nominal)| {
+        let mut influence = table.response(i, &variables);
+        influence.nominal = *nominal;
+        for (variable, [low, high]) in influence.variables.iter_mut().zip(&ends) {
             (variable.at_low, variable.at_high) = (low[i], high[i]);
         }
-        own
+        influence
     });
     Ok(Influence {
         wanted: responses.wanted().to_vec(),
-        responses: found.collect(),
+        responses: influences.collect(),
         limits,
         counts: table.counts,
         inputs: at.inputs.clone(),
@@ -184,17 +184,17 @@ fn table(
     let designs = Designs::new(responses, space);
     let work = |room: &mut DesignRoom, piece: usize| {
         let range = piece * TOGETHER..number.min((piece + 1) * TOGETHER);
-        let mut own = Vec::with_capacity(range.len());
+        let mut batch = Vec::with_capacity(range.len());
         points.each(range, &mut |probabilities| {
-            own.push(space.standard(normals(probabilities)));
+            batch.push(space.standard(normals(probabilities)));
         });
-        let mut found = Vec::with_capacity(own.len());
-        designs.evaluate(room, &own, &mut |_, one| {
+        let mut evaluated = Vec::with_capacity(batch.len());
+        designs.evaluate(room, &batch, &mut |_, one| {
             let design: Vec<f64> = variables.iter().map(|&i| one.design[i]).collect();
-            found.push((one.outcome, one.values.to_vec(), design));
+            evaluated.push((one.outcome, one.values.to_vec(), design));
             Ok(())
         })?;
-        Ok::<Vec<(Outcome, Vec<Option<f64>>, Vec<f64>)>, Error>(found)
+        Ok::<Vec<(Outcome, Vec<Option<f64>>, Vec<f64>)>, Error>(evaluated)
     };
     let room = || designs.room();
     let size = (at.coordinates.len(), at.design.len());
@@ -278,10 +278,13 @@ impl Table {
         });
         let indices = indices.and_then(Result::ok);
         // The first two evaluations of a row are independent of each other; the others recombine their variables.
-        let own = |k: &usize| self.blocks == 1 || k % self.blocks < 2;
-        let own: Vec<usize> = (0..values.len()).filter(own).collect();
-        let designs: Vec<Vec<f64>> = own.iter().map(|&k| self.designs[k].clone()).collect();
-        let results: Vec<Option<f64>> = own.iter().map(|&k| values[k]).collect();
+        let is_independent = |k: &usize| self.blocks == 1 || k % self.blocks < 2;
+        let independent: Vec<usize> = (0..values.len()).filter(is_independent).collect();
+        let designs: Vec<Vec<f64>> = independent
+            .iter()
+            .map(|&k| self.designs[k].clone())
+            .collect();
+        let results: Vec<Option<f64>> = independent.iter().map(|&k| values[k]).collect();
         let sample = Sample::new(&designs, &results).ok();
         let sample = sample.as_ref();
         let (pearson, spearman) = (sample.map(Sample::pearson), sample.map(Sample::spearman));

@@ -111,9 +111,9 @@ impl Model for Designs<'_> {
             values,
         } = room;
         let mut solve = |design: &[f64], values: &mut Vec<Option<f64>>| {
-            let found = responses.at(alone, design)?;
-            *values = found.values;
-            Ok::<Outcome, Error>(found.outcome)
+            let realisation = responses.at(alone, design)?;
+            *values = realisation.values;
+            Ok::<Outcome, Error>(realisation.outcome)
         };
         let (Some(lanes), Some(side_by_side)) = (lanes, &self.side_by_side) else {
             for (k, z) in points.iter().enumerate() {

@@ -72,11 +72,11 @@ pub(super) fn second_order(
             .iter()
             .map(|element| element * element)
             .sum();
-        let own = shape.iter().enumerate();
-        let own = own.map(|(j, [skewness, kurtosis])| {
+        let terms = shape.iter().enumerate();
+        let terms = terms.map(|(j, [skewness, kurtosis])| {
             a[j] * b[j][j] * skewness + 0.25 * b[j][j] * b[j][j] * kurtosis
         });
-        dot(&a, &a) + own.sum::<f64>() + 0.5 * squares
+        dot(&a, &a) + terms.sum::<f64>() + 0.5 * squares
     };
     ExactMoments {
         mean: expansion.first_order(shifts) + 0.5 * dot(shifts, &bent) + 0.5 * trace,

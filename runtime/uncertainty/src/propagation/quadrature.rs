@@ -53,22 +53,22 @@ pub fn quadrature(
     refuse_discrete(tolerances)?;
     let nominal = responses.at(&mut responses.workspace(), &at.design)?.values;
     let mut sums = Sums::new(&nominal, &space);
-    let mut found = Found {
+    let mut tally = NodeOutcomes {
         counts: Counts::default(),
         missing: vec![0; nominal.len()],
     };
     let designs = Designs::new(responses, &space);
     grid.rounds(&mut |nodes| {
         let solve = |room: &mut DesignRoom, piece: usize| {
-            let own = &nodes[piece * TOGETHER..nodes.len().min((piece + 1) * TOGETHER)];
-            let points = own.iter().map(|(z, _)| space.standard(z.iter().copied()));
+            let batch = &nodes[piece * TOGETHER..nodes.len().min((piece + 1) * TOGETHER)];
+            let points = batch.iter().map(|(z, _)| space.standard(z.iter().copied()));
             let points: Vec<Vector> = points.collect();
-            let mut each = Vec::with_capacity(own.len());
-            designs.evaluate(room, &points, &mut |_, found| {
+            let mut each = Vec::with_capacity(batch.len());
+            designs.evaluate(room, &points, &mut |_, evaluated| {
                 each.push((
-                    found.outcome,
-                    found.values.to_vec(),
-                    Vector::from(found.design),
+                    evaluated.outcome,
+                    evaluated.values.to_vec(),
+                    Vector::from(evaluated.design),
                 ));
                 Ok(())
             })?;
@@ -79,13 +79,13 @@ pub fn quadrature(
         let solved = pool::run(threads, size, nodes.len().div_ceil(TOGETHER), room, solve)?;
         let solved = solved.into_iter().collect::<Result<Vec<_>, _>>()?;
         for ((_, weights), (outcome, values, design)) in nodes.iter().zip(solved.iter().flatten()) {
-            found.add(*outcome, values);
+            tally.add(*outcome, values);
             sums.add(*weights, values, design);
         }
         Ok(())
     })?;
-    found.refuse_missing()?;
-    let propagation = sums.propagation(grid.method(), responses, at, found.counts, &nominal)?;
+    tally.refuse_missing()?;
+    let propagation = sums.propagation(grid.method(), responses, at, tally.counts, &nominal)?;
     Ok(propagation.doubted(doubts_of_models(responses, tolerances)))
 }
 
@@ -152,9 +152,9 @@ impl Grid {
             if round.len() < ROUND {
                 return Ok(());
             }
-            let found = take(&round);
+            let outcome = take(&round);
             round.clear();
-            found
+            outcome
         };
         match self {
             Self::Tensor(fine, coarse, _) => {
@@ -179,12 +179,12 @@ impl Grid {
 }
 
 /// Outcomes of the nodes, and the number of nodes without a value for each response.
-struct Found {
+struct NodeOutcomes {
     counts: Counts,
     missing: Vec<usize>,
 }
 
-impl Found {
+impl NodeOutcomes {
     fn add(&mut self, outcome: Outcome, values: &[Option<f64>]) {
         self.counts.add(outcome, 1);
         for (missing, value) in self.missing.iter_mut().zip(values) {

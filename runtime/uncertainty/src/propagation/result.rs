@@ -174,7 +174,7 @@ impl Propagation {
     pub fn correlation(&self, first: usize, second: usize) -> Option<f64> {
         let sigma = |k: usize| Some(self.spreads.get(k)?.as_ref()?.sigma?.value);
         let product = sigma(first)? * sigma(second)?;
-        let found = self.covariance[first][second]? / product;
-        (product > 0.0 && found.is_finite()).then(|| found.clamp(-1.0, 1.0))
+        let coefficient = self.covariance[first][second]? / product;
+        (product > 0.0 && coefficient.is_finite()).then(|| coefficient.clamp(-1.0, 1.0))
     }
 }

@@ -100,14 +100,14 @@ fn taylor(
     let (mut spreads, mut covariance) = (Vec::new(), Matrix::zeros(count, count));
     let mut with_design = Matrix::from_fn(count, at.design.len(), |_, _| None);
     for (i, expansion) in expansions.iter().enumerate() {
-        let Some(own) = expansion
+        let Some(expansion) = expansion
             .as_ref()
             .filter(|x| !second || x.curvature.is_some())
         else {
             spreads.push(None);
             continue;
         };
-        let spread = all.spread(i, own, second)?;
+        let spread = all.spread(i, expansion, second)?;
         if second {
             for j in 0..count {
                 covariance[i][j] = all.samples.covariance(count + i, count + j)?;
@@ -121,12 +121,12 @@ fn taylor(
             for (j, other) in expansions.iter().enumerate() {
                 let other = other.as_ref();
                 covariance[i][j] =
-                    other.map(|other| tolerances.covariance(&own.slopes, &other.slopes));
+                    other.map(|other| tolerances.covariance(&expansion.slopes, &other.slopes));
             }
             let factor = tolerances.factor();
-            let all = times(factor, &times(&factor.transpose(), &own.slopes));
-            for (place, value) in with_design[i].iter_mut().zip(&all) {
-                *place = Some(*value);
+            let all = times(factor, &times(&factor.transpose(), &expansion.slopes));
+            for (slot, value) in with_design[i].iter_mut().zip(&all) {
+                *slot = Some(*value);
             }
         }
         spreads.push(Some(spread));
@@ -193,18 +193,18 @@ impl Models<'_> {
         };
         let other = self.model(i, expansion, Some(curvature))?;
         let ratio = self.ratio(expansion, curvature);
-        let (mut found, other, share) = match second {
+        let (mut spread, other, share) = match second {
             true => (other, first, ratio),
             false => (first, other, 1.0),
         };
-        add_difference(&mut found, &other, share);
-        let sigma = found.sigma.as_mut();
+        add_difference(&mut spread, &other, share);
+        let sigma = spread.sigma.as_mut();
         if let Some((sigma, error)) =
             sigma.and_then(|sigma| Some((sigma.value, sigma.error.as_mut()?)))
         {
             *error += THIRD * ratio * ratio * sigma;
         }
-        Ok(found)
+        Ok(spread)
     }
 
     /// Ratio of the contributions of curvature (to the standard deviation and, if means are shifted, to the slopes) to
@@ -230,7 +230,7 @@ impl Models<'_> {
         expansion: &Expansion,
         curvature: Option<&Matrix>,
     ) -> Result<ResponseSpread, Error> {
-        let place = if curvature.is_some() {
+        let index = if curvature.is_some() {
             self.expansions.len() + i
         } else {
             i
@@ -240,7 +240,7 @@ impl Models<'_> {
             Some(curvature) => moments::second_order(expansion, curvature, self.tolerances),
         };
         let nominal = Some(expansion.value);
-        let sampled = self.samples.spread(place, nominal)?;
+        let sampled = self.samples.spread(index, nominal)?;
         let certain = |value: f64| Estimated::new(value, Some(0.0));
         let ExactMoments {
             mean,

@@ -26,7 +26,7 @@ impl<'a> Vibrations<'a> {
         wanted: &[Response],
         space: &'a Space<'a>,
     ) -> Result<Self, Error> {
-        let mut own = Self {
+        let mut this = Self {
             harmonics: Vec::new(),
             wanted: Vec::new(),
             space,
@@ -39,18 +39,18 @@ impl<'a> Vibrations<'a> {
                 });
             };
             let with = at.description.excitations[vibration.excitation.index()].with;
-            let known = own.harmonics.iter().position(|(first, _)| *first == with);
-            let place = match known {
-                Some(place) => place,
+            let known = this.harmonics.iter().position(|(first, _)| *first == with);
+            let index = match known {
+                Some(index) => index,
                 None => {
                     let model = Resolvent::new(mechanism, at, with, space.variables())?;
-                    own.harmonics.push((with, model));
-                    own.harmonics.len() - 1
+                    this.harmonics.push((with, model));
+                    this.harmonics.len() - 1
                 }
             };
-            own.wanted.push((place, *vibration));
+            this.wanted.push((index, *vibration));
         }
-        Ok(own)
+        Ok(this)
     }
 }
 
@@ -70,14 +70,16 @@ impl Model for Vibrations<'_> {
         for (k, z) in points.iter().enumerate() {
             self.space.design(z, design);
             let harmonics = self.harmonics.iter();
-            let found: Vec<_> = harmonics
+            let amplitudes: Vec<_> = harmonics
                 .map(|(_, model)| model.amplitudes(design))
                 .collect();
-            for (value, (place, vibration)) in values.iter_mut().zip(&self.wanted) {
-                *value = found[*place].as_ref().and_then(|(frequency, outputs)| {
-                    let y = outputs.get(vibration.output.index())?;
-                    Some(vibration.measure.of(*frequency, *y).norm())
-                });
+            for (value, (index, vibration)) in values.iter_mut().zip(&self.wanted) {
+                *value = amplitudes[*index]
+                    .as_ref()
+                    .and_then(|(frequency, outputs)| {
+                        let y = outputs.get(vibration.output.index())?;
+                        Some(vibration.measure.of(*frequency, *y).norm())
+                    });
             }
             let outcome = Outcome::Stable;
             take(
@@ -167,11 +169,11 @@ pub fn check_vibrations(
     let parts = task.gather(sampling)?;
     let (gathered, count) = (Gathered(&parts), scales.len());
     let compared = |k: usize| {
-        let sigma = |place| -> Result<_, Error> {
-            let spread = gathered.spread(place, None)?;
+        let sigma = |index| -> Result<_, Error> {
+            let spread = gathered.spread(index, None)?;
             Ok(spread.and_then(|spread| Some(spread.sigma?.value)))
         };
-        let upper = |place| gathered.quantile(place, UPPER);
+        let upper = |index| gathered.quantile(index, UPPER);
         let sigma = relative(sigma(count + k)?, sigma(k)?);
         let upper = relative(upper(count + k)?, upper(k)?);
         let samples = gathered.count(k)?;
@@ -189,10 +191,10 @@ const UPPER: f64 = 0.99;
 
 /// The relative error of a number of the model, if both exist.
 fn relative(value: Option<f64>, right: Option<f64>) -> Option<f64> {
-    let (own, right) = value.zip(right)?;
-    Some(match right == own {
+    let (value, right) = value.zip(right)?;
+    Some(match right == value {
         true => 0.0,
-        false => own / right - 1.0,
+        false => value / right - 1.0,
     })
 }
 
@@ -219,19 +221,19 @@ impl Model for Both<'_> {
             let one = std::slice::from_ref(z);
             let mut values: Vec<Option<f64>> = Vec::new();
             let mut outcome = Outcome::Stable;
-            self.designs.evaluate(exact, one, &mut |_, found| {
-                values = found.values.to_vec();
-                outcome = found.outcome;
+            self.designs.evaluate(exact, one, &mut |_, solved| {
+                values = solved.values.to_vec();
+                outcome = solved.outcome;
                 Ok(())
             })?;
-            self.model.evaluate(model, one, &mut |_, found| {
+            self.model.evaluate(model, one, &mut |_, predicted| {
                 let exact = values.clone();
-                let alike = found.values.iter().zip(exact);
+                let alike = predicted.values.iter().zip(exact);
                 values.extend(alike.map(|(x, exact)| exact.and(*x)));
                 take(
                     k,
                     Evaluated {
-                        design: found.design,
+                        design: predicted.design,
                         outcome,
                         values: &values,
                     },

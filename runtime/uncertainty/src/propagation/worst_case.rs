@@ -268,7 +268,10 @@ impl Search<'_> {
     /// evaluated designs and a corner without a value is unknown.
     fn found(&self, response: usize, ends: &[Corner; 2]) -> ResponseLimits {
         let value = |realisation: &Realisation| realisation.values[response];
-        let missing = self.seen.iter().filter(|(_, found)| value(found).is_none());
+        let missing = self
+            .seen
+            .iter()
+            .filter(|(_, realisation)| value(realisation).is_none());
         let known = |corner: &Corner| self.seen.get(corner).and_then(value).is_some();
         let elsewhere = missing.clone().any(|(corner, _)| !ends.contains(corner));
         let extreme = |way: i8, end: &Corner| {
@@ -281,9 +284,9 @@ impl Search<'_> {
             greatest: extreme(1, &ends[1]),
             turning: self.turning(response),
             missing: missing
-                .map(|(corner, found)| MissingCorner {
+                .map(|(corner, realisation)| MissingCorner {
                     design: self.design(corner),
-                    outcome: found.outcome,
+                    outcome: realisation.outcome,
                 })
                 .collect(),
         }
@@ -291,7 +294,8 @@ impl Search<'_> {
 
     fn extreme(&self, response: usize, way: i8) -> Option<Extreme> {
         let all = self.seen.iter();
-        let all = all.filter_map(|(corner, found)| Some((corner, found.values[response]?)));
+        let all =
+            all.filter_map(|(corner, realisation)| Some((corner, realisation.values[response]?)));
         let all: Vec<(&Corner, f64)> = all.collect();
         let worst = |most: f64, (_, value): &(_, f64)| most.max(f64::from(way) * value);
         let most = all.iter().fold(f64::NEG_INFINITY, worst);

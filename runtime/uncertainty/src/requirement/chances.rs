@@ -147,9 +147,9 @@ pub(crate) fn chances_of(
         let mut draw = normal.from((sampling.seed, sampling.stream), first);
         for _ in 0..number {
             let design = deviations.design(draw.next_design());
-            let found = requirements.responses().at(room, &design)?;
-            piece.counts.add(found.outcome, 1);
-            let each = requirements.each_met(&design, &found);
+            let realisation = requirements.responses().at(room, &design)?;
+            piece.counts.add(realisation.outcome, 1);
+            let each = requirements.each_met(&design, &realisation);
             piece.all.add(all_met(&each));
             for (tally, met) in piece.each.iter_mut().zip(each) {
                 tally.add(met);
@@ -166,8 +166,8 @@ pub(crate) fn chances_of(
         let piece = piece?;
         sum.counts.merge(&piece.counts);
         sum.all.merge(&piece.all);
-        for (own, other) in sum.each.iter_mut().zip(&piece.each) {
-            own.merge(other);
+        for (total, other) in sum.each.iter_mut().zip(&piece.each) {
+            total.merge(other);
         }
     }
     Ok(Chances {

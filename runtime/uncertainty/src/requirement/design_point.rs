@@ -69,8 +69,8 @@ impl DesignPoint {
             importance: deviations.shares(z, &slopes.by_design),
             by_nominal: slopes.by_nominal,
             by_half_width: slopes.by_half_width,
-            curvatures: second.as_ref().map(|found| found.curvatures().to_vec()),
-            second_order: second.and_then(|found| found.tvedt().ok()),
+            curvatures: second.as_ref().map(|model| model.curvatures().to_vec()),
+            second_order: second.and_then(|model| model.tvedt().ok()),
             verified: crosses(limit, &normal),
             normal,
         })

@@ -37,9 +37,9 @@ impl<'a> LimitAt<'a> {
 
     /// Distance from failure and its derivatives with respect to the design variables.
     pub(crate) fn by_design(&self, z: &[f64]) -> Result<(f64, Vec<f64>), String> {
-        let found = self.at(z, true)?;
-        let value = self.value_of(&found)?;
-        let gradient = found.gradients.get(self.place).cloned().flatten();
+        let realisation = self.at(z, true)?;
+        let value = self.value_of(&realisation)?;
+        let gradient = realisation.gradients.get(self.place).cloned().flatten();
         let gradient = gradient.ok_or("the response has no derivatives there")?;
         let design = self.deviations.design(z);
         let (low, high) = self.band(&design);
@@ -88,11 +88,11 @@ impl<'a> LimitAt<'a> {
     fn at(&self, z: &[f64], slopes: bool) -> Result<Realisation, String> {
         let design = self.deviations.design(z);
         let mut room = self.room.borrow_mut();
-        let found = match slopes {
+        let realisation = match slopes {
             true => self.responses.with_gradients(&mut room, &design),
             false => self.responses.at(&mut room, &design),
         };
-        found.map_err(|error| error.to_string())
+        realisation.map_err(|error| error.to_string())
     }
 
     fn value_of(&self, realisation: &Realisation) -> Result<f64, String> {

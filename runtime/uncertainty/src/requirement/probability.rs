@@ -22,7 +22,7 @@ const NEGLIGIBLE: f64 = 1e-12;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Found {
+pub enum EstimatedBy {
     /// By design points, which describe the failure as lines of designs confirm. The number is that of the lines; what
     /// the design points say of it ([`Probabilities::reliability`]) can be relied on: importance and derivatives.
     DesignPoint,
@@ -44,7 +44,7 @@ pub struct FailureProbability {
     /// Probability that a design lacks the response needed to tell; such designs do not count as failures.
     pub untold: f64,
     /// How it was found.
-    pub by: Found,
+    pub by: EstimatedBy,
     /// Number of designs solved for it, those of the search for design points not counted.
     pub designs: u64,
 }
@@ -56,8 +56,8 @@ impl FailureProbability {
             interval: judged.interval(),
             untold: judged.untold.value.min(1.0),
             by: match described {
-                true => Found::DesignPoint,
-                false => Found::Lines,
+                true => EstimatedBy::DesignPoint,
+                false => EstimatedBy::Lines,
             },
             designs: judged.designs,
         }
@@ -78,7 +78,7 @@ impl FailureProbability {
             value: tally.failure(),
             interval: tally.clopper_pearson(CONFIDENCE)?,
             untold: tally.untold as f64 / samples as f64,
-            by: Found::Samples,
+            by: EstimatedBy::Samples,
             designs: samples as u64,
         })
     }
@@ -127,9 +127,9 @@ impl Requirements<'_> {
         let mut reliability = None;
         let mut judgements: Vec<(Judgement, bool)> = Vec::new();
         if continuous {
-            let mut found = reliability_of(self, deviations, &FormSettings::default())?;
-            judgements = judge_requirements(self, sampling.samples as u64, &mut found)?;
-            reliability = (!found.limits.is_empty()).then_some(found);
+            let mut form = reliability_of(self, deviations, &FormSettings::default())?;
+            judgements = judge_requirements(self, sampling.samples as u64, &mut form)?;
+            reliability = (!form.limits.is_empty()).then_some(form);
         }
         let settled = |index: usize| {
             let (judgement, described) = judgements.get(index)?;
@@ -137,7 +137,7 @@ impl Requirements<'_> {
             Some(FailureProbability::of_lines(judged, *described))
         };
         let count = self.wanted().len();
-        let sharp = |place| settled(place).is_some_and(|found| found.is_sharp());
+        let sharp = |index| settled(index).is_some_and(|chance| chance.is_sharp());
         // Of lines, which are weighted, it cannot be said that none of their designs has a response.
         let chances = match (0..=count).all(sharp) && self.nominal_has_all() {
             true => None,
@@ -158,8 +158,8 @@ impl Requirements<'_> {
         let nothing = |(failure_probability, tally): (&FailureProbability, &Tally)| {
             failure_probability.value <= NEGLIGIBLE && tally.untold == tally.samples()
         };
-        if let Some(place) = each.iter().zip(sampled).position(nothing) {
-            return Err(self.untold(place));
+        if let Some(index) = each.iter().zip(sampled).position(nothing) {
+            return Err(self.untold(index));
         }
         Ok(Probabilities {
             wanted: self.wanted().to_vec(),

@@ -144,8 +144,8 @@ impl Requirements<'_> {
             };
             let chunks = number.div_ceil(CHUNK) as usize;
             for part in pool::run(sampling.threads, size, chunks, || (), piece)? {
-                let (part, own) = part?;
-                counts.merge(&own);
+                let (part, part_counts) = part?;
+                counts.merge(&part_counts);
                 match &mut sums {
                     Some(sums) => sums.join(&part),
                     None => sums = Some(part),
@@ -217,10 +217,10 @@ impl LimitState for Whole<'_> {
     fn value(&self, z: &[f64]) -> Result<f64, String> {
         let design = self.requirements.deviations().design(z);
         let responses = self.requirements.responses();
-        let found = responses.at(&mut self.room.borrow_mut(), &design);
-        let found = found.map_err(|error| error.to_string())?;
-        self.count(found.outcome);
-        match all_met(&self.requirements.each_met(&design, &found)) {
+        let realisation = responses.at(&mut self.room.borrow_mut(), &design);
+        let realisation = realisation.map_err(|error| error.to_string())?;
+        self.count(realisation.outcome);
+        match all_met(&self.requirements.each_met(&design, &realisation)) {
             Some(true) => Ok(1.0),
             Some(false) => Ok(-1.0),
             None => Err("the design has no response to tell".to_owned()),

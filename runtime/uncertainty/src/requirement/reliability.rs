@@ -177,13 +177,13 @@ pub(crate) fn reliability_of(
 ) -> Result<Reliability, Error> {
     let state = requirements.responses().nominal();
     let limits = requirements.limits();
-    let found = limits.iter().map(|limit| LimitReliability {
+    let each = limits.iter().map(|limit| LimitReliability {
         requirement: limit.requirement,
         limit: limit.alone,
         design_points: design_points(requirements, deviations, limit, settings),
         judgement: Judgement::Open(Unjudged::NotAsked),
     });
-    let limit_reliabilities: Vec<LimitReliability> = found.collect();
+    let limit_reliabilities: Vec<LimitReliability> = each.collect();
     requirements.responses().go_on()?;
     let has_limit = |k: &usize| limits.iter().any(|limit| limit.requirement == *k);
     Ok(Reliability {
@@ -313,14 +313,18 @@ pub(super) fn judge_requirements(
     let mut judgements = Vec::with_capacity(count + 1);
     for k in 0..count {
         let limits = reliability.limits.iter().zip(&all);
-        let own: Vec<_> = limits.filter(|(x, _)| x.requirement == k).collect();
-        let described = !own.is_empty() && own.iter().all(|(x, _)| x.described());
-        let judgement = match &own[..] {
+        let of_requirement: Vec<_> = limits.filter(|(x, _)| x.requirement == k).collect();
+        let described =
+            !of_requirement.is_empty() && of_requirement.iter().all(|(x, _)| x.described());
+        let judgement = match &of_requirement[..] {
             [(only, _)] => only.judgement,
             _ => {
-                let lines = about.together(own.iter().map(|(_, lines)| *lines), own.is_empty());
-                about.event(&lines, &|design, found| {
-                    requirements.distances(design, found)[k]
+                let lines = about.together(
+                    of_requirement.iter().map(|(_, lines)| *lines),
+                    of_requirement.is_empty(),
+                );
+                about.event(&lines, &|design, realisation| {
+                    requirements.distances(design, realisation)[k]
                 })?
             }
         };
@@ -359,11 +363,19 @@ impl<'a> About<'a> {
         let mut all = Vec::new();
         let limits = self.requirements.limits();
         let responses = self.requirements.responses();
-        for (limit, Limit { place, alone, .. }) in reliability.limits.iter_mut().zip(limits) {
+        for (
+            limit,
+            Limit {
+                place: index,
+                alone,
+                ..
+            },
+        ) in reliability.limits.iter_mut().zip(limits)
+        {
             let mut lines = Lines {
                 worth: self.worth,
                 effort: EFFORT,
-                ..lines(self.requirements, self.deviations, place, limit)
+                ..lines(self.requirements, self.deviations, index, limit)
             };
             if alone.response().is_some_and(Response::of_state) {
                 let known = limit
@@ -377,9 +389,9 @@ impl<'a> About<'a> {
                 };
                 lines.directions.extend(self.unstable_within(farthest));
             }
-            limit.judgement = self.event(&lines, &|design, found| {
-                let value = found.values.get(place).copied().flatten();
-                alone.distance(responses, design, found.outcome, value)
+            limit.judgement = self.event(&lines, &|design, realisation| {
+                let value = realisation.values.get(index).copied().flatten();
+                alone.distance(responses, design, realisation.outcome, value)
             })?;
             let described = limit.described();
             for point in limit.design_points.iter_mut().flatten() {
@@ -393,8 +405,8 @@ impl<'a> About<'a> {
     /// Judges all requirements together.
     fn judge_any(&self, reliability: &Reliability, all: Vec<Lines>) -> Result<Judgement, Error> {
         let lines = self.together(all.iter(), !reliability.left_out.is_empty());
-        self.event(&lines, &|design, found| {
-            least(&self.requirements.distances(design, found))
+        self.event(&lines, &|design, realisation| {
+            least(&self.requirements.distances(design, realisation))
         })
     }
 
@@ -409,8 +421,8 @@ impl<'a> About<'a> {
             worth: self.worth,
             effort: EFFORT,
         };
-        for own in all {
-            lines.directions.extend(own.directions.iter().cloned());
+        for part in all {
+            lines.directions.extend(part.directions.iter().cloned());
         }
         if stability {
             lines.directions.extend(self.unstable_within(f64::INFINITY));

@@ -83,15 +83,15 @@ impl<'a> Requirements<'a> {
 
     /// The limits of failure, in the order of the requirements.
     pub(crate) fn limits(&self) -> Vec<Limit> {
-        let mut place = 0;
+        let mut index = 0;
         let mut limits = Vec::new();
         for (requirement, wanted) in self.wanted.iter().enumerate() {
             limits.extend(wanted.limits().into_iter().map(|alone| Limit {
                 requirement,
-                place,
+                place: index,
                 alone,
             }));
-            place += usize::from(wanted.response().is_some());
+            index += usize::from(wanted.response().is_some());
         }
         limits
     }

@@ -166,8 +166,8 @@ impl Summary {
     fn damping_ratios(&self, said: &mut Findings) {
         let rows = self.rows();
         let moved = rows.iter().filter_map(|row| {
-            let own = row.first.damping_ratio().filter(|_| row.alone)?;
-            (spread_of(&own) != 0.0).then_some((row, own))
+            let ratio = row.first.damping_ratio().filter(|_| row.alone)?;
+            (spread_of(&ratio) != 0.0).then_some((row, ratio))
         });
         let moved: Vec<_> = moved.collect();
         let mut table = Columns::new("damping ratios", &moved);

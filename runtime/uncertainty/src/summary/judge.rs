@@ -1,7 +1,7 @@
 //! The verdict on a mode, from samples, distances and the second-order model.
 
 use super::chances::Sampling;
-use super::sampled::{FEWEST, Finding, Found, Prediction, ROUNDING, finding};
+use super::sampled::{FEWEST, Finding, Prediction, ROUNDING, SampledChecks, finding};
 use super::verdict::{Advice, Check, Trust};
 use crate::clusters::ClusterTolerance;
 use crate::judge::{Doubt, Measured, TRUSTED_SIGMA_ERROR};
@@ -42,9 +42,9 @@ struct Findings {
 impl<'a> Judge<'a> {
     /// The predictions that samples are to check: for modes that have a frequency of their own, or would have one
     /// beside a critical state.
-    pub(super) fn predictions(&self, mode: usize, own: &Mode) -> Vec<Prediction<'a>> {
-        let oscillates = own.frequency().is_some();
-        let critical = own.behaviour == Behaviour::Neutral;
+    pub(super) fn predictions(&self, mode: usize, eigenmode: &Mode) -> Vec<Prediction<'a>> {
+        let oscillates = eigenmode.frequency().is_some();
+        let critical = eigenmode.behaviour == Behaviour::Neutral;
         if !self.may_be_separate(mode) || !(oscillates || critical) {
             return Vec::new();
         }
@@ -57,26 +57,26 @@ impl<'a> Judge<'a> {
         let prediction = |(quantity, size)| Prediction {
             mode,
             quantity,
-            nominal: quantity.of(own).unwrap_or(0.0),
+            nominal: quantity.of(eigenmode).unwrap_or(0.0),
             size,
             sigma: first.of(quantity).map_or(0.0, |spread| spread.sigma),
             slopes: first.of(quantity).map(|spread| spread.by_design),
             second: second.map(|second| &*second_spread_of(second, quantity).model),
             doubtful: distance < DOUBTFUL_DISTANCE || self.cluster(mode).is_some(),
         };
-        quantities(own).into_iter().map(prediction).collect()
+        quantities(eigenmode).into_iter().map(prediction).collect()
     }
 
     /// The verdict on a mode.
     pub(super) fn verdict(
         &self,
         mode: usize,
-        own: &Mode,
+        eigenmode: &Mode,
         predictions: &[Prediction<'_>],
-        found: &Found,
+        samples: &SampledChecks,
     ) -> Trust {
-        let said = self.findings(mode, own, predictions, found);
-        let mut doubts = self.doubts(mode, own, &said);
+        let said = self.findings(mode, eigenmode, predictions, samples);
+        let mut doubts = self.doubts(mode, eigenmode, &said);
         for (quantity, error, finding) in said.errors {
             if finding == Finding::Wrong {
                 doubts.push(Doubt::Inaccurate { quantity, error });
@@ -98,9 +98,9 @@ impl<'a> Judge<'a> {
     fn findings(
         &self,
         mode: usize,
-        own: &Mode,
+        eigenmode: &Mode,
         predictions: &[Prediction<'_>],
-        found: &Found,
+        found: &SampledChecks,
     ) -> Findings {
         let Sampling::Done(sampled) = &found.sampling else {
             return Findings::default();
@@ -135,7 +135,7 @@ impl<'a> Judge<'a> {
                 said.right = check.is_some_and(|check| check.first_order_error.is_some())
                     || (check.is_none() && still && count >= FEWEST);
             }
-            if own.frequency().is_some() && 2 * count < sampled.samples {
+            if eigenmode.frequency().is_some() && 2 * count < sampled.samples {
                 said.missing = Some(Doubt::Missing {
                     quantity,
                     count,
@@ -153,7 +153,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Doubts from distances and the second-order model, given that samples found the mode wrong, right, or undecided.
-    fn doubts(&self, mode: usize, own: &Mode, said: &Findings) -> Vec<Doubt> {
+    fn doubts(&self, mode: usize, eigenmode: &Mode, said: &Findings) -> Vec<Doubt> {
         let cluster = (self.cluster(mode)).filter(|_| !(said.separate && said.right));
         let mut doubts = self.first.doubts(mode);
         doubts.retain(|doubt| match doubt {
@@ -175,15 +175,15 @@ impl<'a> Judge<'a> {
                     defective: cluster.defective(),
                 },
             };
-            let place = doubts
+            let leading = doubts
                 .iter()
                 .take_while(|doubt| **doubt == Doubt::NoFrequency);
-            doubts.insert(place.count(), clustered);
+            doubts.insert(leading.count(), clustered);
         }
         let decided = said.wrong || said.right;
-        let open = !decided && cluster.is_none() && own.frequency().is_some();
+        let open = !decided && cluster.is_none() && eigenmode.frequency().is_some();
         if open && !expanded_near_a_root(&doubts) {
-            self.check_by_second_order(mode, own, &mut doubts);
+            self.check_by_second_order(mode, eigenmode, &mut doubts);
         }
         doubts
     }
@@ -230,7 +230,7 @@ impl<'a> Judge<'a> {
         })
     }
 
-    fn check_by_second_order(&self, mode: usize, own: &Mode, doubts: &mut Vec<Doubt>) {
+    fn check_by_second_order(&self, mode: usize, eigenmode: &Mode, doubts: &mut Vec<Doubt>) {
         let second = match &self.second.modes[mode] {
             Ok(second) => second,
             Err(reason) => {
@@ -239,7 +239,7 @@ impl<'a> Judge<'a> {
                 return;
             }
         };
-        for (quantity, size) in quantities(own) {
+        for (quantity, size) in quantities(eigenmode) {
             let spread = second_spread_of(second, quantity);
             let sigma_error = spread.nonlinearity.sigma_error();
             if spread.moments.sigma > ROUNDING * size && sigma_error > TRUSTED_SIGMA_ERROR {

@@ -71,8 +71,8 @@ impl Summary {
     #[must_use]
     pub fn cluster_of(&self, mode: usize) -> Option<&ClusterTolerance> {
         let mut all = self.clusters.iter();
-        let own = all.find(|cluster| cluster.modes.contains(&mode))?;
-        (self.trust.get(mode)?.doubts.iter().any(Doubt::shared)).then_some(own)
+        let cluster = all.find(|cluster| cluster.modes.contains(&mode))?;
+        (self.trust.get(mode)?.doubts.iter().any(Doubt::shared)).then_some(cluster)
     }
 
     /// The second-order standard deviation of a frequency, rad/s; `None` if there is none, or if it is meaningless
@@ -149,8 +149,8 @@ pub fn summary_watched(
         second: &summary.second,
         clusters: &summary.clusters,
     };
-    let own = || modes.modes.iter().enumerate();
-    let predictions: Vec<Prediction<'_>> = own()
+    let numbered = || modes.modes.iter().enumerate();
+    let predictions: Vec<Prediction<'_>> = numbered()
         .flat_map(|(mode, x)| judge.predictions(mode, x))
         .collect();
     let about = About {
@@ -163,10 +163,10 @@ pub fn summary_watched(
     let groups: Vec<&[usize]> = (summary.clusters.iter())
         .map(|cluster| &cluster.modes[..])
         .collect();
-    let found = about.sample(&predictions, &groups, budget)?;
-    let trust = own()
-        .map(|(mode, x)| judge.verdict(mode, x, &predictions, &found))
+    let sampled = about.sample(&predictions, &groups, budget)?;
+    let trust = numbered()
+        .map(|(mode, x)| judge.verdict(mode, x, &predictions, &sampled))
         .collect();
-    (summary.trust, summary.sampling) = (trust, found.sampling);
+    (summary.trust, summary.sampling) = (trust, sampled.sampling);
     Ok(summary)
 }

@@ -171,8 +171,8 @@ mod tests {
         let mean = means.iter().sum::<f64>() / GROUPS as f64;
         let squares: f64 = means.iter().map(|x| (x - mean).powi(2)).sum();
         let expected = (squares / (GROUPS * (GROUPS - 1)) as f64).sqrt();
-        let found = measured.map(|found| (found.value / mean, found.standard_error / expected));
-        assert!(found.is_some_and(|(a, b)| (a - 1.0).abs() < 1e-12 && (b - 1.0).abs() < 1e-9));
+        let ratios = measured.map(|found| (found.value / mean, found.standard_error / expected));
+        assert!(ratios.is_some_and(|(a, b)| (a - 1.0).abs() < 1e-12 && (b - 1.0).abs() < 1e-9));
     }
 
     #[test]

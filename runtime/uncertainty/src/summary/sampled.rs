@@ -58,7 +58,7 @@ pub(super) struct About<'a> {
 }
 
 /// The result: a check of each prediction for which there are enough values, and the number of values.
-pub(super) struct Found {
+pub(super) struct SampledChecks {
     pub(super) checks: Vec<Option<Check>>,
     pub(super) counts: Vec<usize>,
     /// For each group, the number of samples in which its modes are not in nominal order.
@@ -73,10 +73,10 @@ impl About<'_> {
         predictions: &[Prediction<'_>],
         groups: &[&[usize]],
         budget: f64,
-    ) -> Result<Found, Error> {
+    ) -> Result<SampledChecks, Error> {
         let mut exchanged = vec![0; groups.len()];
         let mut pairs = vec![Paired::new(); predictions.len()];
-        let found = |pairs: &[Paired], exchanged, sampling| Found {
+        let outcome = |pairs: &[Paired], exchanged, sampling| SampledChecks {
             exchanged,
             checks: (predictions.iter().zip(pairs))
                 .map(|(prediction, paired)| check(prediction, paired))
@@ -85,7 +85,7 @@ impl About<'_> {
             sampling,
         };
         if predictions.is_empty() || !self.tolerances.vary() {
-            return Ok(found(&pairs, exchanged, Sampling::NotNeeded));
+            return Ok(outcome(&pairs, exchanged, Sampling::NotNeeded));
         }
         let mut each = operations(self.modes, together(self.modes));
         let mut counts = Counts::default();
@@ -130,8 +130,8 @@ impl About<'_> {
                 } else {
                     DECISIVE
                 };
-                let found = check(prediction, paired);
-                found.is_some_and(|check| stage < decisive || !decided(&check))
+                let checked = check(prediction, paired);
+                checked.is_some_and(|check| stage < decisive || !decided(&check))
             };
             if !predictions.iter().zip(&pairs).any(open) {
                 break;
@@ -140,7 +140,7 @@ impl About<'_> {
         let samples = counts.total();
         if samples == 0 {
             let operations = DECISIVE as f64 * each;
-            return Ok(found(
+            return Ok(outcome(
                 &pairs,
                 exchanged,
                 Sampling::TooDear { operations, budget },
@@ -150,7 +150,7 @@ impl About<'_> {
             .then(|| Chance::new(elsewhere, samples))
             .transpose()?;
         let sampled = Sampled::new(&counts, other_branch)?;
-        Ok(found(&pairs, exchanged, Sampling::Done(sampled)))
+        Ok(outcome(&pairs, exchanged, Sampling::Done(sampled)))
     }
 
     fn look_at(&self, sample: &Sample, predictions: &[Prediction<'_>], pairs: &mut [Paired]) {
@@ -162,13 +162,17 @@ impl About<'_> {
                 Quantity::DampingRatio => &sample.damping_ratios,
                 _ => &sample.frequencies,
             };
-            let found = values.get(prediction.mode).copied().flatten();
-            let found = found.filter(|_| sample.outcome == Outcome::from(self.at.stability));
+            let observed = values.get(prediction.mode).copied().flatten();
+            let observed = observed.filter(|_| sample.outcome == Outcome::from(self.at.stability));
             let first = prediction.slopes.as_ref().map_or(0.0, |slopes| {
                 slopes.iter().zip(&change).map(|(slope, x)| slope * x).sum()
             });
             let second = prediction.second.map_or(0.0, |model| model.change(&change));
-            paired.add(found.map(|value| value - prediction.nominal), first, second);
+            paired.add(
+                observed.map(|value| value - prediction.nominal),
+                first,
+                second,
+            );
         }
     }
 
@@ -178,10 +182,11 @@ impl About<'_> {
             let nominal = self.modes.modes.get(*mode)?.frequency().unwrap_or(0.0);
             Some((nominal, sample.frequencies.get(*mode).copied().flatten()?))
         };
-        let found: Vec<(f64, f64)> = group.iter().filter_map(both).collect();
-        let pairs = (0..found.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        let turned =
-            |(i, j): (usize, usize)| (found[i].0 < found[j].0) != (found[i].1 < found[j].1);
+        let frequencies: Vec<(f64, f64)> = group.iter().filter_map(both).collect();
+        let pairs = (0..frequencies.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let turned = |(i, j): (usize, usize)| {
+            (frequencies[i].0 < frequencies[j].0) != (frequencies[i].1 < frequencies[j].1)
+        };
         !pairs.into_iter().any(turned)
     }
 }

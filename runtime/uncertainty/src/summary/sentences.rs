@@ -93,17 +93,17 @@ impl Summary {
         let all = [Advice::FirstOrder, Advice::SecondOrder, Advice::Sampling];
         let sentence = |advice: Advice| {
             let oscillates = |trust: &&Trust| !trust.doubts.contains(&Doubt::NoFrequency);
-            let own = || {
+            let advised = || {
                 let all = self.trust.iter().filter(oscillates);
                 all.filter(|x| x.advice == advice)
             };
-            let modes: Vec<usize> = own().map(|x| x.mode).collect();
+            let modes: Vec<usize> = advised().map(|x| x.mode).collect();
             let (news, text) = match advice {
                 Advice::FirstOrder => (
                     News::Good,
                     format!(
                         "nothing contradicts the first-order sigma{}.",
-                        confirmed(own().flat_map(|own| &own.checks))
+                        confirmed(advised().flat_map(|advised| &advised.checks))
                     ),
                 ),
                 Advice::SecondOrder => (
@@ -122,8 +122,8 @@ impl Summary {
     fn displaced(&self) -> Vec<String> {
         let modes = self.first.modes.iter().enumerate();
         let sentence = |(r, mode): (usize, &ModeTolerance)| {
-            let (nominal, own) = (mode.behaviour.frequency()?, mode.frequency()?);
-            let sigmas = (own.mean - nominal) / own.sigma;
+            let (nominal, spread) = (mode.behaviour.frequency()?, mode.frequency()?);
+            let sigmas = (spread.mean - nominal) / spread.sigma;
             let counts = self.cluster_of(r).is_none() && sigmas.abs() > NOTICED;
             let side = if sigmas > 0.0 { "above" } else { "below" };
             counts.then(|| {
@@ -131,7 +131,7 @@ impl Summary {
                     "Mode {}: the mean frequency is {} rad/s, {} sigma {side} the nominal one: the limits of a variable \
                      are not centred on its nominal value.",
                     r + 1,
-                    number(own.mean),
+                    number(spread.mean),
                     short(sigmas.abs())
                 )
             })
@@ -213,15 +213,15 @@ fn measured(mode: usize, check: &Check, converges: bool) -> String {
 }
 
 /// A probability with its interval; `None` if the event occurred in no sample.
-fn chance(name: &str, own: Chance) -> Option<String> {
+fn chance(name: &str, estimate: Chance) -> Option<String> {
     let percent = |share: f64| format!("{:.3}", 100.0 * share);
-    (own.count > 0).then(|| {
+    (estimate.count > 0).then(|| {
         format!(
             "{name}: {} % of {} samples (95 %: {} to {} %).",
-            percent(own.value()),
-            own.samples,
-            percent(own.lower),
-            percent(own.upper)
+            percent(estimate.value()),
+            estimate.samples,
+            percent(estimate.lower),
+            percent(estimate.upper)
         )
     })
 }

@@ -64,9 +64,9 @@ fn turned(
 ) -> Vec<(CoordinateId, f64)> {
     let n = context.symbols.q.ids.len();
     let mut turning = Vec::new();
-    for (place, id) in running(context) {
+    for (index, id) in running(context) {
         let drive = &context.mechanism.coordinates[id.index()].name;
-        let symbol = context.symbols.running.ids[place];
+        let symbol = context.symbols.running.ids[index];
         let signs = [0.0, 1.0, -1.0];
         // forces that vanish turn in every direction: then the outputs say which
         let find = |g: &mut Graph, end: usize| {
@@ -85,8 +85,8 @@ fn turned(
             return Vec::new();
         };
         for (k, output) in context.mechanism.outputs.iter().enumerate() {
-            let own = n + k..n + k + 1;
-            if both.is_none() && !turns(g, context, response, (symbol, s), own) {
+            let row = n + k..n + k + 1;
+            if both.is_none() && !turns(g, context, response, (symbol, s), row) {
                 turns_itself(&output.name, drive, mistakes);
             }
         }
@@ -193,8 +193,8 @@ fn unturned(
     response: &Response,
     mistakes: &mut Diagnostics,
 ) {
-    for (place, id) in running(context) {
-        let symbol = context.symbols.running.ids[place];
+    for (index, id) in running(context) {
+        let symbol = context.symbols.running.ids[index];
         let all = response.by.concat();
         let change = by_symbol(g, &all, symbol);
         if vanish(g, context, &change).into_iter().any(|zero| !zero) {
@@ -220,7 +220,7 @@ fn steady_outputs(g: &mut Graph, context: &Context, mistakes: &mut Diagnostics) 
     let values = outputs(g, context, running_values, &kinematics);
     let by_velocity = columns(g, &values, &symbols.velocity);
     let by_acceleration = columns(g, &values, &symbols.acceleration);
-    for (place, id) in running(context) {
+    for (index, id) in running(context) {
         for (k, output) in context.mechanism.outputs.iter().enumerate() {
             let rates: Vec<ExprId> = by_velocity
                 .iter()
@@ -228,7 +228,7 @@ fn steady_outputs(g: &mut Graph, context: &Context, mistakes: &mut Diagnostics) 
                 .map(|column| column[k])
                 .collect();
             let rates = at_rest(g, symbols, &rates);
-            let change = by_symbol(g, &rates, symbols.running.ids[place]);
+            let change = by_symbol(g, &rates, symbols.running.ids[index]);
             if vanish(g, context, &change).into_iter().any(|zero| !zero) {
                 let drive = &context.mechanism.coordinates[id.index()].name;
                 turns_itself(&output.name, drive, mistakes);

@@ -199,13 +199,13 @@ fn bent_beams(
         let Expr::Bent(point, component) = leaf else {
             continue;
         };
-        let own = &mut all[point.index()];
+        let values = &mut all[point.index()];
         match component / 3 {
-            0 | 1 => own[..6].copy_from_slice(&bent_at(g, context, *point)),
-            2 => own[6..9].copy_from_slice(&strained_at(g, context, *point)),
+            0 | 1 => values[..6].copy_from_slice(&bent_at(g, context, *point)),
+            2 => values[6..9].copy_from_slice(&strained_at(g, context, *point)),
             _ => {
                 let force = force_inside(g, context, kinematics, (*point, carried));
-                own[9..].copy_from_slice(&force.0);
+                values[9..].copy_from_slice(&force.0);
             }
         }
     }
@@ -227,11 +227,11 @@ fn force_inside(
     };
     let axes = kinematics.of(body).frame.orientation.axes.transpose();
     let force = axes.apply(g, carried[body.index()].force).neg(g);
-    let own = beam
+    let beam_axes = beam
         .axes
         .each_ref()
         .map(|axis| context.values.vector(g, axis));
-    Vector3(own.map(|axis| axis.dot(g, force)))
+    Vector3(beam_axes.map(|axis| axis.dot(g, force)))
 }
 
 /// What each force element exerts; only where an output asks for it, zeros elsewhere.

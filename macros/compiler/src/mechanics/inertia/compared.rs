@@ -37,10 +37,10 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
     let mut exact = columns(g, &along, &symbols.q).concat();
     exact.extend(columns(g, &along, &symbols.velocity).concat());
     let by_acceleration = columns(g, &along, &symbols.acceleration).concat();
-    let found = [variation.by_position, variation.by_velocity, variation.mass]
+    let blocks = [variation.by_position, variation.by_velocity, variation.mass]
         .map(|matrix| matrix.concat());
-    let found = found.concat();
-    let pairs = exact.iter().chain(&by_acceleration).zip(&found);
+    let entries = blocks.concat();
+    let pairs = exact.iter().chain(&by_acceleration).zip(&entries);
     let differences: Vec<ExprId> = pairs.map(|(&one, &other)| g.sub(one, other)).collect();
     let evaluator = Evaluator::new(g, &differences);
     assert!(probe(&evaluator, &context).next().is_some());

@@ -108,15 +108,15 @@ impl BeamInertia {
                 continue;
             }
             let share = g.scale(*weight, length);
-            let own = g.mul(masses[k], share);
-            let by_length = g.mul(own, length);
+            let mass = g.mul(masses[k], share);
+            let by_length = g.mul(mass, length);
             let mut row: Vec<ExprId> = reach[k].iter().map(|x| g.scale(*x, by_length)).collect();
             row.resize(this.first.len(), zero);
             for (others, second) in this.second.iter_mut().zip(&row) {
                 others.push(*second);
             }
-            row.push(own);
-            this.first.push(own);
+            row.push(mass);
+            this.first.push(mass);
             this.second.push(row);
         }
         for (_, weight, section) in &beam.sections {
@@ -132,8 +132,8 @@ impl BeamInertia {
             this.spin.push(momentum);
             let about = [about_y, about_z].map(|x| g.mul(share, x));
             let [yy, yz, zz] = turned(g, about, twist);
-            let own = [[inertia, zero, zero], [zero, yy, yz], [zero, yz, zz]];
-            let along_root = curved(g, values, section).turn_symmetric(g, own);
+            let tensor = [[inertia, zero, zero], [zero, yy, yz], [zero, yz, zz]];
+            let along_root = curved(g, values, section).turn_symmetric(g, tensor);
             this.turning.push(Matrix3(along_root.map(Vector3)));
         }
         this
@@ -156,9 +156,11 @@ impl BeamInertia {
         let speed = v.dot(g, v);
         let mut terms = vec![g.mul(self.mass, speed), self.energy_of_spin];
         let momenta = self.momenta(g, motion);
-        for ((section, momentum), &own) in motion.sections.iter().zip(momenta).zip(&self.spin) {
+        for ((section, momentum), &spin_momentum) in
+            motion.sections.iter().zip(momenta).zip(&self.spin)
+        {
             terms.push(section.spin.dot(g, momentum));
-            terms.push(g.mul(own, section.spin.0[0]));
+            terms.push(g.mul(spin_momentum, section.spin.0[0]));
         }
         let arms = motion.arms().zip(&self.first);
         for (((_, arm), first), second) in arms.zip(&self.second) {
@@ -286,8 +288,8 @@ impl BeamLoad {
         let zero = g.zero();
         let rate_of = |row: &Option<usize>| row.map_or(zero, |row| rates[row]);
         let mut terms = Vec::new();
-        for ((_, own), force) in motion.arms().zip(&self.on_arms) {
-            terms.push(own.power(g, *force, &direction));
+        for ((_, arm), force) in motion.arms().zip(&self.on_arms) {
+            terms.push(arm.power(g, *force, &direction));
         }
         let turns = motion.sections.iter().zip(&rows.rotations);
         for ((section, rows), moment) in turns.zip(&self.of_sections) {

@@ -255,7 +255,7 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
             mass: composites.whole[index],
             momentum: momenta[index],
         };
-        for (place, step) in steps[index].iter().enumerate() {
+        for (position, step) in steps[index].iter().enumerate() {
             let carried = &composites.carried[index];
             let load = accelerating(g, &step.axis, &bodies[index], frame, carried);
             let mut asks = Change {
@@ -269,7 +269,7 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
             let mut loads = [further.add(g, turned), whole.wrench(g, &step.faster)];
             this.by_position[step.unknown][step.unknown] = asks.dot(g, &step.further);
             this.by_velocity[step.unknown][step.unknown] = asks.dot(g, &step.faster);
-            this.meet(g, step, &steps[index][..place], &asks, &loads);
+            this.meet(g, step, &steps[index][..position], &asks, &loads);
 
             let mut at = *branch;
             while let Frame::Body(parent) = at.parent {

@@ -99,9 +99,9 @@ fn speed(g: &mut Graph, context: &Context, id: CoordinateId) -> ExprId {
     match &context.mechanism.coordinates[id.index()].motion {
         Motion::Driven(speed) => context.values.scalar(g, speed),
         Motion::Coasting => {
-            let place = context.topology.coasting.iter().position(|x| *x == id);
-            let place = context.moving().0 + place.unwrap_or_default();
-            context.symbols.q.values[place]
+            let index = context.topology.coasting.iter().position(|x| *x == id);
+            let index = context.moving().0 + index.unwrap_or_default();
+            context.symbols.q.values[index]
         }
         Motion::Free => g.zero(),
     }

@@ -180,9 +180,9 @@ impl<'a> Numbers<'a> {
         self.section(g, (root.position, axes), &beam.root);
         let length = values.scalar(g, &beam.length);
         let rule = beam.quadrature();
-        for ((place, _, section), bent) in beam.sections.iter().zip(&motion.sections) {
+        for ((fraction, _, section), bent) in beam.sections.iter().zip(&motion.sections) {
             let mut position = root.position;
-            for (direction, share) in motion.directions.iter().zip(rule.integrals_to(*place)) {
+            for (direction, share) in motion.directions.iter().zip(rule.integrals_to(*fraction)) {
                 let reach = g.scale(share, length);
                 let arm = direction.vector.scale(g, reach);
                 position = position.add(g, arm);
@@ -241,8 +241,8 @@ impl<'a> Numbers<'a> {
         } = part;
         let (offset, rotation) = self.values.placement(g, placement);
         let center = self.values.vector(g, shape.reduced().center);
-        let place = turned(g, rotation, center).add(g, offset);
-        self.vector(place);
+        let position = turned(g, rotation, center).add(g, offset);
+        self.vector(position);
         let direction = |numbers: &mut Self, g: &mut Graph, direction: &Vector| {
             let direction = numbers.values.vector(g, direction);
             let direction = turned(g, rotation, direction);
@@ -383,7 +383,7 @@ impl<'a> Numbers<'a> {
         let unknown = (0..).zip(self.all.iter().zip(known));
         let (computed, values) = unknown
             .filter(|(_, (_, known))| known.is_none())
-            .map(|(place, (value, _))| (place, value))
+            .map(|(index, (value, _))| (index, value))
             .unzip();
         (numbers, computed, values)
     }

@@ -108,8 +108,8 @@ fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
     }
     let first = context.mechanism.bodies.len();
     for (index, slice) in (first..).zip(&slices) {
-        let own = slice.axis.scale(g, slice.spin);
-        let omega = spins[index][1].add(g, own);
+        let spin = slice.axis.scale(g, slice.spin);
+        let omega = spins[index][1].add(g, spin);
         if omega.is_zero(g) {
             continue;
         }
@@ -149,7 +149,7 @@ fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) ->
     let sections = beam.sections.iter().zip(&motion.sections);
     sections
         .enumerate()
-        .map(|(k, ((place, weight, section), moving))| {
+        .map(|(k, ((fraction, weight, section), moving))| {
             let share = g.scale(*weight, length);
             let mass = values.scalar(g, &section.mass);
             let inertia = section
@@ -158,10 +158,10 @@ fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) ->
                 .map(|inertia| values.scalar(g, inertia));
             let polar = g.sum(inertia);
             let mut velocity = moving.frame.velocity;
-            for (direction, reach) in motion.directions.iter().zip(rule.integrals_to(*place)) {
+            for (direction, reach) in motion.directions.iter().zip(rule.integrals_to(*fraction)) {
                 let reach = g.scale(reach, length);
-                let own = direction.rate.scale(g, reach);
-                velocity = velocity.add(g, own);
+                let increment = direction.rate.scale(g, reach);
+                velocity = velocity.add(g, increment);
             }
             for (_, offset) in motion.offsets.iter().filter(|(x, _)| *x == k) {
                 velocity = velocity.add(g, offset.rate);

@@ -37,7 +37,7 @@ impl AppliedForces {
         let root = &kinematics.of(beam.body).frame;
         let length = values.scalar(g, &beam.length);
         let fixed = values.vector(g, load.force);
-        let own = values.vector(g, load.follower);
+        let follower = values.vector(g, load.follower);
         let damping = values.scalar(g, load.damping);
         let rule = beam.quadrature();
         let zero = Vector3::zero(g);
@@ -47,7 +47,7 @@ impl AppliedForces {
         };
         for (a, (&point, &weight)) in rule.points.iter().zip(&rule.weights).enumerate() {
             let share = g.scale(weight, length);
-            let along_root = curved(g, values, &beam.sections[a].2).apply(g, own);
+            let along_root = curved(g, values, &beam.sections[a].2).apply(g, follower);
             let axes = motion.sections[a].frame.orientation.axes;
             let along = axes.apply(g, along_root);
             let mut force = fixed.add(g, along);

@@ -269,9 +269,9 @@ fn resistance(g: &mut Graph, force_context: &ForceContext, force: &Force) -> Opt
     let gap = end.position.sub(g, start.position);
     let displacement = to_axes.apply(g, gap);
     // Seen from `from`, the point of its body at the place of `to` is at rest.
-    let [(carrier, carrier_turn), (own, own_turn)] =
+    let [(carrier, carrier_turn), (absolute, own_turn)] =
         frames.map(|frame| force_context.velocity(g, frame, end.position, closing));
-    let velocity = own.sub(g, carrier);
+    let velocity = absolute.sub(g, carrier);
     let velocity = to_axes.apply(g, velocity);
     let turning = own_turn.sub(g, carrier_turn);
     let turning = to_axes.apply(g, turning);

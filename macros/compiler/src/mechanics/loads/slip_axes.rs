@@ -45,8 +45,8 @@ fn turning(
     let (mut last, mut turning) = (None, None);
     for frame in frames {
         let Frame::Body(body) = frame else { break };
-        let own = force_context.kinematics.of(body);
-        for step in &own.steps {
+        let body_motion = force_context.kinematics.of(body);
+        for step in &body_motion.steps {
             if let Some(axis) = step.turn {
                 let across = axis.cross(g, normal).0;
                 if vanish(g, context, &across).contains(&false) {
@@ -60,7 +60,7 @@ fn turning(
                 }
             }
             let moves = center.is_none_or(|center| {
-                let arm = center.sub(g, own.frame.position);
+                let arm = center.sub(g, body_motion.frame.position);
                 let velocity = step.velocity(g, arm).0;
                 vanish(g, context, &velocity).contains(&false)
             });

@@ -177,9 +177,12 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
         let rows = sections.of(id);
         for (k, (strain, stresses)) in stressed(g, context, id).into_iter().enumerate() {
             let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
-            let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
-            let own: Vec<usize> = own.copied().collect();
-            let ids: Vec<SymbolId> = own.iter().map(|&row| sections.position.ids[row]).collect();
+            let section_rows = lists.into_iter().flat_map(|list| &list[k]).flatten();
+            let section_rows: Vec<usize> = section_rows.copied().collect();
+            let ids: Vec<SymbolId> = section_rows
+                .iter()
+                .map(|&row| sections.position.ids[row])
+                .collect();
             let section = &beam.sections[k].2;
             let twist = context.values.scalar(g, &section.twist);
             let back = g.neg(twist);
@@ -195,7 +198,7 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
                 }
             }
             for (&value, &stress) in strain.values.iter().zip(&stresses).skip(3) {
-                for (&row, slope) in own.iter().zip(gradient(g, value, &ids)) {
+                for (&row, slope) in section_rows.iter().zip(gradient(g, value, &ids)) {
                     let share = g.mul(stress, slope);
                     along[row] = g.add(along[row], share);
                 }
@@ -207,10 +210,10 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
 
 /// Twist rate, curvatures and elastic moment of a beam at a point of it; see [`Expr::Bent`](crate::model::expression::Expr::Bent).
 pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [ExprId; 6] {
-    let Some((beam, place, section)) = context.mechanism.section_at(point) else {
+    let Some((beam, fraction, section)) = context.mechanism.section_at(point) else {
         return [g.zero(); 6];
     };
-    let [turn, slope] = Sections::at(g, context.symbols, context.topology, beam, place);
+    let [turn, slope] = Sections::at(g, context.symbols, context.topology, beam, fraction);
     let values = context.values;
     let length = values.scalar(g, &beam.length);
     let bent = bend(g, Vector3(turn), Vector3(slope));
@@ -238,7 +241,7 @@ pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [Expr
         .map(|stiffness| values.scalar(g, stiffness));
     let curved = motion::curved(g, values, section);
     let [x, y, z] = curved.transpose().apply(g, Vector3([x, y, z])).0;
-    let own = along_own_axes(g, [y, z], twist);
+    let curvatures = along_own_axes(g, [y, z], twist);
     let strains = strained_at(g, context, point);
     let rates = derivatives_along(g, &strains, &moving);
     let [stretch, shear_y, shear_z] = [0, 1, 2].map(|k| {
@@ -246,11 +249,11 @@ pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [Expr
         g.add(strains[k], lagging)
     });
     let [shear_y, shear_z] = along_own_axes(g, [shear_y, shear_z], twist);
-    let all = [x, own[0], own[1], stretch, shear_y, shear_z];
+    let all = [x, curvatures[0], curvatures[1], stretch, shear_y, shear_z];
     let mut moments = [
         g.mul(against_twist, x),
-        g.mul(about_y, own[0]),
-        g.mul(about_z, own[1]),
+        g.mul(about_y, curvatures[0]),
+        g.mul(about_z, curvatures[1]),
     ];
     for (i, j, stiffness) in &section.coupling {
         let stiffness = values.scalar(g, stiffness);

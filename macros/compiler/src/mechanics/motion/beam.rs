@@ -294,17 +294,17 @@ impl SectionMotion {
     /// Power of a moment per unit rate of the angle, or of each component of the Rodrigues vector:
     /// `f (m - turn x m / 2)`.
     pub(crate) fn project(&self, g: &mut Graph, moment: Vector3) -> [ExprId; 3] {
-        let own = self.axes.transpose().apply(g, moment);
+        let local_moment = self.axes.transpose().apply(g, moment);
         match self.turn {
             Turn::Angle(axis) => {
                 let mut powers = [g.zero(); 3];
-                powers[axis] = own.0[axis];
+                powers[axis] = local_moment.0[axis];
                 powers
             }
             Turn::Rodrigues(turn, factor, _) => {
-                let across = turn.cross(g, own);
+                let across = turn.cross(g, local_moment);
                 let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
-                own.sub(g, half).scale(g, factor).0
+                local_moment.sub(g, half).scale(g, factor).0
             }
         }
     }
@@ -347,8 +347,8 @@ fn own_motion(
     (relative, growth): (Vector3, Vector3),
 ) -> (Vector3, Vector3) {
     let [spin, growing] = [root.angular_velocity, root.angular_acceleration].map(|vector| {
-        let own = axes.transpose().apply(g, vector);
-        back(g, own)
+        let local = axes.transpose().apply(g, vector);
+        back(g, local)
     });
     let gyroscopic = spin.cross(g, relative);
     let growth = growing.add(g, growth).add(g, gyroscopic);

@@ -120,11 +120,11 @@ impl Kinematics {
             let name = mechanism.bodies[branch.body.index()].name.to_string();
             let joint = &mechanism.joints[branch.joint.index()];
             let gliding = mechanism.glides(joint);
-            let place = layout.of(branch.body);
+            let body_layout = layout.of(branch.body);
             let walk = (branch.reversed, gliding);
             let motion = match joint.flexure {
-                Some(flexure) => this.station(g, flexure, place, &parent, &name),
-                None => this.body(g, values, joint, walk, place, &parent, &name),
+                Some(flexure) => this.station(g, flexure, body_layout, &parent, &name),
+                None => this.body(g, values, joint, walk, body_layout, &parent, &name),
             };
             if let Some(id) = mechanism.beam(branch.body) {
                 let turns = &turns[id.index()];
@@ -134,9 +134,9 @@ impl Kinematics {
             this.bodies[branch.body.index()] = motion;
         }
         for point in &mechanism.points {
-            let place = this.place(g, values, point.frame, &point.placement);
-            place.position.set_name(g, &point.name.to_string());
-            this.points.push(place);
+            let placed = this.place(g, values, point.frame, &point.placement);
+            placed.position.set_name(g, &point.name.to_string());
+            this.points.push(placed);
         }
         this
     }

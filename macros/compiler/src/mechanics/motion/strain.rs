@@ -52,25 +52,28 @@ pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool
         let sum = g.add(squares[0], squares[1]);
         let half = g.scale(0.5, sum);
         let longer = g.add(one, stretch);
-        let own = Vector3([g.sub(longer, half), across, up]);
+        let tangent = Vector3([g.sub(longer, half), across, up]);
         let section = &context.mechanism.beams[id.index()].sections[k].2;
-        let value = curved(g, context.values, section).apply(g, own);
+        let value = curved(g, context.values, section).apply(g, tangent);
         let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
-        let own = lists.into_iter().flat_map(|list| &list[k]).flatten();
-        let own: Vec<usize> = own.copied().collect();
-        let ids: Vec<SymbolId> = own.iter().map(|&row| sections.position.ids[row]).collect();
+        let section_rows = lists.into_iter().flat_map(|list| &list[k]).flatten();
+        let section_rows: Vec<usize> = section_rows.copied().collect();
+        let ids: Vec<SymbolId> = section_rows
+            .iter()
+            .map(|&row| sections.position.ids[row])
+            .collect();
         let by_component = value.0.map(|component| gradient(g, component, &ids));
-        let slopes = own.iter().enumerate().map(|(i, &row)| {
+        let slopes = section_rows.iter().enumerate().map(|(i, &row)| {
             let slope = Vector3([0, 1, 2].map(|c| by_component[c][i]));
             (row, slope)
         });
         let slopes = slopes.filter(|(_, slope)| !slope.is_zero(g)).collect();
         let (mut rate, mut second) = (zero, zero);
         if moves {
-            let speeds = own
+            let speeds = section_rows
                 .iter()
                 .map(|&row| (sections.position.ids[row], sections.velocity.values[row]));
-            let growths = own.iter().map(|&row| {
+            let growths = section_rows.iter().map(|&row| {
                 (
                     sections.velocity.ids[row],
                     sections.acceleration.values[row],

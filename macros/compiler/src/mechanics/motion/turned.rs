@@ -17,7 +17,7 @@ pub(super) struct Turned {
     factor: ExprId,
     half: Vector3,
     /// Along the axes of the section.
-    own: Vector3,
+    in_section: Vector3,
     /// Along the axes of the root.
     pub(super) vector: Vector3,
     /// Derivatives by the components of the turn.
@@ -29,39 +29,39 @@ impl Turned {
     pub(super) fn new(
         g: &mut Graph,
         (turn, factor, rotation): (Vector3, ExprId, Matrix3),
-        own: Vector3,
+        original: Vector3,
     ) -> Self {
         let half_factor = g.scale(0.5, factor);
         let half = turn.scale(g, half_factor);
         let denominator = denominator(g, turn);
         let two = g.constant(2.0);
         let straight = g.sub(two, denominator);
-        let along = turn.dot(g, own);
+        let along = turn.dot(g, original);
         let along = g.scale(0.5, along);
-        let (kept, across) = (own.scale(g, straight), turn.cross(g, own));
+        let (kept, across) = (original.scale(g, straight), turn.cross(g, original));
         let numerator = turn.scale(g, along).add(g, across).add(g, kept);
         let vector = Vector3(numerator.0.map(|value| g.div(value, denominator)));
-        let along = half.dot(g, own);
-        let sum = own.add(g, vector);
+        let along = half.dot(g, original);
+        let sum = original.add(g, vector);
         let identity = Matrix3::identity(g);
         let slopes = Matrix3([0, 1, 2].map(|a| {
             let axis = identity.0[a];
-            let grown = half.scale(g, own.0[a]);
+            let grown = half.scale(g, original.0[a]);
             let kept = axis.scale(g, along).add(g, grown);
             let lost = sum.scale(g, half.0[a]);
-            let crossed = axis.cross(g, own).scale(g, factor);
+            let crossed = axis.cross(g, original).scale(g, factor);
             kept.add(g, crossed).sub(g, lost)
         }));
         for (c, &value) in vector.0.iter().enumerate() {
             let by_turn = turn.0.into_iter().zip(slopes.0);
-            let all = by_turn.chain(own.0.into_iter().zip(rotation.0));
+            let all = by_turn.chain(original.0.into_iter().zip(rotation.0));
             g.set_slopes(value, all.map(|(by, slope)| (by, slope.0[c])).collect());
         }
         Self {
             turn,
             factor,
             half,
-            own,
+            in_section: original,
             vector,
             slopes,
             rotation,
@@ -75,12 +75,12 @@ impl Turned {
 
     /// The part of its second rate that is quadratic in the rate of the turn.
     pub(super) fn quadratic(&self, g: &mut Graph, rate: Vector3) -> Vector3 {
-        let (own, along) = (rate.dot(g, self.own), rate.dot(g, self.turn));
+        let (projection, along) = (rate.dot(g, self.in_section), rate.dot(g, self.turn));
         let square = rate.dot(g, rate);
         let half = g.scale(0.5, square);
-        let spread = self.own.add(g, self.vector).scale(g, half);
+        let spread = self.in_section.add(g, self.vector).scale(g, half);
         let slowed = self.rate(g, rate).scale(g, along);
-        let kept = rate.scale(g, own).sub(g, spread);
+        let kept = rate.scale(g, projection).sub(g, spread);
         kept.sub(g, slowed).scale(g, self.factor)
     }
 
@@ -90,14 +90,14 @@ impl Turned {
         let back = (self.turn.neg(g), self.factor, self.rotation.transpose());
         let back = Self::new(g, back, force);
         let powers = self.slopes.0.map(|slope| slope.dot(g, force));
-        let (own, all) = (self.own.dot(g, force), self.vector.dot(g, force));
+        let (projection, all) = (self.in_section.dot(g, force), self.vector.dot(g, force));
         let half = g.scale(0.5, self.factor);
-        let sum = g.add(own, all);
+        let sum = g.add(projection, all);
         let sum = g.mul(half, sum);
         let scaled = force.scale(g, half);
         let mut curved = |a: usize, b: usize| {
             let lost = both(g, &powers, &self.half.0, a, b);
-            let kept = both(g, &scaled.0, &self.own.0, a, b);
+            let kept = both(g, &scaled.0, &self.in_section.0, a, b);
             let curved = g.sub(kept, lost);
             match a == b {
                 true => g.sub(curved, sum),
@@ -107,11 +107,11 @@ impl Turned {
         // equal entries must be one node
         let curved = [0, 1, 2].map(|a| [0, 1, 2].map(|b: usize| curved(b.min(a), b.max(a))));
         for (a, &power) in powers.iter().enumerate() {
-            let by_own = back.slopes.0[a].neg(g);
+            let by_section = back.slopes.0[a].neg(g);
             let by_force = force.0.into_iter().zip(self.slopes.0[a].0);
             let by_turn = self.turn.0.into_iter().zip(curved[a]);
-            let by_own = self.own.0.into_iter().zip(by_own.0);
-            g.set_slopes(power, by_force.chain(by_turn).chain(by_own).collect());
+            let by_section = self.in_section.0.into_iter().zip(by_section.0);
+            g.set_slopes(power, by_force.chain(by_turn).chain(by_section).collect());
         }
         (powers, back.vector)
     }

@@ -59,7 +59,7 @@ impl Context<'_> {
 
     /// For each unknown, the position of its joint in the order from the ground to the leaves; reactions come last.
     pub(crate) fn outward_order(&self) -> Vec<usize> {
-        let place = |id: &CoordinateId| {
+        let branch_index = |id: &CoordinateId| {
             let joint = self.mechanism.coordinates[id.index()].joint;
             self.topology
                 .branches
@@ -69,7 +69,7 @@ impl Context<'_> {
         };
         let reactions = self.rows.iter().map(|_| usize::MAX);
         let moving = self.topology.free.iter().chain(&self.topology.coasting);
-        moving.map(place).chain(reactions).collect()
+        moving.map(branch_index).chain(reactions).collect()
     }
 
     /// Replaces each absolute angle by its sum of joint angles, and each section's rotation by its sum of coordinates.

@@ -164,9 +164,9 @@ impl Runs {
             (&mut self.velocity, &sections.velocity),
             (&mut self.acceleration, &sections.acceleration),
         ];
-        for (list, own) in lists {
-            list.ids.extend(&own.ids);
-            list.values.extend(&own.values);
+        for (list, unknowns) in lists {
+            list.ids.extend(&unknowns.ids);
+            list.values.extend(&unknowns.values);
         }
         self
     }
@@ -217,13 +217,13 @@ impl Runs {
             (&self.velocity, &symbols.velocity),
             (&self.acceleration, &symbols.acceleration),
         ];
-        for (list, own) in lists {
+        for (list, unknowns) in lists {
             for k in 0..self.before.len() {
                 if self.before[k].is_none() {
                     continue;
                 }
                 let way: Vec<usize> = std::iter::successors(Some(k), |&k| self.before[k]).collect();
-                let sum = g.sum(way.iter().rev().map(|&k| own.values[k]));
+                let sum = g.sum(way.iter().rev().map(|&k| unknowns.values[k]));
                 sums.push((list.ids[k], sum));
             }
         }

@@ -79,8 +79,13 @@ impl Sections {
     pub(crate) fn new(g: &mut Graph, mechanism: &Mechanism, topology: &Topology) -> Self {
         let mut this = Self::default();
         for beam in &mechanism.beams {
-            let own = this.beam(g, topology, beam);
-            for list in [&own.rotations, &own.slopes, &own.curls, &own.strains] {
+            let beam_rows = this.beam(g, topology, beam);
+            for list in [
+                &beam_rows.rotations,
+                &beam_rows.slopes,
+                &beam_rows.curls,
+                &beam_rows.strains,
+            ] {
                 for (here, there) in list.iter().zip(list.iter().rev()) {
                     for (row, mirrored) in here.iter().zip(there) {
                         if let (Some(row), false) = (*row, row == mirrored) {
@@ -89,7 +94,7 @@ impl Sections {
                     }
                 }
             }
-            this.beams.push(own);
+            this.beams.push(beam_rows);
         }
         this
     }
@@ -115,9 +120,9 @@ impl Sections {
         };
         let (mut rotations, mut slopes) = (Vec::new(), Vec::new());
         let (mut curls, mut strains) = (Vec::new(), Vec::new());
-        for (k, (place, ..)) in beam.sections.iter().enumerate() {
+        for (k, (fraction, ..)) in beam.sections.iter().enumerate() {
             let mut rows = |what: &str, factors| {
-                [0, 1, 2].map(|component| row(format!("{what}_{k}"), component, factors, *place))
+                [0, 1, 2].map(|component| row(format!("{what}_{k}"), component, factors, *fraction))
             };
             rotations.push(rows("section", integrals));
             slopes.push(rows("slope", polynomials));
@@ -238,9 +243,9 @@ impl Sections {
             (&self.acceleration, &symbols.acceleration),
         ];
         let mut sums = Vec::new();
-        for (own, unknowns) in lists {
+        for (list, unknowns) in lists {
             let values = self.rates(g, &unknowns.values);
-            sums.extend(own.ids.iter().copied().zip(values));
+            sums.extend(list.ids.iter().copied().zip(values));
         }
         sums
     }
@@ -290,8 +295,8 @@ impl Sections {
 
     /// Forces along the unknowns, from forces along the unknowns followed by those along the sections.
     pub(crate) fn forces(&self, g: &mut Graph, along: &[ExprId]) -> Vec<ExprId> {
-        let (own, sections) = along.split_at(along.len() - self.rows.len());
-        let mut terms: Vec<Vec<ExprId>> = own.iter().map(|x| vec![*x]).collect();
+        let (coordinates, sections) = along.split_at(along.len() - self.rows.len());
+        let mut terms: Vec<Vec<ExprId>> = coordinates.iter().map(|x| vec![*x]).collect();
         for row in 0..self.rows.len() {
             let force = sections[row];
             let (sum, difference) = match self.mirrored(row) {

@@ -25,7 +25,7 @@ impl Names<'_> {
             self.scalar(&beam.spin),
             self.scalar(&beam.lag)
         )?;
-        for (place, weight, section) in &beam.sections {
+        for (fraction, weight, section) in &beam.sections {
             let Section {
                 mass,
                 inertia,
@@ -46,7 +46,7 @@ impl Names<'_> {
             let [inertia_y, inertia_z] = inertia.each_ref().map(|inertia| self.scalar(inertia));
             write!(
                 f,
-                "  at {place} of weight {weight}: mass {} inertia {inertia_y} {inertia_z} GJ {twisting} EIy {about_y} EIz {about_z} EA {axial} GAy {shear_y} GAz {shear_z} twist {} size {width} {height}",
+                "  at {fraction} of weight {weight}: mass {} inertia {inertia_y} {inertia_z} GJ {twisting} EIy {about_y} EIz {about_z} EA {axial} GAy {shear_y} GAz {shear_z} twist {} size {width} {height}",
                 self.scalar(mass),
                 self.scalar(twist)
             )?;
@@ -58,8 +58,8 @@ impl Names<'_> {
                 let [y, z] = prebend.each_ref().map(|prebend| self.scalar(prebend));
                 write!(f, " prebend {y} {z}")?;
             }
-            for (i, j, own) in coupling {
-                write!(f, " couples {i} {j} by {}", self.scalar(own))?;
+            for (i, j, coefficient) in coupling {
+                write!(f, " couples {i} {j} by {}", self.scalar(coefficient))?;
             }
             writeln!(f)?;
         }

@@ -242,8 +242,8 @@ impl Resolver<'_> {
     /// A beam that turns about its own axis is steady only if it is the same in all directions.
     fn require_round(&mut self, at: &Value, declared: &Declared) -> Option<()> {
         // Dimensions change linearly: what is round at both ends is so between them.
-        let is_round = [0.0, 1.0].iter().all(|place| {
-            let section = declared.section(*place);
+        let is_round = [0.0, 1.0].iter().all(|fraction| {
+            let section = declared.section(*fraction);
             let [_, about_y, about_z] = &section.stiffness;
             let [_, shear_y, shear_z] = &section.against_strain;
             let [inertia_y, inertia_z] = &section.inertia;
@@ -343,7 +343,7 @@ impl Resolver<'_> {
         declared: &Declared,
     ) -> Option<()> {
         // Dimensions change linearly: what is positive at both ends is so between them.
-        let ends = [0.0, 1.0].map(|place| declared.section(place));
+        let ends = [0.0, 1.0].map(|fraction| declared.section(fraction));
         let counts = declared.counts;
         let [curved_y, curved_z] = declared.is_curved();
         let mut used = counts;
@@ -434,9 +434,9 @@ impl Resolver<'_> {
 /// What must be positive in any design: what has been asked of a beam, and its material.
 fn positive(name: &Ident, asked: &[Requirement], table: &Table) -> Vec<(String, Expr)> {
     let mut list = Vec::new();
-    for own in asked {
-        let what = own.what.trim_start_matches("the ").replace('`', "");
-        match (&own.demand, &own.values[..]) {
+    for requirement in asked {
+        let what = requirement.what.trim_start_matches("the ").replace('`', "");
+        match (&requirement.demand, &requirement.values[..]) {
             (Demand::Positive(_), values) => {
                 list.extend(values.iter().map(|value| (what.clone(), value.clone())));
             }

@@ -92,11 +92,11 @@ pub(super) fn declared(ast: &Ast) -> Vec<Declared<'_>> {
         // A joint of an unknown kind may also name coordinates; `lead` is not one of them.
         let arguments = joint.arguments.iter().flatten();
         let named = arguments.filter_map(|argument| argument.name.as_ref());
-        for (place, name) in named.filter(|name| *name != "lead").enumerate() {
+        for (position, name) in named.filter(|name| *name != "lead").enumerate() {
             coordinates.push(Declared {
                 name,
                 joint: id,
-                quantity: motions.get(place).map(|motion| motion.quantity()),
+                quantity: motions.get(position).map(|motion| motion.quantity()),
                 motion: motion(joint, name, false),
                 cut: is_cut(joint),
             });

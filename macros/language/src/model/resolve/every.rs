@@ -80,12 +80,15 @@ struct Given {
 
 impl Resolver<'_> {
     /// Forces on every free coordinate that has no spring, or no damper, of its own.
-    pub(super) fn forces_of_every(&mut self, own: &[Force]) -> Vec<Force> {
+    pub(super) fn forces_of_every(&mut self, existing: &[Force]) -> Vec<Force> {
         let mut given = QUANTITIES.map(|_| Given::default());
         let mut forces = Vec::new();
         for item in &self.ast.items {
             if let ItemKind::Every(every) = &item.kind {
-                forces.extend(self.forces_of(every, own, &mut given).unwrap_or_default());
+                forces.extend(
+                    self.forces_of(every, existing, &mut given)
+                        .unwrap_or_default(),
+                );
             }
         }
         forces
@@ -139,8 +142,8 @@ impl Resolver<'_> {
 
     /// The index of a kind of coordinate in the table.
     fn quantity(&mut self, word: &Ident) -> Option<usize> {
-        let found = QUANTITIES.iter().position(|(known, _)| word == known);
-        if found.is_none() {
+        let index = QUANTITIES.iter().position(|(known, _)| word == known);
+        if index.is_none() {
             let known = QUANTITIES.map(|(known, _)| known);
             let meant = suggestion(&word.to_string(), known, &SYNONYMS_OF_QUANTITIES);
             let help = match meant {
@@ -153,7 +156,7 @@ impl Resolver<'_> {
                 format!("`every {word}` is neither `every angle` nor `every displacement`");
             self.diagnostics.error_with_help(word, message, help);
         }
-        found
+        index
     }
 
     fn free_coordinates(&self, quantity: CoordinateQuantity) -> Vec<CoordinateId> {

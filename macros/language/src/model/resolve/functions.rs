@@ -228,7 +228,7 @@ fn refusal(
         (Arguments, _)
         | (Rates, ValueContext::GeneralizedForce | ValueContext::Output)
         | (Solution, ValueContext::Output) => return None,
-        (Places, place) if place.knows_places() => return None,
+        (Places, context) if context.knows_places() => return None,
         (Rates, ValueContext::Tension) => {
             let message = "in a tension, `rate` is the rate of the distance of its two ends";
             let help = "write `rate` without parentheses".to_string();

@@ -161,8 +161,8 @@ fn read_tolerance(
         let expected = resolver.expected_in(&input.unit)?;
         match &input.tolerance {
             // A quantity that is given by a list of values may get a new list.
-            Some(own) if matches!(own.limits, Limits::Values(_)) => {
-                resolver.design_tolerance(Some(own), Some((nominal, expected)))
+            Some(tolerance) if matches!(tolerance.limits, Limits::Values(_)) => {
+                resolver.design_tolerance(Some(tolerance), Some((nominal, expected)))
             }
             tolerance => {
                 if is_design {
@@ -208,10 +208,10 @@ fn resolved<T>(
     let mut mistakes = Diagnostics::new();
     let scope = Scope::new(ast, &[], &mut mistakes);
     let mut resolver = Resolver::new(ast, Vec::new(), scope, mistakes);
-    let found = step(&mut resolver);
+    let outcome = step(&mut resolver);
     let mut mistakes = resolver.diagnostics;
-    match found {
-        Some(found) => mistakes.into_result(found),
+    match outcome {
+        Some(resolved_value) => mistakes.into_result(resolved_value),
         None => {
             if mistakes.is_empty() {
                 mistakes.error(&ast.name, "this is not a value");
@@ -237,8 +237,8 @@ mod tests {
         text.parse().unwrap()
     }
 
-    fn message(found: Result<impl Sized, Diagnostics>) -> String {
-        let mistakes = found.err().expect("a mistake");
+    fn message(outcome: Result<impl Sized, Diagnostics>) -> String {
+        let mistakes = outcome.err().expect("a mistake");
         mistakes.iter().next().expect("a message").text()
     }
 
@@ -252,8 +252,8 @@ mod tests {
             ("2.5", "1", 2.5),
             ("3 kg * 2 m/s^2", "N", 6.0),
         ] {
-            let found = value(tokens(text), tokens(unit), "it").unwrap();
-            assert!((found - si).abs() <= 1e-15 * si.abs(), "{text}: {found}");
+            let parsed = value(tokens(text), tokens(unit), "it").unwrap();
+            assert!((parsed - si).abs() <= 1e-15 * si.abs(), "{text}: {parsed}");
         }
     }
 
@@ -271,8 +271,8 @@ mod tests {
             ("", "expected a value"),
             ("omega", "unknown name `omega`"),
         ] {
-            let found = message(value(tokens(text), tokens("rpm"), "`speed`"));
-            assert!(found.contains(expected), "{text}: {found}");
+            let refusal = message(value(tokens(text), tokens("rpm"), "`speed`"));
+            assert!(refusal.contains(expected), "{text}: {refusal}");
         }
     }
 
@@ -280,28 +280,28 @@ mod tests {
     fn tolerances() {
         use crate::model::mechanism::Law;
 
-        let found = tolerance(tokens("0.1mm"), tokens("m"), 1.0).unwrap();
+        let symmetric = tolerance(tokens("0.1mm"), tokens("m"), 1.0).unwrap();
         assert_eq!(
-            (found.lower, found.upper, found.relative),
+            (symmetric.lower, symmetric.upper, symmetric.relative),
             (-1e-4, 1e-4, false)
         );
-        let found = tolerance(tokens("+2% -1% uniform"), tokens("m"), 1.0).unwrap();
+        let uniform = tolerance(tokens("+2% -1% uniform"), tokens("m"), 1.0).unwrap();
         assert_eq!(
-            (found.lower, found.upper, found.relative),
+            (uniform.lower, uniform.upper, uniform.relative),
             (-0.01, 0.02, true)
         );
-        assert_eq!(found.law, Law::Uniform);
-        let found = tolerance(tokens("+/- 1 deg beta(2, 3)"), tokens("rad"), 1.0);
-        assert!(matches!(found.unwrap().law, Law::Beta { .. }));
-        let found = tolerance(
+        assert_eq!(uniform.law, Law::Uniform);
+        let beta = tolerance(tokens("+/- 1 deg beta(2, 3)"), tokens("rad"), 1.0);
+        assert!(matches!(beta.unwrap().law, Law::Beta { .. }));
+        let discrete = tolerance(
             tokens("one of [20, 25, 22] mm weighted [1, 3, 1]"),
             tokens("mm"),
             0.021,
         )
         .unwrap();
         let near = |a: f64, b: f64| (a - b).abs() < 1e-15;
-        assert!(near(found.lower, -1e-3) && near(found.upper, 4e-3));
-        let Law::OneOf(values) = found.law else {
+        assert!(near(discrete.lower, -1e-3) && near(discrete.upper, 4e-3));
+        let Law::OneOf(values) = discrete.law else {
             panic!("a list of values")
         };
         assert!(values[1] == (1.0, 3.0) && values[0] == (0.0, 1.0));
@@ -321,8 +321,8 @@ mod tests {
             ("3% unifrom", "did you mean `uniform`?"),
             ("", "expected a value"),
         ] {
-            let found = message(tolerance(tokens(text), tokens("mm"), 1.0));
-            assert!(found.contains(expected), "{text}: {found}");
+            let refusal = message(tolerance(tokens(text), tokens("mm"), 1.0));
+            assert!(refusal.contains(expected), "{text}: {refusal}");
         }
     }
 }

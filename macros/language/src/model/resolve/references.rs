@@ -18,9 +18,9 @@ impl Resolver<'_> {
         }
         match self.scope.find_or_unclear(&text) {
             Some(Meaning::Body(id)) => Some(Frame::Body(id)),
-            found => {
+            other => {
                 let is_body = |meaning| matches!(meaning, Meaning::Body(_));
-                self.wrong_reference(name, "body", found, is_body);
+                self.wrong_reference(name, "body", other, is_body);
                 None
             }
         }
@@ -30,9 +30,9 @@ impl Resolver<'_> {
     pub(super) fn point_named(&mut self, name: &Ident) -> Option<PointId> {
         match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::Point(id)) => Some(id),
-            found => {
+            other => {
                 let is_point = |meaning| matches!(meaning, Meaning::Point(_));
-                self.wrong_reference(name, "point", found, is_point);
+                self.wrong_reference(name, "point", other, is_point);
                 None
             }
         }
@@ -43,14 +43,14 @@ impl Resolver<'_> {
         match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::Joint(id)) => Some(id),
             Some(Meaning::OnlyCoordinate(id)) => Some(self.coordinates.get(id.index())?.joint),
-            found => {
+            other => {
                 let is_right = |meaning| {
                     matches!(
                         meaning,
                         Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Constraint(_)
                     )
                 };
-                self.wrong_reference(name, kind, found, is_right);
+                self.wrong_reference(name, kind, other, is_right);
                 None
             }
         }

@@ -136,14 +136,14 @@ impl Scope {
         coordinates: &[Declared<'_>],
         diagnostics: &mut Diagnostics,
     ) {
-        let own = || {
+        let of_joint = || {
             let all = coordinates.iter().enumerate();
             all.filter(|(_, coordinate)| coordinate.joint == id)
                 .map(|(index, coordinate)| (CoordinateId::new(index), coordinate.name))
         };
         // The only coordinate's name is the token that names the joint; any other can only be spelt like it.
         let is_only = |coordinate: &Ident| name.is_some_and(|name| std::ptr::eq(name, coordinate));
-        let only = own().find(|(_, coordinate)| is_only(coordinate));
+        let only = of_joint().find(|(_, coordinate)| is_only(coordinate));
         if let Some(name) = name {
             let meaning = match only {
                 Some((coordinate, _)) => Meaning::OnlyCoordinate(coordinate),
@@ -151,7 +151,7 @@ impl Scope {
             };
             self.declare(name, meaning, diagnostics);
         }
-        for (coordinate, name) in own().filter(|(_, name)| !is_only(name)) {
+        for (coordinate, name) in of_joint().filter(|(_, name)| !is_only(name)) {
             self.declare(name, Meaning::Coordinate(coordinate), diagnostics);
         }
     }

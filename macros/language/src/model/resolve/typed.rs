@@ -33,8 +33,8 @@ impl Quantity {
     pub(super) fn unify(self, other: Quantity) -> Option<Quantity> {
         match (self, other) {
             (Quantity::Zero, other) => Some(other),
-            (own, Quantity::Zero) => Some(own),
-            (own, other) => (own == other).then_some(own),
+            (quantity, Quantity::Zero) => Some(quantity),
+            (quantity, other) => (quantity == other).then_some(quantity),
         }
     }
 }

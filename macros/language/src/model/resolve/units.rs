@@ -104,11 +104,11 @@ impl Resolver<'_> {
     /// Rejects a name after a number that is both a unit and a declared number if the dimension cannot distinguish
     /// them.
     pub(super) fn refuse_unclear_units(&mut self) {
-        for (number, unit, place) in std::mem::take(&mut self.units) {
+        for (number, unit, context) in std::mem::take(&mut self.units) {
             for index in 1..unit.factors.len() {
                 let UnitFactor { name, extent, .. } = &unit.factors[index];
                 let is_coordinate = self.scope.find(name).is_some_and(Meaning::is_coordinate);
-                if is_coordinate && !place.knows_places() {
+                if is_coordinate && !context.knows_places() {
                     continue;
                 }
                 let declared = self.declared_dimension(name);
@@ -117,7 +117,7 @@ impl Resolver<'_> {
                 };
                 let reason = if declared == read.dimension {
                     "has the dimension of the declared one"
-                } else if place == ValueContext::Output {
+                } else if context == ValueContext::Output {
                     "would make an output of another dimension"
                 } else {
                     continue;
@@ -166,10 +166,10 @@ fn apart(number: Option<f64>, unit: &Unit, index: usize) -> String {
             exponent: factor.exponent.abs(),
             ..factor.clone()
         };
-        let own = part(&[above]);
+        let symbol = part(&[above]);
         text += &match k == index {
-            true => format!(" {sign} {own}"),
-            false => format!(" {sign} (1 {own})"),
+            true => format!(" {sign} {symbol}"),
+            false => format!(" {sign} (1 {symbol})"),
         };
     }
     text

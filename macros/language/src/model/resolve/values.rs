@@ -195,7 +195,7 @@ impl Resolver<'_> {
         value_context: ValueContext,
     ) -> Option<()> {
         let reason = match value_context {
-            place if place.knows_places() => None,
+            context if context.knows_places() => None,
             ValueContext::Tension => Some("a tension depends on `length` and `rate` only"),
             _ => Some(
                 "only outputs, generalized forces, potentials and equations may use coordinates",

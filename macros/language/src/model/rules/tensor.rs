@@ -142,8 +142,10 @@ mod tests {
         assert!(possible([0.0; 6]));
         // A slender bar along (1, 1, 1): J = 1 - n n^T.
         let third = 1.0 / 3.0;
-        let (own, product) = (1.0 - third, -third);
-        assert!(possible([own, own, own, product, product, product]));
+        let (moment, product) = (1.0 - third, -third);
+        assert!(possible([
+            moment, moment, moment, product, product, product
+        ]));
     }
 
     #[test]
@@ -188,10 +190,10 @@ mod tests {
                 }
             }
             // A grid of 1/30 finds the optimum up to the square of its width.
-            let found = distance(moments);
+            let shortest = distance(moments);
             assert!(
-                found <= least + 1e-12 && found >= least - 0.01,
-                "{given:?}: {found} {least}"
+                shortest <= least + 1e-12 && shortest >= least - 0.01,
+                "{given:?}: {shortest} {least}"
             );
         }
     }

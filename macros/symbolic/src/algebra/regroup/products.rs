@@ -40,7 +40,7 @@ impl Products {
                 let mut factors = Vec::new();
                 uses.factors(graph, id, &mut factors);
                 let places = factors.iter().filter_map(|&f| uses.nodes.place(f));
-                let mut factors: Vec<Factor> = places.map(|place| place as Factor).collect();
+                let mut factors: Vec<Factor> = places.map(|index| index as Factor).collect();
                 factors.sort_unstable();
                 this.lists.push((id, factors));
             }

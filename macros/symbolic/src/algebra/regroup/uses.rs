@@ -49,8 +49,8 @@ impl Uses {
     }
 
     fn note(&mut self, id: ExprId, role: Only) {
-        if let Some(place) = self.nodes.place(id) {
-            self.only[place] = match self.only[place] {
+        if let Some(index) = self.nodes.place(id) {
+            self.only[index] = match self.only[index] {
                 Only::Unused => role,
                 _ => Only::Other,
             };
@@ -58,7 +58,7 @@ impl Uses {
     }
 
     fn only(&self, id: ExprId) -> Option<Only> {
-        self.nodes.place(id).map(|place| self.only[place])
+        self.nodes.place(id).map(|index| self.only[index])
     }
 
     /// Whether the only use of a node is as an operand of a sum.

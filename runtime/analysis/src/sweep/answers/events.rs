@@ -86,7 +86,7 @@ impl EventTolerance {
             title_along(d, &self.inputs, self.input),
             self.what_happens(),
         );
-        let place = place(d, self.input, self.value);
+        let location = place(d, self.input, self.value);
         match (&self.spread, d.inputs.get(self.input.index())) {
             (Ok(spread), Some(info)) => format!(
                 "{title}: {what} at {} = {} +/- {} ({} sigma)",
@@ -95,8 +95,8 @@ impl EventTolerance {
                 with_unit(rough_in(spread.band, &info.unit), &info.unit),
                 self.sigma_level
             ),
-            (Ok(_), None) => format!("{title}: {what} at {place}"),
-            (Err(error), _) => format!("{title}: {what} at {place}, without a spread: {error}"),
+            (Ok(_), None) => format!("{title}: {what} at {location}"),
+            (Err(error), _) => format!("{title}: {what} at {location}, without a spread: {error}"),
         }
     }
 

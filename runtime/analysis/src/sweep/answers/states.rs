@@ -20,8 +20,8 @@ impl Answer for CriticalState {
     fn findings(&self) -> Findings {
         let d = &self.equilibrium.description;
         let title = title_along(d, &self.equilibrium.inputs, self.input);
-        let place = place(d, self.input, self.value);
-        let mut said = Findings::titled(format!("{title}: critical at {place}, {}", self.kind));
+        let location = place(d, self.input, self.value);
+        let mut said = Findings::titled(format!("{title}: critical at {location}, {}", self.kind));
         said.quote(self.equilibrium.findings());
         critical_vectors(&mut said, d, &self.v, &self.w);
         if let Some(table) = critical_columns(slice::from_ref(self)) {
@@ -56,8 +56,8 @@ impl Answer for Crossing {
     fn findings(&self) -> Findings {
         let d = &self.equilibrium.description;
         let title = title_along(d, &self.equilibrium.inputs, self.input);
-        let (what, place) = (self.what_happens(), place(d, self.input, self.value));
-        let mut said = Findings::titled(format!("{title}: {what} at {place}"));
+        let (what, location) = (self.what_happens(), place(d, self.input, self.value));
+        let mut said = Findings::titled(format!("{title}: {what} at {location}"));
         said.quote(self.equilibrium.findings());
         said.quote(self.modes.findings());
         if let Some(table) = crossing_columns(slice::from_ref(self)) {

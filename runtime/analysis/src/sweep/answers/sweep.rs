@@ -53,8 +53,8 @@ impl Answer for Sweep {
             said.note(format!("{rows} of {all} points are shown: {EVERYTHING}."));
         }
         for critical in &self.critical {
-            let place = place(d, self.input, critical.value);
-            said.note(format!("critical at {place} ({})", critical.kind));
+            let location = place(d, self.input, critical.value);
+            said.note(format!("critical at {location} ({})", critical.kind));
         }
         if let Some(table) = critical_columns(&self.critical) {
             said.data(table.finish().0);

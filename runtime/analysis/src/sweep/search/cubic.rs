@@ -315,15 +315,15 @@ mod tests {
 
     /// All zeros of a function on `[0, 1]`, found by division, and the number of states.
     fn all(f: impl Fn(f64) -> [f64; 2], error: f64) -> (Vec<(f64, Passage)>, usize) {
-        let (mut found, mut states) = (Vec::new(), 1);
+        let (mut all_zeros, mut states) = (Vec::new(), 1);
         let mut open = vec![(0.0, 1.0)];
         while let Some((from, to)) = open.pop() {
             states += 2;
-            assert!(states < 300, "{found:?} {from} {to}");
+            assert!(states < 300, "{all_zeros:?} {from} {to}");
             let triple = jets([from, 0.5 * (from + to), to], &f, error);
             match triple.zeros(to == 1.0) {
                 Finding::Zeros(zeros) => {
-                    found.extend(zeros.iter().map(|zero| (zero.at, zero.passage)));
+                    all_zeros.extend(zeros.iter().map(|zero| (zero.at, zero.passage)));
                 }
                 Finding::Divide(t) => {
                     assert!(t > from && t < to, "{from} {t} {to}");
@@ -331,7 +331,7 @@ mod tests {
                 }
             }
         }
-        (found, states)
+        (all_zeros, states)
     }
 
     /// `amount (t - r_1) (t - r_2) ..` and its slope.
@@ -347,9 +347,9 @@ mod tests {
     fn the_cubic_is_exact_for_cubics() {
         let f = |t: f64| product(&[0.3, -1.0, 2.5], 1.7, t);
         for t in [1.0, 1.25, 1.9, 2.0] {
-            let found = cubic(f(1.0), f(2.0), 1.0, t - 1.0);
-            for (found, expected) in found.into_iter().zip(f(t)) {
-                assert!((found - expected).abs() < 1e-13);
+            let interpolated = cubic(f(1.0), f(2.0), 1.0, t - 1.0);
+            for (actual, expected) in interpolated.into_iter().zip(f(t)) {
+                assert!((actual - expected).abs() < 1e-13);
             }
         }
     }
@@ -369,14 +369,14 @@ mod tests {
         ];
         for roots in cases {
             for amount in [1.0_f64, -1e6, 1e-6] {
-                let (found, states) = all(|t| product(roots, amount, t), 1e-15 * amount.abs());
+                let (zeros, states) = all(|t| product(roots, amount, t), 1e-15 * amount.abs());
                 let mut expected = roots.to_vec();
                 expected.retain(|root| (0.0..=1.0).contains(root));
                 expected.sort_by(f64::total_cmp);
-                assert_eq!(found.len(), expected.len(), "{roots:?}: {found:?}");
-                for (found, expected) in found.iter().zip(&expected) {
-                    assert!((found.0 - expected).abs() < 1e-3, "{found:?}");
-                    assert!(found.1 != Passage::Touches);
+                assert_eq!(zeros.len(), expected.len(), "{roots:?}: {zeros:?}");
+                for (zero, expected) in zeros.iter().zip(&expected) {
+                    assert!((zero.0 - expected).abs() < 1e-3, "{zero:?}");
+                    assert!(zero.1 != Passage::Touches);
                 }
                 assert!(states < 12 * (roots.len() + 1), "{roots:?} {states}");
             }
@@ -385,37 +385,37 @@ mod tests {
 
     #[test]
     fn a_number_that_touches_zero_is_told_from_one_that_crosses_or_stays_away() {
-        for place in [0.3, 0.5, 0.123_456] {
+        for root in [0.3, 0.5, 0.123_456] {
             for (depth, expected) in [(0.0, Some(Passage::Touches)), (1e-9, None)] {
                 let f = |t: f64| {
-                    let [value, slope] = product(&[place, place], 1.0, t);
+                    let [value, slope] = product(&[root, root], 1.0, t);
                     [value * (1.0 + t) + depth, slope * (1.0 + t) + value]
                 };
-                let (found, states) = all(f, 1e-14);
-                let found: Vec<_> = found.iter().map(|zero| zero.1).collect();
-                assert_eq!(found, Vec::from_iter(expected), "{place} {depth}");
+                let (zeros, states) = all(f, 1e-14);
+                let passages: Vec<_> = zeros.iter().map(|zero| zero.1).collect();
+                assert_eq!(passages, Vec::from_iter(expected), "{root} {depth}");
                 assert!(states < 60, "{states}");
             }
             let f = |t: f64| {
-                let [value, slope] = product(&[place, place], 1.0, t);
+                let [value, slope] = product(&[root, root], 1.0, t);
                 [value - 1e-10, slope]
             };
-            let (found, _) = all(f, 1e-14);
-            assert_eq!(found.len(), 2, "{found:?}");
+            let (zeros, _) = all(f, 1e-14);
+            assert_eq!(zeros.len(), 2, "{zeros:?}");
         }
     }
 
     #[test]
     fn a_number_that_is_zero_throughout_has_no_zeros() {
-        let (found, states) = all(|t| [1e-16 * (9.0 * t).sin(), 1e-15], 1e-15);
-        assert!(found.is_empty() && states == 3);
+        let (zeros, states) = all(|t| [1e-16 * (9.0 * t).sin(), 1e-15], 1e-15);
+        assert!(zeros.is_empty() && states == 3);
     }
 
     /// Away from zero nothing needs to be resolved.
     #[test]
     fn what_happens_far_from_zero_costs_nothing() {
         let f = |t: f64| [10.0 + (40.0 * t).sin(), 40.0 * (40.0 * t).cos()];
-        let (found, states) = all(f, 1e-15);
-        assert!(found.is_empty() && states <= 31, "{states}");
+        let (zeros, states) = all(f, 1e-15);
+        assert!(zeros.is_empty() && states <= 31, "{states}");
     }
 }

@@ -85,8 +85,11 @@ pub(super) fn divide(
             }
             Stretch::Divide(t, _) => {
                 let off = (t - a.t).min(b.t - t);
-                let own = (t - middle.t).abs() > NEAR * width && off > CLOSEST;
-                let at = own.then(|| source.state(t)).flatten().unwrap_or(middle);
+                let distinct = (t - middle.t).abs() > NEAR * width && off > CLOSEST;
+                let at = distinct
+                    .then(|| source.state(t))
+                    .flatten()
+                    .unwrap_or(middle);
                 open.extend([(at.clone(), b), (a, at)]);
             }
         }

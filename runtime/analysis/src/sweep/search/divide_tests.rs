@@ -14,8 +14,8 @@ type Jet = [f64; 2];
 
 fn product(factors: &[(f64, f64)], amount: f64, u: f64) -> Jet {
     factors.iter().fold([amount, 0.0], |[v, d], (a, b)| {
-        let (own, rate) = ((u - a) * (u - b), 2.0 * u - a - b);
-        [v * own, d * own + v * rate]
+        let (factor, rate) = ((u - a) * (u - b), 2.0 * u - a - b);
+        [v * factor, d * factor + v * rate]
     })
 }
 
@@ -69,7 +69,7 @@ impl<F: Fn(f64) -> (Vec<Root>, Vec<Root>)> States for Family<F> {
 }
 
 /// Kind, passage, and place between two others.
-type Found = (Kind, Passage, [f64; 3]);
+type FoundEvent = (Kind, Passage, [f64; 3]);
 
 /// The events from one value to another, in `steps` steps, and the number of states.
 fn search(
@@ -77,7 +77,7 @@ fn search(
     wanted: &Wanted,
     [low, high]: [f64; 2],
     steps: usize,
-) -> (Vec<Found>, Division, usize) {
+) -> (Vec<FoundEvent>, Division, usize) {
     let (mut events, mut states) = (Vec::new(), 0);
     let mut all = Division::default();
     for step in 0..steps {
@@ -93,13 +93,13 @@ fn search(
             opens: true,
             closes: step + 1 == steps,
         };
-        let found = divide(&mut family, wanted, interval, 1e-9);
-        for event in &found.events {
+        let findings = divide(&mut family, wanted, interval, 1e-9);
+        for event in &findings.events {
             let [from, to] = event.zero.between;
             let at = [event.zero.at, from, to].map(|t| ends[0] + (ends[1] - ends[0]) * t);
             events.push((event.kind, event.zero.passage, at));
         }
-        all.doubts.extend(found.doubts);
+        all.doubts.extend(findings.doubts);
         states += family.count - usize::from(step > 0);
     }
     events.sort_by(|a, b| a.2[0].total_cmp(&b.2[0]));
@@ -189,11 +189,11 @@ fn onsets_and_ends_of_random_oscillators() {
                 "{case} {steps} {machines:?}\n{events:?}\n{expected:?}"
             );
             for (kind, u) in &expected {
-                let own = |event: &&(Kind, Passage, [f64; 3])| {
+                let matches = |event: &&(Kind, Passage, [f64; 3])| {
                     event.0 == *kind && event.2[1] <= u + 1e-9 && event.2[2] >= u - 1e-9
                 };
                 assert!(
-                    events.iter().any(|event| own(&event)),
+                    events.iter().any(|event| matches(&event)),
                     "{case} {events:?} {expected:?}"
                 );
             }
@@ -207,13 +207,13 @@ fn onsets_and_ends_of_random_oscillators() {
 /// Two modes without damping of their own whose frequencies pass each other, coupled by forces without a potential:
 /// `lambda = mean +- sqrt(slope^2 (u - place)^2 - coupling)`; both lose `2 delta s`.
 fn passing(
-    (mean, slope, place): (f64, f64, f64),
+    (mean, slope, centre): (f64, f64, f64),
     coupling: f64,
     delta: f64,
     u: f64,
     roots: &mut Vec<Root>,
 ) {
-    let x = u - place;
+    let x = u - centre;
     let inside = slope * slope * x * x - coupling;
     let root = Complex::from(inside).sqrt();
     let rate = slope * slope * x / root;
@@ -247,7 +247,7 @@ fn bands_in_which_two_modes_merge() {
                 let mean = random.between(0.5, 1.5) + 10.0 * k as f64;
                 let slope = random.between(0.1, 0.4);
                 let width = 10_f64.powf(random.between(-5.0, -1.0));
-                let place = random.between(0.15, 0.85);
+                let centre = random.between(0.15, 0.85);
                 // None, one that excludes growth, and one that does not.
                 let delta = [0.0, 0.6, 0.3, 1e-7][case % 4] * width * slope / mean.sqrt();
                 let coupling = if case % 5 == 4 {
@@ -255,7 +255,7 @@ fn bands_in_which_two_modes_merge() {
                 } else {
                     (width * slope).powi(2)
                 };
-                ((mean, slope, place), coupling, delta)
+                ((mean, slope, centre), coupling, delta)
             })
             .collect();
         let roots = |u: f64| {
@@ -266,13 +266,13 @@ fn bands_in_which_two_modes_merge() {
             (roots, Vec::new())
         };
         let mut expected = Vec::new();
-        for &((mean, slope, place), coupling, delta) in &pairs {
+        for &((mean, slope, centre), coupling, delta) in &pairs {
             let left = coupling - 4.0 * delta * delta * (mean - delta * delta);
             if left > 0.0 {
                 let half = left.sqrt() / slope;
                 expected.extend([
-                    (Passage::Rises, place - half),
-                    (Passage::Falls, place + half),
+                    (Passage::Rises, centre - half),
+                    (Passage::Falls, centre + half),
                 ]);
             }
         }
@@ -286,11 +286,11 @@ fn bands_in_which_two_modes_merge() {
                 "{case} {steps} {pairs:?}\n{events:?}\n{expected:?}"
             );
             for (passage, u) in &expected {
-                let own = |event: &&(Kind, Passage, [f64; 3])| {
+                let matches = |event: &&(Kind, Passage, [f64; 3])| {
                     event.1 == *passage && event.2[1] <= u + 1e-8 && event.2[2] >= u - 1e-8
                 };
                 assert!(
-                    events.iter().any(|event| own(&event)),
+                    events.iter().any(|event| matches(&event)),
                     "{case} {events:?} {expected:?}"
                 );
             }
@@ -322,8 +322,8 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
         let undamped = case % 5 < 2;
         let roots = |u: f64| {
             let [square, rate] = product(&[(a, a + width)], amount, u);
-            let own = line.ratio * u + line.offset;
-            let lambda = [own * own + square, 2.0 * own * line.ratio + rate];
+            let level = line.ratio * u + line.offset;
+            let lambda = [level * level + square, 2.0 * level * line.ratio + rate];
             let mut roots = Vec::new();
             for _ in 0..1 + usize::from(twice) {
                 if undamped {
@@ -368,11 +368,11 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
                 "{case} {events:?} {expected:?}"
             );
             for (passage, u) in &expected {
-                let own = |event: &&(Kind, Passage, [f64; 3])| {
+                let matches = |event: &&(Kind, Passage, [f64; 3])| {
                     event.1 == *passage && event.2[1] <= u + 1e-6 && event.2[2] >= u - 1e-6
                 };
                 assert_eq!(
-                    events.iter().filter(own).count(),
+                    events.iter().filter(matches).count(),
                     number,
                     "{case} {events:?} {expected:?}"
                 );

@@ -18,7 +18,7 @@
 
 mod cubic;
 mod divide;
-mod found;
+mod events;
 mod node;
 mod pick;
 mod route;
@@ -26,6 +26,6 @@ mod scalars;
 mod spectrum;
 mod step;
 
-pub(crate) use found::Route;
-pub use found::{Events, Gap, Searched, Unresolved};
+pub(crate) use events::Route;
+pub use events::{Events, Gap, Searched, Unresolved};
 pub(crate) use route::{Along, Met, Sought, search};

@@ -195,8 +195,8 @@ fn slopes(
         }
         let mut cluster = vec![first];
         let mut next = 0;
-        while let Some(&own) = cluster.get(next) {
-            let all = (first..count).filter(|&r| !done[r] && near(own, r));
+        while let Some(&member) = cluster.get(next) {
+            let all = (first..count).filter(|&r| !done[r] && near(member, r));
             let new: Vec<usize> = all.filter(|r| !cluster.contains(r)).collect();
             cluster.extend(new);
             next += 1;

@@ -63,17 +63,17 @@ pub(super) fn pick(
             })
         }
         Kind::Critical => {
-            let own = match wanted.symmetric && !wanted.undamped {
+            let candidates = match wanted.symmetric && !wanted.undamped {
                 true => &spectrum.stiffness,
                 false => roots,
             };
-            let r = nearest(own, near[0], None, |root| !root.paired)?;
+            let r = nearest(candidates, near[0], None, |root| !root.paired)?;
             Some(Picked {
                 positions: [r; 2],
                 jet: Jet {
-                    value: own[r].value.re,
-                    slope: own[r].slope.re,
-                    error: own[r].error,
+                    value: candidates[r].value.re,
+                    slope: candidates[r].slope.re,
+                    error: candidates[r].error,
                 },
             })
         }
@@ -116,6 +116,6 @@ fn nearest(
     let all = roots.iter().enumerate();
     let all = all.filter(|(r, root)| wanted(root) && Some(*r) != but);
     let apart = |root: &Root| (root.value - to).norm();
-    let found = all.min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
-    found.map(|(r, _)| r)
+    let closest = all.min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
+    closest.map(|(r, _)| r)
 }

@@ -3,7 +3,7 @@
 
 use core::ops::ControlFlow;
 
-use super::found::{Events, Gap, Route, Searched, Unresolved};
+use super::events::{Events, Gap, Route, Searched, Unresolved};
 use super::node::{Node, Question, has_stiffness};
 use super::scalars::{Kind, Wanted};
 use super::step::{Event, Step};
@@ -349,12 +349,12 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let Some(mut step) = step else {
             return ControlFlow::Continue(Pass::On);
         };
-        let found = match step.follows() {
+        let findings = match step.follows() {
             true => step.findings(self.wanted, located, closes, RESOLUTION),
             false => None,
         };
         let shorter = step.can_be_shorter();
-        let Some(found) = found else {
+        let Some(findings) = findings else {
             drop(step);
             self.left = left;
             if shorter && self.left > 0 {
@@ -362,21 +362,21 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             }
             self.doubt([before.place.p, after.place.p], None);
             // Special points are known nevertheless.
-            for own in located {
-                self.critical(own.special.clone(), Change::Pass, before.stiff());
-                if let Some(next) = self.goes_on(&own.special, turns || own.ends_arm, after) {
+            for point in located {
+                self.critical(point.special.clone(), Change::Pass, before.stiff());
+                if let Some(next) = self.goes_on(&point.special, turns || point.ends_arm, after) {
                     return ControlFlow::Break(next);
                 }
             }
             return ControlFlow::Continue(Pass::On);
         };
-        self.finest = self.finest.min(found.finest);
+        self.finest = self.finest.min(findings.finest);
         let value = |t: f64| before.place.p + t * (after.place.p - before.place.p);
-        let mut places = found.places.into_iter().peekable();
+        let mut places = findings.places.into_iter().peekable();
         let mut next = None;
-        for (t, event) in found.events {
-            while let Some(place) = places.next_if(|place| *place <= t) {
-                self.pass(&mut step, place);
+        for (t, event) in findings.events {
+            while let Some(fraction) = places.next_if(|fraction| *fraction <= t) {
+                self.pass(&mut step, fraction);
             }
             match event {
                 Event::Critical {
@@ -414,11 +414,11 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             }
         }
         if next.is_none() {
-            for place in places {
-                self.pass(&mut step, place);
+            for fraction in places {
+                self.pass(&mut step, fraction);
             }
         }
-        for (between, kind) in found.doubts {
+        for (between, kind) in findings.doubts {
             let condition = match kind {
                 Kind::Critical => None,
                 Kind::Line(k) => Some(Condition::Line(self.wanted.lines[k])),
@@ -451,10 +451,12 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
     }
 
     /// Passes a state: its modes get the labels of those before.
-    fn pass(&mut self, step: &mut Step<'_, '_>, place: f64) {
-        let Some(node) = step.node(place) else { return };
+    fn pass(&mut self, step: &mut Step<'_, '_>, fraction: f64) {
+        let Some(node) = step.node(fraction) else {
+            return;
+        };
         let from = self.route.points.last().map(|point| point.value);
-        self.recognise(step, (0.0, place), HALVINGS);
+        self.recognise(step, (0.0, fraction), HALVINGS);
         if from == Some(node.point.place.p) {
             return;
         }
@@ -474,10 +476,10 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let (Some(last), Some(node)) = (&self.last, step.node(to)) else {
             return;
         };
-        let found = &node.modes;
-        let order = match_with_assurance(last, found, &node.point.equilibrium.linear);
+        let node_modes = &node.modes;
+        let order = match_with_assurance(last, node_modes, &node.point.equilibrium.linear);
         // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
-        let repeated = |r: usize| merged(found, r) || near_another(found, r, CLUSTER_GAP);
+        let repeated = |r: usize| merged(node_modes, r) || near_another(node_modes, r, CLUSTER_GAP);
         let doubtful = (order.iter().flatten())
             .any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
         if !doubtful || halvings == 0 {
@@ -605,15 +607,15 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let high = self.settings.high;
         let step = self.settings.max_step * (high - self.settings.low);
         let mut trial = value;
-        let mut found = None;
-        while trial != high && found.is_none() {
+        let mut resumed = None;
+        while trial != high && resumed.is_none() {
             trial = match (high - trial - step) * self.forward() > 0.0 {
                 true => trial + step,
                 false => high,
             };
-            found = self.solve(trial, from, self.along.policy).ok();
+            resumed = self.solve(trial, from, self.along.policy).ok();
         }
-        let Some(state) = found else {
+        let Some(state) = resumed else {
             self.gap(value, high, error);
             return Next::Done;
         };

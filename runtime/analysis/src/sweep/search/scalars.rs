@@ -360,9 +360,9 @@ impl Search<'_> {
     fn sum(&mut self, changing: [Two; 3]) -> Result<(), Needs> {
         let known = self.events.len();
         self.both(Kind::Growth, changing)?;
-        let found = self.events.split_off(known);
+        let candidates = self.events.split_off(known);
         let complex = |event: &Candidate| event.near[0].im != 0.0;
-        self.events.extend(found.into_iter().filter(complex));
+        self.events.extend(candidates.into_iter().filter(complex));
         Ok(())
     }
 
@@ -374,9 +374,9 @@ impl Search<'_> {
             true => {
                 let known = self.events.len();
                 self.both(Kind::Turning, changing)?;
-                let found = self.events.split_off(known);
+                let candidates = self.events.split_off(known);
                 let growing = |event: &Candidate| event.near[0].re > 0.0;
-                self.events.extend(found.into_iter().filter(growing));
+                self.events.extend(candidates.into_iter().filter(growing));
                 Ok(())
             }
             false => Ok(()),
@@ -428,9 +428,9 @@ impl Search<'_> {
             let h = self.t[2] - self.t[0];
             let share = (self.t[1] - self.t[0]) / h;
             let [value, slope] = cubic(of(0), of(2), h, share);
-            let [own, rate] = of(1);
+            let [middle, rate] = of(1);
             let bump = share * (1.0 - share);
-            let value = (value - own).norm() / (16.0 * bump * bump);
+            let value = (value - middle).norm() / (16.0 * bump * bump);
             0.5 * value.max(0.25 * (slope - rate).norm() * h)
         };
         let rests = [missed(&|k| ends[k].0), missed(&|k| ends[k].1)];

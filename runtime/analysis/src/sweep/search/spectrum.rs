@@ -108,8 +108,8 @@ impl Chains {
 }
 
 /// What a pair of the middle state is at a neighbour.
-fn side(own: Option<usize>, changed: &[(usize, [usize; 2])], k: usize) -> Option<Two> {
-    if let Some(i) = own {
+fn side(partner: Option<usize>, changed: &[(usize, [usize; 2])], k: usize) -> Option<Two> {
+    if let Some(i) = partner {
         return Some(Two::Pair(i));
     }
     let (_, both) = changed.iter().find(|(pair, _)| *pair == k)?;
@@ -185,14 +185,14 @@ fn halves(
     if real.len() != 2 * pairs.len() {
         return None;
     }
-    let mut found = Vec::with_capacity(pairs.len());
+    let mut matches = Vec::with_capacity(pairs.len());
     for &pair in pairs {
         let wanted = ahead(here, Two::Pair(pair), 0.5 * h);
         let (both, _) = nearest_real(there, &real, wanted, -0.5 * h)?;
         real.retain(|r| !both.contains(r));
-        found.push((pair, both));
+        matches.push((pair, both));
     }
-    Some(found)
+    Some(matches)
 }
 
 /// The sum and the product of two eigenvalues at a distance from their state.

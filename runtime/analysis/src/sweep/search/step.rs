@@ -122,8 +122,8 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// The state at a place.
     pub(super) fn node(&mut self, t: f64) -> Option<Rc<Node>> {
-        let place = self.nodes.partition_point(|node| node.spectrum.t < t);
-        if let Some(known) = self.nodes.get(place).filter(|node| node.spectrum.t == t) {
+        let index = self.nodes.partition_point(|node| node.spectrum.t < t);
+        if let Some(known) = self.nodes.get(index).filter(|node| node.spectrum.t == t) {
             return Some(known.clone());
         }
         *self.left = self.left.checked_sub(1)?;
@@ -134,7 +134,7 @@ impl<'a, 'b> Step<'a, 'b> {
         };
         let rate = self.rate(&point)?;
         let node = Rc::new(self.question.node(point, t, rate).ok()?);
-        self.nodes.insert(place, node.clone());
+        self.nodes.insert(index, node.clone());
         Some(node)
     }
 
@@ -158,13 +158,13 @@ impl<'a, 'b> Step<'a, 'b> {
     /// The station at a place: on the cubic between the known ones, or close beside it. Where branches meet, another one
     /// may be farther from it.
     fn between(&self, t: f64) -> Option<CurvePoint> {
-        let place = self.nodes.partition_point(|node| node.spectrum.t < t);
+        let index = self.nodes.partition_point(|node| node.spectrum.t < t);
         let known = |node: Option<&Rc<Node>>, end: usize| match node {
             Some(node) => (node.spectrum.t, node.point.clone()),
             None => (end as f64, self.ends[end].clone()),
         };
-        let before = known(place.checked_sub(1).and_then(|k| self.nodes.get(k)), 0);
-        let after = known(self.nodes.get(place), 1);
+        let before = known(index.checked_sub(1).and_then(|k| self.nodes.get(k)), 0);
+        let after = known(self.nodes.get(index), 1);
         let frame = &self.ends[0].frame;
         let end = |(_, point): &(f64, CurvePoint)| {
             let along = point.direction().scaled(self.rate(point)?);
@@ -181,13 +181,13 @@ impl<'a, 'b> Step<'a, 'b> {
         let turn = off(&a) + off(&b);
         let slack = CLOSE * self.length * h + ROUNDED;
         let reach = ASTRAY * turn + slack;
-        let found = (self.curve).across(self.ends[0], &predicted, &self.normal, reach);
-        let found = found.ok()?;
-        let own = frame
-            .direction(&found.direction())
-            .scaled(self.rate(&found)?);
-        let turned = own.plus(-1.0, &rate).norm() * h;
-        (turned <= TURNED * turn + slack).then_some(found)
+        let corrected = (self.curve).across(self.ends[0], &predicted, &self.normal, reach);
+        let corrected = corrected.ok()?;
+        let tangent = frame
+            .direction(&corrected.direction())
+            .scaled(self.rate(&corrected)?);
+        let turned = tangent.plus(-1.0, &rate).norm() * h;
+        (turned <= TURNED * turn + slack).then_some(corrected)
     }
 
     /// The events of the step, in order; `located` are the special points that the walk has found on it. The end is part
@@ -209,32 +209,35 @@ impl<'a, 'b> Step<'a, 'b> {
         // The special points that are known divide the step.
         let mut from = (self.state(0.0)?, true);
         for special in specials.iter().map(Some).chain([None]) {
-            let place = special.map(|pair| pair.0);
+            let fraction = special.map(|pair| pair.0);
             let last = match special {
-                Some(own) => self.beside(own, -1.0, from.0.t),
+                Some(point) => self.beside(point, -1.0, from.0.t),
                 None => Some(self.state(1.0)?),
             };
             if let Some(last) = last {
                 let interval = Interval {
                     ends: [from.0.clone(), last],
                     opens: from.1,
-                    closes: closes && place.is_none(),
+                    closes: closes && fraction.is_none(),
                 };
-                let own = divide(self, wanted, interval, finest / self.length);
-                let doubts = own.doubts.iter().map(|doubt| (doubt.between, doubt.kind));
+                let division = divide(self, wanted, interval, finest / self.length);
+                let doubts = division
+                    .doubts
+                    .iter()
+                    .map(|doubt| (doubt.between, doubt.kind));
                 findings.doubts.extend(doubts);
                 findings
                     .places
-                    .extend(own.states.iter().map(|state| state.t));
-                events.extend(own.events);
-                broken |= own.broken;
+                    .extend(division.states.iter().map(|state| state.t));
+                events.extend(division.events);
+                broken |= division.broken;
             } else {
                 broken = true;
-                let to = place.unwrap_or(1.0);
+                let to = fraction.unwrap_or(1.0);
                 findings.doubts.push(([from.0.t, to], Kind::Critical));
             }
-            if let Some(own) = special {
-                match self.beside(own, 1.0, 1.0) {
+            if let Some(point) = special {
+                match self.beside(point, 1.0, 1.0) {
                     Some(next) => from = (next, false),
                     None => break,
                 }
@@ -280,14 +283,14 @@ impl<'a, 'b> Step<'a, 'b> {
         };
         let exact = self.node(t);
         let value = exact.as_ref().map(|node| node.point.place.p);
-        let mut found = exact.filter(|node| there(self, node));
+        let mut nearby = exact.filter(|node| there(self, node));
         let mut aside = BESIDE / self.length;
-        while found.is_none() && aside < SAME.sqrt() {
+        while nearby.is_none() && aside < SAME.sqrt() {
             let beside = (t + side * aside).clamp(0.0, 1.0);
-            found = self.node(beside).filter(|node| there(self, node));
+            nearby = self.node(beside).filter(|node| there(self, node));
             aside *= 10.0;
         }
-        let node = found?;
+        let node = nearby?;
         let value = value.unwrap_or(node.point.place.p);
         let pair = pick(wanted, kind, &node.spectrum, near)?.positions;
         let first = pair[0].min(pair[1]);
@@ -393,13 +396,16 @@ impl<'a, 'b> Step<'a, 'b> {
     ) {
         let (touching, mut crossing): (Vec<_>, Vec<_>) = (candidates.into_iter())
             .partition(|candidate| candidate.zero.passage == Passage::Touches);
-        for own in &mut crossing {
-            own.zero.at = self.refined(wanted, own);
+        for candidate in &mut crossing {
+            candidate.zero.at = self.refined(wanted, candidate);
         }
         crossing.sort_by(|a, b| a.zero.at.total_cmp(&b.zero.at));
         let of_walk = (known.iter()).map(|(t, x)| (*t, x.special.clone(), x.ends_arm));
-        let own = self.separated(&crossing).into_iter();
-        let mut specials: Vec<_> = own.map(|(t, x)| (t, x, false)).chain(of_walk).collect();
+        let separated = self.separated(&crossing).into_iter();
+        let mut specials: Vec<_> = separated
+            .map(|(t, x)| (t, x, false))
+            .chain(of_walk)
+            .collect();
         specials.sort_by(|a, b| a.0.total_cmp(&b.0));
         let touching = touching.iter().map(|x| x.zero.at);
         let touching = touching.filter_map(|t| Some((t, self.degenerate(t, 1)?)));
@@ -490,7 +496,7 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// The special points at several places, each sought between the middles of the ways to its neighbours.
     fn separated(&mut self, crossing: &[Candidate]) -> Vec<(f64, SpecialPoint)> {
-        let mut found = Vec::new();
+        let mut special_points = Vec::new();
         let mut rest = crossing;
         let mut previous: Option<&Candidate> = None;
         while let Some(first) = rest.first() {
@@ -520,26 +526,26 @@ impl<'a, 'b> Step<'a, 'b> {
                 .map(|x| (self.place_of(&x.special), x.special))
                 .collect();
             match at.is_empty() {
-                false => found.extend(at),
+                false => special_points.extend(at),
                 true => {
                     let t = first.zero.at;
-                    found.extend(self.degenerate(t, count).map(|special| (t, special)));
+                    special_points.extend(self.degenerate(t, count).map(|special| (t, special)));
                 }
             }
             (rest, previous) = (after, Some(last));
         }
-        found
+        special_points
     }
 
     /// A special point that is not resolved further.
     fn degenerate(&mut self, t: f64, zero: usize) -> Option<SpecialPoint> {
         let (from, to) = (self.ends[0], self.ends[1]);
-        let place = match self.node(t) {
+        let position = match self.node(t) {
             Some(node) => node.point.place.clone(),
             None => from.frame.place(&from.frame.local(&to.place).scaled(t)),
         };
         let tangent = (&from.frame, &self.normal);
-        self.curve.degenerate(&place, tangent, zero).ok()
+        self.curve.degenerate(&position, tangent, zero).ok()
     }
 
     /// The place of a special point along the step.
@@ -553,18 +559,18 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// The last known state before a place.
     fn before(&self, t: f64) -> Option<Rc<Node>> {
-        let place = self
+        let index = self
             .nodes
             .partition_point(|node| node.spectrum.t < t - SAME);
-        self.nodes.get(place.checked_sub(1)?).cloned()
+        self.nodes.get(index.checked_sub(1)?).cloned()
     }
 
     /// The first known state after a place.
     fn after(&self, t: f64) -> Option<Rc<Node>> {
-        let place = self
+        let index = self
             .nodes
             .partition_point(|node| node.spectrum.t <= t + SAME);
-        self.nodes.get(place).cloned()
+        self.nodes.get(index).cloned()
     }
 }
 

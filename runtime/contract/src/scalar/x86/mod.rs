@@ -81,10 +81,10 @@ pub(super) fn compact<R>(task: impl FnOnce() -> R) -> R {
     let task = ManuallyDrop::new(task);
     if !cfg!(debug_assertions) {
         #[cfg(feature = "std")]
-        let found = std::is_x86_feature_detected!("avx");
+        let has_avx = std::is_x86_feature_detected!("avx");
         #[cfg(not(feature = "std"))]
-        let found = cfg!(target_feature = "avx");
-        if found {
+        let has_avx = cfg!(target_feature = "avx");
+        if has_avx {
             // SAFETY: the processor has the feature.
             return unsafe { avx(ManuallyDrop::into_inner(task)) };
         }

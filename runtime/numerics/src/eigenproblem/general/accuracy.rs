@@ -94,10 +94,10 @@ pub(super) fn second_order(
         let parts = others(computed_pairs, i).filter_map(|(s, j, _)| Some(weights[j] / apart(s)?));
         let mut second = pair.second_order(1.0 / parts.sum::<f64>());
         if second > pair.doubt() {
-            let place = i * n..(i + 1) * n;
+            let range = i * n..(i + 1) * n;
             let (right, left) = (
-                &computed_pairs.right[place.clone()],
-                &computed_pairs.left[place],
+                &computed_pairs.right[range.clone()],
+                &computed_pairs.left[range],
             );
             second = second.min(solver.second_order(pair, right, left));
         }
@@ -126,8 +126,8 @@ pub(super) fn estimate(solver: &mut PairSolver, computed_pairs: &mut ComputedPai
 fn error(solver: &mut PairSolver, computed_pairs: &ComputedPairs, i: usize) -> (f64, bool) {
     let pair = &computed_pairs.pairs[i];
     let step = modulus(pair.newton);
-    let own = pair.own();
-    let first = pair.doubt() + 2.0 * step + pair.second + own;
+    let rounding = pair.rounding();
+    let first = pair.doubt() + 2.0 * step + pair.second + rounding;
     let n = solver.pencil.n;
     let mut gap = f64::INFINITY;
     for (s, _, _) in others(computed_pairs, i) {
@@ -157,7 +157,7 @@ fn error(solver: &mut PairSolver, computed_pairs: &ComputedPairs, i: usize) -> (
         error
     };
     let most = solver.pencil.rate(pair.s) * solver.relative().powf(0.5 / n as f64);
-    (reduced.min(most).max(own), false)
+    (reduced.min(most).max(rounding), false)
 }
 
 impl PairSolver<'_> {

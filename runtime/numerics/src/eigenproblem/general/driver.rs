@@ -84,13 +84,13 @@ pub fn solve_near(
     let mut troubles = match predicted {
         true => {
             for (i, near) in near.iter().enumerate() {
-                let place = i * n..(i + 1) * n;
+                let range = i * n..(i + 1) * n;
                 start(
-                    &mut computed_pairs.right[place.clone()],
+                    &mut computed_pairs.right[range.clone()],
                     near.right,
                     right_units,
                 );
-                start(&mut computed_pairs.left[place], near.left, left_units);
+                start(&mut computed_pairs.left[range], near.left, left_units);
             }
             find(
                 &mut solver,
@@ -114,7 +114,7 @@ pub fn solve_near(
         if troubles > 0 {
             let second = take(&mut complex, count);
             if second_values(&mut solver, &computed_pairs, second, spare, open, marked) {
-                let second = Values::own(second, marked);
+                let second = Values::improved(second, marked);
                 if find(&mut solver, &mut computed_pairs, second, label) >= troubles {
                     find(&mut solver, &mut computed_pairs, Values::of(values), label);
                 }
@@ -125,8 +125,8 @@ pub fn solve_near(
         return Err(not_found());
     }
     let places = &mut label[..computed_pairs.count];
-    for (i, place) in places.iter_mut().enumerate() {
-        *place = i;
+    for (i, slot) in places.iter_mut().enumerate() {
+        *slot = i;
     }
     sort(places, |&i| computed_pairs.pairs[i].s);
     let mut roots = Vec::with_capacity(computed_pairs.count);

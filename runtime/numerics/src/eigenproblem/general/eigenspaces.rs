@@ -238,7 +238,7 @@ impl PairSolver<'_> {
         pair.conjugate = conjugate;
         if regular {
             pair.condition = self.condition(&pair, right, left);
-            pair.error = pair.doubt() + 2.0 * modulus(pair.newton) + pair.own();
+            pair.error = pair.doubt() + 2.0 * modulus(pair.newton) + pair.rounding();
         } else {
             let block = (cluster.multiplicity - cluster.regular)
                 .div_ceil(defective)

@@ -210,8 +210,8 @@ impl Hessenberg<'_> {
             },
         );
         let sorted = x.to_vec();
-        for (row, &place) in sorted.chunks_exact(columns).zip(&self.order) {
-            x[place * columns..(place + 1) * columns].copy_from_slice(row);
+        for (row, &index) in sorted.chunks_exact(columns).zip(&self.order) {
+            x[index * columns..(index + 1) * columns].copy_from_slice(row);
         }
     }
 
@@ -223,8 +223,8 @@ impl Hessenberg<'_> {
         );
         for part in x.both() {
             let sorted = part.to_vec();
-            for (&place, x) in self.order.iter().zip(sorted) {
-                part[place] = x;
+            for (&index, x) in self.order.iter().zip(sorted) {
+                part[index] = x;
             }
         }
     }
@@ -232,7 +232,7 @@ impl Hessenberg<'_> {
     /// `Q^T x` in place.
     pub(super) fn rotate_back(&self, x: &mut Parts) {
         for part in x.both() {
-            let sorted: Vec<f64> = self.order.iter().map(|&place| part[place]).collect();
+            let sorted: Vec<f64> = self.order.iter().map(|&index| part[index]).collect();
             part.copy_from_slice(&sorted);
         }
         f64::run(

@@ -106,9 +106,9 @@ impl<'a> Iteration<'a> {
             linearisation.shapes(columns, block, shapes);
             for (i, row) in shapes.chunks_exact(columns).enumerate() {
                 for (q, parts) in row.chunks_exact(COLUMNS).enumerate() {
-                    let place = (first + q) * n + i;
-                    right[place] = Complex64::new(parts[0], parts[1]);
-                    left[place] = Complex64::new(parts[2], parts[3]);
+                    let offset = (first + q) * n + i;
+                    right[offset] = Complex64::new(parts[0], parts[1]);
+                    left[offset] = Complex64::new(parts[2], parts[3]);
                 }
             }
         }

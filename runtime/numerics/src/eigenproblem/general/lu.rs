@@ -138,7 +138,7 @@ impl<'a> Lu<'a> {
         }
         let mut trace = Complex64::ZERO;
         for column in 0..n {
-            let row = self.columns.iter().position(|&place| place == column);
+            let row = self.columns.iter().position(|&position| position == column);
             trace += row.map_or(Complex64::ZERO, |row| work[row * n + column]);
         }
         trace
@@ -190,12 +190,12 @@ fn eliminate(n: usize, matrix: &mut [Complex64], rows: &mut [usize], columns: &m
     for (i, (row, column)) in rows.iter_mut().zip(columns.iter_mut()).enumerate() {
         (*row, *column) = (i, i);
     }
-    let (size, mut place) = largest(n, 0, matrix);
+    let (size, mut entry) = largest(n, 0, matrix);
     let unit = if size > NOTHING { size } else { 1.0 };
     let inverse = 1.0 / unit;
     matrix.iter_mut().for_each(|x| *x *= inverse);
     for k in 0..n {
-        let (row, column) = place;
+        let (row, column) = entry;
         if row != k {
             rows.swap(k, row);
             for j in 0..n {
@@ -221,7 +221,7 @@ fn eliminate(n: usize, matrix: &mut [Complex64], rows: &mut [usize], columns: &m
                 subtract(&mut row[k + 1..], factor, &pivot_row[k + 1..]);
             }
         }
-        (_, place) = largest(n, k + 1, matrix);
+        (_, entry) = largest(n, k + 1, matrix);
     }
     unit
 }
@@ -236,19 +236,19 @@ fn subtract(from: &mut [Complex64], factor: Complex64, row: &[Complex64]) {
 /// The largest element from row and column `k` on, the first of equal ones, and its place.
 #[inline(always)]
 fn largest(n: usize, k: usize, matrix: &[Complex64]) -> (f64, (usize, usize)) {
-    let (mut most, mut place) = (-1.0, (k, k));
+    let (mut most, mut entry) = (-1.0, (k, k));
     for (i, row) in matrix.chunks_exact(n).enumerate().skip(k) {
-        let mut own = -1.0;
+        let mut greatest = -1.0;
         for z in &row[k..] {
             let size = bound(*z);
-            own = if size > own { size } else { own };
+            greatest = if size > greatest { size } else { greatest };
         }
-        if own > most {
-            let column = row[k..].iter().position(|&z| bound(z) == own);
-            (most, place) = (own, (i, k + column.unwrap_or(0)));
+        if greatest > most {
+            let column = row[k..].iter().position(|&z| bound(z) == greatest);
+            (most, entry) = (greatest, (i, k + column.unwrap_or(0)));
         }
     }
-    (most, place)
+    (most, entry)
 }
 
 /// A matrix without larger elements counts as zero.

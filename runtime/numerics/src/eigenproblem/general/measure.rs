@@ -86,7 +86,7 @@ impl Pair {
     }
 
     /// Rounding of `s` itself.
-    pub(super) fn own(&self) -> f64 {
+    pub(super) fn rounding(&self) -> f64 {
         f64::EPSILON * modulus(self.s) + ZERO
     }
 

@@ -35,10 +35,10 @@ pub(super) fn predict(
         };
         let s = s / rate;
         for value in [s, s.conj()].into_iter().take(1 + usize::from(s.im > 0.0)) {
-            let Some(place) = values.get_mut(filled) else {
+            let Some(slot) = values.get_mut(filled) else {
                 return false;
             };
-            *place = value;
+            *slot = value;
             filled += 1;
         }
     }

@@ -299,8 +299,8 @@ mod tests {
 
     fn two_blocks() -> [f64; 16] {
         let mut h = [0.0; 16];
-        for (place, value) in [(1, 3.0), (4, -3.0), (11, 2.0), (14, -2.0)] {
-            h[place] = value;
+        for (index, value) in [(1, 3.0), (4, -3.0), (11, 2.0), (14, -2.0)] {
+            h[index] = value;
         }
         h[9] = LEFT_OVER;
         h

@@ -48,7 +48,7 @@ pub(crate) struct Values<'a> {
     /// Vectors close to their own are known.
     near: bool,
     /// Which of them come from the pencil itself, so that the vectors of the linearisation are not theirs.
-    own: &'a [bool],
+    improved: &'a [bool],
 }
 
 impl<'a> Values<'a> {
@@ -57,7 +57,7 @@ impl<'a> Values<'a> {
         Self {
             values,
             near: false,
-            own: &[],
+            improved: &[],
         }
     }
 
@@ -70,9 +70,9 @@ impl<'a> Values<'a> {
     }
 
     /// Some of them improved on the pencil.
-    pub(super) fn own(values: &'a [Complex64], own: &'a [bool]) -> Self {
+    pub(super) fn improved(values: &'a [Complex64], improved: &'a [bool]) -> Self {
         Self {
-            own,
+            improved,
             ..Self::of(values)
         }
     }
@@ -115,13 +115,13 @@ pub(super) fn find(
             continue;
         }
         let gap = from.gap(i);
-        let place = computed_pairs.count * n..(computed_pairs.count + 1) * n;
+        let range = computed_pairs.count * n..(computed_pairs.count + 1) * n;
         let (right, left) = (
-            &mut computed_pairs.right[place.clone()],
-            &mut computed_pairs.left[place],
+            &mut computed_pairs.right[range.clone()],
+            &mut computed_pairs.left[range],
         );
         let mut pair = Pair::NONE;
-        if solver.iteration.is_some() && from.own.get(i) != Some(&true) {
+        if solver.iteration.is_some() && from.improved.get(i) != Some(&true) {
             pair = solver.polished((s, gap), right, left);
             open[computed_pairs.count] = pair.condition <= SURE && !accuracy::in_trouble(&pair);
         }

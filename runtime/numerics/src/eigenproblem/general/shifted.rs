@@ -111,8 +111,8 @@ impl Shifted {
                 let factor = Complex64::new(re_next[k], im_next[k]) / Complex64::new(re[k], im[k]);
                 self.below[k] = factor;
                 let above = re[k + 1..].iter().zip(&im[k + 1..]);
-                let own = re_next[k + 1..].iter_mut().zip(&mut im_next[k + 1..]);
-                for ((x, y), (a, b)) in own.zip(above) {
+                let below = re_next[k + 1..].iter_mut().zip(&mut im_next[k + 1..]);
+                for ((x, y), (a, b)) in below.zip(above) {
                     *x -= factor.re * a - factor.im * b;
                     *y -= factor.re * b + factor.im * a;
                 }
@@ -123,8 +123,8 @@ impl Shifted {
     }
 
     fn pivot(&self, i: usize) -> Complex64 {
-        let place = i * (self.n + 1);
-        Complex64::new(self.re[place], self.im[place])
+        let offset = i * (self.n + 1);
+        Complex64::new(self.re[offset], self.im[offset])
     }
 
     /// `U x = b` in place.

@@ -29,13 +29,14 @@ pub(crate) fn solve(
         if residuals[r] > INACCURATE {
             moved = true;
             correct(matrices, lambda, shapes, (r, residuals[r]));
-            let own = |shapes: &[f64], value| Residual::new(matrices, value, &shapes[r * n..]);
-            let mut found = own(shapes, lambda[r]);
-            if found.rest.relative() > INACCURATE {
+            let residual_of =
+                |shapes: &[f64], value| Residual::new(matrices, value, &shapes[r * n..]);
+            let mut residual = residual_of(shapes, lambda[r]);
+            if residual.rest.relative() > INACCURATE {
                 refine(matrices, lambda, shapes, r);
-                found = own(shapes, lambda[r]);
+                residual = residual_of(shapes, lambda[r]);
             }
-            (residuals[r], errors[r]) = (found.rest.relative(), found.rest.error(n));
+            (residuals[r], errors[r]) = (residual.rest.relative(), residual.rest.error(n));
         }
         let shape = &shapes[r * n..(r + 1) * n];
         residuals[r] = accepted(matrices, (lambda[r], shape), (r, residuals[r]))?;
@@ -227,10 +228,10 @@ mod tests {
             let [stiffness, mass] = chain(&vec![1.0; count], &springs);
             let exact = solve(&stiffness, &mass).unwrap();
             for r in 0..count {
-                let (found, exact) = (pairs.lambda[r], exact.lambda[r]);
+                let (computed, exact) = (pairs.lambda[r], exact.lambda[r]);
                 assert!(
-                    (found / exact - 1.0).abs() < 1e-11,
-                    "{n} {r}: {found} {exact}"
+                    (computed / exact - 1.0).abs() < 1e-11,
+                    "{n} {r}: {computed} {exact}"
                 );
                 assert!(pairs.residuals[r] < INACCURATE && pairs.errors[r] < 1e-11);
             }

@@ -186,8 +186,8 @@ fn small(
     solve_lower(n, &lower, vectors);
     let (mut beside, mut product) = ([0.0; SMALL_SIZE], [0.0; SMALL_SIZE]);
     let room = [lambda, &mut beside[..n], &mut product[..n]];
-    let found = tridiagonal::decompose(reduced, vectors, room);
-    found.then_some(()).ok_or_else(not_found)
+    let converged = tridiagonal::decompose(reduced, vectors, room);
+    converged.then_some(()).ok_or_else(not_found)
 }
 
 /// `L^-1 X` in place, for square `X`.
@@ -261,14 +261,14 @@ fn finish(
     sort(n, lambda, shapes, (residuals, errors));
     let mut refined = false;
     for r in 0..n {
-        let own = r * n..(r + 1) * n;
-        (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[own.clone()]);
+        let range = r * n..(r + 1) * n;
+        (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[range.clone()]);
         if residuals[r] > INACCURATE {
             refine(matrices, lambda, shapes, r);
-            (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[own.clone()]);
+            (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[range.clone()]);
             refined = true;
         }
-        residuals[r] = accepted(matrices, (lambda[r], &shapes[own]), (r, residuals[r]))?;
+        residuals[r] = accepted(matrices, (lambda[r], &shapes[range]), (r, residuals[r]))?;
     }
     if refined {
         sort(n, lambda, shapes, (residuals, errors));

@@ -17,8 +17,8 @@ const NEAR: f64 = 1e-3;
 #[cold]
 pub(super) fn refine(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64], r: usize) {
     let n = matrices.n;
-    let own = r * n..(r + 1) * n;
-    let shape = &mut shapes[own.clone()].to_vec()[..];
+    let range = r * n..(r + 1) * n;
+    let shape = &mut shapes[range.clone()].to_vec()[..];
     let weighted = &mut vec![0.0; n][..];
     let mut best = matrices.relative_residual(lambda[r], shape);
     let mut value = lambda[r];
@@ -58,7 +58,7 @@ pub(super) fn refine(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64]
         if reached < best {
             best = reached;
             lambda[r] = value;
-            shapes[own.clone()].copy_from_slice(shape);
+            shapes[range.clone()].copy_from_slice(shape);
         }
     }
 }

@@ -47,7 +47,7 @@ pub(super) fn close(
         };
         let from = kicked(from, held, kick, point.structure);
         match close_from(point, &from, held) {
-            Ok(found) => return Ok(found),
+            Ok(closed) => return Ok(closed),
             Err(next) if open_by(&next) < BETTER * open_by(&best) => best = next,
             Err(_) => {}
         }

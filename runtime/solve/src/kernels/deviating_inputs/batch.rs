@@ -123,11 +123,11 @@ impl Deviations {
         gradient: &mut BatchGradient<'_>,
         kernel: impl FnOnce(&mut BatchGradient<'_>),
     ) {
-        let (own, deviations) = gradient.design.split_at_mut(self.design());
+        let (by_design, deviations) = gradient.design.split_at_mut(self.design());
         kernel(&mut BatchGradient {
             coordinates: &mut *gradient.coordinates,
             inputs: &mut *gradient.inputs,
-            design: own,
+            design: by_design,
         });
         for (to, &input) in deviations.iter_mut().zip(self.inputs()) {
             *to = gradient.inputs[input];

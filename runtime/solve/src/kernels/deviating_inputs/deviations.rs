@@ -38,21 +38,21 @@ impl Deviations {
         b: &'b [T],
         sum: impl Fn(T, T) -> T,
     ) -> (Vector<T>, &'b [T]) {
-        let (own, deviations) = self.split(b);
+        let (design, deviations) = self.split(b);
         let mut applied = Vector::from(u);
         for (&input, &deviation) in self.inputs.iter().zip(deviations) {
             applied[input] = sum(applied[input], deviation);
         }
-        (applied, own)
+        (applied, design)
     }
 
     /// Converts derivatives of the matrices.
-    pub(super) fn partial_matrices(&self, own: &PartialMatrices, joined: &mut PartialMatrices) {
+    pub(super) fn partial_matrices(&self, narrow: &PartialMatrices, joined: &mut PartialMatrices) {
         let [by_coordinate, by_input, by_design] = joined.lists_mut();
-        by_coordinate.copy_from_slice(own.by_coordinate());
-        by_input.copy_from_slice(own.by_input());
-        let (design, deviations) = by_design.split_at_mut(own.by_design().len());
-        design.copy_from_slice(own.by_design());
+        by_coordinate.copy_from_slice(narrow.by_coordinate());
+        by_input.copy_from_slice(narrow.by_input());
+        let (design, deviations) = by_design.split_at_mut(narrow.by_design().len());
+        design.copy_from_slice(narrow.by_design());
         let size = deviations.len() / self.inputs.len().max(1);
         for (to, &input) in deviations.chunks_exact_mut(size.max(1)).zip(&self.inputs) {
             to.copy_from_slice(&by_input[input * size..][..size]);
@@ -69,8 +69,8 @@ impl Deviations {
         let width = self.width();
         let inputs = by_input.len() / (joined.len() / width).max(1);
         for (i, row) in joined.chunks_exact_mut(width).enumerate() {
-            let (own, deviations) = row.split_at_mut(self.design);
-            own.copy_from_slice(&by_design[i * self.design..][..self.design]);
+            let (design, deviations) = row.split_at_mut(self.design);
+            design.copy_from_slice(&by_design[i * self.design..][..self.design]);
             for (to, &input) in deviations.iter_mut().zip(&self.inputs) {
                 *to = by_input[i * inputs + input];
             }

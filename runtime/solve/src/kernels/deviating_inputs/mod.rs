@@ -45,16 +45,18 @@ impl<'a, K: Kernels + ?Sized> DeviatingInputs<'a, K> {
     /// # Errors
     /// [`Error::UnknownHandle`] for an input that the mechanism does not have.
     pub fn new(kernels: &'a K, inputs: &[Input]) -> Result<Self, Error> {
-        let own = kernels.description();
+        let original = kernels.description();
         inputs
             .iter()
-            .try_for_each(|input| check_input(*input, &own))?;
+            .try_for_each(|input| check_input(*input, &original))?;
         let inputs: Vec<usize> = inputs.iter().map(|input| input.index()).collect();
-        let deviations = inputs.iter().map(|&input| deviation_of(&own.inputs[input]));
-        let design: Vec<DesignInfo> = own.design.iter().cloned().chain(deviations).collect();
+        let deviations = inputs
+            .iter()
+            .map(|&input| deviation_of(&original.inputs[input]));
+        let design: Vec<DesignInfo> = original.design.iter().cloned().chain(deviations).collect();
         let description = Description {
             design: design.into(),
-            ..Description::clone(&own)
+            ..Description::clone(&original)
         };
         Ok(Self {
             kernels,

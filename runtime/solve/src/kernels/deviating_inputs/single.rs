@@ -28,21 +28,21 @@ impl<K: ?Sized> DeviatingInputs<'_, K> {
         let inputs = arguments.iter().take_while(|list| **list != Extent::Inputs);
         let at = inputs.count();
         let applied = lists.map(|list| self.applied(list[at], list[at + 1]));
-        let mut own = lists.map(<[_]>::to_vec);
-        for (own, (u, b)) in own.iter_mut().zip(&applied) {
-            own[at] = u;
-            own[at + 1] = b;
+        let mut adjusted = lists.map(<[_]>::to_vec);
+        for (list, (u, b)) in adjusted.iter_mut().zip(&applied) {
+            list[at] = u;
+            list[at + 1] = b;
         }
-        let own = own.each_ref().map(Vec::as_slice);
+        let adjusted = adjusted.each_ref().map(Vec::as_slice);
         match (shapes, results) {
             ([.., [_, Extent::Design]], [before @ .., by_input, by_design]) => {
                 let mut narrow = self.deviations.narrow(by_design.len());
                 let mut narrowed: Vec<&mut [f64]> = before.iter_mut().map(|x| &mut **x).collect();
                 narrowed.extend([&mut **by_input, &mut narrow[..]]);
-                kernel(own, &mut narrowed);
+                kernel(adjusted, &mut narrowed);
                 self.deviations.join_rows(by_design, by_input, &narrow);
             }
-            (_, results) => kernel(own, results),
+            (_, results) => kernel(adjusted, results),
         }
     }
 }
@@ -125,8 +125,9 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
     /// The mechanism only knows ranges of its design variables, so nothing can be said if an input varies.
     fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool {
         let (u, b) = self.applied(u, b);
-        let (own, of_deviations) = self.deviations.split(reach);
-        of_deviations.iter().all(|reach| *reach == 0.0) && self.kernels.possible_within(&u, b, own)
+        let (of_design, of_deviations) = self.deviations.split(reach);
+        of_deviations.iter().all(|reach| *reach == 0.0)
+            && self.kernels.possible_within(&u, b, of_design)
     }
 
     fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {

@@ -25,13 +25,13 @@ pub(super) fn roots(
         roots_of(Eigenproblem::FirstOrder(matrix))
     })?;
     let mut gathered = Gathered::new(linear, tangent.structure, Normalisation::Largest);
-    for (i, own) in reduced.iter().enumerate() {
-        let phi = system.motion(&own.right);
+    for (i, root) in reduced.iter().enumerate() {
+        let phi = system.motion(&root.right);
         gathered.add(
-            own,
+            root,
             is_shared(&reduced, i),
-            with_reactions(linear, tangent, own.s, &phi),
-            system.left(own.s, &own.left),
+            with_reactions(linear, tangent, root.s, &phi),
+            system.left(root.s, &root.left),
         )?;
     }
     Ok(gathered.roots)
@@ -47,8 +47,8 @@ impl System<'_> {
             *nu += part;
         }
         let mut x = lift(self.tangent, y);
-        for (k, place) in self.tangent.structure.speed_range().enumerate() {
-            x[place] = nu[f + k] * self.units[k];
+        for (k, index) in self.tangent.structure.speed_range().enumerate() {
+            x[index] = nu[f + k] * self.units[k];
         }
         x
     }
@@ -84,8 +84,8 @@ impl System<'_> {
         let re = self.velocity.multipliers(&force.map(|value| value.re));
         let im = self.velocity.multipliers(&force.map(|value| value.im));
         let mut psi = lift(self.tangent, &nu[..f]);
-        for (k, place) in structure.speed_range().enumerate() {
-            psi[place] = nu[f + k] * self.units[k];
+        for (k, index) in structure.speed_range().enumerate() {
+            psi[index] = nu[f + k] * self.units[k];
         }
         for (k, velocity_row) in structure.velocity_rows().enumerate() {
             psi[velocity_row] = Complex::new(re[k], im[k]);

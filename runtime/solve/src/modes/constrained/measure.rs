@@ -153,10 +153,13 @@ pub(super) fn inverse_iteration(
     let nearby = s + 1e-11 * s.norm() + 1e-14 * rate;
     let solve = |linear: &Linear, start: &[Complex]| {
         let factors = factors(linear, s).or_else(|| factors(linear, nearby))?;
-        let found = factors.solve(&pencil_slope_times(linear, s, start));
-        let most = found.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
-        let found = found.map(|x| x / most);
-        found.iter().all(|x| x.is_finite()).then_some(found)
+        let solution = factors.solve(&pencil_slope_times(linear, s, start));
+        let most = solution.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
+        let normalised = solution.map(|x| x / most);
+        normalised
+            .iter()
+            .all(|x| x.is_finite())
+            .then_some(normalised)
     };
     Some((solve(linear, right)?, solve(&transposed(linear), left)?))
 }

@@ -52,15 +52,18 @@ fn measured(s: Complex, right: &[Complex], left: &[Complex]) -> Measure {
 #[test]
 fn an_exact_pair_leaves_rounding() {
     let [right, left] = vectors();
-    let found = measured(root(), &right, &left);
-    assert!(found.residual < 1e-15 && found.rounding_only, "{found:?}");
+    let measure = measured(root(), &right, &left);
+    assert!(
+        measure.residual < 1e-15 && measure.rounding_only,
+        "{measure:?}"
+    );
     // What rounding of the elements can do to the root: a few units of its last digit.
     let last = f64::EPSILON * root().norm();
     assert!(
-        found.doubt > last && found.doubt < 100.0 * last,
-        "{found:?}"
+        measure.doubt > last && measure.doubt < 100.0 * last,
+        "{measure:?}"
     );
-    assert!(found.newton.norm() < found.doubt, "{found:?}");
+    assert!(measure.newton.norm() < measure.doubt, "{measure:?}");
 }
 
 #[test]
@@ -69,8 +72,11 @@ fn the_step_is_that_of_the_quadratic() {
     for off in [Complex::new(1e-3, 0.0), Complex::new(-0.02, 0.05)] {
         let s = root() + off;
         let exact = (6.0 * s * s + 0.4 * s + 15.5) / (12.0 * s + 0.4);
-        let found = measured(s, &right, &left);
-        assert!((found.newton - exact).norm() < 1e-12, "{found:?} {exact}");
+        let measure = measured(s, &right, &left);
+        assert!(
+            (measure.newton - exact).norm() < 1e-12,
+            "{measure:?} {exact}"
+        );
     }
 }
 
@@ -83,10 +89,10 @@ fn every_component_that_is_off_is_seen() {
             let mut both = exact;
             both[side][component] += 1e-6;
             let [right, left] = both;
-            let found = measured(root(), &right, &left);
+            let measure = measured(root(), &right, &left);
             assert!(
-                found.residual > 1e-7 && found.residual < 1e-5 && !found.rounding_only,
-                "{side} {component}: {found:?}"
+                measure.residual > 1e-7 && measure.residual < 1e-5 && !measure.rounding_only,
+                "{side} {component}: {measure:?}"
             );
         }
     }

@@ -255,9 +255,9 @@ impl<'a> Gathered<'a> {
             }
             measure.residual = measure::ROUNDING;
         }
-        let own = measure.doubt + 2.0 * measure.newton.norm() + f64::EPSILON * s.norm();
-        let error = if reduced.condition.is_finite() && own.is_finite() {
-            reduced.error.max(own)
+        let estimate = measure.doubt + 2.0 * measure.newton.norm() + f64::EPSILON * s.norm();
+        let error = if reduced.condition.is_finite() && estimate.is_finite() {
+            reduced.error.max(estimate)
         } else {
             reduced.error
         };

@@ -21,13 +21,13 @@ pub(super) fn roots(
         .map_err(|trouble| tangent_trouble(trouble, tangent))?;
     let transposed = transposed(linear);
     let mut gathered = Gathered::new(linear, tangent.structure, Normalisation::Mass);
-    for (i, own) in reduced.iter().enumerate() {
-        let (phi, psi) = (lift(tangent, &own.right), lift(tangent, &own.left));
+    for (i, root) in reduced.iter().enumerate() {
+        let (phi, psi) = (lift(tangent, &root.right), lift(tangent, &root.left));
         gathered.add(
-            own,
+            root,
             is_shared(&reduced, i),
-            with_reactions(linear, tangent, own.s, &phi),
-            with_reactions(&transposed, tangent, own.s, &psi),
+            with_reactions(linear, tangent, root.s, &phi),
+            with_reactions(&transposed, tangent, root.s, &psi),
         )?;
     }
     Ok(gathered.roots)

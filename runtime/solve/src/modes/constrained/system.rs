@@ -204,9 +204,9 @@ impl<'a> System<'a> {
 /// Square roots of the masses of the velocities, with a lower limit relative to the largest.
 fn metric(mass: &Matrix) -> Vector {
     const LIGHT: f64 = 1e-4;
-    let own = Vector::from_fn(mass.row_count(), |a| mass[a][a].max(0.0).sqrt());
-    let greatest = own.iter().fold(0.0, |a: f64, &b| a.max(b));
-    own.map(|value| {
+    let scales = Vector::from_fn(mass.row_count(), |a| mass[a][a].max(0.0).sqrt());
+    let greatest = scales.iter().fold(0.0, |a: f64, &b| a.max(b));
+    scales.map(|value| {
         if greatest > 0.0 {
             value.max(LIGHT * greatest)
         } else {

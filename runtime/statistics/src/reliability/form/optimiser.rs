@@ -64,16 +64,16 @@ fn minimise(search: &Search, start: Iterate) -> Iterate {
     };
     let limit = |z: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
         let mut progress = progress.borrow_mut();
-        let Some(found) = progress.at(search, z) else {
+        let Some(evaluation) = progress.at(search, z) else {
             return f64::INFINITY;
         };
         if let Some(gradient) = gradient {
-            for (entry, slope) in gradient.iter_mut().zip(&found.limit.gradient) {
+            for (entry, slope) in gradient.iter_mut().zip(&evaluation.limit.gradient) {
                 *entry = scale * slope;
             }
         }
         // On the limit is sufficient: otherwise rounding of g would decide feasibility.
-        let value = scale * found.limit.value;
+        let value = scale * evaluation.limit.value;
         if value.abs() < 0.1 * tolerance {
             0.0
         } else {

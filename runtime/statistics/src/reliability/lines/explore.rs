@@ -83,8 +83,8 @@ impl LineSampler {
             sampler: self,
             evaluations: 0,
         };
-        let found = explorer.directions();
-        (found, explorer.evaluations)
+        let directions = explorer.directions();
+        (directions, explorer.evaluations)
     }
 
     /// About how many evaluations that takes.
@@ -124,8 +124,8 @@ impl<L: LimitState> Explorer<'_, L> {
             });
             let nearest = points.iter().enumerate();
             let nearest = nearest.min_by(|(_, a), (_, b)| norm(a).total_cmp(&norm(b)));
-            let Some((place, _)) = nearest else { break };
-            let point = points.swap_remove(place);
+            let Some((index, _)) = nearest else { break };
+            let point = points.swap_remove(index);
             let Some(direction) = self.towards(&point) else {
                 break;
             };
@@ -165,8 +165,8 @@ impl<L: LimitState> Explorer<'_, L> {
                 let across = unit(&sampler.across(sample, direction)).unwrap_or_default();
                 let across = scaled(share * farthest, &across);
                 let reach = f64::INFINITY;
-                for own in self.line(&across, direction, (-reach, reach)) {
-                    all.push(add_scaled(&across, nearest(&own), direction));
+                for interval in self.line(&across, direction, (-reach, reach)) {
+                    all.push(add_scaled(&across, nearest(&interval), direction));
                 }
             }
         }

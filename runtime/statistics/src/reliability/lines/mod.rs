@@ -167,10 +167,10 @@ impl LineSampler {
         };
         let mut line = Line::default();
         for stretch in stretches {
-            let own = scan::scan(&value, stretch, reach, spacing).line;
-            line.fails += own.fails;
-            line.without_value += own.without_value;
-            line.evaluations += own.evaluations;
+            let segment = scan::scan(&value, stretch, reach, spacing).line;
+            line.fails += segment.fails;
+            line.without_value += segment.without_value;
+            line.evaluations += segment.evaluations;
         }
         line
     }
@@ -187,8 +187,8 @@ impl LineSampler {
     /// The values of a limit state along a line; NaN where it has none.
     fn along<L: LimitState>(limit: &L, across: &[f64], direction: &[f64]) -> impl Fn(f64) -> f64 {
         move |s| {
-            let found = limit.value(&add_scaled(across, s, direction));
-            found.unwrap_or(f64::NAN)
+            let value = limit.value(&add_scaled(across, s, direction));
+            value.unwrap_or(f64::NAN)
         }
     }
 
@@ -330,9 +330,9 @@ impl LineSampler {
             draw(&mut lines, region, self.first(region));
         }
         loop {
-            let found = self.estimate(&lines);
-            if found.reached || found.evaluations >= most || self.alone() {
-                return found;
+            let estimate = self.estimate(&lines);
+            if estimate.reached || estimate.evaluations >= most || self.alone() {
+                return estimate;
             }
             let region = Self::neediest(&lines);
             draw(&mut lines, region, MORE);

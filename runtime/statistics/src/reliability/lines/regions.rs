@@ -56,10 +56,10 @@ impl Regions {
             }
         }));
         let mut apart: Vec<Region> = Vec::new();
-        for (k, own) in all.into_iter().enumerate() {
-            let same = |other: &Region| dot(&other.direction, &own.direction).abs() > SAME;
+        for (k, region) in all.into_iter().enumerate() {
+            let same = |other: &Region| dot(&other.direction, &region.direction).abs() > SAME;
             if !apart.iter().any(same) {
-                apart.push(own);
+                apart.push(region);
             } else if k < known {
                 expected -= 1;
             }
@@ -86,15 +86,15 @@ impl Regions {
 
     /// The parts of a line along the direction of a region, through this point across it, that lie in the region.
     pub(super) fn stretches(&self, region: usize, across: &[f64]) -> [Stretch; 2] {
-        let own = &self.all[region];
+        let this_region = &self.all[region];
         // Along `t >= 0` in one sense or the other.
         let half = |sign: f64| {
             let mut stretch = (0.0, f64::INFINITY);
             for (k, other) in self.all.iter().enumerate() {
                 if k != region {
                     let start = dot(&other.direction, across);
-                    let slope = sign * dot(&other.direction, &own.direction);
-                    let ratio = other.distance / own.distance;
+                    let slope = sign * dot(&other.direction, &this_region.direction);
+                    let ratio = other.distance / this_region.distance;
                     stretch = below(stretch, start, slope - ratio);
                     stretch = below(stretch, -start, -slope - ratio);
                 }

@@ -77,14 +77,14 @@ pub(super) fn scan(
         evaluations: Cell::new(0),
     };
     let steps = ((high - low) / spacing).ceil().max(FEWEST_STEPS);
-    let place = |k: i32| match f64::from(k) {
+    let abscissa = |k: i32| match f64::from(k) {
         k if k == steps => high,
         k => low + (high - low) * (k / steps),
     };
     // An end within reach takes a point beyond it, so that what is hidden in the last interval has a neighbour.
     let (first, last) = (-i32::from(from > -reach), i32::from(to < reach));
     let grid: Vec<Point> = (first..=steps as i32 + last)
-        .map(|k| scan.at(place(k)))
+        .map(|k| scan.at(abscissa(k)))
         .collect();
     let mut points = Vec::with_capacity(grid.len());
     for (k, point) in grid.iter().enumerate() {
@@ -248,10 +248,10 @@ mod tests {
     #[test]
     fn layers_next_to_an_end() {
         for (from, to) in [(1.0, 4.0), (1.0, f64::INFINITY), (1.0, 1.4)] {
-            for place in [1.001, 1.04, 1.2] {
-                let layer = |s: f64| (s - place).abs() - 1e-5;
+            for centre in [1.001, 1.04, 1.2] {
+                let layer = |s: f64| (s - centre).abs() - 1e-5;
                 let fails = scan(layer, (from, to), 8.0, 0.5).line.fails;
-                close(fails, cdf(place + 1e-5) - cdf(place - 1e-5));
+                close(fails, cdf(centre + 1e-5) - cdf(centre - 1e-5));
                 let mirrored = scan(|s| layer(-s), (-to, -from), 8.0, 0.5).line.fails;
                 close(mirrored, fails);
             }

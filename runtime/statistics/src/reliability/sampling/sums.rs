@@ -91,11 +91,11 @@ impl SampleSums {
         self.weights.join(&other.weights);
         self.weights_without_value
             .join(&other.weights_without_value);
-        for (own, other) in self.by_mean.iter_mut().zip(&other.by_mean) {
-            own.join(other);
+        for (sum, other) in self.by_mean.iter_mut().zip(&other.by_mean) {
+            sum.join(other);
         }
-        for (own, other) in self.by_sigma.iter_mut().zip(&other.by_sigma) {
-            own.join(other);
+        for (sum, other) in self.by_sigma.iter_mut().zip(&other.by_sigma) {
+            sum.join(other);
         }
     }
 

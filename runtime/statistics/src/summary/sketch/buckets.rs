@@ -34,16 +34,16 @@ impl Places {
 
     #[inline(always)]
     pub(super) fn of_deviation(self, deviation: f64) -> i32 {
-        let place = (key(deviation) - self.smallest + 1).max(0);
-        if deviation < 0.0 { -place } else { place }
+        let bin = (key(deviation) - self.smallest + 1).max(0);
+        if deviation < 0.0 { -bin } else { bin }
     }
 
     /// The smallest and largest deviation of a place.
-    pub(super) fn edges(self, place: i32) -> (f64, f64) {
+    pub(super) fn edges(self, bin: i32) -> (f64, f64) {
         let magnitude = |key: i32| f64::from_bits(u64::from(key.unsigned_abs()) << SHIFT);
-        let inner = magnitude(self.smallest + place.abs() - 1);
-        let outer = magnitude(self.smallest + place.abs());
-        match place {
+        let inner = magnitude(self.smallest + bin.abs() - 1);
+        let outer = magnitude(self.smallest + bin.abs());
+        match bin {
             0 => (-outer, outer),
             1.. => (inner, outer),
             _ => (-outer, -inner),
@@ -89,16 +89,16 @@ impl Buckets {
     /// Counts deviations at these places, which must be allocated.
     #[inline(always)]
     pub(super) fn count(&mut self, places: &[i32]) {
-        places.iter().for_each(|place| self.count_equal(*place, 1));
+        places.iter().for_each(|bin| self.count_equal(*bin, 1));
     }
 
     /// Counts `number` deviations at one place, which must be allocated.
     #[inline(always)]
-    pub(super) fn count_equal(&mut self, place: i32, number: u64) {
-        let octave = (place.div_euclid(OCTAVE) - self.first) as usize;
+    pub(super) fn count_equal(&mut self, bin: i32, number: u64) {
+        let octave = (bin.div_euclid(OCTAVE) - self.first) as usize;
         if let Some(octave) = self.octaves.get_mut(octave) {
             let counts = octave.get_or_insert_with(empty);
-            counts[place.rem_euclid(OCTAVE) as usize] += number;
+            counts[bin.rem_euclid(OCTAVE) as usize] += number;
         }
     }
 
@@ -131,7 +131,7 @@ impl Buckets {
         });
         counts
             .filter(|(_, count)| **count > 0)
-            .map(|(place, count)| (place, *count))
+            .map(|(bin, count)| (bin, *count))
     }
 
     /// The sum of all counts; `None` if the octaves are not those from `least` to `greatest`.
@@ -169,11 +169,9 @@ impl TryFrom<Vec<(i32, u64)>> for Buckets {
     fn try_from(counted: Vec<(i32, u64)>) -> Result<Self, &'static str> {
         // The limits for arbitrary numbers.
         let greatest = key(f64::MAX);
-        let known = |place: i32| (-greatest..=greatest).contains(&place);
-        if !counted
-            .iter()
-            .all(|(place, count)| known(*place) && *count > 0)
-            || !counted.is_sorted_by(|(before, _), (place, _)| before < place)
+        let known = |bin: i32| (-greatest..=greatest).contains(&bin);
+        if !counted.iter().all(|(bin, count)| known(*bin) && *count > 0)
+            || !counted.is_sorted_by(|(before, _), (bin, _)| before < bin)
         {
             return Err("these are not the buckets of a sketch");
         }
@@ -181,8 +179,8 @@ impl TryFrom<Vec<(i32, u64)>> for Buckets {
         if let (Some(first), Some(last)) = (counted.first(), counted.last()) {
             buckets.reach(first.0, last.0);
         }
-        for (place, count) in counted {
-            buckets.count_equal(place, count);
+        for (bin, count) in counted {
+            buckets.count_equal(bin, count);
         }
         Ok(buckets)
     }
@@ -196,24 +194,24 @@ mod tests {
     fn buckets_are_a_256th_of_their_deviation_wide() {
         let places = Places::of(1.0);
         for magnitude in [1e-7, 0.3, 1.0, 1.999, 7e12, 2e300] {
-            let place = places.of_deviation(magnitude);
-            let (lower, upper) = places.edges(place);
+            let bin = places.of_deviation(magnitude);
+            let (lower, upper) = places.edges(bin);
             assert!(lower <= magnitude && magnitude < upper);
             assert!(upper - lower <= lower / 256.0 && upper - lower >= lower / 512.0);
-            assert_eq!(places.of_deviation(-magnitude), -place);
-            assert_eq!(places.edges(-place), (-upper, -lower));
-            assert_eq!(places.edges(place - 1).1, lower);
+            assert_eq!(places.of_deviation(-magnitude), -bin);
+            assert_eq!(places.edges(-bin), (-upper, -lower));
+            assert_eq!(places.edges(bin - 1).1, lower);
         }
         let smallest = 0.5_f64.powi(24);
         assert_eq!(places.edges(0), (-smallest, smallest));
         assert_eq!(places.edges(1).0, smallest);
-        for (deviation, place) in [
+        for (deviation, bin) in [
             (smallest, 1),
             (-smallest, -1),
             (0.9999 * smallest, 0),
             (-0.0, 0),
         ] {
-            assert_eq!(places.of_deviation(deviation), place);
+            assert_eq!(places.of_deviation(deviation), bin);
         }
         assert_eq!(places.of_deviation(2.0) - places.of_deviation(1.0), OCTAVE);
     }

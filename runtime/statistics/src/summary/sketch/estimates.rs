@@ -99,10 +99,10 @@ impl Sketch {
         if value >= self.max {
             return exact(1.0);
         }
-        let place = self.place(value);
+        let bin = self.place(value);
         let (mut below, mut within, mut part) = (0, 0, 0.5);
-        for bucket in self.buckets().take_while(|bucket| bucket.place <= place) {
-            if bucket.place < place {
+        for bucket in self.buckets().take_while(|bucket| bucket.place <= bin) {
+            if bucket.place < bin {
                 below += bucket.count;
             } else {
                 within = bucket.count;
@@ -180,11 +180,11 @@ impl Sketch {
     /// The buckets in the order of their values.
     fn buckets(&self) -> impl Iterator<Item = Bucket> {
         let places = self.places();
-        self.buckets.counted().map(move |(place, count)| {
-            let (lower, upper) = places.edges(place);
+        self.buckets.counted().map(move |(bin, count)| {
+            let (lower, upper) = places.edges(bin);
             let within = |deviation: f64| (self.reference + deviation).clamp(self.min, self.max);
             Bucket {
-                place,
+                place: bin,
                 lower: within(lower),
                 upper: within(upper),
                 count,

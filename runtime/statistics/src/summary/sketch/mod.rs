@@ -126,8 +126,8 @@ impl Sketch {
     /// Adds equal values, given their moments.
     pub(in crate::summary) fn add_equal(&mut self, moments: &Moments) {
         self.include(moments.count, moments.min, moments.max);
-        let place = self.place(moments.min);
-        self.buckets.count_equal(place, moments.count);
+        let bin = self.place(moments.min);
+        self.buckets.count_equal(bin, moments.count);
     }
 
     /// Adds another sketch about the same reference.
@@ -163,8 +163,8 @@ impl Sketch {
         let all = self.places();
         // Separate from counting, so that it can be vectorised.
         let mut places = [0; CHUNK];
-        for (place, value) in places.iter_mut().zip(values) {
-            *place = all.of_deviation(value - self.reference);
+        for (slot, value) in places.iter_mut().zip(values) {
+            *slot = all.of_deviation(value - self.reference);
         }
         self.buckets.count(&places[..values.len().min(CHUNK)]);
     }

@@ -24,35 +24,35 @@ struct Lanes8<'a> {
 }
 
 /// Eigenvalues with their errors by lane, and the flags.
-type Found = (Vec<Vec<(Complex64, f64)>>, [bool; WIDTH]);
+type LaneEigenvalues = (Vec<Vec<(Complex64, f64)>>, [bool; WIDTH]);
 
 impl Task for &Lanes8<'_> {
-    type Output = Found;
+    type Output = LaneEigenvalues;
 
-    fn run<V: Lanes>(self) -> Found {
+    fn run<V: Lanes>(self) -> LaneEigenvalues {
         let count = self.reference.pairs.len();
         let mut all = vec![Vec::new(); WIDTH];
         let mut flags = [false; WIDTH];
         for at in (0..WIDTH).step_by(V::WIDTH) {
             let matrices = [0, 1, 2].map(|k| load_matrix(self.n, &self.matrices[k], at));
             let pencil: Pencil<V, LARGEST> = Pencil::new(self.n, matrices, self.reference);
-            let (found, flag) = pencil.eigenvalues(self.reference, true);
-            let found = found.as_flattened();
+            let (eigenvalues, flag) = pencil.eigenvalues(self.reference, true);
+            let roots = eigenvalues.as_flattened();
             let numbers = |x: V| {
                 let mut batch = Batch::default();
                 x.store(&mut batch, at);
                 batch.0
             };
             for r in 0..count {
-                let (s, error) = found[r];
+                let (s, error) = roots[r];
                 let (re, im, error) = (numbers(s.re), numbers(s.im), numbers(error));
                 for k in at..at + V::WIDTH {
                     all[k].push((Complex64::new(re[k], im[k]), error[k]));
                 }
             }
-            let own = numbers(flag);
+            let lanes = numbers(flag);
             for k in at..at + V::WIDTH {
-                flags[k] = own[k] == 1.0;
+                flags[k] = lanes[k] == 1.0;
             }
         }
         (all, flags)
@@ -65,7 +65,7 @@ fn batches(n: usize, of: [&algebra::Matrix; WIDTH]) -> Vec<Batch> {
 }
 
 /// Solves eight pencils with every set of instructions; all must give the same bits.
-fn solved(reference: &Reference, here: &[Linear; WIDTH]) -> Found {
+fn solved(reference: &Reference, here: &[Linear; WIDTH]) -> LaneEigenvalues {
     let n = here[0].mass.row_count();
     let task = Lanes8 {
         n,
@@ -76,7 +76,7 @@ fn solved(reference: &Reference, here: &[Linear; WIDTH]) -> Found {
         ],
         reference,
     };
-    let bits = |(all, flags): &Found| {
+    let bits = |(all, flags): &LaneEigenvalues| {
         let accepted = all.iter().zip(flags).filter(|(_, flag)| **flag);
         let numbers = accepted.flat_map(|(x, _)| x.iter());
         let numbers: Vec<_> = numbers
@@ -84,11 +84,11 @@ fn solved(reference: &Reference, here: &[Linear; WIDTH]) -> Found {
             .collect();
         (numbers, *flags)
     };
-    let found = Instructions::SCALAR.run(&task);
+    let scalar = Instructions::SCALAR.run(&task);
     for set in Instructions::available() {
-        assert!(bits(&set.run(&task)) == bits(&found), "{set:?}");
+        assert!(bits(&set.run(&task)) == bits(&scalar), "{set:?}");
     }
-    found
+    scalar
 }
 
 /// Compares random pencils; returns how many of the pencils with the smallest changes were accepted, and their total
@@ -107,8 +107,8 @@ fn compare(rounds: usize) -> (usize, usize) {
         let Some(reference) = Reference::new(&there, n, &near(&known)) else {
             continue;
         };
-        let (found, flags) = solved(&reference, &here);
-        for (here, (found, flag)) in here.iter().zip(found.iter().zip(flags)) {
+        let (lanes, flags) = solved(&reference, &here);
+        for (here, (roots, flag)) in here.iter().zip(lanes.iter().zip(flags)) {
             if share < 1e-3 {
                 of += 1;
                 accepted += usize::from(flag);
@@ -119,14 +119,14 @@ fn compare(rounds: usize) -> (usize, usize) {
             let wanted = roots_of(Eigenproblem::Quadratic(here))
                 .unwrap_or_else(|_| panic!("round {round}: accepted, but not found alone"));
             let mut left = with_errors(&wanted);
-            for &(s, error) in found {
+            for &(s, error) in roots {
                 let both = [Some(s), (s.im > 0.0).then(|| s.conj())];
                 for s in both.into_iter().flatten() {
                     let same = |other: &(Complex64, f64)| {
                         (s - other.0).norm() <= error + other.1 + 1e-13 * s.norm()
                     };
-                    let place = left.iter().position(same);
-                    left.remove(place.unwrap_or_else(|| panic!("round {round}: {s} {left:?}")));
+                    let index = left.iter().position(same);
+                    left.remove(index.unwrap_or_else(|| panic!("round {round}: {s} {left:?}")));
                 }
             }
             assert!(left.is_empty(), "round {round}: {left:?}");

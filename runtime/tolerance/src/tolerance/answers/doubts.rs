@@ -10,8 +10,8 @@ use eigentol_results::numbers::short;
 /// Each doubt once, with all the modes that share it; one list of doubts for each mode.
 fn shared(all: &[impl AsRef<[Doubt]>]) -> Vec<(Vec<usize>, &Doubt)> {
     let mut said: Vec<(Vec<usize>, &Doubt)> = Vec::new();
-    for (mode, own) in all.iter().enumerate() {
-        for doubt in own.as_ref() {
+    for (mode, doubts) in all.iter().enumerate() {
+        for doubt in doubts.as_ref() {
             let of_one = matches!(doubt, Doubt::EqualNeighbours | Doubt::NearNeighbour { .. });
             match said
                 .iter_mut()

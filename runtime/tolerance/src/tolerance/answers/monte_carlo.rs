@@ -200,20 +200,22 @@ impl MonteCarlo {
             .iter()
             .map(|damping_ratio| ("damping ratio", damping_ratio));
         let both = frequencies.enumerate().chain(dampings.enumerate());
-        for (r, (name, own)) in both {
-            let Some((own, skewness)) = own.as_ref().and_then(|x| Some((x, x.skewness?))) else {
+        for (r, (name, statistics)) in both {
+            let Some((statistics, skewness)) =
+                statistics.as_ref().and_then(|x| Some((x, x.skewness?)))
+            else {
                 continue;
             };
-            let moves = own
+            let moves = statistics
                 .sigma
-                .is_some_and(|sigma| unless_rounding(sigma, own.mean) != 0.0);
-            let told = own
+                .is_some_and(|sigma| unless_rounding(sigma, statistics.mean) != 0.0);
+            let told = statistics
                 .skewness_error
                 .is_some_and(|error| skewness.abs() > 4.0 * error);
             if skewness.abs() < SKEWED || !told || !moves {
                 continue;
             }
-            let quantile = |p: f64| or_dash(own.quantile(p).ok().map(|x| x.value), rough);
+            let quantile = |p: f64| or_dash(statistics.quantile(p).ok().map(|x| x.value), rough);
             let mut row = vec![format!("{name} {}", r + 1), format!("{skewness:+.2}")];
             row.extend(QUANTILES.map(quantile));
             table.row(row);

@@ -59,8 +59,8 @@ pub(super) fn general<V: Lanes, const N: usize>(
     }
     matrices[2] = load_matrix(n, linear.stiffness, at);
     let pencil: Pencil<V, N> = Pencil::new(n, matrices, reference);
-    let (all, found) = pencil.eigenvalues(reference, damped);
-    flag = keep(flag, V::constant(1.0).at_most(found));
+    let (all, recognised) = pencil.eigenvalues(reference, damped);
+    flag = keep(flag, V::constant(1.0).at_most(recognised));
     // Without dissipation, a motion that stays bounded has imaginary eigenvalues.
     let conservative =
         description.symmetric_stiffness && description.damping != DampingKind::General;

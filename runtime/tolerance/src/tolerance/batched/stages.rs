@@ -25,8 +25,8 @@ pub(super) fn draw<V: Lanes, const N: usize>(
         }
     }
     let mut shared = &prepared.shared[..];
-    let means = prepared.means.iter().zip(&prepared.own);
-    for (i, (design, (mean, own))) in design.iter_mut().zip(means).enumerate() {
+    let means = prepared.means.iter().zip(&prepared.diagonal);
+    for (i, (design, (mean, diagonal))) in design.iter_mut().zip(means).enumerate() {
         let start = if prepared.joint.is_some() { 0.0 } else { *mean };
         let mut value = V::constant(start);
         while let Some((&(_, j, factor), behind)) =
@@ -35,7 +35,7 @@ pub(super) fn draw<V: Lanes, const N: usize>(
             value = value + V::constant(factor) * V::load(&standard[j], at);
             shared = behind;
         }
-        value = value + V::constant(*own) * V::load(&standard[i], at);
+        value = value + V::constant(*diagonal) * V::load(&standard[i], at);
         value.store(design, at);
     }
 }
@@ -60,13 +60,13 @@ pub(super) fn possible<const N: usize>(
     members: usize,
 ) -> Batch {
     let mut flags = Batch([0.0; WIDTH]);
-    let mut own = prepared.nominal.design.clone();
+    let mut sample_design = prepared.nominal.design.clone();
     for sample in 0..members {
-        for (own, design) in own.iter_mut().zip(design) {
-            *own = design.0[sample];
+        for (entry, design) in sample_design.iter_mut().zip(design) {
+            *entry = design.0[sample];
         }
         let kernels: &dyn Kernels = prepared.kernels;
-        let violation = kernels.violation(&prepared.nominal.inputs, &own);
+        let violation = kernels.violation(&prepared.nominal.inputs, &sample_design);
         flags.0[sample] = f64::from(u8::from(violation.is_none()));
     }
     flags

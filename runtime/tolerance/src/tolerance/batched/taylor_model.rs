@@ -29,7 +29,7 @@ pub(in crate::tolerance) struct TaylorModel<'a, const N: usize> {
     pub(super) design: Vector<Batch>,
     /// Diagonal of the factor `L` of the covariance; for values that are not normal, of the correlation of the normal
     /// numbers behind them.
-    pub(super) own: Vector,
+    pub(super) diagonal: Vector,
     /// (`i`, `j`, `L_ij`) off the diagonal, row by row, without zeros.
     pub(super) shared: Vec<(usize, usize, f64)>,
     /// Which pairs of random numbers are used.
@@ -87,8 +87,8 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
             .map(|(i, j)| (i, j, factor[i][j]))
             .filter(|(_, _, value)| *value != 0.0)
             .collect();
-        let own = Vector::from_fn(p, |i| factor[i][i]);
-        let used = |j: usize| own[j] != 0.0 || shared.iter().any(|one| one.1 == j);
+        let diagonal = Vector::from_fn(p, |i| factor[i][i]);
+        let used = |j: usize| diagonal[j] != 0.0 || shared.iter().any(|one| one.1 == j);
         let pairs = 0..p.div_ceil(2);
         let drawn = pairs
             .map(|pair| (2 * pair..p.min(2 * pair + 2)).any(used))
@@ -134,7 +134,7 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
             statics,
             motions: structure.motions(),
             reference,
-            own,
+            diagonal,
             shared,
             drawn,
             varied,

@@ -26,16 +26,18 @@ impl Answer for Controlled {
         let mut table = Columns::new("controlled spreads", &rows);
         responses(&mut table);
         estimates(&mut table, "mean", &|x| Some(x.as_ref()?.mean));
-        table.number("worth of mean", "", &|row| Some(row.own?.worth));
-        table.cells("worth", &|row| or_dash(row.own.map(|x| x.worth), short));
+        table.number("worth of mean", "", &|row| Some(row.result?.worth));
+        table.cells("worth", &|row| or_dash(row.result.map(|x| x.worth), short));
         estimates(&mut table, "sigma", &|x| Some(x.as_ref()?.sigma));
-        table.number("worth of sigma", "", &|row| Some(row.own?.worth_of_sigma));
-        table.cells("worth", &|row| {
-            or_dash(row.own.map(|x| x.worth_of_sigma), short)
+        table.number("worth of sigma", "", &|row| {
+            Some(row.result?.worth_of_sigma)
         });
-        table.words("model", &|row| Some(row.own?.model.to_string()));
+        table.cells("worth", &|row| {
+            or_dash(row.result.map(|x| x.worth_of_sigma), short)
+        });
+        table.words("model", &|row| Some(row.result?.model.to_string()));
         table.cells("model", &|row| {
-            row.own
+            row.result
                 .map_or_else(|| "not controlled".to_owned(), |x| x.model.to_string())
         });
         said.columns(table);

@@ -24,13 +24,13 @@ impl Answer for Influence {
         let (total, counts) = (self.counts.total(), &self.counts);
         said.note(format!("{total} designs: {counts}."));
         let mut all = Vec::new();
-        for (response, own) in self.wanted.iter().zip(&self.responses) {
-            let variables = own.variables.iter();
+        for (response, influence) in self.wanted.iter().zip(&self.responses) {
+            let variables = influence.variables.iter();
             let rows = variables.map(|variable| Row::new(response, d, variable));
             let rows: Vec<_> = rows.collect();
             described(&mut said, &rows, d);
-            if own.missing > 0 {
-                let missing = own.missing;
+            if influence.missing > 0 {
+                let missing = influence.missing;
                 said.note(format!("{missing} designs have no value and are left out."));
             }
             all.extend(rows);
@@ -49,7 +49,7 @@ type Of<'a> = Row<&'a VariableInfluence>;
 fn described(said: &mut Findings, rows: &[Of<'_>], d: &Description) {
     let negligible = |row: &Of<'_>| {
         let none = |index: Option<Estimate>| index.is_some_and(|index| !relevant(index.upper, 1.0));
-        none(row.own.first) && none(row.own.total)
+        none(row.result.first) && none(row.result.total)
     };
     let (left, shown): (Vec<usize>, Vec<usize>) =
         (0..rows.len()).partition(|&k| negligible(&rows[k]));
@@ -61,7 +61,7 @@ fn described(said: &mut Findings, rows: &[Of<'_>], d: &Description) {
             "Left out, certainly {BELOW} of the variance: {names}"
         ));
     }
-    let dependent = |row: &Of<'_>| row.own.first.is_none() && row.own.correlation.is_some();
+    let dependent = |row: &Of<'_>| row.result.first.is_none() && row.result.correlation.is_some();
     if rows.iter().any(dependent) {
         said.note(
             "No Sobol' indices: the variables depend on each other, so no share of the variance belongs to one of them alone.",
@@ -70,7 +70,7 @@ fn described(said: &mut Findings, rows: &[Of<'_>], d: &Description) {
 }
 
 fn variable<'d>(row: &Of<'_>, d: &'d Description) -> &'d str {
-    let info = d.design.get(row.own.variable);
+    let info = d.design.get(row.result.variable);
     info.map_or("?", |info| &*info.name)
 }
 
@@ -84,7 +84,7 @@ fn influences<'a, 'o>(
     names_and_units(&mut table);
     let label = rows.first().map_or_else(String::new, Row::label);
     let of = table.words("of", &|row| {
-        Some(d.design.get(row.own.variable)?.name.to_string())
+        Some(d.design.get(row.result.variable)?.name.to_string())
     });
     of.shown().headed(&label);
     index(&mut table, "first", &|x| x.first);
@@ -96,11 +96,13 @@ fn influences<'a, 'o>(
         ("regression", |x| x.regression),
     ];
     for (name, pick) in picks {
-        table.number(name, "", &|row| pick(row.own)).digits(short);
+        table
+            .number(name, "", &|row| pick(row.result))
+            .digits(short);
     }
     let ends: [(&str, Pick); 2] = [("at low", |x| x.at_low), ("at high", |x| x.at_high)];
     for (name, pick) in ends {
-        let value = table.number(name, "", &|row| Some(row.in_unit(pick(row.own)?)));
+        let value = table.number(name, "", &|row| Some(row.in_unit(pick(row.result)?)));
         value.digits(number);
     }
     table
@@ -112,13 +114,17 @@ fn index(
     name: &str,
     of: &dyn Fn(&VariableInfluence) -> Option<Estimate>,
 ) {
-    let value = table.number(name, "", &|row| Some(of(row.own)?.value));
+    let value = table.number(name, "", &|row| Some(of(row.result)?.value));
     value.digits(short);
-    table.number(&format!("{name} from"), "", &|row| Some(of(row.own)?.lower));
-    table.number(&format!("{name} to"), "", &|row| Some(of(row.own)?.upper));
+    table.number(&format!("{name} from"), "", &|row| {
+        Some(of(row.result)?.lower)
+    });
+    table.number(&format!("{name} to"), "", &|row| {
+        Some(of(row.result)?.upper)
+    });
     table.cells("95 %", &|row| {
-        let own = of(row.own);
-        own.map_or_else(
+        let estimate = of(row.result);
+        estimate.map_or_else(
             || "-".to_owned(),
             |item| format!("{} to {}", short(item.lower), short(item.upper)),
         )

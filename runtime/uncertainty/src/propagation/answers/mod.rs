@@ -16,15 +16,15 @@ use crate::{Description, Unit};
 struct Row<T> {
     name: String,
     unit: Unit,
-    own: T,
+    result: T,
 }
 
 impl<T> Row<T> {
-    fn new(response: &Response, d: &Description, own: T) -> Self {
+    fn new(response: &Response, d: &Description, content: T) -> Self {
         Self {
             name: response.name(d),
             unit: response.unit(d),
-            own,
+            result: content,
         }
     }
 
@@ -63,7 +63,7 @@ fn responses<T>(table: &mut Columns<'_, Row<T>>) {
 
 /// The columns of an estimate in the unit of the response, and of its error.
 fn estimates<T>(table: &mut Columns<'_, Row<T>>, name: &str, of: &dyn Fn(&T) -> Option<Estimated>) {
-    let value = table.number(name, "", &|row| Some(row.in_unit(of(&row.own)?.value)));
+    let value = table.number(name, "", &|row| Some(row.in_unit(of(&row.result)?.value)));
     value.digits(number);
     errors(table, name, of);
 }
@@ -71,7 +71,7 @@ fn estimates<T>(table: &mut Columns<'_, Row<T>>, name: &str, of: &dyn Fn(&T) -> 
 /// The column of the errors of an estimate in the unit of the response.
 fn errors<T>(table: &mut Columns<'_, Row<T>>, name: &str, of: &dyn Fn(&T) -> Option<Estimated>) {
     let error = table.number(&format!("error of {name}"), "", &|row| {
-        Some(row.in_unit(of(&row.own)?.error?))
+        Some(row.in_unit(of(&row.result)?.error?))
     });
     error.digits(short).headed("error");
 }

@@ -52,18 +52,18 @@ struct Spread<'a> {
 
 impl Row<Spread<'_>> {
     fn nominal(&self) -> Option<f64> {
-        Some(self.in_unit(self.own.spread?.nominal?))
+        Some(self.in_unit(self.result.spread?.nominal?))
     }
 
     /// The standard deviation that the text shows.
     fn sigma(&self) -> Option<f64> {
-        let spread = self.own.spread?;
+        let spread = self.result.spread?;
         let sigma = unless_rounding(spread.sigma?.value, spread.mean.value);
         Some(self.in_unit(sigma))
     }
 
     fn quantiles(&self) -> &[Quantile] {
-        self.own.spread.map_or(&[], |spread| &spread.quantiles)
+        self.result.spread.map_or(&[], |spread| &spread.quantiles)
     }
 }
 
@@ -72,26 +72,28 @@ impl Propagation {
         let mut table = Columns::new("spreads", rows);
         responses(&mut table);
         table.number("nominal", "", &Row::nominal);
-        table.cells("nominal", &|row| match row.own.spread {
+        table.cells("nominal", &|row| match row.result.spread {
             Some(_) => optional(row.nominal()),
             None => "no value".to_owned(),
         });
         estimates(&mut table, "mean", &|x| Some(x.spread?.mean));
         table.number("sigma", "", &|row| {
-            Some(row.in_unit(row.own.spread?.sigma?.value))
+            Some(row.in_unit(row.result.spread?.sigma?.value))
         });
         table.cells("sigma", &|row| optional(row.sigma()));
         errors(&mut table, "sigma", &|x| x.spread?.sigma);
-        let skewness = table.number("skewness", "", &|row| Some(row.own.spread?.skewness?.value));
+        let skewness = table.number("skewness", "", &|row| {
+            Some(row.result.spread?.skewness?.value)
+        });
         skewness.digits(short);
         let error = table.number("error of skewness", "", &|row| {
-            row.own.spread?.skewness?.error
+            row.result.spread?.skewness?.error
         });
         error.digits(short).headed("error");
-        let share = table.number("share", "", &|row| Some(row.own.spread?.share));
+        let share = table.number("share", "", &|row| Some(row.result.spread?.share));
         share.digits(percent);
         table.words("method", &|_| Some(self.method.to_string()));
-        table.words("doubts", &|row| joined(row.own.doubts));
+        table.words("doubts", &|row| joined(row.result.doubts));
         said.columns(table);
     }
 
@@ -152,7 +154,7 @@ fn quantiles(said: &mut Findings, rows: &[Row<Spread<'_>>]) {
 fn doubted(said: &mut Findings, rows: &[Row<Spread<'_>>]) {
     let mut any = false;
     for row in rows {
-        for doubt in row.own.doubts {
+        for doubt in row.result.doubts {
             said.note(format!("{} for {}: {doubt}", standing(doubt), row.name));
             any = true;
         }

@@ -46,18 +46,18 @@ fn extremes(said: &mut Findings, rows: &[Limits<'_>], d: &Description) {
         ("greatest", |x| Some(x.greatest.as_ref()?.value)),
     ];
     for (name, pick) in picks {
-        let value = table.number(name, "", &|row| Some(row.in_unit(pick(row.own)?)));
+        let value = table.number(name, "", &|row| Some(row.in_unit(pick(row.result)?)));
         value.digits(number);
     }
     table
-        .flag("monotonic", &|row| Some(row.own.is_monotonic()))
+        .flag("monotonic", &|row| Some(row.result.is_monotonic()))
         .shown();
     table.words("turning", &|row| {
-        let names = turning(row.own, d);
+        let names = turning(row.result, d);
         (!names.is_empty()).then(|| names.join(" "))
     });
     table.whole("corners without a value", &|row| {
-        Some(row.own.missing.len())
+        Some(row.result.missing.len())
     });
     said.columns(table);
 }
@@ -71,14 +71,14 @@ fn turning<'d>(limits: &ResponseLimits, d: &'d Description) -> Vec<&'d str> {
 /// Why the limits of a response may not hold.
 fn reservations(said: &mut Findings, row: &Limits<'_>, d: &Description) {
     let name = &row.name;
-    let turning = turning(row.own, d);
+    let turning = turning(row.result, d);
     if !turning.is_empty() {
         said.note(format!(
             "{name} rises and falls with {}: it may be worse inside the box.",
             turning.join(", ")
         ));
     }
-    let missing = row.own.missing.len();
+    let missing = row.result.missing.len();
     if missing > 0 {
         said.note(format!("{name} has no value at {missing} of the corners."));
     }
@@ -88,18 +88,18 @@ impl WorstCase {
     fn designs(&self, said: &mut Findings) {
         let d = &self.description;
         let mut rows: Vec<Row<(&str, &Extreme)>> = Vec::new();
-        for (response, own) in self.wanted.iter().zip(&self.responses) {
-            for (end, extreme) in [("least", &own.least), ("greatest", &own.greatest)] {
+        for (response, extremes) in self.wanted.iter().zip(&self.responses) {
+            for (end, extreme) in [("least", &extremes.least), ("greatest", &extremes.greatest)] {
                 let extreme = extreme.iter();
                 rows.extend(extreme.map(|extreme| Row::new(response, d, (end, extreme))));
             }
         }
         let mut table = Columns::new("worst designs", &rows);
         names_and_units(&mut table);
-        table.words("end", &|row| Some(row.own.0.to_owned()));
-        table.number("value", "", &|row| Some(row.in_unit(row.own.1.value)));
-        table.flag("confirmed", &|row| Some(row.own.1.confirmed));
-        table.design(d, &|row| Some(&row.own.1.design[..]));
+        table.words("end", &|row| Some(row.result.0.to_owned()));
+        table.number("value", "", &|row| Some(row.in_unit(row.result.1.value)));
+        table.flag("confirmed", &|row| Some(row.result.1.confirmed));
+        table.design(d, &|row| Some(&row.result.1.design[..]));
         said.columns(table);
     }
 }

@@ -46,7 +46,7 @@ displayed!(Probabilities);
 struct Row<'a> {
     number: Option<usize>,
     requirement: String,
-    own: &'a FailureProbability,
+    failure: &'a FailureProbability,
 }
 
 impl Row<'_> {
@@ -66,12 +66,12 @@ impl Probabilities {
         let each = each.map(|(k, (wanted, item))| Row {
             number: Some(k + 1),
             requirement: wanted.text(d),
-            own: item,
+            failure: item,
         });
         let any = Row {
             number: None,
             requirement: "any".to_owned(),
-            own: &self.any,
+            failure: &self.any,
         };
         let rows: Vec<Row<'_>> = each.chain([any]).collect();
         let mut table = Columns::new("probabilities of failure", &rows);
@@ -80,20 +80,20 @@ impl Probabilities {
         }
         table.words("requirement", &|row| Some(row.requirement.clone()));
         table.cells("requirement", &Row::label);
-        let value = table.number("probability of failure", "", &|row| Some(row.own.value));
+        let value = table.number("probability of failure", "", &|row| Some(row.failure.value));
         value.digits(probability).headed("P(failed)");
-        table.number("95 % from", "", &|row| Some(row.own.interval.lower));
-        table.number("95 % to", "", &|row| Some(row.own.interval.upper));
+        table.number("95 % from", "", &|row| Some(row.failure.interval.lower));
+        table.number("95 % to", "", &|row| Some(row.failure.interval.upper));
         table.cells("95 % interval", &|row| {
-            let Interval { lower, upper } = row.own.interval;
+            let Interval { lower, upper } = row.failure.interval;
             format!("{} to {}", probability(lower), probability(upper))
         });
         table.number("probability without response", "", &|row| {
-            Some(row.own.untold)
+            Some(row.failure.untold)
         });
-        let by = table.words("found by", &|row| Some(row.own.by.word().to_owned()));
+        let by = table.words("found by", &|row| Some(row.failure.by.word().to_owned()));
         by.shown();
-        let designs = table.whole("designs", &|row| usize::try_from(row.own.designs).ok());
+        let designs = table.whole("designs", &|row| usize::try_from(row.failure.designs).ok());
         designs.shown();
         said.columns(table);
     }

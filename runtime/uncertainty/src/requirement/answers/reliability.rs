@@ -22,8 +22,8 @@ impl Answer for Reliability {
         let d = &self.description;
         let mut said = Findings::titled(format!("{}: reliability", title(d, &self.inputs)));
         self.data(&mut said);
-        for own in &self.limits {
-            limit(&mut said, own, d);
+        for limit_state in &self.limits {
+            limit(&mut said, limit_state, d);
         }
         for k in &self.left_out {
             let number = k + 1;
@@ -59,12 +59,12 @@ impl Reliability {
         let rows: Vec<Row<'_>> = self.limits.iter().flat_map(points).collect();
         let d = &self.description;
         design_points(said, &rows, d);
-        let found = rows.iter().filter_map(|(limit, x)| Some((*limit, (*x)?)));
-        let entries = found.flat_map(|(limit, x)| entries(limit.requirement, x, d));
+        let pairs = rows.iter().filter_map(|(limit, x)| Some((*limit, (*x)?)));
+        let entries = pairs.flat_map(|(limit, x)| entries(limit.requirement, x, d));
         let entries: Vec<Entry<'_>> = entries.collect();
         said.data(entry_columns(&entries, Vec::new()).finish().0);
-        if let Some(own) = &self.system {
-            said.data(system(own));
+        if let Some(whole_system) = &self.system {
+            said.data(system(whole_system));
         }
     }
 }

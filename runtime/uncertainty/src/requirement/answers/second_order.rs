@@ -109,8 +109,8 @@ impl SecondOrderFailure {
             said.note(format!("No derivatives: {why}."));
             return;
         };
-        let own = slopes.by_design.iter().zip(&slopes.by_half_width);
-        let rows = self.description.design.iter().zip(own);
+        let pairs = slopes.by_design.iter().zip(&slopes.by_half_width);
+        let rows = self.description.design.iter().zip(pairs);
         let rows = rows.map(|(info, (nominal, half_width))| Slope {
             info,
             nominal: *nominal,

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use crate::along::name_of;
 use crate::judge::chance;
-use crate::requirement::{Found, Requirement};
+use crate::requirement::{EstimatedBy, Requirement};
 use crate::{Description, Text, Unit};
 use eigentol_results::numbers::{given, given_in, percent, with_unit};
 
@@ -47,7 +47,7 @@ impl Requirement {
     }
 }
 
-impl Found {
+impl EstimatedBy {
     /// The way in words, as tables name it.
     pub(super) fn word(self) -> &'static str {
         match self {

@@ -49,7 +49,7 @@ fn unresisted(system: &System, state: &Linearised) -> Vec<Vec<Disturbed>> {
 /// Other directions are no combination of the candidates, such as a turn about a hinge that other bodies carry away. An
 /// equilibrium shows them.
 fn by_symmetry(system: &System, design: u64) -> Option<Count> {
-    let mut found = (symmetries(system, design, Friction::Any), Friction::Any);
+    let mut choice = (symmetries(system, design, Friction::Any), Friction::Any);
     let state = at_random(system, design, Friction::Any)?;
     let velocities = system.first_of_velocities()..system.size();
     let all: Vec<usize> = velocities.clone().collect();
@@ -58,10 +58,10 @@ fn by_symmetry(system: &System, design: u64) -> Option<Count> {
         let without = symmetries(system, design, Friction::None);
         let held = rank(&slips(system, &state, &all, &without), state.operations);
         if held == independent(system, &state, &all) {
-            found = (without, Friction::None);
+            choice = (without, Friction::None);
         }
     }
-    let (symmetries, friction) = found;
+    let (symmetries, friction) = choice;
     let idle: Vec<usize> = velocities.filter(|&k| is_idle(&state, k)).collect();
     let slips = slips(system, &state, &idle, &symmetries);
     let places = independent(system, &state, &idle) - rank(&slips, state.operations);

@@ -61,11 +61,16 @@ impl Fields {
                 Frame::Body(parent) => paths[parent.index()].clone(),
             };
             let steps = kinematics.of(branch.body).steps.iter();
-            let own = steps.filter_map(|step| {
-                let place = topology.free.iter().position(|&id| id == step.coordinate)?;
-                Some((place, *step, branch.body))
+            let free_steps = steps.filter_map(|step| {
+                let index = topology.free.iter().position(|&id| id == step.coordinate)?;
+                Some((index, *step, branch.body))
             });
-            let path: Vec<_> = before.iter().copied().chain(own).take(RIGID + 1).collect();
+            let path: Vec<_> = before
+                .iter()
+                .copied()
+                .chain(free_steps)
+                .take(RIGID + 1)
+                .collect();
             let turns = path.iter().any(|(_, step, _)| step.turn.is_some());
             if turns && path.len() > before.len() && (2..=RIGID).contains(&path.len()) {
                 carriers.push(Carrier::new(g, context, &kinematics, branch.body, &path));
@@ -96,9 +101,9 @@ impl Fields {
     /// The candidates at a state, from the values of the expressions.
     pub(super) fn at(&self, mut values: &[Disturbed], operations: usize) -> Vec<Field> {
         let mut next = |count: usize| {
-            let (own, rest) = values.split_at(count);
+            let (head, rest) = values.split_at(count);
             values = rest;
-            own
+            head
         };
         let mut fields: Vec<Field> = (0..self.free).map(Field::unit).collect();
         for carrier in &self.carriers {
@@ -180,8 +185,8 @@ impl Carrier {
             })
             .collect();
         let flat: Vec<ExprId> = twists.iter().flatten().copied().collect();
-        let slopes = path.iter().map(|(place, ..)| {
-            let change = by_symbol(g, &flat, context.symbols.q.ids[*place]);
+        let slopes = path.iter().map(|(index, ..)| {
+            let change = by_symbol(g, &flat, context.symbols.q.ids[*index]);
             let change = change.chunks_exact(RIGID);
             change
                 .map(|twist| std::array::from_fn(|k| twist[k]))
@@ -195,12 +200,12 @@ impl Carrier {
             else {
                 return None;
             };
-            let own = context.mechanism.points[wheel.index()].frame == Frame::Body(body);
-            own.then_some(*wheel)
+            let on_body = context.mechanism.points[wheel.index()].frame == Frame::Body(body);
+            on_body.then_some(*wheel)
         });
         let centers = wheel.map_or(Vec::new(), |wheel| {
             let center = kinematics.points[wheel.index()].position.0;
-            let ids = path.iter().map(|(place, ..)| context.symbols.q.ids[*place]);
+            let ids = path.iter().map(|(index, ..)| context.symbols.q.ids[*index]);
             let slopes = ids.map(|id| by_symbol(g, &center, id));
             let slopes = slopes.map(|slope| std::array::from_fn(|k| slope[k]));
             std::iter::once(center).chain(slopes).collect()
@@ -209,7 +214,7 @@ impl Carrier {
             body,
             slopes,
             centers,
-            coordinates: path.iter().map(|(place, ..)| *place).collect(),
+            coordinates: path.iter().map(|(index, ..)| *index).collect(),
             twists,
         }
     }

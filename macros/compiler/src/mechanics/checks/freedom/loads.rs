@@ -137,11 +137,11 @@ fn acting(
 pub(super) fn works(system: &System, design: u64, along: &[f64], part: &[ExprId]) -> bool {
     let state = RandomState { design, motion: 1 };
     let along = vec![exact(along)];
-    let Some(place) = system.at(state, Friction::None) else {
+    let Some(linearised) = system.at(state, Friction::None) else {
         return false;
     };
     let (part, operations) = system.values(part, state);
-    let power = powers(&place, &along, &part, system.fields.free);
+    let power = powers(&linearised, &along, &part, system.fields.free);
     power.iter().any(|power| !power.is_rounding(operations))
 }
 

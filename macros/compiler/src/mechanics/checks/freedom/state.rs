@@ -79,12 +79,12 @@ impl<'a> System<'a> {
     /// Linearises at a random state; `None` if the equations are not finite there.
     pub(super) fn at(&self, state: RandomState, friction: Friction) -> Option<Linearised> {
         let evaluator = Evaluator::new(self.g, &self.roots);
-        let place = self.place(state);
+        let consistent = self.place(state);
         let unknowns = &self.context.symbols.q.ids[self.first_of_velocities()..];
         let values = evaluator.at(state.motion, |symbol| {
             match friction == Friction::None && unknowns.contains(&symbol) {
                 true => Disturbed::exact(0.0),
-                false => self.found(&place, state, symbol),
+                false => self.found(&consistent, state, symbol),
             }
         });
         self.linearised(&values, evaluator.operations())
@@ -92,9 +92,11 @@ impl<'a> System<'a> {
 
     /// Values of other expressions at a random state, and the number of operations behind them.
     pub(super) fn values(&self, roots: &[ExprId], state: RandomState) -> (Vec<Disturbed>, usize) {
-        let place = self.place(state);
+        let consistent = self.place(state);
         let evaluator = Evaluator::new(self.g, roots);
-        let values = evaluator.at(state.motion, |symbol| self.found(&place, state, symbol));
+        let values = evaluator.at(state.motion, |symbol| {
+            self.found(&consistent, state, symbol)
+        });
         (values, evaluator.operations())
     }
 
@@ -115,13 +117,13 @@ impl<'a> System<'a> {
         if starts[0].iter().any(|value| *value != 0.0) {
             starts.push(vec![0.0; self.size()]);
         }
-        let found = |start| {
+        let linearised = |start| {
             self.at_place(
                 &self.minimum_norm_newton(state, &roots, start, free)?,
                 state,
             )
         };
-        starts.into_iter().find_map(found)
+        starts.into_iter().find_map(linearised)
     }
 
     /// Zero except for some coordinates and speeds. Speeds of a family of steady motions are not zero then: at rest,

@@ -95,8 +95,8 @@ fn common(
         let lead = rows.first().map_or(0, Vec::len).saturating_sub(candidates);
         if let Some(found) = &combinations {
             for row in &mut rows {
-                let own = row.split_off(lead);
-                row.extend(times(&[own], found).concat());
+                let tail = row.split_off(lead);
+                row.extend(times(&[tail], found).concat());
             }
         }
         let next = NullSpace::new(rows, lead, state.operations).vectors;
@@ -127,11 +127,11 @@ fn missed(system: &System, state: &Linearised, before: usize, after: usize) -> R
     for carrier in &system.fields.carriers {
         let next = first + carrier.len();
         for component in 0..RIGID {
-            let own = state.fields[first..next]
+            let entries = state.fields[first..next]
                 .iter()
                 .map(|field| field.missed[component]);
             let others = zeros(state.fields.len() - next + after);
-            rows.push(zeros(before + first).chain(own).chain(others).collect());
+            rows.push(zeros(before + first).chain(entries).chain(others).collect());
         }
         first = next;
     }
@@ -144,8 +144,8 @@ fn change(field: &Field, state: &Linearised, i: usize) -> Disturbed {
         return state.stiffness[*k][i];
     }
     let pairs = field.coordinates.iter().zip(&field.rates);
-    let own = sum(pairs.map(|(&k, &rate)| state.stiffness[k][i] * rate));
-    own + turned(field, state, i)
+    let product = sum(pairs.map(|(&k, &rate)| state.stiffness[k][i] * rate));
+    product + turned(field, state, i)
 }
 
 /// Derivative of the power of the equations along a field by unknown `j`.
@@ -154,16 +154,16 @@ fn slope(field: &Field, state: &Linearised, j: usize) -> Disturbed {
         return state.stiffness[j][*k];
     }
     let pairs = field.coordinates.iter().zip(&field.rates);
-    let own = sum(pairs.map(|(&k, &rate)| state.stiffness[j][k] * rate));
-    own + turned(field, state, j)
+    let product = sum(pairs.map(|(&k, &rate)| state.stiffness[j][k] * rate));
+    product + turned(field, state, j)
 }
 
 /// `(d zeta/dq_i) . g`.
 fn turned(field: &Field, state: &Linearised, i: usize) -> Disturbed {
     match field.coordinates.iter().position(|&k| k == i) {
         None => Disturbed::exact(0.0),
-        Some(own) => {
-            let pairs = field.coordinates.iter().zip(&field.slopes[own]);
+        Some(index) => {
+            let pairs = field.coordinates.iter().zip(&field.slopes[index]);
             sum(pairs.map(|(&k, &slope)| state.residual[k] * slope))
         }
     }

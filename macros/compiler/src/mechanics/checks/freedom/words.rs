@@ -136,12 +136,12 @@ fn reduced(vectors: &[Vec<Disturbed>]) -> Vec<Vec<f64>> {
         rows.swap(done, pivot);
         let factor = rows[done][column];
         rows[done].iter_mut().for_each(|x| *x /= factor);
-        let own = rows[done].clone();
+        let pivot_row = rows[done].clone();
         for (k, row) in rows.iter_mut().enumerate() {
             let factor = row[column];
             if k != done {
                 row.iter_mut()
-                    .zip(&own)
+                    .zip(&pivot_row)
                     .for_each(|(x, item)| *x -= factor * item);
             }
         }
@@ -158,9 +158,9 @@ pub(super) fn described(context: &Context, fields: &Fields, combination: &[f64])
     let coordinates = [coordinates, coasting].concat();
     let moved = |values: &&[f64]| values.iter().any(|x| x.abs() > NOTHING);
     let carried = fields.carriers.iter().map(|carrier| {
-        let (own, rest) = space.split_at(carrier.len());
+        let (components, rest) = space.split_at(carrier.len());
         space = rest;
-        (carrier, own)
+        (carrier, components)
     });
     let carried: Vec<_> = carried.filter(|(_, x)| moved(x)).collect();
     let Some((carrier, twist)) = carried.first() else {

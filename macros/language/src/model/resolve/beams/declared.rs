@@ -54,9 +54,9 @@ impl Declared {
         let rule = Gauss::new(self.points);
         let places = rule.points.into_iter().zip(rule.weights);
         places
-            .map(|(place, weight)| {
-                let of_whole = start + (end - start) * place;
-                (place, weight, self.section(of_whole))
+            .map(|(fraction, weight)| {
+                let of_whole = start + (end - start) * fraction;
+                (fraction, weight, self.section(of_whole))
             })
             .collect()
     }

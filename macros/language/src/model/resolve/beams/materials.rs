@@ -123,8 +123,8 @@ impl Resolver<'_> {
             return None;
         }
         let text = wanted.to_string();
-        if let Some((_, found)) = self.materials.iter().find(|(name, _)| *name == text) {
-            return found.clone();
+        if let Some((_, material)) = self.materials.iter().find(|(name, _)| *name == text) {
+            return material.clone();
         }
         let known = self.materials.iter().map(|(name, _)| name.as_str());
         let help = match nearest(&text, known) {

@@ -118,9 +118,9 @@ impl Resolver<'_> {
             return beams;
         }
         let loaded = self.loaded(joints, points);
-        for (index, (beam, place)) in stations.used.iter().enumerate() {
+        for (index, (beam, fraction)) in stations.used.iter().enumerate() {
             let name = &stations.beams[*beam].0;
-            let word = match *place == 1.0 {
+            let word = match *fraction == 1.0 {
                 true => "tip".to_owned(),
                 false => format!("station_{index}"),
             };
@@ -134,17 +134,17 @@ impl Resolver<'_> {
             let (Some(declared), Some(root)) = (declared, root) else {
                 continue;
             };
-            let mut own: Vec<(f64, BodyId)> = stations
+            let mut beam_stations: Vec<(f64, BodyId)> = stations
                 .used
                 .iter()
                 .enumerate()
                 .filter(|(_, (beam, _))| *beam == index)
-                .map(|(k, (_, place))| (*place, BodyId::new(first.body + k)))
+                .map(|(k, (_, fraction))| (*fraction, BodyId::new(first.body + k)))
                 .collect();
-            own.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let ends: Vec<(f64, BodyId)> = own
+            beam_stations.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let ends: Vec<(f64, BodyId)> = beam_stations
                 .iter()
-                .filter(|(place, body)| *place == 1.0 || loaded.contains(&Frame::Body(*body)))
+                .filter(|(fraction, body)| *fraction == 1.0 || loaded.contains(&Frame::Body(*body)))
                 .copied()
                 .collect();
             let mut start = (0.0, BodyId::new(root));
@@ -153,9 +153,9 @@ impl Resolver<'_> {
                     1 => name.to_string(),
                     _ => format!("{name}_{}", number + 1),
                 };
-                let within = own
+                let within = beam_stations
                     .iter()
-                    .filter(|(place, _)| start.0 < *place && *place <= end.0);
+                    .filter(|(fraction, _)| start.0 < *fraction && *fraction <= end.0);
                 let piece = Piece {
                     name,
                     root: start,
@@ -189,7 +189,7 @@ impl Resolver<'_> {
         let (start, root) = piece.root;
         let share = piece.end - start;
         let mut stations = Vec::new();
-        for (place, body) in &piece.stations {
+        for (fraction, body) in &piece.stations {
             let joint = JointId::new(joints.len());
             joints.push(Joint {
                 name: bodies[body.index()].name.clone(),
@@ -204,8 +204,8 @@ impl Resolver<'_> {
                 flexure: Some((BeamId::new(number), stations.len())),
             });
             stations.push(Station {
-                place: (place - start) / share,
-                section: declared.section(*place),
+                place: (fraction - start) / share,
+                section: declared.section(*fraction),
                 body: *body,
                 joint,
             });

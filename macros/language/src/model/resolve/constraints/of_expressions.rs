@@ -15,7 +15,7 @@ use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify;
 use crate::syntax::ast::Value;
 
-type Found = (CoordinateId, CoordinateQuantity);
+type CoordinateReference = (CoordinateId, CoordinateQuantity);
 
 impl Resolver<'_> {
     /// `of = ratio * with + offset`.
@@ -37,7 +37,10 @@ impl Resolver<'_> {
     }
 
     /// The two coordinates, which must be different.
-    fn coupled(&mut self, arguments: &Arguments) -> (Option<Found>, Option<Found>) {
+    fn coupled(
+        &mut self,
+        arguments: &Arguments,
+    ) -> (Option<CoordinateReference>, Option<CoordinateReference>) {
         let mut find = |name| {
             let name = self.name_of(arguments.get(name)?, "coordinate")?;
             self.coordinate(name)
@@ -58,8 +61,8 @@ impl Resolver<'_> {
     fn ratio(
         &mut self,
         arguments: &Arguments,
-        of: Option<Found>,
-        with: Option<Found>,
+        of: Option<CoordinateReference>,
+        with: Option<CoordinateReference>,
     ) -> Option<Expr> {
         use CoordinateQuantity::{Angle, Displacement};
         let expected = of.zip(with).map(|((_, of), (_, with))| match (of, with) {
@@ -175,8 +178,8 @@ impl Resolver<'_> {
     pub(in crate::model::resolve) fn runs(&self, id: CoordinateId) -> Option<bool> {
         let declared = self.coordinates.get(id.index())?;
         let mut resolved = self.declared_coordinates.iter();
-        let own = resolved
+        let declaration = resolved
             .find(|resolved| resolved.joint == declared.joint && resolved.name == *declared.name);
-        own.map(|x| x.motion.runs())
+        declaration.map(|x| x.motion.runs())
     }
 }

@@ -13,13 +13,13 @@ impl Resolver<'_> {
     pub(super) fn generalized(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let target = self.free_coordinate("generalized force", arguments);
         let law = arguments.get("value")?;
-        let (value, found) = self.scalar(law, ValueContext::GeneralizedForce)?;
+        let (value, dimension) = self.scalar(law, ValueContext::GeneralizedForce)?;
         let (coordinate, quantity) = target?;
         let expected = match quantity {
             CoordinateQuantity::Angle => Expected::moment(),
             CoordinateQuantity::Displacement => Dimension::FORCE.into(),
         };
-        self.expect(found, expected, "this generalized force", law)?;
+        self.expect(dimension, expected, "this generalized force", law)?;
         Some(ForceLaw::Generalized { coordinate, value })
     }
 

@@ -67,8 +67,8 @@ impl Resolver<'_> {
             return None;
         }
         let name = self.name_of(on, "coordinate")?;
-        let found = self.coordinate(name)?;
-        match self.coordinates.get(found.0.index())?.motion {
+        let coordinate = self.coordinate(name)?;
+        match self.coordinates.get(coordinate.0.index())?.motion {
             motion @ (DeclaredMotion::Driven | DeclaredMotion::Shaken) => {
                 let given = motion.word();
                 self.diagnostics.error_with_help(
@@ -89,7 +89,7 @@ impl Resolver<'_> {
                 );
                 None
             }
-            _ => Some(found),
+            _ => Some(coordinate),
         }
     }
 }

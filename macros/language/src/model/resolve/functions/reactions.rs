@@ -73,9 +73,9 @@ impl Resolver<'_> {
                 );
                 None
             }
-            found => {
+            other => {
                 let right = |meaning| matches!(meaning, Meaning::Constraint(_));
-                self.wrong_reference(name, "constraint", found, right);
+                self.wrong_reference(name, "constraint", other, right);
                 None
             }
         }

@@ -218,10 +218,10 @@ impl Resolver<'_> {
         let mut names = Vec::new();
         let mut values = Vec::new();
         let mut last: Option<&Value> = None;
-        for &place in places {
-            let axis = axes.get(place)?;
+        for &index in places {
+            let axis = axes.get(index)?;
             names.push(format!("`{}`", axis.name.as_ref()?));
-            values.extend(directions.get(place)?.iter().cloned());
+            values.extend(directions.get(index)?.iter().cloned());
             last = Some(&axis.value);
         }
         let (end, start) = names.split_last()?;

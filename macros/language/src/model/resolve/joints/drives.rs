@@ -58,17 +58,17 @@ impl Resolver<'_> {
         motions: &mut Motions,
     ) -> Option<()> {
         let who = (drive.coordinate.as_ref(), drive.keyword);
-        let place = kind.and_then(|kind| {
+        let index = kind.and_then(|kind| {
             self.given_place(joint, kind, who, &motions.ids, DeclaredMotion::Driven)
         });
-        let Some(place) = place else {
+        let Some(index) = index else {
             // Its value may be wrong as well, so check it too.
             self.scalar(&drive.speed, ValueContext::Parameter);
             return None;
         };
         let name = drive.coordinate.as_ref();
-        self.say(motions, place, DeclaredMotion::Driven, name, drive.keyword)?;
-        motions.motions[place] = self.motion(drive, motions.ids[place])?;
+        self.say(motions, index, DeclaredMotion::Driven, name, drive.keyword)?;
+        motions.motions[index] = self.motion(drive, motions.ids[index])?;
         Some(())
     }
 
@@ -83,23 +83,23 @@ impl Resolver<'_> {
         self.has_motions(kind?, "coast", coast.keyword)?;
         let places = match &coast.coordinate {
             Some(name) => {
-                let place = self.place_named(name, &motions.ids)?;
-                place..=place
+                let index = self.place_named(name, &motions.ids)?;
+                index..=index
             }
             // Without coordinates the axes are wrong, which has been reported.
             None => 0..=motions.ids.len().checked_sub(1)?,
         };
         self.is_not_cut(joint, "coast", coast.keyword)?;
         let name = coast.coordinate.as_ref();
-        for place in places {
+        for index in places {
             self.say(
                 motions,
-                place,
+                index,
                 DeclaredMotion::Coasting,
                 name,
                 coast.keyword,
             )?;
-            motions.motions[place] = Motion::Coasting;
+            motions.motions[index] = Motion::Coasting;
         }
         Some(())
     }
@@ -150,10 +150,10 @@ impl Resolver<'_> {
     ) -> Option<()> {
         let keyword = Extent::from(shake.call.word.span());
         let who = (shake.coordinate.as_ref(), keyword);
-        let place = self.given_place(joint, kind?, who, &motions.ids, DeclaredMotion::Shaken)?;
+        let index = self.given_place(joint, kind?, who, &motions.ids, DeclaredMotion::Shaken)?;
         let name = shake.coordinate.as_ref();
-        self.say(motions, place, DeclaredMotion::Shaken, name, keyword)?;
-        motions.motions[place] = Motion::Driven(Expr::Number(0.0));
+        self.say(motions, index, DeclaredMotion::Shaken, name, keyword)?;
+        motions.motions[index] = Motion::Driven(Expr::Number(0.0));
         Some(())
     }
 

@@ -96,7 +96,7 @@ pub(super) fn measured(
     };
     let mut rest = Columns::<Complex64>::new(n, n);
     let mut terms = Columns::<f64>::new(n, n);
-    let mut found = Vec::with_capacity(n);
+    let mut oscillations = Vec::with_capacity(n);
     for r in 0..n {
         let phi: Vec<_> = vectors.column(r).collect();
         let product = |of: &Products| {
@@ -123,7 +123,7 @@ pub(super) fn measured(
             return None;
         }
         let sizes = phi.iter().map(|x| bound(*x) * unit);
-        found.push(Measured {
+        oscillations.push(Measured {
             omega,
             length: (omega * omega + elastic * unit * unit).sqrt(),
             terms: sizes.zip(terms.column(r)).map(|(x, terms)| x * terms).sum(),
@@ -131,12 +131,12 @@ pub(super) fn measured(
             phi: phi.iter().map(|x| x * unit).collect(),
         });
     }
-    let squares: f64 = found.iter().map(|x| x.omega * x.omega).sum();
+    let squares: f64 = oscillations.iter().map(|x| x.omega * x.omega).sum();
     if (squares - sum).abs() > SUM * sum {
         return None;
     }
     let lengths = lengths(n, lower, &rest, &terms);
-    Some(bounded(n, found, &lengths))
+    Some(bounded(n, oscillations, &lengths))
 }
 
 /// The positive root of `omega^2 m + omega c - k = 0`, without cancellation.

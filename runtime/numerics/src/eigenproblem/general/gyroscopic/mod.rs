@@ -73,19 +73,19 @@ pub(super) fn oscillations(pencil: &Pencil) -> Option<Vec<Oscillation>> {
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| omega[a].total_cmp(&omega[b]));
     let mut x = vec![0.0; 4 * n * n];
-    for (place, row) in x.chunks_exact_mut(2 * n).enumerate() {
-        let (from, part) = match place % 2 {
+    for (index, row) in x.chunks_exact_mut(2 * n).enumerate() {
+        let (from, part) = match index % 2 {
             0 => (&right, 0),
             _ => (&left, 1),
         };
         // Component `k` is that of the symmetric form times `(-i)^k`.
-        let sign = if matches!(place % 4, 0 | 3) {
+        let sign = if matches!(index % 4, 0 | 3) {
             1.0
         } else {
             -1.0
         };
         for (pair, &r) in row.chunks_exact_mut(2).zip(&order) {
-            pair[part] = sign * from[r * n + place / 2];
+            pair[part] = sign * from[r * n + index / 2];
         }
     }
     q.apply(2 * n, &mut x);

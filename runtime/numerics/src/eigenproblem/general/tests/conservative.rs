@@ -40,9 +40,9 @@ fn compare(rounds: u64) {
         // Vectors of equal frequencies are orthogonal in the energy, which keeps derivatives of clusters right.
         for (a, one) in special.iter().enumerate() {
             for other in &special[..a] {
-                let own = checks::cross(&pencil, one, one).norm();
+                let energy = checks::cross(&pencil, one, one).norm();
                 let mixed = checks::cross(&pencil, one, other).norm();
-                assert!(mixed < 1e-10 * own, "round {round}: {mixed:e}");
+                assert!(mixed < 1e-10 * energy, "round {round}: {mixed:e}");
             }
         }
     }

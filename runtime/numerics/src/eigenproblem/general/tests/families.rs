@@ -56,8 +56,8 @@ fn mirrored(a: &Matrix) -> Matrix {
 fn bars(n: usize, length: f64) -> Matrix {
     Matrix::from_fn(n, n, |i, j| {
         let behind = (n - 1 - i.max(j)) as f64;
-        let own = if i == j { 1.0 / 3.0 } else { 0.5 };
-        length * length * (behind + own)
+        let share = if i == j { 1.0 / 3.0 } else { 0.5 };
+        length * length * (behind + share)
     })
 }
 
@@ -102,9 +102,9 @@ pub(crate) fn beck(n: usize, load: f64) -> Linear {
     let mass = mirrored(&in_joint_angles(&bars(n, h).map(|x| x * h)));
     // By absolute angles `load h (theta_i - theta_tip)`.
     let push = Matrix::from_fn(n, n, |i, j| {
-        let own = if i == j { 1.0 } else { 0.0 };
+        let delta = if i == j { 1.0 } else { 0.0 };
         let tip = if j + 1 == n { 1.0 } else { 0.0 };
-        load * h * (own - tip)
+        load * h * (delta - tip)
     });
     let mut springs = diagonal(&vec![1.0 / h; n]);
     springs[0][0] *= 2.0;
@@ -174,8 +174,8 @@ pub(crate) fn shaft(
     for element in 0..nodes - 1 {
         for (a, b) in (0..16).map(|k| (k / 4, k % 4)) {
             // Places of the two planes.
-            let place = |a: usize| 4 * (element + a / 2) + a % 2;
-            let (i, j) = (place(a), place(b));
+            let dof = |a: usize| 4 * (element + a / 2) + a % 2;
+            let (i, j) = (dof(a), dof(b));
             let inertia = turning / (30.0 * l) * turn[a][b];
             for plane in [0, 2] {
                 mass[i + plane][j + plane] += line * l / 420.0 * move_[a][b] + inertia;
@@ -233,8 +233,8 @@ pub(crate) fn chain_of_masses(masses: &[f64], springs: &[f64], damping: f64) -> 
     let any = Matrix::from_fn(n, n, |_, _| uniform(&mut rng));
     let gyroscopic = symmetric(&any, -0.5);
     let dampers = Matrix::from_fn(n, n, |i, j| {
-        let own = if i == j { 1.0 } else { 0.0 };
-        damping * (own + gyroscopic[i][j])
+        let delta = if i == j { 1.0 } else { 0.0 };
+        damping * (delta + gyroscopic[i][j])
     });
     linear(diagonal(masses), dampers, stiffness)
 }
@@ -266,8 +266,8 @@ pub(crate) fn hidden(quadratics: &[[f64; 3]], seed: u64) -> Linear {
     let n = quadratics.len();
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let coupling = Matrix::from_fn(n, n, |i, j| {
-        let own = if i == j { 1.0 } else { 0.0 };
-        own + 0.5 / (n as f64).sqrt() * uniform(&mut rng)
+        let delta = if i == j { 1.0 } else { 0.0 };
+        delta + 0.5 / (n as f64).sqrt() * uniform(&mut rng)
     });
     let seen = |part: usize| {
         Matrix::from_fn(n, n, |i, j| {

@@ -63,9 +63,9 @@ fn failures_are_answers() {
     let negative = solve(&linear(diagonal(&[-1.0, 1.0]), zeros(2), zeros(2)));
     assert_eq!(negative.err(), Some(EigenproblemError::SingularMass(0)));
     for bad in [f64::NAN, f64::INFINITY] {
-        for place in 0..3 {
+        for index in 0..3 {
             let mut matrices = [identity(2), identity(2), identity(2)];
-            matrices[place][0][1] = bad;
+            matrices[index][0][1] = bad;
             let [mass, damping, stiffness] = matrices;
             assert!(solve(&linear(mass, damping, stiffness)).is_err());
         }

@@ -20,17 +20,17 @@ fn compare(rounds: usize) {
         let (Ok(known), Ok(wanted)) = (solve(&there), solve(&here)) else {
             continue;
         };
-        let found = roots_near(Eigenproblem::Quadratic(&here), &near(&known))
+        let roots = roots_near(Eigenproblem::Quadratic(&here), &near(&known))
             .unwrap_or_else(|_| panic!("round {round}: not found"));
-        check(&here, &found).unwrap_or_else(|message| panic!("round {round}: {message}"));
+        check(&here, &roots).unwrap_or_else(|message| panic!("round {round}: {message}"));
         // The order of roots of equal size is decided by rounding, and a double root may be a pair or two real roots.
         let mut left = with_errors(&wanted);
-        for (s, error) in with_errors(&found) {
+        for (s, error) in with_errors(&roots) {
             let same = |other: &(Complex64, f64)| {
                 (s - other.0).norm() <= error + other.1 + 1e-12 * s.norm()
             };
-            let place = left.iter().position(same);
-            left.remove(place.unwrap_or_else(|| panic!("round {round}: {s} {left:?}")));
+            let index = left.iter().position(same);
+            left.remove(index.unwrap_or_else(|| panic!("round {round}: {s} {left:?}")));
         }
         assert!(left.is_empty(), "round {round}");
         compared += 1;
@@ -91,11 +91,11 @@ fn what_is_far_away_or_incomplete_is_not_predicted() {
             &mut values,
         )
     };
-    let own = solve(&here).expect("two modes");
-    assert!(predicted(&own));
-    assert!(!predicted(&own[..1]));
+    let roots = solve(&here).expect("two modes");
+    assert!(predicted(&roots));
+    assert!(!predicted(&roots[..1]));
     assert!(!predicted(&[]));
     assert!(!predicted(&solve(&far).expect("two modes")));
-    let twice = [own[0].clone(), own[1].clone(), own[1].clone()];
+    let twice = [roots[0].clone(), roots[1].clone(), roots[1].clone()];
     assert!(!predicted(&twice));
 }

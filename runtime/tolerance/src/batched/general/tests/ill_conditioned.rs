@@ -69,17 +69,17 @@ fn compare(rounds: usize) -> usize {
         let Some(reference) = Reference::new(&there, n, &nearby) else {
             continue;
         };
-        let (found, flags) = solved(&reference, &here);
-        for (here, (found, flag)) in here.iter().zip(found.iter().zip(flags)) {
+        let (lanes, flags) = solved(&reference, &here);
+        for (here, (roots, flag)) in here.iter().zip(lanes.iter().zip(flags)) {
             if !flag {
                 continue;
             }
             let wanted = modes(here)
                 .unwrap_or_else(|| panic!("round {round}: accepted, but not found alone"));
-            assert_eq!(found.len(), wanted.modes.len(), "round {round}");
+            assert_eq!(roots.len(), wanted.modes.len(), "round {round}");
             let places = match_modes(&known, &wanted, here);
-            for (&(s, error), place) in found.iter().zip(places) {
-                let mode = &wanted.modes[place.expect("as many modes")];
+            for (&(s, error), index) in roots.iter().zip(places) {
+                let mode = &wanted.modes[index.expect("as many modes")];
                 let off = (s - mode.s).norm();
                 assert!(
                     off <= error + mode.error + 1e-13 * s.norm(),
@@ -89,7 +89,7 @@ fn compare(rounds: usize) -> usize {
                 );
             }
             let far = |&(s, error): &(Complex64, f64)| error > 1e-9 * s.norm();
-            inaccurate += usize::from(found.iter().any(far));
+            inaccurate += usize::from(roots.iter().any(far));
         }
     }
     inaccurate

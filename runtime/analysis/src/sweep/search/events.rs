@@ -102,18 +102,18 @@ impl Route {
         let forward = if end.value < first.value { -1.0 } else { 1.0 };
         let piece = |value: f64| {
             let reaches = |piece: &&(usize, f64)| (piece.1 - value) * forward >= 0.0;
-            let found = self.pieces.iter().position(|piece| reaches(&piece));
-            found.unwrap_or(self.pieces.len().saturating_sub(1))
+            let index = self.pieces.iter().position(|piece| reaches(&piece));
+            index.unwrap_or(self.pieces.len().saturating_sub(1))
         };
-        let own = piece(value);
-        let from = self.pieces.get(own)?.0;
-        let to = (self.pieces.get(own + 1)).map_or(self.points.len(), |piece| piece.0);
+        let index = piece(value);
+        let from = self.pieces.get(index)?.0;
+        let to = (self.pieces.get(index + 1)).map_or(self.points.len(), |piece| piece.0);
         let mut near: Vec<&SweepPoint> = self.points[from..to].iter().collect();
         let apart = |point: &SweepPoint| (point.value - value).abs();
         near.sort_by(|a, b| apart(a).total_cmp(&apart(b)));
         near.truncate(3);
         if let (Some(last), [nearest, next, ..]) = (last, &near[..])
-            && piece(last) == own
+            && piece(last) == index
             && (value - last).abs()
                 <= (0.5 * (nearest.value - next.value).abs()).max(apart(nearest))
         {

@@ -11,13 +11,13 @@ use crate::failure::Failure;
 
 /// Where an answer goes.
 #[derive(Args, Debug)]
-pub(crate) struct Place {
+pub(crate) struct Destination {
     /// Write to a file instead of standard output; an existing file is replaced once the answer is complete
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
-impl Place {
+impl Destination {
     /// Rejects an unwritable file before any long computation.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         match &self.output {
