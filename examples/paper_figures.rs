@@ -68,8 +68,8 @@ fn along<M: Mechanism>(
     // Standard deviations in the upper panel, means in the lower.
     let spreads = |(mode, levels): (usize, usize)| {
         let levels = found.iter().take(levels);
-        let spreads = levels.fold(Spreads::new(speed.any(), mode), |own, level| {
-            own.under(&level.0, &level.1, &level.2)
+        let spreads = levels.fold(Spreads::new(speed.any(), mode), |item, level| {
+            item.under(&level.0, &level.1, &level.2)
         });
         spreads.figure(&style)
     };

@@ -58,16 +58,16 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         "CENTRIFUGE: the critical speed is {margin:.0} rpm above {WORKING} rpm, sigma {sigma:.0} rpm."
     )?;
     let spreads = study.output_tolerances()?;
-    let own = spreads.spreads[Centrifuge::run_out.index()]
+    let spread = spreads.spreads[Centrifuge::run_out.index()]
         .as_ref()
         .ok_or("the run-out varies")?;
-    let (mean, sigma) = (1e3 * own.mean, 1e3 * own.sigma);
+    let (mean, sigma) = (1e3 * spread.mean, 1e3 * spread.sigma);
     writeln!(
         out,
         "There the head runs out by {mean:.3} mm, sigma {sigma:.3} mm."
     )?;
-    let most = (ALLOWED - own.mean) / own.sigma;
-    let part = 100.0 * own.variance_shares[Centrifuge::overfill.index()];
+    let most = (ALLOWED - spread.mean) / spread.sigma;
+    let part = 100.0 * spread.variance_shares[Centrifuge::overfill.index()];
     writeln!(
         out,
         "The bearings bear {:.2} mm, {most:.1} sigma more; {part:.0} % of the scatter is in the filling.\n",

@@ -90,8 +90,11 @@ pub fn too_loud(grade: f64) -> Result<f64, Box<dyn Error>> {
 /// to the eccentricity.
 pub fn coarsest() -> Result<f64, Box<dyn Error>> {
     let spread = study().vibration_spread(&[velocity()])?;
-    let own = spread.spreads[0].as_ref().ok_or("the fan vibrates")?;
-    let upper = own.quantiles.iter().find(|own| own.probability > 0.97);
+    let spread = spread.spreads[0].as_ref().ok_or("the fan vibrates")?;
+    let upper = spread
+        .quantiles
+        .iter()
+        .find(|quantile| quantile.probability > 0.97);
     let upper = upper.ok_or("there are quantiles")?.value;
     Ok(6.3e-3 * ADMISSIBLE / upper)
 }
@@ -99,12 +102,12 @@ pub fn coarsest() -> Result<f64, Box<dyn Error>> {
 /// Writes the vibration, the grade that is needed, and how many fans of the next coarser one are too loud.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let spread = study().vibration_spread(&[velocity()])?;
-    let own = spread.spreads[0].as_ref().ok_or("the fan vibrates")?;
+    let spread = spread.spreads[0].as_ref().ok_or("the fan vibrates")?;
     writeln!(
         out,
         "FAN: balanced to G 6.3 its bearing moves with {:.1} mm/s, sigma {:.2}, because mounts scatter.",
-        1e3 * own.mean.value,
-        1e3 * own.sigma.ok_or("it varies")?.value,
+        1e3 * spread.mean.value,
+        1e3 * spread.sigma.ok_or("it varies")?.value,
     )?;
     let grade = coarsest()?;
     writeln!(

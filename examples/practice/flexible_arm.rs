@@ -64,16 +64,16 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         -1e3 * rigid_height,
     )?;
     let spreads = study().output_tolerances()?;
-    let own = spreads.spreads[FlexibleArm::height.index()]
+    let spread = spreads.spreads[FlexibleArm::height.index()]
         .as_ref()
         .ok_or("the height varies")?;
     let share = |variable: eigentol::DesignVariable<FlexibleArm>| {
-        100.0 * own.variance_shares[variable.index()]
+        100.0 * spread.variance_shares[variable.index()]
     };
     writeln!(
         out,
         "Its height scatters with a sigma of {:.2} mm, {:.0} % of the variance from the gears, {:.0} % from the link.",
-        1e3 * own.sigma,
+        1e3 * spread.sigma,
         share(FlexibleArm::shoulder_gear) + share(FlexibleArm::elbow_gear),
         share(FlexibleArm::inner) + share(FlexibleArm::modulus)
     )?;

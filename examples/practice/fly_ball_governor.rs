@@ -63,10 +63,14 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     )?;
     let study = study();
     let spreads = study.output_tolerances()?.spreads;
-    let own = spreads[lift].as_ref().ok_or("the lift varies")?;
+    let spread = spreads[lift].as_ref().ok_or("the lift varies")?;
     let slopes = study.outputs()?.by_input;
     let slope = slopes[lift].as_ref().ok_or("the lift has a slope")?[0];
-    let (at, sigma, scatter) = (1e3 * own.mean, 1e3 * own.sigma, own.sigma / slope / RPM);
+    let (at, sigma, scatter) = (
+        1e3 * spread.mean,
+        1e3 * spread.sigma,
+        spread.sigma / slope / RPM,
+    );
     writeln!(
         out,
         "At {HELD} rpm it stands {at:.1} mm up, sigma {sigma:.2} mm:"

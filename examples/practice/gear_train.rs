@@ -66,10 +66,10 @@ pub fn cheapest() -> Result<Allocation, eigentol::Error> {
 
 /// Writes the tolerances that the drive could have instead of its own.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
-    let found = cheapest()?;
-    let half = &found.half_widths;
+    let allocation = cheapest()?;
+    let half = &allocation.half_widths;
     let [motor, load, drum] = [1e3 * half[0], 1e3 * half[1], 100.0 * half[2] / 0.9];
-    let (before, after) = (found.cost_before, found.cost);
+    let (before, after) = (allocation.cost_before, allocation.cost);
     writeln!(
         out,
         "GEAR TRAIN: 999 of 1000 drives keep {RIPPLE} Hz with +/- {motor:.2} mm on the motor's shaft,

@@ -142,16 +142,16 @@ fn main() -> Result<(), Box<dyn Error>> {
             wanted.push(argument);
         }
     }
-    let unknown = |name: &&String| QUESTIONS.iter().all(|own| own.name != **name);
+    let unknown = |name: &&String| QUESTIONS.iter().all(|question| question.name != **name);
     if let Some(name) = wanted.iter().find(unknown) {
-        let names = QUESTIONS.map(|own| own.name).join(", ");
+        let names = QUESTIONS.map(|questions| questions.name).join(", ");
         return Err(format!("there is no question `{name}`, there are {names}").into());
     }
     if let Some(directory) = &reports {
         std::fs::create_dir_all(directory)?;
     }
     for question in QUESTIONS {
-        if !wanted.is_empty() && wanted.iter().all(|own| own != question.name) {
+        if !wanted.is_empty() && wanted.iter().all(|x| x != question.name) {
             continue;
         }
         (question.answer)(&mut io::stdout())?;

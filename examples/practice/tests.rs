@@ -11,9 +11,9 @@ use super::{
 
 const G: f64 = 9.81;
 
-fn close(found: f64, expected: f64, tolerance: f64) {
-    let error = (found - expected).abs();
-    assert!(error <= tolerance * expected.abs(), "{found} {expected}");
+fn close(value: f64, expected: f64, tolerance: f64) {
+    let error = (value - expected).abs();
+    assert!(error <= tolerance * expected.abs(), "{value} {expected}");
 }
 
 #[test]
@@ -178,10 +178,10 @@ fn a_drive_gets_the_tolerances_that_its_closed_form_allows() {
     let of = |x: [f64; 3]| drive(x[0], x[1], x[2]);
     let modes = Study::new(GearTrain).modes().unwrap();
     close(modes.frequencies()[0].unwrap(), of(nominal), 1e-9);
-    let found = cheapest().unwrap();
+    let allocation = cheapest().unwrap();
     // The fraction of drives below the limit, summed over a grid of normal deviates.
     let deviations: Vec<f64> = (-40..=40).map(|k| 0.15 * f64::from(k)).collect();
-    let at = |k: usize, u: f64| nominal[k] + u * found.half_widths[k] / 3.0;
+    let at = |k: usize, u: f64| nominal[k] + u * allocation.half_widths[k] / 3.0;
     let (mut below, mut all) = (0.0, 0.0);
     for u in &deviations {
         for v in &deviations {
@@ -195,7 +195,7 @@ fn a_drive_gets_the_tolerances_that_its_closed_form_allows() {
         }
     }
     close(below / all, 1e-3, 0.05);
-    assert!(found.cost < found.cost_before);
+    assert!(allocation.cost < allocation.cost_before);
 }
 
 /// `omega^2 = omega_0^2 + (cos^2 pitch + 3 e / (2 L)) Omega^2` meets `9 Omega^2`.

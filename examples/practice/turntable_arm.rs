@@ -51,17 +51,17 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let still = study(0.0).output_tolerances()?.values[0];
     let working = study(WORKING);
     let spreads = working.output_tolerances()?;
-    let own = spreads.spreads[TurntableArm::height.index()]
+    let spread = spreads.spreads[TurntableArm::height.index()]
         .as_ref()
         .ok_or("the height varies")?;
-    let moved = 1e3 * (own.mean - still);
+    let moved = 1e3 * (spread.mean - still);
     writeln!(
         out,
         "TURNTABLE ARM: {WORKING} rpm move the height of the tip by {moved:.2} mm, sigma over a series {:.2} mm.",
-        1e3 * own.sigma
+        1e3 * spread.sigma
     )?;
     let names = working.description().design.iter().map(|info| &*info.name);
-    let mut causes: Vec<_> = own.variance_shares.iter().zip(names).collect();
+    let mut causes: Vec<_> = spread.variance_shares.iter().zip(names).collect();
     causes.sort_by(|a, b| b.0.total_cmp(a.0));
     let first: Vec<String> = (causes.iter().take(3))
         .map(|(share, name)| format!("{name} {:.0} %", 100.0 * **share))

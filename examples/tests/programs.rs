@@ -48,7 +48,7 @@ fn shows(text: &str, words: &[&str]) {
 }
 
 #[track_caller]
-fn near(what: &str, found: f64, expected: f64, tolerance: f64) {
-    let error = (found - expected).abs() / expected.abs();
-    assert!(error <= tolerance, "{what}: {found:e} is not {expected:e}");
+fn near(what: &str, value: f64, expected: f64, tolerance: f64) {
+    let error = (value - expected).abs() / expected.abs();
+    assert!(error <= tolerance, "{what}: {value:e} is not {expected:e}");
 }

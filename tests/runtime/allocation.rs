@@ -93,23 +93,23 @@ fn a_linear_limit_has_a_closed_form() {
     let wanted = [Requirement::at_most(gap(), 41e-3)];
     for power in [0.5, 1.0, 2.0] {
         for failure in [0.1, 1e-3, 1e-9] {
-            let found = allocate(
+            let allocation = allocate(
                 &stack(),
                 &wanted,
                 &choices(power, (1e-6, 0.1), vec![failure]),
             );
             let beta = -normal::quantile(failure);
             let exact = closed_form(power, 1e-3 / beta);
-            for (t, exact) in found.half_widths.iter().zip(&exact) {
+            for (t, exact) in allocation.half_widths.iter().zip(&exact) {
                 close(*t, *exact, 1e-6);
             }
-            assert_eq!(found.half_widths[3], 0.0);
-            close(found.cost, cost_of(power, &exact), 1e-9);
-            close(found.reliability.beta_of(0).unwrap(), beta, 1e-8);
-            assert!(found.reliability.verified());
-            assert!(found.refuted.is_empty());
-            assert_eq!(found.chances.all.samples(), 3000);
-            assert_eq!(found.nominal[..], *stack().design_values());
+            assert_eq!(allocation.half_widths[3], 0.0);
+            close(allocation.cost, cost_of(power, &exact), 1e-9);
+            close(allocation.reliability.beta_of(0).unwrap(), beta, 1e-8);
+            assert!(allocation.reliability.verified());
+            assert!(allocation.refuted.is_empty());
+            assert_eq!(allocation.chances.all.samples(), 3000);
+            assert_eq!(allocation.nominal[..], *stack().design_values());
         }
     }
 }
@@ -122,9 +122,9 @@ fn a_band_shares_its_probability() {
         low: 39e-3,
         high: 41e-3,
     }];
-    let found = allocate(&stack(), &wanted, &choices(1.0, (1e-6, 0.1), vec![0.01]));
+    let allocation = allocate(&stack(), &wanted, &choices(1.0, (1e-6, 0.1), vec![0.01]));
     let exact = closed_form(1.0, 1e-3 / -normal::quantile(0.005));
-    for (t, exact) in found.half_widths.iter().zip(&exact) {
+    for (t, exact) in allocation.half_widths.iter().zip(&exact) {
         close(*t, *exact, 1e-6);
     }
 }
@@ -144,15 +144,15 @@ fn each_requirement_has_its_own_chance() {
             limits: (1e-6, 0.1),
             cost: Cost::reciprocal(0.0, 2e-3, 1.0),
         });
-        let found = allocate(&study, &wanted, &choices);
+        let allocation = allocate(&study, &wanted, &choices);
         let [first, second] = failure.map(|chance| -normal::quantile(chance));
         let exact = closed_form(1.0, 1e-3 / first);
-        for (t, exact) in found.half_widths.iter().zip(&exact) {
+        for (t, exact) in allocation.half_widths.iter().zip(&exact) {
             close(*t, *exact, 1e-5);
         }
-        close(found.half_widths[3], 3.0 * 0.5e-3 / second, 1e-6);
+        close(allocation.half_widths[3], 3.0 * 0.5e-3 / second, 1e-6);
         for (place, beta) in [first, second].into_iter().enumerate() {
-            close(found.reliability.beta_of(place).unwrap(), beta, 1e-7);
+            close(allocation.reliability.beta_of(place).unwrap(), beta, 1e-7);
         }
     }
 }
@@ -174,13 +174,13 @@ fn nominal_values_move_to_the_middle() {
         variable: 2,
         limits: (25e-3, 35e-3),
     });
-    let found = allocate(&stack(), &wanted, &choices);
-    close(found.nominal[2], 31e-3, 1e-6);
+    let allocation = allocate(&stack(), &wanted, &choices);
+    close(allocation.nominal[2], 31e-3, 1e-6);
     let exact = closed_form(1.0, 1.5e-3 / -normal::quantile(0.005));
-    for (t, exact) in found.half_widths.iter().zip(&exact) {
+    for (t, exact) in allocation.half_widths.iter().zip(&exact) {
         close(*t, *exact, 1e-5);
     }
-    assert!(found.refuted.is_empty());
+    assert!(allocation.refuted.is_empty());
 }
 
 /// Limits on half-widths are respected: with two at their limits, the third takes the rest.
@@ -190,12 +190,12 @@ fn limits_of_half_widths_hold() {
     let mut choices = choices(1.0, (1e-6, 0.1), vec![1e-3]);
     choices.half_widths[0].limits = (0.1e-3, 0.4e-3);
     choices.half_widths[2].limits = (0.2e-3, 0.3e-3);
-    let found = allocate(&stack(), &wanted, &choices);
-    close(found.half_widths[0], 0.4e-3, 1e-12);
-    close(found.half_widths[2], 0.3e-3, 1e-12);
+    let allocation = allocate(&stack(), &wanted, &choices);
+    close(allocation.half_widths[0], 0.4e-3, 1e-12);
+    close(allocation.half_widths[2], 0.3e-3, 1e-12);
     let sigma = 1e-3 / -normal::quantile(1e-3);
     let left = 9.0 * sigma * sigma - 0.4e-3_f64.powi(2) - 0.3e-3_f64.powi(2);
-    close(found.half_widths[1], 0.5 * left.sqrt(), 1e-6);
+    close(allocation.half_widths[1], 0.5 * left.sqrt(), 1e-6);
 }
 
 /// A cost that falls where a tolerance gets tighter makes no sense.
@@ -234,9 +234,9 @@ fn a_cost_of_ones_own() {
     for (half_width, factor) in choices.half_widths.iter_mut().zip(COSTS) {
         half_width.cost = own(factor);
     }
-    let found = allocate(&stack(), &wanted, &choices);
+    let allocation = allocate(&stack(), &wanted, &choices);
     let exact = closed_form(1.0, 1e-3 / -normal::quantile(1e-3));
-    for (t, exact) in found.half_widths.iter().zip(&exact) {
+    for (t, exact) in allocation.half_widths.iter().zip(&exact) {
         close(*t, *exact, 1e-6);
     }
 }

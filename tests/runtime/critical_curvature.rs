@@ -33,12 +33,16 @@ impl Case<'_> {
     /// Second derivatives, checked against extrapolated differences of the first ones.
     pub(crate) fn curvature(&self) -> EventCurvature {
         let b = self.b;
-        let found = critical_curvature(self.machine, &self.state(b)).unwrap();
+        let event_curvature = critical_curvature(self.machine, &self.state(b)).unwrap();
         let first = |b: &[f64]| critical_sensitivity(self.machine, &self.state(b)).unwrap();
-        for (own, again) in found.first.iter().zip(&first(b)) {
+        for (own, again) in event_curvature.first.iter().zip(&first(b)) {
             assert!((own - again).abs() <= 1e-12 * (1.0 + own.abs()));
         }
-        assert!(found.asymmetry < 1e-8, "{:e}", found.asymmetry);
+        assert!(
+            event_curvature.asymmetry < 1e-8,
+            "{:e}",
+            event_curvature.asymmetry
+        );
         for k in 0..b.len() {
             let slope = |h: f64, j: usize| {
                 let [mut up, mut down] = [b.to_vec(), b.to_vec()];
@@ -49,14 +53,14 @@ impl Case<'_> {
             for j in 0..b.len() {
                 let h = 4e-3 * b[k].abs().max(0.1);
                 let expected = (4.0 * slope(0.5 * h, j) - slope(h, j)) / 3.0;
-                let own = found.second[j][k];
+                let own = event_curvature.second[j][k];
                 assert!(
                     (own - expected).abs() < 1e-7 * (1.0 + own.abs()),
                     "{j}, {k}: {own} {expected}"
                 );
             }
         }
-        found
+        event_curvature
     }
 
     /// Second derivatives, checked against a closed form as well.

@@ -71,13 +71,13 @@ fn monte_carlo_has_the_exact_moments() {
             .seed(seed as u64);
         for study in [study.clone(), study.vectors(None)] {
             let run = study.monte_carlo().unwrap();
-            let found = run.modes[0].as_ref().unwrap();
+            let mode = run.modes[0].as_ref().unwrap();
             let error = sigma / (SAMPLES as f64).sqrt();
             assert_eq!(run.counts.stable, SAMPLES);
-            assert!((found.mean - mean).abs() < 4.0 * error, "{length:?}");
+            assert!((mode.mean - mean).abs() < 4.0 * error, "{length:?}");
             // An upper bound on the standard error of a standard deviation for excess kurtosis below 6.
             assert!(
-                (found.sigma.unwrap() - sigma).abs() < 4.0 * 1.42 * error,
+                (mode.sigma.unwrap() - sigma).abs() < 4.0 * 1.42 * error,
                 "{length:?}"
             );
         }
@@ -128,8 +128,8 @@ fn values_have_the_correlation_that_was_asked_for() {
             .distribution(MASS, Distribution::lognormal(3.0, 1.0).unwrap())
             .correlation([[1.0, wanted], [wanted, 1.0]])
             .keep_samples(true);
-        let found = correlation_of(&study.monte_carlo().unwrap());
-        assert!((found - wanted).abs() < 0.03, "{found}, not {wanted}");
+        let value = correlation_of(&study.monte_carlo().unwrap());
+        assert!((value - wanted).abs() < 0.03, "{value}, not {wanted}");
     }
 }
 
@@ -290,8 +290,8 @@ fn a_speed_that_wanders() {
     );
 
     let run = study.clone().samples(SAMPLES).monte_carlo().unwrap();
-    let found = run.modes[0].as_ref().unwrap();
-    assert!((found.sigma.unwrap() / with.sigma - 1.0).abs() < 0.03);
+    let mode = run.modes[0].as_ref().unwrap();
+    assert!((mode.sigma.unwrap() / with.sigma - 1.0).abs() < 0.03);
     assert!(run.side_by_side && run.counts.stable == SAMPLES);
 
     close(
@@ -364,24 +364,24 @@ mod declared {
             classes
                 .iter()
                 .zip(weights)
-                .map(|(own, weight)| weight * value(*own))
+                .map(|(class, weight)| weight * value(*class))
                 .sum()
         };
-        let mean = of(&|own| own);
-        let variance = of(&|own| (own - mean).powi(2));
-        let found = run.modes[0].as_ref().unwrap();
+        let mean = of(&|x| x);
+        let variance = of(&|x| (x - mean).powi(2));
+        let mode = run.modes[0].as_ref().unwrap();
         assert!(
-            (found.mean - mean).abs() < 4.0 * (variance / 4000.0).sqrt(),
-            "{found:?}"
+            (mode.mean - mean).abs() < 4.0 * (variance / 4000.0).sqrt(),
+            "{mode:?}"
         );
-        close(found.sigma.unwrap(), variance.sqrt(), 0.05);
-        close(found.min, classes[0].min(classes[2]), 1e-12);
-        close(found.max, classes[0].max(classes[2]), 1e-12);
+        close(mode.sigma.unwrap(), variance.sqrt(), 0.05);
+        close(mode.min, classes[0].min(classes[2]), 1e-12);
+        close(mode.max, classes[0].max(classes[2]), 1e-12);
         for (length, weight) in [0.98, 1.0, 1.03].into_iter().zip(weights) {
             let all = run.all.as_ref().unwrap();
             let count = all
                 .iter()
-                .filter(|own| (own.design[0] - length).abs() < 1e-15)
+                .filter(|x| (x.design[0] - length).abs() < 1e-15)
                 .count();
             let expected = 4000.0 * weight;
             assert!((count as f64 - expected).abs() < 4.0 * (expected * (1.0 - weight)).sqrt());

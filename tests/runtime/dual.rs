@@ -12,8 +12,8 @@ fn moving(value: f64) -> Second {
 }
 
 /// Value, first and second derivative.
-fn assert_derivatives(what: &str, found: Second, expected: [f64; 3]) {
-    let found = [found.value.value, found.value.slope, found.slope.slope];
+fn assert_derivatives(what: &str, second: Second, expected: [f64; 3]) {
+    let found = [second.value.value, second.value.slope, second.slope.slope];
     for (order, (one, other)) in found.iter().zip(expected).enumerate() {
         let close = (one - other).abs() <= 1e-14 * (1.0 + other.abs());
         assert!(close, "{what}, derivative {order}: {one:e}, not {other:e}");

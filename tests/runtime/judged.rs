@@ -111,10 +111,10 @@ fn of_seal(damping: f64, [kx, ky]: [f64; 2], across: f64) -> Vec<Complex> {
 }
 
 /// Whether the eigenvalues of a sample, without conjugates, match those of the companion matrix including multiplicity.
-fn same(found: &[Option<Complex>], wanted: &[Complex], tolerance: f64) {
+fn same(complexes: &[Option<Complex>], wanted: &[Complex], tolerance: f64) {
     let mut left = wanted.to_vec();
-    assert!(found.iter().any(Option::is_some), "{found:?}");
-    for s in found.iter().flatten() {
+    assert!(complexes.iter().any(Option::is_some), "{complexes:?}");
+    for s in complexes.iter().flatten() {
         let both = [Some(*s), (s.im > 0.0).then(|| s.conj())];
         for s in both.into_iter().flatten() {
             let distance = |other: &Complex| (s - other).norm();
@@ -123,7 +123,7 @@ fn same(found: &[Option<Complex>], wanted: &[Complex], tolerance: f64) {
             let nearest = left.remove(nearest.expect("no more eigenvalues than there are"));
             assert!(
                 distance(&nearest) < tolerance,
-                "{s} {nearest} of {wanted:?}, {found:?}"
+                "{s} {nearest} of {wanted:?}, {complexes:?}"
             );
         }
     }

@@ -79,8 +79,8 @@ fn check(n: usize, stiffness: &[f64], mass: &[f64], duplicate: bool) {
         let mass = symmetric(n, mass, 1.5 * n as f64);
         (symmetric(n, stiffness, 0.0), mass)
     };
-    let found = modes_of(&pencil(k, m.clone()), &ANY).unwrap();
-    for (r, mode) in found.modes.iter().enumerate() {
+    let modes = modes_of(&pencil(k, m.clone()), &ANY).unwrap();
+    for (r, mode) in modes.modes.iter().enumerate() {
         assert!(mode.residual < 1e-11, "residual {:e}", mode.residual);
         let shape = real(mode);
         let lead = shape
@@ -92,13 +92,13 @@ fn check(n: usize, stiffness: &[f64], mass: &[f64], duplicate: bool) {
             lead > 0.0 || shape.iter().any(|x| (x + lead).abs() < 1e-8),
             "{shape:?}"
         );
-        for (s, other) in found.modes.iter().enumerate() {
+        for (s, other) in modes.modes.iter().enumerate() {
             let expected = if r == s { 1.0 } else { 0.0 };
             let product = form(&shape, &m, &real(other));
             assert!((product - expected).abs() < 1e-11, "{r} {s}: {product}");
         }
         if r > 0 {
-            assert!(mode.lambda >= found.modes[r - 1].lambda);
+            assert!(mode.lambda >= modes.modes[r - 1].lambda);
         }
     }
 }
@@ -304,7 +304,7 @@ fn a_matrix_of_rounding_errors_has_modes() {
         [0.0, 0.0, 0.0, 0.0, 0.0006966666666666667],
     ];
     let mass = Matrix::from_fn(5, 5, |i, j| upper[i.min(j)][i.max(j)]);
-    let found = modes_of(&pencil(stiffness, mass.clone()), &ANY).unwrap();
-    assert!(found.modes.iter().all(|mode| mode.lambda.abs() < 1e-20));
+    let modes = modes_of(&pencil(stiffness, mass.clone()), &ANY).unwrap();
+    assert!(modes.modes.iter().all(|mode| mode.lambda.abs() < 1e-20));
     assert!(modes_of(&pencil([[0.0; 5]; 5], mass), &ANY).is_ok());
 }

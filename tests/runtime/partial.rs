@@ -151,7 +151,11 @@ fn a_run_that_is_stopped_can_be_resumed() {
             let watched = sampling.clone().progress(Some(&progress)).stop(Some(&stop));
             let mut part = study.sample_modes(&watched).unwrap();
             let result = part.result();
-            let done: u64 = part.ranges().iter().map(|own| own.end - own.start).sum();
+            let done: u64 = part
+                .ranges()
+                .iter()
+                .map(|range| range.end - range.start)
+                .sum();
             assert!(
                 (4001..20_000).contains(&result.samples),
                 "{}",

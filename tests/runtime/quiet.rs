@@ -32,8 +32,8 @@ fn assert_quiet(text: &str) {
             .is_some_and(|(_, power)| power.len() > 2)
     };
     let words = text.split_whitespace();
-    let found: Vec<&str> = words.filter(|word| tiny(word)).collect();
-    assert!(found.is_empty(), "{found:?} in\n{text}");
+    let texts: Vec<&str> = words.filter(|word| tiny(word)).collect();
+    assert!(texts.is_empty(), "{texts:?} in\n{text}");
 }
 
 #[test]

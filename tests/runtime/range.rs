@@ -60,13 +60,13 @@ fn ask<M: Mechanism>(name: &str, study: &Study<M>) {
                 ("campbell", format!("{diagram:?}")),
                 (
                     "campbell",
-                    diagram.map_or(String::new(), |found| found.to_string()),
+                    diagram.map_or(String::new(), |diagram| diagram.to_string()),
                 ),
             ]);
         }
         for (what, answer) in answers {
-            let place = look(&answer);
-            assert!(place.is_none(), "{name}, {family:?}, {what}: {place:?}");
+            let text = look(&answer);
+            assert!(text.is_none(), "{name}, {family:?}, {what}: {text:?}");
         }
     }
 }

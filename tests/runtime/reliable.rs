@@ -89,14 +89,14 @@ fn a_linear_limit_is_exact() {
             .reliability(&[Requirement::at_most(gap(), 41e-3)])
             .unwrap();
         assert!(found.verified());
-        let own = &found.limits[0];
-        assert_eq!(own.limit, Requirement::at_most(gap(), 41e-3));
-        let points = own.design_points.as_ref().unwrap();
+        let limit = &found.limits[0];
+        assert_eq!(limit.limit, Requirement::at_most(gap(), 41e-3));
+        let points = limit.design_points.as_ref().unwrap();
         assert_eq!(points.len(), 1);
         let at = &points[0];
         let beta = 1e-3 / sigma;
         close(at.beta(), beta, 1e-11);
-        close(own.probability().unwrap(), normal::cdf(-beta), 1e-10);
+        close(limit.probability().unwrap(), normal::cdf(-beta), 1e-10);
         close(at.second_order.unwrap(), normal::cdf(-beta), 1e-6);
         let slopes = [1.0, -2.0, 1.0, 0.0];
         let sigmas = [0.1e-3, 0.05e-3, 0.2e-3, 0.0];
@@ -141,8 +141,8 @@ fn a_series_system() {
     let found = stack().reliability(&wanted).unwrap();
     assert_eq!(found.limits.len(), 3);
     let sigma = 0.06_f64.sqrt() * 1e-3;
-    for own in &found.limits[..2] {
-        close(own.beta().unwrap(), 0.5e-3 / sigma, 1e-10);
+    for limit in &found.limits[..2] {
+        close(limit.beta().unwrap(), 0.5e-3 / sigma, 1e-10);
     }
     close(
         found.beta_of(0).unwrap(),
@@ -173,7 +173,7 @@ fn a_series_system() {
     assert!(interval.lower < 1.0 - met && 1.0 - met < interval.upper);
     assert_eq!(chances.all.samples(), 20_000);
     assert_eq!(chances.counts.stable, 20_000);
-    let failed: usize = chances.each.iter().map(|own| own.failed).sum();
+    let failed: usize = chances.each.iter().map(|x| x.failed).sum();
     assert!(failed > chances.all.failed, "some fail both");
 }
 
@@ -214,9 +214,9 @@ fn the_pendulum_in_a_band() {
         for mass in [0.0, 0.9] {
             let study = distributed(values.clone()).tolerance(Pendulum::m, mass);
             let found = study.reliability(&[band]).unwrap();
-            for (own, exact) in found.limits.iter().zip([exact_low, exact_high]) {
-                close(own.probability().unwrap(), exact, 1e-8);
-                let at = &own.design_points.as_ref().unwrap()[0];
+            for (limit, exact) in found.limits.iter().zip([exact_low, exact_high]) {
+                close(limit.probability().unwrap(), exact, 1e-8);
+                let at = &limit.design_points.as_ref().unwrap()[0];
                 assert!(at.verified);
                 assert!(at.second_order.is_some(), "{values:?} {mass} {at:?}");
                 close(at.second_order.unwrap(), exact, 1e-6);

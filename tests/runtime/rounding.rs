@@ -516,10 +516,10 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
         damping: Matrix::zeros(n, n),
         stiffness,
     };
-    let found = modes_of(&linear, Family::Undamped, &description).unwrap();
+    let modes = modes_of(&linear, Family::Undamped, &description).unwrap();
     d.sort_by(f64::total_cmp);
     let mut counts = [0; 2];
-    for (mode, exact) in found.modes.iter().zip(d) {
+    for (mode, exact) in modes.modes.iter().zip(d) {
         // Half of it for a zero, where `error` is a square root.
         let error = match mode.behaviour {
             Behaviour::Neutral => mode.error * mode.error,
@@ -527,7 +527,7 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
         };
         assert!(
             (mode.lambda - exact).abs() <= error,
-            "{found} {exact} {error:e}"
+            "{modes} {exact} {error:e}"
         );
         match mode.behaviour {
             Behaviour::Oscillating(_) => assert!(exact > 0.0),

@@ -34,12 +34,13 @@ fn all_ways(
     start: &[f64],
 ) -> Vec<(Vector, Vector)> {
     let state = equilibrium(mechanism, u, b, start, Policy::Stable).unwrap();
-    let found = undamped_modes(&state).unwrap();
-    let adjoint = sensitivities(mechanism, &state, &found).unwrap();
-    let explicit = sensitivities_explicit(mechanism, &state, &found).unwrap();
-    let numeric = sensitivities_by_finite_difference(mechanism, &state, &found, 5e-6).unwrap();
+    let undamped_modes = undamped_modes(&state).unwrap();
+    let adjoint = sensitivities(mechanism, &state, &undamped_modes).unwrap();
+    let explicit = sensitivities_explicit(mechanism, &state, &undamped_modes).unwrap();
+    let numeric =
+        sensitivities_by_finite_difference(mechanism, &state, &undamped_modes, 5e-6).unwrap();
     for (r, exact) in adjoint.modes.iter().enumerate() {
-        let scale = found.modes[r].lambda.abs();
+        let scale = undamped_modes.modes[r].lambda.abs();
         let rows = [&explicit.modes[r], &numeric.modes[r]]
             .into_iter()
             .zip([1e-11, 1e-6]);
@@ -349,8 +350,8 @@ fn clustered_modes_are_flagged() {
         Policy::Stable,
     )
     .unwrap();
-    let found = undamped_modes(&state).unwrap();
-    let rates = sensitivities(&Derived(Plate), &state, &found).unwrap();
+    let undamped_modes = undamped_modes(&state).unwrap();
+    let rates = sensitivities(&Derived(Plate), &state, &undamped_modes).unwrap();
     assert!(rates.modes.iter().all(|mode| mode.clustered));
     assert!(rates.to_string().contains("does not exist"));
 }

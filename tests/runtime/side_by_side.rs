@@ -116,10 +116,10 @@ fn compare_at(
         panic!("samples were asked for")
     };
     let branch = Branch::of(m, &state);
-    let stable = other.iter().filter(|own| own.outcome == Outcome::Stable);
-    let left = stable.filter(|own| {
-        let q = own.coordinates.as_ref().expect("an equilibrium");
-        !branch.holds(&own.design, q)
+    let stable = other.iter().filter(|x| x.outcome == Outcome::Stable);
+    let left = stable.filter(|stable| {
+        let q = stable.coordinates.as_ref().expect("an equilibrium");
+        !branch.holds(&stable.design, q)
     });
     assert_eq!(left.count(), alone.left_nominal_branch);
     assert_eq!(own.len(), other.len());

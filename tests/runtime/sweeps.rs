@@ -152,12 +152,12 @@ fn compare<M>(
         near(own.value, other.value, 1.0);
     }
     let mut side_by_side = 0;
-    for ((own, other), &value) in first.points.iter().zip(&alone).zip(values) {
-        assert!(own.value == value || value.is_nan());
-        let (state, expected) = match (&own.equilibrium, &other.equilibrium) {
+    for ((point, other), &value) in first.points.iter().zip(&alone).zip(values) {
+        assert!(point.value == value || value.is_nan());
+        let (state, expected) = match (&point.equilibrium, &other.equilibrium) {
             (Ok(state), Ok(expected)) => (state, expected),
-            (own, other) => {
-                assert_eq!(format!("{own:?}"), format!("{other:?}"));
+            (equilibrium, other) => {
+                assert_eq!(format!("{equilibrium:?}"), format!("{other:?}"));
                 continue;
             }
         };
@@ -181,11 +181,11 @@ fn compare<M>(
         assert_eq!(state.left_unstable_region, expected.left_unstable_region);
         assert!(state.relative_residual <= 1e-10);
         assert_eq!(state.pose.is_some(), expected.pose.is_some());
-        if let (Some(own), Some(other)) = (&state.pose, &expected.pose) {
-            near(own.margin, other.margin, 1.0);
+        if let (Some(pose), Some(other)) = (&state.pose, &expected.pose) {
+            near(pose.margin, other.margin, 1.0);
         }
-        let (Ok(modes), Ok(expected)) = (&own.modes, &other.modes) else {
-            panic!("{:?} {:?}", own.modes, other.modes);
+        let (Ok(modes), Ok(expected)) = (&point.modes, &other.modes) else {
+            panic!("{:?} {:?}", point.modes, other.modes);
         };
         assert_eq!(modes.modes.len(), expected.modes.len());
         for (mode, expected) in modes.modes.iter().zip(expected.modes.iter()) {
@@ -193,8 +193,8 @@ fn compare<M>(
             near(mode.lambda, expected.lambda, 1.0);
             near(mode.s.im, expected.s.im, 1.0);
             assert!(mode.residual <= 1e-12);
-            for (own, other) in mode.shape.iter().zip(&expected.shape) {
-                near(own.re, other.re, 1.0);
+            for (component, other) in mode.shape.iter().zip(&expected.shape) {
+                near(component.re, other.re, 1.0);
             }
         }
     }
@@ -238,24 +238,24 @@ fn derivatives(
             (Ok(slopes), Ok(expected)) => {
                 assert_eq!(slopes.method, expected.method);
                 assert_eq!(slopes.modes.len(), expected.modes.len());
-                for (own, other) in slopes.modes.iter().zip(expected.modes.iter()) {
-                    assert_eq!(own.clustered, other.clustered);
+                for (mode, other) in slopes.modes.iter().zip(expected.modes.iter()) {
+                    assert_eq!(mode.clustered, other.clustered);
                     let lists = [
-                        (&own.lambda.by_input[..], &other.lambda.by_input[..]),
-                        (&own.lambda.by_design, &other.lambda.by_design),
+                        (&mode.lambda.by_input[..], &other.lambda.by_input[..]),
+                        (&mode.lambda.by_design, &other.lambda.by_design),
                     ];
                     for (own, other) in lists {
                         let size = other.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
                         own.iter().zip(other).for_each(|(a, b)| near(*a, *b, size));
                     }
-                    assert_eq!(own.frequency().is_some(), other.frequency().is_some());
-                    if let (Some(own), Some(other)) = (own.frequency(), other.frequency()) {
+                    assert_eq!(mode.frequency().is_some(), other.frequency().is_some());
+                    if let (Some(own), Some(other)) = (mode.frequency(), other.frequency()) {
                         let slopes = own.by_design.iter().zip(&other.by_design);
                         slopes.for_each(|(a, b)| near(*a, *b, 1.0));
                     }
                 }
             }
-            (own, other) => assert_eq!(format!("{own:?}"), format!("{other:?}")),
+            (slopes, other) => assert_eq!(format!("{slopes:?}"), format!("{other:?}")),
         }
     }
 }
@@ -383,11 +383,11 @@ fn from_nothing(
     let following = Following::from(policy).family(family).vectors(None);
     let (mut solved, mut changes, mut kinds) = (0, 0, Vec::new());
     let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
-        let (Ok(state), Ok(found)) = (&point.equilibrium, &point.modes) else {
+        let (Ok(state), Ok(modes)) = (&point.equilibrium, &point.modes) else {
             assert!(slopes.is_err());
             return ControlFlow::Continue(());
         };
-        assert_eq!(*slopes, sensitivities(m, state, found));
+        assert_eq!(*slopes, sensitivities(m, state, modes));
         let again = equilibrium(m, &state.inputs, &b, &state.coordinates, policy).expect("found");
         assert_eq!(again.inputs, state.inputs);
         assert_eq!(again.design, state.design);
@@ -403,27 +403,27 @@ fn from_nothing(
             let pairs = a.as_flattened().iter().zip(b.as_flattened());
             pairs.for_each(|(a, b)| near(*a, *b, 10.0));
         }
-        let fresh = modes_of(&again.linear, found.family, &again.description).expect("modes");
-        assert_eq!(fresh.modes.len(), found.modes.len());
-        assert_eq!(fresh.damping_ignored, found.damping_ignored);
-        assert_eq!(found.inputs, state.inputs);
-        for own in &found.modes {
+        let fresh = modes_of(&again.linear, modes.family, &again.description).expect("modes");
+        assert_eq!(fresh.modes.len(), modes.modes.len());
+        assert_eq!(fresh.damping_ignored, modes.damping_ignored);
+        assert_eq!(modes.inputs, state.inputs);
+        for mode in &modes.modes {
             let same = fresh.modes.iter().find(|other| {
-                let apart = (other.s - own.s).norm();
-                apart < 1e-7 && discriminant(&other.behaviour) == discriminant(&own.behaviour)
+                let apart = (other.s - mode.s).norm();
+                apart < 1e-7 && discriminant(&other.behaviour) == discriminant(&mode.behaviour)
             });
-            let same = same.unwrap_or_else(|| panic!("{}: {own:?}", point.value));
-            for (a, b) in same.shape.iter().zip(&own.shape) {
+            let same = same.unwrap_or_else(|| panic!("{}: {mode:?}", point.value));
+            for (a, b) in same.shape.iter().zip(&mode.shape) {
                 near(a.re, b.re, 1e4);
                 near(a.im, b.im, 1e4);
             }
         }
-        let mut own: Vec<_> = (found.modes.iter())
+        let mut derived: Vec<_> = (modes.modes.iter())
             .map(|mode| format!("{:?}", discriminant(&mode.behaviour)))
             .collect();
-        own.sort();
-        changes += usize::from(solved > 0 && own != kinds);
-        kinds = own;
+        derived.sort();
+        changes += usize::from(solved > 0 && derived != kinds);
+        kinds = derived;
         solved += 1;
         ControlFlow::Continue(())
     };
@@ -531,8 +531,8 @@ fn derivatives_along_a_sweep_are_what_differences_show() {
             .collect()
     };
     let mut slopes = Vec::new();
-    let each = |_: &SweepPoint, found: &Result<Sensitivities, Error>| {
-        let found = found.as_ref().expect("derivatives");
+    let each = |_: &SweepPoint, sensitivities: &Result<Sensitivities, Error>| {
+        let found = sensitivities.as_ref().expect("derivatives");
         slopes.push([0, 1].map(|r| found.modes[r].lambda.by_design.clone()));
         ControlFlow::Continue(())
     };
@@ -581,15 +581,15 @@ fn a_bar_along_its_speeds_is_the_closed_form() {
         let (u, w) = (point.value, 1.5 * gravity / l);
         near(state.coordinates[0].cos(), w / (u * u), 0.0);
         near(modes.modes[0].lambda, u * u - (w / u).powi(2), 0.0);
-        let own = &slopes.modes[0];
+        let mode = &slopes.modes[0];
         near(
-            own.lambda.by_input[0],
+            mode.lambda.by_input[0],
             2.0 * u + 2.0 * w * w / u.powi(3),
             0.0,
         );
-        near(own.lambda.by_design[0], 0.0, 1.0);
-        near(own.lambda.by_design[1], 2.0 * w * w / (l * u * u), 0.0);
-        let by_length = own.frequency().map(|slopes| slopes.by_design[1]);
+        near(mode.lambda.by_design[0], 0.0, 1.0);
+        near(mode.lambda.by_design[1], 2.0 * w * w / (l * u * u), 0.0);
+        let by_length = mode.frequency().map(|slopes| slopes.by_design[1]);
         let omega = modes.modes[0].lambda.sqrt();
         near(by_length.unwrap_or(0.0), w * w / (l * u * u * omega), 0.0);
         seen += 1;

@@ -196,16 +196,16 @@ fn correlation_changes_the_spread() {
 
 /// Requires mean and standard deviation to agree within four standard errors.
 fn agrees(run: &MonteCarlo, mean: f64, sigma: f64) {
-    let found = run.modes[0].as_ref().unwrap();
+    let mode = run.modes[0].as_ref().unwrap();
     assert_eq!(run.counts.stable, run.samples);
-    let error = (found.mean - mean).abs() / found.standard_error.unwrap();
+    let error = (mode.mean - mean).abs() / mode.standard_error.unwrap();
     assert!(
         error < 4.0,
         "mean {} is {error} standard errors from {mean}",
-        found.mean
+        mode.mean
     );
     // Standard error of a standard deviation, for moderate kurtosis.
-    let deviation = found.sigma.unwrap();
+    let deviation = mode.sigma.unwrap();
     let error = (deviation - sigma).abs() * (2.0 * run.samples as f64).sqrt() / sigma;
     assert!(
         error < 4.0,
@@ -485,7 +485,7 @@ fn means_scatter_by_their_standard_error() {
     let (mut means, mut errors) = (Vec::new(), 0.0);
     for stream in 0..runs {
         let run = study.clone().stream(stream).monte_carlo().unwrap();
-        let own = run.modes[0].as_ref().unwrap();
+        let mode = run.modes[0].as_ref().unwrap();
         let values: Vec<f64> = run
             .all
             .unwrap()
@@ -495,12 +495,12 @@ fn means_scatter_by_their_standard_error() {
         let mean = values.iter().sum::<f64>() / 50.0;
         let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
         close(
-            own.standard_error.unwrap(),
+            mode.standard_error.unwrap(),
             (squares / 49.0 / 50.0).sqrt(),
             1e-12,
         );
-        means.push(own.mean);
-        errors += own.standard_error.unwrap().powi(2);
+        means.push(mode.mean);
+        errors += mode.standard_error.unwrap().powi(2);
     }
     let count = runs as f64;
     let centre = means.iter().sum::<f64>() / count;

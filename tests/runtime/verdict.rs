@@ -115,9 +115,13 @@ fn judged(summary: &Summary, mode: usize, exact: f64, known: f64, at: &str) {
     }
     let check = trust.check(Quantity::Frequency);
     let check = check.unwrap_or_else(|| panic!("{}", says()));
-    let found = check.first_order_error.unwrap();
-    let uncertain = 5.0 * found.standard_error + known;
-    assert!((found.value - first).abs() <= uncertain, "{}", says());
+    let first_order_error = check.first_order_error.unwrap();
+    let uncertain = 5.0 * first_order_error.standard_error + known;
+    assert!(
+        (first_order_error.value - first).abs() <= uncertain,
+        "{}",
+        says()
+    );
     assert!(
         (check.sigma.value / exact - 1.0).abs() <= 5.0 * check.sigma.standard_error / exact + known
     );
@@ -398,20 +402,25 @@ fn verdicts_on_a_loop_are_right() {
             let off = first.as_ref().unwrap().sigma / exact - 1.0;
             worst = worst.max(off.abs());
             let check = trust.check(quantity).unwrap();
-            let found = check.first_order_error.unwrap();
+            let first_order_error = check.first_order_error.unwrap();
             assert!(
-                (found.value - off).abs() <= 5.0 * found.standard_error + 1e-4,
+                (first_order_error.value - off).abs()
+                    <= 5.0 * first_order_error.standard_error + 1e-4,
                 "{at}: {off}\n{summary}"
             );
             // The remainder of each sample after second order is of third order.
-            let rest = found.standard_error;
+            let rest = first_order_error.standard_error;
             let off = second_order(of, sigma) / exact - 1.0;
-            let found = check.second_order_error.unwrap();
+            let second_order_error = check.second_order_error.unwrap();
             if damping < 3.0 && tolerance > 0.1 {
-                assert!(found.standard_error < 0.6 * rest, "{at}\n{summary}");
+                assert!(
+                    second_order_error.standard_error < 0.6 * rest,
+                    "{at}\n{summary}"
+                );
             }
             assert!(
-                (found.value - off).abs() <= 5.0 * found.standard_error + 1e-4,
+                (second_order_error.value - off).abs()
+                    <= 5.0 * second_order_error.standard_error + 1e-4,
                 "{at}: {off}\n{summary}"
             );
             let off = check.sigma.value - exact;

@@ -95,7 +95,10 @@ fn questions_about_responses_stop() {
     let sampling = study.sampling().samples(3000).threads(1);
     let part = study.sample_responses(&[ANGLE], &sampling).unwrap();
     let ranges = part.ranges();
-    let count = ranges.iter().map(|own| own.end - own.start).sum::<u64>();
+    let count = ranges
+        .iter()
+        .map(|range| range.end - range.start)
+        .sum::<u64>();
     assert!((500..3000).contains(&count) && count as usize == done.load(Ordering::Relaxed));
     let (study, _) = stopped_after(pendulum(), 10);
     let mut seen = 0;

@@ -114,22 +114,22 @@ fn near(a: f64, b: f64, scale: f64, what: &str) {
     assert!((a - b).abs() <= 1e-9 * scale, "{what}: {a} {b}");
 }
 
-fn same(own: &Sample, alone: &Sample, what: &str) {
-    assert_eq!(own.design, alone.design, "{what}");
-    assert_eq!(own.outcome, alone.outcome, "{what}");
+fn same(sample: &Sample, alone: &Sample, what: &str) {
+    assert_eq!(sample.design, alone.design, "{what}");
+    assert_eq!(sample.outcome, alone.outcome, "{what}");
     assert_eq!(
-        own.coordinates.is_some(),
+        sample.coordinates.is_some(),
         alone.coordinates.is_some(),
         "{what}"
     );
-    if let (Some(a), Some(b)) = (&own.coordinates, &alone.coordinates) {
+    if let (Some(a), Some(b)) = (&sample.coordinates, &alone.coordinates) {
         let size = b.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
         for (a, b) in a.iter().zip(b) {
             near(*a, *b, size, what);
         }
     }
-    assert_eq!(own.eigenvalues.len(), alone.eigenvalues.len(), "{what}");
-    for (a, b) in own.eigenvalues.iter().zip(&alone.eigenvalues) {
+    assert_eq!(sample.eigenvalues.len(), alone.eigenvalues.len(), "{what}");
+    for (a, b) in sample.eigenvalues.iter().zip(&alone.eigenvalues) {
         assert_eq!(a.is_some(), b.is_some(), "{what}");
         if let (Some(a), Some(b)) = (a, b) {
             near(a.re, b.re, b.norm(), what);
@@ -137,8 +137,8 @@ fn same(own: &Sample, alone: &Sample, what: &str) {
         }
     }
     for (own, alone) in [
-        (&own.frequencies, &alone.frequencies),
-        (&own.damping_ratios, &alone.damping_ratios),
+        (&sample.frequencies, &alone.frequencies),
+        (&sample.damping_ratios, &alone.damping_ratios),
     ] {
         for (a, b) in own.iter().zip(alone) {
             assert_eq!(a.is_some(), b.is_some(), "{what}");

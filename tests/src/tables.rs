@@ -47,16 +47,16 @@ impl Visitor for Machines {
 
 /// The machines of [`corpus`] and those with closed forms.
 pub fn open() -> Vec<Machine> {
-    let mut found = Machines(Vec::new());
-    corpus::visit(&mut found);
-    machines::visit(&mut found);
-    found.0
+    let mut machines = Machines(Vec::new());
+    corpus::visit(&mut machines);
+    machines::visit(&mut machines);
+    machines.0
 }
 
 /// The machines with constraints.
 pub fn constrained() -> Vec<Machine> {
-    let mut found = Machines(Vec::new());
-    loops::visit(&mut found);
-    wheels::visit(&mut found);
-    found.0
+    let mut machines = Machines(Vec::new());
+    loops::visit(&mut machines);
+    wheels::visit(&mut machines);
+    machines.0
 }

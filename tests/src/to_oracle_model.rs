@@ -312,8 +312,8 @@ impl Fixing<'_> {
     fn stiffness(&self, section: &declared::Section) -> [[Value; 6]; 6] {
         let strains = section.against_strain.iter();
         let mut matrix = [[Value::Number(0.0); 6]; 6];
-        for (k, own) in strains.chain(&section.stiffness).enumerate() {
-            matrix[k][k] = self.value(own);
+        for (k, strain) in strains.chain(&section.stiffness).enumerate() {
+            matrix[k][k] = self.value(strain);
         }
         // twist and bending come first there
         let place = |k: usize| (k + 3) % 6;
@@ -326,8 +326,13 @@ impl Fixing<'_> {
 
     fn prebend(&self, beam: &declared::Beam) -> Prebend {
         let tip = beam.stations.last().map(|station| &station.section);
-        let [root, [y, z]] = [&beam.root, tip.expect("every beam has one at its tip")]
-            .map(|section| section.prebend.each_ref().map(|own| self.number(own)));
+        let [root, [y, z]] =
+            [&beam.root, tip.expect("every beam has one at its tip")].map(|section| {
+                section
+                    .prebend
+                    .each_ref()
+                    .map(|prebend| self.number(prebend))
+            });
         let angle = |[y, z]: [f64; 2]| Value::Number(y.hypot(z));
         let is_straight = y == 0.0 && z == 0.0;
         Prebend {
@@ -337,15 +342,15 @@ impl Fixing<'_> {
     }
 
     /// The rotation from the root to a place of an unloaded beam, without its twist.
-    fn curved(&self, beam: &declared::Beam, place: f64) -> ([f64; 3], Value) {
+    fn curved(&self, beam: &declared::Beam, value: f64) -> ([f64; 3], Value) {
         let Prebend { about, angles } = self.prebend(beam);
         let [_, second, third] = beam.axes.each_ref().map(|axis| self.numbers(axis));
         let axis = [0, 1, 2].map(|i| about[0] * second[i] + about[1] * third[i]);
-        let [root, tip] = angles.map(|own| match own {
+        let [root, tip] = angles.map(|item| match item {
             Value::Number(angle) => angle,
             Value::Design { .. } => unreachable!("every value is fixed"),
         });
-        (axis, Value::Number(root + (tip - root) * place))
+        (axis, Value::Number(root + (tip - root) * value))
     }
 
     /// Adds the mass of each section at a point of quadrature, as a flat body across the beam. If the beam spins, the section
@@ -406,18 +411,21 @@ impl Fixing<'_> {
     fn slice(
         &self,
         beam: &declared::Beam,
-        (place, weight): (f64, f64),
+        (value, weight): (f64, f64),
         section: &declared::Section,
     ) -> Body {
         let axes = beam.axes.each_ref().map(|axis| self.numbers(axis));
         let length = self.number(&beam.length);
-        let [second, third] = section.inertia.each_ref().map(|own| self.number(own));
+        let [second, third] = section
+            .inertia
+            .each_ref()
+            .map(|inertia| self.number(inertia));
         let about = [second + third, second, third];
         let inertia = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| {
-            let terms = axes.iter().zip(about).map(|(e, own)| own * e[i] * e[j]);
+            let terms = axes.iter().zip(about).map(|(e, x)| x * e[i] * e[j]);
             Value::Number(length * weight * terms.sum::<f64>())
         });
-        let [y, z] = section.center.each_ref().map(|own| self.number(own));
+        let [y, z] = section.center.each_ref().map(|center| self.number(center));
         let shape = Shape::Rigid {
             mass: Value::Number(length * weight * self.number(&section.mass)),
             center: [0, 1, 2].map(|i| Value::Number(y * axes[1][i] + z * axes[2][i])),
@@ -427,7 +435,7 @@ impl Fixing<'_> {
         let placement = Placement {
             offset: ORIGIN,
             rotations: vec![
-                self.curved(beam, place),
+                self.curved(beam, value),
                 (axes[0], self.value(&section.twist)),
             ],
         };
@@ -466,7 +474,7 @@ impl Fixing<'_> {
             let following = std::array::from_fn(|i| (0..3).map(|k| along[k] * axes[k][i]).sum());
             for ((place, weight, _), &body) in beam.sections.iter().zip(own) {
                 let share = weight * self.number(&beam.length);
-                let scaled = |force: [f64; 3]| force.map(|own| Value::Number(share * own));
+                let scaled = |force: [f64; 3]| force.map(|force| Value::Number(share * force));
                 let load = |force, following| ForceLaw::Load {
                     point: points.len(),
                     force: scaled(force),
@@ -507,7 +515,7 @@ impl Fixing<'_> {
             [beam.coordinates.concat(), beam.strains.concat()].concat()
         });
         let mut all = steps.chain(bends.unwrap_or_default());
-        let step = all.position(|own| own == id).expect("its joint has it");
+        let step = all.position(|x| x == id).expect("its joint has it");
         Coordinate { joint, step }
     }
 

@@ -87,11 +87,14 @@ fn a_refusal_is_right_only_if_nothing_holds_the_motion() {
     ] {
         let mut model = plan.model();
         let mistakes = Compiled::new(&model).err().expect("a refusal");
-        let messages: Vec<&str> = mistakes.iter().map(|own| own.message.as_str()).collect();
+        let messages: Vec<&str> = mistakes
+            .iter()
+            .map(|mistake| mistake.message.as_str())
+            .collect();
         assert_eq!(messages, [message]);
         assert!(is_unbalanced(&model, message), "{message}");
 
-        let named = model.joints.iter().position(|own| own.name == joint);
+        let named = model.joints.iter().position(|x| x.name == joint);
         let coordinate = Coordinate {
             joint: named.expect("a joint of the model"),
             step: 0,

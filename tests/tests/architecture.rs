@@ -537,8 +537,8 @@ fn paths(tree: &str) -> Vec<String> {
 }
 
 /// The segments of a path from the root of the crate.
-fn absolute(path: &str, own: &str) -> Vec<String> {
-    let mut full: Vec<String> = own.split("::").map(str::to_owned).collect();
+fn absolute(path: &str, text: &str) -> Vec<String> {
+    let mut full: Vec<String> = text.split("::").map(str::to_owned).collect();
     for (k, segment) in path.split("::").enumerate() {
         match (k, segment) {
             (0, "crate") => full.clear(),
@@ -603,8 +603,8 @@ fn crates_depend_only_on_those_they_may() {
         let lines = text.lines().skip_while(|line| *line != "[dependencies]");
         let lines = lines.skip(1).take_while(|line| !line.starts_with('['));
         let names = lines.filter_map(|line| line.split(['.', ' ', '=']).next());
-        let own = names.filter(|name| name.starts_with("eigentol"));
-        own.map(str::to_owned).collect()
+        let names = names.filter(|name| name.starts_with("eigentol"));
+        names.map(str::to_owned).collect()
     };
     for (folder, allowed, _) in CRATES {
         let allowed: BTreeSet<String> = allowed.iter().map(|name| (*name).to_owned()).collect();
@@ -660,7 +660,7 @@ fn the_guard_finds_circles() {
     let modules: BTreeMap<String, PathBuf> = ["a", "a::b", "a::b::c", "a::d"]
         .map(|name| (name.to_owned(), PathBuf::new()))
         .into();
-    let of = |text: &str, own: &str| uses(text, own, &modules);
+    let of = |text: &str, x: &str| uses(text, x, &modules);
     let text = "//! Text.\n\nuse super::c::{D, e};\nuse crate::a::d::F;\npub(in crate::a::b::c) fn g() {}\n";
     let found = of(text, "a::b");
     assert_eq!(found, BTreeSet::from(["a", "a::d"].map(str::to_owned)));

@@ -36,13 +36,13 @@ fn listed(study: &Study<Interpreted>, points: usize, orders: &[f64]) -> Vec<Even
     let searched = found.searched.as_ref().expect("a search");
     assert_eq!((searched.low, searched.high), (0.0, HIGH));
     assert!(searched.unresolved.is_empty() && searched.gaps.is_empty());
-    let critical = found
-        .critical
-        .iter()
-        .map(|own| ("critical", own.value, None));
+    let critical = found.critical.iter().map(|x| ("critical", x.value, None));
     let onsets = found.flutter_onsets.iter();
-    let growth = onsets.map(|own| ("growth", own.value, Some(own.change)));
-    let lines = found.crossings.iter().map(|own| ("line", own.value, None));
+    let growth = onsets.map(|onset| ("growth", onset.value, Some(onset.change)));
+    let lines = found
+        .crossings
+        .iter()
+        .map(|crossing| ("line", crossing.value, None));
     let mut all: Vec<Event> = critical.chain(growth).chain(lines).collect();
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
     all
@@ -53,14 +53,14 @@ fn check(text: &str, orders: &[f64], mut known: Vec<Event>) {
     known.sort_by(|a, b| a.1.total_cmp(&b.1));
     let study = study(text);
     for points in [2, 3, 5, 11, 51, 200] {
-        let found = listed(&study, points, orders);
-        let kinds = |all: &[Event]| all.iter().map(|own| (own.0, own.2)).collect::<Vec<_>>();
+        let events = listed(&study, points, orders);
+        let kinds = |all: &[Event]| all.iter().map(|pair| (pair.0, pair.2)).collect::<Vec<_>>();
         assert_eq!(
-            kinds(&found),
+            kinds(&events),
             kinds(&known),
-            "{points} points\n{text}\n{found:?}\n{known:?}"
+            "{points} points\n{text}\n{events:?}\n{known:?}"
         );
-        for (found, known) in found.iter().zip(&known) {
+        for (found, known) in events.iter().zip(&known) {
             let off = (found.1 - known.1).abs();
             assert!(off < 1e-9 * HIGH, "{found:?}, not {known:?}\n{text}");
         }
@@ -320,8 +320,8 @@ fn events_at_the_ends_of_a_range() {
             let found = found.expect("events");
             let of = format!("{low} to {high}: {text}");
             assert_eq!([found.critical.len(), found.crossings.len()], kinds, "{of}");
-            let critical = found.critical.iter().map(|own| own.value);
-            for value in critical.chain(found.crossings.iter().map(|own| own.value)) {
+            let critical = found.critical.iter().map(|x| x.value);
+            for value in critical.chain(found.crossings.iter().map(|crossing| crossing.value)) {
                 assert!((value - 4.0).abs() < 1e-9, "{value} {of}");
             }
         }

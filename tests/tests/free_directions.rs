@@ -19,7 +19,7 @@ fn null_vectors(compilation: &Compilation, start: &[f64], attempt: u64) -> Optio
         .mechanism
         .design
         .iter()
-        .map(|own| own.nominal)
+        .map(|value| value.nominal)
         .collect();
     let inputs = vec![0.7; compilation.mechanism.inputs.len()];
     let n = unknowns.len();

@@ -10,18 +10,18 @@ fn root() -> PathBuf {
 
 /// Every Markdown page of the project.
 fn pages(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
+    let mut paths = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("a folder entry").path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if path.is_dir() && name != "target" && !name.starts_with('.') {
-            found.extend(pages(&path));
+            paths.extend(pages(&path));
         } else if name.ends_with(".md") {
-            found.push(path);
+            paths.push(path);
         }
     }
-    found.sort();
-    found
+    paths.sort();
+    paths
 }
 
 /// The lines of a page outside code blocks.
@@ -40,13 +40,13 @@ fn prose(text: &str) -> Vec<&str> {
 
 /// The link targets of a page: `[words](target)` and `![words](target)`, not within `code`.
 fn targets(text: &str) -> Vec<String> {
-    let mut found = Vec::new();
+    let mut texts = Vec::new();
     for line in prose(text) {
         let outside: String = line.split('`').step_by(2).collect();
         let links = outside.split("](").skip(1);
-        found.extend(links.filter_map(|rest| Some(rest.split_once(')')?.0.to_owned())));
+        texts.extend(links.filter_map(|rest| Some(rest.split_once(')')?.0.to_owned())));
     }
-    found
+    texts
 }
 
 /// The anchors that GitHub and rustdoc give the headings of a page.
@@ -113,9 +113,9 @@ fn the_check_finds_what_is_wrong() {
     let text = "# What a build costs: all\n[a](#what-a-build-costs-all), [b](#missing), [c](no.md)\n\
                 ```text\n[d](e.md)\n```\n`[f](g.md)` [h](https://i) [j](k::l) ![m](architecture.rs)\n";
     let page = root().join("tests/tests/links.rs");
-    let found = targets(text);
-    assert_eq!(found.len(), 6, "{found:?}");
-    let mistakes: Vec<String> = (found.iter())
+    let texts = targets(text);
+    assert_eq!(texts.len(), 6, "{texts:?}");
+    let mistakes: Vec<String> = (texts.iter())
         .filter_map(|target| mistake(&page, text, target))
         .collect();
     assert_eq!(mistakes.len(), 2, "{mistakes:?}");

@@ -43,9 +43,9 @@ fn text(name: &str) -> String {
     }
 }
 
-fn assert_close(what: &str, found: &[f64], expected: &[f64]) {
+fn assert_close(what: &str, values: &[f64], expected: &[f64]) {
     let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-    for (k, (one, other)) in found.iter().zip(expected).enumerate() {
+    for (k, (one, other)) in values.iter().zip(expected).enumerate() {
         let error = (one - other).abs();
         assert!(
             error <= TOLERANCE * size,

@@ -107,10 +107,10 @@ impl Robot {
     fn errors(&self, evaluate: &Evaluate) -> Vec<(&'static str, f64)> {
         let mut errors: Vec<(&'static str, f64)> = Vec::new();
         // where a quantity is zero, the reference contains rounding errors of 1e-14
-        let mut compare = |what, found: &[f64], expected: &[f64]| {
-            assert_eq!(found.len(), expected.len(), "{what}");
+        let mut compare = |what, values: &[f64], expected: &[f64]| {
+            assert_eq!(values.len(), expected.len(), "{what}");
             let size = expected.iter().fold(1e-4_f64, |size, x| size.max(x.abs()));
-            let pairs = found.iter().zip(expected);
+            let pairs = values.iter().zip(expected);
             let error = pairs.fold(0.0_f64, |worst, (a, b)| match (a - b).abs() / size {
                 error if error.is_finite() => worst.max(error),
                 _ => f64::INFINITY,

@@ -206,9 +206,9 @@ fn tiny_masses_count() {
 fn hidden_massless_motions_are_named() {
     let expect = |chain: Chain, message: &str| {
         let mistakes = compiled(&chain.text()).expect_err("it is undetermined");
-        let found: Vec<String> = mistakes.iter().map(|one| one.message.clone()).collect();
-        let matches = matches!(&found[..], [only] if only.starts_with(message));
-        assert!(matches, "{:?}: {message}: {found:?}", chain.axes);
+        let texts: Vec<String> = mistakes.iter().map(|one| one.message.clone()).collect();
+        let matches = matches!(&texts[..], [only] if only.starts_with(message));
+        assert!(matches, "{:?}: {message}: {texts:?}", chain.axes);
     };
     for axes in ALL {
         for place in [1, 2, 9, 20, 33, 40] {

@@ -46,7 +46,7 @@ fn compare_all(samples: usize) {
     corpus::visit(&mut machines);
     let compared = machines.compared;
     println!("{compared:#?}");
-    let [own, wide] = Compared::sum(compared.iter().map(|(_, own)| *own));
+    let [own, wide] = Compared::sum(compared.iter().map(|(_, x)| *x));
     assert!(
         own.samples > 20 * samples && 10 * own.in_vectors > 8 * own.samples,
         "{own:?}"

@@ -15,8 +15,8 @@ fn at_nominal(declaration: &str, kernel: &str, before: &[&[f64]]) -> Vec<Vec<f64
     found.expect("a kernel")
 }
 
-fn assert_equal(found: &[Vec<f64>], expected: &[Vec<f64>]) {
-    for (one, other) in found.concat().into_iter().zip(expected.concat()) {
+fn assert_equal(values: &[Vec<f64>], expected: &[Vec<f64>]) {
+    for (one, other) in values.concat().into_iter().zip(expected.concat()) {
         assert!((one - other).abs() < 1e-13, "{one} {other}");
     }
 }
@@ -52,10 +52,10 @@ fn an_axis_nominally_along_x_may_be_tilted() {
         ))
     };
     let revolute = "revolute(AXIS)";
-    let found = at_nominal(&joint(revolute, "[l, e, f]"), "residual", &state);
-    assert!(found.concat().iter().all(|x| x.is_finite()), "{found:?}");
+    let values = at_nominal(&joint(revolute, "[l, e, f]"), "residual", &state);
+    assert!(values.concat().iter().all(|x| x.is_finite()), "{values:?}");
     assert_equal(
-        &found,
+        &values,
         &at_nominal(&joint(revolute, "x"), "residual", &state),
     );
 }
@@ -110,11 +110,11 @@ fn a_coasting_slide_loads_what_carries_it() {
     let [s, speed] = [0.2, 3.0];
     let [s_growth, s_rate, speed_rate] = [1.1, 0.7, -0.4];
     let arguments: [&[f64]; 4] = [&[s_growth, 0.0], &[s_rate, speed_rate], &[s, speed], &[]];
-    let found = at_nominal(text, "motion_residual", &arguments);
+    let values = at_nominal(text, "motion_residual", &arguments);
     // 3/5 of a unit along the sledge's path is along x
     let sledge = 7.0 * s_growth + 2.0 * 0.6 * speed_rate + 30.0 * s;
     let car = 2.0 * (speed_rate + 0.6 * s_growth) + 0.5 * speed;
-    assert_equal(&found, &[vec![sledge, car]]);
+    assert_equal(&values, &[vec![sledge, car]]);
 }
 
 /// A light slider between two springs carries a body 1e8 times heavier: numerically difficult, but regular.
@@ -128,9 +128,9 @@ fn a_light_body_below_a_heavy_one_has_its_mass() {
         force first: spring(on: a, stiffness: 1 N/m);
         force second: spring(on: b, stiffness: 1 N/m);
     }";
-    let found = at_nominal(text, "linear", &[&[0.0; 2], &[]]);
+    let values = at_nominal(text, "linear", &[&[0.0; 2], &[]]);
     let [light, heavy] = [1e-3, 1e5];
-    assert_eq!(found[0], [light + heavy, heavy, heavy, heavy]);
+    assert_eq!(values[0], [light + heavy, heavy, heavy, heavy]);
 }
 
 /// A thin bar that spins about itself moves no mass, but it is geared to a swing: the mass matrix then need not be
@@ -190,11 +190,11 @@ fn one_equation_that_depends_on_a_drive_leaves_no_steady_state() {
 /// A car whose body frame is rotated relative to its joint is equivalent to one whose body is rotated in its frame.
 #[test]
 fn a_gliding_body_may_be_placed_anyhow() {
-    let car = |shapes: &str, place: &str| {
+    let car = |shapes: &str, text: &str| {
         format!(
             "mechanism Car {{
                 body car: {shapes};
-                joint drive: planar(forward: x, side: y, yaw: z) from ground to car{place}, coasting;
+                joint drive: planar(forward: x, side: y, yaw: z) from ground to car{text}, coasting;
                 force a: damper(on: forward, damping: 2 N*s/m);
                 force b: damper(on: side, damping: 3 N*s/m);
                 force c: damper(on: yaw, damping: 5 N*m*s/rad);
@@ -326,13 +326,13 @@ fn a_gliding_body_turns_its_velocity() {
         &[forward, side, yaw],
         &[],
     ];
-    let found = at_nominal(text, "motion_residual", &state);
+    let values = at_nominal(text, "motion_residual", &state);
     let expected = [
         3.0 * (to_forward - yaw * side) + 2.0 * forward,
         3.0 * (to_side + yaw * forward) + 3.0 * side,
         3.0 * (0.49 + 0.16) / 12.0 * to_yaw + 5.0 * yaw,
     ];
-    assert_equal(&found, &[expected.to_vec()]);
+    assert_equal(&values, &[expected.to_vec()]);
 }
 
 /// Half the moment of inertia about the shaft times its squared speed, for a body whose origin moves on a circle.
@@ -349,12 +349,12 @@ fn a_body_off_the_shaft_has_its_kinetic_energy() {
         output energy = kinetic_energy();
     }";
     let (slide, speed) = (0.25_f64, 1.7_f64);
-    let found = at_nominal(text, "outputs", &[&[slide], &[speed]]);
+    let values = at_nominal(text, "outputs", &[&[slide], &[speed]]);
     let (ball, centre) = (0.3 + slide, 0.7 + slide);
     let of_box = 3.0 * (centre * centre + 0.01 + (0.49 + 0.16) / 12.0);
     let of_sphere = 2.0 * (ball * ball + 0.4 * 0.09);
     let energy = 0.5 * (of_box + of_sphere) * speed * speed;
-    assert_equal(&found, &[vec![energy]]);
+    assert_equal(&values, &[vec![energy]]);
 }
 
 /// A weight on a lever, seen from the hinge: about neither the origin of the body nor its centre.
@@ -368,8 +368,8 @@ fn a_reaction_moment_is_about_the_joint() {
         output my = reaction_moment(hinge).y;
         output mz = reaction_moment(hinge).z;
     }";
-    let found = at_nominal(text, "outputs", &[&[0.0], &[]]);
-    assert_equal(&found, &[vec![0.4 * 30.0, -0.8 * 30.0, 0.0]]);
+    let values = at_nominal(text, "outputs", &[&[0.0], &[]]);
+    assert_equal(&values, &[vec![0.4 * 30.0, -0.8 * 30.0, 0.0]]);
 }
 
 /// Two halves of a box are equivalent to the box.
@@ -402,9 +402,9 @@ fn a_body_of_two_pieces_whirls_as_one() {
         let found = compiled.program.evaluate("whirl", &arguments);
         found.expect("it turns")
     };
-    let found = whirl(&halves);
-    assert!(found.concat().iter().all(|x| x.abs() > 0.1), "{found:?}");
-    assert_equal(&found, &whirl(&whole));
+    let values = whirl(&halves);
+    assert!(values.concat().iter().all(|x| x.abs() > 0.1), "{values:?}");
+    assert_equal(&values, &whirl(&whole));
 }
 
 /// The height of a ball above a sloping plane, and the force that the plane exerts on it: the one that moves its
@@ -431,10 +431,10 @@ fn a_ball_on_a_slope_is_held_by_the_slope() {
         )
     };
     let state: [&[f64]; 2] = [&[0.5, 0.9, 0.7, 0.0, 0.0, 0.0, 1.1, -0.6, 0.8], &[]];
-    let found = at_nominal(&slope("rotated(x, 30 deg)"), "residual", &state);
+    let values = at_nominal(&slope("rotated(x, 30 deg)"), "residual", &state);
     // the gap is the penetration of the ball into the plane
     let height = 0.7 * -0.5 + 0.4 * 0.75_f64.sqrt() - 0.1;
-    assert_equal(&[vec![found[0][6]]], &[vec![-height]]);
+    assert_equal(&[vec![values[0][6]]], &[vec![-height]]);
 
     let force = at_nominal(&slope(""), "outputs", &state);
     let residual = &at_nominal(&slope(""), "residual", &state)[0];
@@ -537,13 +537,13 @@ fn requirements_of_welded_bodies_are_about_their_centre() {
 /// same two bodies, their frames aligned with the first joint.
 #[test]
 fn hinges_on_a_turned_body_are_no_run() {
-    let arm = |first: &str, place: &str, axis: &str, seat: &str, second: &str| {
+    let arm = |first: &str, text: &str, axis: &str, seat: &str, second: &str| {
         format!(
             "mechanism Arm {{
                 gravity 9.81 m/s^2 along -z;
                 body one: {first};
                 body two: {second};
-                joint a: revolute(y) from ground to one{place};
+                joint a: revolute(y) from ground to one{text};
                 joint b: revolute({axis}) from one to two at {seat} m;
             }}"
         )

@@ -121,21 +121,21 @@ struct Course(Vec<(String, [f64; 3])>);
 impl Course {
     fn at(&self, t: f64) -> impl Fn(&str) -> f64 {
         move |name| {
-            let own = self.0.iter().find(|own| own.0 == name);
+            let own = self.0.iter().find(|pair| pair.0 == name);
             let [q, rate, acceleration] = own.expect(name).1;
             q + t * rate + t * t * acceleration / 2.0
         }
     }
 
     fn set(&mut self, name: &str, order: usize, value: f64) {
-        let own = self.0.iter_mut().find(|own| own.0 == name);
+        let own = self.0.iter_mut().find(|pair| pair.0 == name);
         own.expect("a coordinate").1[order] = value;
     }
 
     fn get(&self, name: &str, order: usize) -> f64 {
         self.0
             .iter()
-            .find(|own| own.0 == name)
+            .find(|pair| pair.0 == name)
             .expect("a coordinate")
             .1[order]
     }
@@ -179,8 +179,8 @@ impl Machine {
         let moves = |role| matches!(role, Role::Position | Role::Speed);
         let moving: Vec<String> = unknowns
             .iter()
-            .filter(|own| moves(own.role))
-            .map(|own| own.name.to_string())
+            .filter(|unknown| moves(unknown.role))
+            .map(|unknown| unknown.name.to_string())
             .collect();
         let mut course = Course(Vec::new());
         for name in &moving {
@@ -224,7 +224,7 @@ impl Machine {
         }
         assert!(slip(&course).norm() < 1e-8, "{}", self.text);
 
-        let value = |k: usize, own: &eigentol::CoordinateInfo| match own.role {
+        let value = |k: usize, coordinate: &eigentol::CoordinateInfo| match coordinate.role {
             Role::Position => course.get(&moving[k], 0),
             Role::Speed => course.get(&moving[k], 1),
             _ => 0.0,
@@ -232,13 +232,17 @@ impl Machine {
         let q: Vec<f64> = unknowns
             .iter()
             .enumerate()
-            .map(|(k, own)| value(k, own))
+            .map(|(k, unknown)| value(k, unknown))
             .collect();
         let rates: Vec<f64> = (0..q.len())
             .map(|k| moving.get(k).map_or(0.0, |name| course.get(name, 1)))
             .collect();
-        let inputs: Vec<f64> = self.driven.iter().map(|own| own.1).collect();
-        let design: Vec<f64> = description.design.iter().map(|own| own.nominal).collect();
+        let inputs: Vec<f64> = self.driven.iter().map(|pair| pair.1).collect();
+        let design: Vec<f64> = description
+            .design
+            .iter()
+            .map(|value| value.nominal)
+            .collect();
         let found = accelerations(&machine, &rates, &q, &inputs, &design)
             .unwrap_or_else(|error| panic!("{error}\n{}", self.text));
         for (k, name) in moving.iter().enumerate() {
@@ -276,10 +280,7 @@ impl Machine {
             }
         }
         for (name, stiffness) in &self.springs {
-            let k = moving
-                .iter()
-                .position(|own| own == name)
-                .expect("a coordinate");
+            let k = moving.iter().position(|x| x == name).expect("a coordinate");
             work[k] += stiffness * course.get(name, 0);
         }
         // what reactions at the contact do not account for
@@ -751,11 +752,11 @@ fn frequencies_of_a_ball_on_a_turning_table() {
         let mut q = vec![0.0; n];
         q[unknowns
             .iter()
-            .position(|own| own.name == "pz")
+            .position(|unknown| unknown.name == "pz")
             .expect("a height")] = r;
         q[unknowns
             .iter()
-            .position(|own| own.name == "roll.normal")
+            .position(|unknown| unknown.name == "roll.normal")
             .expect("a force")] = m * 9.81;
         let evaluate = |kernel: &str| {
             let values = compiled

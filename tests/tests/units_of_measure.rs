@@ -187,28 +187,28 @@ impl Similar {
     fn at_point(&self) -> Result<Results, String> {
         let equilibrium = self.study.equilibrium().map_err(words)?;
         let (state, description) = (&equilibrium, self.study.description());
-        let mut found = vec![(format!("{:?}", state.stability), vec![])];
+        let mut results = vec![(format!("{:?}", state.stability), vec![])];
         let coordinates = state.coordinates.iter().zip(description.coordinates.iter());
         for (value, info) in coordinates {
-            found.push((
+            results.push((
                 format!("at {}", info.name),
                 vec![value / self.unit(&info.unit)],
             ));
         }
         let units = description.design.iter().map(|info| self.unit(&info.unit));
         let units: Vec<f64> = units.collect();
-        found.extend(self.modes(&units)?);
+        results.extend(self.modes(&units)?);
         let outputs = self.study.outputs().map_err(words)?;
         for (o, info) in description.outputs.iter().enumerate() {
             let own = self.unit(&info.unit);
-            found.push((info.name.to_string(), vec![outputs.values[o] / own]));
+            results.push((info.name.to_string(), vec![outputs.values[o] / own]));
             if let Some(slopes) = &outputs.by_design[o] {
                 let slopes = slopes.iter().zip(&units);
                 let slopes = slopes.map(|(slope, unit)| slope * unit / own);
-                found.push((format!("slopes of {}", info.name), slopes.collect()));
+                results.push((format!("slopes of {}", info.name), slopes.collect()));
             }
         }
-        Ok(found)
+        Ok(results)
     }
 
     fn modes(&self, units: &[f64]) -> Result<Results, String> {
@@ -223,15 +223,15 @@ impl Similar {
         };
         let mut order: Vec<usize> = (0..all.len()).collect();
         order.sort_by(|a, b| key(a).partial_cmp(&key(b)).expect("finite"));
-        let mut found = Results::new();
+        let mut results = Results::new();
         for (position, mode) in order.into_iter().enumerate() {
             let (s, slope) = (all[mode].s, &slopes.modes[mode]);
-            found.push((format!("mode {position}"), vec![s.re * time, s.im * time]));
+            results.push((format!("mode {position}"), vec![s.re * time, s.im * time]));
             let by_design = slope.lambda.by_design.iter().zip(units);
             let by_design = by_design.map(|(slope, unit)| slope * square * unit);
-            found.push((format!("slopes of mode {position}"), by_design.collect()));
+            results.push((format!("slopes of mode {position}"), by_design.collect()));
             let sigma = spreads.modes[mode].lambda.sigma * square;
-            found.push((format!("spread of mode {position}"), vec![sigma]));
+            results.push((format!("spread of mode {position}"), vec![sigma]));
             if slope.clustered {
                 continue;
             }
@@ -239,13 +239,13 @@ impl Similar {
             let curvature = curvature.lambda.by_design;
             let entries = (0..units.len()).flat_map(|i| (0..units.len()).map(move |j| (i, j)));
             let curvature = entries.map(|(i, j)| curvature[i][j] * square * units[i] * units[j]);
-            found.push((
+            results.push((
                 format!("curvatures of mode {position}"),
                 curvature.collect(),
             ));
             self.study.shape_sensitivity(mode).map_err(words)?;
         }
-        Ok(found)
+        Ok(results)
     }
 
     /// Eigenvalues along the first input, if there is one, which starts at a share of its value.
@@ -278,9 +278,9 @@ fn results(
     from: f64,
 ) -> Result<Results, String> {
     let machine = Similar::new(declaration, operation, scale)?;
-    let mut found = machine.at_point()?;
-    found.extend(machine.along(operation, from)?);
-    Ok(found)
+    let mut results = machine.at_point()?;
+    results.extend(machine.along(operation, from)?);
+    Ok(results)
 }
 
 /// Similar machines: a watch, a micromachine, a crane; in a frantic and in a slow world; as light as a feather, as heavy

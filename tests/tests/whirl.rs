@@ -84,11 +84,11 @@ fn whirl(machine: &dyn eigentol::Kernels, speed: f64, (real, imaginary): Vibrati
 }
 
 #[track_caller]
-fn assert_close(found: [f64; 2], expected: [f64; 2]) {
-    for (one, other) in found.iter().zip(expected) {
+fn assert_close(values: [f64; 2], expected: [f64; 2]) {
+    for (one, other) in values.iter().zip(expected) {
         assert!(
             (one - other).abs() <= 1e-14 * expected[1].abs(),
-            "{found:?}, not {expected:?}"
+            "{values:?}, not {expected:?}"
         );
     }
 }
@@ -172,8 +172,8 @@ fn forward_whirl_of_a_gyroscope_is_the_fast_one() {
 #[test]
 fn contrarotating_disks_weigh_against_each_other() {
     let (lower, upper) = (2.0 * 16.0, 1.5 * 144.0);
-    let found = whirl(&Pair, 4.0, COUNTERCLOCKWISE);
-    assert_close(found, [lower - upper, lower + upper]);
+    let values = whirl(&Pair, 4.0, COUNTERCLOCKWISE);
+    assert_close(values, [lower - upper, lower + upper]);
     assert_close(whirl(&Pair, 4.0, STRAIGHT), [0.0, lower + upper]);
 }
 

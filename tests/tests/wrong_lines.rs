@@ -20,15 +20,15 @@ fn entries(folder: &Path) -> Vec<PathBuf> {
 
 /// The files of Rust in a folder and below it.
 fn sources(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
+    let mut paths = Vec::new();
     for path in entries(folder) {
         if path.is_dir() {
-            found.extend(sources(&path));
+            paths.extend(sources(&path));
         } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push(path);
+            paths.push(path);
         }
     }
-    found
+    paths
 }
 
 /// Name and text of every file of the product.

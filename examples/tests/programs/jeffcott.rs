@@ -287,9 +287,9 @@ fn the_plain_rotor_has_the_closed_forms_of_jeffcott() {
         .collect();
     modes.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
     assert_eq!(modes.len(), 4);
-    for (found, expected) in modes.iter().zip(&expected) {
-        let error = (found - expected).norm() / expected.norm();
-        assert!(error < 1e-9, "{found} is not {expected}");
+    for (mode, expected) in modes.iter().zip(&expected) {
+        let error = (mode - expected).norm() / expected.norm();
+        assert!(error < 1e-9, "{mode} is not {expected}");
     }
 }
 
@@ -314,7 +314,7 @@ fn monte_carlo_confirms_the_risks() {
     let all = run.all.as_ref().unwrap();
     for mode in 0..4 {
         let inside = |sample: &&Sample| {
-            sample.frequencies[mode].is_some_and(|own| (own / speed - 1.0).abs() <= 0.1)
+            sample.frequencies[mode].is_some_and(|frequency| (frequency / speed - 1.0).abs() <= 0.1)
         };
         let hits = all.iter().filter(inside).count();
         if mode == jeffcott_rotor::TILTING {

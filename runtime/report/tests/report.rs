@@ -41,14 +41,14 @@ fn data(html: &str, kind: &str) -> Vec<Value> {
 
 fn table(html: &str, name: &str) -> Value {
     let mut all = data(html, "table").into_iter();
-    all.find(|own| own["name"] == name)
+    all.find(|x| x["name"] == name)
         .unwrap_or_else(|| panic!("no table `{name}`"))
 }
 
 fn column(table: &Value, name: &str) -> Vec<Option<f64>> {
     let columns = table["columns"].as_array().expect("columns");
-    let own = columns.iter().find(|own| own["name"] == name);
-    let own = own.unwrap_or_else(|| panic!("no column `{name}` in {table}"));
+    let column = columns.iter().find(|column| column["name"] == name);
+    let own = column.unwrap_or_else(|| panic!("no column `{name}` in {table}"));
     let values = own["values"].as_array().expect("values");
     values.iter().map(Value::as_f64).collect()
 }
@@ -59,9 +59,9 @@ fn words(html: &str) -> String {
     let mut text = String::new();
     for piece in page
         .split("<script")
-        .map(|own| own.split_once("</script>").map_or(own, |own| own.1))
+        .map(|values| values.split_once("</script>").map_or(values, |pair| pair.1))
     {
-        for part in piece.split('<').filter_map(|own| own.split_once('>')) {
+        for part in piece.split('<').filter_map(|values| values.split_once('>')) {
             text += part.1;
             text.push(' ');
         }
@@ -81,7 +81,7 @@ fn tables_have_the_numbers_of_the_results_bit_by_bit() {
     let coordinates: Vec<_> = state.coordinates.iter().copied().map(Some).collect();
     assert_eq!(column(&equilibrium, "value"), coordinates);
     let first = study.first_order().unwrap();
-    let sigma = first.modes[0].frequency().map(|own| own.sigma);
+    let sigma = first.modes[0].frequency().map(|x| x.sigma);
     assert_eq!(
         column(&table(&html, "summary"), "sigma, first order"),
         [sigma]
@@ -91,7 +91,7 @@ fn tables_have_the_numbers_of_the_results_bit_by_bit() {
         [Some(0.0), Some(100.0)]
     );
     let sampled = study.monte_carlo().unwrap();
-    let mean = sampled.modes[0].as_ref().map(|own| own.mean);
+    let mean = sampled.modes[0].as_ref().map(|mode| mode.mean);
     assert_eq!(
         column(&table(&html, "Monte Carlo"), "mean of frequency"),
         [mean]
@@ -131,7 +131,7 @@ fn charts_are_the_figures_of_the_results() {
     let figures = data(&html, "figure");
     let titles: Vec<&str> = figures
         .iter()
-        .filter_map(|own| own["title"].as_str())
+        .filter_map(|figure| figure["title"].as_str())
         .collect();
     for wanted in ["Branches of equilibria", "Campbell diagram"] {
         assert!(titles.contains(&wanted), "{titles:?}");
@@ -191,7 +191,7 @@ fn the_view_in_3d_has_every_body_and_the_poses_of_every_mode() {
     let bodies = view["scene"]["bodies"].as_array().unwrap();
     let names: Vec<_> = bodies
         .iter()
-        .map(|own| own["name"].as_str().unwrap())
+        .map(|body| body["name"].as_str().unwrap())
         .collect();
     assert_eq!(names, ["shaft", "bar"]);
     let frames = view["motions"][0]["frames"].as_array().unwrap();
@@ -392,12 +392,12 @@ fn carriage() -> Study<Interpreted> {
 
 fn texts(table: &Value, name: &str) -> Vec<String> {
     let columns = table["columns"].as_array().expect("columns");
-    let own = columns.iter().find(|own| own["name"] == name);
-    let values = own.and_then(|own| own["values"].as_array());
+    let column = columns.iter().find(|column| column["name"] == name);
+    let values = column.and_then(|x| x["values"].as_array());
     let values = values.unwrap_or_else(|| panic!("no column `{name}` in {table}"));
     values
         .iter()
-        .map(|own| own.as_str().unwrap_or_default().to_owned())
+        .map(|value| value.as_str().unwrap_or_default().to_owned())
         .collect()
 }
 
@@ -427,25 +427,33 @@ fn forced_vibration_is_listed_drawn_and_moved() {
         .input(input, InDeclaredUnit(1100.0))
         .samples(200);
     let speeds = [800.0, 900.0, 950.0, 1000.0, 1100.0].map(InDeclaredUnit);
-    let [right, up, still] = ["right", "up", "still"].map(|own| study.find_output(own).unwrap());
+    let [right, up, still] = ["right", "up", "still"].map(|x| study.find_output(x).unwrap());
     let report = Report::new(&study).sweep(input, &speeds);
     let html = (report.orbit(right, up).orbit(still, still))
         .html()
         .unwrap();
     let found = study.forced_response().unwrap();
-    let y = found.harmonics[0].outputs.iter().map(|own| own.norm());
+    let y = found.harmonics[0]
+        .outputs
+        .iter()
+        .map(|output| output.norm());
     let response = table(&html, "forced response");
     let y: Vec<_> = y.map(Some).collect();
     assert_eq!(column(&response, "amplitude"), y);
     let spreads: Vec<_> = data(&html, "table")
         .into_iter()
-        .map(|own| own["name"].to_string())
+        .map(|value| value["name"].to_string())
         .collect();
     for name in ["\"spreads\"", "\"bands\"", "\"forced vibration\""] {
         assert!(spreads.iter().any(|own| own == name), "{spreads:?}");
     }
     let figures = data(&html, "figure");
-    let titled = |title: &str| figures.iter().find(|own| own["title"] == title).unwrap();
+    let titled = |title: &str| {
+        figures
+            .iter()
+            .find(|figure| figure["title"] == title)
+            .unwrap()
+    };
     let panels = titled("Bode plot of right under residual")["panels"]
         .as_array()
         .unwrap();
@@ -456,8 +464,8 @@ fn forced_vibration_is_listed_drawn_and_moved() {
         titled("Polar plot of right under residual")["panels"][0]["equal_scales"],
         true
     );
-    let orbits = figures.iter().filter(|own| {
-        let title = own["title"].as_str().unwrap_or_default();
+    let orbits = figures.iter().filter(|figure| {
+        let title = figure["title"].as_str().unwrap_or_default();
         title.contains("orbit")
     });
     let orbits: Vec<_> = orbits.collect();
@@ -485,8 +493,8 @@ fn forced_vibration_is_listed_drawn_and_moved() {
 fn everything_that_acts_is_listed() {
     let elements = table(&Report::new(&carriage()).html().unwrap(), "elements");
     let columns = ["name", "kind", "law"].map(|name| texts(&elements, name));
-    let found: Vec<String> = (0..columns[0].len())
-        .map(|row| columns.each_ref().map(|own| &*own[row]).join(": "))
+    let texts: Vec<String> = (0..columns[0].len())
+        .map(|row| columns.each_ref().map(|column| &*column[row]).join(": "))
         .collect();
     let expected = [
         "gravity: gravity: [9.81, 0, 0]",
@@ -498,7 +506,7 @@ fn everything_that_acts_is_listed() {
         "push: load: at hand force [1, 0, 0]",
         "motor: curve: through 3 points from -60 to 240 rpm",
     ];
-    assert_eq!(found, expected);
+    assert_eq!(texts, expected);
 }
 
 #[test]
@@ -562,7 +570,7 @@ fn each_law_is_drawn_and_said() {
         let height = (base - y) / (base - top);
         assert!((height - (-0.5 * z * z).exp()).abs() < 0.01, "{x} {y}");
     }
-    let heights = level[1..58].iter().map(|own| base - own[1]);
+    let heights = level[1..58].iter().map(|x| base - x[1]);
     assert!(
         heights.clone().all(|own| (own - (base - top)).abs() < 0.11),
         "{level:?}"
@@ -573,9 +581,9 @@ fn each_law_is_drawn_and_said() {
 fn densities(html: &str) -> Vec<Vec<[f64; 2]>> {
     let curves = html.split("class=\"density\" d=\"M").skip(1);
     let curves = curves.map(|rest| rest.split('"').next().expect("an end"));
-    let point = |own: &str| {
-        let (x, y) = own.split_once(' ').expect("two numbers");
-        [x, y].map(|own| own.parse().expect("a number"))
+    let point = |text: &str| {
+        let (x, y) = text.split_once(' ').expect("two numbers");
+        [x, y].map(|x| x.parse().expect("a number"))
     };
     curves
         .map(|path| path.split('L').map(point).collect())
@@ -597,7 +605,7 @@ fn samples_say_how_they_were_drawn() {
     );
     let histogram = data(&html, "figure")
         .into_iter()
-        .find(|own| own["panels"][0]["y"]["name"] == "density");
+        .find(|value| value["panels"][0]["y"]["name"] == "density");
     let caption = histogram.unwrap()["caption"].to_string();
     assert!(
         caption.contains("500 samples, seed 3, stream 2"),
@@ -695,7 +703,7 @@ fn the_lines_in_short_have_the_numbers_of_the_results() {
     let campbell = study
         .campbell(
             Bars::omega,
-            &values.map(|own| own.0 * std::f64::consts::PI / 30.0),
+            &values.map(|value| value.0 * std::f64::consts::PI / 30.0),
             &[4.0],
         )
         .unwrap();
@@ -755,14 +763,14 @@ fn figures_and_tables_of_each_mode_are_its_own() {
                 "mode {mode}"
             );
         }
-        let own: Vec<_> = first.modes[mode]
+        let derived: Vec<_> = first.modes[mode]
             .variance_shares()
             .iter()
-            .map(|own| Some(100.0 * own))
+            .map(|variance_share| Some(100.0 * variance_share))
             .collect();
         assert_eq!(
             column(&table(&html, "shares"), &format!("mode {}", mode + 1)),
-            own
+            derived
         );
     }
     let sigmas = study.tolerances().unwrap().sigmas().to_vec();

@@ -2,10 +2,10 @@
 
 use eigentol_statistics::{Distribution, Error, normal};
 
-fn near(found: f64, expected: f64, relative: f64) {
+fn near(value: f64, expected: f64, relative: f64) {
     assert!(
-        (found - expected).abs() <= relative * expected.abs(),
-        "{found:.17e}, not {expected:.17e}"
+        (value - expected).abs() <= relative * expected.abs(),
+        "{value:.17e}, not {expected:.17e}"
     );
 }
 

@@ -36,10 +36,10 @@ fn number(table: &Table, name: &str, row: usize) -> f64 {
     }
 }
 
-fn close(found: f64, expected: f64) {
+fn close(value: f64, expected: f64) {
     assert!(
-        (found - expected).abs() <= 1e-9 * expected.abs(),
-        "{found} for {expected}"
+        (value - expected).abs() <= 1e-9 * expected.abs(),
+        "{value} for {expected}"
     );
 }
 
@@ -98,10 +98,11 @@ fn every_table_comes_back_from_its_file() {
         let back = csv::read(&table.name, text.as_bytes()).expect("a table");
         assert_eq!(csv::to_string(&back).expect("text"), text, "{}", table.name);
         assert_eq!(back.rows(), table.rows());
-        let heads = |own: &Table| {
-            own.columns
+        let heads = |table: &Table| {
+            table
+                .columns
                 .iter()
-                .map(|own| own.heading())
+                .map(|column| column.heading())
                 .collect::<Vec<_>>()
         };
         assert_eq!(heads(&back), heads(table));

@@ -48,9 +48,9 @@ fn times(question: &Question) -> Vec<Option<f64>> {
         let start = ProcessTime::now();
         let mut fastest = f64::INFINITY;
         while start.elapsed().as_secs_f64() < ENOUGH || fastest.is_infinite() {
-            let own = ProcessTime::now();
+            let process_time = ProcessTime::now();
             let count = ask();
-            fastest = fastest.min(own.elapsed().as_secs_f64() / count as f64);
+            fastest = fastest.min(process_time.elapsed().as_secs_f64() / count as f64);
         }
         last = fastest;
         Some(fastest)

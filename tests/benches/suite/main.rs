@@ -110,12 +110,12 @@ fn measure(criterion: &mut Criterion, mut task: Task) -> Result<Row, String> {
     let mut worst = None;
     if let Ok(peer) = &mut task.peer {
         for input in 0..peer.inputs() {
-            let found = difference(&task.ours.results(input), &peer.results(input))
+            let value = difference(&task.ours.results(input), &peer.results(input))
                 .map_err(|reason| format!("{name}: {reason}"))?;
-            if found > task.agreement {
-                return Err(format!("{name}: results differ by {found:e}"));
+            if value > task.agreement {
+                return Err(format!("{name}: results differ by {value:e}"));
             }
-            worst = Some(found.max(worst.unwrap_or(0.0)));
+            worst = Some(value.max(worst.unwrap_or(0.0)));
         }
     }
     let id = |side: &str| format!("{name} {side}");

@@ -146,12 +146,12 @@ fn of_set(functions: &Functions, set: &str, bars: usize) -> Vec<ExprId> {
 fn result(functions: &Functions, kernel: &str, name: &str) -> Vec<ExprId> {
     let of_kernel = functions.functions.iter().filter(|f| f.name == kernel);
     let arrays = of_kernel.flat_map(|f| &f.results);
-    let found: Vec<ExprId> = arrays
+    let expr_ids: Vec<ExprId> = arrays
         .filter(|array| array.name == name)
         .flat_map(|array| array.values.iter().copied())
         .collect();
-    assert!(!found.is_empty(), "{kernel} has no result {name}");
-    found
+    assert!(!expr_ids.is_empty(), "{kernel} has no result {name}");
+    expr_ids
 }
 
 /// The upper triangles of consecutive matrices.

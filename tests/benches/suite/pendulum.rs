@@ -166,12 +166,12 @@ fn sweep(vectors: Option<Instructions>) -> Box<dyn Work> {
         results: move |sweep: &Sweep| {
             let mut arrays = Vec::new();
             follow(sweep, vectors, |point, slopes| {
-                let (Ok(state), Ok(found), Ok(slopes)) = (&point.equilibrium, &point.modes, slopes)
+                let (Ok(state), Ok(modes), Ok(slopes)) = (&point.equilibrium, &point.modes, slopes)
                 else {
                     return;
                 };
                 arrays.push(state.coordinates.to_vec());
-                arrays.push(found.frequencies().iter().flatten().copied().collect());
+                arrays.push(modes.frequencies().iter().flatten().copied().collect());
                 for mode in slopes.modes.iter() {
                     let slopes = mode.frequency().map(|slopes| slopes.by_design.to_vec());
                     arrays.push(slopes.unwrap_or_default());

@@ -86,9 +86,9 @@ fn everywhere(states: &[Equilibrium]) -> String {
     let share = states.len().div_ceil(processors);
     let seconds = fastest(5, || {
         std::thread::scope(|scope| {
-            for own in states.chunks(share) {
+            for chunk in states.chunks(share) {
                 scope.spawn(move || {
-                    for at in own {
+                    for at in chunk {
                         let _ = black_box(forced::sensitivities(&Rotor, at));
                     }
                 });

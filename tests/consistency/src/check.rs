@@ -193,10 +193,10 @@ impl Check<'_> {
         slopes(&slopes(&self.motion_residual(&outer)))
     }
 
-    fn compare(&mut self, place: &str, found: &[Bounded], expected: &[Bounded]) {
-        assert_eq!(found.len(), expected.len(), "{place}");
+    fn compare(&mut self, text: &str, boundeds: &[Bounded], expected: &[Bounded]) {
+        assert_eq!(boundeds.len(), expected.len(), "{text}");
         let size = expected.iter().map(|x| x.value.abs()).fold(0.0, f64::max);
-        for (k, (one, other)) in found.iter().zip(expected).enumerate() {
+        for (k, (one, other)) in boundeds.iter().zip(expected).enumerate() {
             let difference = (one.value - other.value).abs();
             let allowed = FLOOR + 2.0 * (one.error + other.error);
             self.outcome.compared += 1;
@@ -208,7 +208,7 @@ impl Check<'_> {
             let agrees = difference <= allowed;
             if !agrees {
                 self.outcome.differences.push(Difference {
-                    place: format!("{place}[{k}]"),
+                    place: format!("{text}[{k}]"),
                     found: one.value,
                     expected: other.value,
                     allowed,
@@ -313,8 +313,8 @@ impl Check<'_> {
     }
 
     /// A gradient by coordinates, inputs and design, contracted with the direction of the state.
-    fn gradient_along(&self, kernel: &str, own: &[&[f64]]) -> Bounded {
-        let gradient = self.evaluate(kernel, &[], own);
+    fn gradient_along(&self, kernel: &str, values: &[&[f64]]) -> Bounded {
+        let gradient = self.evaluate(kernel, &[], values);
         let along = self.state.along.each_ref().map(|list| exact(list));
         let parts = gradient
             .iter()

@@ -50,8 +50,8 @@ const TAKEN: [(&str, u64); 35] = [
     ("variation: walks over bodies", 3000),
 ];
 
-fn count(found: &Summary, case: &str) -> u64 {
-    found.taken.get(case).copied().unwrap_or(0)
+fn count(summary: &Summary, case: &str) -> u64 {
+    summary.taken.get(case).copied().unwrap_or(0)
 }
 
 #[test]

@@ -24,34 +24,34 @@ pub(super) fn evaluate(
 
 /// All eigenvalues; repeated ones only to a root of the working accuracy. The leading coefficient must be regular.
 pub(super) fn eigenvalues(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex<f64>> {
-    let mut found = starts(coefficients);
-    let mut settled = vec![false; found.len()];
+    let mut complexes = starts(coefficients);
+    let mut settled = vec![false; complexes.len()];
     for _ in 0..SWEEPS {
         if settled.iter().all(|&settled| settled) {
             break;
         }
-        let most = found.iter().map(|s| s.norm()).fold(0.0, f64::max);
-        for i in 0..found.len() {
+        let most = complexes.iter().map(|s| s.norm()).fold(0.0, f64::max);
+        for i in 0..complexes.len() {
             if settled[i] {
                 continue;
             }
-            let Some(step) = newton_step(coefficients, found[i]) else {
+            let Some(step) = newton_step(coefficients, complexes[i]) else {
                 settled[i] = true;
                 continue;
             };
-            let others = (0..found.len()).filter(|&j| j != i);
-            let pull: Complex<f64> = others.map(|j| (found[i] - found[j]).inv()).sum();
+            let others = (0..complexes.len()).filter(|&j| j != i);
+            let pull: Complex<f64> = others.map(|j| (complexes[i] - complexes[j]).inv()).sum();
             let step = step / (Complex::from(1.0) - step * pull);
             if step.is_finite() {
-                found[i] -= step;
-                settled[i] = step.norm() <= 1e-14 * found[i].norm() + 1e-16 * most;
+                complexes[i] -= step;
+                settled[i] = step.norm() <= 1e-14 * complexes[i].norm() + 1e-16 * most;
             } else {
                 // Two approximations have met, or the step is not finite: move away.
-                found[i] *= Complex::new(1.01, 0.01);
+                complexes[i] *= Complex::new(1.01, 0.01);
             }
         }
     }
-    found
+    complexes
 }
 
 /// Eigenvalues of a real quadratic pencil with `Im s >= 0`, by magnitude. The sum of all eigenvalues is checked: it

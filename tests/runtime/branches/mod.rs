@@ -50,13 +50,13 @@ fn of(
     settings: Continuation,
     search: Option<&Search>,
 ) -> Branches {
-    let found = branches(machine, &[0.0], b, start, &settings, search).unwrap();
-    println!("{found}");
-    assert!(!found.truncated);
-    for branch in &found.branches {
+    let branches = branches(machine, &[0.0], b, start, &settings, search).unwrap();
+    println!("{branches}");
+    assert!(!branches.truncated);
+    for branch in &branches.branches {
         assert_sound(machine, branch, &settings);
     }
-    found
+    branches
 }
 
 fn assert_sound(machine: &dyn Kernels, branch: &Branch, settings: &Continuation) {
@@ -139,8 +139,8 @@ fn assert_sound(machine: &dyn Kernels, branch: &Branch, settings: &Continuation)
     }
 }
 
-fn only(found: &Branches) -> SpecialPoint {
-    let all = found.special();
+fn only(branches: &Branches) -> SpecialPoint {
+    let all = branches.special();
     assert_eq!(all.len(), 1);
     all[0].clone()
 }

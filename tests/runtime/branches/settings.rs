@@ -131,8 +131,8 @@ fn nasty_values_end_in_answers(wild: &[f64]) {
     }
 }
 
-fn assert_numbers(found: Result<Branches, Error>, low: f64, high: f64) {
-    for branch in found.iter().flat_map(|found| &found.branches) {
+fn assert_numbers(branches: Result<Branches, Error>, low: f64, high: f64) {
+    for branch in branches.iter().flat_map(|found| &found.branches) {
         for point in &branch.points {
             let (least, most) = (low.min(high), low.max(high));
             assert!(

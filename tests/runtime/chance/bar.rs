@@ -141,7 +141,7 @@ impl Called {
             "{at}\n{answer}"
         );
         let mut points = found.limits[0].design_points.iter().flatten();
-        let described = points.any(|own| own.verified);
+        let described = points.any(|point| point.verified);
         assert_eq!(
             own.by == EstimatedBy::DesignPoint,
             described,
@@ -224,13 +224,16 @@ fn a_margin_states_the_error_of_its_model() {
         };
         let margin = bar(ratio, tolerance).second_order_failure(wanted).unwrap();
         let corrected = margin.margin.corrected;
-        let own = between(speed(ratio), tolerance / 3.0, band);
-        assert!((own / exact - 1.0).abs() < 0.02, "{own}");
+        let value = between(speed(ratio), tolerance / 3.0, band);
+        assert!((value / exact - 1.0).abs() < 0.02, "{value}");
         assert!((corrected.value / modelled - 1.0).abs() < 0.01, "{margin}");
         assert!(!margin.verified());
-        assert!((corrected.value - own).abs() <= corrected.error, "{margin}");
+        assert!(
+            (corrected.value - value).abs() <= corrected.error,
+            "{margin}"
+        );
         let model = corrected.model_error.unwrap();
-        assert!((model - (corrected.value - own).abs()).abs() < 1e-6 * model);
+        assert!((model - (corrected.value - value).abs()).abs() < 1e-6 * model);
     }
 }
 
@@ -266,10 +269,10 @@ fn samples_beyond_the_critical_length_are_counted() {
         let critical = W / speed(ratio).powi(2);
         let beyond = |length: f64| (length - critical) * (1.0 - critical) < 0.0;
         let all = run.all.as_ref().unwrap();
-        let elsewhere = all.iter().filter(|own| beyond(own.design[1])).count();
+        let elsewhere = all.iter().filter(|x| beyond(x.design[1])).count();
         // Samples upon the branch point count as beyond it.
         let upon = |length: f64| (length - critical).abs() < 1e-3 * (1.0 - critical).abs();
-        let close = all.iter().filter(|own| upon(own.design[1])).count();
+        let close = all.iter().filter(|x| upon(x.design[1])).count();
         let counted = elsewhere..=elsewhere + close;
         assert!(
             counted.contains(&run.left_nominal_branch),

@@ -24,9 +24,10 @@ fn a_valley_that_ends_is_left() {
         let run = study.monte_carlo().unwrap();
         let all = run.all.as_ref().unwrap();
         assert!(all.iter().all(|own| own.outcome == Outcome::Stable));
-        let fell = all.iter().filter(|own| own.design[2] < -2.0).count();
+        let fell = all.iter().filter(|x| x.design[2] < -2.0).count();
         assert_eq!(run.left_nominal_branch, fell, "{nominal}");
-        let down = |own: &&eigentol::tolerance::Sample| own.coordinates.as_ref().unwrap()[0] < 0.0;
+        let down =
+            |sample: &&eigentol::tolerance::Sample| sample.coordinates.as_ref().unwrap()[0] < 0.0;
         assert_eq!(all.iter().filter(down).count(), fell);
     }
 }

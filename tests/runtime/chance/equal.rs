@@ -147,10 +147,8 @@ fn equal_modes_are_sampled_in_ascending_order() {
                 let damping =
                     0.25 * 0.4_f64.powi(2) * f64::from(u8::from(low != k1.min(k2).sqrt().into()));
                 let exact = |k: f64| [k.sqrt(), (k - damping).sqrt()];
-                let near = |found: Option<f64>, k: f64| {
-                    exact(k)
-                        .iter()
-                        .any(|own| (found.unwrap() - own).abs() < 1e-9)
+                let near = |value: Option<f64>, k: f64| {
+                    exact(k).iter().any(|x| (value.unwrap() - x).abs() < 1e-9)
                 };
                 assert!(
                     near(low, k1.min(k2)) && near(high, k1.max(k2)),

@@ -168,9 +168,9 @@ fn agrees<M: Mechanism>(study: &Study<M>, wanted: &[Requirement]) {
             "{answer}"
         );
     }
-    for own in found.limits.iter().filter(|own| own.verified()) {
-        let sampled = run.each[own.requirement].clopper_pearson(0.9999).unwrap();
-        let claimed = own.probability().unwrap();
+    for limit in found.limits.iter().filter(|limit| limit.verified()) {
+        let sampled = run.each[limit.requirement].clopper_pearson(0.9999).unwrap();
+        let claimed = limit.probability().unwrap();
         assert!(
             0.9 * claimed <= sampled.upper && sampled.lower <= 1.1 * claimed,
             "{found}{run}"

@@ -51,7 +51,7 @@ fn spreads(ratio: f64, tolerance: f64) -> Result<[Propagation; 4], Error> {
 #[test]
 fn near_a_critical_state_nothing_is_known_about_errors() {
     let [models @ .., chosen] = spreads(1.03, 0.12).unwrap();
-    for found in &models {
+    for model in &models {
         let [
             [Doubt::NearCritical { distance }],
             [
@@ -60,17 +60,17 @@ fn near_a_critical_state_nothing_is_known_about_errors() {
                     distance: other,
                 },
             ],
-        ] = [&found.doubts[0][..], &found.doubts[1]]
+        ] = [&model.doubts[0][..], &model.doubts[1]]
         else {
-            panic!("{found}")
+            panic!("{model}")
         };
         assert!((distance - 1.57).abs() < 0.01 && other == distance);
-        for spread in found.spreads.iter().flatten() {
-            assert_eq!(spread.mean.error, None, "{found}");
-            assert_eq!(spread.sigma.unwrap().error, None, "{found}");
+        for spread in model.spreads.iter().flatten() {
+            assert_eq!(spread.mean.error, None, "{model}");
+            assert_eq!(spread.sigma.unwrap().error, None, "{model}");
             assert!(spread.quantiles.iter().all(|own| own.error.is_none()));
         }
-        let text = found.to_string();
+        let text = model.to_string();
         assert!(
             text.contains("Doubtful for frequency 1: the critical state is 1.57"),
             "{text}"
@@ -115,7 +115,7 @@ fn far_from_it_errors_are_stated() {
 #[test]
 fn without_a_tolerance_there_is_no_doubt() {
     let [first, ..] = match spreads(1.0001, 0.0) {
-        Ok(found) => found,
+        Ok(propagations) => propagations,
         Err(error) => panic!("{error}"),
     };
     assert!(first.doubts.iter().all(Vec::is_empty), "{first}");

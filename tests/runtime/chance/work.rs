@@ -50,7 +50,7 @@ impl<'a> Counting<'a> {
     fn taken(&self) -> [usize; 4] {
         self.calls
             .each_ref()
-            .map(|own| own.swap(0, Ordering::Relaxed))
+            .map(|call| call.swap(0, Ordering::Relaxed))
     }
 }
 

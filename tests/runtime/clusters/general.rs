@@ -307,8 +307,8 @@ fn a_pair_of_a_general_family_meets_the_undamped_one() {
     let study = plate(0.0, 0.0).design(KY, 50.5);
     let general = study.clone().clusters().unwrap();
     let undamped = study.family(Family::Undamped).clusters().unwrap();
-    let of = |k: usize, found: &eigentol::clusters::ClusterTolerance| {
-        let spread = found.spread.as_ref().unwrap();
+    let of = |k: usize, cluster_tolerance: &eigentol::clusters::ClusterTolerance| {
+        let spread = cluster_tolerance.spread.as_ref().unwrap();
         spread.frequency.members[k].value.clone().unwrap()
     };
     for k in 0..2 {

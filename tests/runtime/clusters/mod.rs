@@ -48,8 +48,8 @@ impl Moments {
 
     /// Both agree within five standard errors, plus `model` times the standard deviation for model error.
     #[track_caller]
-    fn agrees(&self, found: Option<Statistics>, model: f64) {
-        let found = found.unwrap();
+    fn agrees(&self, statistics: Option<Statistics>, model: f64) {
+        let found = statistics.unwrap();
         let shares = 1.0 / self.count + 1.0 / found.count as f64;
         let error = self.sigma * (5.0 * shares.sqrt() + model);
         within(found.mean, self.mean, error);
@@ -76,14 +76,14 @@ fn run<M: BatchKernels + Clone>(study: &Study<M>) -> MonteCarlo {
 
 /// Every sorted member and the splitting agree with the sampled values.
 #[track_caller]
-fn agree(found: &SortedSpread, samples: &[Vec<f64>], model: f64) {
-    let count = found.members.len();
-    for (k, member) in found.members.iter().enumerate() {
+fn agree(sorted_spread: &SortedSpread, samples: &[Vec<f64>], model: f64) {
+    let count = sorted_spread.members.len();
+    for (k, member) in sorted_spread.members.iter().enumerate() {
         let values: Vec<f64> = samples.iter().map(|sample| sample[k]).collect();
         Moments::of(&values).agrees(member.value.clone(), model);
     }
     let splitting: Vec<f64> = samples.iter().map(|one| one[count - 1] - one[0]).collect();
-    Moments::of(&splitting).agrees(found.splitting.clone(), model);
+    Moments::of(&splitting).agrees(sorted_spread.splitting.clone(), model);
 }
 
 #[track_caller]

@@ -10,7 +10,7 @@ use eigentol::{Complex, Error, Family, Matrix, Tolerances};
 use super::{close, independent, refused, within};
 
 fn couplings(family: Family, values: &[Complex], slopes: &[Vec<Complex>]) -> ModalCouplings {
-    let matrix = |own: &Vec<Complex>| Matrix::from_rows(values.len(), own.clone());
+    let matrix = |complexes: &Vec<Complex>| Matrix::from_rows(values.len(), complexes.clone());
     ModalCouplings::new(family, values.to_vec(), slopes.iter().map(matrix).collect())
 }
 
@@ -20,7 +20,7 @@ fn undamped(
     tolerances: &Tolerances,
 ) -> Result<ClusterSpread, Error> {
     let complex = |values: &[f64]| -> Vec<Complex> { values.iter().map(|&x| x.into()).collect() };
-    let slopes: Vec<Vec<Complex>> = slopes.iter().map(|own| complex(own)).collect();
+    let slopes: Vec<Vec<Complex>> = slopes.iter().map(|slope| complex(slope)).collect();
     let couplings = couplings(Family::Undamped, &complex(values), &slopes);
     sample_cluster(&couplings, tolerances, &Sampling::default().samples(4096))
 }
@@ -28,7 +28,7 @@ fn undamped(
 /// `s = i 10 + i (matrix)`: the eigenvalues of the real matrices appear in the frequencies.
 fn turned(values: &[f64], slopes: &[Vec<f64>], tolerances: &Tolerances) -> ClusterSpread {
     let turn = |values: &[f64]| values.iter().map(|&x| Complex::new(0.0, x)).collect();
-    let slopes: Vec<Vec<Complex>> = slopes.iter().map(|own| turn(own)).collect();
+    let slopes: Vec<Vec<Complex>> = slopes.iter().map(|slope| turn(slope)).collect();
     let couplings = couplings(Family::General, &turn(values), &slopes);
     sample_cluster(&couplings, tolerances, &Sampling::default().samples(4096)).unwrap()
 }

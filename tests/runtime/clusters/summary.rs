@@ -270,12 +270,7 @@ fn an_oscillation_about_to_cease_says_so() {
     says(&summary.to_string(), &["the oscillation ceases"]);
     // Beyond it two decaying modes form a cluster.
     let beyond = plate(0.0, 9.0, 0.05);
-    let doubts = &beyond
-        .trust
-        .iter()
-        .find(|own| !own.trusted())
-        .unwrap()
-        .doubts;
+    let doubts = &beyond.trust.iter().find(|x| !x.trusted()).unwrap().doubts;
     assert!(matches!(
         doubts[..],
         [Doubt::NoFrequency, Doubt::Clustered { .. }]

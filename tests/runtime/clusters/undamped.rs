@@ -26,9 +26,9 @@ fn pair(gap: f64, mean: f64, sigma: [f64; 3]) -> PairStudy {
         .tolerance(C, sigma[2])
 }
 
-fn only(mut found: Vec<ClusterTolerance>) -> ClusterTolerance {
-    assert_eq!(found.len(), 1, "{found:?}");
-    found.remove(0)
+fn only(mut cluster_tolerances: Vec<ClusterTolerance>) -> ClusterTolerance {
+    assert_eq!(cluster_tolerances.len(), 1, "{cluster_tolerances:?}");
+    cluster_tolerances.remove(0)
 }
 
 #[test]

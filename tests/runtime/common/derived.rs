@@ -490,10 +490,10 @@ impl<X: Model> Mechanism for Derived<X> {
         let (x, u, b) = (fixed(q), fixed(u), fixed(b));
         let rest: X::Coordinates<T> = zeros();
         let still: X::Coordinates<Dual<T>> = fixed(&rest);
-        let by = |place: usize| {
+        let by = |index: usize| {
             let columns: X::Coordinates<X::Outputs<T>> = Array::from_fn(|j| {
-                let (mut motion, moved) = ([still, still, x], [&rest, &rest, q][place]);
-                motion[place] = unit(moved, j);
+                let (mut motion, moved) = ([still, still, x], [&rest, &rest, q][index]);
+                motion[index] = unit(moved, j);
                 let [acceleration, velocity, position] = &motion;
                 slopes(&(self.0).moving_outputs::<Dual<T>>(
                     acceleration,

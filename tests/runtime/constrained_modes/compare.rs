@@ -64,33 +64,33 @@ pub(crate) fn same_modes(a: &Modes, b: &Modes, tolerance: f64) {
         .modes
         .iter()
         .fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
-    for (own, other) in a.modes.iter().zip(&b.modes) {
+    for (mode, other) in a.modes.iter().zip(&b.modes) {
         assert!(
-            (own.s - other.s).norm() <= tolerance * size,
+            (mode.s - other.s).norm() <= tolerance * size,
             "{} {}",
-            own.s,
+            mode.s,
             other.s
         );
         assert_eq!(
-            std::mem::discriminant(&own.behaviour),
+            std::mem::discriminant(&mode.behaviour),
             std::mem::discriminant(&other.behaviour),
             "{:?} {:?}",
-            own.behaviour,
+            mode.behaviour,
             other.behaviour
         );
-        assert!(own.residual < 1e-11, "residual {}", own.residual);
-        assert!(own.error < 1e-9 * size, "error {}", own.error);
+        assert!(mode.residual < 1e-11, "residual {}", mode.residual);
+        assert!(mode.error < 1e-9 * size, "error {}", mode.error);
     }
 }
 
 #[track_caller]
 pub(crate) fn same_sensitivities(a: &Sensitivities, b: &Sensitivities, tolerance: f64) {
     assert_eq!(a.modes.len(), b.modes.len());
-    for (own, other) in a.modes.iter().zip(&b.modes) {
-        all_near(&own.lambda.by_design, &other.lambda.by_design, tolerance);
-        all_near(&own.lambda.by_input, &other.lambda.by_input, tolerance);
+    for (mode, other) in a.modes.iter().zip(&b.modes) {
+        all_near(&mode.lambda.by_design, &other.lambda.by_design, tolerance);
+        all_near(&mode.lambda.by_input, &other.lambda.by_input, tolerance);
         for quantity in Quantity::ALL {
-            let pair = (own.of(quantity), other.of(quantity));
+            let pair = (mode.of(quantity), other.of(quantity));
             let (Some(own), Some(other)) = pair else {
                 assert!(pair.0.is_none() && pair.1.is_none());
                 continue;

@@ -15,20 +15,24 @@ const CRITICAL: f64 = 3.836_013_555_764_453;
 #[test]
 fn a_bar_by_its_tip_is_the_bar_by_its_angle() {
     for omega in [0.0, 2.0, 3.5, 4.2, 7.0] {
-        let own = State::new(Bar::<1>, &[omega], &[0.8, 0.7, 0.0]);
+        let state = State::new(Bar::<1>, &[omega], &[0.8, 0.7, 0.0]);
         let other = State::new(BarByAngle, &[omega], &[0.9]);
-        assert_eq!(own.modes.family, Family::Undamped);
-        assert_eq!(own.modes.modes.len(), 1);
+        assert_eq!(state.modes.family, Family::Undamped);
+        assert_eq!(state.modes.modes.len(), 1);
         let theta = other.at.coordinates[0];
-        all_near(&own.at.coordinates[..2], &[theta.sin(), theta.cos()], 1e-12);
+        all_near(
+            &state.at.coordinates[..2],
+            &[theta.sin(), theta.cos()],
+            1e-12,
+        );
         let g = 9.81;
         let lambda = if omega < CRITICAL {
             1.5 * g - omega * omega
         } else {
             omega * omega - (1.5 * g / omega).powi(2)
         };
-        all_near(&[own.modes.modes[0].lambda], &[lambda], 1e-12);
-        same_mechanism(&own, &other);
+        all_near(&[state.modes.modes[0].lambda], &[lambda], 1e-12);
+        same_mechanism(&state, &other);
     }
 }
 
@@ -38,9 +42,9 @@ fn a_slider_crank_on_a_turntable_is_its_crank() {
         let other = State::new(CrankByAngle, &[omega], &[0.9]);
         let theta = other.at.coordinates[0];
         let x = 0.2 * theta.cos() + (0.25 - (0.2 * theta.sin()).powi(2)).sqrt();
-        let own = State::new(SliderCrank, &[omega], &[theta + 0.05, x - 0.02, 0.0]);
-        all_near(&own.at.coordinates[..2], &[theta, x], 1e-12);
-        same_mechanism(&own, &other);
+        let state = State::new(SliderCrank, &[omega], &[theta + 0.05, x - 0.02, 0.0]);
+        all_near(&state.at.coordinates[..2], &[theta, x], 1e-12);
+        same_mechanism(&state, &other);
     }
 }
 
@@ -52,21 +56,21 @@ fn a_chain_of_two_rods_is_two_angles() {
         let (x, z) = (0.8 * a.sin(), 0.8 * a.cos());
         let tip = [x + 0.5 * b.sin(), z + 0.5 * b.cos()];
         let start = [x + 0.03, z - 0.02, tip[0], tip[1] + 0.04, 0.0, 0.0];
-        let own = State::new(Chain, &[omega], &start);
-        all_near(&own.at.coordinates[..4], &[x, z, tip[0], tip[1]], 1e-11);
-        same_mechanism(&own, &other);
+        let state = State::new(Chain, &[omega], &start);
+        all_near(&state.at.coordinates[..4], &[x, z, tip[0], tip[1]], 1e-11);
+        same_mechanism(&state, &other);
         for r in 0..2 {
             // Both are normalised by the same kinetic energy: shapes differ at most in sign.
             let minimal = other.modes.modes[r].shape.map(|value| value.re);
-            let own = own.modes.modes[r].shape.map(|value| value.re);
+            let re = state.modes.modes[r].shape.map(|value| value.re);
             let places = [
                 0.8 * a.cos() * minimal[0],
                 -0.8 * a.sin() * minimal[0],
                 0.8 * a.cos() * minimal[0] + 0.5 * b.cos() * minimal[1],
                 -0.8 * a.sin() * minimal[0] - 0.5 * b.sin() * minimal[1],
             ];
-            let sign = (own[0] * places[0]).signum();
-            all_near(&own[..4], &places.map(|value| sign * value), 1e-11);
+            let sign = (re[0] * places[0]).signum();
+            all_near(&re[..4], &places.map(|value| sign * value), 1e-11);
         }
     }
 }
@@ -77,10 +81,10 @@ fn a_spherical_pendulum_on_a_turntable_is_its_shadow() {
         let other = State::new(SphericalByPlane, &[omega], &[0.1, 0.1]);
         let (x, y) = (other.at.coordinates[0], other.at.coordinates[1]);
         let z = (1.44 - x * x - y * y).sqrt();
-        let own = State::new(Spherical, &[omega], &[x - 0.02, y + 0.01, z, 0.0]);
-        assert_eq!(own.modes.family, Family::General);
-        all_near(&own.at.coordinates[..3], &[x, y, z], 1e-11);
-        same_mechanism(&own, &other);
+        let state = State::new(Spherical, &[omega], &[x - 0.02, y + 0.01, z, 0.0]);
+        assert_eq!(state.modes.family, Family::General);
+        all_near(&state.at.coordinates[..3], &[x, y, z], 1e-11);
+        same_mechanism(&state, &other);
     }
 }
 
@@ -114,9 +118,10 @@ fn shapes_move_with_the_design() {
                     &found.right_by_design[j]
                 };
                 for rows in [0..3, 3..4] {
-                    let own: Vec<f64> = rows.clone().flat_map(|i| [own[i].re, own[i].im]).collect();
+                    let values: Vec<f64> =
+                        rows.clone().flat_map(|i| [own[i].re, own[i].im]).collect();
                     let other: Vec<f64> = rows.flat_map(|i| [slope(i).re, slope(i).im]).collect();
-                    all_near(&own, &other, 1e-7);
+                    all_near(&values, &other, 1e-7);
                 }
             }
         }
@@ -127,17 +132,17 @@ fn shapes_move_with_the_design() {
 #[test]
 fn equal_frequencies_are_a_cluster() {
     let b = [0.7, 1.2, 6.0, 6.0, 0.0, 0.0];
-    let own = State::with(Spherical, &[0.0], &b, &[0.1, 0.1, 1.1, 0.0]);
+    let state = State::with(Spherical, &[0.0], &b, &[0.1, 0.1, 1.1, 0.0]);
     let other = State::with(SphericalByPlane, &[0.0], &b, &[0.1, 0.1]);
-    same_modes(&own.modes, &other.modes, 1e-12);
-    let found = sensitivities(&*own.mechanism, &own.at, &own.modes).unwrap();
+    same_modes(&state.modes, &other.modes, 1e-12);
+    let found = sensitivities(&*state.mechanism, &state.at, &state.modes).unwrap();
     assert!(found.modes.iter().all(|mode| mode.clustered));
-    assert!(shape_sensitivity(&*own.mechanism, &own.at, &own.modes, 0).is_err());
+    assert!(shape_sensitivity(&*state.mechanism, &state.at, &state.modes, 0).is_err());
     let mean = |couplings: eigentol::clusters::ModalCouplings| {
         let all = couplings.mean_by_design();
         all.iter().flat_map(|x| [x.re, x.im]).collect::<Vec<_>>()
     };
-    let a = modal_couplings(&*own.mechanism, &own.at, &own.modes, &[0, 1]).unwrap();
+    let a = modal_couplings(&*state.mechanism, &state.at, &state.modes, &[0, 1]).unwrap();
     let b = modal_couplings(&*other.mechanism, &other.at, &other.modes, &[0, 1]).unwrap();
     all_near(&mean(a), &mean(b), 1e-11);
 }

@@ -274,35 +274,35 @@ fn a_free_disk_stands_by_its_spin() {
         let start = [0.0, r, r * spin, 0.0, 0.0, spin, -m * 9.81, 0.0, 0.0];
         let mechanism: &dyn Kernels = &Derived(Disk);
         let linear = mechanism.linear(&start, &[0.0], &b);
-        let found = modes_of(&linear, Family::General, &mechanism.description()).unwrap();
+        let modes = modes_of(&linear, Family::General, &mechanism.description()).unwrap();
         let held = axial * (axial + m * r * r) * spin * spin / transverse - m * 9.81 * r;
         let square = -held / (transverse + m * r * r);
-        let neutral: Vec<_> = found
+        let neutral: Vec<_> = modes
             .modes
             .iter()
             .filter(|mode| mode.behaviour == Behaviour::Neutral)
             .collect();
-        assert_eq!(neutral.len(), 2, "{spin}: {:?}", found.frequencies());
+        assert_eq!(neutral.len(), 2, "{spin}: {:?}", modes.frequencies());
         assert!(neutral.iter().all(|mode| mode.condition < 1e3));
         if held > 0.0 {
-            assert_eq!(found.modes.len(), 3);
-            let omega = found.modes[2].frequency().unwrap();
+            assert_eq!(modes.modes.len(), 3);
+            let omega = modes.modes[2].frequency().unwrap();
             near(omega, (-square).sqrt(), 1e-12, omega);
             assert!(matches!(
-                found.modes[2].behaviour,
+                modes.modes[2].behaviour,
                 Behaviour::Oscillating(_)
             ));
-            assert!(found.stable());
+            assert!(modes.stable());
         } else {
-            assert_eq!(found.modes.len(), 4);
+            assert_eq!(modes.modes.len(), 4);
             let rate = square.sqrt();
-            for (mode, wanted) in found.modes[2..].iter().zip([-rate, rate]) {
+            for (mode, wanted) in modes.modes[2..].iter().zip([-rate, rate]) {
                 near_complex(mode.s, wanted.into(), 1e-12, rate);
             }
-            assert!(!found.stable());
+            assert!(!modes.stable());
         }
         // A neutral mode consisting only of a speed is recognised as the same mode.
-        let order = match_modes(&found, &found, &linear);
+        let order = match_modes(&modes, &modes, &linear);
         assert!(order.iter().enumerate().all(|(i, place)| *place == Some(i)));
     }
 }
@@ -332,8 +332,8 @@ fn a_sleigh_goes_straight_with_its_edge_behind() {
                     0.0,
                 ]
             };
-            for (own, exact) in slopes.iter().zip(exact) {
-                near(*own, exact, 1e-12, 1.0);
+            for (slope, exact) in slopes.iter().zip(exact) {
+                near(*slope, exact, 1e-12, 1.0);
             }
         }
     }
@@ -342,9 +342,9 @@ fn a_sleigh_goes_straight_with_its_edge_behind() {
     let mechanism: &dyn Kernels = &Derived(Sleigh);
     let linear = mechanism.linear(&[2.0, 0.0, 0.0, 0.0], &[2.0], &free);
     let description = &mechanism.description();
-    let found = modes_of(&linear, Family::General, description).unwrap();
-    assert_eq!(found.modes[0].behaviour, Behaviour::Neutral);
-    near(found.modes[0].shape[0].norm(), 1.0, 1e-14, 1.0);
+    let modes = modes_of(&linear, Family::General, description).unwrap();
+    assert_eq!(modes.modes[0].behaviour, Behaviour::Neutral);
+    near(modes.modes[0].shape[0].norm(), 1.0, 1e-14, 1.0);
 }
 
 /// Derivatives of left and right shapes against modes at a changed design.
@@ -477,16 +477,16 @@ fn a_free_mass_drifts() {
         damping: [[0.0, 0.0], [0.0, 1.0]].into(),
         stiffness: [[0.0, 0.0], [0.0, 0.5]].into(),
     };
-    let found = modes_of(&linear, Family::General, &DRIFT).unwrap();
-    assert_eq!(found.modes.len(), 3);
+    let modes = modes_of(&linear, Family::General, &DRIFT).unwrap();
+    assert_eq!(modes.modes.len(), 3);
     let neutral = |mode: &&Mode| mode.behaviour == Behaviour::Neutral;
-    assert_eq!(found.modes.iter().filter(neutral).count(), 2);
+    assert_eq!(modes.modes.iter().filter(neutral).count(), 2);
     assert!(
-        found
+        modes
             .modes
             .iter()
             .filter(neutral)
             .all(|mode| mode.condition.is_infinite())
     );
-    near_complex(found.modes[2].s, (-0.5).into(), 1e-14, 1.0);
+    near_complex(modes.modes[2].s, (-0.5).into(), 1e-14, 1.0);
 }

@@ -77,7 +77,7 @@ impl Sizes {
 }
 
 fn linear(sizes: Sizes, random: &mut Random) -> Linear {
-    let mut found = Linear::zeros(sizes.unknowns());
+    let mut linear = Linear::zeros(sizes.unknowns());
     let (q, motions) = (sizes.coordinates, sizes.coordinates + sizes.speeds);
     let factor: Vec<Vec<f64>> = (0..motions)
         .map(|_| (0..motions).map(|_| random.next()).collect())
@@ -88,12 +88,12 @@ fn linear(sizes: Sizes, random: &mut Random) -> Linear {
             let mass = product + if i == j { 0.3 } else { 0.0 };
             let (damping, stiffness) = (random.next(), 5.0 * random.next());
             if j < q {
-                found.mass[i][j] = mass;
-                found.damping[i][j] = damping;
-                found.stiffness[i][j] = stiffness;
+                linear.mass[i][j] = mass;
+                linear.damping[i][j] = damping;
+                linear.stiffness[i][j] = stiffness;
             } else {
-                found.damping[i][j] = mass;
-                found.stiffness[i][j] = damping;
+                linear.damping[i][j] = mass;
+                linear.stiffness[i][j] = damping;
             }
         }
     }
@@ -104,12 +104,12 @@ fn linear(sizes: Sizes, random: &mut Random) -> Linear {
             (0..q).map(|_| random.next()).collect()
         } else {
             (0..q)
-                .map(|j| 3.0 * found.stiffness[first + k - independent][j])
+                .map(|j| 3.0 * linear.stiffness[first + k - independent][j])
                 .collect()
         };
         for (j, value) in row.into_iter().enumerate() {
-            found.stiffness[first + k][j] = value;
-            found.stiffness[j][first + k] = value;
+            linear.stiffness[first + k][j] = value;
+            linear.stiffness[j][first + k] = value;
         }
     }
     let first = motions + sizes.positions;
@@ -121,21 +121,21 @@ fn linear(sizes: Sizes, random: &mut Random) -> Linear {
             } else {
                 let row = first + k - independent;
                 if j < q {
-                    (0.5 * found.damping[row][j], 0.5 * found.stiffness[row][j])
+                    (0.5 * linear.damping[row][j], 0.5 * linear.stiffness[row][j])
                 } else {
-                    (0.5 * found.stiffness[row][j], 0.0)
+                    (0.5 * linear.stiffness[row][j], 0.0)
                 }
             };
             if j < q {
-                found.damping[first + k][j] = rate;
-                found.stiffness[first + k][j] = at_rest;
+                linear.damping[first + k][j] = rate;
+                linear.stiffness[first + k][j] = at_rest;
             } else {
-                found.stiffness[first + k][j] = rate;
+                linear.stiffness[first + k][j] = rate;
             }
-            found.stiffness[j][first + k] = rate;
+            linear.stiffness[j][first + k] = rate;
         }
     }
-    found
+    linear
 }
 
 /// Rescales unknowns, and with them the equations of motion, to units that differ by orders of magnitude.

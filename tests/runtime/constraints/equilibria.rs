@@ -363,11 +363,11 @@ fn accelerations_of_a_swinging_point() {
     let (sin, cos) = t.sin_cos();
     let q = [l * sin, -l * cos, 1e3];
     let velocity = [l * cos * rate, l * sin * rate, 17.0];
-    let found = accelerations(&bordered(Point), &velocity, &q, &[0.0], &[m, l]).expect("regular");
+    let values = accelerations(&bordered(Point), &velocity, &q, &[0.0], &[m, l]).expect("regular");
     let swing = -GRAVITY / l * sin;
-    close(found[0], l * (swing * cos - rate * rate * sin), 1e-13);
-    close(found[1], l * (swing * sin + rate * rate * cos), 1e-13);
-    close(found[2], m * (GRAVITY * cos + l * rate * rate), 1e-13);
+    close(values[0], l * (swing * cos - rate * rate * sin), 1e-13);
+    close(values[1], l * (swing * sin + rate * rate * cos), 1e-13);
+    close(values[2], m * (GRAVITY * cos + l * rate * rate), 1e-13);
     let massless = accelerations(&bordered(Point), &velocity, &q, &[0.0], &[0.0, l]);
     assert!(matches!(massless, Err(Error::SingularMass { .. })));
 }

@@ -204,9 +204,9 @@ fn stable_equilibria_are_found(cases: u32) {
             b[6..].fill(0.0);
         }
         let omega = random.between(0.0, 6.0);
-        let place: [f64; 6] = from_fn(|_| random.between(-2.0, 2.0));
-        let plain: [f64; 9] = from_fn(|i| if i < 6 { place[i] } else { 0.0 });
-        let redundant: [f64; 11] = from_fn(|i| if i < 6 { place[i] } else { 0.0 });
+        let values: [f64; 6] = from_fn(|_| random.between(-2.0, 2.0));
+        let plain: [f64; 9] = from_fn(|i| if i < 6 { values[i] } else { 0.0 });
+        let redundant: [f64; 11] = from_fn(|i| if i < 6 { values[i] } else { 0.0 });
         let one = eigentol::equilibrium::equilibrium(
             &bordered(Chain),
             &[omega],

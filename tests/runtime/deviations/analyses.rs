@@ -146,15 +146,19 @@ fn of_the_pendulum(machine: &dyn SummaryKernels, speed: f64, sigma: f64) {
     assert_eq!(found.variance_shares, [0.0, 0.0, 1.0]);
 
     let second = second_order(&deviating, &at, &modes, &tolerances);
-    let found = &second.modes[0].as_ref().unwrap().frequency;
-    close(found.model.slopes[2], slope, 1e-12);
-    close(found.model.curvature[2][2], bend, 1e-11);
-    close(found.moments.mean_shift, 0.5 * bend * sigma * sigma, 1e-11);
+    let frequency = &second.modes[0].as_ref().unwrap().frequency;
+    close(frequency.model.slopes[2], slope, 1e-12);
+    close(frequency.model.curvature[2][2], bend, 1e-11);
+    close(
+        frequency.moments.mean_shift,
+        0.5 * bend * sigma * sigma,
+        1e-11,
+    );
     let variance = (slope * sigma).powi(2) + 0.5 * (bend * sigma * sigma).powi(2);
-    close(found.moments.sigma, variance.sqrt(), 1e-11);
+    close(frequency.moments.sigma, variance.sqrt(), 1e-11);
     let curvature = mode_curvature(&deviating, &at, &modes, 0).unwrap();
     let by_input = curvature.of(Quantity::Frequency).unwrap().by_input[0][0];
-    close(found.model.curvature[2][2], by_input, 1e-13);
+    close(frequency.model.curvature[2][2], by_input, 1e-13);
 
     let whole = summary(&deviating, &at, &modes, &tolerances).unwrap();
     assert_eq!(whole.first, spread);
@@ -223,8 +227,8 @@ fn clusters_move_with_inputs() {
     };
     assert_eq!(along(0.7, [0.2, 0.0]), along(0.0, [0.2, 0.7]));
     assert_eq!(along(0.7, [0.2, 0.0]), along(0.5, [0.2, 0.2]));
-    let found = along(0.0, [0.2, 0.7]).eigenvalues;
-    for (found, expected) in found.iter().zip([-0.7, -0.5]) {
+    let eigenvalues = along(0.0, [0.2, 0.7]).eigenvalues;
+    for (found, expected) in eigenvalues.iter().zip([-0.7, -0.5]) {
         assert!((found - Complex::from(expected)).norm() < 1e-13);
     }
 }

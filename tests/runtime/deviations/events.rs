@@ -39,8 +39,8 @@ fn critical_moves_back<K: CurvatureKernels>(
     close(slopes[own], -1.0, 1e-12);
     let plain = critical_state(machine, &u, &b[..own], start, range).unwrap();
     let without = critical_sensitivity(machine, &plain).unwrap();
-    for (found, expected) in slopes.iter().zip(&without) {
-        assert!((found - expected).abs() <= 1e-10 * expected.abs().max(1.0));
+    for (slope, expected) in slopes.iter().zip(&without) {
+        assert!((slope - expected).abs() <= 1e-10 * expected.abs().max(1.0));
     }
     let bent = critical_curvature(&deviating, &exact).unwrap().second;
     let expected = critical_curvature(machine, &plain).unwrap().second;

@@ -41,15 +41,15 @@ fn joined(by_input: &[f64], by_design: &[f64]) -> Vec<f64> {
     [by_design, by_input, &by_input[..1]].concat()
 }
 
-fn same_gradient(found: &Gradient, expected: &Gradient) {
-    assert_eq!(found.coordinates, expected.coordinates);
-    assert_eq!(found.inputs, expected.inputs);
-    assert_eq!(found.design, joined(&expected.inputs, &expected.design));
+fn same_gradient(gradient: &Gradient, expected: &Gradient) {
+    assert_eq!(gradient.coordinates, expected.coordinates);
+    assert_eq!(gradient.inputs, expected.inputs);
+    assert_eq!(gradient.design, joined(&expected.inputs, &expected.design));
 }
 
-fn same_rows(found: &Matrix, by_input: &Matrix, by_design: &Matrix) {
-    assert_eq!(found.row_count(), by_input.row_count());
-    for ((found, by_input), by_design) in found.iter().zip(by_input.iter()).zip(by_design.iter()) {
+fn same_rows(matrix: &Matrix, by_input: &Matrix, by_design: &Matrix) {
+    assert_eq!(matrix.row_count(), by_input.row_count());
+    for ((found, by_input), by_design) in matrix.iter().zip(by_input.iter()).zip(by_design.iter()) {
         assert_eq!(found, joined(by_input, by_design));
     }
 }
@@ -68,12 +68,12 @@ fn partials_of(
     (matrices.to_lists(), residual)
 }
 
-fn same_partials(found: &LinearPartials, expected: &LinearPartials) {
-    assert_eq!(found.by_coordinate, expected.by_coordinate);
-    assert_eq!(found.by_input, expected.by_input);
+fn same_partials(linear_partials: &LinearPartials, expected: &LinearPartials) {
+    assert_eq!(linear_partials.by_coordinate, expected.by_coordinate);
+    assert_eq!(linear_partials.by_input, expected.by_input);
     let (by_input, by_design) = (&expected.by_input, &expected.by_design);
     let joined: Vec<_> = [&by_design[..], by_input, &by_input[..1]].concat();
-    assert_eq!(found.by_design, joined);
+    assert_eq!(linear_partials.by_design, joined);
 }
 
 fn lists<const N: usize>(vectors: &[Vector; N]) -> [&[f64]; N] {
@@ -182,16 +182,16 @@ fn one_state<K: CurvatureKernels + MotionKernels>(machine: &K) {
     );
 
     // Along a motion.
-    let (all, own): (&dyn MotionKernels, &dyn MotionKernels) = (&deviating, machine);
+    let (all, machine): (&dyn MotionKernels, &dyn MotionKernels) = (&deviating, machine);
     let (a, r) = (&*numbers(n, 17), &*numbers(n, 18));
     assert_eq!(
         all.motion_residual(a, r, q, u, b),
-        own.motion_residual(a, r, q, v, p)
+        machine.motion_residual(a, r, q, v, p)
     );
-    assert_eq!(all.motion(r, q, u, b), own.motion(r, q, v, p));
+    assert_eq!(all.motion(r, q, u, b), machine.motion(r, q, v, p));
     assert_eq!(
         all.motion_linear(a, r, q, u, b),
-        own.motion_linear(a, r, q, v, p)
+        machine.motion_linear(a, r, q, v, p)
     );
 }
 
@@ -207,9 +207,9 @@ fn kernels_are_those_at_moved_inputs() {
 }
 
 /// `found` against central differences of `value` by every design variable.
-fn against_differences(b: &[f64], value: impl Fn(&[f64]) -> Vec<f64>, found: &[Vec<f64>]) {
+fn against_differences(b: &[f64], value: impl Fn(&[f64]) -> Vec<f64>, values: &[Vec<f64>]) {
     const STEP: f64 = 1e-5;
-    for (j, slopes) in found.iter().enumerate() {
+    for (j, slopes) in values.iter().enumerate() {
         let at = |step: f64| {
             let mut b = Vector::from(b);
             b[j] += step;
@@ -257,14 +257,14 @@ fn differences<K: CurvatureKernels>(machine: &K) {
     let [.., by_design] = kernels.output_partials(q, u, b);
     against_differences(b, |b| kernels.outputs(q, u, b).into(), &columns(&by_design));
     let partials = kernels.linear_partials(q, u, b);
-    let found: Vec<_> = partials.by_design.iter().map(flat).collect();
-    against_differences(b, |b| flat(&kernels.linear(q, u, b)), &found);
+    let derived: Vec<_> = partials.by_design.iter().map(flat).collect();
+    against_differences(b, |b| flat(&kernels.linear(q, u, b)), &derived);
 
     let unit = |j: usize| Vector::from_fn(design, |k| f64::from(u8::from(j == k)));
     let (zq, zu) = (Vector::zeros(n), Vector::zeros(inputs));
     let along = |j: usize| flat(&directional.linear_along(q, u, b, [&zq, &zu, &unit(j)]));
-    let found: Vec<_> = (0..design).map(along).collect();
-    against_differences(b, |b| flat(&kernels.linear(q, u, b)), &found);
+    let derived: Vec<_> = (0..design).map(along).collect();
+    against_differences(b, |b| flat(&kernels.linear(q, u, b)), &derived);
 
     let phi = &*numbers(n, 6);
     let form = |b: &[f64]| {
@@ -275,8 +275,8 @@ fn differences<K: CurvatureKernels>(machine: &K) {
         vec![(0..n * n).map(|k| entry(k / n, k % n)).sum()]
     };
     let gradient = kernels.mode_gradient(q, u, b, phi, 0.7).design;
-    let found: Vec<_> = gradient.iter().map(|slope| vec![*slope]).collect();
-    against_differences(b, form, &found);
+    let derived: Vec<_> = gradient.iter().map(|slope| vec![*slope]).collect();
+    against_differences(b, form, &derived);
 
     let list = |gradient: Gradient| {
         [
@@ -290,9 +290,9 @@ fn differences<K: CurvatureKernels>(machine: &K) {
         let direction = [&zq[..], &zu, &unit(j), &zq];
         list(curvature.mode_gradient_along(q, u, b, phi, 0.7, direction, 0.0))
     };
-    let found: Vec<_> = (0..design).map(along).collect();
+    let derived: Vec<_> = (0..design).map(along).collect();
     let value = |b: &[f64]| list(kernels.mode_gradient(q, u, b, phi, 0.7));
-    against_differences(b, value, &found);
+    against_differences(b, value, &derived);
 }
 
 #[test]
@@ -311,8 +311,8 @@ fn list(from: &[Batch], state: usize) -> Vector {
     from.iter().map(|batch| batch.0[state]).collect()
 }
 
-fn same_batch(found: &[Batch], state: usize, expected: &[f64]) {
-    assert_eq!(list(found, state), expected);
+fn same_batch(batches: &[Batch], state: usize, expected: &[f64]) {
+    assert_eq!(list(batches, state), expected);
 }
 
 /// Storage for three matrices, by rows, for each of the variables.
@@ -334,24 +334,24 @@ fn lend(room: &mut eigentol::Linear<Vec<Batch>>) -> BatchLinear<'_> {
 
 /// The matrices of variable `k`.
 fn same_linear(
-    found: &eigentol::Linear<Vec<Batch>>,
+    linear: &eigentol::Linear<Vec<Batch>>,
     k: usize,
     state: usize,
     expected: &Linear,
     damped: bool,
 ) {
-    let matrix = |found: &[Batch], expected: &Matrix| {
+    let matrix = |batches: &[Batch], expected: &Matrix| {
         let expected = expected.as_flattened();
         same_batch(
-            &found[k * expected.len()..][..expected.len()],
+            &batches[k * expected.len()..][..expected.len()],
             state,
             expected,
         );
     };
-    matrix(&found.mass, &expected.mass);
-    matrix(&found.stiffness, &expected.stiffness);
+    matrix(&linear.mass, &expected.mass);
+    matrix(&linear.stiffness, &expected.stiffness);
     if damped {
-        matrix(&found.damping, &expected.damping);
+        matrix(&linear.damping, &expected.damping);
     }
 }
 

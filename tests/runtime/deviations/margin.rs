@@ -44,22 +44,22 @@ fn tail(low: f64) -> f64 {
 #[test]
 fn the_band_is_around_the_speed_that_it_is() {
     let speed = 5.6_f64;
-    let found = failure(speed, 0.0, SIGMA, away()).unwrap().margin;
+    let margin = failure(speed, 0.0, SIGMA, away()).unwrap().margin;
     let square = CRITICAL * CRITICAL;
     let ratio = (1.0 - square / speed.powi(4)).sqrt();
     let slope = 2.0 * square / (speed.powi(5) * ratio);
     let bend = -(10.0 * square / speed.powi(6) + slope * slope) / ratio;
-    close(found.sigma, SIGMA * speed * slope, 1e-11);
-    close(found.value, speed * ratio, 1e-12);
+    close(margin.sigma, SIGMA * speed * slope, 1e-11);
+    close(margin.value, speed * ratio, 1e-12);
     let distance = (0.9 - ratio) / (SIGMA * slope);
-    close(found.distance, distance, 1e-10);
-    close(found.first_order, tail(distance), 1e-7);
+    close(margin.distance, distance, 1e-10);
+    close(margin.first_order, tail(distance), 1e-7);
     // The parabola lies in the band between two deviations.
     let root = (slope * slope + 2.0 * bend * (0.9 - ratio)).sqrt();
     let [near, far] = [root, -root].map(|root| (root - slope) / (bend * SIGMA));
-    close(found.corrected.value, tail(near) - tail(far), 1e-7);
+    close(margin.corrected.value, tail(near) - tail(far), 1e-7);
     let exact = tail(((square / 0.19).powf(0.25) - speed) / SIGMA);
-    let errors = [found.first_order, found.corrected.value].map(|value| (value - exact).abs());
+    let errors = [margin.first_order, margin.corrected.value].map(|value| (value - exact).abs());
     assert!(
         errors[0] > 0.5 * exact && errors[1] < 0.1 * exact,
         "{errors:?} of {exact}"
@@ -95,16 +95,20 @@ fn design_points_and_samples_follow_the_band() {
 /// Derivatives by the set speed and by the mean deviation, against differences.
 #[test]
 fn its_derivatives_are_what_differences_show() {
-    let found = failure(5.6, 0.0, SIGMA, away()).unwrap();
+    let second_order_failure = failure(5.6, 0.0, SIGMA, away()).unwrap();
     let step = 1e-4;
     let probability = |speed: f64| {
-        let found = failure(speed, 0.0, SIGMA, away());
-        found.unwrap().margin.first_order
+        let second_order_failure = failure(speed, 0.0, SIGMA, away());
+        second_order_failure.unwrap().margin.first_order
     };
     let expected = (probability(5.6 + step) - probability(5.6 - step)) / (2.0 * step);
     assert!(expected.abs() > 0.1);
-    close(found.by_input.as_ref().unwrap()[0], expected, 1e-6);
-    let by_deviation = found.margin.derivatives.unwrap().by_design[2];
+    close(
+        second_order_failure.by_input.as_ref().unwrap()[0],
+        expected,
+        1e-6,
+    );
+    let by_deviation = second_order_failure.margin.derivatives.unwrap().by_design[2];
     close(by_deviation, expected, 1e-6);
 }
 
@@ -118,12 +122,18 @@ fn a_mean_deviation_moves_the_speed() {
     };
     for wanted in [away(), beside] {
         let [moved, other] = [(5.5, 0.12), (5.62, 0.0)].map(|(speed, deviation)| {
-            let found = failure(speed, deviation, SIGMA, wanted).unwrap();
-            let derivatives = found.margin.derivatives.unwrap();
-            let probabilities = [found.margin.first_order, found.margin.corrected.value];
+            let second_order_failure = failure(speed, deviation, SIGMA, wanted).unwrap();
+            let derivatives = second_order_failure.margin.derivatives.unwrap();
+            let probabilities = [
+                second_order_failure.margin.first_order,
+                second_order_failure.margin.corrected.value,
+            ];
             [
                 probabilities,
-                [derivatives.by_design[2], found.by_input.unwrap()[0]],
+                [
+                    derivatives.by_design[2],
+                    second_order_failure.by_input.unwrap()[0],
+                ],
             ]
             .concat()
         });
@@ -137,8 +147,8 @@ fn a_mean_deviation_moves_the_speed() {
 /// Without a tolerance on the input nothing changes, and a band about zero has no relative width.
 #[test]
 fn exact_inputs_and_none() {
-    let found = failure(5.6, 0.0, 0.0, away()).unwrap().margin;
-    assert_eq!((found.sigma, found.first_order), (0.0, 0.0));
+    let margin = failure(5.6, 0.0, 0.0, away()).unwrap().margin;
+    assert_eq!((margin.sigma, margin.first_order), (0.0, 0.0));
     let at_rest = failure(0.0, 0.0, SIGMA, away());
     assert!(
         matches!(at_rest, Err(Error::NotFinite { .. })),

@@ -68,19 +68,19 @@ fn samples_match_quadrature(samples: usize) {
             let run = sampled(machine, speed, sigma, vectors, samples);
             assert_eq!(run.counts.stable, run.samples);
             assert_eq!(run.side_by_side, vectors.is_some() && speed >= 5.0);
-            let found = run.modes[0].as_ref().unwrap();
-            let error = (found.mean - mean).abs() / found.standard_error.unwrap();
-            assert!(error < 4.0, "{speed}: mean {} is not {mean}", found.mean);
+            let mode = run.modes[0].as_ref().unwrap();
+            let error = (mode.mean - mean).abs() / mode.standard_error.unwrap();
+            assert!(error < 4.0, "{speed}: mean {} is not {mean}", mode.mean);
             // Its standard error from the sample itself, through the fourth moment.
-            let own = run
+            let frequency = run
                 .all
                 .as_ref()
                 .unwrap()
                 .iter()
                 .map(|one| one.frequencies[0].unwrap());
             let count = samples as f64;
-            let fourth = own.map(|x| (x - found.mean).powi(4)).sum::<f64>() / count;
-            let spread = found.sigma.unwrap();
+            let fourth = frequency.map(|x| (x - mode.mean).powi(4)).sum::<f64>() / count;
+            let spread = mode.sigma.unwrap();
             let error = ((fourth - spread.powi(4)) / count).sqrt() / (2.0 * spread);
             assert!(
                 (spread - deviation).abs() < 4.0 * error,
@@ -104,10 +104,13 @@ fn every_sample_is_the_closed_form() {
             assert_eq!(sample.design[..2], [3.0, 1.0]);
             let speed = speed + sample.design[2];
             hanging += usize::from(speed * speed < CRITICAL);
-            let (found, expected) = (sample.frequencies[0].unwrap(), frequency(speed));
+            let (frequency, expected) = (sample.frequencies[0].unwrap(), frequency(speed));
             // A frequency near zero is the square root of a difference.
-            let error = (found * found - expected * expected).abs();
-            assert!(error <= 1e-9 * speed * speed, "{speed}: {found} {expected}");
+            let error = (frequency * frequency - expected * expected).abs();
+            assert!(
+                error <= 1e-9 * speed * speed,
+                "{speed}: {frequency} {expected}"
+            );
         }
         assert_eq!(hanging > 20, speed == 4.0);
     }
@@ -139,11 +142,11 @@ fn side_by_side_is_one_by_one() {
     assert_eq!(together.counts.stable, 1003);
     let samples = together.all.unwrap().into_iter().zip(alone.all.unwrap());
     for (found, expected) in samples {
-        for (found, expected) in found.design.iter().zip(&expected.design) {
-            assert!((found - expected).abs() <= 1e-14);
+        for (value, expected) in found.design.iter().zip(&expected.design) {
+            assert!((value - expected).abs() <= 1e-14);
         }
-        for (found, expected) in found.frequencies.iter().zip(&expected.frequencies) {
-            let (found, expected) = (found.unwrap(), expected.unwrap());
+        for (frequency, expected) in found.frequencies.iter().zip(&expected.frequencies) {
+            let (found, expected) = (frequency.unwrap(), expected.unwrap());
             assert!((found - expected).abs() <= 1e-10 * expected);
         }
     }

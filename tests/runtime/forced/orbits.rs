@@ -16,11 +16,11 @@ fn ellipses() {
     let late = Complex::from_polar(1.0, -0.7);
     for (sign, turning) in [(1.0, Turning::Forward), (-1.0, Turning::Backward)] {
         let (long, short) = (late * 3.0, late * Complex::new(0.0, -sign));
-        let own = Orbit::of(long * cosine - short * sine, long * sine + short * cosine);
-        let [a, b] = own.semi_axes();
+        let orbit = Orbit::of(long * cosine - short * sine, long * sine + short * cosine);
+        let [a, b] = orbit.semi_axes();
         assert!((a - 3.0).abs() < 1e-15 && (b - 1.0).abs() < 1e-15);
-        assert!((own.direction().unwrap() - 0.4).abs() < 1e-15);
-        assert_eq!(own.turning(), Some(turning));
+        assert!((orbit.direction().unwrap() - 0.4).abs() < 1e-15);
+        assert_eq!(orbit.turning(), Some(turning));
     }
 }
 

@@ -220,9 +220,9 @@ fn peaks_follow_the_design() {
             let mut design = design;
             design[k] += steps * step;
             let found = find(&design);
-            let own = &found.peaks[0];
-            let [a, b] = [0, 1].map(|k| own.half_power[k].place().unwrap().value);
-            [own.place.value, own.height.value, a, b]
+            let peak = &found.peaks[0];
+            let [a, b] = [0, 1].map(|k| peak.half_power[k].place().unwrap().value);
+            [peak.place.value, peak.height.value, a, b]
         };
         let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(moved);
         let sides = [0, 1].map(|k| peak.half_power[k].place().unwrap());

@@ -168,8 +168,8 @@ fn direct(seed: u64, at: &Equilibrium, k: usize) -> [Complex; 2] {
     [0, 1].map(|o| {
         let row =
             |i: usize| seen[0][3 * o + i] * s * s + s * seen[1][3 * o + i] + seen[2][3 * o + i];
-        let own: Complex = (0..3).map(|i| row(i) * z[i]).sum();
-        own + Complex::new(forces.direct_cosine[k][o], -forces.direct_sine[k][o])
+        let complex: Complex = (0..3).map(|i| row(i) * z[i]).sum();
+        complex + Complex::new(forces.direct_cosine[k][o], -forces.direct_sine[k][o])
     })
 }
 
@@ -185,9 +185,9 @@ fn responses_are_direct_solutions() {
         assert!(both.shares[1].reversed && !both.shares[0].reversed && !one.shares[0].reversed);
         let [ahead, other, back] = [0, 1, 2].map(|k| direct(seed, &at, k));
         for o in 0..2 {
-            let near = |found: Complex, expected: Complex| {
+            let near = |complex: Complex, expected: Complex| {
                 assert!(
-                    (found - expected).norm() <= 1e-12 * expected.norm(),
+                    (complex - expected).norm() <= 1e-12 * expected.norm(),
                     "{seed}"
                 );
             };
@@ -265,10 +265,10 @@ fn derivatives_are_those_of_the_whole_chain() {
             let phase = of.phase(harmonic, output, measure).unwrap();
             let frequency = &of.harmonics[harmonic].frequency;
             for (j, expected) in expected.iter().enumerate() {
-                let near = |found: Complex, place: usize, tolerance: f64| {
-                    let expected = expected[start + place];
-                    let apart = (found - expected).norm() / (1.0 + expected.norm());
-                    assert!(apart <= tolerance, "{seed} {number} {j} {place}: {apart:e}");
+                let near = |complex: Complex, index: usize, tolerance: f64| {
+                    let expected = expected[start + index];
+                    let apart = (complex - expected).norm() / (1.0 + expected.norm());
+                    assert!(apart <= tolerance, "{seed} {number} {j} {index}: {apart:e}");
                 };
                 for place in 0..4 {
                     near(at[start + 4 + 5 * place + j], place, 1e-8);

@@ -139,9 +139,9 @@ fn a_mode_in_resonance_that_nothing_drives_does_not_respond() {
     };
     let still = at([2.0, 0.0, 1.0]);
     let first = sensitivities(&model, &still).unwrap();
-    let found = &first.response.harmonics[0].outputs;
+    let outputs = &first.response.harmonics[0].outputs;
     // Against each other: `(3 + 2 coupling - w^2) x = 1`.
-    for (found, expected) in found.iter().zip([0.25, -0.25, 0.0, 0.5]) {
+    for (found, expected) in outputs.iter().zip([0.25, -0.25, 0.0, 0.5]) {
         assert!(
             (found - Complex::new(expected, 0.0)).norm() < 1e-14,
             "{found}"
@@ -230,9 +230,9 @@ fn a_free_direction_does_not_stand_in_the_way() {
     let (m, turned) = (Complex::new(0.0, -4.0), spring - w * w);
     let determinant = (spring - i * w * w) * turned - spring * spring;
     let first = m * turned / determinant;
-    let found = &of.first.response.harmonics[0].outputs;
-    assert!((found[0] - first).norm() < 1e-13 * first.norm());
-    assert!((found[1] - m * (w * w) / determinant).norm() < 1e-13 * first.norm());
+    let outputs = &of.first.response.harmonics[0].outputs;
+    assert!((outputs[0] - first).norm() < 1e-13 * first.norm());
+    assert!((outputs[1] - m * (w * w) / determinant).norm() < 1e-13 * first.norm());
     // By the inertia: `d/di (m turned / determinant) = m turned^2 w^2 / determinant^2`.
     let slope = m * turned * turned * (w * w) / (determinant * determinant);
     let slopes = of
@@ -332,11 +332,11 @@ fn redundant_constraints_share_their_reaction() {
     let of = second_derivatives(&model, &at).unwrap();
     let stiffness = Complex::new(k + 5.0 - (m + 1.0) * w * w, 0.7 * w);
     let y = 2.0 / stiffness;
-    let found = &of.first.response.harmonics[0];
-    assert!((found.outputs[0] - y).norm() < 1e-13 * y.norm());
+    let harmonic = &of.first.response.harmonics[0];
+    assert!((harmonic.outputs[0] - y).norm() < 1e-13 * y.norm());
     let tie = 2.0 - (k - m * w * w) * y;
-    assert!((found.outputs[1] - tie).norm() < 1e-13 * tie.norm());
-    assert!((found.unknowns[2] - 3.0 * found.unknowns[3]).norm() < 1e-13 * tie.norm());
+    assert!((harmonic.outputs[1] - tie).norm() < 1e-13 * tie.norm());
+    assert!((harmonic.unknowns[2] - 3.0 * harmonic.unknowns[3]).norm() < 1e-13 * tie.norm());
     let slopes = of
         .first
         .complex(0, Output::new(0), Measure::Displacement)

@@ -22,21 +22,21 @@ pub(super) fn truth(name: &str) -> Value {
 
 pub(super) fn numbers(value: &Value) -> Vec<f64> {
     let list = value.as_array().unwrap();
-    list.iter().map(|own| own.as_f64().unwrap()).collect()
+    list.iter().map(|x| x.as_f64().unwrap()).collect()
 }
 
 /// Compares with derivatives by one variable; what is zero in the closed form is zero beside `scale`.
 #[track_caller]
-pub(super) fn near(found: f64, expected: f64, tolerance: f64, scale: f64) {
+pub(super) fn near(value: f64, expected: f64, tolerance: f64, scale: f64) {
     let size = if expected.abs() < 1e-25 {
         scale
     } else {
         expected.abs()
     };
     assert!(
-        (found - expected).abs() <= tolerance * size,
-        "{found:e} is not {expected:e}: {:e}",
-        (found - expected).abs() / size
+        (value - expected).abs() <= tolerance * size,
+        "{value:e} is not {expected:e}: {:e}",
+        (value - expected).abs() / size
     );
 }
 
@@ -57,9 +57,9 @@ fn found(of: &ForcedCurvature, output: Output, by: Result<usize, usize>) -> Foun
         Ok(k) => slopes.by_input[k],
         Err(k) => slopes.by_design[k],
     };
-    let bend = |own: &SecondDerivatives<f64>| match by {
-        Ok(k) => own.by_input[k][k],
-        Err(k) => own.by_design[k][k],
+    let bend = |second_derivatives: &SecondDerivatives<f64>| match by {
+        Ok(k) => second_derivatives.by_input[k][k],
+        Err(k) => second_derivatives.by_design[k][k],
     };
     let dy = of.first.complex(0, output, measure).unwrap();
     let dy = match by {

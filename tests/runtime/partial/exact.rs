@@ -86,7 +86,7 @@ fn compare(samples: usize) {
             .unwrap();
         assert_eq!(run.counts.stable, samples);
         assert!(run.side_by_side || omega == 3.82);
-        let found = run.modes[0].as_ref().unwrap();
+        let mode = run.modes[0].as_ref().unwrap();
         let [mean, sigma, skewness] = exact.moments();
         let within = |what: &str, value: f64, exact: f64, error: f64| {
             println!("{omega} {tolerance} {what}: {value} exact {exact} error {error:e}");
@@ -95,33 +95,34 @@ fn compare(samples: usize) {
                 "{what}: {value} {exact} {error}"
             );
         };
-        within("mean", found.mean, mean, found.standard_error.unwrap());
+        within("mean", mode.mean, mean, mode.standard_error.unwrap());
         within(
             "sigma",
-            found.sigma.unwrap(),
+            mode.sigma.unwrap(),
             sigma,
-            found.sigma_error.unwrap(),
+            mode.sigma_error.unwrap(),
         );
         // The error for a normal distribution, times a factor for the tails of these.
         within(
             "skewness",
-            found.skewness.unwrap(),
+            mode.skewness.unwrap(),
             skewness,
-            2.0 * found.skewness_error.unwrap(),
+            2.0 * mode.skewness_error.unwrap(),
         );
         let n = samples as f64;
         for p in [0.001, 0.01, 0.1, 0.5, 0.9, 0.99, 0.999] {
-            let (own, truth) = (found.quantile(p).unwrap(), exact.quantile(p));
+            let (value, truth) = (mode.quantile(p).unwrap(), exact.quantile(p));
             // In terms of the exact distribution: the probability below the reported value.
-            let share = exact.cdf(own.value);
-            let bucket = exact.cdf(own.value + own.error) - exact.cdf(own.value - own.error);
+            let share = exact.cdf(value.value);
+            let bucket =
+                exact.cdf(value.value + value.error) - exact.cdf(value.value - value.error);
             within(
                 &format!("share below {truth}"),
                 share,
                 p,
                 (p * (1.0 - p) / n).sqrt() + bucket,
             );
-            let below = found.sketch().unwrap().cdf(truth).unwrap();
+            let below = mode.sketch().unwrap().cdf(truth).unwrap();
             within(
                 &format!("cdf at {truth}"),
                 below.value,

@@ -67,13 +67,13 @@ fn side_by_side_as_one_by_one() {
             let [a, b] = [&own, &other].map(|all| all.spreads[0].clone().expect("it swings"));
             close(Some(a.mean.value), Some(b.mean.value), 1.0);
             close(
-                a.sigma.map(|own| own.value),
-                b.sigma.map(|own| own.value),
+                a.sigma.map(|sigma| sigma.value),
+                b.sigma.map(|sigma| sigma.value),
                 1.0,
             );
             close(
-                a.skewness.map(|own| own.value),
-                b.skewness.map(|own| own.value),
+                a.skewness.map(|skewness| skewness.value),
+                b.skewness.map(|skewness| skewness.value),
                 100.0,
             );
             close(own.covariance[0][0], other.covariance[0][0], 1.0);

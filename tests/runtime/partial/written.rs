@@ -62,14 +62,14 @@ fn responses_that_were_written_are_merged_to_the_same_bits() {
     for points in [Points::Random, Points::Sobol] {
         let sampling = Sampling::default().points(points).samples(1024);
         let run = |range| {
-            let own = sampling.clone().range(range);
-            let part = study.sample_responses(&[frequency], &own).unwrap();
+            let continuation = sampling.clone().range(range);
+            let part = study.sample_responses(&[frequency], &continuation).unwrap();
             let text = serde_json::to_string(&part).expect("numbers and lists");
-            let found: Samples = serde_json::from_str(&text).expect("what was written");
-            assert!(found == part);
+            let samples: Samples = serde_json::from_str(&text).expect("what was written");
+            assert!(samples == part);
             let other = text.replacen("\"of_each\":", "\"of_each\":9", 1);
             assert_ne!(serde_json::from_str::<Samples>(&other).ok(), Some(part));
-            found
+            samples
         };
         let mut all = run(Some(100..1024));
         assert_eq!(all.missing(), [0..100]);

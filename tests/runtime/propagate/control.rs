@@ -32,9 +32,9 @@ fn the_stated_error_is_that_of_many_runs() {
         let runs: Vec<ControlledSpread> = (0..60)
             .map(|seed| of(&tolerances, 300, 100 * k as u64 + seed).0.spreads[0].unwrap())
             .collect();
-        let check = |own: &dyn Fn(&ControlledSpread) -> (f64, f64), truth: f64| {
+        let check = |item: &dyn Fn(&ControlledSpread) -> (f64, f64), truth: f64| {
             let squares = runs.iter().map(|run| {
-                let (value, error) = own(run);
+                let (value, error) = item(run);
                 ((value - truth) / error).powi(2)
             });
             let mean = squares.sum::<f64>() / runs.len() as f64;
@@ -53,12 +53,15 @@ fn the_stated_error_is_that_of_many_runs() {
 fn it_is_worth_many_plain_samples() {
     let tolerances = varied(lengths()[0].clone());
     let (found, plain) = of(&tolerances, 1000, 1);
-    let (own, plain) = (found.spreads[0].unwrap(), spread(&plain, 0));
-    assert_eq!(own.model, Method::SecondOrder);
-    let ratio = (plain.mean.error.unwrap() / own.mean.error.unwrap()).powi(2);
+    let (spread, plain) = (found.spreads[0].unwrap(), spread(&plain, 0));
+    assert_eq!(spread.model, Method::SecondOrder);
+    let ratio = (plain.mean.error.unwrap() / spread.mean.error.unwrap()).powi(2);
     // The variance of plain samples has one degree of freedom fewer.
-    close(own.worth, ratio, 2e-3);
-    assert!(own.worth > 500.0 && own.worth_of_sigma > 50.0, "{own:?}");
+    close(spread.worth, ratio, 2e-3);
+    assert!(
+        spread.worth > 500.0 && spread.worth_of_sigma > 50.0,
+        "{spread:?}"
+    );
 }
 
 /// A linear response is known exactly, without samples.
@@ -69,11 +72,11 @@ fn a_linear_response_is_exact() {
     let all = ask_sum(outputs(), |responses| {
         controlled(&Sum, responses, &tolerances, &sampling).unwrap()
     });
-    let own = all.spreads[0].unwrap();
-    assert_eq!(own.model, Method::SecondOrder);
-    close(own.mean.value, -4.0, 1e-12);
-    close(own.sigma.value, (0.01_f64 + 0.16 + 0.81).sqrt(), 1e-12);
-    assert!(own.worth > 1e10 && own.mean.error.unwrap() < 1e-7);
+    let spread = all.spreads[0].unwrap();
+    assert_eq!(spread.model, Method::SecondOrder);
+    close(spread.mean.value, -4.0, 1e-12);
+    close(spread.sigma.value, (0.01_f64 + 0.16 + 0.81).sqrt(), 1e-12);
+    assert!(spread.worth > 1e10 && spread.mean.error.unwrap() < 1e-7);
 }
 
 /// `a^4` with `a = 1 + x`: its mean is `1 + 6 s^2 + 3 s^4`, of which the model contains all but the last term.
@@ -86,22 +89,22 @@ fn a_mean_that_the_model_misses() {
     let all = ask_sum(fourth, |responses| {
         controlled(&Sum, responses, &tolerances, &sampling).unwrap()
     });
-    let own = all.spreads[0].unwrap();
-    assert_eq!(own.model, Method::SecondOrder);
-    let within = |found: eigentol::propagation::Estimated, exact: f64| {
-        let error = found.error.expect("an error");
+    let spread = all.spreads[0].unwrap();
+    assert_eq!(spread.model, Method::SecondOrder);
+    let within = |estimated: eigentol::propagation::Estimated, exact: f64| {
+        let error = estimated.error.expect("an error");
         assert!(
-            (found.value - exact).abs() < 4.0 * error,
-            "{found:?} {exact}"
+            (estimated.value - exact).abs() < 4.0 * error,
+            "{estimated:?} {exact}"
         );
-        assert!(error < 0.01 * exact, "{found:?}");
+        assert!(error < 0.01 * exact, "{estimated:?}");
     };
     let mean = 1.0 + 6.0 * s.powi(2) + 3.0 * s.powi(4);
     let square = 1.0 + 28.0 * s.powi(2) + 210.0 * s.powi(4) + 420.0 * s.powi(6) + 105.0 * s.powi(8);
-    within(own.mean, mean);
-    within(own.sigma, (square - mean * mean).sqrt());
+    within(spread.mean, mean);
+    within(spread.sigma, (square - mean * mean).sqrt());
     assert!(
-        own.mean.error.unwrap() < 0.5 * 3.0 * s.powi(4),
+        spread.mean.error.unwrap() < 0.5 * 3.0 * s.powi(4),
         "the model's mean would do"
     );
 }

@@ -20,25 +20,28 @@ fn indices_of_simple_responses() {
     assert_eq!(all.counts.stable, 5 * 4096);
     let parts = [sigma[2], 2.0 * sigma[3], -3.0 * sigma[4]];
     let variance: f64 = parts.iter().map(|part| part * part).sum();
-    let own = &all.responses[0];
-    for (own, part) in own.variables.iter().zip(parts) {
+    let response = &all.responses[0];
+    for (variable, part) in response.variables.iter().zip(parts) {
         let share = part * part / variance;
-        for index in [own.first.unwrap(), own.total.unwrap()] {
+        for index in [variable.first.unwrap(), variable.total.unwrap()] {
             assert!((index.value - share).abs() < 0.01, "{index:?} {share}");
             assert!(
                 index.lower <= share && share <= index.upper,
                 "{index:?} {share}"
             );
         }
-        close(own.correlation.unwrap(), part / variance.sqrt(), 5e-3);
-        close(own.regression.unwrap(), part / variance.sqrt(), 5e-3);
-        assert!((own.rank_correlation.unwrap() - own.correlation.unwrap()).abs() < 0.05);
+        close(variable.correlation.unwrap(), part / variance.sqrt(), 5e-3);
+        close(variable.regression.unwrap(), part / variance.sqrt(), 5e-3);
+        assert!((variable.rank_correlation.unwrap() - variable.correlation.unwrap()).abs() < 0.05);
     }
-    close(own.determination.unwrap(), 1.0, 1e-12);
+    close(response.determination.unwrap(), 1.0, 1e-12);
     // a b about (1, 2), at the half-widths: the corners of each variable separately.
     let product = &all.responses[1].variables;
     assert_eq!(
-        product.iter().map(|own| own.variable).collect::<Vec<_>>(),
+        product
+            .iter()
+            .map(|response| response.variable)
+            .collect::<Vec<_>>(),
         [2, 3, 4]
     );
     close(product[0].at_low.unwrap(), 0.9 * 2.0, 1e-12);
@@ -65,10 +68,10 @@ fn interaction() {
     let all = ask_sum(outputs(), |responses| {
         influence(responses, &tolerances, &Sampling::default().samples(16_384)).unwrap()
     });
-    for own in &all.responses[1].variables {
-        assert!(own.first.unwrap().value.abs() < 0.02);
-        close(own.total.unwrap().value, 1.0, 0.02);
-        assert!(own.correlation.unwrap().abs() < 0.02);
+    for variable in &all.responses[1].variables {
+        assert!(variable.first.unwrap().value.abs() < 0.02);
+        close(variable.total.unwrap().value, 1.0, 0.02);
+        assert!(variable.correlation.unwrap().abs() < 0.02);
     }
 }
 

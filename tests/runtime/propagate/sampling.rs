@@ -81,12 +81,16 @@ fn stated_errors_are_those_of_many_runs() {
                 });
                 let found = spread(&all, 0);
                 let moments = [found.mean, found.sigma.unwrap()];
-                let moments = moments.map(|own| (own.value, own.error));
+                let moments = moments.map(|moment| (moment.value, moment.error));
                 let moments = moments.into_iter().zip([exact.mean, exact.sigma]);
                 // Those beyond two standard deviations have hardly a sample.
                 let quantiles = found.quantiles[1..6].iter();
-                let quantiles =
-                    quantiles.map(|own| ((own.value, own.error), exact.quantile(own.probability)));
+                let quantiles = quantiles.map(|quantile| {
+                    (
+                        (quantile.value, quantile.error),
+                        exact.quantile(quantile.probability),
+                    )
+                });
                 for (k, ((value, error), truth)) in moments.chain(quantiles).enumerate() {
                     let z = (value - truth) / error.unwrap();
                     squares[k] += z * z / seeds as f64;
@@ -319,7 +323,7 @@ fn quantiles_beyond_all_samples_have_no_error() {
             samples.propagation().unwrap()
         });
         let quantiles = &spread(&all, 0).quantiles;
-        let known = quantiles.iter().map(|own| own.error.is_some());
+        let known = quantiles.iter().map(|quantile| quantile.error.is_some());
         // 0.35 samples beyond three standard deviations, 5.8 beyond two.
         let expected = [false, true, true, true, true, true, false];
         assert_eq!(known.collect::<Vec<_>>(), expected, "{points:?}");

@@ -87,10 +87,10 @@ fn errors_hold() {
     for length in lengths() {
         let exact = Exact::new(&length);
         let [first, second] = both(&varied(length));
-        let inside = |own: Estimated, truth: f64| {
+        let inside = |estimated: Estimated, truth: f64| {
             assert!(
-                (own.value - truth).abs() < 1.5 * own.error.unwrap() + 1e-5,
-                "{own:?} {truth}"
+                (estimated.value - truth).abs() < 1.5 * estimated.error.unwrap() + 1e-5,
+                "{estimated:?} {truth}"
             );
         };
         for own in [&first, &second].map(|all| spread(all, 0)) {
@@ -108,12 +108,12 @@ fn quantiles_of_the_models() {
     let [first, second] = both(&varied(length.clone()));
     let (slope, curvature) = slopes(1.0);
     for (all, bend) in [(&first, 0.0), (&second, 0.5 * curvature)] {
-        for own in &spread(all, 0).quantiles {
-            let x = length.quantile(own.probability) - 1.0;
+        for quantile in &spread(all, 0).quantiles {
+            let x = length.quantile(quantile.probability) - 1.0;
             let truth = frequency(1.0) + slope * x + bend * x * x;
             assert!(
-                (own.value - truth).abs() < 2e-3 * slope * 0.03 + 1e-9,
-                "{own:?} {truth}"
+                (quantile.value - truth).abs() < 2e-3 * slope * 0.03 + 1e-9,
+                "{quantile:?} {truth}"
             );
         }
     }

@@ -17,10 +17,10 @@ fn a_monotonic_response() {
         let worst = ask(&bar(), vec![FREQUENCY], |responses| {
             worst_case(responses, &varied(length)).unwrap()
         });
-        let found = &worst.responses[0];
+        let response = &worst.responses[0];
         let (least, greatest) = (
-            found.least.as_ref().unwrap(),
-            found.greatest.as_ref().unwrap(),
+            response.least.as_ref().unwrap(),
+            response.greatest.as_ref().unwrap(),
         );
         close(least.design[1], low, 1e-3);
         close(greatest.design[1], high, 1e-3);
@@ -28,8 +28,8 @@ fn a_monotonic_response() {
         close(greatest.value, frequency(greatest.design[1]), 1e-11);
         // The mass does not matter.
         assert_eq!((least.design[0], worst.evaluations), (3.0, 3));
-        assert!(found.is_monotonic());
-        close(found.nominal.unwrap(), frequency(1.0), 1e-12);
+        assert!(response.is_monotonic());
+        close(response.nominal.unwrap(), frequency(1.0), 1e-12);
     }
 }
 
@@ -95,12 +95,12 @@ fn a_stationary_response_turns() {
         .tolerance(Balance::e, 0.2)
         .tolerance(Balance::f, 0.5)
         .tolerance(Balance::idle, 0.3);
-    let wanted = [Balance::parabola, Balance::saddle].map(|own| Response::Output(own.any()));
+    let wanted = [Balance::parabola, Balance::saddle].map(|x| Response::Output(x.any()));
     let worst = study.worst_case(&wanted).unwrap();
     let ends = |k: usize| {
-        let own = &worst.responses[k];
+        let response = &worst.responses[k];
         let value = |end: &Option<eigentol::propagation::Extreme>| end.as_ref().unwrap().value;
-        (value(&own.least), value(&own.greatest))
+        (value(&response.least), value(&response.greatest))
     };
     let [parabola, saddle] = [&worst.responses[0], &worst.responses[1]];
     assert_eq!(parabola.turning, [Balance::e.index()]);
@@ -123,13 +123,13 @@ fn a_corner_without_value_is_said() {
         )
         .unwrap()
     });
-    let found = &worst.responses[0];
-    assert_eq!(found.missing.len(), 1);
-    assert_eq!(found.missing[0].outcome, Outcome::Unphysical);
-    assert_eq!(found.missing[0].design[1], -0.5);
+    let response = &worst.responses[0];
+    assert_eq!(response.missing.len(), 1);
+    assert_eq!(response.missing[0].outcome, Outcome::Unphysical);
+    assert_eq!(response.missing[0].design[1], -0.5);
     // The frequency falls towards the corner that has none: its minimum is unknown.
-    assert!(found.least.is_none() && !found.is_monotonic());
-    assert!(found.greatest.as_ref().unwrap().confirmed);
+    assert!(response.least.is_none() && !response.is_monotonic());
+    assert!(response.greatest.as_ref().unwrap().confirmed);
 }
 
 /// The speed above which the bar swings out, `sqrt(1.5 g / l)`.
@@ -139,8 +139,8 @@ fn critical_speeds() {
     let worst = ask(&bar(), vec![Response::Critical(range)], |responses| {
         worst_case(responses, &varied(Distribution::uniform(0.9, 1.2).unwrap())).unwrap()
     });
-    let found = &worst.responses[0];
+    let response = &worst.responses[0];
     let speed = |length: f64| (1.5 * GRAVITY / length).sqrt();
-    close(found.greatest.as_ref().unwrap().value, speed(0.9), 1e-8);
-    close(found.least.as_ref().unwrap().value, speed(1.2), 1e-8);
+    close(response.greatest.as_ref().unwrap().value, speed(0.9), 1e-8);
+    close(response.least.as_ref().unwrap().value, speed(1.2), 1e-8);
 }

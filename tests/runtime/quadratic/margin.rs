@@ -190,8 +190,8 @@ fn bands_add_up() {
     close(found.distance, 2.0, 1e-15);
     close(found.first_order, 2.0 * one.first_order, 1e-13);
     close(found.corrected.value, 2.0 * one.corrected.value, 1e-13);
-    let (found, one) = (found.derivatives.unwrap(), one.derivatives.unwrap());
-    within(found.by_mean, 0.0, 1e-15);
-    close(found.by_sigma, 2.0 * one.by_sigma, 1e-13);
-    close(found.by_high, -one.by_low, 1e-13);
+    let (derivatives, one) = (found.derivatives.unwrap(), one.derivatives.unwrap());
+    within(derivatives.by_mean, 0.0, 1e-15);
+    close(derivatives.by_sigma, 2.0 * one.by_sigma, 1e-13);
+    close(derivatives.by_high, -one.by_low, 1e-13);
 }

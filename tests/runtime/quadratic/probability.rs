@@ -21,9 +21,9 @@ fn diagonal(terms: &[(f64, f64)]) -> Quadratic {
 
 fn chance(model: &Quadratic, band: (f64, f64)) -> Probability {
     let tolerances = independent(Vector::filled(model.slopes.len(), 1.0));
-    let found = model.probability(&tolerances, band).unwrap();
-    assert!((0.0..=1.0).contains(&found.value) && found.error >= 0.0);
-    found
+    let probability = model.probability(&tolerances, band).unwrap();
+    assert!((0.0..=1.0).contains(&probability.value) && probability.error >= 0.0);
+    probability
 }
 
 /// The value is correct within `1e-11` and within its stated error.

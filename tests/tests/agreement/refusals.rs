@@ -81,7 +81,7 @@ fn narrowed(mut twist: [bool; 6], text: &str) -> [bool; 6] {
 /// Free coordinates and their shares, as in `a : b = 1 : 2`.
 fn shares(model: &Model, text: &str) -> Option<Vec<(usize, f64)>> {
     let free = model.free();
-    let place = |name: &str| free.iter().position(|own| model.step(*own).name == name);
+    let place = |name: &str| free.iter().position(|x| model.step(*x).name == name);
     let (names, shares) = text.split_once(" = ").unwrap_or((text, "1"));
     let places: Vec<usize> = names.split(" : ").map(place).collect::<Option<_>>()?;
     let shares = shares.split(" : ").map(|share| share.parse().ok());
@@ -99,10 +99,10 @@ impl Motion {
         let mut wanted = Vec::new();
         for seed in (1..).take(places) {
             let Case { at: [q, ..], .. } = Case::random(model, seed);
-            let own = self.powers(&oracle, [&q, &u, &b]);
+            let d_matrix = self.powers(&oracle, [&q, &u, &b]);
             wanted.push(1.0);
-            wanted.resize(wanted.len() + own.nrows() - 1, 0.0);
-            rows.extend(own.row_iter().map(|row| row.into_owned()));
+            wanted.resize(wanted.len() + d_matrix.nrows() - 1, 0.0);
+            rows.extend(d_matrix.row_iter().map(|row| row.into_owned()));
         }
         let (rows, wanted) = (DMatrix::from_rows(&rows), DVector::from(wanted));
         let constants = rows.clone().svd(true, true).solve(&wanted, 1e-9);

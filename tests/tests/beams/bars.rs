@@ -64,13 +64,15 @@ impl Row {
     fn new(name: String, text: &str, exact: &[[f64; 3]; 2]) -> Self {
         let machine = machine(text);
         let linear = machine.description().kernels.iter();
-        let linear = linear.filter(|own| own.name == "linear");
-        let operations = linear.map(|own| own.operations + own.functions).sum();
+        let linear = linear.filter(|linear| linear.name == "linear");
+        let operations = linear
+            .map(|linear| linear.operations + linear.functions)
+            .sum();
         let errors = [0, 1].map(|k| {
             let study = Study::new(machine.clone()).input(Input::new(0), [0.0, 5.0][k]);
             let modes = study.modes().expect("modes");
-            let found: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
-            std::array::from_fn(|mode| (found[mode] / exact[k][mode] - 1.0).abs())
+            let values: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
+            std::array::from_fn(|mode| (values[mode] / exact[k][mode] - 1.0).abs())
         });
         // a study remembers what it has found
         let seconds = (0..20).map(|_| {
@@ -96,7 +98,7 @@ fn table(rows: &[Row]) -> String {
     for row in rows {
         let errors = row
             .errors
-            .map(|all| all.map(|own| format!("{own:.0e}")).join(", "));
+            .map(|all| all.map(|x| format!("{x:.0e}")).join(", "));
         let [rest, spinning] = errors;
         let (name, operations, time) = (&row.name, row.operations, row.microseconds);
         writeln!(

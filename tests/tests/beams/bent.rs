@@ -41,9 +41,9 @@ fn compared(case: &Value, coordinates: usize, bars: &Bars<'_>) {
     let what = format!("{}", case["parameters"]);
     compare(&what, &study, case, &values[4..], bars);
     let outputs = study.outputs().expect("outputs").values;
-    for (found, expected) in outputs.iter().zip([values[1], -values[3]]) {
-        let error = (found.abs() - expected.abs()).abs();
-        assert!(error < 1e-8, "{what}: {found} {expected}");
+    for (output, expected) in outputs.iter().zip([values[1], -values[3]]) {
+        let error = (output.abs() - expected.abs()).abs();
+        assert!(error < 1e-8, "{what}: {output} {expected}");
     }
 }
 
@@ -84,8 +84,8 @@ fn few_coordinates_bend_far() {
     let study = study(&planar(case, 6), Some(0.0));
     let expected = numbers(&case["values"])[4];
     let modes = study.modes().expect("modes");
-    let found = modes.frequencies()[0].expect("a frequency");
-    assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    let value = modes.frequencies()[0].expect("a frequency");
+    assert!((value / expected - 1.0).abs() < 1e-6, "{value} {expected}");
 }
 
 #[test]

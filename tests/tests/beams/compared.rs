@@ -50,11 +50,11 @@ pub(crate) fn study(text: &str, speed: Option<f64>) -> Study<Interpreted> {
     }
 }
 
-fn close(found: f64, expected: f64, scale: f64, bar: f64, what: &str) {
-    let error = (found - expected).abs() / scale.abs();
+fn close(value: f64, expected: f64, scale: f64, bar: f64, what: &str) {
+    let error = (value - expected).abs() / scale.abs();
     assert!(
         error <= bar,
-        "{what}: {found} instead of {expected}, {error:.1e} > {bar:.0e}"
+        "{what}: {value} instead of {expected}, {error:.1e} > {bar:.0e}"
     );
 }
 
@@ -69,10 +69,10 @@ pub(crate) fn compare(
     let modes = study
         .modes()
         .unwrap_or_else(|error| panic!("{what}: {error}"));
-    let found: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
+    let values: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
     for (k, (&bar, &expected)) in bars.values.iter().zip(frequencies).enumerate() {
         close(
-            found[k],
+            values[k],
             expected,
             expected,
             bar,

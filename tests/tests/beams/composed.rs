@@ -10,9 +10,9 @@ fn frequencies(study: &Study<Interpreted>) -> Vec<f64> {
     modes.frequencies().into_iter().flatten().collect()
 }
 
-fn assert_alike(found: &[f64], expected: &[f64], bar: f64) {
-    assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(expected) {
+fn assert_alike(values: &[f64], expected: &[f64], bar: f64) {
+    assert_eq!(values.len(), expected.len());
+    for (found, expected) in values.iter().zip(expected) {
         let scale = expected.abs().max(1e-12);
         assert!((found - expected).abs() < bar * scale, "{found} {expected}");
     }
@@ -56,7 +56,7 @@ fn a_load_splits_a_beam() {
         None,
     );
     assert_alike(&frequencies(&split), &frequencies(&series), 1e-11);
-    let values = [&split, &series].map(|own| own.outputs().expect("outputs").values);
+    let values = [&split, &series].map(|x| x.outputs().expect("outputs").values);
     assert_alike(&values[0], &values[1], 1e-10);
 }
 
@@ -83,8 +83,7 @@ fn distributed_weight() {
     let per_length = of("force weight: distributed(on: bar, force: [0, 0, -9.81] N/m);");
     let gravity = of("gravity 9.81 m/s^2 along -z;");
     let follower = of("force weight: distributed(on: bar, follower: [0, 0, -9.81] N/m);");
-    let values =
-        [&per_length, &gravity, &follower].map(|own| own.outputs().expect("outputs").values);
+    let values = [&per_length, &gravity, &follower].map(|x| x.outputs().expect("outputs").values);
     assert_alike(&values[0], &values[1], 1e-11);
     assert!((values[2][1] - values[1][1]).abs() > 0.1, "{:?}", values[2]);
     assert_alike(&frequencies(&per_length), &frequencies(&gravity), 1e-8);

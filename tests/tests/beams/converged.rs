@@ -34,11 +34,11 @@ fn frequencies(mechanism: Interpreted) -> Vec<f64> {
 
 /// The changes of one answer.
 fn changes(of: &Convergence, answer: Response) -> [f64; 2] {
-    let found = of.changes.iter().find(|own| own.answer == answer);
-    found
+    let change = of.changes.iter().find(|change| change.answer == answer);
+    change
         .expect("the answer")
         .relative
-        .map(|own| own.expect("a change"))
+        .map(|relative| relative.expect("a change"))
 }
 
 fn frequency(mode: usize) -> Response {
@@ -71,39 +71,39 @@ fn a_refined_beam_is_one_declared_with_more() {
 fn changes_are_those_of_beams_declared_with_more() {
     let text = cantilever(4, "");
     let study = Study::new(machine(&text));
-    let found = convergence(&study, &text);
+    let convergence = convergence(&study, &text);
     let declared = frequencies(machine(&text));
     for (k, bending) in [5, 6].into_iter().enumerate() {
         let more = frequencies(machine(&cantilever(bending, "")));
         for (mode, own) in declared.iter().enumerate() {
             // More coordinates lower frequencies.
             let expected = more[mode] / own - 1.0;
-            let change = changes(&found, frequency(mode))[k];
+            let change = changes(&convergence, frequency(mode))[k];
             assert!((change - expected).abs() < 1e-11, "{mode}: {change}");
         }
     }
-    let first = changes(&found, frequency(0));
+    let first = changes(&convergence, frequency(0));
     assert!(first.iter().all(|own| (-1e-5..-1e-7).contains(own)));
-    let fourth = changes(&found, frequency(3));
+    let fourth = changes(&convergence, frequency(3));
     assert!(fourth.iter().all(|own| *own < -0.1), "{fourth:?}");
 }
 
 #[test]
 fn with_five_coordinates_the_first_mode_stays() {
     let text = cantilever(5, "");
-    let found = convergence(&Study::new(machine(&text)), &text);
+    let convergence = convergence(&Study::new(machine(&text)), &text);
     assert!(
-        changes(&found, frequency(0))
+        changes(&convergence, frequency(0))
             .iter()
             .all(|own| own.abs() < 1e-6)
     );
-    let said = found.to_string();
+    let said = convergence.to_string();
     assert!(
         said.contains("Modes 1 and 2 change by less than 1e-"),
         "{said}"
     );
     assert!(said.contains("`height` changes by"), "{said}");
-    assert_eq!(found.of_first(2).changes.len(), 3);
+    assert_eq!(convergence.of_first(2).changes.len(), 3);
 }
 
 /// So much damping that the last modes do not oscillate: these come first, and are not compared.
@@ -136,8 +136,8 @@ fn a_refined_study_stays_at_the_equilibrium() {
     let height = |study: &Study<Interpreted>| study.outputs().expect("outputs").values[0];
     assert!((height(&upright) - 1.0).abs() < 1e-12 && height(&study) < 0.9);
     for study in [study, upright] {
-        let found = convergence(&study, text);
-        let moved = changes(&found, Response::Output(eigentol::Output::new(0)));
+        let convergence = convergence(&study, text);
+        let moved = changes(&convergence, Response::Output(eigentol::Output::new(0)));
         assert!(moved.iter().all(|own| own.abs() < 1e-3), "{moved:?}");
     }
 }

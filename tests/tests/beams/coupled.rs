@@ -10,9 +10,9 @@ fn frequencies(study: &Study<Interpreted>) -> Vec<f64> {
     modes.frequencies().into_iter().flatten().collect()
 }
 
-fn assert_alike(found: &[f64], expected: &[f64], bar: f64) {
-    assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(expected) {
+fn assert_alike(values: &[f64], expected: &[f64], bar: f64) {
+    assert_eq!(values.len(), expected.len());
+    for (found, expected) in values.iter().zip(expected) {
         let scale = expected.abs().max(1e-12);
         assert!((found - expected).abs() < bar * scale, "{found} {expected}");
     }
@@ -129,7 +129,7 @@ fn about_another_line() {
     );
     let below = of(&coupled, 0.0, 0.05);
     assert_alike(&frequencies(&below), &frequencies(&centre), 1e-9);
-    let values = [&below, &centre].map(|own| own.outputs().expect("outputs").values.to_vec());
+    let values = [&below, &centre].map(|x| x.outputs().expect("outputs").values.to_vec());
     assert_alike(&values[0][..2], &values[1][..2], 1e-9);
     let [moment, stretch, bent] = [2, 3, 4].map(|k| values[1][k]);
     // the bending is strong, and the strain seen from below has its part
@@ -137,10 +137,10 @@ fn about_another_line() {
     let expected = [moment + 0.05 * 500.0 * stretch, stretch - 0.05 * bent, bent];
     assert_alike(&values[0][2..], &expected, 1e-8);
     // by the stiffness of the material
-    let sensitivities = [&below, &centre].map(|own| own.sensitivities().expect("derivatives"));
+    let sensitivities = [&below, &centre].map(|x| x.sensitivities().expect("derivatives"));
     for mode in 0..3 {
-        let [below, centre] = sensitivities.each_ref().map(|own| {
-            own.modes[mode]
+        let [below, centre] = sensitivities.each_ref().map(|sensitivity| {
+            sensitivity.modes[mode]
                 .frequency()
                 .expect("a frequency")
                 .by_design

@@ -17,9 +17,9 @@ fn frequencies(study: &Study<Interpreted>) -> Vec<f64> {
     modes.frequencies().into_iter().flatten().collect()
 }
 
-fn assert_alike(found: &[f64], expected: &[f64], bar: f64) {
-    assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(expected) {
+fn assert_alike(values: &[f64], expected: &[f64], bar: f64) {
+    assert_eq!(values.len(), expected.len());
+    for (found, expected) in values.iter().zip(expected) {
         let scale = expected.abs().max(1e-12);
         assert!((found - expected).abs() < bar * scale, "{found} {expected}");
     }
@@ -114,7 +114,7 @@ fn an_arc_of_straight_beams() {
     let expected = frequencies(&whole);
     let [coarse, fine] = [4, 8].map(of);
     for (mode, expected) in expected.iter().take(2).enumerate() {
-        let [coarse, fine] = [&coarse, &fine].map(|own| own[mode] / expected - 1.0);
+        let [coarse, fine] = [&coarse, &fine].map(|x| x[mode] / expected - 1.0);
         assert!(fine.abs() < 3e-3, "mode {mode}: {fine}");
         // what two steps say about none
         let limit = fine + (fine - coarse) / 3.0;
@@ -166,7 +166,7 @@ fn arcs_in_series() {
             20.0_f64.hypot(30.0)
         );
     let two = whole(two, "inner at tip", "outer");
-    let values = [&one, &two].map(|own| own.outputs().expect("outputs").values);
+    let values = [&one, &two].map(|x| x.outputs().expect("outputs").values);
     assert_alike(&values[0], &values[1], 1e-9);
     assert_alike(&frequencies(&one), &frequencies(&two), 1e-8);
 }
@@ -226,7 +226,7 @@ fn straightness_as_a_tolerance() {
     assert!(spread.modes.iter().any(|mode| mode.lambda.sigma > 1e-6));
     let turned = |design: &[f64]| {
         let found = curved.mechanism().violation(&[], design);
-        found.map(|own| own.quantity.to_string())
+        found.map(|x| x.quantity.to_string())
     };
     assert_eq!(turned(&[5.0, 3.6]), None);
     let rest = "rest of a full turn beside the prebend of arc, squared";

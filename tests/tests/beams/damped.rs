@@ -5,11 +5,11 @@ use eigentol_interpreter::Interpreted;
 
 use crate::compared::{design, numbers, parameter, study, truth};
 
-fn near(found: f64, expected: f64, scale: f64, bar: f64, what: &str) {
-    let error = (found - expected).abs() / scale;
+fn near(value: f64, expected: f64, scale: f64, bar: f64, what: &str) {
+    let error = (value - expected).abs() / scale;
     assert!(
         error < bar,
-        "{what}: {found} instead of {expected}, {error:.1e}"
+        "{what}: {value} instead of {expected}, {error:.1e}"
     );
 }
 
@@ -51,7 +51,7 @@ fn a_cantilever_shaken_at_its_tip() {
             .description()
             .design
             .iter()
-            .map(|own| own.name.to_string())
+            .map(|value| value.name.to_string())
             .collect();
         let [_, forces, strain] = all.response.harmonics[0].outputs[..] else {
             panic!("three outputs")
@@ -63,10 +63,10 @@ fn a_cantilever_shaken_at_its_tip() {
         assert!((forces / strain).im.abs() < 1e-5, "{forces} {strain}");
         for (k, sign) in [(0, 1.0), (1, 1.0)] {
             let expected = Complex::new(values[3 * k], values[3 * k + 1]) * sign;
-            let found = all.response.harmonics[0].outputs[k];
+            let output = all.response.harmonics[0].outputs[k];
             let what = format!("w {frequency}, output {k}");
-            near(found.re, expected.re, expected.norm(), 1e-9, &what);
-            near(found.im, expected.im, expected.norm(), 1e-9, &what);
+            near(output.re, expected.re, expected.norm(), 1e-9, &what);
+            near(output.im, expected.im, expected.norm(), 1e-9, &what);
             let slopes = all
                 .complex(0, Output::new(k), Measure::Displacement)
                 .expect("derivatives");
@@ -78,7 +78,7 @@ fn a_cantilever_shaken_at_its_tip() {
                 let expected = Complex::new(first[3 * k], first[3 * k + 1]) * sign;
                 let scale = expected
                     .norm()
-                    .max(1e-3 * found.norm() / parameter(&file, name).abs().max(1e-9));
+                    .max(1e-3 * output.norm() / parameter(&file, name).abs().max(1e-9));
                 near(
                     slopes.by_design[j].re,
                     expected.re,
@@ -132,7 +132,7 @@ fn a_shaft_with_internal_damping() {
         .description()
         .design
         .iter()
-        .map(|own| own.name.to_string())
+        .map(|value| value.name.to_string())
         .collect();
     let listed = numbers(&file["eigenvalues_re_im_twice"]);
     for (k, pair) in listed.chunks_exact(2).enumerate() {

@@ -10,8 +10,8 @@ fn outputs(text: &str) -> Vec<f64> {
         .to_vec()
 }
 
-fn assert_close(found: f64, exact: f64, accuracy: f64) {
-    assert!((found - exact).abs() <= accuracy, "{found} {exact}");
+fn assert_close(value: f64, exact: f64, accuracy: f64) {
+    assert!((value - exact).abs() <= accuracy, "{value} {exact}");
 }
 
 #[test]
@@ -34,7 +34,7 @@ fn the_force_inside_a_bent_beam_is_the_weight_of_its_outer_part() {
     let state = study.equilibrium().expect("it hangs");
     let names = &state.description.coordinates;
     let turn = |name: &str| {
-        let place = names.iter().position(|own| &*own.name == name);
+        let place = names.iter().position(|x| &*x.name == name);
         state.coordinates[place.expect("a coordinate")]
     };
     // Of the first part, the first coordinate is the rotation of its end; the second part turns relative to that.

@@ -42,15 +42,15 @@ fn bending_couples_with_torsion() {
     let (length, center) = (1.0, 0.06);
     let study = study(&on_forks(length, center), None);
     let modes = study.modes().expect("modes");
-    let found: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
+    let values: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
     let sensitivities = study.sensitivities().expect("derivatives");
     for (n, bar) in [(1.0, 1e-9), (2.0, 1e-6)] {
         for (branch, expected) in closed_form(n, length, center).into_iter().enumerate() {
-            let error = |own: &f64| (own / expected - 1.0).abs();
+            let error = |value: &f64| (value / expected - 1.0).abs();
             let nearest =
-                (0..found.len()).min_by(|a, b| error(&found[*a]).total_cmp(&error(&found[*b])));
+                (0..values.len()).min_by(|a, b| error(&values[*a]).total_cmp(&error(&values[*b])));
             let mode = nearest.expect("a mode");
-            assert!(error(&found[mode]) < bar, "{expected} {found:?}");
+            assert!(error(&values[mode]) < bar, "{expected} {values:?}");
             let slopes = sensitivities.modes[mode].frequency().expect("a frequency");
             let h = 1e-5;
             let by = |l: f64, c: f64| {

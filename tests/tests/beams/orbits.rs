@@ -46,19 +46,24 @@ fn whirl(n: f64, spin: f64) -> [f64; 2] {
 fn displacement(shaft: &Interpreted, spin: f64, mode: &Mode) -> [Complex; 2] {
     let shaft: &dyn Kernels = shaft;
     let moved = |part: fn(&Complex) -> f64| {
-        let size = 1e-5 / mode.shape.iter().map(|own| own.norm()).fold(0.0, f64::max);
+        let size = 1e-5
+            / mode
+                .shape
+                .iter()
+                .map(|component| component.norm())
+                .fold(0.0, f64::max);
         let at = |sign: f64| {
             let q: Vec<f64> = mode
                 .shape
                 .iter()
-                .map(|own| sign * size * part(own))
+                .map(|component| sign * size * part(component))
                 .collect();
             shaft.outputs(&q, &[spin], &[])
         };
         let (ahead, behind) = (at(1.0), at(-1.0));
         [0, 1].map(|k| (ahead[k] - behind[k]) / (2.0 * size))
     };
-    let (real, imaginary) = (moved(|own| own.re), moved(|own| own.im));
+    let (real, imaginary) = (moved(|x| x.re), moved(|x| x.im));
     [0, 1].map(|k| Complex::new(real[k], imaginary[k]))
 }
 

@@ -34,9 +34,9 @@ fn dimensions_and_moduli_must_be_positive() {
         for factor in [0.0, -1.0] {
             let mut design = right;
             design[k] *= factor;
-            let found = broken(BLADE, &design);
+            let text = broken(BLADE, &design);
             // A negative modulus makes the shear modulus negative too.
-            assert_eq!(found.as_deref(), Some(expected), "{design:?}");
+            assert_eq!(text.as_deref(), Some(expected), "{design:?}");
         }
     }
 }

@@ -115,9 +115,9 @@ fn thick_beams_that_spin() {
                 second: &[],
             };
             let cases = file["dimensionless"].as_array().expect("cases").iter();
-            let own =
+            let cases =
                 cases.filter(|case| case["form"] == "centre line" && case["motion"] == motion);
-            for case in own {
+            for case in cases {
                 let number = |name: &str| case[name].as_f64().expect("a number");
                 let study = Study::new(machine.clone())
                     .input(Input::new(0), number("gamma"))

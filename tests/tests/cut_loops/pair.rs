@@ -126,13 +126,13 @@ impl Pair {
 
         let case = Case::random(&model, plan.seed);
         let free = model.free();
-        let own: Vec<f64> = free
+        let values: Vec<f64> = free
             .iter()
             .zip(&case.at[0])
             .filter(|(coordinate, _)| coordinate.joint == joint)
             .map(|(_, &q)| q)
             .collect();
-        let embedding = embedding(&model.joints[joint], &own, &case.at[2], closing.placed);
+        let embedding = embedding(&model.joints[joint], &values, &case.at[2], closing.placed);
         let text = cut_text(&model, joint, &embedding, closing);
         // A body on a ball joint that turns freely about the vertical: this rotation is a coordinate of the double but
         // not of the ball joint.
@@ -272,12 +272,16 @@ struct Report {
 }
 
 impl Report {
-    fn compare(&mut self, what: &str, found: &DMatrix<f64>, expected: &DMatrix<f64>, size: f64) {
-        if found.shape() != expected.shape() {
-            self.text += &format!("{what}: {:?}, not {:?}\n", found.shape(), expected.shape());
+    fn compare(&mut self, what: &str, d_matrix: &DMatrix<f64>, expected: &DMatrix<f64>, size: f64) {
+        if d_matrix.shape() != expected.shape() {
+            self.text += &format!(
+                "{what}: {:?}, not {:?}\n",
+                d_matrix.shape(),
+                expected.shape()
+            );
             return;
         }
-        for (one, other) in found.iter().zip(expected) {
+        for (one, other) in d_matrix.iter().zip(expected) {
             let error = (one - other).abs() / size.max(expected.amax()).max(1e-3);
             // NaN is not agreement.
             let agrees = error <= super::TOLERANCE;

@@ -163,7 +163,7 @@ pub(crate) fn embedding(joint: &Joint, q: &[f64], design: &[f64], placed: bool) 
     let pose = |along: [Option<usize>; 2]| {
         let moved = joint.steps.iter().zip(q).enumerate();
         let motion = moved.fold(at_rest(), |pose, (k, (one, &value))| {
-            let [first, second] = along.map(|place| f64::from(u8::from(place == Some(k))));
+            let [first, second] = along.map(|along| f64::from(u8::from(along == Some(k))));
             let q = Hyper::new([value, first, second, 0.0]);
             pose.then(step(one, q, design))
         });

@@ -28,8 +28,8 @@ fn coordinate(mechanism: &Mechanism, name: &str) -> CoordinateId {
 }
 
 fn output<'a>(mechanism: &'a Mechanism, name: &str) -> &'a Output {
-    let found = mechanism.outputs.iter().find(|output| output.name == name);
-    found.expect("an output")
+    let output = mechanism.outputs.iter().find(|output| output.name == name);
+    output.expect("an output")
 }
 
 fn value(mechanism: &Mechanism, expr: &Expr) -> f64 {
@@ -114,7 +114,7 @@ fn equation_at(mechanism: &Mechanism, name: &str, at: [(&str, f64); 2]) -> (f64,
         let part = |expr: &Expr| of(mechanism, expr, at);
         match expr {
             Expr::Coordinate(id) => {
-                let found = at.iter().find(|(own, _)| own == id);
+                let found = at.iter().find(|(x, _)| x == id);
                 found.expect("a given coordinate").1
             }
             Expr::Negate(a) => -part(a),
@@ -190,7 +190,7 @@ fn coordinates_coast_by_name_or_all_together() {
     }
     assert_eq!(*motion("lift"), Motion::Free);
     let coasting = mechanism.coordinates.iter();
-    let coasting = coasting.filter(|own| own.motion == Motion::Coasting);
+    let coasting = coasting.filter(|coasting| coasting.motion == Motion::Coasting);
     assert_eq!(coasting.count(), 5);
     assert!(motion("spin").runs() && motion("idle").runs() && !motion("lift").runs());
     assert!(!motion("held").runs());
@@ -210,10 +210,10 @@ fn a_cut_joint_is_marked_and_the_tables_stay_consistent() {
     assert_eq!(cut, ["lower", "ball", "plate"]);
     for (index, joint) in mechanism.joints.iter().enumerate() {
         for step in &joint.steps {
-            let own = &mechanism.coordinates[step.coordinate.index()];
-            assert_eq!(own.joint, JointId::new(index));
+            let coordinate = &mechanism.coordinates[step.coordinate.index()];
+            assert_eq!(coordinate.joint, JointId::new(index));
             if joint.cut {
-                assert_eq!(own.motion, Motion::Free);
+                assert_eq!(coordinate.motion, Motion::Free);
             }
         }
     }
@@ -318,7 +318,7 @@ fn the_words_of_clauses_are_names_too() {
     let motions: Vec<bool> = mechanism
         .coordinates
         .iter()
-        .map(|own| own.motion == Motion::Coasting)
+        .map(|coordinate| coordinate.motion == Motion::Coasting)
         .collect();
     assert_eq!(motions, [true, false, false, true, false, true, false]);
     assert!(mechanism.joints[2].cut && !mechanism.joints[0].cut);

@@ -36,14 +36,14 @@ fn tolerance(upper: f64, lower: f64, law: Law) -> Tolerance {
     }
 }
 
-fn assert_near(found: Tolerance, expected: Tolerance, what: &str) {
+fn assert_near(tolerance: Tolerance, expected: Tolerance, what: &str) {
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-15 * a.abs().max(b.abs());
     assert!(
-        near(found.lower, expected.lower)
-            && near(found.upper, expected.upper)
-            && found.law == expected.law
-            && found.relative == expected.relative,
-        "{what}: {found:?}"
+        near(tolerance.lower, expected.lower)
+            && near(tolerance.upper, expected.upper)
+            && tolerance.law == expected.law
+            && tolerance.relative == expected.relative,
+        "{what}: {tolerance:?}"
     );
 }
 
@@ -226,7 +226,7 @@ fn what_is_no_list_of_values_is_refused() {
             Err(mistakes) => mistakes,
             Ok(ast) => resolve(&ast).expect_err(text),
         };
-        let messages: Vec<String> = found.iter().map(|own| own.text()).collect();
+        let messages: Vec<String> = found.iter().map(|x| x.text()).collect();
         assert!(
             messages.iter().any(|own| own.contains(expected)),
             "{text}: {messages:?}"

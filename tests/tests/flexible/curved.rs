@@ -68,7 +68,7 @@ fn machine(stiffness: [&str; 2], rest: &str) -> Machine {
 
 #[test]
 fn curved_beams_and_coupled_strains() {
-    let matrices = [ROOT, TIP].map(|own| format!("stiffness: {own:?}"));
+    let matrices = [ROOT, TIP].map(|x| format!("stiffness: {x:?}"));
     let coupled = matrices.each_ref().map(String::as_str);
     let sections = [[OF_NUMBERS; 2], coupled, [coupled[0], OF_NUMBERS]];
     let mut random = Random::new(21);
@@ -92,7 +92,7 @@ fn curved_beams_and_coupled_strains() {
 /// The rows of a matrix are stretch, shear across and along `up`, twist, and bending about the axis across and about `up`.
 #[test]
 fn a_matrix_has_the_order_of_the_reference() {
-    let [root, tip] = [ROOT, TIP].map(|own| format!("stiffness: {own:?}"));
+    let [root, tip] = [ROOT, TIP].map(|x| format!("stiffness: {x:?}"));
     let machine = machine([&root, &tip], "bending: 2");
     let (model, _) = machine.model(&machine.state(&mut Random::new(1)));
     let parts = [(0.0, 0.4), (0.4, 1.0)];
@@ -101,9 +101,9 @@ fn a_matrix_has_the_order_of_the_reference() {
         for section in &beam.sections {
             let place = start + (end - start) * section.place;
             let found = section.stiffness.as_flattened().iter();
-            let found: Vec<f64> = found
-                .map(|own| match own {
-                    Value::Number(own) => *own,
+            let values: Vec<f64> = found
+                .map(|item| match item {
+                    Value::Number(number) => *number,
                     Value::Design { .. } => panic!("every value is fixed"),
                 })
                 .collect();
@@ -111,7 +111,7 @@ fn a_matrix_has_the_order_of_the_reference() {
             let expected: Vec<f64> = ends
                 .map(|(root, tip)| root * (1.0 - place) + tip * place)
                 .collect();
-            assert_close("stiffness", &found, &expected, 1e-14, 100.0);
+            assert_close("stiffness", &values, &expected, 1e-14, 100.0);
         }
     }
 }

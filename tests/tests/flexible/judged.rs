@@ -67,7 +67,7 @@ impl Machine {
         let inputs = mechanism.inputs.iter();
         let u = inputs.map(|_| random.between(0.5, 4.0)).collect();
         let design = mechanism.design.iter();
-        let b = design.map(|own| own.nominal * random.between(0.9, 1.1));
+        let b = design.map(|design| design.nominal * random.between(0.9, 1.1));
         State {
             acceleration,
             velocity,
@@ -90,15 +90,12 @@ impl Machine {
     /// For each unknown, the place of its coordinate among the free ones of the oracle.
     pub(crate) fn order(&self, model: &Model) -> Vec<usize> {
         let free = model.free();
-        let names: Vec<&str> = free
-            .iter()
-            .map(|own| model.step(*own).name.as_str())
-            .collect();
+        let names: Vec<&str> = free.iter().map(|x| model.step(*x).name.as_str()).collect();
         let coordinates = &self.compiled.mechanism.coordinates;
         let place = |role: Role| match role {
             Role::Position(id) | Role::Speed(id) => {
                 let name = coordinates[id.index()].name.to_string();
-                let place = names.iter().position(|own| *own == name);
+                let place = names.iter().position(|x| *x == name);
                 place.unwrap_or_else(|| panic!("{name} is not in {names:?}"))
             }
             _ => panic!("reactions are unknown to the oracle"),
@@ -127,9 +124,9 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
 }
 
 /// Panics unless all entries agree to a share of `size`.
-pub(crate) fn assert_close(what: &str, found: &[f64], expected: &[f64], bar: f64, size: f64) {
-    assert_eq!(found.len(), expected.len(), "{what}");
-    for (k, (one, other)) in found.iter().zip(expected).enumerate() {
+pub(crate) fn assert_close(what: &str, values: &[f64], expected: &[f64], bar: f64, size: f64) {
+    assert_eq!(values.len(), expected.len(), "{what}");
+    for (k, (one, other)) in values.iter().zip(expected).enumerate() {
         // NaN is not agreement
         let agrees = (one - other).abs() <= bar * size;
         assert!(agrees, "{what}[{k}] is {one:e}, not {other:e}");

@@ -16,9 +16,9 @@ fn frequencies(text: &str, speed: Option<f64>) -> Vec<f64> {
     let modes = study
         .modes()
         .unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let mut found: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
-    found.sort_by(f64::total_cmp);
-    found
+    let mut values: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
+    values.sort_by(f64::total_cmp);
+    values
 }
 
 const SECTION: &str = "mass_per_length: 0.6 kg/m, stiffness_y: 9 N*m^2, stiffness_z: 16 N*m^2, \
@@ -68,8 +68,8 @@ fn turning_everything_changes_no_frequency() {
         "along: -y, up: z",
         "rotated(z, 90 deg)",
     );
-    let found = frequencies(&described, None);
-    assert_close("described along -y", &found, &expected, 1e-9, size);
+    let values = frequencies(&described, None);
+    assert_close("described along -y", &values, &expected, 1e-9, size);
 }
 
 const ROUND: &str = "section: tube(outer: 20 mm, inner: 16 mm) to tube(outer: 12 mm, inner: 9 mm), \
@@ -92,16 +92,16 @@ fn round(along: &str, up: &str, gravity: &str, section: &str) -> String {
 fn round_beams_have_double_frequencies() {
     for (along, up) in [("x", "z"), ("z", "[1, 3, 0]"), ("[1, 2, 2]", "[2, 1, -2]")] {
         let section = format!("{ROUND}, bending: 4");
-        let found = frequencies(&round(along, up, "", &section), Some(0.0));
-        assert_eq!(found.len(), 8);
-        for pair in found.chunks(2) {
+        let values = frequencies(&round(along, up, "", &section), Some(0.0));
+        assert_eq!(values.len(), 8);
+        for pair in values.chunks(2) {
             assert_close("double", &pair[..1], &pair[1..], 1e-10, pair[0]);
         }
     }
     // whatever the twist of the section
     let section = format!("{ROUND}, bending: 4, twist: 40 deg");
-    let found = frequencies(&round("x", "z", "", &section), Some(0.0));
-    for pair in found.chunks(2) {
+    let values = frequencies(&round("x", "z", "", &section), Some(0.0));
+    for pair in values.chunks(2) {
         assert_close("double", &pair[..1], &pair[1..], 1e-10, pair[0]);
     }
 }
@@ -121,8 +121,8 @@ fn a_round_rod_about_its_own_axis_splits_by_the_spin() {
         .collect();
     expected.sort_by(f64::total_cmp);
     assert!(rest[0] > spin);
-    let found = frequencies(&text, Some(spin));
-    assert_close("split", &found, &expected, 1e-9, rest[0]);
+    let values = frequencies(&text, Some(spin));
+    assert_close("split", &values, &expected, 1e-9, rest[0]);
 }
 
 /// A shaft that only twists, spun about its own axis on a base that tilts: it is a rotor, and must be round.
@@ -146,8 +146,8 @@ fn a_twisting_rotor_must_be_round() {
     let machine = Machine::right(&text("0.02 kg*m"));
     let mut random = eigentol_oracle::random::Random::new(6);
     crate::judged::judge("rotor", &machine, &machine.state(&mut random));
-    let found = frequencies(&text("0.02 kg*m"), Some(200.0));
-    assert_eq!(found.len(), 4);
+    let values = frequencies(&text("0.02 kg*m"), Some(200.0));
+    assert_eq!(values.len(), 4);
     let refusal = Machine::new(&text("0.03 kg*m")).err().expect("refused");
     assert!(refusal.contains("depend on the driven"), "{refusal}");
 }
@@ -177,8 +177,8 @@ fn a_beam_clamped_at_both_ends() {
         joint clamp: fixed from ground to beam;
         joint slide: prismatic(x) from ground to beam at [2, 0, 0] m on ground, at tip on beam, cut;
     }";
-    let found = frequencies(text, None);
-    for (found, bl) in found
+    let values = frequencies(text, None);
+    for (found, bl) in values
         .iter()
         .zip([4.730_040_744_862_704_f64, 7.853_204_624_095_838])
     {

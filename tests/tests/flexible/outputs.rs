@@ -58,7 +58,7 @@ fn reaction(machine: &Machine, state: &State, joint: &str) -> Vec<f64> {
     for (coordinate, q) in model.free().iter().zip(q) {
         known.push((model.step(*coordinate).name.clone(), q));
     }
-    let released = model.joints.iter_mut().find(|own| own.name == joint);
+    let released = model.joints.iter_mut().find(|x| x.name == joint);
     let steps = &mut released.expect("a joint").steps;
     for motion in [Motion::Slide, Motion::Turn] {
         for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
@@ -67,15 +67,13 @@ fn reaction(machine: &Machine, state: &State, joint: &str) -> Vec<f64> {
     }
     let named = |model: &Model| -> Vec<String> {
         let free = model.free();
-        free.iter()
-            .map(|own| model.step(*own).name.clone())
-            .collect()
+        free.iter().map(|x| model.step(*x).name.clone()).collect()
     };
     let names = named(&model);
-    let value = |name: &String| known.iter().find(|own| own.0 == *name);
+    let value = |name: &String| known.iter().find(|pair| pair.0 == *name);
     let q: Vec<f64> = names
         .iter()
-        .map(|name| value(name).map_or(0.0, |own| own.1))
+        .map(|name| value(name).map_or(0.0, |pair| pair.1))
         .collect();
     let residual = Kernels::residual(&Oracle::new(&model), [&q, &speeds, &[]]);
     let all = names.iter().zip(residual);
@@ -95,8 +93,8 @@ fn outputs_at_stations() {
         let oracle = Oracle::new(&model);
         let mut expected = Vec::new();
         for point in ["near", "end", "mark"] {
-            let place = model.points.iter().find(|own| own.name == point);
-            let place = place.expect("a point");
+            let point = model.points.iter().find(|x| x.name == point);
+            let place = point.expect("a point");
             let ([x, y, z], _) = oracle.place(q, &[], place.frame, &place.placement);
             expected.extend([x.hypot(y), z]);
         }

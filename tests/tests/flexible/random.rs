@@ -289,7 +289,7 @@ impl Writer {
     /// A matrix of stiffness that couples all strains a little, or some strongly. What couples two is well below the
     /// geometric mean of their own, also where design variables change.
     fn stiffness(&mut self) -> String {
-        let own = [60.0, 40.0, 20.0, 9.0, 5.0, 15.0].map(|own| own * self.number(0.8, 1.2));
+        let own = [60.0, 40.0, 20.0, 9.0, 5.0, 15.0].map(|x| x * self.number(0.8, 1.2));
         let all = [
             (0, 3),
             (0, 4),
@@ -668,7 +668,7 @@ fn obey(machines: u64, least: usize) {
         accepted.len()
     );
     for what in OFTEN {
-        let has = |text: &&String| what.iter().all(|own| text.contains(own));
+        let has = |text: &&String| what.iter().all(|x| text.contains(x));
         let count = accepted.iter().filter(has).count();
         assert!(count >= least, "{what:?}: {count}");
     }

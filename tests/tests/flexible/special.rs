@@ -87,20 +87,17 @@ fn open_part(text: &str) {
         state.q[n..].fill(0.0);
         let (model, speeds) = machine.model(&state);
         let free = model.free();
-        let names: Vec<&str> = free
-            .iter()
-            .map(|own| model.step(*own).name.as_str())
-            .collect();
+        let names: Vec<&str> = free.iter().map(|x| model.step(*x).name.as_str()).collect();
         let unknowns = &machine.compiled.functions.unknowns[..n];
         let order: Vec<usize> = names
             .iter()
             .map(|name| {
-                let place = unknowns.iter().position(|own| own.name == *name);
+                let place = unknowns.iter().position(|unknown| unknown.name == *name);
                 place.unwrap_or_else(|| panic!("{name}"))
             })
             .collect();
         let ordered = |values: &[f64]| -> Vec<f64> { order.iter().map(|&k| values[k]).collect() };
-        let motion = [&state.acceleration, &state.velocity, &state.q].map(|own| ordered(own));
+        let motion = [&state.acceleration, &state.velocity, &state.q].map(|x| ordered(x));
         let motion = motion.each_ref().map(Vec::as_slice);
         let expected = energy::residual(&model, motion, &speeds, &[]);
         let arguments: [&[f64]; 5] = [
@@ -153,7 +150,7 @@ fn a_floating_beam_keeps_momentum_and_energy() {
         let (model, _) = machine.model(&state);
         let slides = ["x", "y", "z"].map(|name| {
             let free = model.free();
-            let place = free.iter().position(|own| model.step(*own).name == name);
+            let place = free.iter().position(|x| model.step(*x).name == name);
             place.expect("a slide")
         });
         for slide in slides {
@@ -296,10 +293,10 @@ fn quadrature_is_that_of_gauss() {
             .collect();
         expected.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let sections = machine.compiled.mechanism.beams[0].sections.iter();
-        let mut found: Vec<[f64; 2]> = sections
+        let mut values: Vec<[f64; 2]> = sections
             .map(|(place, weight, _)| [*place, *weight])
             .collect();
-        found.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        assert_close("points", &found.concat(), &expected.concat(), 1e-13, 1.0);
+        values.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        assert_close("points", &values.concat(), &expected.concat(), 1e-13, 1.0);
     }
 }

@@ -46,7 +46,7 @@ fn momentum(model: &Model, [velocity, q]: [&[f64]; 2], speeds: &[f64], along: us
 /// Jacobi's integral `T2 - T0 + V`: the spin is kept by a motor inside, which does work.
 fn jacobi(model: &Model, [velocity, q]: [&[f64]; 2], speeds: &[f64]) -> f64 {
     let kinetic = |sign: f64| {
-        let velocity: Vec<f64> = velocity.iter().map(|own| sign * own).collect();
+        let velocity: Vec<f64> = velocity.iter().map(|x| sign * x).collect();
         energy::energies(model, [&velocity, q], speeds, &[])
     };
     let [[ahead, potential], [behind, _], [still, _]] = [1.0, -1.0, 0.0].map(kinetic);
@@ -63,10 +63,7 @@ fn a_floating_shaft_keeps_angular_momentum_and_energy() {
             let state = machine.state(&mut random);
             judge("floating shaft", &machine, &state);
             let (model, speeds) = machine.model(&state);
-            let first = model
-                .free()
-                .iter()
-                .position(|own| model.step(*own).name == "a");
+            let first = model.free().iter().position(|x| model.step(*x).name == "a");
             let first = first.expect("a turn");
             let size = momentum(&model, [&state.velocity, &state.q], &speeds, first);
             let changes = rate(&machine, &state, &model, |motion| {
@@ -253,10 +250,10 @@ fn forces_along_a_beam_do_the_work_of_force_times_velocity() {
             .functions
             .unknowns
             .iter()
-            .map(|own| own.name.to_string())
+            .map(|unknown| unknown.name.to_string())
             .collect();
         let value = |name: &str| {
-            let place = names.iter().position(|own| own == name);
+            let place = names.iter().position(|x| x == name);
             state.q[place.unwrap_or_else(|| panic!("{name} is not in {names:?}"))]
         };
         let bends = [0, 1, 2].map(|j| value(&format!("blade_bend_y_{j}")));

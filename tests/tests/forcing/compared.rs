@@ -106,13 +106,13 @@ pub(crate) fn compare(machine: &Machine, seed: u64) -> Result<Outcome, String> {
     let mut random = Random::new(seed);
     let coordinates = excited.description().coordinates.iter();
     let state = coordinates
-        .map(|own| {
-            let value = match own.role {
+        .map(|coordinate| {
+            let value = match coordinate.role {
                 Role::Speed => 3.0 + 2.0 * random.number(),
                 _ => 0.4 * random.number(),
             };
             let change = [random.number(), random.number(), random.number()];
-            (own.name.to_string(), (value, change))
+            (coordinate.name.to_string(), (value, change))
         })
         .collect();
     let twins = Twins {
@@ -127,7 +127,7 @@ pub(crate) fn compare(machine: &Machine, seed: u64) -> Result<Outcome, String> {
 
 impl Twins<'_> {
     fn speed(&self, drive: &str) -> f64 {
-        match self.machine.coordinate(drive).map(|own| &own.motion) {
+        match self.machine.coordinate(drive).map(|x| &x.motion) {
             Some(Motion::Driven(speed)) => *speed,
             Some(Motion::Coasting) => self.state[drive].0,
             other => panic!("{drive} is {other:?}"),
@@ -144,7 +144,7 @@ impl Twins<'_> {
     /// Position, velocity and acceleration of a coordinate of the explicit machine.
     fn motion(&self, name: &str, eps: f64) -> [f64; 3] {
         let own = self.machine.coordinate(name);
-        match own.map(|own| &own.motion) {
+        match own.map(|x| &x.motion) {
             None | Some(Motion::Free) => {
                 let (value, change) = self.state.get(name).copied().unwrap_or_default();
                 [value + eps * change[0], eps * change[1], eps * change[2]]
@@ -180,7 +180,7 @@ impl Twins<'_> {
         let motions: Vec<[f64; 3]> = description
             .coordinates
             .iter()
-            .map(|own| self.motion(&own.name, eps))
+            .map(|coordinate| self.motion(&coordinate.name, eps))
             .collect();
         let [q, velocity, acceleration]: [Vec<f64>; 3] =
             [0, 1, 2].map(|k| motions.iter().map(|motion| motion[k]).collect());
@@ -189,17 +189,17 @@ impl Twins<'_> {
                 .machine
                 .excitations
                 .iter()
-                .find(|own| name == format!("{}_now", own.name));
-            excitation.map_or(eps, |own| {
-                eps * (self.frequency(&own.frequency) * self.time + own.phase).cos()
+                .find(|excitation| name == format!("{}_now", excitation.name));
+            excitation.map_or(eps, |excitation| {
+                eps * (self.frequency(&excitation.frequency) * self.time + excitation.phase).cos()
             })
         };
-        let u: Vec<f64> = description
-            .inputs
+        let u: Vec<f64> = description.inputs.iter().map(|x| input(&x.name)).collect();
+        let b: Vec<f64> = description
+            .design
             .iter()
-            .map(|own| input(&own.name))
+            .map(|value| value.nominal)
             .collect();
-        let b: Vec<f64> = description.design.iter().map(|own| own.nominal).collect();
         let explicit: &dyn MotionKernels = &self.explicit;
         let residual = explicit.motion_residual(&acceleration, &velocity, &q, &u, &b);
         let outputs = results(explicit, Kernel::Outputs, &[&q, &u, &b]).swap_remove(0);
@@ -255,12 +255,16 @@ impl Twins<'_> {
         let states: Vec<_> = description
             .coordinates
             .iter()
-            .map(|own| self.state[&*own.name])
+            .map(|coordinate| self.state[&*coordinate.name])
             .collect();
-        let q: Vec<f64> = states.iter().map(|own| own.0).collect();
+        let q: Vec<f64> = states.iter().map(|state| state.0).collect();
         let [z, z1, z2]: [Vec<f64>; 3] =
-            [0, 1, 2].map(|k| states.iter().map(|own| own.1[k]).collect());
-        let b: Vec<f64> = description.design.iter().map(|own| own.nominal).collect();
+            [0, 1, 2].map(|k| states.iter().map(|state| state.1[k]).collect());
+        let b: Vec<f64> = description
+            .design
+            .iter()
+            .map(|value| value.nominal)
+            .collect();
         let at: [&[f64]; 3] = [&q, &[], &b];
         let n = q.len();
         let outputs = description.outputs.len();
@@ -291,25 +295,25 @@ impl Twins<'_> {
         self.the_rest_is_of_second_order(&rows);
         let row_of = |name: &str| {
             let mut all = self.explicit.description().coordinates.iter();
-            all.position(|own| *own.name == *name)
+            all.position(|x| *x.name == *name)
                 .unwrap_or_else(|| panic!("no row {name}\n{}", self.machine.explicit()))
         };
         let mut pairs = Vec::new();
-        for (k, own) in description.coordinates.iter().enumerate() {
+        for (k, coordinate) in description.coordinates.iter().enumerate() {
             if self
                 .machine
                 .rates_coupled
                 .iter()
-                .any(|name| *own.name == *name)
+                .any(|name| *coordinate.name == *name)
             {
                 continue;
             }
             let force = forced([0, 3], n, k);
             pairs.push((
                 moved(&linear, k) - force,
-                rows[row_of(&own.name)],
+                rows[row_of(&coordinate.name)],
                 force,
-                own.name.to_string(),
+                coordinate.name.to_string(),
             ));
         }
         let mut same = 0;

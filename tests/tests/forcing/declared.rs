@@ -207,7 +207,7 @@ impl Machine {
 
     pub(crate) fn coordinate(&self, name: &str) -> Option<&Coordinate> {
         let mut all = self.joints.iter().flat_map(|joint| &joint.coordinates);
-        all.find(|own| own.name == name)
+        all.find(|x| x.name == name)
     }
 
     fn frequency(frequency: &Frequency) -> String {
@@ -254,7 +254,9 @@ impl Machine {
         for joint in &self.joints {
             let several = joint.coordinates.len() > 1;
             let clauses = joint.coordinates.iter();
-            let clauses: String = clauses.map(|own| Self::clause(own, several)).collect();
+            let clauses: String = clauses
+                .map(|clause| Self::clause(clause, several))
+                .collect();
             let _ = writeln!(text, "    {}{clauses};", joint.declaration);
         }
         text.push_str(&self.others);
@@ -293,7 +295,7 @@ impl Machine {
                 text(*moment)
             ),
             Law::On(coordinate, value) => {
-                let slides = self.coordinate(coordinate).is_some_and(|own| own.slides);
+                let slides = self.coordinate(coordinate).is_some_and(|x| x.slides);
                 let (word, unit) = if slides {
                     ("force", "N")
                 } else {
@@ -327,7 +329,7 @@ impl Machine {
                     self::text(*moment)
                 ),
                 Law::On(coordinate, value) => {
-                    let slides = self.coordinate(coordinate).is_some_and(|own| own.slides);
+                    let slides = self.coordinate(coordinate).is_some_and(|x| x.slides);
                     let unit = if slides { "N" } else { "N*m" };
                     writeln!(
                         text,

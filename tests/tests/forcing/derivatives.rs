@@ -112,7 +112,7 @@ fn standing(seed: u64) -> Machine {
     let all: Vec<Coordinate> = joints.flat_map(|joint| joint.coordinates.clone()).collect();
     let free = |slides: bool| {
         let mut all = all.iter();
-        all.any(|own| matches!(own.motion, Motion::Free) && own.slides == slides)
+        all.any(|item| matches!(item.motion, Motion::Free) && item.slides == slides)
     };
     if free(false) {
         machine.other("every angle: spring_damper(stiffness: 90 N*m/rad, damping: 1.5 N*m*s/rad);");
@@ -199,7 +199,11 @@ impl Seen {
     /// Every output of a machine in every harmonic.
     fn machine(&mut self, what: &str, all: &ForcedCurvature, state: &State, variables: &[f64]) {
         for (h, harmonic) in all.first.response.harmonics.iter().enumerate() {
-            let members: Vec<usize> = harmonic.shares.iter().map(|own| own.excitation).collect();
+            let members: Vec<usize> = harmonic
+                .shares
+                .iter()
+                .map(|share| share.excitation)
+                .collect();
             for (rate, measure) in MEASURES.into_iter().enumerate() {
                 let expected = state.vibration(&members, rate);
                 let what = format!("{what} harmonic {h} {measure:?}");
@@ -271,8 +275,8 @@ fn check(seen: &mut Seen, seed: u64) -> Option<()> {
         excitations,
         ..
     } = machine.description();
-    let b: Vec<f64> = design.iter().map(|own| own.nominal).collect();
-    let starts = coordinates.iter().map(|own| match own.role {
+    let b: Vec<f64> = design.iter().map(|value| value.nominal).collect();
+    let starts = coordinates.iter().map(|coordinate| match coordinate.role {
         Role::Speed => 3.0,
         _ => 0.1,
     });
@@ -293,17 +297,24 @@ fn check(seen: &mut Seen, seed: u64) -> Option<()> {
     let variables: Vec<f64> = b.iter().chain(&u).map(|value| value.abs()).collect();
     seen.machine(&format!("{seed}"), &all, &state, &variables);
     seen.machines += 1;
-    let has = |role: Role| usize::from(coordinates.iter().any(|own| own.role == role));
+    let has =
+        |role: Role| usize::from(coordinates.iter().any(|coordinate| coordinate.role == role));
     seen.coasting += has(Role::Speed);
     seen.loops += has(Role::PositionReaction);
-    let bent = |(own, q): (&CoordinateInfo, &f64)| own.role == Role::Position && q.abs() > 1e-3;
+    let bent = |(coordinate, q): (&CoordinateInfo, &f64)| {
+        coordinate.role == Role::Position && q.abs() > 1e-3
+    };
     seen.bent += usize::from(coordinates.iter().zip(&at.coordinates).any(bent));
     for (count, kind) in seen
         .kinds
         .iter_mut()
         .zip(["unbalance", "harmonic", "shaken"])
     {
-        *count += usize::from(excitations.iter().any(|own| own.kind == *kind));
+        *count += usize::from(
+            excitations
+                .iter()
+                .any(|excitation| excitation.kind == *kind),
+        );
     }
     Some(())
 }

@@ -52,10 +52,10 @@ fn slope(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
     columns.swap_remove(0)
 }
 
-fn assert_near(found: &[f64], expected: &[f64], what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}");
+fn assert_near(values: &[f64], expected: &[f64], what: &str) {
+    assert_eq!(values.len(), expected.len(), "{what}");
     let size = expected.iter().fold(1e-6_f64, |most, x| most.max(x.abs()));
-    for (found, expected) in found.iter().zip(expected) {
+    for (found, expected) in values.iter().zip(expected) {
         let near = (found - expected).abs() < 1e-8 * size;
         assert!(near, "{what}: {found} instead of {expected}, of {size}");
     }
@@ -103,7 +103,11 @@ fn check(machine: &dyn CurvatureKernels, name: &str, seed: u64) {
     let mut random = Random::new(seed);
     let description = machine.description();
     let sizes = machine.sizes();
-    let nominal = description.design.iter().map(|own| own.nominal).collect();
+    let nominal = description
+        .design
+        .iter()
+        .map(|value| value.nominal)
+        .collect();
     let at: Lists = vec![
         random
             .numbers(sizes.coordinates)
@@ -228,7 +232,7 @@ fn alike(twin: &dyn CurvatureKernels, machine: &dyn CurvatureKernels, name: &str
     ] {
         let mut list = |extent: &Extent| random.numbers(length(machine, *extent));
         let arguments: Lists = kernel.arguments().iter().map(&mut list).collect();
-        let [one, other] = [twin, machine].map(|own| results(own, kernel, &views(&arguments)));
+        let [one, other] = [twin, machine].map(|x| results(x, kernel, &views(&arguments)));
         assert_eq!(
             format!("{one:?}"),
             format!("{other:?}"),
@@ -244,7 +248,7 @@ fn alike(twin: &dyn CurvatureKernels, machine: &dyn CurvatureKernels, name: &str
         let mut list = |extent: &Extent| random.numbers(length(machine, *extent));
         let arguments: Lists = kernel.arguments().iter().map(&mut list).collect();
         let along: Lists = kernel.arguments().iter().map(&mut list).collect();
-        let [one, other] = [twin, machine].map(|own| curved(own, curvature, &arguments, &along));
+        let [one, other] = [twin, machine].map(|x| curved(x, curvature, &arguments, &along));
         for (one, other) in one.iter().zip(&other) {
             for (one, other) in one.iter().zip(other) {
                 let near = (one - other).abs() <= 1e-12 * one.abs().max(1e-9);

@@ -322,7 +322,7 @@ impl Builder {
             self.machine.other("gravity [1, 2, -9] m/s^2;");
         }
         for (k, free) in self.free.clone().iter().enumerate() {
-            let slides = self.machine.coordinate(free).is_some_and(|own| own.slides);
+            let slides = self.machine.coordinate(free).is_some_and(|x| x.slides);
             let unit = if slides { "N*s/m" } else { "N*m*s/rad" };
             if self.random.chance(30) {
                 self.machine.other(&format!(

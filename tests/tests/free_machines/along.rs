@@ -55,7 +55,9 @@ fn a_ball_on_a_turning_table() {
     for travel in ["", "px coasting, py coasting,"] {
         let study = ball(travel, "driven at omega").input(Input::new(0), 3.0);
         let modes = study.modes().expect("modes").modes;
-        let free = modes.iter().filter(|own| own.behaviour == Behaviour::Free);
+        let free = modes
+            .iter()
+            .filter(|mode| mode.behaviour == Behaviour::Free);
         assert_eq!((free.count(), modes.len()), (2, 3));
         close(
             modes[2].frequency().expect("it goes round"),
@@ -89,7 +91,7 @@ fn a_ball_on_a_coasting_table() {
         .description()
         .coordinates
         .iter()
-        .position(|own| own.name == *"turn");
+        .position(|coordinate| coordinate.name == *"turn");
     let study = study.start(Coordinate::new(speed.expect("a speed")), 3.0);
     let modes = study.modes().expect("modes").modes;
     let round: Vec<f64> = modes.iter().filter_map(|mode| mode.frequency()).collect();
@@ -117,11 +119,7 @@ fn members_of_a_family_along_an_input() {
         let study = study(&text);
         let place = |name: &str| {
             let all = &study.description().coordinates;
-            Coordinate::new(
-                all.iter()
-                    .position(|own| own.name == *name)
-                    .expect("a name"),
-            )
+            Coordinate::new(all.iter().position(|x| x.name == *name).expect("a name"))
         };
         let (height, lean) = (place("height"), place("lean"));
         (study.guess(height, 0.5), lean)
@@ -154,7 +152,7 @@ fn members_of_a_family_along_an_input() {
             let there = study.clone().input(Input::new(0), crossing.value);
             let modes = there.modes().expect("modes").modes;
             let all = modes.iter().filter_map(|mode| mode.frequency());
-            let nearest = all.map(|own| (own - crossing.value).abs());
+            let nearest = all.map(|x| (x - crossing.value).abs());
             assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-9);
         }
         let branches = study.branches(Input::new(0), 1.0, 2.0).expect("branches");

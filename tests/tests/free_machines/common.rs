@@ -55,11 +55,11 @@ pub(crate) fn frequencies(study: &Study<Interpreted>) -> Vec<f64> {
 }
 
 #[track_caller]
-pub(crate) fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
+pub(crate) fn close(value: f64, expected: f64, tolerance: f64, what: &str) {
     let scale = expected.abs().max(1e-3);
     assert!(
-        (found - expected).abs() <= tolerance * scale,
-        "{what}: {found} instead of {expected}, relative error {:.2e}",
-        (found - expected).abs() / scale
+        (value - expected).abs() <= tolerance * scale,
+        "{what}: {value} instead of {expected}, relative error {:.2e}",
+        (value - expected).abs() / scale
     );
 }

@@ -326,14 +326,19 @@ fn declared_values_and_others() {
     let held = |study: Study<Interpreted>| {
         let state = study.guess(of("height"), 0.5).equilibrium();
         let free = state.expect("a steady motion").free;
-        let held = free.held.iter().map(|own| (own.unknown, own.value));
+        let held = free.held.iter().map(|x| (x.unknown, x.value));
         let mut held: Vec<_> = held.collect();
-        held.sort_by_key(|own| own.0);
+        held.sort_by_key(|held| held.0);
         held
     };
     let (lean, spin, yaw) = (of("lean"), of("spin"), of("yaw"));
     let twenty = 20.0_f64.to_radians();
-    let places = |study| held(study).into_iter().map(|own| own.0).collect::<Vec<_>>();
+    let places = |study| {
+        held(study)
+            .into_iter()
+            .map(|pair| pair.0)
+            .collect::<Vec<_>>()
+    };
     let sorted = |mut places: [usize; 2]| {
         places.sort_unstable();
         places
@@ -342,7 +347,7 @@ fn declared_values_and_others() {
     assert!(found.contains(&(spin.index(), 4.0)), "{found:?}");
     let own = found
         .iter()
-        .find(|own| own.0 == lean.index())
+        .find(|pair| pair.0 == lean.index())
         .expect("lean");
     close(own.1, twenty, 1e-12, "lean");
     // what the user holds replaces what is declared
@@ -350,7 +355,7 @@ fn declared_values_and_others() {
     assert!(found.contains(&(spin.index(), 4.0)), "{found:?}");
     let own = found
         .iter()
-        .find(|own| own.0 == lean.index())
+        .find(|pair| pair.0 == lean.index())
         .expect("lean");
     close(own.1, 0.3, 1e-12, "lean");
     let two = declared.clone().hold(yaw, -1.2).hold(spin, 4.0);

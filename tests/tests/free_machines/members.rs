@@ -155,8 +155,8 @@ fn samples_of_members_stay_on_their_branch() {
     let slower = 0.161_063_f64;
     let expected = 4000.0 * (1.0 - slower);
     let scatter = 4.0 * (4000.0 * slower * (1.0 - slower)).sqrt();
-    let own = found.modes[mode.expect("it nods")].as_ref();
-    let count = own.expect("statistics").count as f64;
+    let mode = found.modes[mode.expect("it nods")].as_ref();
+    let count = mode.expect("statistics").count as f64;
     assert!(
         (count - expected).abs() < scatter,
         "{count}, not {expected}"
@@ -189,8 +189,8 @@ fn searches_for_equilibria_hold_members() {
         tilts.sort_by(f64::total_cmp);
         let round = 1.5 * G / (LENGTH * speed * speed);
         assert_eq!(tilts.len(), 4, "{tilts:?}");
-        for (found, expected) in tilts.iter().zip([-1.0, round, round, 1.0]) {
-            close(*found, expected, 1e-9, "tilt");
+        for (tilt, expected) in tilts.iter().zip([-1.0, round, round, 1.0]) {
+            close(*tilt, expected, 1e-9, "tilt");
         }
     }
 }
@@ -214,18 +214,14 @@ fn heights_of_a_coin_along_an_input() {
     );
     let study = study(&text);
     let all = &study.description().coordinates;
-    let place = |name: &str| {
-        all.iter()
-            .position(|own| own.name == *name)
-            .expect("a name")
-    };
+    let place = |name: &str| all.iter().position(|x| x.name == *name).expect("a name");
     let [height, lean, spin] = ["height", "lean", "spin"].map(place);
     let study = study.guess(Coordinate::new(height), radius);
     let leans = [0.1, 0.3, 0.6, 0.9];
     let found = study.sweep(Input::new(0), &leans).expect("a sweep");
     for (point, lean_asked) in found.points.iter().zip(leans) {
         let state = point.equilibrium.as_ref().expect("a state");
-        let value = |place: usize| state.coordinates[place];
+        let value = |index: usize| state.coordinates[index];
         close(value(lean), lean_asked, 1e-12, "lean");
         close(value(height), radius * lean_asked.cos(), 1e-10, "height");
         let (polar, diameter) = (radius * radius / 2.0, radius * radius / 4.0);
@@ -274,8 +270,16 @@ fn a_top_falls_asleep_in_either_direction() {
             let of = format!("family {family}, {low} to {high}: {diagram}");
             let found = study.events(Input::new(0), low, high, &[] as &[f64]);
             let found = found.expect("events");
-            let merged: Vec<_> = found.crossings.iter().filter(|own| own.merging).collect();
-            let changes: Vec<_> = found.crossings.iter().map(|own| own.change).collect();
+            let merged: Vec<_> = found
+                .crossings
+                .iter()
+                .filter(|crossing| crossing.merging)
+                .collect();
+            let changes: Vec<_> = found
+                .crossings
+                .iter()
+                .map(|crossing| crossing.change)
+                .collect();
             assert_eq!((merged.len(), &changes[..]), (1, &[change][..]), "{of}");
             assert_eq!(merged[0].condition, Condition::FlutterOnset);
             // A resolution of 1e-10 of the range.
@@ -330,10 +334,10 @@ fn frequencies_of_a_sleeping_top() {
         let solution = study.modes().expect("it sleeps");
         let slopes = study.sensitivities().expect("derivatives");
         let modes = solution.modes.iter().zip(&slopes.modes);
-        let found = modes.filter_map(|(mode, own)| Some((mode.frequency()?, own.frequency()?)));
-        let found: Vec<_> = found.collect();
-        assert_eq!(found.len(), 2, "{spin}");
-        for ((frequency, own), sign) in found.iter().zip([-1.0, 1.0]) {
+        let found = modes.filter_map(|(mode, x)| Some((mode.frequency()?, x.frequency()?)));
+        let derived: Vec<_> = found.collect();
+        assert_eq!(derived.len(), 2, "{spin}");
+        for ((frequency, own), sign) in derived.iter().zip([-1.0, 1.0]) {
             let expected = (c * w + sign * root) / (2.0 * about_tip);
             close(*frequency, expected, 1e-11, spin);
             let by_speed = c / (2.0 * about_tip) * (1.0 + sign * c * w / root);

@@ -116,7 +116,7 @@ fn numbers(study: &Study<Interpreted>) -> Vec<Derived> {
     let slopes = study.sensitivities().expect("derivatives");
     let design = &study.description().design;
     let each = modes.modes.iter().zip(&slopes.modes);
-    let mut found: Vec<_> = each
+    let mut deriveds: Vec<_> = each
         .filter(|(mode, _)| mode.behaviour != Behaviour::Free)
         .map(|(mode, slopes)| {
             let quantity = match mode.frequency() {
@@ -124,17 +124,17 @@ fn numbers(study: &Study<Interpreted>) -> Vec<Derived> {
                 None => Quantity::Growth,
             };
             let own = slopes.of(quantity).expect("derivatives").by_design;
-            let mut own: Vec<(String, f64)> = design
+            let mut derived: Vec<(String, f64)> = design
                 .iter()
                 .zip(&own)
                 .map(|(info, slope)| (info.name.to_string(), *slope))
                 .collect();
-            own.sort_by(|a, b| a.0.cmp(&b.0));
-            (mode.s.re, mode.s.im, own)
+            derived.sort_by(|a, b| a.0.cmp(&b.0));
+            (mode.s.re, mode.s.im, derived)
         })
         .collect();
-    found.sort_by(|a, b| (a.1, a.0).partial_cmp(&(b.1, b.0)).expect("numbers"));
-    found
+    deriveds.sort_by(|a, b| (a.1, a.0).partial_cmp(&(b.1, b.0)).expect("numbers"));
+    deriveds
 }
 
 fn compare(chain: &Chain, free: usize) {

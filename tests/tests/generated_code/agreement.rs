@@ -21,8 +21,8 @@ fn interpreted(name: &str, declaration: &str) -> Program {
 
 /// The compiler's interpreter takes sine and cosine from the standard library, while the runtime has its own: they
 /// agree except for rounding.
-fn near(found: &[Vec<f64>], expected: &[Vec<f64>], name: &str, kernel: &str) {
-    for (found, expected) in found.iter().zip(expected) {
+fn near(values: &[Vec<f64>], expected: &[Vec<f64>], name: &str, kernel: &str) {
+    for (found, expected) in values.iter().zip(expected) {
         assert_eq!(found.len(), expected.len(), "{name} {kernel}");
         let largest = expected.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
         for (one, other) in found.iter().zip(expected) {

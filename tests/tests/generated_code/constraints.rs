@@ -53,7 +53,7 @@ fn compare(name: &str, declaration: &str) -> [usize; 2] {
         .mechanism
         .design
         .iter()
-        .map(|own| own.nominal)
+        .map(|value| value.nominal)
         .collect();
     let mut numbers = Numbers(ChaCha8Rng::seed_from_u64(7));
     let mut compared = [0; 2];

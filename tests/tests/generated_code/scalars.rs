@@ -24,12 +24,12 @@ const AT: [&str; 6] = [
     "output_partials",
 ];
 
-fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}");
+fn assert_close(values: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(values.len(), expected.len(), "{what}");
     let scale = expected
         .iter()
         .fold(1e-3, |most: f64, value| most.max(value.abs()));
-    for (one, other) in found.iter().zip(expected) {
+    for (one, other) in values.iter().zip(expected) {
         assert!(
             (one - other).abs() <= tolerance * scale,
             "{what}: {one:e}, not {other:e} (largest {scale:e})"
@@ -54,8 +54,8 @@ impl Visitor for SinglePrecision {
             // Single arrays may cancel to zero, but not everything that a kernel returns.
             let tolerance = 1e-3 * largest(&expected);
             for (found, expected) in found.iter().zip(&expected) {
-                let found: Vec<f64> = found.iter().copied().map(f64::from).collect();
-                assert_close_to(&found, expected, tolerance, &format!("{name} {kernel}"));
+                let values: Vec<f64> = found.iter().copied().map(f64::from).collect();
+                assert_close_to(&values, expected, tolerance, &format!("{name} {kernel}"));
             }
         }
         self.0 += 1;
@@ -258,7 +258,7 @@ impl Visitor for Duals {
         let gradients = value("pencil_gradient", &pencil);
         // The explicit partial derivatives, contracted.
         for (which, matrices) in explicit.chunks(3).enumerate() {
-            let found: Vec<f64> = (0..sizes[which])
+            let values: Vec<f64> = (0..sizes[which])
                 .map(|entry| {
                     let form = |(matrix, vector): (&Vec<f64>, &Vec<f64>)| {
                         let matrix = &matrix[entry * n * n..(entry + 1) * n * n];
@@ -268,7 +268,7 @@ impl Visitor for Duals {
                 })
                 .collect();
             assert_close_to(
-                &found,
+                &values,
                 &gradients[which],
                 TIGHT * largest(&gradients),
                 &format!("{name} pencil_gradient {which}"),
@@ -308,9 +308,9 @@ fn largest(arrays: &[Vec<f64>]) -> f64 {
         .fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
-fn assert_close_to(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}");
-    for (one, other) in found.iter().zip(expected) {
+fn assert_close_to(values: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(values.len(), expected.len(), "{what}");
+    for (one, other) in values.iter().zip(expected) {
         assert!(
             (one - other).abs() <= tolerance,
             "{what}: {one:e}, not {other:e}"

@@ -24,7 +24,7 @@ fn check(machine: &dyn Kernels, kernel: Kernel, numbers: &mut Numbers, name: &st
     let sizes = machine.sizes();
     let lengths = kernel.arguments().iter().enumerate();
     // The third argument are the design variables.
-    let lengths = lengths.map(|(k, own)| (["", "b"][usize::from(k == 2)], count(*own, sizes)));
+    let lengths = lengths.map(|(k, item)| (["", "b"][usize::from(k == 2)], count(*item, sizes)));
     let lengths: Vec<(&str, usize)> = lengths.collect();
     let sets: Vec<Vec<Vec<f64>>> = (0..WIDTH)
         .map(|_| numbers.arguments(machine, &lengths))
@@ -93,7 +93,7 @@ impl Visitor for SideBySide {
         let short = |name| {
             let description = Kernels::description(&machine);
             let kernel = description.static_kernel(name);
-            kernel.is_some_and(|own| own.operations <= 2000)
+            kernel.is_some_and(|kernel| kernel.operations <= 2000)
         };
         let is_short = short("pencil_gradient") && short("forced_gradient");
         self.in_vectors += usize::from(excited && is_short);

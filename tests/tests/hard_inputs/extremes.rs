@@ -108,18 +108,16 @@ fn shares_of_a_huge_variance() {
             .tolerance(RotatingPendulum::l, width)
             .first_order()
             .expect("a spread");
-        let own = &spread.modes[0];
-        assert_numbers(own.variance_shares(), "shares");
-        assert_numbers(own.frequency().iter().map(|own| own.sigma), "sigma");
+        let mode = &spread.modes[0];
+        assert_numbers(mode.variance_shares(), "shares");
+        assert_numbers(mode.frequency().iter().map(|x| x.sigma), "sigma");
         let outputs = pendulum(5.0, 1.0, 3.0)
             .start(Coordinate::new(0), 1.0)
             .tolerance(RotatingPendulum::l, width)
             .output_tolerances()
             .expect("a spread");
         assert_numbers(
-            outputs.spreads[0]
-                .iter()
-                .flat_map(|own| &own.variance_shares),
+            outputs.spreads[0].iter().flat_map(|x| &x.variance_shares),
             "shares of an output",
         );
     }

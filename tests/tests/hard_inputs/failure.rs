@@ -79,10 +79,10 @@ fn unstable_designs_fail_requirements_on_their_modes() {
         "{share} {expected}"
     );
     let rare = study.rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05);
-    let found = rare.expect("samples").failure.probability;
+    let probability = rare.expect("samples").failure.probability;
     assert!(
-        (found.value - expected).abs() < 4.0 * found.standard_error,
-        "{found:?} {expected}"
+        (probability.value - expected).abs() < 4.0 * probability.standard_error,
+        "{probability:?} {expected}"
     );
 }
 
@@ -96,11 +96,11 @@ fn failures_without_a_design_point_are_found() {
         .rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05)
         .expect("samples");
     let expected = phi(-3.0) + phi(-4.5);
-    let found = rare.failure.probability;
+    let probability = rare.failure.probability;
     assert!(rare.failure.reached && rare.unseen < 0.06 * expected);
     assert!(
-        (found.value - expected).abs() < 4.0 * found.standard_error,
-        "{found:?} {expected}"
+        (probability.value - expected).abs() < 4.0 * probability.standard_error,
+        "{probability:?} {expected}"
     );
     assert_eq!(rare.without_design_point, [0]);
     let text = rare.to_string();
@@ -174,10 +174,10 @@ fn design_points_that_are_reflections_are_found() {
     let rare = study
         .rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05)
         .expect("samples");
-    let found = rare.failure.probability;
+    let probability = rare.failure.probability;
     assert!(
-        (found.value - expected).abs() < 4.0 * found.standard_error,
-        "{found:?} {expected}"
+        (probability.value - expected).abs() < 4.0 * probability.standard_error,
+        "{probability:?} {expected}"
     );
 }
 
@@ -187,9 +187,15 @@ fn the_worst_case_beyond_stability_is_unknown() {
     let worst = mount("+/- 100%")
         .worst_case(&[of_mode(Quantity::Frequency)])
         .expect("corners");
-    let own = &worst.responses[0];
-    let greatest = own.greatest.as_ref().map(|end| (end.value, end.confirmed));
-    assert_eq!((own.least.is_none(), own.missing.len()), (true, 1));
+    let response = &worst.responses[0];
+    let greatest = response
+        .greatest
+        .as_ref()
+        .map(|end| (end.value, end.confirmed));
+    assert_eq!(
+        (response.least.is_none(), response.missing.len()),
+        (true, 1)
+    );
     assert!(greatest.is_some_and(|(value, sure)| sure && (value - 8000_f64.sqrt()).abs() < 1e-9));
 }
 
@@ -211,8 +217,11 @@ fn tolerances_about_an_extremum_are_allocated() {
     let found = study.allocation(&wanted, &choices).expect("an allocation");
     // 2 Phi(-3 / T) = 0.01.
     let expected = 3.0 / 2.575_829_303_548_901;
-    let own = found.half_widths[0];
-    assert!((own - expected).abs() < 1e-5, "{own} {expected}");
+    let half_width = found.half_widths[0];
+    assert!(
+        (half_width - expected).abs() < 1e-5,
+        "{half_width} {expected}"
+    );
     assert!(found.refuted.is_empty());
     assert!((found.reliability.beta_of(0).expect("two points") - 2.326_347_874).abs() < 1e-5);
 }

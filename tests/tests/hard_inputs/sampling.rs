@@ -127,6 +127,6 @@ fn no_samples_and_one_sample() {
     assert_eq!(*none.modes, [None, None]);
     assert_eq!(none.all.as_deref(), Some(&[][..]));
     let one = study.samples(1).monte_carlo().expect("one sample");
-    let found = one.modes[0].as_ref().expect("one value");
-    assert_eq!((found.count, found.sigma), (1, None));
+    let mode = one.modes[0].as_ref().expect("one value");
+    assert_eq!((mode.count, mode.sigma), (1, None));
 }

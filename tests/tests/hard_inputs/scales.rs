@@ -82,7 +82,7 @@ fn sliders_of_every_size() {
                 let state = study.equilibrium().expect("a state");
                 assert_equilibrium(&SlidersOnPlate, &state);
                 let (x, y) = (state.coordinates[0], state.coordinates[1]);
-                let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-12 * expected;
+                let near = |value: f64, expected: f64| (value - expected).abs() <= 1e-12 * expected;
                 assert!(
                     near(x, 0.125 * length),
                     "{length:e} {force:e} {mass:e}: {x:e}"

@@ -84,11 +84,11 @@ pub(crate) fn assert_modes(modes: &Modes) {
 }
 
 fn assert_sensitivities(all: &Sensitivities, what: &str) {
-    for own in &all.modes {
-        assert_numbers(&own.lambda.by_input, what);
-        assert_numbers(&own.lambda.by_design, what);
+    for mode in &all.modes {
+        assert_numbers(&mode.lambda.by_input, what);
+        assert_numbers(&mode.lambda.by_design, what);
         for slopes in Quantity::ALL
-            .map(|quantity| own.of(quantity))
+            .map(|quantity| mode.of(quantity))
             .iter()
             .flatten()
         {
@@ -122,19 +122,16 @@ pub(crate) fn assert_answers(machine: &dyn Kernels, at: &Equilibrium, tolerances
         assert_sensitivities(&all, "adjoint");
         let spread = first_order(&found, &all, tolerances).expect("spreads");
         assert_numbers([spread.distance_to_critical], "distance");
-        for own in &spread.modes {
+        for mode in &spread.modes {
             assert_numbers(
-                [own.lambda.sigma, own.distance_to_critical],
+                [mode.lambda.sigma, mode.distance_to_critical],
                 "spread of lambda",
             );
             for quantity in Quantity::ALL {
-                let spread = own.of(quantity);
-                assert_numbers(
-                    spread.iter().flat_map(|own| [own.sigma, own.band]),
-                    "spread",
-                );
+                let spread = mode.of(quantity);
+                assert_numbers(spread.iter().flat_map(|x| [x.sigma, x.band]), "spread");
             }
-            assert_numbers(own.variance_shares(), "shares");
+            assert_numbers(mode.variance_shares(), "shares");
         }
     }
     if let Ok(all) = sensitivities_explicit(machine, at, &found) {

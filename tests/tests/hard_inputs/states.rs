@@ -197,9 +197,9 @@ fn exactly_at_the_critical_speed() {
                     continue;
                 }
                 assert_eq!(run.counts.stable, 300);
-                let found = run.modes[0].as_ref().expect("values");
+                let mode = run.modes[0].as_ref().expect("values");
                 // The true deviation stays finite.
-                let sigma = found.sigma.expect("many values");
+                let sigma = mode.sigma.expect("many values");
                 assert!(sigma > 0.1 && sigma < 0.3);
             }
         }

@@ -29,7 +29,7 @@ impl Visitor for EveryPlace {
         let input = if machine == "film_rotor" { 500.0 } else { 0.0 };
         let possible = || {
             let inputs = (0..names.inputs.len()).map(Input::new);
-            inputs.fold(Study::new(mechanism), |study, own| study.input(own, input))
+            inputs.fold(Study::new(mechanism), |study, x| study.input(x, input))
         };
         for value in NOT_FINITE {
             for (i, info) in names.coordinates.iter().enumerate() {

@@ -110,8 +110,9 @@ const NAMES: [&str; 6] = [
 ];
 
 fn read(name: &str) -> Interpreted {
-    let found = declarations().into_iter().find(|(known, _)| *known == name);
-    Interpreted::from_text(found.expect("a machine of the corpus").1).expect("a declaration")
+    let token_streams = declarations().into_iter().find(|(known, _)| *known == name);
+    Interpreted::from_text(token_streams.expect("a machine of the corpus").1)
+        .expect("a declaration")
 }
 
 /// Puts questions to one of the six with values of these kinds, `cases` times; the same cases every time.

@@ -11,10 +11,10 @@ use eigentol_tests::loops::{FiveBar, FourBar, Governor, SliderCrank};
 use super::common::{Case, assert_close, assert_near, complex};
 use super::study::study;
 
-fn check_spread(case: &Case, event: &Truth, found: &EventTolerance, what: &str) {
+fn check_spread(case: &Case, event: &Truth, event_tolerance: &EventTolerance, what: &str) {
     let value = event.get("value").number();
-    assert_close(found.value, value, 0.0, what);
-    let spread = found.spread.as_ref().expect("a spread");
+    assert_close(event_tolerance.value, value, 0.0, what);
+    let spread = event_tolerance.spread.as_ref().expect("a spread");
     for (j, variable) in case.variables[..case.design.len()].iter().enumerate() {
         let expected = event.get("by").get(variable).number();
         let scale = 1e-2 * value / case.design[j].abs();
@@ -92,8 +92,8 @@ fn check_sweep<M: Mechanism>(machine: M, name: &'static str) {
     let modes = |at: usize| sweep.points[at].modes.as_ref().expect("modes");
     let labels: Vec<usize> = modes(0).modes.iter().map(|mode| mode.label).collect();
     for (at, speed) in speeds.iter().enumerate() {
-        let found: Vec<usize> = modes(at).modes.iter().map(|mode| mode.label).collect();
-        assert_eq!(found, labels, "{name} at {speed}");
+        let derived: Vec<usize> = modes(at).modes.iter().map(|mode| mode.label).collect();
+        assert_eq!(derived, labels, "{name} at {speed}");
     }
     let end = &points[points.len() - 1];
     for truth in end.modes() {

@@ -105,17 +105,17 @@ pub(crate) fn complex(value: &Truth) -> Complex<f64> {
 
 /// Error relative to the larger of the expected value and `scale`.
 #[track_caller]
-pub(crate) fn assert_near(found: Complex<f64>, expected: Complex<f64>, scale: f64, what: &str) {
-    let off = (found - expected).norm();
+pub(crate) fn assert_near(complex: Complex<f64>, expected: Complex<f64>, scale: f64, what: &str) {
+    let off = (complex - expected).norm();
     // NaN is not agreement.
     let agrees = off <= TIGHT * expected.norm().max(scale);
     assert!(
         agrees,
-        "{what}: {found}, not {expected}: off by {off:e}, of a scale of {scale:e}"
+        "{what}: {complex}, not {expected}: off by {off:e}, of a scale of {scale:e}"
     );
 }
 
 #[track_caller]
-pub(crate) fn assert_close(found: f64, expected: f64, scale: f64, what: &str) {
-    assert_near(found.into(), expected.into(), scale, what);
+pub(crate) fn assert_close(value: f64, expected: f64, scale: f64, what: &str) {
+    assert_near(value.into(), expected.into(), scale, what);
 }

@@ -36,11 +36,11 @@ mechanism! {
     }
 }
 
-fn close(found: f64, expected: f64, what: &str) {
-    let off = (found - expected).abs();
+fn close(value: f64, expected: f64, what: &str) {
+    let off = (value - expected).abs();
     assert!(
         off <= 1e-11 * expected.abs().max(1e-3),
-        "{what}: {found}, not {expected}"
+        "{what}: {value}, not {expected}"
     );
 }
 

@@ -94,8 +94,8 @@ impl Loop {
             .svd(true, true)
             .solve(&-&residual, 1e-12 * size)
             .expect("vectors were asked for");
-        for (&place, value) in reactions.iter().zip(held.iter()) {
-            x[place] = *value;
+        for (&reaction, value) in reactions.iter().zip(held.iter()) {
+            x[reaction] = *value;
         }
         let arrays = self.evaluate("residual", &[x.as_slice(), u, b]);
         let terms = residual.amax().max(1.0);
@@ -158,9 +158,9 @@ fn check_point(machine: &Loop, case: &Case, point: &Point) {
         }
     }
 
-    let units = |count: usize, place: Option<usize>| -> Vec<f64> {
+    let units = |count: usize, index: Option<usize>| -> Vec<f64> {
         (0..count)
-            .map(|i| f64::from(u8::from(Some(i) == place)))
+            .map(|i| f64::from(u8::from(Some(i) == index)))
             .collect()
     };
     let along: Vec<[Vec<f64>; 3]> = (0..variables)
@@ -208,7 +208,7 @@ fn check_outputs(machine: &Loop, case: &Case, point: &Point, x: &[f64], along: &
         assert_close(values[k], expected, 1e-2, &what);
         let size = expected.abs().max(1e-2);
         for (j, variable) in case.variables.iter().enumerate() {
-            let found: f64 = (0..3)
+            let value: f64 = (0..3)
                 .map(|kind| {
                     let direction = &along[j][kind];
                     let row = &partials[kind][k * direction.len()..][..direction.len()];
@@ -220,7 +220,7 @@ fn check_outputs(machine: &Loop, case: &Case, point: &Point, x: &[f64], along: &
                 .sum();
             let expected = truth("outputs_by").get(name).get(variable).number();
             let what = format!("{what} by {variable}");
-            assert_close(found, expected, point.scale(size, &[j]), &what);
+            assert_close(value, expected, point.scale(size, &[j]), &what);
         }
     }
 }
@@ -232,10 +232,10 @@ fn equations_hold_in_minimal_coordinates() {
         let case = Case::new(name);
         let design: Vec<String> = machine.design.iter().map(|one| one.0.clone()).collect();
         assert_eq!(design, case.variables[..design.len()], "{name}");
-        for (own, expected) in machine.design.iter().zip(&case.design) {
+        for (value, expected) in machine.design.iter().zip(&case.design) {
             assert!(
-                (own.1 - expected).abs() <= 1e-15 * expected.abs(),
-                "{own:?}"
+                (value.1 - expected).abs() <= 1e-15 * expected.abs(),
+                "{value:?}"
             );
         }
         for point in case.points() {

@@ -36,11 +36,11 @@ fn check(study: &Study<impl Kernels>, unknowns: &[(&str, f64)], outputs: &[f64])
             .expect("a number");
         assert!((value - expected).abs() < 1e-5 * WEIGHT, "{line}");
     }
-    let found = study.outputs().expect("outputs").values;
+    let values = study.outputs().expect("outputs").values;
     for (k, expected) in outputs.iter().enumerate() {
         let name = &study.description().outputs[k].name;
-        let off = (found[k] - expected).abs();
-        assert!(off < 1e-9 * WEIGHT, "{name}: {}, not {expected}", found[k]);
+        let off = (values[k] - expected).abs();
+        assert!(off < 1e-9 * WEIGHT, "{name}: {}, not {expected}", values[k]);
     }
 }
 

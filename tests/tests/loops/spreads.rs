@@ -48,9 +48,9 @@ fn check(machine: impl Mechanism, name: &'static str) {
         let near = |mode: &eigentol::Mode| (mode.s - s).norm() < 1e-6 * s.norm();
         let r = modes.modes.iter().position(near).expect("the mode");
         let [shift, sigma] = moments(&case, &truth);
-        let own = &found.modes[r].as_ref().expect("derivatives").frequency;
-        assert_close(own.moments.mean_shift, shift, 1e-2 * sigma, &what);
-        assert_close(own.moments.sigma, sigma, 0.0, &what);
+        let frequency = &found.modes[r].as_ref().expect("derivatives").frequency;
+        assert_close(frequency.moments.mean_shift, shift, 1e-2 * sigma, &what);
+        assert_close(frequency.moments.sigma, sigma, 0.0, &what);
 
         let statistics = sampled.modes[r].as_ref().expect("samples");
         // Four standard errors of the mean and of the standard deviation.
@@ -111,7 +111,7 @@ fn compare_all(samples: usize) {
     ];
     let all = all.concat();
     println!("{all:#?}");
-    let [own, wide] = Compared::sum(all.iter().map(|(_, own)| *own));
+    let [own, wide] = Compared::sum(all.iter().map(|(_, x)| *x));
     assert!(
         own.samples > 10 * samples && 10 * own.in_vectors > 8 * own.samples,
         "{own:?}"

@@ -150,12 +150,12 @@ fn check_modes(study: &Study<impl Mechanism>, case: &Case, point: &Point, at: &E
         let second = curvature.eigenvalue.as_ref().expect("second derivatives");
         check_second(case, point, second, truth, s, &what);
 
-        let own = &spread.modes[r];
+        let mode = &spread.modes[r];
         let sigma = truth.get("sigma_frequency").number();
-        let frequency = own.frequency().map_or(0.0, |own| own.sigma);
+        let frequency = mode.frequency().map_or(0.0, |x| x.sigma);
         assert_close(frequency, sigma, 1e-4 * s.norm(), &format!("{what}, sigma"));
         let sigma = truth.get("sigma_growth").number();
-        let growth = own.growth().map_or(0.0, |own| own.sigma);
+        let growth = mode.growth().map_or(0.0, |x| x.sigma);
         assert_close(growth, sigma, 1e-4 * s.norm(), &format!("{what}, growth"));
     }
 }
@@ -163,7 +163,7 @@ fn check_modes(study: &Study<impl Mechanism>, case: &Case, point: &Point, at: &E
 fn check_second(
     case: &Case,
     point: &Point,
-    found: &SecondDerivatives<Complex>,
+    second_derivatives: &SecondDerivatives<Complex>,
     truth: &Truth,
     s: Complex,
     what: &str,
@@ -171,9 +171,9 @@ fn check_second(
     for (i, row) in truth.get("s_second").list().iter().enumerate() {
         for (j, expected) in row.list().iter().enumerate() {
             let found = match (i < case.design.len(), j < case.design.len()) {
-                (true, _) => found.by_design[i][j],
-                (false, true) => found.by_input_and_design[0][j],
-                (false, false) => found.by_input[0][0],
+                (true, _) => second_derivatives.by_design[i][j],
+                (false, true) => second_derivatives.by_input_and_design[0][j],
+                (false, false) => second_derivatives.by_input[0][0],
             };
             let [one, other] = [i, j].map(|k| &case.variables[k]);
             let what = format!("{what} by {one} and {other}");

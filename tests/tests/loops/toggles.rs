@@ -116,7 +116,7 @@ impl Circle {
     fn stationary(self) -> Vec<f64> {
         let steps = 20_000;
         let grid = |i: usize| std::f64::consts::TAU * ((i as f64 + 0.37) / steps as f64 - 0.5);
-        let mut found = Vec::new();
+        let mut values = Vec::new();
         for i in 0..steps {
             let (mut low, mut high) = (grid(i), grid(i + 1));
             let falls = self.slope(low) < 0.0;
@@ -132,10 +132,10 @@ impl Circle {
                 }
             }
             if low.sin().abs() > 1e-6 {
-                found.push(low);
+                values.push(low);
             }
         }
-        found
+        values
     }
 }
 
@@ -402,9 +402,9 @@ fn reactions_that_a_load_explains_may_be_great() {
         let expected = 0.5 * weight * length / sag;
         // Within the accuracy to which the length, as a number, determines the sag.
         let rounding = 1e-12 + 1e-15 / (sag * sag);
-        for found in &state.coordinates[2..] {
-            let off = (found - expected).abs() / expected;
-            assert!(off < rounding, "{sag}: {found}, not {expected}");
+        for coordinate in &state.coordinates[2..] {
+            let off = (coordinate - expected).abs() / expected;
+            assert!(off < rounding, "{sag}: {coordinate}, not {expected}");
         }
     }
     // Lengths that just reach, to rounding, hold no weight.

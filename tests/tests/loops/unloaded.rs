@@ -59,8 +59,8 @@ fn an_unloaded_slider_crank_rests_where_its_spring_does() {
         let lean = (0.1 * a.sin() / 0.3).asin();
         let place = 0.1 * a.cos() + 0.3 * lean.cos();
         let right = [a, -a - lean, place];
-        for (found, right) in state.coordinates.iter().zip(right) {
-            assert_close(*found, right, 1e-12, &format!("{moment}"));
+        for (coordinate, right) in state.coordinates.iter().zip(right) {
+            assert_close(*coordinate, right, 1e-12, &format!("{moment}"));
         }
         assert!(
             state.coordinates[3..]

@@ -13,9 +13,9 @@ fn axis(section: &Section, k: usize) -> [f64; 3] {
     section.pose.rotation.map(|row| row[k])
 }
 
-fn close(found: [f64; 3], expected: [f64; 3], bar: f64) {
-    let apart = (0..3).map(|i| (found[i] - expected[i]).abs());
-    assert!(apart.fold(0.0, f64::max) < bar, "{found:?} {expected:?}");
+fn close(values: [f64; 3], expected: [f64; 3], bar: f64) {
+    let apart = (0..3).map(|i| (values[i] - expected[i]).abs());
+    assert!(apart.fold(0.0, f64::max) < bar, "{values:?} {expected:?}");
 }
 
 fn tapered() -> Scene {
@@ -44,7 +44,7 @@ fn a_straight_blade_is_tapered_and_twisted_about_its_axis() {
     for section in &blade.sections {
         let arm: [f64; 3] = core::array::from_fn(|i| section.pose.position[i] - root.position[i]);
         let reach: f64 = arm.iter().zip(along).map(|(a, b)| a * b).sum();
-        close(arm, along.map(|own| reach * own), 1e-12);
+        close(arm, along.map(|along| reach * along), 1e-12);
         let share = reach / 2.0;
         let sizes = [0.12 - 0.06 * share, 0.02 - 0.012 * share];
         assert!(

@@ -39,8 +39,8 @@ fn slider_crank() {
         let closed = assemble(&SliderCrank, &[2.0], &b, &start, &held).expect("it closes");
         let seen = scene(&SliderCrank, &closed.coordinates, &[2.0], &b).expect("a picture");
         let body = |name: &str| {
-            let found = seen.bodies.iter().find(|body| body.name == *name);
-            found.expect("a body")
+            let body = seen.bodies.iter().find(|body| body.name == *name);
+            body.expect("a body")
         };
         let arm = body("arm").pose;
         assert!(norm(subtract(arm.position, [base, 0.0, 0.0])) < 1e-12);

@@ -10,8 +10,8 @@ use eigentol_tests::machines::JeffcottRotor;
 use crate::space::{Vector, add, dot, norm, scaled, subtract};
 
 /// The position of a point of a body in a frame of a mode.
-fn place(frame: &[Pose], body: usize, place: Vector) -> Vector {
-    frame[body].place(place)
+fn place(frame: &[Pose], body: usize, vector: Vector) -> Vector {
+    frame[body].place(vector)
 }
 
 fn double_pendulum() -> Study<RotatingDoublePendulum> {

@@ -23,11 +23,11 @@ const TOLERANCE: f64 = 1e-11;
 fn differences(model: &Model, scene: &Scene, case: &Case) -> Vec<String> {
     let [q, _, b] = &case.at;
     let oracle = Oracle::new(model);
-    let mut found = Vec::new();
+    let mut texts = Vec::new();
     let mut same = |what: String, one: &[f64], other: &[f64]| {
         let apart = difference(one, other);
         if apart > TOLERANCE {
-            found.push(format!("{what}: {one:?}, the oracle says {other:?}"));
+            texts.push(format!("{what}: {one:?}, the oracle says {other:?}"));
         }
     };
     let body = |frame: Frame| match frame {
@@ -113,7 +113,7 @@ fn differences(model: &Model, scene: &Scene, case: &Case) -> Vec<String> {
         let expected = origin(declared.frame, &declared.placement);
         same(format!("point {}", declared.name), &place, &expected);
     }
-    found
+    texts
 }
 
 const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -147,8 +147,8 @@ fn inertia(shape: &Shape, mass: f64) -> [[f64; 3]; 3] {
     let along = |axes: [Vector; 3], squares: [f64; 3]| -> [[f64; 3]; 3] {
         let sum: f64 = squares.iter().sum();
         let entry = |i: usize, j: usize| {
-            let own: f64 = (0..3).map(|k| squares[k] * axes[k][i] * axes[k][j]).sum();
-            mass * (if i == j { sum } else { 0.0 } - own)
+            let value: f64 = (0..3).map(|k| squares[k] * axes[k][i] * axes[k][j]).sum();
+            mass * (if i == j { sum } else { 0.0 } - value)
         };
         std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
     };

@@ -23,11 +23,11 @@ pub(crate) fn norm(a: Vector) -> f64 {
 }
 
 /// The largest difference of two lists; infinite if their lengths differ or a difference is NaN.
-pub(crate) fn difference(found: &[f64], expected: &[f64]) -> f64 {
-    if found.len() != expected.len() {
+pub(crate) fn difference(values: &[f64], expected: &[f64]) -> f64 {
+    if values.len() != expected.len() {
         return f64::INFINITY;
     }
-    let pairs = found.iter().zip(expected);
+    let pairs = values.iter().zip(expected);
     pairs.fold(0.0, |most, (a, b)| {
         let apart = (a - b).abs();
         if apart.is_nan() {

@@ -40,8 +40,8 @@ fn check(declaration: &str, name: &str) {
         let angles = state.equilibrium();
         for (j, expected) in point.get("dtheta_db").list().iter().enumerate() {
             let sum = |i: usize| angles[..=i].iter().map(|q: &Derived| q.gradient[j]).sum();
-            let found: Vec<f64> = (0..theta.len()).map(sum).collect();
-            assert_within(TIGHT, &found, &expected.numbers(), 1e-2, &what);
+            let values: Vec<f64> = (0..theta.len()).map(sum).collect();
+            assert_within(TIGHT, &values, &expected.numbers(), 1e-2, &what);
         }
     }
 }

@@ -4,13 +4,13 @@
 #[track_caller]
 pub(crate) fn assert_within(
     tolerance: f64,
-    found: &[f64],
+    values: &[f64],
     expected: &[f64],
     scale: f64,
     what: &str,
 ) {
-    assert_eq!(found.len(), expected.len(), "{what}");
-    for (k, (one, other)) in found.iter().zip(expected).enumerate() {
+    assert_eq!(values.len(), expected.len(), "{what}");
+    for (k, (one, other)) in values.iter().zip(expected).enumerate() {
         let error = (one - other).abs();
         assert!(
             error <= tolerance * other.abs().max(scale),
@@ -21,8 +21,8 @@ pub(crate) fn assert_within(
 
 /// [`assert_within`] with a tolerance of 1e-10.
 #[track_caller]
-pub(crate) fn assert_close(found: &[f64], expected: &[f64], scale: f64, what: &str) {
-    assert_within(1e-10, found, expected, scale, what);
+pub(crate) fn assert_close(values: &[f64], expected: &[f64], scale: f64, what: &str) {
+    assert_within(1e-10, values, expected, scale, what);
 }
 
 pub(crate) fn largest(values: &[f64]) -> f64 {

@@ -21,7 +21,7 @@ impl Variables {
             .map(|variable| variable.get("name").text())
             .collect();
         let place = |name: &String| {
-            let design_place = design.iter().position(|own| own == name);
+            let design_place = design.iter().position(|value| value == name);
             design_place.unwrap_or_else(|| {
                 assert_eq!(name, "Omega");
                 design.len()
@@ -47,14 +47,14 @@ impl Variables {
         names.map(|name| read(&gradient.get(name))).collect()
     }
 
-    fn check(&self, found: &Derived, truth: &Truth, fields: [&str; 3], what: &str) {
+    fn check(&self, derived: &Derived, truth: &Truth, fields: [&str; 3], what: &str) {
         let [value, gradient, hessian] = fields;
         let what = format!("{what} {value}");
-        assert_close(&[found.value], &[truth.get(value).number()], 1e-6, &what);
+        assert_close(&[derived.value], &[truth.get(value).number()], 1e-6, &what);
         let expected = self.by_name(&truth.get(gradient), Truth::number);
         let scale = 1e-2 * largest(&expected);
         assert_close(
-            &self.gradient(found),
+            &self.gradient(derived),
             &expected,
             scale,
             &format!("{what} gradient"),
@@ -62,14 +62,14 @@ impl Variables {
         let expected = truth.get(hessian).matrix();
         let scale = 1e-2 * largest(&expected);
         assert_close(
-            &self.hessian(found),
+            &self.hessian(derived),
             &expected,
             scale,
             &format!("{what} Hessian"),
         );
     }
 
-    fn check_complex(&self, found: &ComplexDerived, truth: &Truth, what: &str) {
+    fn check_complex(&self, complex_derived: &ComplexDerived, truth: &Truth, what: &str) {
         let rates = self.by_name(&truth.get("ds_db"), Truth::numbers);
         let curvatures: Vec<Vec<f64>> = truth
             .get("d2s_db2")
@@ -77,7 +77,10 @@ impl Variables {
             .iter()
             .flat_map(|row| row.list().iter().map(Truth::numbers).collect::<Vec<_>>())
             .collect();
-        for (k, part) in [&found.re, &found.im].into_iter().enumerate() {
+        for (k, part) in [&complex_derived.re, &complex_derived.im]
+            .into_iter()
+            .enumerate()
+        {
             let values = |list: &[Vec<f64>]| list.iter().map(|pair| pair[k]).collect::<Vec<_>>();
             let what = format!("{what} part {k} of s");
             assert_close(&[part.value], &[truth.get("s").numbers()[k]], 1.0, &what);

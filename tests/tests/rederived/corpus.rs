@@ -19,9 +19,9 @@ const TIGHT: f64 = 1e-9;
 /// A derivative by a variable of value `b` is significant from a hundredth of `value / b` upwards: smaller ones are
 /// rounding errors of cancelling terms.
 #[track_caller]
-fn assert_gradient(found: &[f64], expected: &Derived, variables: &[f64], what: &str) {
-    assert_eq!(found.len(), variables.len(), "{what}");
-    for (k, (found, b)) in found.iter().zip(variables).enumerate() {
+fn assert_gradient(values: &[f64], expected: &Derived, variables: &[f64], what: &str) {
+    assert_eq!(values.len(), variables.len(), "{what}");
+    for (k, (found, b)) in values.iter().zip(variables).enumerate() {
         let size = if *b == 0.0 { 1.0 } else { b.abs() };
         let scale = 1e-2 * expected.value.abs() / size;
         let what = format!("{what} by variable {k}");
@@ -72,7 +72,7 @@ impl Comparison for Gradients {
         }
 
         let found = match undamped_modes(at) {
-            Ok(found) => found,
+            Ok(undamped_modes) => undamped_modes,
             Err(Error::NonsymmetricStiffness { .. }) => {
                 self.nonsymmetric += 1;
                 return;

@@ -134,8 +134,8 @@ fn a_rigid_body_mode() {
     };
     let free = [m1, m2, 0.0, coupling];
     let elastic = (coupling * (m1 + m2) / (m1 * m2)).sqrt();
-    let found = machine.eigenvalues(&[], &free, &[0.0, 0.05]);
-    let (last, drifting) = found.split_last().expect("eigenvalues");
+    let complexes = machine.eigenvalues(&[], &free, &[0.0, 0.05]);
+    let (last, drifting) = complexes.split_last().expect("eigenvalues");
     assert!(
         (last.im - elastic).abs() < 1e-10 * elastic && last.re.abs() < 1e-10,
         "{last}"

@@ -51,17 +51,24 @@ impl Product {
     }
 
     /// Checks first derivatives of a number of size `size`; the expected scale is `size` relative to each variable.
-    fn first(&mut self, found: &[f64], expected: &Derived, b: &[f64], size: f64, what: &str) {
-        assert_eq!(found.len(), b.len(), "{what}");
+    fn first(&mut self, values: &[f64], expected: &Derived, b: &[f64], size: f64, what: &str) {
+        assert_eq!(values.len(), b.len(), "{what}");
         for k in 0..b.len() {
             let scale = expected.gradient[k].abs() + 1e-2 * size / b[k];
-            let error = (found[k] - expected.gradient[k]).abs();
+            let error = (values[k] - expected.gradient[k]).abs();
             self.note(0, error, FIRST * scale, &format!("{what} by {k}"));
         }
     }
 
-    fn second(&mut self, found: &[Vec<f64>], expected: &Derived, b: &[f64], size: f64, what: &str) {
-        for (i, row) in found.iter().enumerate() {
+    fn second(
+        &mut self,
+        values: &[Vec<f64>],
+        expected: &Derived,
+        b: &[f64],
+        size: f64,
+        what: &str,
+    ) {
+        for (i, row) in values.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
                 let exact = expected.hessian[i][j];
                 let scale = exact.abs() + 1e-2 * size / (b[i] * b[j]);
@@ -140,18 +147,18 @@ impl Product {
         expected: &Expected,
     ) {
         let b = sizes(at);
-        let own = &all.modes[r];
+        let mode = &all.modes[r];
         let curvature =
             mode_curvature(machine, at, modes, r).unwrap_or_else(|error| panic!("{what}: {error}"));
         let size = modes.modes[r].s.norm();
         if let Some(lambda) = &expected.lambda {
-            let found = [&own.lambda.by_design[..], &own.lambda.by_input].concat();
+            let found = [&mode.lambda.by_design[..], &mode.lambda.by_input].concat();
             self.first(&found, lambda, &b, size * size, &format!("{what} lambda"));
             let found = ordered(&curvature.lambda);
             self.second(&found, lambda, &b, size * size, &format!("{what} lambda"));
         }
         if let Some(s) = &expected.s {
-            let slopes = own
+            let slopes = mode
                 .s()
                 .unwrap_or_else(|| panic!("{what} has no derivative"));
             let slopes = [&slopes.by_design[..], &slopes.by_input].concat();
@@ -159,19 +166,19 @@ impl Product {
             for (part, number) in s.iter().enumerate() {
                 let of = |x: &Complex| [x.re, x.im][part];
                 let what = format!("{what} part {part} of s");
-                let found: Vec<f64> = slopes.iter().map(of).collect();
-                self.first(&found, number, &b, size, &what);
-                let found: Vec<Vec<f64>> = second
+                let values: Vec<f64> = slopes.iter().map(of).collect();
+                self.first(&values, number, &b, size, &what);
+                let values: Vec<Vec<f64>> = second
                     .iter()
                     .map(|row| row.iter().map(of).collect())
                     .collect();
-                self.second(&found, number, &b, size, &what);
+                self.second(&values, number, &b, size, &what);
             }
         }
         for (quantity, number) in &expected.quantities {
             let what = format!("{what} {quantity:?}");
             let oscillates = modes.modes[r].frequency().is_some();
-            let Some(slopes) = own.of(*quantity) else {
+            let Some(slopes) = mode.of(*quantity) else {
                 assert!(!oscillates, "{what} has no derivative");
                 continue;
             };

@@ -103,8 +103,8 @@ fn a_rotor_with_damping_that_turns() {
         // z0 = -i m g / (k - i W c_i).
         let stiffness = C::new(k, -speed * internal);
         let shift = -imaginary(m * 9.81) / stiffness;
-        let found: Vec<f64> = state.equilibrium().iter().map(|q| q.value).collect();
-        assert_close(&found, &[shift.re, shift.im], 1e-3, "the sag");
+        let values: Vec<f64> = state.equilibrium().iter().map(|q| q.value).collect();
+        assert_close(&values, &[shift.re, shift.im], 1e-3, "the sag");
         let zero = real(0.0);
         let equation = Equation {
             coefficients: [real(m), real(external + internal), stiffness],
@@ -120,8 +120,8 @@ fn a_rotor_with_damping_that_turns() {
             // A double pair has no mode of its own.
             assert_eq!(state.general_modes(), [None, None]);
             let s = equation.roots()[0].0;
-            for found in state.eigenvalues() {
-                assert!((found - s).norm() < 1e-6 * s.norm(), "{found} {s}");
+            for complex in state.eigenvalues() {
+                assert!((complex - s).norm() < 1e-6 * s.norm(), "{complex} {s}");
             }
             continue;
         }
@@ -224,8 +224,8 @@ fn a_sleeping_top() {
         check(&state, &equation, &format!("{spin} rad/s"));
         let root = (spin * spin * c * c - 4.0 * a * weight).sqrt();
         let expected = [(spin * c - root) / (2.0 * a), (spin * c + root) / (2.0 * a)];
-        let found: Vec<f64> = modes(&state).iter().map(|mode| mode.s.im.value).collect();
-        assert_close(&found, &expected, 0.0, "precession and nutation");
+        let values: Vec<f64> = modes(&state).iter().map(|mode| mode.s.im.value).collect();
+        assert_close(&values, &expected, 0.0, "precession and nutation");
     }
 }
 

@@ -9,20 +9,20 @@ pub(crate) const TIGHT: f64 = 1e-9;
 
 /// Requires the error of each number, relative to the larger of the expected value and `scale`, not to exceed 1e-9.
 #[track_caller]
-pub(crate) fn assert_close(found: &[f64], expected: &[f64], scale: f64, what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}");
-    for (one, other) in found.iter().zip(expected) {
+pub(crate) fn assert_close(values: &[f64], expected: &[f64], scale: f64, what: &str) {
+    assert_eq!(values.len(), expected.len(), "{what}");
+    for (one, other) in values.iter().zip(expected) {
         assert!(
             (one - other).abs() <= TIGHT * other.abs().max(scale),
-            "{what}: {found:?}, not {expected:?}"
+            "{what}: {values:?}, not {expected:?}"
         );
     }
 }
 
 /// Checks the coordinates of an equilibrium: 1e-9 relative, or 1e-12 absolute where zero.
 #[track_caller]
-pub(crate) fn assert_equilibrium(found: &[f64], expected: &[f64], what: &str) {
-    assert_close(found, expected, 1e-3, what);
+pub(crate) fn assert_equilibrium(values: &[f64], expected: &[f64], what: &str) {
+    assert_close(values, expected, 1e-3, what);
 }
 
 pub(crate) fn flat(matrix: &Matrix) -> Vec<f64> {

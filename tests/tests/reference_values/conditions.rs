@@ -37,10 +37,10 @@ pub(crate) fn study<M: Kernels>(machine: M, condition: &Truth, names: &[&str]) -
 }
 
 fn omega_by(all: &Sensitivities, mode: usize, by: By) -> f64 {
-    let own = &all.modes[mode];
+    let mode = &all.modes[mode];
     match by {
-        By::Input(k) => own.frequency().expect("it oscillates").by_input[k],
-        By::Design(k) => own.frequency().expect("it oscillates").by_design[k],
+        By::Input(k) => mode.frequency().expect("it oscillates").by_input[k],
+        By::Design(k) => mode.frequency().expect("it oscillates").by_design[k],
     }
 }
 
@@ -128,11 +128,11 @@ fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> 
                 }
                 let without = truth.get("domega_db_frozen_equilibrium_WRONG").get(name);
                 let without = without.number();
-                let found = omega_by(&frozen, r, by(name));
-                assert_close(&[found], &[without], 1e-3, &format!("{what}, frozen"));
+                let value = omega_by(&frozen, r, by(name));
+                assert_close(&[value], &[without], 1e-3, &format!("{what}, frozen"));
                 if (total - without).abs() > 1e-6 {
                     assert!(
-                        (found - total).abs() > TIGHT * total.abs(),
+                        (value - total).abs() > TIGHT * total.abs(),
                         "{what}, frozen"
                     );
                     wrong_when_frozen += 1;

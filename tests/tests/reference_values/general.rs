@@ -35,16 +35,21 @@ fn complex(value: &Truth) -> Complex {
 }
 
 #[track_caller]
-fn assert_complex(found: Complex, expected: Complex, scale: f64, what: &str) {
-    let off = (found - expected).norm();
+fn assert_complex(complex: Complex, expected: Complex, scale: f64, what: &str) {
+    let off = (complex - expected).norm();
     assert!(
         off <= 1e-9 * expected.norm().max(scale),
-        "{what}: {found}, not {expected}"
+        "{what}: {complex}, not {expected}"
     );
 }
 
 /// Compares a Hessian with the file's, entry by entry, relative to its largest entry.
-fn assert_hessian(found: &SecondDerivatives<f64>, expected: &Truth, order: &[By], what: &str) {
+fn assert_hessian(
+    second_derivatives: &SecondDerivatives<f64>,
+    expected: &Truth,
+    order: &[By],
+    what: &str,
+) {
     let rows: Vec<Vec<f64>> = expected.list().iter().map(Truth::numbers).collect();
     let scale = rows
         .iter()
@@ -52,7 +57,7 @@ fn assert_hessian(found: &SecondDerivatives<f64>, expected: &Truth, order: &[By]
         .fold(0.0_f64, |most, x| most.max(x.abs()));
     for (row, &a) in rows.iter().zip(order) {
         for (&value, &b) in row.iter().zip(order) {
-            assert_close(&[second(found, (a, b))], &[value], scale, what);
+            assert_close(&[second(second_derivatives, (a, b))], &[value], scale, what);
         }
     }
 }
@@ -82,8 +87,8 @@ fn undamped<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) 
 
             if order.iter().all(|by| matches!(by, By::Design(_))) {
                 let spread = study.second_order().expect("a spread");
-                let own = &spread.modes[r].as_ref().expect("a mode").frequency;
-                let (shift, sigma) = (own.moments.mean_shift, own.moments.sigma);
+                let frequency = &spread.modes[r].as_ref().expect("a mode").frequency;
+                let (shift, sigma) = (frequency.moments.mean_shift, frequency.moments.sigma);
                 let omega = truth.get("omega").number();
                 let scale = 1e-3 * omega;
                 assert_close(&[shift], &[truth.get("mean_shift2").number()], scale, &what);
@@ -151,9 +156,9 @@ fn general_modes_of_the_sliders() {
                 let what = format!("{what} by {name}");
                 let expected = complex(&truth.get("ds_db").get(name));
                 for all in [&adjoint, &explicit] {
-                    let own = &all.modes[r];
-                    let ds = own.s().expect("a derivative");
-                    let natural = own.of(Quantity::NaturalFrequency).expect("a derivative");
+                    let mode = &all.modes[r];
+                    let ds = mode.s().expect("a derivative");
+                    let natural = mode.of(Quantity::NaturalFrequency).expect("a derivative");
                     let (ds, natural) = match by(&PLATE, name) {
                         By::Input(k) => (ds.by_input[k], natural.by_input[k]),
                         By::Design(k) => (ds.by_design[k], natural.by_design[k]),

@@ -28,17 +28,17 @@ fn sampled(omega: f64, half_width: f64) -> MonteCarlo {
 #[track_caller]
 fn assert_moments(run: &MonteCarlo, mean: f64, deviation: f64, what: &str) {
     assert_eq!(run.counts.stable, SAMPLES, "{what}");
-    let found = run.modes[0].as_ref().expect("values");
-    assert_eq!(found.count, SAMPLES as u64, "{what}");
+    let mode = run.modes[0].as_ref().expect("values");
+    assert_eq!(mode.count, SAMPLES as u64, "{what}");
     let error = deviation / (SAMPLES as f64).sqrt();
-    let off = (found.mean - mean) / error;
+    let off = (mode.mean - mean) / error;
     assert!(
         off.abs() <= 4.0,
         "{what}: mean {}, not {mean}: {off:.1} standard errors",
-        found.mean
+        mode.mean
     );
     let error = deviation / (2.0 * SAMPLES as f64).sqrt();
-    let sampled = found.sigma.expect("many values");
+    let sampled = mode.sigma.expect("many values");
     let off = (sampled - deviation) / error;
     assert!(
         off.abs() <= 4.0,

@@ -132,12 +132,12 @@ impl Answers {
     fn ask_of_vibration(&mut self, name: &str, study: &Study<Interpreted>) {
         let all = Vibration::all(study.description());
         let response = study.forced_response();
-        if let Ok(Some(own)) = response.as_ref().map(|own| own.harmonics.first()) {
+        if let Ok(Some(harmonic)) = response.as_ref().map(|response| response.harmonics.first()) {
             let [x, y] = [all[0].output, all[1].output];
-            let orbit = own.orbit(x, y).expect("outputs");
+            let orbit = harmonic.orbit(x, y).expect("outputs");
             self.plain(name, &orbit);
             self.plain(name, &orbit.turning());
-            self.plain(name, &own.unknown_phases(x, Measure::Velocity));
+            self.plain(name, &harmonic.unknown_phases(x, Measure::Velocity));
         }
         self.both(name, response);
         self.both(name, study.forced_sensitivities());

@@ -66,20 +66,20 @@ const STATISTICS_NOT_WRITTEN: [(&str, &str); 21] = [
     ("TensorWalk", "borrows its grid"),
 ];
 
-pub(super) fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+pub(super) fn sources(folder: &Path, paths: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
-            sources(&path, found);
-        } else if path.extension().is_some_and(|own| own == "rs") {
-            found.push(path);
+            sources(&path, paths);
+        } else if path.extension().is_some_and(|x| x == "rs") {
+            paths.push(path);
         }
     }
 }
 
 /// Names of the public types in a source text that are neither serialisable nor hidden from users.
 fn not_written(text: &str) -> Vec<String> {
-    let mut found = Vec::new();
+    let mut texts = Vec::new();
     let mut written = false;
     for line in text.lines() {
         if line.starts_with("#[cfg_attr(feature = \"serde\", derive(serde::Serialize")
@@ -92,7 +92,7 @@ fn not_written(text: &str) -> Vec<String> {
             if let Some(rest) = line.strip_prefix(word) {
                 let name = rest.chars().take_while(char::is_ascii_alphanumeric);
                 if !written {
-                    found.push(name.collect());
+                    texts.push(name.collect());
                 }
             }
         }
@@ -105,7 +105,7 @@ fn not_written(text: &str) -> Vec<String> {
             written = false;
         }
     }
-    found
+    texts
 }
 
 /// Fails for a type in the crates that is neither serialisable nor excused, and for an unused excuse.
@@ -124,7 +124,7 @@ fn check(folders: &[&str], least: usize, excuses: &[(&str, &str)], by_macro: &[&
         let text = fs::read_to_string(&file).expect("text");
         for name in not_written(&text) {
             let place = file.display();
-            let excuse = excuses.iter().find(|(own, _)| *own == name);
+            let excuse = excuses.iter().find(|(x, _)| *x == name);
             let (own, _) = excuse.unwrap_or_else(|| {
                 panic!(
                     "{place}: `{name}` cannot be written: derive serde's traits under the feature"

@@ -7,18 +7,18 @@ use eigentol::{Complex, Kernels, Study};
 pub(crate) const TIGHT: f64 = 1e-9;
 
 #[track_caller]
-pub(crate) fn close(found: f64, expected: f64) {
+pub(crate) fn close(value: f64, expected: f64) {
     assert!(
-        (found - expected).abs() <= TIGHT * expected.abs().max(1e-6),
-        "{found}, not {expected}"
+        (value - expected).abs() <= TIGHT * expected.abs().max(1e-6),
+        "{value}, not {expected}"
     );
 }
 
 #[track_caller]
-pub(crate) fn near(found: Complex, expected: Complex) {
+pub(crate) fn near(complex: Complex, expected: Complex) {
     assert!(
-        (found - expected).norm() <= TIGHT * expected.norm(),
-        "{found}, not {expected}"
+        (complex - expected).norm() <= TIGHT * expected.norm(),
+        "{complex}, not {expected}"
     );
 }
 
@@ -32,14 +32,14 @@ pub(crate) fn design<const P: usize>(study: &Study<impl Kernels>) -> [f64; P] {
 /// one.
 #[track_caller]
 pub(crate) fn event(
-    found: &EventTolerance,
+    event_tolerance: &EventTolerance,
     value: f64,
     slopes: &[f64],
     design: &[f64],
     half_widths: &[f64],
 ) {
-    close(found.value, value);
-    let spread = found.spread.as_ref().expect("a spread");
+    close(event_tolerance.value, value);
+    let spread = event_tolerance.spread.as_ref().expect("a spread");
     let mut variance = 0.0;
     for (j, &slope) in slopes.iter().enumerate() {
         let own = spread.by_design[j];

@@ -142,8 +142,8 @@ fn conical_whirl_and_its_critical_speeds() {
             near(mode.s, Complex::new(0.0, omega));
             assert_eq!(mode.behaviour, Behaviour::Oscillating(mode.s.im));
             let whirls = at.whirls().expect("whirls");
-            let own = whirls[usize::from(sense == Sense::Forward)];
-            assert_eq!(own.expect("it circles").sense(), sense);
+            let whirl = whirls[usize::from(sense == Sense::Forward)];
+            assert_eq!(whirl.expect("it circles").sense(), sense);
         }
     }
     let tolerances = study.tolerances().expect("declared");
@@ -220,7 +220,7 @@ fn the_campbell_diagram_of_the_disk() {
     ];
     assert_eq!(diagram.crossings.len(), 4);
     for speed in expected {
-        let off = |found: f64| (found - speed).abs();
+        let off = |value: f64| (value - speed).abs();
         let least = diagram.crossings.iter().map(|one| off(one.value));
         assert!(least.fold(f64::INFINITY, f64::min) < 1e-9 * speed);
     }

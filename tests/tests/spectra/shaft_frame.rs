@@ -36,7 +36,7 @@ fn where_the_input_stands_still_the_mass_rests_anywhere() {
     let [axis, lines @ ..] = &found.branches[..] else {
         panic!("no branch")
     };
-    let changes: Vec<Stability> = axis.stretches().iter().map(|(own, _)| *own).collect();
+    let changes: Vec<Stability> = axis.stretches().iter().map(|(x, _)| *x).collect();
     let divergent = Stability::Divergent { negative: 1 };
     assert_eq!(changes, [Stability::Stable, divergent, Stability::Stable]);
     for line in lines {

@@ -128,10 +128,10 @@ fn every_file_gives_the_numbers_of_pinocchio() {
         for floating in [false, true] {
             let replacing = options(floating).nearest_inertias(true);
             let given =
-                Robot::new(&text, &options(floating), &[]).map(|own| (own, options(floating)));
+                Robot::new(&text, &options(floating), &[]).map(|robot| (robot, options(floating)));
             let Ok((robot, options)) = given.or_else(|_| {
-                let own = Robot::new(&text, &replacing, &[]);
-                own.map(|own| (own, replacing))
+                let robot = Robot::new(&text, &replacing, &[]);
+                robot.map(|x| (x, replacing))
             }) else {
                 // A link that is not a body here makes it a different robot.
                 continue;

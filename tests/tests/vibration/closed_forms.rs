@@ -54,12 +54,12 @@ fn truth(name: &str) -> Value {
 
 fn numbers(of: &Value) -> Vec<f64> {
     let list = of.as_array().expect("a list").iter();
-    list.map(|own| own.as_f64().expect("a number")).collect()
+    list.map(|x| x.as_f64().expect("a number")).collect()
 }
 
-fn close(name: &str, found: f64, exact: f64, size: f64, tolerance: f64) {
-    let error = (found - exact).abs() / exact.abs().max(size);
-    assert!(error < tolerance, "{name}: {found} {exact}, {error:e}");
+fn close(name: &str, value: f64, exact: f64, size: f64, tolerance: f64) {
+    let error = (value - exact).abs() / exact.abs().max(size);
+    assert!(error < tolerance, "{name}: {value} {exact}, {error:e}");
 }
 
 /// A variable of a study: an input or a design variable.
@@ -131,7 +131,7 @@ fn compare(
             true => study.input_values()[k],
             false => study.design_values()[k],
         };
-        let sizes = [expected[2], expected[2], expected[2], 1.0].map(|own| own / variable);
+        let sizes = [expected[2], expected[2], expected[2], 1.0].map(|x| x / variable);
         for (j, found) in found.into_iter().enumerate() {
             let name = format!("{name} {j} at {value}");
             close(&name, found, first[place_of[j]], 0.01 * sizes[j], 1e-10);

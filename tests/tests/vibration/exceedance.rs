@@ -76,11 +76,11 @@ fn the_probability_of_exceeding_a_limit_is_that_of_ten_million_designs() {
             .chances(std::slice::from_ref(&wanted))
             .expect("sampled");
         let error = (exact * (1.0 - exact) / 20_000.0).sqrt();
-        let found = chances.all.failure();
-        println!("{w} {limit}: {exact} sampled {found}");
+        let second_order_failure = chances.all.failure();
+        println!("{w} {limit}: {exact} sampled {second_order_failure}");
         assert!(
-            (found - exact).abs() < 4.5 * error,
-            "{w} {limit}: {found} {exact}"
+            (second_order_failure - exact).abs() < 4.5 * error,
+            "{w} {limit}: {second_order_failure} {exact}"
         );
         let judged = study.probability(&[wanted]).expect("judged");
         println!("{judged}");

@@ -46,7 +46,9 @@ fn answer(study: &Study<Interpreted>, wanted: Response) -> (Option<f64>, Option<
     let all = Responses::new(study.mechanism(), &state, &modes, vec![wanted]).expect("responses");
     let found = all.with_gradients(&mut all.workspace(), &state.design);
     let found = found.expect("a realisation");
-    let slopes = found.gradients[0].as_ref().map(|own| own.to_vec());
+    let slopes = found.gradients[0]
+        .as_ref()
+        .map(|gradient| gradient.to_vec());
     (found.values[0], slopes)
 }
 
@@ -129,14 +131,14 @@ fn several_requirements_limit_it() {
 fn are_limited(both: bool) {
     let study = rotor();
     let height = peak(300.0, 500.0, PeakQuantity::Height);
-    let place = peak(300.0, 500.0, PeakQuantity::Place);
+    let response = peak(300.0, 500.0, PeakQuantity::Place);
     let nominal = answer(&study, height).0.expect("a peak");
     let at_most = Requirement::at_most(height, 1.1 * nominal);
-    let all = [at_most, Requirement::away(place, Input::new(0), 0.31)];
+    let all = [at_most, Requirement::away(response, Input::new(0), 0.31)];
     let wanted = &all[usize::from(!both)..];
     let found = study.probability(wanted).expect("probabilities");
     let sampled = study.clone().samples(300).chances(wanted).expect("chances");
-    let distances: Vec<f64> = found.each.iter().map(|own| own.value).collect();
+    let distances: Vec<f64> = found.each.iter().map(|x| x.value).collect();
     for (own, counted) in found.each.iter().zip(&sampled.each) {
         let share = counted.failed as f64 / sampled.all.samples() as f64;
         assert!(own.value > 0.01 && own.value < 0.5, "{distances:?}");
@@ -152,6 +154,6 @@ fn are_limited(both: bool) {
     }
     let refused = study.second_order_failure(at_most);
     assert!(matches!(refused, Err(Error::NoSensitivity { .. })));
-    let spread = study.propagate(&[height, place]).expect("a spread");
+    let spread = study.propagate(&[height, response]).expect("a spread");
     assert!(spread.spreads.iter().all(Option::is_some));
 }

@@ -55,7 +55,7 @@ const OF_DISK: [f64; 3] = [1.401, 0.00136, 0.002];
 const AMOUNTS: [[f64; 2]; 2] = [[6.35e-6, 0.0], [2e-6, 1.2]];
 
 fn station(k: usize) -> f64 {
-    SECTIONS[..k].iter().map(|own| own[0]).sum()
+    SECTIONS[..k].iter().map(|section| section[0]).sum()
 }
 
 fn declaration([kxx, kxy, kyx, kyy]: [f64; 4]) -> String {
@@ -232,7 +232,7 @@ fn solved(stiffness: [f64; 4], w: f64) -> (Z, Vec<(&'static str, Z, f64)>) {
 
 fn compare(
     study: &Study<Interpreted>,
-    found: &ForcedSensitivities,
+    forced_sensitivities: &ForcedSensitivities,
     expected: (Z, Vec<(&str, Z, f64)>),
 ) {
     let (z, slopes) = expected;
@@ -240,14 +240,17 @@ fn compare(
     let rows = OBSERVED.iter().flat_map(|&k| seen(station(k)));
     for (o, row) in rows.enumerate() {
         let output = Output::new(o);
-        let distance = |found: Complex, exact: C| (found.re - exact.re).hypot(found.im - exact.im);
-        let y = found.response.harmonics[0]
+        let distance =
+            |complex: Complex, exact: C| (complex.re - exact.re).hypot(complex.im - exact.im);
+        let y = forced_sensitivities.response.harmonics[0]
             .amplitude(output, measure)
             .expect("an output");
         let exact = row.dot(&z);
         let error = distance(y, exact) / exact.norm();
         assert!(error < 1e-12, "{o}: {y} {exact} {error:e}");
-        let own = found.complex(0, output, measure).expect("slopes");
+        let own = forced_sensitivities
+            .complex(0, output, measure)
+            .expect("slopes");
         for (name, slope, size) in &slopes {
             let slope = row.dot(slope);
             let dy = match study.find_input(name) {

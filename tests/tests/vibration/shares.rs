@@ -9,7 +9,7 @@ use eigentol_tests::corpus::declarations;
 /// A fan with three unbalances, shaken, with a harmonic force and a moment.
 fn fan() -> Study<Interpreted> {
     let all = declarations();
-    let own = all.iter().find(|own| own.0 == "balanced_fan");
+    let own = all.iter().find(|pair| pair.0 == "balanced_fan");
     let machine = Interpreted::from_text(own.expect("the fan").1).expect("a declaration");
     Study::new(machine)
         .input(Input::new(0), 150.0)
@@ -39,13 +39,13 @@ fn compare(
     };
     for (k, &at) in inputs.iter().enumerate() {
         let moved = |step: f64| of(&study.clone().input(Input::new(k), at * (1.0 + step)));
-        let exact = slopes.iter().map(|own| own.by_input[k]).collect();
+        let exact = slopes.iter().map(|slope| slope.by_input[k]).collect();
         check("input", at, [moved(-STEP), moved(STEP)], exact);
     }
     for (k, &at) in design.iter().enumerate() {
         let variable = DesignVariable::new(k);
         let moved = |step: f64| of(&study.clone().design(variable, at * (1.0 + step)));
-        let exact = slopes.iter().map(|own| own.by_design[k]).collect();
+        let exact = slopes.iter().map(|slope| slope.by_design[k]).collect();
         check("design", at, [moved(-STEP), moved(STEP)], exact);
     }
 }
@@ -56,19 +56,22 @@ fn shares_have_the_derivatives_of_differences() {
     let found = study.share_sensitivities().expect("shares");
     let count = study.description().excitations.len();
     let excitations: Vec<usize> = (found.response.harmonics.iter())
-        .map(|own| own.shares[0].excitation)
+        .map(|harmonic| harmonic.shares[0].excitation)
         .collect();
     assert_eq!(excitations, (0..count).collect::<Vec<_>>());
     let shares = |study: &Study<Interpreted>| {
         let response = study.forced_response().expect("a vibration");
         let harmonics = response.harmonics.iter();
-        let mut all: Vec<_> = harmonics.flat_map(|own| &own.shares).collect();
-        all.sort_by_key(|own| own.excitation);
-        let values = all.iter().flat_map(|own| own.outputs.iter().copied());
+        let mut all: Vec<_> = harmonics.flat_map(|harmonic| &harmonic.shares).collect();
+        all.sort_by_key(|x| x.excitation);
+        let values = all.iter().flat_map(|x| x.outputs.iter().copied());
         values.collect()
     };
-    let slopes = found.harmonics.iter().flat_map(|own| own.outputs.iter());
-    let slopes: Vec<_> = slopes.map(|own| own.clone().expect("smooth")).collect();
+    let slopes = found
+        .harmonics
+        .iter()
+        .flat_map(|harmonic| harmonic.outputs.iter());
+    let slopes: Vec<_> = slopes.map(|slope| slope.clone().expect("smooth")).collect();
     compare(&study, shares, &slopes);
     let text = found.to_string();
     assert!(
@@ -84,8 +87,8 @@ fn shares_add_up_to_the_vibration() {
         study.forced_sensitivities().expect("a vibration"),
         study.share_sensitivities().expect("shares"),
     );
-    for (of, own) in all.response.harmonics.iter().zip(&all.harmonics) {
-        for (output, slopes) in own.outputs.iter().enumerate() {
+    for (of, harmonic) in all.response.harmonics.iter().zip(&all.harmonics) {
+        for (output, slopes) in harmonic.outputs.iter().enumerate() {
             let slopes = slopes.as_ref().expect("smooth");
             let mut sum = vec![Complex::ZERO; slopes.iter().count()];
             let mut size = 0.0;
@@ -107,20 +110,23 @@ fn shares_add_up_to_the_vibration() {
 #[test]
 fn orbits_have_the_derivatives_of_differences() {
     let study = fan();
-    let [x, y] = ["height", "across"].map(|own| study.find_output(own).expect("an output").any());
+    let [x, y] = ["height", "across"].map(|x| study.find_output(x).expect("an output").any());
     let found = study.forced_sensitivities().expect("a vibration");
     let harmonics = found.harmonics.len();
     let squares = |study: &Study<Interpreted>| {
         let response = study.forced_response().expect("a vibration");
-        let orbits = response.harmonics.iter().map(|own| own.orbit(x, y));
-        let both = orbits.flat_map(|own| {
-            let own = own.expect("outputs");
+        let orbits = response
+            .harmonics
+            .iter()
+            .map(|harmonic| harmonic.orbit(x, y));
+        let both = orbits.flat_map(|orbit| {
+            let own = orbit.expect("outputs");
             [own.forward, own.backward].map(|part| Complex::from(part.norm_sqr()))
         });
         both.collect()
     };
     let slopes = (0..harmonics).flat_map(|k| found.orbit_squares(k, x, y).expect("smooth"));
-    let slopes: Vec<_> = slopes.map(|own| own.map(Complex::from)).collect();
+    let slopes: Vec<_> = slopes.map(|slope| slope.map(Complex::from)).collect();
     compare(&study, squares, &slopes);
     assert!(found.orbit_squares(harmonics, x, y).is_none());
 }

@@ -15,8 +15,8 @@ fn bicycle() -> Study<WhippleBicycle> {
 
 /// Compares each entry relative to the largest of its matrix.
 #[track_caller]
-fn same(found: &[Vec<f64>], expected: &[f64], tolerance: f64, what: &str) {
-    let found = found.concat();
+fn same(values: &[Vec<f64>], expected: &[f64], tolerance: f64, what: &str) {
+    let found = values.concat();
     let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     for (one, other) in found.iter().zip(expected) {
         assert!(
@@ -42,14 +42,14 @@ fn canonical_matrices() {
         for speed in [0.0, 0.3, 1.0, 4.6, 10.0] {
             let study = bicycle().input(WhippleBicycle::v, speed);
             let state = study.equilibrium().expect("rolling straight ahead");
-            let found = onto(&state.linear, &state.description, &kept);
+            let projected = onto(&state.linear, &state.description, &kept);
             let scaled = |a: &[f64], factor: f64| a.iter().map(|x| factor * x).collect::<Vec<_>>();
             let (gravity, speeds) = (scaled(&k0, 9.81), scaled(&k2, speed * speed));
             let stiffness: Vec<f64> = gravity.iter().zip(&speeds).map(|(a, b)| a + b).collect();
             let what = format!("{source}, {speed} m/s");
-            same(&found.mass, &m, tolerance, &what);
-            same(&found.damping, &scaled(&c1, speed), tolerance, &what);
-            same(&found.stiffness, &stiffness, tolerance, &what);
+            same(&projected.mass, &m, tolerance, &what);
+            same(&projected.damping, &scaled(&c1, speed), tolerance, &what);
+            same(&projected.stiffness, &stiffness, tolerance, &what);
         }
     }
 }

@@ -362,10 +362,10 @@ fn only_the_loss_of_stability_is_critical() {
     // Along an input all of them are listed, also those at which a further motion begins to grow.
     for values in [&[0.3, 3.0][..], &[0.3, 1.2, 1.7, 3.0], &[3.0, 0.3]] {
         let swept = study.sweep(Twice::thrust, values).expect("sweep");
-        let mut found: Vec<f64> = swept.critical.iter().map(|own| own.value).collect();
-        found.sort_by(f64::total_cmp);
-        assert_eq!(found.len(), 3, "{found:?}");
-        for (found, expected) in found.iter().zip([1.0, 1.5, 2.0]) {
+        let mut values: Vec<f64> = swept.critical.iter().map(|x| x.value).collect();
+        values.sort_by(f64::total_cmp);
+        assert_eq!(values.len(), 3, "{values:?}");
+        for (found, expected) in values.iter().zip([1.0, 1.5, 2.0]) {
             assert!((found - expected).abs() < 1e-9, "{found}");
         }
     }

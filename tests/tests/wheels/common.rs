@@ -19,10 +19,10 @@ pub(crate) fn complex(value: &Truth) -> Complex {
 }
 
 #[track_caller]
-pub(crate) fn close(found: f64, expected: f64, scale: f64, what: &str) {
+pub(crate) fn close(value: f64, expected: f64, scale: f64, what: &str) {
     assert!(
-        (found - expected).abs() <= TIGHT * expected.abs().max(scale),
-        "{what}: {found}, not {expected}"
+        (value - expected).abs() <= TIGHT * expected.abs().max(scale),
+        "{what}: {value}, not {expected}"
     );
 }
 
@@ -30,13 +30,13 @@ pub(crate) fn close(found: f64, expected: f64, scale: f64, what: &str) {
 /// derivative that is largest for a relative change of its variable.
 #[track_caller]
 pub(crate) fn close_slopes(
-    found: &[Complex],
+    complexes: &[Complex],
     expected: &[Complex],
     values: &[f64],
     names: &[&str],
     what: &str,
 ) {
-    assert_eq!(found.len(), expected.len(), "{what}");
+    assert_eq!(complexes.len(), expected.len(), "{what}");
     let sizes = values.iter().map(|value| match value.abs() {
         0.0 => 1.0,
         size => size,
@@ -46,7 +46,7 @@ pub(crate) fn close_slopes(
         .iter()
         .zip(&sizes)
         .fold(0.0_f64, |most, (slope, size)| most.max(slope.norm() * size));
-    for (((found, expected), size), name) in found.iter().zip(expected).zip(&sizes).zip(names) {
+    for (((found, expected), size), name) in complexes.iter().zip(expected).zip(&sizes).zip(names) {
         let scale = expected.norm().max(SMALL * greatest / size);
         assert!(
             (found - expected).norm() <= TIGHT * scale,

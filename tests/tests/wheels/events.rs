@@ -8,11 +8,11 @@ use eigentol_tests::wheels::{CirclingTrailer, TowedCaster, WhippleBicycle};
 use super::common::{close, close_real_slopes, design_names, truth};
 
 /// Checks an event: its speed, its derivatives, and the resulting standard deviation.
-fn check_event<M: Mechanism>(study: &Study<M>, found: &EventTolerance, expected: &Truth) {
+fn check_event<M: Mechanism>(study: &Study<M>, event_tolerance: &EventTolerance, expected: &Truth) {
     let speed = expected.get("speed").number();
     let what = format!("{} at {speed}", study.description().name);
-    close(found.value, speed, 0.0, &what);
-    let spread = found.spread.as_ref().expect("a spread");
+    close(event_tolerance.value, speed, 0.0, &what);
+    let spread = event_tolerance.spread.as_ref().expect("a spread");
     let names = design_names::<M>();
     let by = expected.get("by_design");
     let by: Vec<f64> = names.iter().map(|name| by.get(name).number()).collect();

@@ -72,8 +72,8 @@ fn a_coin_rolls_as_its_equations_say() {
 
         let q = [r * c, phi, r * n, -r * rate * c, yaw, spin, 0.0, 0.0, 0.0];
         let velocity = [-r * rate * s, rate, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let found = accelerations(&Coin, &velocity, &q, &[], &[m, r]).expect("regular");
-        for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
+        let values = accelerations(&Coin, &velocity, &q, &[], &[m, r]).expect("regular");
+        for (k, (found, expected)) in values.iter().zip(expected).enumerate() {
             close(*found, expected, 1.0, &format!("unknown {k} leaning {phi}"));
         }
     }

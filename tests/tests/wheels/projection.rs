@@ -97,8 +97,8 @@ pub(crate) fn onto(linear: &Linear, description: &Description, kept: &[usize]) -
             .collect()
     };
     let mut displacements: Matrix = vec![Vec::new(); q.len()];
-    for (row, place) in displacements.iter_mut().zip(&q) {
-        let among = |list: &[usize]| list.iter().position(|other| other == place);
+    for (row, value) in displacements.iter_mut().zip(&q) {
+        let among = |list: &[usize]| list.iter().position(|other| other == value);
         *row = match (among(kept), among(&rest)) {
             (Some(i), _) => one(i),
             (_, Some(i)) => follow[i].clone(),

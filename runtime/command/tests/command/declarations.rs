@@ -21,9 +21,9 @@ impl Visit<'_> for Declarations {
 
 fn of_example(name: &str) -> Vec<String> {
     let text = fs::read_to_string(examples().join(name).with_extension("rs")).unwrap();
-    let mut found = Declarations::default();
-    found.visit_file(&syn::parse_file(&text).unwrap());
-    found.0
+    let mut declarations = Declarations::default();
+    declarations.visit_file(&syn::parse_file(&text).unwrap());
+    declarations.0
 }
 
 fn of_file(name: &str) -> String {

@@ -239,7 +239,7 @@ fn branches_are_kept_as_far_as_they_came() {
     let (_, err) = stopped(&arguments);
     let points = err
         .strip_prefix("stopped: after ")
-        .and_then(|own| own.strip_suffix(" points\n"));
+        .and_then(|x| x.strip_suffix(" points\n"));
     let points: usize = points.unwrap_or_else(|| panic!("{err}")).parse().unwrap();
     let table = csv::read("branches", fs::File::open(path).unwrap()).unwrap();
     assert!(

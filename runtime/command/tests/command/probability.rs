@@ -44,7 +44,7 @@ fn cells(line: &str) -> Vec<String> {
 fn column(table: &str, name: &str) -> Vec<String> {
     let mut lines = table.lines().map(cells);
     let head = lines.next().unwrap();
-    let place = head.iter().position(|own| own == name).unwrap();
+    let place = head.iter().position(|x| x == name).unwrap();
     lines.map(|line| line[place].clone()).collect()
 }
 

@@ -60,8 +60,8 @@ fn the_guide_shows_what_commands_print() {
             .is_some_and(|extension| extension == "md")
         {
             let name = chapter.file_stem().unwrap().to_string_lossy().into_owned();
-            let own = folder(&format!("guide_{name}"));
-            let (count, changed) = check(&chapter, &own, &own);
+            let path = folder(&format!("guide_{name}"));
+            let (count, changed) = check(&chapter, &path, &path);
             commands += count;
             all.extend(changed);
         }

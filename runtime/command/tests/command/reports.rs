@@ -63,9 +63,9 @@ fn an_unstable_equilibrium_is_reported_and_is_no() {
         joint t: prismatic(x) from ground to bar;
         force tip: spring(on: t, stiffness: -100 N/m); }";
     let folder = folder("unstable_report");
-    let own = file(&folder, "upside_down.mechanism", text);
+    let text = file(&folder, "upside_down.mechanism", text);
     let path = folder.join("report.html");
-    let done = run(&["report", &own, "--output", path.to_str().unwrap()]);
+    let done = run(&["report", &text, "--output", path.to_str().unwrap()]);
     assert_eq!(done.code, 1, "{}", done.err);
     let html = fs::read_to_string(path).unwrap();
     assert!(

@@ -35,8 +35,8 @@ fn document(question: &[&str], more: &[&str]) -> Value {
 /// A numeric column of the first table.
 fn column(document: &Value, name: &str) -> Vec<Option<f64>> {
     let columns = document["tables"][0]["columns"].as_array().unwrap();
-    let found = columns.iter().find(|column| column["name"] == name);
-    let values = found.unwrap_or_else(|| panic!("no column `{name}`"))["values"]
+    let column = columns.iter().find(|column| column["name"] == name);
+    let values = column.unwrap_or_else(|| panic!("no column `{name}`"))["values"]
         .as_array()
         .unwrap();
     values.iter().map(Value::as_f64).collect()
@@ -44,8 +44,8 @@ fn column(document: &Value, name: &str) -> Vec<Option<f64>> {
 
 /// Requires equality to 1e-12 of the largest value.
 #[track_caller]
-fn same(found: &[Option<f64>], expected: &[Option<f64>], what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}");
+fn same(values: &[Option<f64>], expected: &[Option<f64>], what: &str) {
+    assert_eq!(values.len(), expected.len(), "{what}");
     assert!(
         expected.iter().flatten().count() > 0,
         "{what}: nothing to compare"
@@ -54,7 +54,7 @@ fn same(found: &[Option<f64>], expected: &[Option<f64>], what: &str) {
         .iter()
         .flatten()
         .fold(0.0, |most: f64, value| most.max(value.abs()));
-    for (k, pair) in found.iter().zip(expected).enumerate() {
+    for (k, pair) in values.iter().zip(expected).enumerate() {
         match pair {
             (Some(a), Some(b)) => {
                 assert!((a - b).abs() <= 1e-12 * size, "{what} {k}: {a:e} and {b:e}");
@@ -106,7 +106,7 @@ fn compare<M: SummaryKernels>(study: &Study<M>, point: &[&str]) {
     let spreads = study.first_order().unwrap();
     let found = ask("tolerance", &[]);
     let expected: Vec<_> = (spreads.modes.iter())
-        .map(|own| own.frequency().map(|spread| spread.sigma))
+        .map(|mode| mode.frequency().map(|spread| spread.sigma))
         .collect();
     same(
         &column(&found, "sigma of frequency"),
@@ -196,7 +196,7 @@ fn the_rotor_along_its_speed() {
         "--order",
         "2",
     ];
-    let found = document(
+    let value = document(
         &[&["campbell", "jeffcott_rotor.mechanism"], &sweep[..]].concat(),
         &[],
     );
@@ -204,9 +204,9 @@ fn the_rotor_along_its_speed() {
         .flat_map(|point| point.modes.as_ref().unwrap())
         .map(|mode| mode.behaviour.frequency())
         .collect();
-    same(&column(&found, "frequency"), &frequencies, "frequency");
+    same(&column(&value, "frequency"), &frequencies, "frequency");
     let unit = &JeffcottRotor::DESCRIPTION.inputs[0].unit;
-    let events = found["tables"]
+    let events = value["tables"]
         .as_array()
         .unwrap()
         .iter()

@@ -38,7 +38,7 @@ fn folder() -> PathBuf {
 fn column(table: &str, name: &str) -> Result<Vec<f64>, String> {
     let mut rows = table.lines().filter(|line| !line.starts_with('#'));
     let head: Vec<&str> = rows.next().unwrap_or("").split(',').collect();
-    let place = head.iter().position(|own| own.trim_matches('"') == name);
+    let place = head.iter().position(|x| x.trim_matches('"') == name);
     let place = place.ok_or_else(|| format!("no column {name} among {head:?}"))?;
     let numbers = rows.filter_map(|row| row.split(',').nth(place)?.parse().ok());
     Ok(numbers.collect())
@@ -49,7 +49,7 @@ impl Case {
         let file = folder().join(&self.file);
         let mut arguments = vec![self.command.clone(), file.display().to_string()];
         arguments.extend(self.arguments.iter().cloned());
-        arguments.extend(more.iter().map(|own| (*own).to_owned()));
+        arguments.extend(more.iter().map(|x| (*x).to_owned()));
         run(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
     }
 
@@ -74,19 +74,19 @@ impl Case {
         Ok(())
     }
 
-    fn compare(&self, found: &[f64], expected: &[f64]) -> Result<(), String> {
+    fn compare(&self, values: &[f64], expected: &[f64]) -> Result<(), String> {
         let near = |a: f64, b: f64| (a - b).abs() <= self.relative * b.abs();
         let right = if self.among {
             expected
                 .iter()
-                .all(|own| found.iter().any(|other| near(*other, *own)))
+                .all(|x| values.iter().any(|other| near(*other, *x)))
         } else {
-            let all = found.len() == expected.len() || self.first && found.len() > expected.len();
-            all && found.iter().zip(expected).all(|(a, b)| near(*a, *b))
+            let all = values.len() == expected.len() || self.first && values.len() > expected.len();
+            all && values.iter().zip(expected).all(|(a, b)| near(*a, *b))
         };
         match right {
             true => Ok(()),
-            false => Err(format!("{found:?}, not {expected:?}")),
+            false => Err(format!("{values:?}, not {expected:?}")),
         }
     }
 }
@@ -178,7 +178,7 @@ fn tolerances_of_inputs_act_through_steady_values() {
     let sigma = column(&out, "sigma of frequency [rad/s]").unwrap();
     let slope = (nodding(4.0 + 1e-4) - nodding(4.0 - 1e-4)) / 2e-4;
     let expected = slope.abs() * 4.0 * 0.05 / 3.0;
-    let near = |own: &f64| (own / expected - 1.0).abs() < 1e-7;
+    let near = |value: &f64| (value / expected - 1.0).abs() < 1e-7;
     assert!(sigma.iter().any(near), "{expected}\n{out}");
 }
 
@@ -235,9 +235,9 @@ fn modes_are_sorted_as_their_numbers_say() {
             .map(|row| [number(&row[1]), number(&row[3])])
             .collect()
     };
-    let close = |found: Vec<[f64; 2]>, expected: &[[f64; 2]]| {
-        assert_eq!(found.len(), expected.len(), "{found:?}");
-        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+    let close = |values: Vec<[f64; 2]>, expected: &[[f64; 2]]| {
+        assert_eq!(values.len(), expected.len(), "{values:?}");
+        for (found, expected) in values.iter().flatten().zip(expected.iter().flatten()) {
             let error = (found - expected).abs();
             assert!(error <= 1e-3 * expected.abs(), "{found} {expected}");
         }

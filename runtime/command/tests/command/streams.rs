@@ -23,7 +23,7 @@ fn table_of_file(path: &Path) -> Table {
 fn documented(arguments: &[&str], name: &str) -> Table {
     let text = answer(&[arguments, &["--json"]].concat());
     let tables = json::read_tables(text.as_bytes()).unwrap();
-    tables.into_iter().find(|own| own.name == name).unwrap()
+    tables.into_iter().find(|table| table.name == name).unwrap()
 }
 
 /// The streamed rows of a question match those of its document, as CSV and as Parquet.
@@ -77,8 +77,10 @@ fn sweeps_are_those_of_documents() {
         let own = streamed.column(&column.name).unwrap();
         match (&own.values, &column.values) {
             // A text column with no text reads back as a column without numbers.
-            (Values::Numbers(own), Values::Texts(_)) => assert!(own.iter().all(Option::is_none)),
-            (own, other) => assert_eq!(own, other, "{}", column.name),
+            (Values::Numbers(numbers), Values::Texts(_)) => {
+                assert!(numbers.iter().all(Option::is_none))
+            }
+            (values, other) => assert_eq!(values, other, "{}", column.name),
         }
     }
     assert!(answer(&sweep).starts_with("JeffcottRotor"));
@@ -184,7 +186,7 @@ impl Endless {
     fn until(&self, wanted: impl Fn(&[u64]) -> bool) {
         for _ in 0..2400 {
             let files = fs::read_dir(self.path.parent().unwrap()).unwrap();
-            let sizes = files.map(|own| own.unwrap().metadata().map_or(0, |own| own.len()));
+            let sizes = files.map(|file| file.unwrap().metadata().map_or(0, |x| x.len()));
             if wanted(&sizes.collect::<Vec<u64>>()) {
                 return;
             }
@@ -215,7 +217,7 @@ impl Endless {
         assert_eq!(output.status.code(), Some(130), "{err}");
         let done = err
             .strip_prefix("stopped: after ")
-            .and_then(|own| own.split_once(' '));
+            .and_then(|x| x.split_once(' '));
         let (done, rest) = done.unwrap_or_else(|| panic!("{err}"));
         assert_eq!(rest.trim(), "of 5000000 values");
         assert_eq!(

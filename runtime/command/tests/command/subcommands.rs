@@ -370,9 +370,9 @@ fn correlations_of_a_study_file() {
         "--start",
         "theta1=60deg",
     ];
-    let (found, expected) = (spreads(&["--study", &study]), spreads(&one_length));
+    let (propagations, expected) = (spreads(&["--study", &study]), spreads(&one_length));
     assert_eq!(expected.len(), 2);
-    for (found, expected) in found.iter().zip(&expected) {
+    for (found, expected) in propagations.iter().zip(&expected) {
         assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
     }
     let apart = std::fs::read_to_string(&study)
@@ -403,10 +403,10 @@ fn allocation_finds_the_widest_tolerance() {
         .position(|name| name.starts_with("half-width"))
         .unwrap();
     let row = lines.find(|line| line.starts_with("l,")).unwrap();
-    let found: f64 = row.split(',').nth(place).unwrap().parse().unwrap();
+    let value: f64 = row.split(',').nth(place).unwrap().parse().unwrap();
     // omega^2 = 25 - (14.715 / (5 l))^2 = 16 at l = 0.981.
     let expected = 3.0 * (1.0 - 0.981) / 3.090_232_306_167_813;
-    assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    assert!((value / expected - 1.0).abs() < 1e-6, "{value} {expected}");
 }
 
 /// `u_c = (1.5 g / l)^(1/2)`, and the frequency is `0.8 u` at `u = (1.5 g / (0.6 l))^(1/2)`: both decrease with the
@@ -438,10 +438,10 @@ fn allocation_for_values_of_an_input() {
             .split(',')
             .position(|name| name.starts_with("half-width"));
         let row = text.lines().find(|line| line.starts_with("l,")).unwrap();
-        let found: f64 = row.split(',').nth(place.unwrap()).unwrap().parse().unwrap();
+        let value: f64 = row.split(',').nth(place.unwrap()).unwrap().parse().unwrap();
         let longest = 1.5 * 9.81 / (factor * limit * limit);
         let expected = 3.0 * (longest - 1.0) / 3.090_232_306_167_813;
-        assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+        assert!((value / expected - 1.0).abs() < 1e-6, "{value} {expected}");
     }
 }
 

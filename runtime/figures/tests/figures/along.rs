@@ -15,11 +15,12 @@ use crate::machines::{Bars, Door, Pendulum, Rotor, bars, pendulum, rotor_diagram
 
 /// All points of those curves of a panel whose label has this prefix.
 fn points<'a>(panel: &'a Panel, label: &str) -> Vec<&'a Point> {
-    let own = panel
+    let curves = panel
         .curves
         .iter()
         .filter(|curve| curve.label.starts_with(label));
-    own.flat_map(|curve| curve.pieces.iter().flatten())
+    curves
+        .flat_map(|curve| curve.pieces.iter().flatten())
         .collect()
 }
 
@@ -52,8 +53,15 @@ fn a_campbell_diagram_has_the_frequencies_bands_and_events_of_its_result() {
             );
         }
     }
-    let bars: Vec<_> = panel.error_bars.iter().flat_map(|own| &own.bars).collect();
-    let shown = result.crossings.iter().filter(|own| own.value.is_finite());
+    let bars: Vec<_> = panel
+        .error_bars
+        .iter()
+        .flat_map(|error_bar| &error_bar.bars)
+        .collect();
+    let shown = result
+        .crossings
+        .iter()
+        .filter(|crossing| crossing.value.is_finite());
     assert!(!bars.is_empty());
     for event in shown {
         let at = event.value * 30.0 / PI;
@@ -124,7 +132,7 @@ fn a_part_of_a_diagram_shows_what_lies_in_it_at_true_width() {
     let modes = panel
         .curves
         .iter()
-        .filter(|own| own.label.starts_with("mode"));
+        .filter(|curve| curve.label.starts_with("mode"));
     for curve in modes {
         assert!(curve.pieces.iter().flatten().any(inside), "{}", curve.label);
     }
@@ -140,7 +148,7 @@ fn a_part_of_a_diagram_shows_what_lies_in_it_at_true_width() {
             .any(|line| line.contains("times as wide"))
     );
     // Modes are also named at the ends of their curves.
-    let names: Vec<&str> = panel.labels.iter().map(|own| &*own.text).collect();
+    let names: Vec<&str> = panel.labels.iter().map(|label| &*label.text).collect();
     assert!(
         names.contains(&"mode 3") && names.contains(&"mode 4"),
         "{names:?}"
@@ -156,19 +164,19 @@ fn damping_ratios_cross_zero_at_the_limit_of_stability() {
     let onsets: Vec<f64> = result
         .flutter_onsets
         .iter()
-        .map(|own| own.value * 30.0 / PI)
+        .map(|flutter_onset| flutter_onset.value * 30.0 / PI)
         .collect();
     let limits = panel
         .error_bars
         .iter()
-        .find(|own| own.label == "limit of stability");
-    let found: Vec<f64> = limits
+        .find(|error_bar| error_bar.label == "limit of stability");
+    let values: Vec<f64> = limits
         .iter()
-        .flat_map(|own| &own.bars)
+        .flat_map(|limit| &limit.bars)
         .map(|bar| bar.at[0])
         .collect();
-    assert!(!onsets.is_empty() && onsets.len() == found.len());
-    for (onset, found) in onsets.iter().zip(&found) {
+    assert!(!onsets.is_empty() && onsets.len() == values.len());
+    for (onset, found) in onsets.iter().zip(&values) {
         assert!((onset - found).abs() <= 1e-15 * onset.abs());
     }
     save(&figure, "damping");
@@ -187,7 +195,7 @@ fn modes_that_coalesce_are_drawn_without_a_gap() {
     let curves = figure.panels[0]
         .curves
         .iter()
-        .filter(|own| own.label.starts_with("mode"));
+        .filter(|curve| curve.label.starts_with("mode"));
     let mut reached = 0;
     for curve in curves {
         let all = curve.pieces.iter().flatten();
@@ -277,7 +285,11 @@ fn events_stand_where_they_happen_and_are_told_with_their_numbers() {
     let rpm = 30.0 / PI;
     let figure = campbell(&result, &Style::default()).unwrap();
     let panel = &figure.panels[0];
-    let bars: Vec<_> = panel.error_bars.iter().flat_map(|own| &own.bars).collect();
+    let bars: Vec<_> = panel
+        .error_bars
+        .iter()
+        .flat_map(|error_bar| &error_bar.bars)
+        .collect();
     let all = result
         .crossings
         .iter()
@@ -294,8 +306,9 @@ fn events_stand_where_they_happen_and_are_told_with_their_numbers() {
         }
         shown += 1;
         let at = [event.value * rpm, height];
-        let near =
-            |own: &Point| (own[0] - at[0]).abs() < 1e-9 * at[0] && (own[1] - at[1]).abs() < 1e-9;
+        let near = |point: &Point| {
+            (point[0] - at[0]).abs() < 1e-9 * at[0] && (point[1] - at[1]).abs() < 1e-9
+        };
         let bar = bars.iter().find(|bar| near(&bar.at)).expect("a bar");
         let half = 3.0 * event.sigma().unwrap() * rpm;
         assert!(
@@ -305,7 +318,7 @@ fn events_stand_where_they_happen_and_are_told_with_their_numbers() {
         let number = panel
             .labels
             .iter()
-            .find(|own| near(&own.at))
+            .find(|label| near(&label.at))
             .expect("a number");
         assert_eq!(number.text, (k + 1).to_string());
         let line = figure
@@ -342,7 +355,7 @@ fn bands_lie_about_their_modes() {
             .as_ref()
             .unwrap()
             .iter()
-            .filter(|own| !own.clustered)
+            .filter(|mode| !mode.clustered)
         {
             let own = [
                 (&frequencies, &mode.frequency, 1.0 / TAU),
@@ -362,8 +375,8 @@ fn bands_lie_about_their_modes() {
                 };
                 let bands = figure.panels[0].bands.iter();
                 let mut edges = bands
-                    .filter(|own| own.colour == Colour::Series(mode.label))
-                    .flat_map(|own| &own.edges);
+                    .filter(|band| band.colour == Colour::Series(mode.label))
+                    .flat_map(|band| &band.edges);
                 assert!(edges.any(same), "{expected:?}");
                 let middle = [expected[0], 0.5 * (expected[1] + expected[2])];
                 let name = format!("mode {}", mode.label + 1);
@@ -388,15 +401,15 @@ fn a_root_locus_goes_from_rings_to_discs() {
         (Shape::Ring, "speed = 0 rpm", result.points.first()),
         (Shape::Disc, "speed = 6000 rpm", result.points.last()),
     ] {
-        let own = figure.panels[0]
+        let marker = figure.panels[0]
             .markers
             .iter()
-            .find(|own| own.shape == shape)
+            .find(|marker| marker.shape == shape)
             .unwrap();
-        assert_eq!(own.label, label);
+        assert_eq!(marker.label, label);
         for mode in point.unwrap().modes.as_ref().unwrap() {
             assert!(
-                own.points.contains(&[mode.s.re, mode.s.im]),
+                marker.points.contains(&[mode.s.re, mode.s.im]),
                 "{shape:?} {:?}",
                 mode.s
             );
@@ -409,11 +422,11 @@ fn a_root_locus_goes_from_rings_to_discs() {
 fn branches_show_each_coordinate_in_its_panel() {
     let found = bars().branches(Bars::omega, 0.0, 7.0).unwrap();
     let figure = branches(&found, &Style::of(&bars())).unwrap();
-    let names: Vec<&str> = figure.panels.iter().map(|own| &*own.y.name).collect();
+    let names: Vec<&str> = figure.panels.iter().map(|panel| &*panel.y.name).collect();
     assert_eq!(names, ["theta1", "theta2"]);
     for (k, panel) in figure.panels.iter().enumerate() {
         let shown: Vec<&Point> = points(panel, "branch");
-        for point in found.branches.iter().flat_map(|own| &own.points) {
+        for point in found.branches.iter().flat_map(|branch| &branch.points) {
             let at = [point.value, point.equilibrium.coordinates[k]];
             assert!(shown.contains(&&at), "{at:?}");
         }
@@ -441,8 +454,9 @@ fn frequencies_are_those_of_the_sweep() {
             let at = point.value * 30.0 / PI;
             let ratio = -mode.s.re / mode.s.norm();
             for (panel, value) in [(upper, mode.s.im / TAU), (lower, 100.0 * ratio)] {
-                let near =
-                    |own: &&Point| (own[0] - at).abs() < 1e-6 && (own[1] - value).abs() < 1e-9;
+                let near = |point: &&Point| {
+                    (point[0] - at).abs() < 1e-6 && (point[1] - value).abs() < 1e-9
+                };
                 assert!(points(panel, &name).iter().any(near), "{name} {at} {value}");
             }
         }
@@ -467,17 +481,20 @@ fn stretches_of_a_branch_meet_where_flutter_begins() {
     let onset = 0.5 * (before.value + after.value) * 30.0 / PI;
     let figure = branches(&found, &Style::default()).unwrap();
     for panel in &figure.panels {
-        let pieces = panel.curves.iter().flat_map(|own| &own.pieces);
+        let pieces = panel.curves.iter().flat_map(|curve| &curve.pieces);
         let ends: Vec<&Point> = pieces
-            .flat_map(|own| [&own[0], &own[own.len() - 1]])
+            .flat_map(|piece| [&piece[0], &piece[piece.len() - 1]])
             .collect();
         for end in &ends {
-            let here = ends.iter().filter(|own| own == &end).count();
+            let here = ends.iter().filter(|x| x == &end).count();
             let outer = panel.x.range.contains(&end[0]);
             assert_eq!(here, if outer { 1 } else { 2 }, "{end:?} of {ends:?}");
         }
-        let solid = panel.curves.iter().find(|own| own.stroke == Stroke::Solid);
-        let last = solid.and_then(|own| own.pieces.last()?.last());
+        let solid = panel
+            .curves
+            .iter()
+            .find(|curve| curve.stroke == Stroke::Solid);
+        let last = solid.and_then(|solid| solid.pieces.last()?.last());
         assert!((last.unwrap()[0] - onset).abs() < 1e-9, "{last:?} {onset}");
     }
     let said = |figure: &Figure| {
@@ -501,7 +518,11 @@ fn markers_of_a_root_locus_stand_clear_of_the_frame() {
     let [low, high] = panel.x.range;
     // Markers are 8 pixels wide, the panel is 840.
     let room = 8.0 / 840.0 * (high - low);
-    let points: Vec<&Point> = panel.markers.iter().flat_map(|own| &own.points).collect();
+    let points: Vec<&Point> = panel
+        .markers
+        .iter()
+        .flat_map(|marker| &marker.points)
+        .collect();
     assert!(points.len() >= 8);
     for at in points {
         assert!(
@@ -520,14 +541,14 @@ fn branches_have_stable_and_unstable_parts_and_their_pitchfork() {
     let unstable: Vec<_> = panel
         .curves
         .iter()
-        .filter(|own| own.stroke == Stroke::Dotted)
+        .filter(|curve| curve.stroke == Stroke::Dotted)
         .collect();
     assert!(unstable.iter().all(|own| own.label.ends_with(", unstable")) && !unstable.is_empty());
     let critical = f64::sqrt(1.5 * 9.81);
     let forks = panel
         .markers
         .iter()
-        .find(|own| own.label == "branch point")
+        .find(|marker| marker.label == "branch point")
         .unwrap();
     assert!(
         forks
@@ -557,7 +578,7 @@ fn spreads_are_those_of_their_results_and_means_are_differences() {
             study.relative_tolerance(variable, percent / 100.0)
         })
     };
-    let found: Vec<_> = [3.0, 6.0, 12.0]
+    let derived: Vec<_> = [3.0, 6.0, 12.0]
         .into_iter()
         .map(|percent| {
             let study = level(percent);
@@ -577,7 +598,7 @@ fn spreads_are_those_of_their_results_and_means_are_differences() {
         })
         .collect();
     let mut spreads = Spreads::new(Bars::omega.any(), 0);
-    for (percent, first, sampled) in &found {
+    for (percent, first, sampled) in &derived {
         spreads = spreads.under(format!("{percent} %"), first, sampled);
     }
     let figure = spreads.figure(&Style::of(&study)).unwrap();
@@ -585,7 +606,7 @@ fn spreads_are_those_of_their_results_and_means_are_differences() {
         panic!("two panels")
     };
     assert_eq!(sigmas.error_bars.len(), 3);
-    for (k, (_, first, sampled)) in found.iter().enumerate() {
+    for (k, (_, first, sampled)) in derived.iter().enumerate() {
         for (own, speed) in sampled.iter().zip(speeds) {
             let statistics = own.modes[0].as_ref().unwrap();
             let bar = sigmas.error_bars[k]
@@ -594,7 +615,7 @@ fn spreads_are_those_of_their_results_and_means_are_differences() {
                 .find(|bar| bar.at[0] == speed)
                 .unwrap();
             assert_eq!(bar.at[1], statistics.sigma.unwrap());
-            let nominal = first.iter().find(|own| own.inputs[0] == speed).unwrap();
+            let nominal = first.iter().find(|x| x.inputs[0] == speed).unwrap();
             let curve = points(sigmas, &format!("first order, {} %", [3, 6, 12][k]));
             let expected = [speed, nominal.modes[0].frequency().unwrap().sigma];
             assert!(curve.contains(&&expected), "{expected:?}");
@@ -609,7 +630,10 @@ fn spreads_are_those_of_their_results_and_means_are_differences() {
     }
     // Three tolerances do not hide each other: somewhere their means differ by more than a hundredth of the axis.
     let length = means.y.range[1] - means.y.range[0];
-    let heights = means.error_bars.iter().map(|own| own.bars[1].at[1]);
+    let heights = means
+        .error_bars
+        .iter()
+        .map(|error_bar| error_bar.bars[1].at[1]);
     let heights: Vec<f64> = heights.collect();
     assert!((heights[2] - heights[0]).abs() > 0.01 * length);
     assert!(

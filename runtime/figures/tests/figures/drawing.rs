@@ -120,11 +120,11 @@ fn a_png_file_has_dark_letters_on_white() {
     let title = &pixels[..144 * row];
     let dark = title
         .chunks(3)
-        .filter(|own| own.iter().all(|c| *c < 80))
+        .filter(|chunk| chunk.iter().all(|c| *c < 80))
         .count();
     let white = title
         .chunks(3)
-        .filter(|own| own.iter().all(|c| *c == 255))
+        .filter(|chunk| chunk.iter().all(|c| *c == 255))
         .count();
     assert!(dark > 300 && white > 100 * dark / 2, "{dark} {white}");
 }

@@ -27,7 +27,7 @@ fn right() -> Vibration {
 fn swept(count: usize) -> Bode {
     let speeds: Vec<f64> = values(400.0, 1800.0, count)
         .iter()
-        .map(|own| own * RPM)
+        .map(|value| value * RPM)
         .collect();
     let found = study().bode(Unbalanced::speed, &speeds);
     found.expect("it vibrates at every speed")
@@ -98,7 +98,7 @@ fn a_phase_does_not_jump_by_a_turn() {
 fn bands_and_peaks_are_those_of_the_results() {
     let speeds: Vec<f64> = values(800.0, 1200.0, 21)
         .iter()
-        .map(|own| own * RPM)
+        .map(|value| value * RPM)
         .collect();
     let result = study()
         .bode_bands(Unbalanced::speed, &speeds, &[right()], 0)
@@ -117,14 +117,14 @@ fn bands_and_peaks_are_those_of_the_results() {
     assert_eq!(upper.error_bars[0].bars.len(), 1);
     // The line goes through the peak.
     let top = upper.error_bars[0].bars[0].at;
-    let through = |own: &Point| own[0] == top[0] && (own[1] / top[1] - 1.0).abs() < 1e-12;
+    let through = |point: &Point| point[0] == top[0] && (point[1] / top[1] - 1.0).abs() < 1e-12;
     assert!(line(upper).iter().any(through));
     assert_eq!(line(upper).len(), 22);
     let bar = upper.error_bars[0].bars[0];
-    let own = &peaks[0].peaks[0];
-    assert!((bar.at[0] * RPM / own.place.value - 1.0).abs() < 1e-12);
-    assert_eq!(bar.at[1], own.height.value);
-    let half = own.place.spread.as_ref().unwrap().band / RPM;
+    let peak = &peaks[0].peaks[0];
+    assert!((bar.at[0] * RPM / peak.place.value - 1.0).abs() < 1e-12);
+    assert_eq!(bar.at[1], peak.height.value);
+    let half = peak.place.spread.as_ref().unwrap().band / RPM;
     assert!((bar.high[0] - bar.at[0] - half).abs() < 1e-9);
     let sides = &upper.markers[0];
     assert_eq!((&*sides.label, sides.points.len()), ("half power", 2));
@@ -132,13 +132,13 @@ fn bands_and_peaks_are_those_of_the_results() {
         figure
             .caption
             .iter()
-            .any(|own| own.starts_with("(1) peak of "))
+            .any(|peak| peak.starts_with("(1) peak of "))
     );
     assert!(
         figure
             .caption
             .iter()
-            .any(|own| own.contains("2.3 to 97.7 %")),
+            .any(|peak| peak.contains("2.3 to 97.7 %")),
         "{:?}",
         figure.caption
     );
@@ -149,7 +149,7 @@ fn bands_and_peaks_are_those_of_the_results() {
         figure
             .caption
             .iter()
-            .any(|own| own.starts_with("(1) peak of "))
+            .any(|peak| peak.starts_with("(1) peak of "))
     );
     save(&figure, "polar");
     // Those of another vibration do not belong here.
@@ -162,9 +162,9 @@ fn bands_and_peaks_are_those_of_the_results() {
 fn a_polar_plot_is_the_path_of_the_complex_amplitude() {
     let figure = polar(&swept(141), right(), &[], &Style::default()).unwrap();
     let speeds = values(400.0, 1800.0, 141);
-    for (own, rpm) in line(&figure.panels[0]).iter().zip(speeds) {
+    for (point, rpm) in line(&figure.panels[0]).iter().zip(speeds) {
         let there = expected(rpm);
-        assert!((own[0] - there.re).hypot(own[1] - there.im) < 1e-9 * there.norm());
+        assert!((point[0] - there.re).hypot(point[1] - there.im) < 1e-9 * there.norm());
     }
     let labels = &figure.panels[0].labels;
     assert!((4..=8).contains(&labels.len()), "{labels:?}");
@@ -214,7 +214,7 @@ fn an_orbit_is_passed_in_its_sense() {
 
 #[test]
 fn a_point_without_a_vibration_leaves_a_gap() {
-    let speeds = [800.0, 850.0, f64::NAN, 900.0, 950.0].map(|own| own * RPM);
+    let speeds = [800.0, 850.0, f64::NAN, 900.0, 950.0].map(|x| x * RPM);
     let result = study().bode(Unbalanced::speed, &speeds).unwrap();
     for figure in [bode, polar].map(|draw| draw(&result, right(), &[], &Style::default()).unwrap())
     {

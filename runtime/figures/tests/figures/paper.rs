@@ -7,7 +7,7 @@ mod paper_figures;
 #[test]
 fn each_figure_of_the_paper_is_drawn() {
     let figures = paper_figures::figures(20).unwrap();
-    let numbers: Vec<usize> = figures.iter().map(|own| own.0).collect();
+    let numbers: Vec<usize> = figures.iter().map(|figure| figure.0).collect();
     assert_eq!(numbers, [3, 4, 5, 6, 7, 9, 10, 11, 12, 13]);
     for (number, figure) in &figures {
         let text = figure.svg().unwrap();
@@ -16,8 +16,8 @@ fn each_figure_of_the_paper_is_drawn() {
         assert_eq!(figure.panels.len(), if *number == 11 { 2 } else { 1 });
     }
     let drawn = |number: usize| {
-        let found = figures.iter().find(|own| own.0 == number);
-        &found.unwrap().1.panels[0]
+        let figure = figures.iter().find(|figure| figure.0 == number);
+        &figure.unwrap().1.panels[0]
     };
     for (number, levels) in [(5, 3), (6, 1), (7, 3), (11, 3), (12, 3), (13, 3)] {
         assert_eq!(drawn(number).error_bars.len(), levels, "figure {number}");

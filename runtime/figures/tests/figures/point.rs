@@ -20,7 +20,7 @@ fn numbers(line: &str) -> Vec<f64> {
 
 /// Whether the numbers, printed to five digits, match.
 fn same(told: &[f64], expected: &[f64]) -> bool {
-    let near = |(told, own): (&f64, &f64)| (told / own - 1.0).abs() < 1e-4;
+    let near = |(told, value): (&f64, &f64)| (told / value - 1.0).abs() < 1e-4;
     told.len() == expected.len() && told.iter().zip(expected).all(near)
 }
 
@@ -54,10 +54,7 @@ fn shares_are_those_of_first_order_with_the_greatest_on_top() {
         );
     }
     let spread = found.modes[0].frequency().unwrap();
-    let line = figure
-        .caption
-        .iter()
-        .find(|own| own.starts_with("frequency "));
+    let line = figure.caption.iter().find(|x| x.starts_with("frequency "));
     let told = numbers(line.unwrap());
     assert!(
         same(&told, &[spread.mean, spread.sigma]),
@@ -119,12 +116,9 @@ fn a_histogram_has_area_one_and_so_have_its_densities() {
         "{middle}"
     );
     let start = "Monte Carlo, 4000 samples, seed 3: ";
-    let told = figure
-        .caption
-        .iter()
-        .find_map(|own| own.strip_prefix(start));
+    let told = figure.caption.iter().find_map(|x| x.strip_prefix(start));
     let told = numbers(told.unwrap_or_else(|| panic!("{:?}", figure.caption)));
-    let expected = [statistics.mean, statistics.sigma.unwrap()].map(|own| scale * own);
+    let expected = [statistics.mean, statistics.sigma.unwrap()].map(|x| scale * x);
     assert!(same(&told, &expected), "{told:?} {expected:?}");
     save(&figure, "histogram");
 }
@@ -154,10 +148,14 @@ fn a_second_order_failure_shows_its_probability() {
     let line = figure
         .caption
         .iter()
-        .find(|own| own.starts_with("probability of failure"));
+        .find(|x| x.starts_with("probability of failure"));
     let told = numbers(line.unwrap());
-    let (own, chance) = (&found.margin, &found.margin.corrected);
-    let expected = [100.0 * own.first_order, 100.0 * chance.value, own.distance];
+    let (margin, chance) = (&found.margin, &found.margin.corrected);
+    let expected = [
+        100.0 * margin.first_order,
+        100.0 * chance.value,
+        margin.distance,
+    ];
     assert!(same(&told, &expected), "{told:?} {expected:?}");
     save(&figure, "second_order_failure");
 }
@@ -175,10 +173,10 @@ fn mode_shapes_are_relative_to_the_largest_component() {
         let largest = mode
             .shape
             .iter()
-            .map(|own| own.re)
+            .map(|component| component.re)
             .max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        for (bar, own) in bars.bars.iter().zip(mode.shape.iter()) {
-            let expected = own.re / largest.unwrap();
+        for (bar, component) in bars.bars.iter().zip(mode.shape.iter()) {
+            let expected = component.re / largest.unwrap();
             assert!((bar[2] + bar[3] - expected).abs() < 1e-12);
         }
     }
@@ -189,7 +187,7 @@ fn mode_shapes_are_relative_to_the_largest_component() {
     // Twice the kinetic energy is the shape times M times the shape, coordinate by coordinate.
     let mass = &state.linear.mass;
     for (bars, mode) in figure.panels[0].bars.iter().zip(&modes.modes) {
-        let shape: Vec<f64> = mode.shape.iter().map(|own| own.re).collect();
+        let shape: Vec<f64> = mode.shape.iter().map(|component| component.re).collect();
         let energy = [0, 1].map(|i| shape[i] * (mass[i][0] * shape[0] + mass[i][1] * shape[1]));
         let whole: f64 = energy.iter().sum();
         for (bar, own) in bars.bars.iter().zip(energy) {
@@ -216,15 +214,15 @@ fn complex_shapes_have_magnitude_and_phase() {
             .iter()
             .max_by(|a, b| a.norm().total_cmp(&b.norm()))
             .unwrap();
-        for (k, own) in mode.shape.iter().enumerate() {
-            let relative = own / largest;
+        for (k, component) in mode.shape.iter().enumerate() {
+            let relative = component / largest;
             let bar = magnitudes.bars[r].bars[k];
             assert!((bar[3] - relative.norm()).abs() < 1e-12);
             let at = 0.5 * (bar[0] + bar[1]);
             let phase = phases.markers[r]
                 .points
                 .iter()
-                .find(|own| (own[0] - at).abs() < 1e-9);
+                .find(|point| (point[0] - at).abs() < 1e-9);
             if let Some(phase) = phase {
                 let turns = (phase[1] - relative.arg().to_degrees()) / 360.0;
                 assert!((turns - turns.round()).abs() < 1e-9, "{phase:?} {relative}");

@@ -17,13 +17,16 @@ fn words(svg: &str) -> (f64, f64, Vec<Words>) {
     let document = roxmltree::Document::parse(svg).expect("the file is XML");
     let root = document.root_element();
     let size = root.attribute("viewBox").expect("it has a size");
-    let size: Vec<f64> = size.split(' ').filter_map(|own| own.parse().ok()).collect();
+    let size: Vec<f64> = size
+        .split(' ')
+        .filter_map(|values| values.parse().ok())
+        .collect();
     let texts = document
         .descendants()
         .filter(|node| node.has_tag_name("text"));
     let all = texts.map(|node| {
         let number = |name: &str| -> f64 {
-            let own = node.attribute(name).and_then(|own| own.parse().ok());
+            let own = node.attribute(name).and_then(|x| x.parse().ok());
             own.unwrap_or_else(|| panic!("{name} of a text"))
         };
         let text = node.text().unwrap_or_default().trim().to_owned();
@@ -37,7 +40,7 @@ fn words(svg: &str) -> (f64, f64, Vec<Words>) {
         let half = 0.5 * LINE * letter;
         let upwards = node
             .attribute("transform")
-            .is_some_and(|own| own.starts_with("rotate(270"));
+            .is_some_and(|x| x.starts_with("rotate(270"));
         let own = match upwards {
             true => [x - half, y + before - long, x + half, y + before],
             false => [x - before, y - half, x - before + long, y + half],

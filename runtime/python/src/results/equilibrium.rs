@@ -58,7 +58,7 @@ attributes! {
         /// None without such joints and beams.
         pose: Option<(String, f64)> = {
             let pose = self.0.pose.as_ref()?;
-            Some((pose.joint.to_string(), own.margin))
+            Some((pose.joint.to_string(), pose.margin))
         };
         /// Whether the search passed an unstable region: the start was not in the valley of the answer.
         left_unstable_region: bool = self.0.left_unstable_region;

@@ -56,23 +56,23 @@ pub(crate) struct Contents {
 impl Contents {
     pub(crate) fn new(source: &Source) -> Self {
         let structs = source.items.iter().filter_map(|(item, shared)| match item {
-            Item::Struct(own) => Some((own, *shared, options(&own.attrs, "pyclass")?)),
+            Item::Struct(item) => Some((item, *shared, options(&item.attrs, "pyclass")?)),
             _ => None,
         });
         let structs: Vec<(&ItemStruct, bool, Options)> = structs.collect();
-        let names = structs.iter().map(|(own, _, options)| {
-            let rust = own.ident.to_string();
+        let names = structs.iter().map(|(item, _, options)| {
+            let rust = item.ident.to_string();
             let python = options.get("name").unwrap_or(&rust).clone();
             (rust, python)
         });
         let names: BTreeMap<String, String> = names.collect();
         let types = Types::new(source, names.clone());
         let class = |name: &String| {
-            let found = structs.iter().find(|(own, ..)| own.ident == name);
+            let found = structs.iter().find(|(x, ..)| x.ident == name);
             let (own, result, options) = found?;
             let mut members = fields(own, options, &types);
             members.extend(methods(source, name, false, &types));
-            members.sort_by_key(|own| own.kind != Kind::New);
+            members.sort_by_key(|member| member.kind != Kind::New);
             Some(Class {
                 name: names[name].clone(),
                 docs: docs(&own.attrs),
@@ -81,7 +81,7 @@ impl Contents {
             })
         };
         let result = structs.iter().find(|(_, shared, _)| *shared);
-        let result = result.map(|(own, ..)| own.ident.to_string());
+        let result = result.map(|(x, ..)| x.ident.to_string());
         Self {
             functions: functions(source, &types),
             shared: methods(source, &result.unwrap_or_default(), true, &types),
@@ -94,10 +94,10 @@ impl Contents {
 type Options = BTreeMap<String, String>;
 
 fn options(attributes: &[Attribute], name: &str) -> Option<Options> {
-    let own = attributes.iter().find(|own| is(own, name))?;
+    let attribute = attributes.iter().find(|attribute| is(attribute, name))?;
     let mut options = Options::new();
-    if let Meta::List(_) = own.meta {
-        let read = own.parse_nested_meta(|meta| {
+    if let Meta::List(_) = attribute.meta {
+        let read = attribute.parse_nested_meta(|meta| {
             let text = match meta.input.peek(Token![=]) {
                 true => text(&meta.value()?.parse()?),
                 false => String::new(),
@@ -110,8 +110,8 @@ fn options(attributes: &[Attribute], name: &str) -> Option<Options> {
     Some(options)
 }
 
-fn text(own: &Lit) -> String {
-    match own {
+fn text(lit: &Lit) -> String {
+    match lit {
         Lit::Str(text) => text.value(),
         other => other.to_token_stream().to_string(),
     }
@@ -125,11 +125,11 @@ fn fields(of: &ItemStruct, options: &Options, types: &Types) -> Vec<Member> {
     let fields = fields
         .named
         .iter()
-        .filter_map(|own| Some((own.ident.as_ref()?, own)));
+        .filter_map(|x| Some((x.ident.as_ref()?, x)));
     let mut members = Vec::new();
     if options.contains_key("new") {
         let arguments = fields.clone();
-        let arguments = arguments.map(|(name, own)| format!("{name}: {}", types.argument(&own.ty)));
+        let arguments = arguments.map(|(name, x)| format!("{name}: {}", types.argument(&x.ty)));
         members.push(Member {
             kind: Kind::New,
             name: "__new__".to_owned(),
@@ -139,12 +139,12 @@ fn fields(of: &ItemStruct, options: &Options, types: &Types) -> Vec<Member> {
         });
     }
     if options.contains_key("get_all") {
-        members.extend(fields.map(|(name, own)| Member {
+        members.extend(fields.map(|(name, item)| Member {
             kind: Kind::Property,
             name: name.to_string(),
             arguments: Vec::new(),
-            returned: types.returned(&own.ty),
-            docs: docs(&own.attrs),
+            returned: types.returned(&item.ty),
+            docs: docs(&item.attrs),
         }));
     }
     members
@@ -154,32 +154,32 @@ fn fields(of: &ItemStruct, options: &Options, types: &Types) -> Vec<Member> {
 fn methods(source: &Source, class: &str, shared: bool, types: &Types) -> Vec<Member> {
     let blocks = source.items.iter().filter_map(|(item, of_all)| match item {
         Item::Impl(own)
-            if *of_all == shared && own.attrs.iter().any(|own| is(own, "pymethods")) =>
+            if *of_all == shared && own.attrs.iter().any(|attr| is(attr, "pymethods")) =>
         {
             (own.self_ty.to_token_stream().to_string() == class).then_some(own)
         }
         _ => None,
     });
     let functions = blocks
-        .flat_map(|own| &own.items)
-        .filter_map(|own| match own {
+        .flat_map(|block| &block.items)
+        .filter_map(|items| match items {
             ImplItem::Fn(own) if !OF_OBJECTS.contains(&own.sig.ident.to_string().as_str()) => {
                 Some(own)
             }
             _ => None,
         });
-    functions.map(|own| method(own, types)).collect()
+    functions.map(|function| method(function, types)).collect()
 }
 
-fn method(own: &ImplItemFn, types: &Types) -> Member {
-    let has = |name: &str| own.attrs.iter().any(|own| is(own, name));
+fn method(impl_item_fn: &ImplItemFn, types: &Types) -> Member {
+    let has = |name: &str| impl_item_fn.attrs.iter().any(|attr| is(attr, name));
     let kind = match () {
         () if has("getter") => Kind::Property,
         () if has("classmethod") => Kind::OfClass,
         () if has("new") => Kind::New,
         () => Kind::Method,
     };
-    let mut made = member(kind, &own.attrs, &own.sig, types);
+    let mut made = member(kind, &impl_item_fn.attrs, &impl_item_fn.sig, types);
     match made.name.as_str() {
         "new" => "__new__".clone_into(&mut made.name),
         // Python compares with anything.
@@ -191,7 +191,7 @@ fn method(own: &ImplItemFn, types: &Types) -> Member {
 
 fn functions(source: &Source, types: &Types) -> Vec<Member> {
     let all = source.items.iter().filter_map(|(item, _)| match item {
-        Item::Fn(own) if own.attrs.iter().any(|own| is(own, "pyfunction")) => {
+        Item::Fn(own) if own.attrs.iter().any(|attr| is(attr, "pyfunction")) => {
             Some(member(Kind::Function, &own.attrs, &own.sig, types))
         }
         _ => None,
@@ -200,8 +200,8 @@ fn functions(source: &Source, types: &Types) -> Vec<Member> {
 }
 
 fn member(kind: Kind, attributes: &[Attribute], of: &Signature, types: &Types) -> Member {
-    let typed = of.inputs.iter().filter_map(|own| match own {
-        FnArg::Typed(own) => Some((own.pat.as_ref(), own.ty.as_ref())),
+    let typed = of.inputs.iter().filter_map(|input| match input {
+        FnArg::Typed(typed) => Some((typed.pat.as_ref(), typed.ty.as_ref())),
         FnArg::Receiver(_) => None,
     });
     let typed = typed.filter(|(_, of)| !of.to_token_stream().to_string().starts_with("Python"));
@@ -209,7 +209,7 @@ fn member(kind: Kind, attributes: &[Attribute], of: &Signature, types: &Types) -
     let instead = matches!(kind, Kind::Method | Kind::OfClass | Kind::Property);
     let skipped = usize::from(instead && of.receiver().is_none());
     let typed = typed.skip(skipped).map(|(pattern, of)| match pattern {
-        Pat::Ident(own) => (own.ident.to_string(), of),
+        Pat::Ident(ident) => (ident.ident.to_string(), of),
         other => panic!("an argument without a name: {other:?}"),
     });
     let typed: Vec<(String, &Type)> = typed.collect();
@@ -229,8 +229,8 @@ fn member(kind: Kind, attributes: &[Attribute], of: &Signature, types: &Types) -
 /// The arguments in Python, with defaults.
 fn arguments(attributes: &[Attribute], typed: &[(String, &Type)], types: &Types) -> Vec<String> {
     let plain = |(name, of): &(String, &Type)| format!("{name}: {}", types.argument(of));
-    let said = attributes.iter().find(|own| is(own, "pyo3"));
-    let Some(Meta::List(said)) = said.map(|own| &own.meta) else {
+    let said = attributes.iter().find(|attribute| is(attribute, "pyo3"));
+    let Some(Meta::List(said)) = said.map(|said| &said.meta) else {
         return typed.iter().map(plain).collect();
     };
     let one = |input: ParseStream<'_>| -> syn::Result<String> {
@@ -242,7 +242,7 @@ fn arguments(attributes: &[Attribute], typed: &[(String, &Type)], types: &Types)
             return Ok(stars);
         }
         let name = input.parse::<Ident>()?.to_string();
-        let of = typed.iter().find(|(own, _)| *own == name);
+        let of = typed.iter().find(|(x, _)| *x == name);
         let of = types.argument(of.expect("an argument of the function").1);
         if input.parse::<Option<Token![=]>>()?.is_some() {
             let default = default(&input.parse()?);
@@ -270,10 +270,10 @@ fn arguments(attributes: &[Attribute], typed: &[(String, &Type)], types: &Types)
     read.unwrap_or_else(|error| panic!("the arguments {}: {error}", said.tokens))
 }
 
-fn default(own: &Expr) -> String {
-    match own {
-        Expr::Lit(own) => own.lit.to_token_stream().to_string(),
-        Expr::Path(own) if own.path.is_ident("None") => "None".to_owned(),
+fn default(expr: &Expr) -> String {
+    match expr {
+        Expr::Lit(lit) => lit.lit.to_token_stream().to_string(),
+        Expr::Path(path) if path.path.is_ident("None") => "None".to_owned(),
         _ => "...".to_owned(),
     }
 }

@@ -134,10 +134,10 @@ fn read(pattern: &[Pattern], input: ParseStream<'_>, values: &mut Values) -> syn
 }
 
 fn this(token: &str, input: ParseStream<'_>) -> syn::Result<()> {
-    let found: TokenTree = input.parse()?;
-    match found.to_string() == token {
+    let token_tree: TokenTree = input.parse()?;
+    match token_tree.to_string() == token {
         true => Ok(()),
-        false => Err(syn::Error::new(found.span(), format!("not `{token}`"))),
+        false => Err(syn::Error::new(token_tree.span(), format!("not `{token}`"))),
     }
 }
 
@@ -153,17 +153,25 @@ fn fragment(kind: &str, input: ParseStream<'_>) -> syn::Result<TokenStream> {
     })
 }
 
-fn repeated(own: &Repetition, input: ParseStream<'_>, values: &mut Values) -> syn::Result<()> {
+fn repeated(
+    repetition: &Repetition,
+    input: ParseStream<'_>,
+    values: &mut Values,
+) -> syn::Result<()> {
     let mut rounds: Vec<Values> = Vec::new();
-    let most = if own.at_most_once { 1 } else { usize::MAX };
+    let most = if repetition.at_most_once {
+        1
+    } else {
+        usize::MAX
+    };
     while !input.is_empty() && rounds.len() < most {
         let (fork, mut round) = (input.fork(), Values::new());
-        let separated = match &own.separator {
+        let separated = match &repetition.separator {
             Some(separator) if !rounds.is_empty() => this(separator, &fork),
             _ => Ok(()),
         };
         if separated
-            .and_then(|()| read(&own.pattern, &fork, &mut round))
+            .and_then(|()| read(&repetition.pattern, &fork, &mut round))
             .is_err()
         {
             break;
@@ -171,7 +179,7 @@ fn repeated(own: &Repetition, input: ParseStream<'_>, values: &mut Values) -> sy
         input.advance_to(&fork);
         rounds.push(round);
     }
-    for name in variables(&own.pattern) {
+    for name in variables(&repetition.pattern) {
         let all = rounds.iter().map(|round| round[name].clone()).collect();
         values.insert(name.to_owned(), Value::Many(all));
     }
@@ -183,7 +191,7 @@ fn variables(pattern: &[Pattern]) -> Vec<&str> {
         Pattern::Token(_) => Vec::new(),
         Pattern::Group(_, inner) => variables(inner),
         Pattern::Fragment { name, .. } => vec![name.as_str()],
-        Pattern::Repeated(own) => variables(&own.pattern),
+        Pattern::Repeated(repeated) => variables(&repeated.pattern),
     });
     each.collect()
 }
@@ -227,13 +235,13 @@ fn rounds(group: &Group, separator: Option<&str>, values: &Values) -> TokenStrea
         if let Some(separator) = separator.filter(|_| k > 0) {
             out.extend(separator.parse::<TokenStream>().expect("a separator"));
         }
-        let mut own = values.clone();
-        own.extend(
+        let mut values = values.clone();
+        values.extend(
             lists
                 .iter()
                 .map(|(name, all)| ((*name).clone(), all[k].clone())),
         );
-        out.extend(written(group.stream(), &own));
+        out.extend(written(group.stream(), &values));
     }
     out
 }

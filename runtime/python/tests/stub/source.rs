@@ -50,7 +50,7 @@ impl Source {
             .path
             .segments
             .last()
-            .map(|own| own.ident.to_string());
+            .map(|segment| segment.ident.to_string());
         let name = name.unwrap_or_default();
         let Some(rules) = self.macros.get(&name) else {
             return;
@@ -65,7 +65,9 @@ impl Source {
     /// The module of Python.
     pub(crate) fn module(&self) -> &ItemMod {
         let module = self.items.iter().find_map(|(item, _)| match item {
-            Item::Mod(module) if module.attrs.iter().any(|own| is(own, "pymodule")) => Some(module),
+            Item::Mod(module) if module.attrs.iter().any(|attr| is(attr, "pymodule")) => {
+                Some(module)
+            }
             _ => None,
         });
         module.expect("a module of Python")
@@ -76,7 +78,7 @@ impl Source {
         let mut names = Vec::new();
         for item in self.module().content.iter().flat_map(|(_, items)| items) {
             if let Item::Use(own) = item
-                && own.attrs.iter().any(|own| is(own, "pymodule_export"))
+                && own.attrs.iter().any(|attr| is(attr, "pymodule_export"))
             {
                 leaves(&own.tree, &mut names);
             }
@@ -104,33 +106,33 @@ impl Source {
 
 fn rows(table: &Expr) -> Vec<Vec<String>> {
     match table {
-        Expr::Array(own) => own.elems.iter().map(texts).collect(),
-        Expr::Reference(own) => rows(&own.expr),
+        Expr::Array(array) => array.elems.iter().map(texts).collect(),
+        Expr::Reference(reference) => rows(&reference.expr),
         other => panic!("this is no table: {other:?}"),
     }
 }
 
 fn texts(expression: &Expr) -> Vec<String> {
     match expression {
-        Expr::Tuple(own) => own.elems.iter().flat_map(texts).collect(),
-        Expr::Array(own) => own.elems.iter().flat_map(texts).collect(),
-        Expr::Reference(own) => texts(&own.expr),
+        Expr::Tuple(tuple) => tuple.elems.iter().flat_map(texts).collect(),
+        Expr::Array(array) => array.elems.iter().flat_map(texts).collect(),
+        Expr::Reference(reference) => texts(&reference.expr),
         Expr::Lit(ExprLit {
             lit: Lit::Str(text),
             ..
         }) => vec![text.value()],
-        Expr::Macro(own) => vec![joined(own.mac.tokens.clone())],
+        Expr::Macro(expression) => vec![joined(expression.mac.tokens.clone())],
         _ => Vec::new(),
     }
 }
 
 /// What `stringify!` and `concat!` give.
 fn joined(tokens: TokenStream) -> String {
-    let each = tokens.into_iter().filter_map(|own| match own {
+    let each = tokens.into_iter().filter_map(|token| match token {
         TokenTree::Ident(name) => Some(name.to_string()),
-        TokenTree::Literal(own) => syn::parse_str::<LitStr>(&own.to_string())
+        TokenTree::Literal(literal) => syn::parse_str::<LitStr>(&literal.to_string())
             .ok()
-            .map(|own| own.value()),
+            .map(|x| x.value()),
         _ => None,
     });
     each.collect::<String>().trim_start().to_owned()
@@ -138,14 +140,14 @@ fn joined(tokens: TokenStream) -> String {
 
 fn definition(item: &Item) -> Option<(String, Vec<Rule>)> {
     match item {
-        Item::Macro(own) => Some((own.ident.as_ref()?.to_string(), rules(own))),
+        Item::Macro(item) => Some((item.ident.as_ref()?.to_string(), rules(item))),
         _ => None,
     }
 }
 
 fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder of the source");
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|own| own.path()).collect();
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|x| x.path()).collect();
     paths.sort();
     let each = paths.into_iter().flat_map(|path| match path.is_dir() {
         true => files(&path),
@@ -156,9 +158,9 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 
 fn leaves(tree: &UseTree, names: &mut Vec<String>) {
     match tree {
-        UseTree::Path(own) => leaves(&own.tree, names),
-        UseTree::Name(own) => names.push(own.ident.to_string()),
-        UseTree::Group(own) => own.items.iter().for_each(|own| leaves(own, names)),
+        UseTree::Path(path) => leaves(&path.tree, names),
+        UseTree::Name(name) => names.push(name.ident.to_string()),
+        UseTree::Group(group) => group.items.iter().for_each(|item| leaves(item, names)),
         UseTree::Rename(_) | UseTree::Glob(_) => panic!("exports are named one by one"),
     }
 }
@@ -169,8 +171,10 @@ pub(crate) fn is(attribute: &Attribute, name: &str) -> bool {
 
 /// The lines of a documentation.
 pub(crate) fn docs(attributes: &[Attribute]) -> Vec<String> {
-    let line = |own: &Attribute| match &own.meta {
-        Meta::NameValue(own) if own.path.is_ident("doc") => texts(&own.value).pop(),
+    let line = |attribute: &Attribute| match &attribute.meta {
+        Meta::NameValue(name_value) if name_value.path.is_ident("doc") => {
+            texts(&name_value.value).pop()
+        }
         _ => None,
     };
     let lines = attributes.iter().filter_map(line);

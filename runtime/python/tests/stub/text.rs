@@ -29,8 +29,8 @@ pub(crate) fn stub(source: &Source) -> String {
         let _ = writeln!(out, "{name}: TypeAlias = NDArray[{of}]");
     }
     out += &aliases(source);
-    for own in &contents.functions {
-        out += &("\n".to_owned() + &member(own, ""));
+    for function in &contents.functions {
+        out += &("\n".to_owned() + &member(function, ""));
     }
     out += &errors(source);
     let shared = Class {
@@ -49,8 +49,8 @@ pub(crate) fn stub(source: &Source) -> String {
 /// Types that have a name of their own: the text in the documentation of an alias, or the keys of a table.
 fn aliases(source: &Source) -> String {
     let (mut simple, mut dictionaries) = (String::new(), String::new());
-    for own in source.aliases() {
-        let (name, docs) = (own.ident.to_string(), docs(&own.attrs));
+    for aliase in source.aliases() {
+        let (name, docs) = (aliase.ident.to_string(), docs(&aliase.attrs));
         let Some(python) = python(&docs) else {
             continue;
         };

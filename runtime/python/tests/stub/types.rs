@@ -31,10 +31,10 @@ struct Alias {
 impl Types {
     /// With the names of classes, in Python by those in Rust.
     pub(crate) fn new(source: &Source, classes: BTreeMap<String, String>) -> Self {
-        let alias = |own: &syn::ItemType| {
-            let python = python(&docs(&own.attrs));
-            let rust = (*own.ty).clone();
-            (own.ident.to_string(), Alias { python, rust })
+        let alias = |item_type: &syn::ItemType| {
+            let python = python(&docs(&item_type.attrs));
+            let rust = (*item_type.ty).clone();
+            (item_type.ident.to_string(), Alias { python, rust })
         };
         Self {
             classes,
@@ -53,23 +53,23 @@ impl Types {
 
     fn of(&self, own: &Type, argument: bool) -> String {
         match own {
-            Type::Reference(own) => self.of(&own.elem, argument),
-            Type::Tuple(own) if own.elems.is_empty() => "None".to_owned(),
-            Type::Tuple(own) => {
-                let each = own.elems.iter().map(|own| self.of(own, argument));
+            Type::Reference(reference) => self.of(&reference.elem, argument),
+            Type::Tuple(tuple) if tuple.elems.is_empty() => "None".to_owned(),
+            Type::Tuple(tuple) => {
+                let each = tuple.elems.iter().map(|elem| self.of(elem, argument));
                 format!("tuple[{}]", each.collect::<Vec<_>>().join(", "))
             }
-            Type::Path(own) => {
-                let last = own.path.segments.last().expect("a path has a name");
+            Type::Path(path) => {
+                let last = path.path.segments.last().expect("a path has a name");
                 self.named(last, argument)
             }
             _ => panic!("no Python type is known for {own:?}"),
         }
     }
 
-    fn named(&self, own: &PathSegment, argument: bool) -> String {
-        let name = own.ident.to_string();
-        let inner: Vec<Type> = arguments(own);
+    fn named(&self, path_segment: &PathSegment, argument: bool) -> String {
+        let name = path_segment.ident.to_string();
+        let inner: Vec<Type> = arguments(path_segment);
         let of = |k: usize| self.of(&inner[k], argument);
         match (name.as_str(), argument) {
             ("PyResult" | "Bound" | "Py" | "PyRef", _) => of(0),
@@ -123,11 +123,11 @@ pub(crate) fn is_name(python: &str) -> bool {
     python.chars().all(char::is_alphanumeric)
 }
 
-fn arguments(own: &PathSegment) -> Vec<Type> {
-    let PathArguments::AngleBracketed(list) = &own.arguments else {
+fn arguments(path_segment: &PathSegment) -> Vec<Type> {
+    let PathArguments::AngleBracketed(list) = &path_segment.arguments else {
         return Vec::new();
     };
-    let types = list.args.iter().filter_map(|own| match own {
+    let types = list.args.iter().filter_map(|arg| match arg {
         GenericArgument::Type(own) => Some(own.clone()),
         _ => None,
     });
@@ -136,11 +136,15 @@ fn arguments(own: &PathSegment) -> Vec<Type> {
 
 fn array(of: Option<&Type>) -> String {
     let name = match of {
-        Some(Type::Path(own)) => own.path.segments.last().map(|own| own.ident.to_string()),
+        Some(Type::Path(path)) => path
+            .path
+            .segments
+            .last()
+            .map(|segment| segment.ident.to_string()),
         _ => None,
     };
     let name = name.unwrap_or_else(|| "f64".to_owned());
-    let found = ARRAYS.iter().find(|(rust, ..)| *rust == name);
-    let (_, python, _) = found.unwrap_or_else(|| panic!("arrays of `{name}`"));
+    let array = ARRAYS.iter().find(|(rust, ..)| *rust == name);
+    let (_, python, _) = array.unwrap_or_else(|| panic!("arrays of `{name}`"));
     (*python).to_owned()
 }

@@ -28,11 +28,11 @@ fn sampled<L: LimitState>(
         coefficient_of_variation: 0.015,
         ..SamplingSettings::default()
     };
-    let found = Sampler::new(limits, failure, proposal, &settings)
+    let sampled_probability = Sampler::new(limits, failure, proposal, &settings)
         .expect("valid")
         .run();
-    assert!(found.reached, "{found:?}");
-    found
+    assert!(sampled_probability.reached, "{sampled_probability:?}");
+    sampled_probability
 }
 
 fn regions<L: LimitState>(limit: &L) -> Vec<DesignPoint> {
@@ -41,11 +41,11 @@ fn regions<L: LimitState>(limit: &L) -> Vec<DesignPoint> {
         .design_points
 }
 
-fn off(found: &SampledProbability, exact: f64) {
-    let distance = (found.probability.value - exact).abs();
+fn off(sampled_probability: &SampledProbability, exact: f64) {
+    let distance = (sampled_probability.probability.value - exact).abs();
     assert!(
-        distance < 4.0 * found.probability.standard_error,
-        "{found:?} {exact}"
+        distance < 4.0 * sampled_probability.probability.standard_error,
+        "{sampled_probability:?} {exact}"
     );
 }
 
@@ -196,13 +196,13 @@ fn rp28() {
         }
     });
     close(exact, 1.46e-7, 5e-3);
-    let found = regions(&limits[0]);
-    assert_eq!(found.len(), 2, "{found:?}");
-    let parts = found
+    let design_points = regions(&limits[0]);
+    assert_eq!(design_points.len(), 2, "{design_points:?}");
+    let parts = design_points
         .iter()
         .map(|point| sorm(&limits[0], point).unwrap().tvedt().unwrap());
     close(parts.sum(), exact, 0.02);
-    let proposal = Proposal::around(&found).unwrap();
+    let proposal = Proposal::around(&design_points).unwrap();
     off(&sampled(&limits, Failure::Any, &proposal), exact);
 }
 
@@ -261,9 +261,9 @@ fn rp53() {
         below(1.5 - 20.0 * ((2.5 * x1).sin() + 2.0) / (x1 * x1 + 4.0))
     });
     close(exact, 0.0313, 2e-3);
-    let found = regions(&limits[0]);
-    assert!(found.len() >= 2, "{found:?}");
-    let mut centres: Vec<Vec<f64>> = found.into_iter().map(|p| p.point).collect();
+    let design_points = regions(&limits[0]);
+    assert!(design_points.len() >= 2, "{design_points:?}");
+    let mut centres: Vec<Vec<f64>> = design_points.into_iter().map(|p| p.point).collect();
     centres.push(vec![0.0, 0.0]);
     let weights = vec![1.0; centres.len()];
     let proposal = Proposal::mixture(centres, weights).unwrap();
@@ -288,9 +288,9 @@ fn rp57() {
 #[test]
 fn rp75() {
     let limits = [limit(2, |z| (3.0 - z[0] * z[1], vec![-z[1], -z[0]]))];
-    let found = regions(&limits[0]);
-    assert_eq!(found.len(), 2, "{found:?}");
-    let sum: f64 = found
+    let design_points = regions(&limits[0]);
+    assert_eq!(design_points.len(), 2, "{design_points:?}");
+    let sum: f64 = design_points
         .iter()
         .map(|point| {
             close(point.beta, 6.0_f64.sqrt(), 1e-9);
@@ -298,7 +298,7 @@ fn rp75() {
         })
         .sum();
     close(sum, 2.0 * below(-6.0_f64.sqrt()) / SQRT_2, 1e-7);
-    let proposal = Proposal::around(&found).unwrap();
+    let proposal = Proposal::around(&design_points).unwrap();
     let exact = mean(|x| if x == 0.0 { 0.0 } else { below(-3.0 / x.abs()) });
     close(exact, 0.009_819_298_721_546_89, 1e-8);
     off(&sampled(&limits, Failure::Any, &proposal), exact);
@@ -344,11 +344,11 @@ fn rp111() {
         restarts: 12,
         ..FormSettings::default()
     };
-    let found = failure_regions(&limits[0], &settings)
+    let design_points = failure_regions(&limits[0], &settings)
         .unwrap()
         .design_points;
-    assert_eq!(found.len(), 4, "{found:?}");
-    let proposal = Proposal::around(&found).unwrap();
+    assert_eq!(design_points.len(), 4, "{design_points:?}");
+    let proposal = Proposal::around(&design_points).unwrap();
     off(
         &sampled(&limits, Failure::Any, &proposal),
         8.082_737_356_734_152e-7,

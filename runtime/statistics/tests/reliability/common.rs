@@ -29,10 +29,10 @@ pub(crate) fn design_point<L: LimitState>(limit: &L) -> DesignPoint {
         .design_point
 }
 
-pub(crate) fn close(found: f64, expected: f64, relative: f64) {
+pub(crate) fn close(value: f64, expected: f64, relative: f64) {
     assert!(
-        (found - expected).abs() <= relative * expected.abs(),
-        "found {found}, expected {expected}"
+        (value - expected).abs() <= relative * expected.abs(),
+        "found {value}, expected {expected}"
     );
 }
 

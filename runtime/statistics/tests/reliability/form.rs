@@ -45,9 +45,9 @@ fn curved_limits_ignore_what_does_not_matter() {
     };
     let alone = design_point(&curved(2));
     for dimension in [3, 9, 300] {
-        let found = design_point(&curved(dimension));
-        close(found.beta, alone.beta, 1e-9);
-        assert!(found.point[2..].iter().all(|z| z.abs() < 1e-8));
+        let design_point = design_point(&curved(dimension));
+        close(design_point.beta, alone.beta, 1e-9);
+        assert!(design_point.point[2..].iter().all(|z| z.abs() < 1e-8));
     }
 }
 
@@ -63,10 +63,14 @@ fn units_do_not_matter() {
     let expected = design_point(&scaled(1.0));
     for exponent in [-900, -300, -40, 40, 300, 900] {
         let unit = 2.0_f64.powi(exponent);
-        let found = design_point(&scaled(unit));
-        assert_eq!(found.point, expected.point, "unit 2^{exponent}");
-        assert_eq!(found.residuals, expected.residuals);
-        close(found.gradient_norm, unit * expected.gradient_norm, 1e-14);
+        let design_point = design_point(&scaled(unit));
+        assert_eq!(design_point.point, expected.point, "unit 2^{exponent}");
+        assert_eq!(design_point.residuals, expected.residuals);
+        close(
+            design_point.gradient_norm,
+            unit * expected.gradient_norm,
+            1e-14,
+        );
     }
 }
 
@@ -255,8 +259,8 @@ fn a_point_that_is_nearest_in_some_directions_only_is_left() {
         restarts: 0,
         ..FormSettings::default()
     };
-    let found = form(&valley, &settings).unwrap().design_point;
-    close(found.beta, expected, 1e-8);
+    let design_point = form(&valley, &settings).unwrap().design_point;
+    close(design_point.beta, expected, 1e-8);
 }
 
 /// The optimiser takes over where the iteration cycles: strongly curved limits.
@@ -301,10 +305,10 @@ fn sensitivities_are_derivatives() {
         })
     };
     let at = design_point(&bent(0.5));
-    let found = at.sensitivity(-(0.5 * at.point[1]).exp()).beta;
+    let beta = at.sensitivity(-(0.5 * at.point[1]).exp()).beta;
     let ahead = design_point(&bent(0.5 + step)).beta;
     let behind = design_point(&bent(0.5 - step)).beta;
-    close(found, (ahead - behind) / (2.0 * step), 1e-6);
+    close(beta, (ahead - behind) / (2.0 * step), 1e-6);
 }
 
 proptest! {

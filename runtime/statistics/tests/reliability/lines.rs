@@ -36,14 +36,20 @@ fn run<L: LimitState>(
 }
 
 /// Within four standard errors, which are at most `relative` of the exact value.
-fn covers(found: &LineProbability, exact: f64, relative: f64) {
-    let own = found.probability;
-    assert!(found.settled && found.reached, "{found:?}");
+fn covers(line_probability: &LineProbability, exact: f64, relative: f64) {
+    let probability = line_probability.probability;
     assert!(
-        (own.value - exact).abs() <= 4.0 * own.standard_error + 2e-3 * exact,
-        "{found:?}, exact {exact:e}"
+        line_probability.settled && line_probability.reached,
+        "{line_probability:?}"
     );
-    assert!(own.standard_error <= relative * exact, "{found:?}");
+    assert!(
+        (probability.value - exact).abs() <= 4.0 * probability.standard_error + 2e-3 * exact,
+        "{line_probability:?}, exact {exact:e}"
+    );
+    assert!(
+        probability.standard_error <= relative * exact,
+        "{line_probability:?}"
+    );
 }
 
 /// Along its normal a plane has no scatter at all; along any other direction the estimate is still unbiased.
@@ -134,7 +140,7 @@ fn directions_share_the_space() {
         let (first, second) = (angle(0.0), angle(degrees));
         let (near, far) = (2.0, 2.5);
         let system = limit(2, |z| {
-            let along = |own: &[f64]| own[0] * z[0] + own[1] * z[1];
+            let along = |values: &[f64]| values[0] * z[0] + values[1] * z[1];
             let nearest = (near - along(&first)).min(far - along(&second));
             (nearest, vec![0.0; 2])
         });
@@ -158,10 +164,11 @@ fn directions_share_the_space() {
             ],
         ] {
             let found = run(&system, &directions, 0.02);
-            let own = found.probability;
+            let probability = found.probability;
             assert!(found.reached, "{degrees} {found:?}");
             assert!(
-                (own.value - exact).abs() <= 4.0 * own.standard_error + 1e-3 * exact,
+                (probability.value - exact).abs()
+                    <= 4.0 * probability.standard_error + 1e-3 * exact,
                 "{degrees} {found:?}, exact {exact:e}"
             );
         }
@@ -179,7 +186,8 @@ fn failures_that_nobody_expected() {
     };
     for degrees in [180.0, 120.0, 75.0] {
         let [first, second] = [plane(0.0), plane(degrees)];
-        let along = |own: &[f64], z: &[f64]| own.iter().zip(z).map(|(a, z)| a * z).sum::<f64>();
+        let along =
+            |values: &[f64], z: &[f64]| values.iter().zip(z).map(|(a, z)| a * z).sum::<f64>();
         let system = limit(3, |z| {
             let nearest = along(&first, z).max(along(&second, z));
             (beta - nearest, vec![0.0; 3])

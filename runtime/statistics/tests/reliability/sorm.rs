@@ -61,8 +61,8 @@ fn curvatures_of_paraboloids() {
             let differences = sorm(&FirstOrderOnly(&limit), &at).unwrap();
             assert_eq!(differences.evaluations().total, 4);
             for (found, tolerance) in [(exact, 1e-12), (differences, 1e-9)] {
-                for (found, expected) in found.curvatures().iter().zip(kappa) {
-                    assert!((found - expected).abs() < tolerance, "{found} {expected}");
+                for (value, expected) in found.curvatures().iter().zip(kappa) {
+                    assert!((value - expected).abs() < tolerance, "{value} {expected}");
                 }
             }
         }

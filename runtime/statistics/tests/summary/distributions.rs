@@ -39,8 +39,8 @@ fn moments_are_those_of_the_distribution() {
         samples
     {
         let root = (COUNT as f64).sqrt();
-        let near = |found: Option<f64>, expected: f64, error: f64| {
-            let found = found.expect(name);
+        let near = |value: Option<f64>, expected: f64, error: f64| {
+            let found = value.expect(name);
             assert!(
                 (found - expected).abs() < 5.0 * error,
                 "{name}: {found}, expected {expected}"

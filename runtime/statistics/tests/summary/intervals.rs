@@ -8,7 +8,7 @@ use crate::common::uniform;
 fn ranks(count: u32, p: f64, confidence: f64) -> Result<Option<(f64, f64, f64)>, Error> {
     let values = Sorted::new((1..=count).rev().map(f64::from).collect())?;
     let interval = values.quantile_interval(p, confidence)?;
-    Ok(interval.map(|found| (found.lower, found.upper, found.coverage)))
+    Ok(interval.map(|interval| (interval.lower, interval.upper, interval.coverage)))
 }
 
 /// R: `quantile(c(2, 3, 5, 7, 11, 13, 17), type = 7)`; at 1/6 it is the second value, and linear in between.

@@ -57,8 +57,8 @@ impl Exact {
             mean,
             central: [m2, m3, m4],
         } = *self;
-        let near = |name: &str, found: Option<f64>, expected: f64, scale: f64| {
-            let found = found.expect(name);
+        let near = |name: &str, value: Option<f64>, expected: f64, scale: f64| {
+            let found = value.expect(name);
             assert!(
                 (found - expected).abs() <= tolerance * scale,
                 "{name}: {found:e}, expected {expected:e}"

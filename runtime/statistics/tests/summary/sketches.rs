@@ -113,14 +113,14 @@ fn resolution_for_normal_values() -> Result<(), Error> {
         (0.001, 0.013),
         (0.999, 0.013),
     ] {
-        let found = sketch.quantile(p)?;
-        assert!(found.error <= limit * 0.2, "{p}: {found:?}");
+        let value = sketch.quantile(p)?;
+        assert!(value.error <= limit * 0.2, "{p}: {value:?}");
         // With many values per bucket, interpolation is much better than its bound.
         if (0.1..0.9).contains(&p) {
             let exact = sorted.quantile(p)?;
             assert!(
-                (found.value - exact).abs() <= 0.1 * limit * 0.2 + 2e-6,
-                "{p}: {found:?}, exact {exact}"
+                (value.value - exact).abs() <= 0.1 * limit * 0.2 + 2e-6,
+                "{p}: {value:?}, exact {exact}"
             );
         }
     }

@@ -12,7 +12,7 @@ pub(crate) fn table() -> Table {
     table.numbers("sigma", "rad/s", [Some(5e-324), None, Some(-0.0)]);
     table.texts(
         "name, with \"marks\"",
-        ["a,b", "line\nline", " \"c\" "].map(|own| Some(own.to_owned())),
+        ["a,b", "line\nline", " \"c\" "].map(|x| Some(x.to_owned())),
     );
     table.flags("met", [Some(true), None, Some(false)]);
     table

@@ -57,7 +57,7 @@ fn another_program_finds_its_way() {
         .expect("columns");
     let frequency = columns
         .iter()
-        .find(|own| own["name"] == "frequency")
+        .find(|column| column["name"] == "frequency")
         .expect("a column");
     assert_eq!(frequency["unit"], "rad/s");
     assert_eq!(frequency["kind"], "numbers");
@@ -174,9 +174,9 @@ fn resize(value: &mut Value, left: &mut usize, change: fn(&mut Vec<Value>)) -> b
         }
         Value::Array(all) => {
             *left -= 1;
-            all.iter_mut().any(|own| resize(own, left, change))
+            all.iter_mut().any(|x| resize(x, left, change))
         }
-        Value::Object(fields) => fields.values_mut().any(|own| resize(own, left, change)),
+        Value::Object(fields) => fields.values_mut().any(|field| resize(field, left, change)),
         _ => false,
     }
 }

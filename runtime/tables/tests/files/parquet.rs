@@ -34,10 +34,10 @@ fn parts_are_joined_in_order() {
     let parts: Vec<Table> = (0..10).map(|k| part(1000 * k)).collect();
     let back = parquet::read(&bytes(&parts)[..]).expect("a table");
     assert_eq!((back.name.as_str(), back.rows()), ("samples", 10_000));
-    let Values::Numbers(found) = &back.columns[1].values else {
+    let Values::Numbers(values) = &back.columns[1].values else {
         panic!("numbers");
     };
-    for (k, value) in found.iter().enumerate() {
+    for (k, value) in values.iter().enumerate() {
         assert_eq!(
             *value,
             (!k.is_multiple_of(7)).then(|| (k as f64).sqrt()),
@@ -81,7 +81,7 @@ fn another_version_is_refused() {
     let key = b"eigentol";
     let at = file
         .windows(key.len())
-        .position(|own| own == key)
+        .position(|window| window == key)
         .expect("the key");
     let version = at
         + file[at..]

@@ -10,10 +10,10 @@ use crate::matrices::Scalar;
 use crate::model::{Beam, Coordinate, Model, Section};
 
 /// The frame of a section in that of the root: turned, and moved along the integral of the direction of the beam.
-pub(super) fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> Four<D> {
+pub(super) fn section<D: Scalar>(beam: &Beam, q: &[D], value: f64, design: &[D]) -> Four<D> {
     let length = get(beam.length, design);
     let mut position = [D::zero(); 3];
-    let points = beam.sections.iter().zip(beam.weights_to(place));
+    let points = beam.sections.iter().zip(beam.weights_to(value));
     for (k, (own, weight)) in points.enumerate() {
         let unloaded = unloaded(beam, D::from(own.place), design);
         let turned = multiply(&rotation(beam, beam.turn(q, own.place)), &unloaded);
@@ -26,7 +26,7 @@ pub(super) fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D])
             }
         }
     }
-    let turned = rotation(beam, beam.turn(q, place));
+    let turned = rotation(beam, beam.turn(q, value));
     multiply(&translation(position), &turned)
 }
 
@@ -34,7 +34,7 @@ pub(super) fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D])
 fn unloaded<D: Scalar>(beam: &Beam, place: D, design: &[D]) -> Four<D> {
     let [second, third] = beam.prebend.about;
     let about = [0, 1, 2].map(|i| second * beam.axes[1][i] + third * beam.axes[2][i]);
-    let [root, tip] = beam.prebend.angles.map(|own| get(own, design));
+    let [root, tip] = beam.prebend.angles.map(|angle| get(angle, design));
     quaternion_rotation(about, root + (tip - root) * place)
 }
 
@@ -54,7 +54,7 @@ fn stretch_and_shear<D: Scalar>(beam: &Beam, q: &[D], k: usize, design: &[D]) ->
     }
     let length = get(beam.length, design);
     let bent = curvature(beam, q, section.place, design);
-    let [now, change] = [bent.map(|own| own.re), bent.map(|own| own.eps)];
+    let [now, change] = [bent.map(|bent| bent.re), bent.map(|bent| bent.eps)];
     // the derivative of D k, with D between the points of quadrature the polynomial through its values there
     let mut moment = moments(section, change, design);
     for (other, share) in beam.sections.iter().zip(beam.slopes_at(section.place)) {
@@ -157,7 +157,7 @@ pub(super) fn dissipated<D: Scalar>(poses: &Poses<D>, moving: &Poses<Dual<D>>) -
 fn strain<D: Scalar>(poses: &Poses<D>, beam: &Beam, k: usize) -> [D; 6] {
     let section = &beam.sections[k];
     let q = of_beam(poses.model, beam, &poses.coordinates);
-    let bent = curvature(beam, q, section.place, &poses.design).map(|own| own.re);
+    let bent = curvature(beam, q, section.place, &poses.design).map(|x| x.re);
     let strained = stretch_and_shear(beam, q, k, &poses.design);
     let mut angle = get(section.twist, &poses.design);
     if let Some(spin) = beam.spin {
@@ -178,13 +178,13 @@ fn strain<D: Scalar>(poses: &Poses<D>, beam: &Beam, k: usize) -> [D; 6] {
 /// Twist and bending along the axes of the beam as they turn with the section, and their derivatives by the place as a
 /// fraction of the length: what `[k]x = T^T dT/ds` has grown by since `T` was the arc without load. The twist before bending
 /// is left out of `T`: its own rate is not strain.
-fn curvature<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> [Dual<D>; 3] {
-    let (turn, slope) = (beam.turn(q, place), beam.slope(q, place));
-    let curl = beam.curl(q, place);
+fn curvature<D: Scalar>(beam: &Beam, q: &[D], value: f64, design: &[D]) -> [Dual<D>; 3] {
+    let (turn, slope) = (beam.turn(q, value), beam.slope(q, value));
+    let curl = beam.curl(q, value);
     let along: [Dual<Dual<D>>; 3] = std::array::from_fn(|k| {
         Dual::new(Dual::new(turn[k], slope[k]), Dual::new(slope[k], curl[k]))
     });
-    let here = Dual::new(D::from(place), D::one());
+    let here = Dual::new(D::from(value), D::one());
     let arc = unloaded(
         beam,
         Dual::new(here, Dual::from_re(D::one())),

@@ -33,7 +33,7 @@ fn factor<D: Scalar>(psi: Vector<D>) -> D {
 /// The rotation from the root to a place of the unloaded beam, along the axes of the root.
 fn curved<D: Scalar>(beam: &Beam, place: f64, design: &[D]) -> Matrix<D> {
     let [second, third] = beam.prebend.about;
-    let [root, tip] = beam.prebend.angles.map(|own| value(own, design));
+    let [root, tip] = beam.prebend.angles.map(|angle| value(angle, design));
     rotation([0.0, second, third], root * (1.0 - place) + tip * place)
 }
 
@@ -42,16 +42,16 @@ fn curved<D: Scalar>(beam: &Beam, place: f64, design: &[D]) -> Matrix<D> {
 fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> Pose<D> {
     let length = value(beam.length, design);
     let points = beam.sections.iter().zip(beam.weights_to(place));
-    let mean = points.fold(Vector::zero(), |sum, (own, weight)| {
-        let Vector([stretch, second, third]) = strain(beam, q, own, design);
+    let mean = points.fold(Vector::zero(), |sum, (item, weight)| {
+        let Vector([stretch, second, third]) = strain(beam, q, item, design);
         let shortening = (second * second + third * third) * 0.5;
         let heading = Vector([stretch + 1.0 - shortening, second, third]);
-        let heading = curved(beam, own.place, design) * heading;
+        let heading = curved(beam, item.place, design) * heading;
         let axes = beam.axes.iter().zip(heading.0);
-        let direction = axes.fold(Vector::zero(), |sum, (&axis, own)| {
-            sum + Vector::constant(axis).scaled(own)
+        let direction = axes.fold(Vector::zero(), |sum, (&axis, item)| {
+            sum + Vector::constant(axis).scaled(item)
         });
-        let direction = turned(beam, beam.turn(q, own.place)) * direction;
+        let direction = turned(beam, beam.turn(q, item.place)) * direction;
         sum + direction.scaled(D::from(weight))
     });
     Pose {
@@ -70,24 +70,24 @@ fn curvature<D: Scalar>(beam: &Beam, psi: Vector<D>, slope: Vector<D>, length: D
     strain.scaled(length.recip())
 }
 
-fn curvature_at<D: Scalar>(beam: &Beam, q: &[D], place: f64, length: D) -> Vector<D> {
-    let [psi, slope] = [beam.turn(q, place), beam.slope(q, place)];
+fn curvature_at<D: Scalar>(beam: &Beam, q: &[D], value: f64, length: D) -> Vector<D> {
+    let [psi, slope] = [beam.turn(q, value), beam.slope(q, value)];
     curvature(beam, Vector(psi), Vector(slope), length)
 }
 
 /// Stretch and shear along the axes of the beam: coordinates, or shear as in statics,
 /// `g = (kGA)^-1 (-(D kappa)3', (D kappa)2') / L`. The stiffness `D` between the points of quadrature is the polynomial
 /// through its values there.
-fn strain<D: Scalar>(beam: &Beam, q: &[D], own: &Section, design: &[D]) -> Vector<D> {
-    let coordinates = beam.strain(q, own.place);
+fn strain<D: Scalar>(beam: &Beam, q: &[D], section: &Section, design: &[D]) -> Vector<D> {
+    let coordinates = beam.strain(q, section.place);
     if !beam.static_shear {
         return Vector(coordinates);
     }
     let length = value(beam.length, design);
     let [psi, slope, curl] = [
-        beam.turn(q, own.place),
-        beam.slope(q, own.place),
-        beam.curl(q, own.place),
+        beam.turn(q, section.place),
+        beam.slope(q, section.place),
+        beam.curl(q, section.place),
     ];
     let advanced = |at: [D; 3], by: [D; 3]| Vector([0, 1, 2].map(|i| Dual::new(at[i], by[i])));
     let kappa = curvature(
@@ -96,15 +96,15 @@ fn strain<D: Scalar>(beam: &Beam, q: &[D], own: &Section, design: &[D]) -> Vecto
         advanced(slope, curl),
         Dual::from_re(length),
     );
-    let points = beam.sections.iter().zip(beam.slopes_at(own.place));
+    let points = beam.sections.iter().zip(beam.slopes_at(section.place));
     let growth = points.fold(Matrix::constant([[0.0; 3]; 3]), |sum, (other, share)| {
         sum + stiffness(beam, other, BENDING, design).scaled(D::from(share))
     });
-    let bending = stiffness(beam, own, BENDING, design);
+    let bending = stiffness(beam, section, BENDING, design);
     let change = bending * kappa.rate() + growth * kappa.now();
     let Vector([_, about_second, about_third]) = change.scaled(length.recip());
     let force = Vector([D::zero(), -about_third, about_second]);
-    let [shear_second, shear_third] = [1, 2].map(|k| value(own.stiffness[k][k], design));
+    let [shear_second, shear_third] = [1, 2].map(|k| value(section.stiffness[k][k], design));
     // what has no stiffness is not to shear
     let compliance = |stiffness: D| match stiffness.re() {
         0.0 => stiffness,
@@ -113,7 +113,7 @@ fn strain<D: Scalar>(beam: &Beam, q: &[D], own: &Section, design: &[D]) -> Vecto
     let o = D::zero();
     let (second, third) = (compliance(shear_second), compliance(shear_third));
     let compliances = Matrix([[o, o, o], [o, second, o], [o, o, third]]);
-    let shear = turned_with(beam, own, compliances, design) * force;
+    let shear = turned_with(beam, section, compliances, design) * force;
     Vector([coordinates[0], shear.0[1], shear.0[2]])
 }
 
@@ -121,12 +121,12 @@ fn strain<D: Scalar>(beam: &Beam, q: &[D], own: &Section, design: &[D]) -> Vecto
 fn turned_with<D: Scalar>(
     beam: &Beam,
     section: &Section,
-    own: Matrix<D>,
+    matrix: Matrix<D>,
     design: &[D],
 ) -> Matrix<D> {
     let twist = rotation([1.0, 0.0, 0.0], value(section.twist, design));
     let axes = curved(beam, section.place, design) * twist;
-    axes * own * axes.transpose()
+    axes * matrix * axes.transpose()
 }
 
 /// Where blocks of the stiffness start: of forces by stretch and shear, of forces by twist and bending, and of moments by
@@ -143,14 +143,14 @@ fn stiffness<D: Scalar>(
     design: &[D],
 ) -> Matrix<D> {
     let entry = |i: usize, j: usize| value(section.stiffness[row + i][column + j], design);
-    let own = Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))));
-    turned_with(beam, section, own, design)
+    let matrix = Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))));
+    turned_with(beam, section, matrix, design)
 }
 
 impl Oracle<'_> {
     /// Whether a coordinate moves what is beyond a joint: it is one of its own, or both belong to one beam.
     pub(super) fn moves(&self, coordinate: Coordinate, joint: usize) -> bool {
-        let beam = |joint: usize| self.model.joints[joint].flexure.map(|own| own.beam);
+        let beam = |joint: usize| self.model.joints[joint].flexure.map(|flexure| flexure.beam);
         match beam(joint) {
             None => coordinate.joint == joint,
             own => beam(coordinate.joint) == own,

@@ -207,8 +207,8 @@ impl Oracle<'_> {
             let axis = at.axes[joint][coordinate.step];
             for &body in &self.carried[joint] {
                 let velocity = axis.spin.cross(at.centers[body] - axis.origin) + axis.slide;
-                let own = rows_of(velocity, axis.spin);
-                for (sum, entry) in column[6 * body..].iter_mut().zip(own) {
+                let ds = rows_of(velocity, axis.spin);
+                for (sum, entry) in column[6 * body..].iter_mut().zip(ds) {
                     *sum += entry;
                 }
             }

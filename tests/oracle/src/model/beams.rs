@@ -83,36 +83,36 @@ impl Beam {
 
     /// The angle of a section in a plane, or the vector by which it turns in space, along the axes of the beam:
     /// `sum q_j I_j(x)`.
-    pub fn turn<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
-        combined(self.counts, q, |order| integral(order, place))
+    pub fn turn<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], value: f64) -> [D; 3] {
+        combined(self.counts, q, |order| integral(order, value))
     }
 
     /// Its derivative by the place as a fraction of the length: `sum q_j P_j(x)`.
-    pub fn slope<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
-        combined(self.counts, q, |order| legendre(order, place))
+    pub fn slope<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], value: f64) -> [D; 3] {
+        combined(self.counts, q, |order| legendre(order, value))
     }
 
     /// Its second derivative: `sum q_j P_j'(x)`.
-    pub fn curl<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
-        combined(self.counts, q, |order| derivative(order, place))
+    pub fn curl<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], value: f64) -> [D; 3] {
+        combined(self.counts, q, |order| derivative(order, value))
     }
 
     /// Stretch, and shear along the second and the third axis, if they are coordinates: `sum q_j P_j(x)`.
-    pub fn strain<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], place: f64) -> [D; 3] {
+    pub fn strain<D: DualNum<Primitive = f64> + Copy>(&self, q: &[D], value: f64) -> [D; 3] {
         let turns: usize = self.counts.iter().sum();
-        combined(self.strains, &q[turns..], |order| legendre(order, place))
+        combined(self.strains, &q[turns..], |order| legendre(order, value))
     }
 
     /// What each point of quadrature counts in an integral from the root to a place: the integral of Lagrange's
     /// polynomial of that point.
-    pub fn weights_to(&self, place: f64) -> Vec<f64> {
+    pub fn weights_to(&self, value: f64) -> Vec<f64> {
         let lagrange = |k: usize, x: f64| -> f64 {
             let factors = self.others(k).map(|(_, factor)| factor(x));
             factors.product()
         };
         let weight = |k| -> f64 {
             let terms = self.sections.iter();
-            let terms = terms.map(|own| place * own.weight * lagrange(k, place * own.place));
+            let terms = terms.map(|term| value * term.weight * lagrange(k, value * term.place));
             terms.sum()
         };
         (0..self.sections.len()).map(weight).collect()
@@ -120,10 +120,10 @@ impl Beam {
 
     /// What each point of quadrature counts in the derivative at a place: the derivative of Lagrange's polynomial of that
     /// point.
-    pub fn slopes_at(&self, place: f64) -> Vec<f64> {
+    pub fn slopes_at(&self, value: f64) -> Vec<f64> {
         let without = |k: usize, left_out: usize| -> f64 {
             let factors = self.others(k).filter(|(i, _)| *i != left_out);
-            factors.map(|(_, factor)| factor(place)).product()
+            factors.map(|(_, factor)| factor(value)).product()
         };
         let slope = |k: usize| -> f64 {
             let at = self.sections[k].place;

@@ -14,13 +14,13 @@ fn number(number: f64) -> Value {
     Value::Number(number)
 }
 
-fn assert_close(found: &[f64], expected: &[f64]) {
-    assert_eq!(found.len(), expected.len());
+fn assert_close(values: &[f64], expected: &[f64]) {
+    assert_eq!(values.len(), expected.len());
     let scale = expected.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
-    for (one, other) in found.iter().zip(expected) {
+    for (one, other) in values.iter().zip(expected) {
         assert!(
             (one - other).abs() < 1e-12 * scale,
-            "{found:?}, not {expected:?}"
+            "{values:?}, not {expected:?}"
         );
     }
 }

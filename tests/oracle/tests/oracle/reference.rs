@@ -7,15 +7,15 @@ use eigentol_oracle::truth::Truth;
 use eigentol_oracle::{Linear, Oracle};
 use nalgebra::{DMatrix, DVector};
 
-fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}");
+fn assert_close(values: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(values.len(), expected.len(), "{what}");
     let scale = expected
         .iter()
         .fold(1.0, |most: f64, value| most.max(value.abs()));
-    for (one, other) in found.iter().zip(expected) {
+    for (one, other) in values.iter().zip(expected) {
         assert!(
             (one - other).abs() <= tolerance * scale,
-            "{what}: {found:?}, not {expected:?}"
+            "{what}: {values:?}, not {expected:?}"
         );
     }
 }
@@ -286,8 +286,8 @@ fn chains_at_equilibrium() {
                 point.get("domega_db").list(),
             );
             let modes = modes(&linear);
-            let found: Vec<f64> = modes.iter().map(|(lambda, _)| lambda.sqrt()).collect();
-            assert_close(&found, &omegas, 1e-11, &what);
+            let values: Vec<f64> = modes.iter().map(|(lambda, _)| lambda.sqrt()).collect();
+            assert_close(&values, &omegas, 1e-11, &what);
             // For the longest chains one mode is enough.
             let checked = if q.len() > 4 { 1 } else { q.len() };
             for (mode, rates) in modes.iter().zip(rates).take(checked) {

@@ -167,12 +167,12 @@ pub(super) fn check_known(known: &Known) -> Result<(), String> {
             }
             for (a, one) in of.iter().enumerate() {
                 for other in of.iter().skip(a + 1) {
-                    let own = cross(&known.linear, one, one).norm();
+                    let value = cross(&known.linear, one, one).norm();
                     let theirs = cross(&known.linear, other, other).norm();
                     let mixed = cross(&known.linear, one, other)
                         .norm()
                         .max(cross(&known.linear, other, one).norm());
-                    if mixed > 1e-6 * own.max(theirs) {
+                    if mixed > 1e-6 * value.max(theirs) {
                         return Err(format!("{exact:?}: not biorthogonal: {mixed:e}"));
                     }
                 }
