@@ -81,7 +81,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        20_300,
+        20_400,
     ),
     (
         "runtime/uncertainty",
@@ -111,7 +111,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
         3_100,
     ),
     ("macros/symbolic", &[], 3_800),
-    ("macros/language", &["eigentol-symbolic"], 17_300),
+    ("macros/language", &["eigentol-symbolic"], 17_400),
     (
         "macros/compiler",
         &["eigentol-language", "eigentol-symbolic"],
@@ -147,7 +147,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        4_700,
+        4_800,
     ),
     (
         "runtime/python",
@@ -160,7 +160,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        6_700,
+        6_800,
     ),
 ];
 

@@ -2,7 +2,7 @@
 
 use super::Search;
 use super::scan::scan;
-use super::state::{Along, State};
+use super::state::{Along, ResponsePoint};
 use crate::Error;
 use crate::algebra::Vector;
 use crate::forced::Vibration;
@@ -60,6 +60,6 @@ pub(crate) fn highest(
     Ok((value, smooth.then_some(slopes)))
 }
 
-fn lower(a: &&State, b: &&State) -> core::cmp::Ordering {
+fn lower(a: &&ResponsePoint, b: &&ResponsePoint) -> core::cmp::Ordering {
     a.square().value.total_cmp(&b.square().value)
 }

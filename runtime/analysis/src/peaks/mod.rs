@@ -15,7 +15,7 @@ pub(crate) use highest::highest;
 pub use separation::{Separation, SeparationMargin};
 
 use scan::{Scan, scan};
-use state::{Along, State};
+use state::{Along, ResponsePoint};
 
 use crate::algebra::Vector;
 use crate::forced::Vibration;
@@ -190,7 +190,7 @@ const STEPS: usize = 80;
 
 impl Search<'_> {
     /// Whether the amplitude rises along the range.
-    fn rises(&self, state: &State) -> bool {
+    fn rises(&self, state: &ResponsePoint) -> bool {
         let slope = state.square().slope;
         if self.ascending {
             slope > 0.0
@@ -200,7 +200,7 @@ impl Search<'_> {
     }
 
     /// The states at peaks, with the number of the state after each.
-    fn tops(&self) -> Result<Vec<(usize, State)>, Error> {
+    fn tops(&self) -> Result<Vec<(usize, ResponsePoint)>, Error> {
         let mut tops = Vec::new();
         for k in 1..self.scan.states.len() {
             let [a, b] = [k - 1, k].map(|k| &self.scan.states[k]);
@@ -220,9 +220,9 @@ impl Search<'_> {
     /// as long as they stay between the signs and shrink, else halves.
     fn zero(
         &self,
-        (a, b): (&State, &State),
-        f: impl Fn(&State) -> (f64, f64),
-    ) -> Result<State, Error> {
+        (a, b): (&ResponsePoint, &ResponsePoint),
+        f: impl Fn(&ResponsePoint) -> (f64, f64),
+    ) -> Result<ResponsePoint, Error> {
         let (mut low, mut high) = (a.value, b.value);
         let positive = f(a).0 > 0.0;
         let nearer = if f(a).0.abs() < f(b).0.abs() { a } else { b };
@@ -255,7 +255,7 @@ impl Search<'_> {
     }
 
     /// The peak in the stretch before state `k`.
-    fn peak(&self, k: usize, top: State) -> Result<Peak, Error> {
+    fn peak(&self, k: usize, top: ResponsePoint) -> Result<Peak, Error> {
         let square = top.square();
         let bend = top.place_by_design();
         let by_frequency = &top.line.frequency.slopes.by_design;
@@ -288,7 +288,7 @@ impl Search<'_> {
     /// The half-power point on the way from a peak along these states, or why there is none.
     fn half_power(
         &self,
-        top: &State,
+        top: &ResponsePoint,
         way: impl Iterator<Item = usize>,
     ) -> Result<Result<Half, HalfPower>, Error> {
         let half = 0.5 * top.square().value;
@@ -319,7 +319,12 @@ impl Search<'_> {
         Ok(Err(HalfPower::EndOfRange))
     }
 
-    fn half(&self, top: &State, half: f64, between: (&State, &State)) -> Result<Half, Error> {
+    fn half(
+        &self,
+        top: &ResponsePoint,
+        half: f64,
+        between: (&ResponsePoint, &ResponsePoint),
+    ) -> Result<Half, Error> {
         let zero = self.zero(between, |state| {
             let square = state.square();
             (square.value - half, square.slope)

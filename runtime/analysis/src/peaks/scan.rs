@@ -6,7 +6,7 @@
 //! divided all the same. Few states suffice: the stretches shrink geometrically towards a resonance and no farther than
 //! its width.
 
-use super::state::{Along, State};
+use super::state::{Along, ResponsePoint};
 use crate::forced::resonance;
 use crate::sweep::Gap;
 use crate::{Error, sweep::Range};
@@ -23,7 +23,7 @@ const STILL: f64 = 1e-3;
 /// States from one end of a range to the other, and where there are none.
 #[derive(Default)]
 pub(super) struct Scan {
-    pub(super) states: Vec<State>,
+    pub(super) states: Vec<ResponsePoint>,
     /// Positions of states before which there is a gap.
     pub(super) after_gap: Vec<usize>,
     pub(super) gaps: Vec<Gap>,
@@ -54,7 +54,7 @@ pub(super) fn scan(along: &Along<'_>, range: &Range, start: &[f64]) -> Result<Sc
 enum End {
     /// The position of a state of the scan, its value and its coordinates.
     Taken(usize, f64, Vec<f64>),
-    Found(Box<State>),
+    Found(Box<ResponsePoint>),
     Missing(f64, Error),
 }
 
@@ -151,13 +151,13 @@ impl Scan {
 }
 
 /// Whether nothing can hide between two states.
-fn resolved(a: &State, b: &State) -> bool {
+fn resolved(a: &ResponsePoint, b: &ResponsePoint) -> bool {
     let near = a.distance().min(b.distance());
     a.moved(b) <= PART * near && !turns_between(a, b)
 }
 
 /// Whether the cubic through the slopes at both ends has a sign that neither end has.
-fn turns_between(a: &State, b: &State) -> bool {
+fn turns_between(a: &ResponsePoint, b: &ResponsePoint) -> bool {
     let h = b.value - a.value;
     let (first, last) = (a.square(), b.square());
     let (f, g) = (first.slope, last.slope);
@@ -174,7 +174,7 @@ fn turns_between(a: &State, b: &State) -> bool {
 }
 
 /// Whether the amplitude is about the same at both states.
-fn still(a: &State, b: &State) -> bool {
+fn still(a: &ResponsePoint, b: &ResponsePoint) -> bool {
     let [a, b] = [a, b].map(|x| x.square().value);
     (a - b).abs() <= STILL * a.max(b)
 }

@@ -21,7 +21,7 @@ pub(super) struct Along<'a> {
 }
 
 /// The vibration at one value of the input.
-pub(super) struct State {
+pub(super) struct ResponsePoint {
     pub(super) value: f64,
     pub(super) equilibrium: Equilibrium,
     /// The eigenvalues of the modes, 1/s.
@@ -56,7 +56,7 @@ impl<'a> Along<'a> {
     }
 
     /// The state at a value of the input, on the branch of the equilibrium `from`.
-    pub(super) fn state(&self, value: f64, from: &[f64]) -> Result<State, Error> {
+    pub(super) fn state(&self, value: f64, from: &[f64]) -> Result<ResponsePoint, Error> {
         let mut inputs = Vector::from(self.inputs);
         inputs[self.input.index()] = value;
         let point = OperatingPoint::new(self.mechanism, &inputs, self.design)?.held_by(&self.held);
@@ -67,7 +67,7 @@ impl<'a> Along<'a> {
         let (output, measure) = (self.vibration.output, self.vibration.measure);
         let what = (self.harmonic, output, measure);
         let line = along_input(self.mechanism, &at, what, self.input.index())?;
-        Ok(State {
+        Ok(ResponsePoint {
             value,
             poles: modes(&at)?.modes.iter().map(|mode| mode.s).collect(),
             equilibrium: at,
@@ -84,7 +84,7 @@ pub(super) struct Square {
     pub(super) bend: f64,
 }
 
-impl State {
+impl ResponsePoint {
     pub(super) fn square(&self) -> Square {
         let (y, u) = (self.line.amplitude.value, self.input);
         let dy = self.line.amplitude.slopes.by_input[u];

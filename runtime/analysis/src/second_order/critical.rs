@@ -32,7 +32,7 @@ pub fn critical_curvature(
     if !at.free.held.is_empty() {
         return Err(none(NoDerivative::Family));
     }
-    let state = State {
+    let state = CriticalContext {
         mechanism,
         critical,
         first: &first,
@@ -66,14 +66,14 @@ fn none(reason: NoDerivative) -> Error {
     Error::NoSensitivity { reason }
 }
 
-struct State<'a> {
+struct CriticalContext<'a> {
     mechanism: &'a dyn CurvatureKernels,
     critical: &'a CriticalState,
     /// `du_c/db`.
     first: &'a [f64],
 }
 
-impl State<'_> {
+impl CriticalContext<'_> {
     /// The rows of the second derivatives at a limit point.
     fn limit_point(&self) -> Result<Vec<Vector>, Error> {
         let CriticalState { v, w, .. } = self.critical;

@@ -106,7 +106,7 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
 pub(super) fn oscillation(
     track: &Track,
     style: &Style,
-    height: impl Fn(&super::tracks::State) -> f64,
+    height: impl Fn(&super::tracks::TrackPoint) -> f64,
 ) -> Curve {
     let sense = match track.motion {
         Motion::Oscillation(sense) => sense,

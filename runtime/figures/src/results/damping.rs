@@ -7,7 +7,7 @@ use super::campbell::{bands, changes_stability, oscillation};
 use super::ends::Ends;
 use super::events;
 use super::scale::words;
-use super::tracks::{State, tracks};
+use super::tracks::{TrackPoint, tracks};
 use crate::Error;
 use crate::figure::{Axis, Figure, Panel};
 use crate::style::Style;
@@ -59,7 +59,7 @@ pub fn damping_ratios(result: &Campbell, style: &Style) -> Result<Figure, Error>
 }
 
 /// Damping ratio in percent.
-pub(super) fn percent(state: &State) -> f64 {
+pub(super) fn percent(state: &TrackPoint) -> f64 {
     let size = state.s.norm();
     match size > 0.0 {
         true => -100.0 * state.s.re / size,

@@ -15,7 +15,7 @@ const STEPS: usize = 12;
 
 /// An eigenvalue at a value of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct State {
+pub(crate) struct TrackPoint {
     pub(crate) value: f64,
     pub(crate) s: Complex,
 }
@@ -34,13 +34,13 @@ pub(crate) enum Motion {
 pub(crate) struct Track {
     pub(crate) label: usize,
     pub(crate) motion: Motion,
-    pub(crate) pieces: Vec<Vec<State>>,
+    pub(crate) pieces: Vec<Vec<TrackPoint>>,
 }
 
 impl Track {
     /// The pieces as points of a figure.
-    pub(crate) fn points(&self, of: impl Fn(&State) -> Point) -> Vec<Vec<Point>> {
-        let piece = |piece: &Vec<State>| piece.iter().map(&of).collect();
+    pub(crate) fn points(&self, of: impl Fn(&TrackPoint) -> Point) -> Vec<Vec<Point>> {
+        let piece = |piece: &Vec<TrackPoint>| piece.iter().map(&of).collect();
         self.pieces.iter().map(piece).collect()
     }
 
@@ -80,7 +80,7 @@ struct Lines {
 
 impl Lines {
     /// Adds a stretch of a motion, extending a piece that ends where it begins.
-    fn stretch(&mut self, label: usize, motion: Motion, states: &[State]) {
+    fn stretch(&mut self, label: usize, motion: Motion, states: &[TrackPoint]) {
         let known = |track: &Track| track.label == label && track.motion == motion;
         let existing = self.tracks.iter().position(known);
         let index = existing.unwrap_or_else(|| {
@@ -101,7 +101,7 @@ impl Lines {
     /// Adds a mode that belongs to no line yet as a single point.
     fn alone(&mut self, station: &Station) {
         for sample in &station.modes {
-            let state = State {
+            let state = TrackPoint {
                 value: station.value,
                 s: sample.s,
             };
@@ -202,18 +202,18 @@ impl Lines {
             _ => 0.0,
         };
         for sample in samples {
-            let mut states: Vec<State> = (0..=STEPS)
+            let mut states: Vec<TrackPoint> = (0..=STEPS)
                 .map(|k| {
                     let t = k as f64 / STEPS as f64;
                     let middle = mean + t * (at.re - mean);
                     let root = (sample.s - mean) * (1.0 - t).sqrt();
-                    State {
+                    TrackPoint {
                         value: station + t * (turn - station),
                         s: Complex::new(middle + root.re, root.im),
                     }
                 })
                 .collect();
-            states[0] = State {
+            states[0] = TrackPoint {
                 value: station,
                 s: sample.s,
             };
@@ -225,8 +225,8 @@ impl Lines {
     }
 }
 
-fn state(station: &Station, sample: &Sample) -> State {
-    State {
+fn state(station: &Station, sample: &Sample) -> TrackPoint {
+    TrackPoint {
         value: station.value,
         s: sample.s,
     }

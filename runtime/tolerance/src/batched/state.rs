@@ -55,20 +55,20 @@ pub(super) fn state<'m>(
         b: block.design,
     };
     kernels.parts_and_linear_batch(instructions, point, parts, &mut block.linear);
-    instructions.run(State {
+    instructions.run(CompleteStates {
         shapes,
         parts,
         block,
     });
 }
 
-struct State<'a, 'b> {
+struct CompleteStates<'a, 'b> {
     shapes: &'a Matrix,
     parts: &'a BatchParts<'b>,
     block: &'a mut Block<'b>,
 }
 
-impl Task for State<'_, '_> {
+impl Task for CompleteStates<'_, '_> {
     type Output = ();
 
     #[inline(always)]
