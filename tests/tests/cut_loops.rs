@@ -71,7 +71,7 @@ fn a_cut_loop_is_the_open_chain() {
 /// A comparison that cannot fail proves nothing: a gap, a wrong tangent, and a tangent taken as straight are detected.
 #[test]
 fn faults_are_found() {
-    let ref_cell = RefCell::new([0; 3]);
+    let counts = RefCell::new([0; 3]);
     on_plans(24, |plan| {
         let Some(mut pair) = Pair::new(plan, CLOSINGS[0]) else {
             return;
@@ -91,11 +91,11 @@ fn faults_are_found() {
         for (place, fault) in faults.into_iter().enumerate() {
             pair.embedding = right.clone();
             fault(&mut pair.embedding);
-            ref_cell.borrow_mut()[place] += u32::from(pair.compare(plan.seed).is_err());
+            counts.borrow_mut()[place] += u32::from(pair.compare(plan.seed).is_err());
         }
     });
     // A fixed joint has no tangent, a prismatic one a straight one.
-    let [gaps, tangents, curvatures] = ref_cell.take();
+    let [gaps, tangents, curvatures] = counts.take();
     assert!(gaps >= 8, "{gaps}");
     assert!(tangents >= 5, "{tangents}");
     assert!(curvatures >= 3, "{curvatures}");

@@ -14,7 +14,7 @@ impl Color {
     /// The setting requested on a command line that could not be parsed.
     pub(crate) fn asked() -> Self {
         let arguments: Vec<String> = (std::env::args_os())
-            .map(|args_o| args_o.to_string_lossy().into_owned())
+            .map(|argument| argument.to_string_lossy().into_owned())
             .collect();
         let apart = arguments.iter().position(|argument| argument == "--color");
         let value = match apart {

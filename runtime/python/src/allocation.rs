@@ -62,7 +62,7 @@ impl Study {
             let limits = (number(&least, &unit, &name)?, number(&most, &unit, &name)?);
             moving.push(Nominal { variable, limits });
         }
-        let py_result = self.ask_stoppably(py, move |study| {
+        let answer = self.ask_stoppably(py, move |study| {
             let half_width = |(variable, limits, (fixed, factor, power))| HalfWidth {
                 variable,
                 limits,
@@ -75,7 +75,7 @@ impl Study {
             };
             study.allocation(&wanted, &choices)
         });
-        py_result.map(Allocation)
+        answer.map(Allocation)
     }
 }
 

@@ -32,10 +32,10 @@ impl Study {
         let of = self.inner.description();
         let inputs = List::Inputs.changes(py, of, inputs)?;
         let design = List::Design.changes(py, of, design)?;
-        let py_result = self.ask(py, |study| {
+        let answer = self.ask(py, |study| {
             study.directional_derivatives(mode, (&inputs, &design))
         });
-        py_result.map(DirectionalDerivatives)
+        answer.map(DirectionalDerivatives)
     }
 }
 

@@ -98,11 +98,11 @@ fn types(py: Python<'_>) -> PyResult<&Vec<Py<PyType>>> {
             if !base.is_empty() {
                 bases.push(builtins.getattr(*base)?);
             }
-            let py_dict = PyDict::new(py);
-            py_dict.set_item("__module__", "eigentol")?;
-            py_dict.set_item("__doc__", doc.trim_start())?;
+            let namespace = PyDict::new(py);
+            namespace.set_item("__module__", "eigentol")?;
+            namespace.set_item("__doc__", doc.trim_start())?;
             let made = py.get_type::<PyType>();
-            let made = made.call1((name, PyTuple::new(py, bases)?, py_dict))?;
+            let made = made.call1((name, PyTuple::new(py, bases)?, namespace))?;
             all.push(made.cast_into::<PyType>()?.unbind());
         }
         Ok(all)

@@ -82,7 +82,7 @@ impl Study {
         stop: &hints::Count<'_>,
     ) -> PyResult<Part> {
         let (start, stop) = (whole(start, "start")?, whole(stop, "stop")?);
-        let py_result = self.ask_stoppably(py, |study| study.samples_between(start..stop));
-        py_result.map(Part)
+        let answer = self.ask_stoppably(py, |study| study.samples_between(start..stop));
+        answer.map(Part)
     }
 }

@@ -251,8 +251,8 @@ impl Study {
                 .map_err(|error| invalid(py, error.to_string()))
         };
         let refined = [refined(1)?, refined(2)?];
-        let py_result = self.ask(py, |study| study.convergence(refined))?;
-        Ok(Convergence(py_result.of_first(modes.unwrap_or(usize::MAX))))
+        let answer = self.ask(py, |study| study.convergence(refined))?;
+        Ok(Convergence(answer.of_first(modes.unwrap_or(usize::MAX))))
     }
 
     /// Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,
@@ -284,10 +284,10 @@ impl Study {
     ) -> PyResult<Bode> {
         let (input, values) = self.values(py, input, values, unit)?;
         let wanted = self.vibrations(py, vibrations)?;
-        let py_result = self.ask_stoppably(py, |study| {
+        let answer = self.ask_stoppably(py, |study| {
             study.bode_bands(input, &values, &wanted, checked)
         });
-        py_result.map(Bode)
+        answer.map(Bode)
     }
 
     /// The peaks of a vibration, a tuple such as `("vibration", "shake")`, between two values of an input: places, heights,
@@ -335,18 +335,15 @@ impl Study {
         let mut search = self.ask(py, |study| study.search(&within))?;
         search.starts = starts.unwrap_or(search.starts);
         search.seed = seed.unwrap_or(search.seed);
-        let py_result = self.ask(py, |study| study.equilibria(&search))?;
-        Ok(py_result.into_iter().map(Equilibrium).collect())
+        let answer = self.ask(py, |study| study.equilibria(&search))?;
+        Ok(answer.into_iter().map(Equilibrium).collect())
     }
 
     /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; NaN where it
     /// does not apply.
     fn whirls<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
-        let py_result = self.ask(py, |study| study.whirls())?;
-        Ok(optional(
-            py,
-            py_result.into_iter().map(|x| x.map(|x| x.ratio)),
-        ))
+        let answer = self.ask(py, |study| study.whirls())?;
+        Ok(optional(py, answer.into_iter().map(|x| x.map(|x| x.ratio))))
     }
 
     /// First and second derivatives of one mode, counted from 0.
@@ -421,9 +418,9 @@ impl Study {
             ratio: order,
             offset,
         };
-        let py_result = self.ask(py, |study| {
+        let answer = self.ask(py, |study| {
             study.crossing_tolerances(input, low, high, line)
         })?;
-        Ok(events(&py_result))
+        Ok(events(&answer))
     }
 }

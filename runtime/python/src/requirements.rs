@@ -121,12 +121,12 @@ impl Study {
         stop: Option<u64>,
     ) -> PyResult<Chances> {
         let wanted = self.requirements(&requirements)?;
-        let py_result = self.ask_stoppably(py, |study| {
+        let answer = self.ask_stoppably(py, |study| {
             let sampling = study.sampling();
             let range = start.unwrap_or(0)..stop.unwrap_or(sampling.samples as u64);
             study.chances_by(&wanted, &sampling.range(Some(range)))
         });
-        py_result.map(Chances)
+        answer.map(Chances)
     }
 }
 
@@ -143,11 +143,11 @@ impl Study {
         requirements: Vec<Requirement<'_>>,
     ) -> PyResult<RareFailure> {
         let wanted = self.requirements(&requirements)?;
-        let py_result = self.ask_stoppably(py, |study| {
+        let answer = self.ask_stoppably(py, |study| {
             let (most, accuracy) = RARE;
             study.rare_failure(&wanted, &study.sampling().samples(most), accuracy)
         });
-        py_result.map(RareFailure)
+        answer.map(RareFailure)
     }
 
     /// Probability of failing one requirement by the second-order model of its response, with what changes it;

@@ -99,8 +99,8 @@ impl Study {
         py: Python<'_>,
         question: impl FnOnce(&eigentol::Study<Interpreted>) -> Result<R, Error> + Send,
     ) -> PyResult<R> {
-        let py_result = self.stoppably(py, question)?;
-        py_result.map_err(|error| self.explain(py, error))
+        let answer = self.stoppably(py, question)?;
+        answer.map_err(|error| self.explain(py, error))
     }
 
     /// Runs an analysis; Ctrl-C ends it and is raised.

@@ -288,11 +288,11 @@ impl Swept<'_> {
         along: (Input, &[f64]),
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
         let tolerances = self.settings.tolerances()?;
-        let mut first_orders = Vec::with_capacity(along.1.len());
+        let mut spreads = Vec::with_capacity(along.1.len());
         self.sensitivity_sweep(along, &mut |point, slopes| {
-            first_orders.push(spread(point, slopes, tolerances));
+            spreads.push(spread(point, slopes, tolerances));
         })?;
-        Ok(first_orders)
+        Ok(spreads)
     }
 }
 

@@ -183,21 +183,21 @@ fn group<W: Write + Send>(
             break;
         };
         match (writer.untyped(), &column.values) {
-            (ColumnWriter::DoubleColumnWriter(double_column_writer), Values::Numbers(all)) => {
+            (ColumnWriter::DoubleColumnWriter(writer), Values::Numbers(all)) => {
                 let (levels, values) = present(all, |value| *value);
-                double_column_writer.write_batch(&values, Some(&levels), None)?;
+                writer.write_batch(&values, Some(&levels), None)?;
             }
-            (ColumnWriter::Int64ColumnWriter(int64_column_writer), Values::Whole(all)) => {
+            (ColumnWriter::Int64ColumnWriter(writer), Values::Whole(all)) => {
                 let (levels, values) = present(all, |value| *value);
-                int64_column_writer.write_batch(&values, Some(&levels), None)?;
+                writer.write_batch(&values, Some(&levels), None)?;
             }
-            (ColumnWriter::ByteArrayColumnWriter(byte_array_column_writer), Values::Texts(all)) => {
+            (ColumnWriter::ByteArrayColumnWriter(writer), Values::Texts(all)) => {
                 let (levels, values) = present(all, |text| ByteArray::from(text.as_str()));
-                byte_array_column_writer.write_batch(&values, Some(&levels), None)?;
+                writer.write_batch(&values, Some(&levels), None)?;
             }
-            (ColumnWriter::BoolColumnWriter(bool_column_writer), Values::Flags(all)) => {
+            (ColumnWriter::BoolColumnWriter(writer), Values::Flags(all)) => {
                 let (levels, values) = present(all, |value| *value);
-                bool_column_writer.write_batch(&values, Some(&levels), None)?;
+                writer.write_batch(&values, Some(&levels), None)?;
             }
             _ => return Err(ParquetError::General("a column of another kind".to_owned())),
         }

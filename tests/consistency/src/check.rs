@@ -193,10 +193,10 @@ impl Check<'_> {
         slopes(&slopes(&self.motion_residual(&outer)))
     }
 
-    fn compare(&mut self, text: &str, boundeds: &[Bounded], expected: &[Bounded]) {
-        assert_eq!(boundeds.len(), expected.len(), "{text}");
+    fn compare(&mut self, text: &str, bounds: &[Bounded], expected: &[Bounded]) {
+        assert_eq!(bounds.len(), expected.len(), "{text}");
         let size = expected.iter().map(|x| x.value.abs()).fold(0.0, f64::max);
-        for (k, (one, other)) in boundeds.iter().zip(expected).enumerate() {
+        for (k, (one, other)) in bounds.iter().zip(expected).enumerate() {
             let difference = (one.value - other.value).abs();
             let allowed = FLOOR + 2.0 * (one.error + other.error);
             self.outcome.compared += 1;

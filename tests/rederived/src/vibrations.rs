@@ -67,8 +67,8 @@ impl Solution {
         let modulus = |w: Hyper| if w.value() < 0.0 { -w } else { w };
         let mut sum = vec![zero(); self.excited().outputs];
         for &k in excitations {
-            let hyper_complexes = self.outputs_under(k, frequency(k));
-            for (sum, y) in sum.iter_mut().zip(hyper_complexes) {
+            let outputs = self.outputs_under(k, frequency(k));
+            for (sum, y) in sum.iter_mut().zip(outputs) {
                 // Re(y e^{-i w t}) = Re(conj(y) e^{i w t})
                 let turned = match frequency(k).value() < 0.0 {
                     true => HyperComplex { im: -y.im, ..y },

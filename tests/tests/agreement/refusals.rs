@@ -99,10 +99,10 @@ impl Motion {
         let mut wanted = Vec::new();
         for seed in (1..).take(places) {
             let Case { at: [q, ..], .. } = Case::random(model, seed);
-            let d_matrix = self.powers(&oracle, [&q, &u, &b]);
+            let powers = self.powers(&oracle, [&q, &u, &b]);
             wanted.push(1.0);
-            wanted.resize(wanted.len() + d_matrix.nrows() - 1, 0.0);
-            rows.extend(d_matrix.row_iter().map(|row| row.into_owned()));
+            wanted.resize(wanted.len() + powers.nrows() - 1, 0.0);
+            rows.extend(powers.row_iter().map(|row| row.into_owned()));
         }
         let (rows, wanted) = (DMatrix::from_rows(&rows), DVector::from(wanted));
         let constants = rows.clone().svd(true, true).solve(&wanted, 1e-9);

@@ -116,7 +116,7 @@ fn numbers(study: &Study<Interpreted>) -> Vec<Derived> {
     let slopes = study.sensitivities().expect("derivatives");
     let design = &study.description().design;
     let each = modes.modes.iter().zip(&slopes.modes);
-    let mut deriveds: Vec<_> = each
+    let mut ranked: Vec<_> = each
         .filter(|(mode, _)| mode.behaviour != Behaviour::Free)
         .map(|(mode, slopes)| {
             let quantity = match mode.frequency() {
@@ -133,8 +133,8 @@ fn numbers(study: &Study<Interpreted>) -> Vec<Derived> {
             (mode.s.re, mode.s.im, derived)
         })
         .collect();
-    deriveds.sort_by(|a, b| (a.1, a.0).partial_cmp(&(b.1, b.0)).expect("numbers"));
-    deriveds
+    ranked.sort_by(|a, b| (a.1, a.0).partial_cmp(&(b.1, b.0)).expect("numbers"));
+    ranked
 }
 
 fn compare(chain: &Chain, free: usize) {

@@ -110,9 +110,8 @@ const NAMES: [&str; 6] = [
 ];
 
 fn read(name: &str) -> Interpreted {
-    let token_streams = declarations().into_iter().find(|(known, _)| *known == name);
-    Interpreted::from_text(token_streams.expect("a machine of the corpus").1)
-        .expect("a declaration")
+    let declaration = declarations().into_iter().find(|(known, _)| *known == name);
+    Interpreted::from_text(declaration.expect("a machine of the corpus").1).expect("a declaration")
 }
 
 /// Puts questions to one of the six with values of these kinds, `cases` times; the same cases every time.

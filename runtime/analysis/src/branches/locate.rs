@@ -48,16 +48,16 @@ impl Curve<'_> {
         &self,
         a: &CurvePoint,
         b: &CurvePoint,
-        locateds: &mut Vec<Located>,
+        specials: &mut Vec<Located>,
     ) -> Result<(), ContinuationFailure> {
-        self.divide(a, b, locateds, &mut 0)
+        self.divide(a, b, specials, &mut 0)
     }
 
     fn divide(
         &self,
         a: &CurvePoint,
         b: &CurvePoint,
-        locateds: &mut Vec<Located>,
+        specials: &mut Vec<Located>,
         points: &mut usize,
     ) -> Result<(), ContinuationFailure> {
         let changes = Changes::between(&a.signs, &b.signs);
@@ -65,12 +65,12 @@ impl Curve<'_> {
             return Ok(());
         }
         if let Some(located) = self.simple(a, b, changes)? {
-            locateds.push(located);
+            specials.push(located);
             return Ok(());
         }
         let width = a.frame.local(&b.place).norm();
         if width <= NARROW {
-            locateds.push(self.unresolved(a, b, changes)?);
+            specials.push(self.unresolved(a, b, changes)?);
             return Ok(());
         }
         *points += 1;
@@ -78,8 +78,8 @@ impl Curve<'_> {
             return Err(ContinuationFailure::Missed(NotFound::TooManyEvents));
         }
         let middle = self.middle(a, b)?;
-        self.divide(a, &middle, locateds, points)?;
-        self.divide(&middle, b, locateds, points)
+        self.divide(a, &middle, specials, points)?;
+        self.divide(&middle, b, specials, points)
     }
 
     /// The single event that explains the changes, if one does.

@@ -95,20 +95,20 @@ pub(super) fn mode_curvatures(
     modes: &Modes,
     positions: Range<usize>,
 ) -> Vec<Result<ModeCurvature, Error>> {
-    let mut owns: Vec<Result<PendingMode<'_>, Error>> = positions
+    let mut pending: Vec<Result<PendingMode<'_>, Error>> = positions
         .clone()
         .map(|mode| match is_free(modes, mode) {
             true => Err(Error::NotOscillating { mode, lambda: 0.0 }),
             false => PendingMode::new(mechanism, at, modes, mode),
         })
         .collect();
-    if owns.iter().any(Result::is_ok) {
+    if pending.iter().any(Result::is_ok) {
         match directions(mechanism, at) {
             Ok(directions) => {
                 let all: Vec<Direction> = directions.collect();
                 let n = at.coordinates.len();
                 let shift = Matrix::from_fn(all.len(), n, |k, i| all[k].coordinates[i]);
-                let mut ready: Vec<&mut PendingMode<'_>> = owns.iter_mut().flatten().collect();
+                let mut ready: Vec<&mut PendingMode<'_>> = pending.iter_mut().flatten().collect();
                 for directions in all.chunks(TOGETHER) {
                     let changes = directions
                         .iter()
@@ -130,13 +130,13 @@ pub(super) fn mode_curvatures(
                     }
                 }
             }
-            Err(error) => owns
+            Err(error) => pending
                 .iter_mut()
                 .filter(|x| x.is_ok())
                 .for_each(|x| *x = Err(error.clone())),
         }
     }
-    let each = owns.into_iter().zip(positions);
+    let each = pending.into_iter().zip(positions);
     each.map(|(item, position)| match is_free(modes, position) {
         true => Ok(ModeCurvature::of_free(at, position)),
         false => item?.curvature(at, modes),

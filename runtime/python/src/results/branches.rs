@@ -62,7 +62,7 @@ attributes! {
         };
         /// Special points: what each is, in words, and the value of the input there, SI.
         special: Vec<(String, f64)> =
-            self.0.special.iter().map(|ord| (ord.kind.to_string(), ord.value)).collect();
+            self.0.special.iter().map(|special| (special.kind.to_string(), special.value)).collect();
         /// How it ends at either side, in words.
         ends: Vec<String> = self.0.ends.iter().map(ToString::to_string).collect();
     }

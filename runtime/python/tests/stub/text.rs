@@ -49,8 +49,8 @@ pub(crate) fn stub(source: &Source) -> String {
 /// Types that have a name of their own: the text in the documentation of an alias, or the keys of a table.
 fn aliases(source: &Source) -> String {
     let (mut simple, mut dictionaries) = (String::new(), String::new());
-    for aliase in source.aliases() {
-        let (name, docs) = (aliase.ident.to_string(), docs(&aliase.attrs));
+    for alias in source.aliases() {
+        let (name, docs) = (alias.ident.to_string(), docs(&alias.attrs));
         let Some(python) = python(&docs) else {
             continue;
         };

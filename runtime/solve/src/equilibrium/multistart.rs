@@ -163,7 +163,7 @@ pub fn find_equilibria(
     point.check_start(&search.lower)?;
     point.check_start(&search.upper)?;
     let mut random = RandomNumbers::new(search.seed, 0);
-    let mut equilibriums: Vec<Equilibrium> = Vec::new();
+    let mut distinct: Vec<Equilibrium> = Vec::new();
     let mut from = Vector::from(start);
     let (mut isolated, mut met) = (0, 0);
     for done in 0.. {
@@ -177,9 +177,9 @@ pub fn find_equilibria(
             };
             met += 1;
             let known = |known| same(&point, known, &state);
-            if !equilibriums.iter().any(known) {
+            if !distinct.iter().any(known) {
                 isolated += usize::from(!matches!(state.stability, Stability::Neutral { .. }));
-                equilibriums.push(state);
+                distinct.push(state);
             }
         }
         from = Vector::from_fn(start.len(), |i| {
@@ -187,7 +187,7 @@ pub fn find_equilibria(
         });
     }
     Ok(Equilibria {
-        states: equilibriums,
+        states: distinct,
         inputs: u.into(),
         description: point.description.clone(),
     })

@@ -143,8 +143,8 @@ impl PairSolver<'_> {
                 normalise(&self.pencil, x, &mut self.of_right);
             }
             self.pencil.multiply(x, false, &mut self.of_right);
-            let complex64s = self.pencil.weighed(&self.of_right);
-            weighed[k * n..(k + 1) * n].copy_from_slice(complex64s);
+            let product = self.pencil.weighed(&self.of_right);
+            weighed[k * n..(k + 1) * n].copy_from_slice(product);
         }
     }
 

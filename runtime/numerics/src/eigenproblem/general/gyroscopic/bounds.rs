@@ -176,14 +176,14 @@ fn relative(n: usize) -> f64 {
 }
 
 /// Adds the bounds, and sorts.
-fn bounded(n: usize, mut measureds: Vec<Measured>, lengths: &[f64]) -> Vec<Oscillation> {
+fn bounded(n: usize, mut measured: Vec<Measured>, lengths: &[f64]) -> Vec<Oscillation> {
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| measureds[a].omega.total_cmp(&measureds[b].omega));
+    order.sort_by(|&a, &b| measured[a].omega.total_cmp(&measured[b].omega));
     let radius: Vec<f64> = order
         .iter()
-        .map(|&r| lengths[r] / measureds[r].length)
+        .map(|&r| lengths[r] / measured[r].length)
         .collect();
-    let omega: Vec<f64> = order.iter().map(|&r| measureds[r].omega).collect();
+    let omega: Vec<f64> = order.iter().map(|&r| measured[r].omega).collect();
     // Where intervals meet, as many frequencies as intervals are within the root of the sum of squares of each.
     let mut bounds = vec![0.0; n];
     let mut first = 0;
@@ -214,7 +214,7 @@ fn bounded(n: usize, mut measureds: Vec<Measured>, lengths: &[f64]) -> Vec<Oscil
     }
     let places = order.iter().zip(bounds);
     let finished = places.map(|(&r, bound)| {
-        let own = &mut measureds[r];
+        let own = &mut measured[r];
         // The slope `2 omega m + c` is `|x|^2 / omega`.
         let of_elements = relative(n) * own.terms * own.omega / (own.length * own.length);
         Oscillation {
