@@ -1,0 +1,10 @@
+//! What is asked of a machine: references, events, spectra, whirl, outputs, results as text, and inputs that nobody expects.
+
+mod events;
+mod hard_inputs;
+pub mod outputs;
+mod reference_values;
+mod scale;
+mod serial;
+mod spectra;
+pub mod whirl;

@@ -1,0 +1,4 @@
+//! Flexible beams: closed forms and reference values, and random trees of them against the oracle.
+
+mod beams;
+mod flexible;

@@ -1,0 +1,9 @@
+//! Forced vibration of declared machines: closed forms, a rigid rotor, bands against designs solved anew.
+
+mod bands;
+mod closed_forms;
+mod exceedance;
+mod requirements;
+mod rigid_rotor;
+mod shares;
+mod side_by_side;

@@ -1,0 +1,9 @@
+//! What a declaration may say, and what the compiler answers where it may not.
+
+mod declarations;
+mod diagnostics;
+mod hostile_names;
+mod links;
+mod models;
+mod units_of_measure;
+mod urdf;

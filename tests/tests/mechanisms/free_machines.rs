@@ -1,0 +1,9 @@
+//! Machines that nothing holds in some direction, against reference values (`truth/practice`), in any coordinates.
+
+mod along;
+mod common;
+mod families;
+mod members;
+mod random;
+mod reference;
+mod unstable;
