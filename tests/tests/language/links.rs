@@ -111,7 +111,7 @@ fn links_lead_somewhere() {
 #[test]
 fn the_check_finds_what_is_wrong() {
     let text = "# What a build costs: all\n[a](#what-a-build-costs-all), [b](#missing), [c](no.md)\n\
-                ```text\n[d](e.md)\n```\n`[f](g.md)` [h](https://i) [j](k::l) ![m](architecture.rs)\n";
+                ```text\n[d](e.md)\n```\n`[f](g.md)` [h](https://i) [j](k::l) ![m](main.rs)\n";
     let page = root().join("tests/tests/language/links.rs");
     let texts = targets(text);
     assert_eq!(texts.len(), 6, "{texts:?}");
