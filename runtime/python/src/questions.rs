@@ -343,7 +343,12 @@ impl Study {
     /// does not apply.
     fn whirls<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
         let answer = self.ask(py, |study| study.whirls())?;
-        Ok(optional(py, answer.into_iter().map(|x| x.map(|x| x.ratio))))
+        Ok(optional(
+            py,
+            answer
+                .into_iter()
+                .map(|whirl| whirl.map(|whirl| whirl.ratio)),
+        ))
     }
 
     /// First and second derivatives of one mode, counted from 0.

@@ -229,7 +229,7 @@ impl Study {
         let arguments = of.clone().unbind();
         let of: Vec<String> = of
             .iter()
-            .map(|x| x.str().map(|x| x.to_string()))
+            .map(|quantity| Ok(quantity.str()?.to_string()))
             .collect::<PyResult<_>>()?;
         Ok(Response {
             mechanism: slf.get().inner.mechanism().clone(),

@@ -5,7 +5,7 @@
 //! carets, and `// help: text` belongs to the mark above it. A case without the word `mechanism` is placed inside an
 //! otherwise correct mechanism: a bar on a hinge `theta`.
 //!
-//! `UPDATE_DIAGNOSTICS=1 cargo test -p eigentol-tests --test diagnostics` redraws all cases; review the diff.
+//! `UPDATE_DIAGNOSTICS=1 cargo test -p eigentol-tests --test language diagnostics::` redraws all cases; review the diff.
 
 use std::fs;
 use std::path::PathBuf;

@@ -325,8 +325,8 @@ impl<'a> Curve<'a> {
     fn held_at(&self, at: &CurvePosition) -> Vec<Held> {
         let inputs = self.inputs_at(at.p);
         let mut held = self.operating_point(&inputs).held;
-        for held in &mut held {
-            held.value = at.q[held.unknown];
+        for coordinate in &mut held {
+            coordinate.value = at.q[coordinate.unknown];
         }
         held
     }

@@ -197,7 +197,10 @@ impl WorstCase {
         of: fn(&ResponseLimits) -> &Option<Extreme>,
     ) -> Array1<'py> {
         let all = self.0.responses.iter();
-        optional(py, all.map(|x| of(x).as_ref().map(|x| x.value)))
+        optional(
+            py,
+            all.map(|limits| of(limits).as_ref().map(|extreme| extreme.value)),
+        )
     }
 
     fn designs<'py>(
@@ -206,7 +209,10 @@ impl WorstCase {
         of: fn(&ResponseLimits) -> &Option<Extreme>,
     ) -> PyResult<Array2<'py>> {
         let all = self.0.responses.iter();
-        let all = all.map(|x| of(x).as_ref().map(|x| x.design.to_vec()));
+        let all = all.map(|limits| {
+            let extreme = of(limits).as_ref();
+            extreme.map(|extreme| extreme.design.to_vec())
+        });
         optional_rows(py, self.0.description.design.len(), all)
     }
 }

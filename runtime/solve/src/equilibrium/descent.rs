@@ -93,12 +93,12 @@ where
         let stiffness = base.space.reduced(&base.stiffness);
         let convex = factors.factor(&stiffness).is_ok();
         if was_curved && convex {
-            let search_state = SearchState {
+            let progress = SearchState {
                 q: base.q.clone(),
                 radius,
                 iterations,
             };
-            if let Some(direct) = straight(search_state) {
+            if let Some(direct) = straight(progress) {
                 return Ok(UnjudgedResult {
                     left_unstable_region,
                     ..direct

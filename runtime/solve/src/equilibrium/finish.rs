@@ -30,43 +30,38 @@ pub(super) fn finished(point: &OperatingPoint<'_>, q: Vector) -> Result<SolvedSt
 
 pub(super) fn finish(
     point: &OperatingPoint<'_>,
-    mut unjudged_result: UnjudgedResult,
+    mut unjudged: UnjudgedResult,
 ) -> Result<SolvedState, Failure> {
     let Measured {
         linear,
         relative_residual: relative,
-    } = match unjudged_result.measured.take() {
+    } = match unjudged.measured.take() {
         Some(measured) => measured,
-        None => measure(point, &mut unjudged_result)?,
+        None => measure(point, &mut unjudged)?,
     };
     if relative.is_nan() || relative > ACCEPTED {
         return Err(Failure::NotFound {
             reason: NotFound::Inaccurate,
-            coordinates: unjudged_result.coordinates.into(),
-            iterations: unjudged_result.iterations,
+            coordinates: unjudged.coordinates.into(),
+            iterations: unjudged.iterations,
             relative,
         });
     }
-    let constraints = constraint_state(
-        point,
-        &unjudged_result.coordinates,
-        &unjudged_result.residual,
-        &linear,
-    )?;
+    let constraints = constraint_state(point, &unjudged.coordinates, &unjudged.residual, &linear)?;
     let mut state = Equilibrium {
-        coordinates: unjudged_result.coordinates,
+        coordinates: unjudged.coordinates,
         inputs: point.inputs.into(),
         design: point.design.into(),
         stability: Stability::Undecided,
         rounding: 0.0,
         free: FreeDirections::of(&linear.stiffness, point.free()),
         linear,
-        residual: unjudged_result.residual,
+        residual: unjudged.residual,
         relative_residual: relative,
-        iterations: unjudged_result.iterations,
+        iterations: unjudged.iterations,
         pose: None,
         constraints,
-        left_unstable_region: unjudged_result.left_unstable_region,
+        left_unstable_region: unjudged.left_unstable_region,
         kept: false,
         notes: Vec::new(),
         description: point.description.clone(),
@@ -104,21 +99,17 @@ pub(crate) fn judge(
 }
 
 /// Determines the reactions of a state, and measures the state.
-fn measure(
-    point: &OperatingPoint<'_>,
-    unjudged_result: &mut UnjudgedResult,
-) -> Result<Measured, Failure> {
-    let mut linear = point.linear(&unjudged_result.coordinates)?;
+fn measure(point: &OperatingPoint<'_>, unjudged: &mut UnjudgedResult) -> Result<Measured, Failure> {
+    let mut linear = point.linear(&unjudged.coordinates)?;
     if point.structure.constraints() > 1 {
-        if let Some(least) = least_reactions(&unjudged_result.coordinates, &linear, point.structure)
-        {
+        if let Some(least) = least_reactions(&unjudged.coordinates, &linear, point.structure) {
             linear = point.linear(&least)?;
-            unjudged_result.coordinates = least;
+            unjudged.coordinates = least;
         }
         // Includes the gaps of constraints that were left out.
-        unjudged_result.residual = point.residual(&unjudged_result.coordinates);
+        unjudged.residual = point.residual(&unjudged.coordinates);
     }
-    let (q, residual) = (&unjudged_result.coordinates, &unjudged_result.residual);
+    let (q, residual) = (&unjudged.coordinates, &unjudged.residual);
     Ok(Measured {
         relative_residual: relative_residual(point, q, residual, &linear.stiffness),
         linear,

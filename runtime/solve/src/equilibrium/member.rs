@@ -61,8 +61,8 @@ pub(super) fn select_member(
     };
     let state = &mut settled.state;
     let dimension = held.len();
-    for held in &mut held {
-        held.value = state.coordinates[held.unknown];
+    for coordinate in &mut held {
+        coordinate.value = state.coordinates[coordinate.unknown];
     }
     state.free = FreeDirections::of_member(&state.linear.stiffness, point.free(), held);
     state.notes.push(Note::Member { dimension });

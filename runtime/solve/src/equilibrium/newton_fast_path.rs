@@ -30,13 +30,13 @@ const MAX_ITERATIONS: usize = 8;
 /// Overwrites `state` except for its stability. On failure, returns the last convex state, or `place`.
 pub(super) fn newton_fast_path(
     point: &OperatingPoint<'_>,
-    search_state: SearchState,
+    progress: SearchState,
     state: &mut Equilibrium,
 ) -> Result<(), SearchState> {
     for_size(
         point.size(),
         #[inline(always)]
-        |n| newton(n, point, search_state, state),
+        |n| newton(n, point, progress, state),
     )
 }
 
@@ -45,7 +45,7 @@ pub(super) fn newton_fast_path(
 fn newton(
     n: usize,
     point: &OperatingPoint<'_>,
-    mut search_state: SearchState,
+    mut progress: SearchState,
     state: &mut Equilibrium,
 ) -> Result<(), SearchState> {
     let (u, b) = (point.inputs, point.design);
@@ -53,19 +53,19 @@ fn newton(
         let mechanism = point.mechanism;
         mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
     };
-    let most = search_state.iterations + MAX_ITERATIONS;
+    let most = progress.iterations + MAX_ITERATIONS;
     let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
     let mut factors = Cholesky::default();
     let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
     let (residual, step, next) = (&mut residual[..n], &mut step[..n], &mut next[..n]);
     let stiffness = &mut stiffness.as_flattened_mut()[..n * n];
     let (lower, pivots) = factors.room(n);
-    evaluate(&search_state.q[..n], residual, stiffness);
-    while search_state.iterations < most {
+    evaluate(&progress.q[..n], residual, stiffness);
+    while progress.iterations < most {
         if factor_rows(n, stiffness, lower, pivots).is_err() {
-            return Err(search_state);
+            return Err(progress);
         }
-        let q = &mut search_state.q[..n];
+        let q = &mut progress.q[..n];
         step.copy_from_slice(residual);
         solve_rows(n, lower, pivots, step);
         step.iter_mut().for_each(|value| *value = -*value);
@@ -76,23 +76,23 @@ fn newton(
             if !taken {
                 step.fill(0.0);
             }
-            state.iterations = search_state.iterations + usize::from(taken);
+            state.iterations = progress.iterations + usize::from(taken);
             state.left_unstable_region = false;
             for ((end, q), step) in state.coordinates[..n].iter_mut().zip(&*q).zip(&*step) {
                 *end = q + step;
             }
             return match ends(n, point, residual, (lower, pivots), state) {
                 true => Ok(()),
-                false => Err(search_state),
+                false => Err(progress),
             };
         }
         let size = largest(step);
-        let limited = size > search_state.radius;
+        let limited = size > progress.radius;
         let mut share = 1.0;
         if limited {
-            share = search_state.radius / size;
+            share = progress.radius / size;
             step.iter_mut()
-                .for_each(|value| *value = *value * search_state.radius / size);
+                .for_each(|value| *value = *value * progress.radius / size);
         }
         let slope = dot(step, residual);
         // A Newton step has as much curvature as slope.
@@ -111,15 +111,15 @@ fn newton(
         let curvature = forces.fold(-0.0, |sum, (x, row)| sum + x * dot(row, step));
         let finite = slope.is_finite() && curvature.is_finite();
         if !(way.slope < 0.0 && finite && way.falls(1.0, slope, curvature)) {
-            return Err(search_state);
+            return Err(progress);
         }
         if limited && way.predicts(1.0, slope) {
-            search_state.radius *= GROWTH;
+            progress.radius *= GROWTH;
         }
         q.copy_from_slice(next);
-        search_state.iterations += 1;
+        progress.iterations += 1;
     }
-    Err(search_state)
+    Err(progress)
 }
 
 /// Completes the state at the coordinates reached by the last step, and returns whether it is solved: the remainder of
@@ -185,9 +185,9 @@ mod tests {
     #[test]
     fn the_way_is_that_of_descent() {
         let alone = Cell::new(0);
-        let fast = |point: &OperatingPoint<'_>, search_state| {
+        let fast = |point: &OperatingPoint<'_>, progress| {
             let mut state = point.blank_state();
-            newton_fast_path(point, search_state, &mut state)?;
+            newton_fast_path(point, progress, &mut state)?;
             alone.set(alone.get() + 1);
             Ok(state)
         };
@@ -195,8 +195,8 @@ mod tests {
         for omega in [0.0, 1.0, 3.0, 3.3, 5.0, 9.0] {
             let inputs = [omega];
             let point = OperatingPoint::unchecked(&DoublePendulum, &inputs, &[]);
-            let straight = |search_state| {
-                let equilibrium: Result<Equilibrium, SearchState> = fast(&point, search_state);
+            let straight = |progress| {
+                let equilibrium: Result<Equilibrium, SearchState> = fast(&point, progress);
                 let found = equilibrium.ok()?;
                 let end = Candidate {
                     coordinates: found.coordinates,
@@ -223,9 +223,9 @@ mod tests {
                     }
                     Err(error) => {
                         let before = alone.get();
-                        let unjudged_result =
+                        let unjudged =
                             minimise_potential::<Unconstrained>(&point, &start, &error, straight);
-                        let Ok(found) = unjudged_result else {
+                        let Ok(found) = unjudged else {
                             panic!("nothing from {start:?}")
                         };
                         assert_eq!(found.left_unstable_region, left, "{omega} {start:?}");

@@ -44,8 +44,8 @@ pub fn solve_into(
         member::refuse_held(point)?;
     }
     let solved = if policy == Policy::Stable && has_open_potential(point) {
-        let search_state = descent::SearchState::first(start);
-        match newton_fast_path::newton_fast_path(point, search_state, state) {
+        let progress = descent::SearchState::first(start);
+        match newton_fast_path::newton_fast_path(point, progress, state) {
             Ok(()) => return judge(point, state),
             Err(error) => solve_by_descent(point, start, &error)?,
         }
@@ -142,20 +142,20 @@ pub fn solve_from_prediction(
     if !has_open_potential(point) {
         return None;
     }
-    let search_state = descent::SearchState::first(predicted);
-    newton_fast_path::newton_fast_path(point, search_state, state).ok()?;
+    let progress = descent::SearchState::first(predicted);
+    newton_fast_path::newton_fast_path(point, progress, state).ok()?;
     if !confirmed(&state.coordinates, predicted, last) {
         return None;
     }
     judge(point, state).ok()
 }
 
-/// Like [`solve`], for a stable equilibrium that the fast path does not reach; the search continues at `place`.
+/// Like [`solve`], for a stable equilibrium that the fast path does not reach; the search continues at `progress`.
 #[cold]
 fn solve_by_descent(
     point: &OperatingPoint<'_>,
     start: &[f64],
-    search_state: &descent::SearchState,
+    progress: &descent::SearchState,
 ) -> Result<SolvedState, Failure> {
     let structure = point.structure;
     if let Some(named) = stays(point, start) {
@@ -168,17 +168,17 @@ fn solve_by_descent(
         descent::minimise_potential::<search_space::Unconstrained>(
             point,
             start,
-            search_state,
+            progress,
             |state| straight(point, state),
         )
     } else {
         descent::minimise_potential::<search_space::ConstraintManifold>(
             point,
             start,
-            search_state,
+            progress,
             |_| None,
         )
-        .and_then(|unjudged_result| polished(point, unjudged_result))
+        .and_then(|unjudged| polished(point, unjudged))
     };
     minimum
         .or_else(|failure| match failure {
@@ -198,11 +198,11 @@ fn solve_by_descent(
 /// Refuses a state next to a pole of the forces.
 fn bounded(
     point: &OperatingPoint<'_>,
-    unjudged_result: UnjudgedResult,
+    unjudged: UnjudgedResult,
 ) -> Result<UnjudgedResult, Failure> {
-    let q = &unjudged_result.coordinates;
+    let q = &unjudged.coordinates;
     if !descent::grows_without_bound(point, q) {
-        return Ok(unjudged_result);
+        return Ok(unjudged);
     }
     let relative = point
         .evaluate(q)
@@ -211,9 +211,9 @@ fn bounded(
         });
     Err(Failure::NotFound {
         reason: NotFound::Unbounded,
-        iterations: unjudged_result.iterations,
+        iterations: unjudged.iterations,
         relative,
-        coordinates: unjudged_result.coordinates.to_vec(),
+        coordinates: unjudged.coordinates.to_vec(),
     })
 }
 
@@ -251,12 +251,9 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
 const NAMED: f64 = 1e-8;
 
 /// The minimum that the fast path finds from `place`.
-fn straight(
-    point: &OperatingPoint<'_>,
-    search_state: descent::SearchState,
-) -> Option<UnjudgedResult> {
+fn straight(point: &OperatingPoint<'_>, progress: descent::SearchState) -> Option<UnjudgedResult> {
     let mut state = point.blank_state();
-    newton_fast_path::newton_fast_path(point, search_state, &mut state).ok()?;
+    newton_fast_path::newton_fast_path(point, progress, &mut state).ok()?;
     Some(UnjudgedResult {
         coordinates: state.coordinates,
         residual: state.residual,
@@ -318,23 +315,21 @@ fn nearest(point: &OperatingPoint<'_>, start: &[f64]) -> Result<UnjudgedResult, 
         return whole();
     }
     newton::damped_newton::<search_space::ConstraintManifold>(point, start)
-        .and_then(|unjudged_result| polished(point, unjudged_result))
+        .and_then(|unjudged| polished(point, unjudged))
         .or_else(|failure| whole().map_err(|_| failure))
 }
 
 /// Takes the last steps in coordinates and reactions together.
 fn polished(
     point: &OperatingPoint<'_>,
-    unjudged_result: UnjudgedResult,
+    unjudged: UnjudgedResult,
 ) -> Result<UnjudgedResult, Failure> {
-    let independent = point.without_redundant(&unjudged_result.coordinates);
-    let last = newton::damped_newton::<search_space::Unconstrained>(
-        &independent,
-        &unjudged_result.coordinates,
-    )?;
+    let independent = point.without_redundant(&unjudged.coordinates);
+    let last =
+        newton::damped_newton::<search_space::Unconstrained>(&independent, &unjudged.coordinates)?;
     Ok(UnjudgedResult {
-        iterations: unjudged_result.iterations + last.iterations,
-        left_unstable_region: unjudged_result.left_unstable_region,
+        iterations: unjudged.iterations + last.iterations,
+        left_unstable_region: unjudged.left_unstable_region,
         ..last
     })
 }

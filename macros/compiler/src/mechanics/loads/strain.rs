@@ -176,9 +176,7 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
         let beam = &context.mechanism.beams[id.index()];
         let rows = sections.of(id);
         for (k, (strain, stresses)) in stressed(g, context, id).into_iter().enumerate() {
-            let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
-            let section_rows = lists.into_iter().flat_map(|list| &list[k]).flatten();
-            let section_rows: Vec<usize> = section_rows.copied().collect();
+            let section_rows = rows.of_section(k);
             let ids: Vec<SymbolId> = section_rows
                 .iter()
                 .map(|&row| sections.position.ids[row])

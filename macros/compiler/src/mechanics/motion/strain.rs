@@ -55,9 +55,7 @@ pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool
         let tangent = Vector3([g.sub(longer, half), across, up]);
         let section = &context.mechanism.beams[id.index()].sections[k].2;
         let value = curved(g, context.values, section).apply(g, tangent);
-        let lists = [&rows.rotations, &rows.slopes, &rows.curls, &rows.strains];
-        let section_rows = lists.into_iter().flat_map(|list| &list[k]).flatten();
-        let section_rows: Vec<usize> = section_rows.copied().collect();
+        let section_rows = rows.of_section(k);
         let ids: Vec<SymbolId> = section_rows
             .iter()
             .map(|&row| sections.position.ids[row])

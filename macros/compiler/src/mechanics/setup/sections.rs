@@ -51,6 +51,11 @@ pub(crate) struct OfBeam<T> {
 }
 
 impl<T: Copy> OfBeam<T> {
+    /// All that is known at the places of quadrature, place by place.
+    fn at_sections(&self) -> [&[Components<T>]; 4] {
+        [&self.rotations, &self.slopes, &self.curls, &self.strains]
+    }
+
     pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> OfBeam<U> {
         let mut all = |list: &[Components<T>]| -> Vec<Components<U>> {
             list.iter().map(|x| x.map(&mut change)).collect()
@@ -62,6 +67,14 @@ impl<T: Copy> OfBeam<T> {
             strains: all(&self.strains),
             stations: all(&self.stations),
         }
+    }
+}
+
+impl OfBeam<Option<usize>> {
+    /// The rows of one section.
+    pub(crate) fn of_section(&self, k: usize) -> Vec<usize> {
+        let lists = self.at_sections().into_iter();
+        lists.flat_map(|list| list[k]).flatten().collect()
     }
 }
 
@@ -80,12 +93,7 @@ impl Sections {
         let mut this = Self::default();
         for beam in &mechanism.beams {
             let beam_rows = this.beam(g, topology, beam);
-            for list in [
-                &beam_rows.rotations,
-                &beam_rows.slopes,
-                &beam_rows.curls,
-                &beam_rows.strains,
-            ] {
+            for list in beam_rows.at_sections() {
                 for (here, there) in list.iter().zip(list.iter().rev()) {
                     for (row, mirrored) in here.iter().zip(there) {
                         if let (Some(row), false) = (*row, row == mirrored) {

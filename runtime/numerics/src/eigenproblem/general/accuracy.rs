@@ -25,26 +25,22 @@ pub(super) fn in_trouble(pair: &Pair) -> bool {
 }
 
 /// The pairs before or behind pair `i` that the pencil cannot tell from it, although they did not merge.
-fn crowd<'f>(computed_pairs: &'f ComputedPairs, i: usize) -> impl Iterator<Item = usize> + use<'f> {
-    let pair = &computed_pairs.pairs[i];
-    let near = move |j: &usize| (pair.s - computed_pairs.pairs[*j].s).norm() <= pair.reach;
-    let others = (0..computed_pairs.count).filter(move |&j| j != i && !pair.merged);
+fn crowd<'f>(computed: &'f ComputedPairs, i: usize) -> impl Iterator<Item = usize> + use<'f> {
+    let pair = &computed.pairs[i];
+    let near = move |j: &usize| (pair.s - computed.pairs[*j].s).norm() <= pair.reach;
+    let others = (0..computed.count).filter(move |&j| j != i && !pair.merged);
     others.filter(near)
 }
 
 /// Whether the pencil cannot tell pair `i` from another one, although they did not merge.
-pub(super) fn is_crowded(computed_pairs: &ComputedPairs, i: usize) -> bool {
-    crowd(computed_pairs, i).next().is_some()
+pub(super) fn is_crowded(computed: &ComputedPairs, i: usize) -> bool {
+    crowd(computed, i).next().is_some()
 }
 
 /// Whether pair `i` is the same as another one: one eigenvalue found twice in place of two.
-pub(super) fn is_repeated(
-    solver: &mut PairSolver,
-    computed_pairs: &ComputedPairs,
-    i: usize,
-) -> bool {
-    crowd(computed_pairs, i).any(|j| {
-        let (own, other) = (vector(computed_pairs, i), vector(computed_pairs, j));
+pub(super) fn is_repeated(solver: &mut PairSolver, computed: &ComputedPairs, i: usize) -> bool {
+    crowd(computed, i).any(|j| {
+        let (own, other) = (vector(computed, i), vector(computed, j));
         solver.pencil.multiply(own, false, &mut solver.of_right);
         modulus(solver.overlap(other, false)) > PARALLEL
     })
@@ -52,9 +48,9 @@ pub(super) fn is_repeated(
 
 /// Whether the eigenvalues have the required sum, within their errors: an eigenvalue found twice in place of another
 /// spoils it.
-pub(super) fn is_complete(solver: &PairSolver, computed_pairs: &ComputedPairs) -> bool {
+pub(super) fn is_complete(solver: &PairSolver, computed: &ComputedPairs) -> bool {
     let (mut sum, mut allowed) = (0.0, 0.0);
-    for pair in &computed_pairs.pairs[..computed_pairs.count] {
+    for pair in &computed.pairs[..computed.count] {
         let weight = if pair.conjugate { 2.0 } else { 1.0 };
         sum += weight * pair.s.re;
         allowed += weight * (pair.error + SUM * modulus(pair.s));
@@ -65,56 +61,47 @@ pub(super) fn is_complete(solver: &PairSolver, computed_pairs: &ComputedPairs) -
 /// Fills in the second-order errors of the pairs that are `open`: from their residuals and the resolvent, to which every
 /// other eigenvalue contributes `phi_j psi_j^T / ((s_j - s) slope_j)`, or, where this is not small, by a correction.
 /// Eigenvalues that may be the same are left out: they share a cluster, or their errors are those of a defective one.
-pub(super) fn second_order(
-    solver: &mut PairSolver,
-    computed_pairs: &mut ComputedPairs,
-    open: &[bool],
-) {
+pub(super) fn second_order(solver: &mut PairSolver, computed: &mut ComputedPairs, open: &[bool]) {
     if !open.contains(&true) {
         return;
     }
     let size = |x: &[Complex64]| x.iter().fold(0.0, |most: f64, x| most.max(bound(*x)));
     let n = solver.pencil.n;
-    let vectors = computed_pairs
+    let vectors = computed
         .right
         .chunks_exact(n)
-        .zip(computed_pairs.left.chunks_exact(n));
-    let pairs = computed_pairs.pairs[..computed_pairs.count]
-        .iter()
-        .zip(vectors);
+        .zip(computed.left.chunks_exact(n));
+    let pairs = computed.pairs[..computed.count].iter().zip(vectors);
     let weights: Vec<f64> = pairs
         .map(|(pair, (right, left))| size(right) * size(left) / modulus(pair.slope))
         .collect();
-    for i in (0..computed_pairs.count).filter(|&i| open[i]) {
-        let pair = &computed_pairs.pairs[i];
+    for i in (0..computed.count).filter(|&i| open[i]) {
+        let pair = &computed.pairs[i];
         let apart = |s: Complex64| {
             let distance = modulus(s - pair.s);
             (distance > pair.radius()).then_some(distance)
         };
-        let parts = others(computed_pairs, i).filter_map(|(s, j, _)| Some(weights[j] / apart(s)?));
+        let parts = others(computed, i).filter_map(|(s, j, _)| Some(weights[j] / apart(s)?));
         let mut second = pair.second_order(1.0 / parts.sum::<f64>());
         if second > pair.doubt() {
             let range = i * n..(i + 1) * n;
-            let (right, left) = (
-                &computed_pairs.right[range.clone()],
-                &computed_pairs.left[range],
-            );
+            let (right, left) = (&computed.right[range.clone()], &computed.left[range]);
             second = second.min(solver.second_order(pair, right, left));
         }
-        computed_pairs.pairs[i].second = second;
+        computed.pairs[i].second = second;
     }
 }
 
 /// Fills in the errors of all pairs that are not part of a cluster. Returns whether each eigenvalue is clearly
 /// distinct: of two that almost meet, one may be found in place of the other.
-pub(super) fn estimate(solver: &mut PairSolver, computed_pairs: &mut ComputedPairs) -> bool {
+pub(super) fn estimate(solver: &mut PairSolver, computed: &mut ComputedPairs) -> bool {
     let mut all_told_apart = true;
-    for i in 0..computed_pairs.count {
-        let told_apart = if computed_pairs.pairs[i].merged {
-            computed_pairs.pairs[i].condition <= DEFECTIVE
+    for i in 0..computed.count {
+        let told_apart = if computed.pairs[i].merged {
+            computed.pairs[i].condition <= DEFECTIVE
         } else {
-            let (error, told_apart) = error(solver, computed_pairs, i);
-            computed_pairs.pairs[i].error = error;
+            let (error, told_apart) = error(solver, computed, i);
+            computed.pairs[i].error = error;
             told_apart
         };
         all_told_apart &= told_apart;
@@ -123,14 +110,14 @@ pub(super) fn estimate(solver: &mut PairSolver, computed_pairs: &mut ComputedPai
 }
 
 /// The error of an eigenvalue, and whether it is clearly distinct from the others.
-fn error(solver: &mut PairSolver, computed_pairs: &ComputedPairs, i: usize) -> (f64, bool) {
-    let pair = &computed_pairs.pairs[i];
+fn error(solver: &mut PairSolver, computed: &ComputedPairs, i: usize) -> (f64, bool) {
+    let pair = &computed.pairs[i];
     let step = modulus(pair.newton);
     let rounding = pair.rounding();
     let first = pair.doubt() + 2.0 * step + pair.second + rounding;
     let n = solver.pencil.n;
     let mut gap = f64::INFINITY;
-    for (s, _, _) in others(computed_pairs, i) {
+    for (s, _, _) in others(computed, i) {
         gap = gap.min(modulus(s - pair.s));
     }
     if FAR * first <= gap && pair.residual <= INACCURATE && !in_trouble(pair) {
@@ -142,11 +129,11 @@ fn error(solver: &mut PairSolver, computed_pairs: &ComputedPairs, i: usize) -> (
     let mut partner = 0.0_f64;
     solver
         .pencil
-        .multiply(vector(computed_pairs, i), false, &mut solver.of_right);
-    for (s, j, conjugate) in others(computed_pairs, i) {
+        .multiply(vector(computed, i), false, &mut solver.of_right);
+    for (s, j, conjugate) in others(computed, i) {
         let distance = modulus(s - pair.s);
         let near = distance < FAR * error;
-        if near && modulus(solver.overlap(vector(computed_pairs, j), conjugate)) > PARALLEL {
+        if near && modulus(solver.overlap(vector(computed, j), conjugate)) > PARALLEL {
             partner = partner.max(distance);
         }
     }
@@ -171,17 +158,17 @@ impl PairSolver<'_> {
     }
 }
 
-fn vector<'f>(computed_pairs: &'f ComputedPairs, i: usize) -> &'f [Complex64] {
-    let n = computed_pairs.right.len() / computed_pairs.pairs.len();
-    &computed_pairs.right[i * n..(i + 1) * n]
+fn vector<'f>(computed: &'f ComputedPairs, i: usize) -> &'f [Complex64] {
+    let n = computed.right.len() / computed.pairs.len();
+    &computed.right[i * n..(i + 1) * n]
 }
 
 /// The other eigenvalues: value, pair, and whether the value is the conjugate of that pair.
 fn others<'f>(
-    computed_pairs: &'f ComputedPairs,
+    computed: &'f ComputedPairs,
     i: usize,
 ) -> impl Iterator<Item = (Complex64, usize, bool)> + use<'f> {
-    let pairs = &computed_pairs.pairs[..computed_pairs.count];
+    let pairs = &computed.pairs[..computed.count];
     let themselves = pairs.iter().enumerate().filter(move |(j, _)| *j != i);
     let conjugates = pairs.iter().enumerate().filter(|(_, pair)| pair.conjugate);
     themselves

@@ -56,16 +56,16 @@ impl Links {
 /// ones.
 pub(super) fn merge(
     solver: &mut PairSolver,
-    computed_pairs: &mut ComputedPairs,
+    computed: &mut ComputedPairs,
     label: &mut [usize],
 ) -> bool {
     let mut collapsed = false;
     for links in [Links::Loose, Links::Tight] {
-        let count = computed_pairs.count;
-        if link(links, &computed_pairs.pairs[..count], label) {
+        let count = computed.count;
+        if link(links, &computed.pairs[..count], label) {
             for first in 0..count {
                 if label[first] == first {
-                    collapsed |= merge_one(solver, computed_pairs, &label[..count], first, links);
+                    collapsed |= merge_one(solver, computed, &label[..count], first, links);
                 }
             }
         }
@@ -99,18 +99,18 @@ fn link(links: Links, pairs: &[Pair], label: &mut [usize]) -> bool {
 /// Merges one cluster if justified; returns whether it turned out to be one eigenvalue found twice.
 fn merge_one(
     solver: &mut PairSolver,
-    computed_pairs: &mut ComputedPairs,
+    computed: &mut ComputedPairs,
     label: &[usize],
     first: usize,
     links: Links,
 ) -> bool {
-    if computed_pairs.pairs[first].merged {
+    if computed.pairs[first].merged {
         return false;
     }
     let members = || (0..label.len()).filter(|&i| label[i] == first);
-    let real = members().any(|i| links.real(&computed_pairs.pairs[i]));
+    let real = members().any(|i| links.real(&computed.pairs[i]));
     let weight = |i: usize| {
-        if real && computed_pairs.pairs[i].conjugate {
+        if real && computed.pairs[i].conjugate {
             2
         } else {
             1
@@ -122,17 +122,17 @@ fn merge_one(
     }
     let mut s = Complex64::ZERO;
     for i in members() {
-        s += computed_pairs.pairs[i].s * weight(i) as f64 / multiplicity as f64;
+        s += computed.pairs[i].s * weight(i) as f64 / multiplicity as f64;
     }
     if real {
         s.im = 0.0;
     }
     let (mut spread, mut radius, mut reach, mut condition) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
     for i in members() {
-        spread = spread.max(modulus(computed_pairs.pairs[i].s - s));
-        radius = radius.max(computed_pairs.pairs[i].radius());
-        reach = reach.max(computed_pairs.pairs[i].reach);
-        condition = condition.max(computed_pairs.pairs[i].condition);
+        spread = spread.max(modulus(computed.pairs[i].s - s));
+        radius = radius.max(computed.pairs[i].radius());
+        reach = reach.max(computed.pairs[i].reach);
+        condition = condition.max(computed.pairs[i].condition);
     }
     let mut cluster = Cluster {
         s,
@@ -157,11 +157,11 @@ fn merge_one(
         return links == Links::Tight && cluster.regular == multiplicity;
     }
     // The members keep their positions; additional members of a real cluster go to the end.
-    let end = computed_pairs.count;
+    let end = computed.count;
     let extra = multiplicity - members().count();
-    computed_pairs.count += extra;
+    computed.count += extra;
     for (k, member) in members().chain(end..end + extra).enumerate() {
-        solver.place(&cluster, k, !real, member, computed_pairs);
+        solver.place(&cluster, k, !real, member, computed);
     }
     false
 }

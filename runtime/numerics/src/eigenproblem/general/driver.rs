@@ -74,7 +74,7 @@ pub fn solve_near(
         order,
         iteration: None,
     };
-    let mut computed_pairs = ComputedPairs {
+    let mut computed = ComputedPairs {
         count: 0,
         pairs: &mut work.pairs[..count],
         right: take(&mut complex, count * n),
@@ -85,19 +85,10 @@ pub fn solve_near(
         true => {
             for (i, near) in near.iter().enumerate() {
                 let range = i * n..(i + 1) * n;
-                start(
-                    &mut computed_pairs.right[range.clone()],
-                    near.right,
-                    right_units,
-                );
-                start(&mut computed_pairs.left[range], near.left, left_units);
+                start(&mut computed.right[range.clone()], near.right, right_units);
+                start(&mut computed.left[range], near.left, left_units);
             }
-            find(
-                &mut solver,
-                &mut computed_pairs,
-                Values::near(values),
-                label,
-            )
+            find(&mut solver, &mut computed, Values::near(values), label)
         }
         false => usize::MAX,
     };
@@ -110,33 +101,30 @@ pub fn solve_near(
         let (pencil, order) = (&solver.pencil, &mut *solver.order);
         linear_values(pencil, &mut copy, spare, order, open, values);
         solver.iteration = (n > DIRECT).then(|| Iteration::new(form, &solver.linearisation));
-        troubles = find(&mut solver, &mut computed_pairs, Values::of(values), label);
+        troubles = find(&mut solver, &mut computed, Values::of(values), label);
         if troubles > 0 {
             let second = take(&mut complex, count);
-            if second_values(&mut solver, &computed_pairs, second, spare, open, marked) {
+            if second_values(&mut solver, &computed, second, spare, open, marked) {
                 let second = Values::improved(second, marked);
-                if find(&mut solver, &mut computed_pairs, second, label) >= troubles {
-                    find(&mut solver, &mut computed_pairs, Values::of(values), label);
+                if find(&mut solver, &mut computed, second, label) >= troubles {
+                    find(&mut solver, &mut computed, Values::of(values), label);
                 }
             }
         }
     }
-    if !accuracy::is_complete(&solver, &computed_pairs) {
+    if !accuracy::is_complete(&solver, &computed) {
         return Err(not_found());
     }
-    let places = &mut label[..computed_pairs.count];
+    let places = &mut label[..computed.count];
     for (i, slot) in places.iter_mut().enumerate() {
         *slot = i;
     }
-    sort(places, |&i| computed_pairs.pairs[i].s);
-    let mut roots = Vec::with_capacity(computed_pairs.count);
+    sort(places, |&i| computed.pairs[i].s);
+    let mut roots = Vec::with_capacity(computed.count);
     for (mode, &i) in places.iter().enumerate() {
-        let pair = &computed_pairs.pairs[i];
+        let pair = &computed.pairs[i];
         let vectors = i * n..(i + 1) * n;
-        let (phi, psi) = (
-            &computed_pairs.right[vectors.clone()],
-            &computed_pairs.left[vectors],
-        );
+        let (phi, psi) = (&computed.right[vectors.clone()], &computed.left[vectors]);
         let Some(residual) = accepted(&mut solver, pair, phi, psi) else {
             let residual = pair.residual;
             return Err(EigenproblemError::Inaccurate { mode, residual });

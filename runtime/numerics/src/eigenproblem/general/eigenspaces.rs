@@ -220,7 +220,7 @@ impl PairSolver<'_> {
         k: usize,
         conjugate: bool,
         index: usize,
-        computed_pairs: &mut ComputedPairs,
+        computed: &mut ComputedPairs,
     ) {
         let n = self.pencil.n;
         let regular = k < cluster.regular;
@@ -230,8 +230,8 @@ impl PairSolver<'_> {
         } else {
             cluster.regular + (k - cluster.regular) % defective
         };
-        let right = &mut computed_pairs.right[index * n..(index + 1) * n];
-        let left = &mut computed_pairs.left[index * n..(index + 1) * n];
+        let right = &mut computed.right[index * n..(index + 1) * n];
+        let left = &mut computed.left[index * n..(index + 1) * n];
         right.copy_from_slice(&self.basis_right[vector * n..(vector + 1) * n]);
         left.copy_from_slice(&self.basis_left[vector * n..(vector + 1) * n]);
         let mut pair = self.examine(cluster.s, right, left);
@@ -255,7 +255,7 @@ impl PairSolver<'_> {
                 .min(size * relative.powf(0.5 / n as f64));
         }
         pair.merged = true;
-        computed_pairs.pairs[index] = pair;
+        computed.pairs[index] = pair;
     }
 }
 

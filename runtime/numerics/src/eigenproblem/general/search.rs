@@ -93,7 +93,7 @@ impl<'a> Values<'a> {
 /// that failed; a pair that would be refused counts more than all others.
 pub(super) fn find(
     solver: &mut PairSolver,
-    computed_pairs: &mut ComputedPairs,
+    computed: &mut ComputedPairs,
     from: Values,
     label: &mut [usize],
 ) -> usize {
@@ -102,47 +102,36 @@ pub(super) fn find(
     let upper: Vec<Complex64> = values.iter().copied().filter(|s| s.im >= 0.0).collect();
     let mut open = vec![false; upper.len()];
     if let Some(iteration) = &mut solver.iteration {
-        iteration.vectors(
-            &solver.linearisation,
-            &upper,
-            computed_pairs.right,
-            computed_pairs.left,
-        );
+        iteration.vectors(&solver.linearisation, &upper, computed.right, computed.left);
     }
-    computed_pairs.count = 0;
+    computed.count = 0;
     for (i, &s) in values.iter().enumerate() {
         if s.im < 0.0 {
             continue;
         }
         let gap = from.gap(i);
-        let range = computed_pairs.count * n..(computed_pairs.count + 1) * n;
+        let range = computed.count * n..(computed.count + 1) * n;
         let (right, left) = (
-            &mut computed_pairs.right[range.clone()],
-            &mut computed_pairs.left[range],
+            &mut computed.right[range.clone()],
+            &mut computed.left[range],
         );
         let mut pair = Pair::NONE;
         if solver.iteration.is_some() && from.improved.get(i) != Some(&true) {
             pair = solver.polished((s, gap), right, left);
-            open[computed_pairs.count] = pair.condition <= SURE && !accuracy::in_trouble(&pair);
+            open[computed.count] = pair.condition <= SURE && !accuracy::in_trouble(&pair);
         }
-        if !open[computed_pairs.count] {
+        if !open[computed.count] {
             pair = solver.pair(s, gap, from.near, right, left);
         }
-        computed_pairs.pairs[computed_pairs.count] = pair;
-        computed_pairs.count += 1;
+        computed.pairs[computed.count] = pair;
+        computed.count += 1;
     }
-    accuracy::second_order(solver, computed_pairs, &open);
-    let mut troubles = usize::from(cluster::merge(solver, computed_pairs, label));
-    for (i, pair) in computed_pairs.pairs[..computed_pairs.count]
-        .iter()
-        .enumerate()
-    {
+    accuracy::second_order(solver, computed, &open);
+    let mut troubles = usize::from(cluster::merge(solver, computed, label));
+    for (i, pair) in computed.pairs[..computed.count].iter().enumerate() {
         let vectors = i * n..(i + 1) * n;
-        let (right, left) = (
-            &computed_pairs.right[vectors.clone()],
-            &computed_pairs.left[vectors],
-        );
-        troubles += usize::from(accuracy::is_repeated(solver, computed_pairs, i));
+        let (right, left) = (&computed.right[vectors.clone()], &computed.left[vectors]);
+        troubles += usize::from(accuracy::is_repeated(solver, computed, i));
         if accuracy::in_trouble(pair) {
             troubles += 1;
             if accepted(solver, pair, right, left).is_none() {
@@ -150,9 +139,9 @@ pub(super) fn find(
             }
         }
     }
-    let told_apart = accuracy::estimate(solver, computed_pairs);
+    let told_apart = accuracy::estimate(solver, computed);
     troubles += usize::from(from.near && !told_apart);
-    if !accuracy::is_complete(solver, computed_pairs) {
+    if !accuracy::is_complete(solver, computed) {
         troubles += 4 * n;
     }
     troubles
@@ -163,18 +152,15 @@ pub(super) fn find(
 #[cold]
 pub(super) fn second_values(
     solver: &mut PairSolver,
-    computed_pairs: &ComputedPairs,
+    computed: &ComputedPairs,
     second: &mut [Complex64],
     spare: &mut [Complex64],
     open: &mut [bool],
     marked: &mut [bool],
 ) -> bool {
     let mut filled = 0;
-    for (i, pair) in computed_pairs.pairs[..computed_pairs.count]
-        .iter()
-        .enumerate()
-    {
-        let crowded = accuracy::is_crowded(computed_pairs, i);
+    for (i, pair) in computed.pairs[..computed.count].iter().enumerate() {
+        let crowded = accuracy::is_crowded(computed, i);
         let unsure = solver.noise(pair.condition) > 1e-3 * pair.s.norm();
         let bad = unsure || crowded || accuracy::in_trouble(pair);
         let reach = pair.newton.norm().max(if crowded {

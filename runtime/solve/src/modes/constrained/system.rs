@@ -179,10 +179,11 @@ impl<'a> System<'a> {
     /// [`Self::matrix`] with zeros where forces cancel: free directions are found by its zeros.
     pub(super) fn matrix_without_rounding(&self) -> Matrix {
         let size = |x: &Vector| x.map(f64::abs);
+        let opposite = |x: &Vector| x.map(|value| -value.abs());
         let sizes = Self {
             velocity: self.velocity.clone(),
             units: self.units.clone(),
-            free: self.free.iter().map(|x| size(x).map(|x| -x)).collect(),
+            free: self.free.iter().map(opposite).collect(),
             forced: self.forced.iter().map(size).collect(),
             mass: self.mass.map(f64::abs),
             damping: self.damping.map(f64::abs),
