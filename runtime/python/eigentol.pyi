@@ -494,8 +494,8 @@ class Mechanism:
         """Its name."""
     @property
     def unknowns(self) -> list[str]:
-        """Names of the unknowns in the order of arrays: coordinates (rad or m), after them those whose speed is the unknown
-        (SI), after these the reactions of constraints (SI).
+        """Names of the unknowns in the order of arrays: coordinates (rad or m), after them those whose speed is the
+        unknown (SI), after these the reactions of constraints (SI).
         """
     @property
     def coordinates(self) -> list[str]:
@@ -844,7 +844,9 @@ class SecondOrderFailure(_Result):
         """Whether designs solved anew confirm the probability of the second-order model."""
     @property
     def mixed_with(self) -> list[int]:
-        """Positions of the other modes that tolerances mix with this one. If there are any, neither model can be relied on."""
+        """Positions of the other modes that tolerances mix with this one. If there are any, neither model can be
+        relied on.
+        """
     @property
     def name(self) -> str:
         """The requirement, in words."""
@@ -1049,7 +1051,9 @@ class Branch(_Result):
         """Unknowns, SI, shape (k, n)."""
     @property
     def stable(self) -> list[bool]:
-        """Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which counts as stable."""
+        """Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which
+        counts as stable.
+        """
     @property
     def equilibria(self) -> list[Equilibrium]:
         """The equilibrium at each point."""
@@ -1183,8 +1187,8 @@ class Convergence(_Result):
         """Values with the declared coordinates, SI, shape (k,)."""
     @property
     def changes(self) -> Real:
-        """What one and two more coordinates add, relative to the larger of the two values compared, shape (k, 2); NaN where
-        the answer no longer exists.
+        """What one and two more coordinates add, relative to the larger of the two values compared, shape (k, 2); NaN
+        where the answer no longer exists.
         """
 
 @final
@@ -1471,8 +1475,8 @@ class ModeCurvature(_Result):
 
 @final
 class Modes(_Result):
-    """The modes about an equilibrium: undamped ones ascending in frequency, general ones in frequency too, those that do not oscillate first. `m` is their
-    number, `n` that of the unknowns.
+    """The modes about an equilibrium: undamped ones ascending in frequency, general ones in frequency too, those that
+    do not oscillate first. `m` is their number, `n` that of the unknowns.
     """
 
     @property
@@ -2331,7 +2335,8 @@ class Study:
         """
     def propagate(self, responses: Sequence[tuple[Any, ...]]) -> Propagation:
         """How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
-        "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
+        "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0,
+        300), as `response` takes them.
         """
     def influence(self, responses: Sequence[tuple[Any, ...]]) -> Influence:
         """Which variables the scatter of responses comes from; tuples as `propagate` takes them."""
@@ -2469,12 +2474,12 @@ class Study:
 
         `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
         number of a mode, from 0; "output" and its name; "vibration" and the name of an output, for its amplitude (0 to
-        peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies, and
-        "velocity" or "acceleration"; "greatest" and the name of an input, a low and a high value, and the same, for the
-        greatest amplitude in that range, or "peak", for the value of the input at its highest peak; "critical" and the name of an input, a low and a high value,
-        between which the equilibrium loses its stiffness; "resonance" and the number of a mode, an input, a low and a
-        high value, and an order (1), or "flutter" and the same without it. `variables` names the design variables that
-        vary, in order; all unless given.
+        peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies,
+        and "velocity" or "acceleration"; "greatest" and the name of an input, a low and a high value, and the same, for
+        the greatest amplitude in that range, or "peak", for the value of the input at its highest peak; "critical" and
+        the name of an input, a low and a high value, between which the equilibrium loses its stiffness; "resonance" and
+        the number of a mode, an input, a low and a high value, and an order (1), or "flutter" and the same without it.
+        `variables` names the design variables that vary, in order; all unless given.
         """
     @property
     def settings(self) -> Settings:

@@ -526,15 +526,15 @@ fn drive_what_moves_no_mass(
 
 /// The coordinates that follow a given one, directly or through others.
 fn lead_by<'a>(leader: &str, couplings: &'a [Coupling]) -> impl Iterator<Item = &'a String> {
-    let mut texts: Vec<&String> = Vec::new();
+    let mut followers: Vec<&String> = Vec::new();
     loop {
         let next = couplings.iter().find(|one| {
-            let leads = one.with.0 == leader || texts.contains(&&one.with.0);
-            leads && !texts.contains(&&one.of.0)
+            let leads = one.with.0 == leader || followers.contains(&&one.with.0);
+            leads && !followers.contains(&&one.of.0)
         });
         match next {
-            Some(one) => texts.push(&one.of.0),
-            None => return texts.into_iter(),
+            Some(one) => followers.push(&one.of.0),
+            None => return followers.into_iter(),
         }
     }
 }

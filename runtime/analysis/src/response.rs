@@ -396,12 +396,12 @@ impl<'a> Responses<'a> {
                     let value = solved.mode(*mode).and_then(|mode| quantity.of(mode));
                     let slopes = value.filter(|_| slopes);
                     let index = solved.place(*mode);
-                    let gradient = slopes.and(index).and_then(|mask| {
+                    let gradient = slopes.and(index).and_then(|position| {
                         let all = derivatives.of_modes(self.mechanism, solved)?;
-                        let mode = all.modes.get(mask)?;
+                        let mode = all.modes.get(position)?;
                         match mode.clustered {
                             false => Some(mode.of(*quantity)?.by_design),
-                            true => self.common_gradient(solved, mask, *quantity),
+                            true => self.common_gradient(solved, position, *quantity),
                         }
                     });
                     (value, gradient)

@@ -115,11 +115,11 @@ impl Failure {
     }
 
     /// An unreadable value; `place` is as the user wrote it. Only the first mistake is reported.
-    pub(crate) fn value(source: impl Display, mistakes: &Mistakes) -> Self {
+    pub(crate) fn value(place: impl Display, mistakes: &Mistakes) -> Self {
         let first = mistakes.iter().next();
         let message = first.map_or("", |mistake| &*mistake.message);
         Self::Value {
-            place: shortened(&source.to_string()),
+            place: shortened(&place.to_string()),
             message: message.to_owned(),
             help: first.and_then(|mistake| mistake.help.clone()),
         }

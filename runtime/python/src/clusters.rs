@@ -88,7 +88,7 @@ attributes! {
         distances: Array1<'py> = vector(py, self.0.iter().map(|x| x.distance));
         /// Nominal eigenvalues of each cluster: lambda (1/s^2) of undamped modes, s (1/s) of general ones, complex.
         eigenvalues: Vec<Array1<'py, Complex>> =
-            self.0.iter().map(|eigenvalue| vector(py, eigenvalue.eigenvalues.iter().copied())).collect();
+            self.0.iter().map(|cluster| vector(py, cluster.eigenvalues.iter().copied())).collect();
         /// Whether the members of each are equal in every design, shape (k,).
         equal: Array1<'py, bool> = vector(py, self.0.iter().map(|x| x.equal));
         /// Means of the eigenvalues of each, complex, shape (k,); NaN where they have merged.
@@ -102,18 +102,18 @@ attributes! {
             optional(py, mean.map(|x| Some(x?.sigma)))
         };
         /// Numbers of samples behind the members of each, shape (k,).
-        samples: Array1<'py, i64> = self.counts(py, |count| count.samples);
+        samples: Array1<'py, i64> = self.counts(py, |spread| spread.samples);
         /// Why the members of a cluster have no spread: a text for each cluster, or None.
         failures: Vec<Option<String>> =
-            self.0.iter().map(|failure| Some(failure.spread.as_ref().err()?.to_string())).collect();
+            self.0.iter().map(|cluster| Some(cluster.spread.as_ref().err()?.to_string())).collect();
         /// "undamped" or "general"; None without clusters.
         family: Option<&'static hints::Family> = Some(family(self.0.first()?.family));
         /// Whether the members of each have merged into one eigenvalue that no derivative describes.
         defective: Vec<bool> = self.0.iter().map(ClusterTolerance::defective).collect();
         /// Numbers of samples that are unstable, shape (k,).
-        unstable: Array1<'py, i64> = self.counts(py, |count| count.unstable);
+        unstable: Array1<'py, i64> = self.counts(py, |spread| spread.unstable);
         /// Numbers of samples that could not be solved, shape (k,).
-        unsolved: Array1<'py, i64> = self.counts(py, |count| count.unsolved);
+        unsolved: Array1<'py, i64> = self.counts(py, |spread| spread.unsolved);
         /// Standard deviations that a tolerance and a band stand for; None without clusters.
         sigma_level: Option<f64> = Some(self.0.first()?.sigma_level);
     }
@@ -124,9 +124,9 @@ attributes! {
         /// Means of the members of each cluster from the lowest up, and at last of the distance of the highest from the
         /// lowest: arrays of shape (members + 1,). The quantity is "frequency" (rad/s), "lambda" (1/s^2), "growth" (1/s) or
         /// "damping_ratio".
-        mean: Vec<Array1<'py>> = self.members(py, quantity, |member| Some(member.mean));
+        mean: Vec<Array1<'py>> = self.members(py, quantity, |statistics| Some(statistics.mean));
         /// Standard deviations likewise.
-        sigma: Vec<Array1<'py>> = self.members(py, quantity, |member| member.sigma);
+        sigma: Vec<Array1<'py>> = self.members(py, quantity, |statistics| statistics.sigma);
     }
 }
 

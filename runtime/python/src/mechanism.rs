@@ -51,8 +51,8 @@ attributes! {
     Mechanism(self, py) {
         /// Its name.
         name: String = self.inner.description().name.to_string();
-        /// Names of the unknowns in the order of arrays: coordinates (rad or m), after them those whose speed is the unknown
-        /// (SI), after these the reactions of constraints (SI).
+        /// Names of the unknowns in the order of arrays: coordinates (rad or m), after them those whose speed is the
+        /// unknown (SI), after these the reactions of constraints (SI).
         unknowns: Vec<&str> = names::coordinates(self.inner.description());
         /// Names of the coordinates, those among them whose speed is the unknown: `eigentol check` counts the same.
         coordinates: Vec<&str> = self.of_roles(|role| matches!(role, Role::Position | Role::Speed));

@@ -97,7 +97,8 @@ macro_rules! of_responses {
 
 of_responses! {
     /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
-    /// "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0, 300), as `response` takes them.
+    /// "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0,
+    /// 300), as `response` takes them.
     propagate -> Propagation;
     /// Which variables the scatter of responses comes from; tuples as `propagate` takes them.
     influence -> Influence;

@@ -328,10 +328,10 @@ attributes! {
         /// Probability that each limit is passed by designs solved anew, which judges the design points, shape (l,); NaN
         /// where that was not done.
         solved_anew: Array1<'py> =
-            self.each(py, |wa| Some(wa.judgement.judged()?.probability.value));
+            self.each(py, |limit| Some(limit.judgement.judged()?.probability.value));
         /// Half-widths of their 95 % intervals, shape (l,).
-        error: Array1<'py> = self.each(py, |item| {
-            let interval = item.judgement.judged()?.interval();
+        error: Array1<'py> = self.each(py, |limit| {
+            let interval = limit.judgement.judged()?.interval();
             Some(0.5 * (interval.upper - interval.lower))
         });
         /// Whether designs solved anew confirm the probability to first order of each limit, within 10 %.
@@ -367,10 +367,10 @@ attributes! {
         importance: PyResult<Array2<'py>> = self.points(py, |point| point.importance.to_vec());
         /// Derivatives of each `beta` by nominal values, per SI unit, shape (l, variables).
         beta_by_nominal: PyResult<Array2<'py>> =
-            self.points(py, |x| x.by_nominal.iter().map(|point| point.beta).collect());
+            self.points(py, |point| point.by_nominal.iter().map(|slope| slope.beta).collect());
         /// The same by half-widths of tolerances, shape (l, variables).
         beta_by_half_width: PyResult<Array2<'py>> =
-            self.points(py, |x| x.by_half_width.iter().map(|point| point.beta).collect());
+            self.points(py, |point| point.by_half_width.iter().map(|slope| slope.beta).collect());
         /// Number of design points of each limit, shape (l,).
         point_counts: Array1<'py, i64> = {
             let points = self.0.limits.iter().map(|limit| limit.design_points.as_ref());
@@ -478,7 +478,8 @@ attributes! {
             self.0.judgement.judged().map(|x| x.interval()).map(|x| (x.lower, x.upper));
         /// Whether designs solved anew confirm the probability of the second-order model.
         verified: bool = self.0.verified();
-        /// Positions of the other modes that tolerances mix with this one. If there are any, neither model can be relied on.
+        /// Positions of the other modes that tolerances mix with this one. If there are any, neither model can be
+        /// relied on.
         mixed_with: Vec<usize> = self.0.mixed_with.clone();
         /// The requirement, in words.
         name: String = self.0.wanted.text(&self.0.description);

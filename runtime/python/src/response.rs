@@ -48,7 +48,8 @@ pub(crate) struct Response {
 }
 
 /// Parses a response: "frequency" and other quantities of a mode, ("output", name), ("vibration", output, excitation,
-/// measure), ("greatest" or "peak", input, low, high, output, excitation, measure), ("critical", input, low, high), ("resonance", mode, input, low, high, order) or ("flutter", mode, input, low, high).
+/// measure), ("greatest" or "peak", input, low, high, output, excitation, measure), ("critical", input, low, high),
+/// ("resonance", mode, input, low, high, order) or ("flutter", mode, input, low, high).
 pub(crate) fn wanted(
     study: &eigentol::Study<Interpreted>,
     what: &str,
@@ -193,12 +194,12 @@ impl Study {
     ///
     /// `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
     /// number of a mode, from 0; "output" and its name; "vibration" and the name of an output, for its amplitude (0 to
-    /// peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies, and
-    /// "velocity" or "acceleration"; "greatest" and the name of an input, a low and a high value, and the same, for the
-    /// greatest amplitude in that range, or "peak", for the value of the input at its highest peak; "critical" and the name of an input, a low and a high value,
-    /// between which the equilibrium loses its stiffness; "resonance" and the number of a mode, an input, a low and a
-    /// high value, and an order (1), or "flutter" and the same without it. `variables` names the design variables that
-    /// vary, in order; all unless given.
+    /// peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies,
+    /// and "velocity" or "acceleration"; "greatest" and the name of an input, a low and a high value, and the same, for
+    /// the greatest amplitude in that range, or "peak", for the value of the input at its highest peak; "critical" and
+    /// the name of an input, a low and a high value, between which the equilibrium loses its stiffness; "resonance" and
+    /// the number of a mode, an input, a low and a high value, and an order (1), or "flutter" and the same without it.
+    /// `variables` names the design variables that vary, in order; all unless given.
     #[pyo3(signature = (what, *of, variables=None))]
     fn response(
         slf: &Bound<'_, Self>,

@@ -114,9 +114,9 @@ impl Study {
         let here = thread::current();
         thread::scope(|scope| {
             let work = scope.spawn(|| {
-                let question = question(&study);
+                let answer = question(&study);
                 here.unpark();
-                question
+                answer
             });
             let interrupted = loop {
                 py.detach(|| thread::park_timeout(BETWEEN_SIGNALS));

@@ -94,7 +94,11 @@ impl List {
                     .map(|coordinate| (&coordinate.name, &coordinate.unit)),
             ),
             Self::Inputs => named(of.inputs.iter().map(|input| (&input.name, &input.unit))),
-            Self::Design => named(of.design.iter().map(|value| (&value.name, &value.unit))),
+            Self::Design => named(
+                of.design
+                    .iter()
+                    .map(|variable| (&variable.name, &variable.unit)),
+            ),
         }
     }
 
@@ -103,7 +107,7 @@ impl List {
         match self {
             Self::Coordinates => vec![0.0; of.coordinates.len()],
             Self::Inputs => vec![0.0; of.inputs.len()],
-            Self::Design => of.design.iter().map(|value| value.nominal).collect(),
+            Self::Design => of.design.iter().map(|variable| variable.nominal).collect(),
         }
     }
 

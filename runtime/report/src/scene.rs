@@ -25,7 +25,8 @@ pub(crate) struct View<'a> {
 struct Motion {
     title: String,
     about: String,
-    /// For each phase, the poses of all bodies and sections of beams: twelve numbers each, position and rows of the rotation.
+    /// For each phase, the poses of all bodies and sections of beams: twelve numbers each, position and rows of the
+    /// rotation.
     frames: Vec<Vec<f64>>,
 }
 

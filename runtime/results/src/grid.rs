@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-/// A table of texts with a header and rows. The first column and columns of words are left-aligned, the others right-aligned.
-/// Columns that exceed the page width follow below, next to the first column again.
+/// A table of texts with a header and rows. The first column and columns of words are left-aligned, the others
+/// right-aligned. Columns that exceed the page width follow below, next to the first column again.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
     rows: Vec<Vec<String>>,

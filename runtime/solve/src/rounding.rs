@@ -3,9 +3,8 @@
 //!
 //! # What is zero is decided once
 //!
-//! For stability, modes, tolerances and reports, `rounding.rs` tells whether a number is negative, zero or positive
-//! against its error. The error of an undamped `lambda` is what rounding of each element changes in the quotient of its
-//! shape, and what other modes leave in that, so a soft mode next to a stiffness 1e15 times larger is as accurate as it would be alone.
+//! The error of an undamped `lambda` is what rounding of each element changes in the quotient of its shape, and what
+//! other modes leave in that, so a soft mode next to a stiffness 1e15 times larger is as accurate as it would be alone.
 //! Where a stiffness nearly vanishes, its elements may be remainders of greater terms: there the derivatives of
 //! `lambda` by all data, including the shift of the equilibrium, give the effect of rounding in the data, which the
 //! equilibrium keeps (`Equilibrium::rounding`) for all later steps. Pivots show at no cost when this is unnecessary.

@@ -124,7 +124,8 @@ impl<M: CurvatureKernels> Study<M> {
     /// println!("{}", study.allocation(&[Requirement::at_least(frequency, 4.0)], &choices)?);
     #[doc = include_str!("end.txt")]
     /// # Errors
-    /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`allocation::allocate`](crate::allocation::allocate).
+    /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and
+    /// [`allocation::allocate`](crate::allocation::allocate).
     pub fn allocation(
         &self,
         wanted: &[Requirement],

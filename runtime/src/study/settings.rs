@@ -33,8 +33,8 @@ pub(super) struct Settings {
     pub(super) inputs: Vector,
     pub(super) design: Vector,
     pub(super) start: Vector,
-    /// Which coordinates have a start value of their own: they keep it when a mechanism with constraints is assembled, and
-    /// an equilibrium with these values is the answer whatever its stability.
+    /// Which coordinates have a start value of their own: they keep it when a mechanism with constraints is assembled,
+    /// and an equilibrium with these values is the answer whatever its stability.
     named: Vec<bool>,
     /// The unknowns by which a member of a family of steady motions is held.
     holds: Vec<Held>,
@@ -123,16 +123,16 @@ impl Settings {
         }
     }
 
-    /// The same settings for a mechanism that differs in its unknowns alone: those of the same name start at their values
-    /// in an equilibrium of this one, the others at zero.
+    /// The same settings for a mechanism that differs in its unknowns alone: those of the same name start at their
+    /// values in an equilibrium of this one, the others at zero.
     #[cfg_attr(
         not(feature = "analysis"),
         allow(dead_code, reason = "only convergence asks for it")
     )]
     pub(super) fn of(&self, description: Shared<Description>, at: &Equilibrium) -> Self {
         let unknowns = &description.coordinates;
-        let index_of = |item: usize| {
-            let name = &self.description.coordinates.get(item)?.name;
+        let index_of = |unknown: usize| {
+            let name = &self.description.coordinates.get(unknown)?.name;
             unknowns.iter().position(|info| info.name == *name)
         };
         let held = |held: &Held| Some(Held::at(index_of(held.unknown)?, held.value));
@@ -314,8 +314,8 @@ impl Settings {
         })
     }
 
-    /// The equilibrium at this value of an input that is to be kept along it: a start value that is given keeps an unstable
-    /// equilibrium, and picks the member of a family of steady motions.
+    /// The equilibrium at this value of an input that is to be kept along it: a start value that is given keeps an
+    /// unstable equilibrium, and picks the member of a family of steady motions.
     pub(super) fn kept(
         &self,
         plain: &dyn Kernels,
@@ -375,8 +375,17 @@ impl Settings {
 
     /// The start of the solvers: the start values, assembled if any coordinate is held.
     pub(super) fn assembled_start(&self, mechanism: &dyn Kernels) -> Result<Cow<'_, [f64]>, Error> {
-        self.ready()?;
         let (start, named) = self.beginning(mechanism);
+        self.assembled(mechanism, start, &named)
+    }
+
+    fn assembled<'a>(
+        &self,
+        mechanism: &dyn Kernels,
+        start: Cow<'a, [f64]>,
+        named: &[bool],
+    ) -> Result<Cow<'a, [f64]>, Error> {
+        self.ready()?;
         if Structure::of(&self.description).open() || !named.contains(&true) {
             return Ok(start);
         }
@@ -387,9 +396,9 @@ impl Settings {
     /// Solves the equilibrium, and returns its general modes if they were needed to judge its stability. The result is
     /// large to move.
     fn solve(&self, mechanism: &dyn Kernels) -> Result<(Box<Equilibrium>, Vec<Mode>), Error> {
-        let start = self.assembled_start(mechanism)?;
+        let (start, named) = self.beginning(mechanism);
+        let start = self.assembled(mechanism, start, &named)?;
         let (u, b) = (&self.inputs, &self.design);
-        let (_, named) = self.beginning(mechanism);
         let point = OperatingPoint::unchecked(mechanism, u, b).asked(&named, self.holds.clone());
         let mut state = Box::new(Equilibrium::blank(&self.description, u, b));
         let judged = equilibrium::equilibrium_into(&point, &start, self.policy, &mut state)?;

@@ -39,8 +39,8 @@
 //!
 //! The feature `serde` writes results in SI, in the words of their types, and reads the same bits back;
 //! `runtime/tables` makes documents of them that add names, units, sentences and tables. A new result derives serde's
-//! traits, uses `serial::exact` for numbers that may be infinite, and implements [`Answer`]; `tests/tests/answers/serial.rs`
-//! finds any type that cannot be written.
+//! traits, uses `serial::exact` for numbers that may be infinite, and implements [`Answer`];
+//! `tests/tests/answers/serial.rs` finds any type that cannot be written.
 //!
 //! # List lengths are hashed
 //!

@@ -15,7 +15,8 @@ pub(super) enum Form {
     Partials,
 }
 
-/// The form of a kernel of the contract; `None` for requirements, poses and held values, whose methods are generated separately.
+/// The form of a kernel of the contract; `None` for requirements, poses and held values, whose methods are generated
+/// separately.
 pub(super) fn form(kernel: KernelName) -> Option<Form> {
     Some(match kernel {
         KernelName::Residual

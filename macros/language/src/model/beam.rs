@@ -81,8 +81,8 @@ pub struct Section {
     pub stiffness: [Expr; 3],
     /// Stiffness against stretch, and against shear along the second and the third axis, N; zero if not known.
     pub against_strain: [Expr; 3],
-    /// What couples the strains of two numbers, lower first: twist, bending about the second and the third axis, stretch and
-    /// shear along the second and the third axis are 0 to 5. In N m^2, N m and N.
+    /// What couples the strains of two numbers, lower first: twist, bending about the second and the third axis,
+    /// stretch and shear along the second and the third axis are 0 to 5. In N m^2, N m and N.
     pub coupling: Vec<(usize, usize, Expr)>,
     /// The angle by which its axes are turned about the beam before it bends, rad.
     pub twist: Expr,

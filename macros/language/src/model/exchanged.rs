@@ -24,8 +24,8 @@ impl Exchanged {
 }
 
 impl Mechanism {
-    /// Beams given by numbers whose two bending stiffnesses seem to be exchanged: the lower one is about the axis from which
-    /// the section extends, or has its inertia, farther. Nothing is said where a number depends on an input.
+    /// Beams given by numbers whose two bending stiffnesses seem to be exchanged: the lower one is about the axis from
+    /// which the section extends, or has its inertia, farther. Nothing is said where a number depends on an input.
     pub fn exchanged(&self) -> Vec<Exchanged> {
         let design: Vec<f64> = self.design.iter().map(|value| value.nominal).collect();
         let values = Values::new(&self.constants, &[], &design);

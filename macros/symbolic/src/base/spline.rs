@@ -8,10 +8,10 @@
 //!
 //! A curve through points is a natural cubic spline: a graph node whose derivative is a node of the same kind, one
 //! order higher, or zero where the spline has no such derivative (`base/spline.rs`). Generated code passes
-//! `Real::spline` a constant list of pieces, and `Real::spline` picks the piece by counting, without a branch. A call is
-//! one line for a curve of any length; unrolled pieces would cost operations in proportion to the points. Straight pieces beyond both ends
-//! define the equations for every argument, so solvers may look there; a physical requirement rejects results there
-//! (`mechanics/checks/requirements.rs`).
+//! `Real::spline` a constant list of pieces, and `Real::spline` picks the piece by counting, without a branch. A call
+//! is one line for a curve of any length; unrolled pieces would cost operations in proportion to the points. Straight
+//! pieces beyond both ends define the equations for every argument, so solvers may look there; a physical requirement
+//! rejects results there (`mechanics/checks/requirements.rs`).
 
 use std::cmp::Ordering;
 use std::fmt;

@@ -65,8 +65,8 @@ impl Curve<'_> {
         let position = frame.place(&local);
         let reduced = self.reduced(frame, &local, 0.0, &borders)?;
         let [first, second] = directions(&reduced)?;
-        let own_is_first = first.dot(&end).abs() >= second.dot(&end).abs();
-        let (incoming, other) = if own_is_first {
+        let incoming_is_first = first.dot(&end).abs() >= second.dot(&end).abs();
+        let (incoming, other) = if incoming_is_first {
             (first, second)
         } else {
             (second, first)

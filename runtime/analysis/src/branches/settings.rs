@@ -7,8 +7,8 @@ use crate::{Any, Description, Error, Input};
 /// Settings of a continuation: the range of one input and the sizes of the steps.
 ///
 /// Lengths along a branch are measured with `(high - low)` as the unit of the input and `size + |q_i|`, with `size` in
-/// radians or typical lengths of the mechanism, as the unit of a coordinate or speed. A constraint reaction is measured by the work it does on a unit of the coordinates it holds,
-/// relative to the work of all other forces.
+/// radians or typical lengths of the mechanism, as the unit of a coordinate or speed. A constraint reaction is measured
+/// by the work it does on a unit of the coordinates it holds, relative to the work of all other forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -33,8 +33,8 @@ pub struct Continuation<M = Any> {
     /// A change of a coordinate that counts as large, in multiples of a radian or of
     /// [`Description::length`](crate::Description::length) (of a speed, in rad/s or m/s). 1 by default.
     pub size: f64,
-    /// Multiple of `size` (plus the largest coordinate at the start, in the same units) beyond which a coordinate counts as infinite. 1e6
-    /// by default.
+    /// Multiple of `size` (plus the largest coordinate at the start, in the same units) beyond which a coordinate
+    /// counts as infinite. 1e6 by default.
     pub escape: f64,
 }
 

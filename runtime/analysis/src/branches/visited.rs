@@ -32,18 +32,13 @@ impl Curve<'_> {
         })
     }
 
-    /// Whether `place` lies on the piece of a branch between two neighbouring points.
-    fn near(
-        &self,
-        from: &CurvePosition,
-        to: &CurvePosition,
-        curve_position: &CurvePosition,
-    ) -> bool {
+    /// Whether `position` lies on the piece of a branch between two neighbouring points.
+    fn near(&self, from: &CurvePosition, to: &CurvePosition, position: &CurvePosition) -> bool {
         let Ok(system) = self.system(from) else {
             return false;
         };
         let frame: Frame = self.frame(from, &system);
-        let (end, target) = (frame.local(to), frame.local(curve_position));
+        let (end, target) = (frame.local(to), frame.local(position));
         let length = end.norm();
         let Some(normal) = end.unit() else {
             return target.norm() <= CLOSE;

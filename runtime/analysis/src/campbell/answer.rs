@@ -242,11 +242,11 @@ impl Campbell {
             optional(row.frequency(row.points.first()))
         });
         table.cells("to", &|row| optional(row.frequency(row.points.last())));
-        table.cells("most sigma", &|pair| {
-            or_dash(pair.widest().map(|pair| pair.1), rough)
+        table.cells("most sigma", &|row| {
+            or_dash(row.widest().map(|pair| pair.1), rough)
         });
         let at = format!("at {}", info.name);
-        table.cells(&at, &|pair| formatted(pair.widest().map(|pair| pair.0)));
+        table.cells(&at, &|row| formatted(row.widest().map(|pair| pair.0)));
         if self.family == Family::General {
             table.cells("least damping ratio", &|row| {
                 or_dash(row.least_damped().map(|(.., x)| x.mean), rough)
@@ -255,9 +255,7 @@ impl Campbell {
                 let separate = row.least_damped().filter(|(_, mode, _)| !mode.clustered);
                 or_dash(separate.map(|(.., x)| spread_of(x)), rough)
             });
-            table.cells(&at, &|pair| {
-                formatted(pair.least_damped().map(|pair| pair.0))
-            });
+            table.cells(&at, &|row| formatted(row.least_damped().map(|pair| pair.0)));
         }
         table.cells("whirl", &Motion::senses);
         table.cells("motion", &Motion::behaviours);

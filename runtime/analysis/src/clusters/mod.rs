@@ -7,8 +7,8 @@
 //! samples the small matrix of couplings (`clusters/sampling.rs`), as often as a number of operations allows:
 //! eigenvalues without vectors, by the tridiagonal form from eight members on. The spreads of all pairs are summed
 //! while the couplings pass by, one variable at a time; only those of a cluster are kept. Roots that have merged have
-//! no couplings and say so. First order stays free of allocation and looks at each mode alone; `Study::summary` compares it with
-//! second order and clusters, and gives each mode a verdict.
+//! no couplings and say so. First order stays free of allocation and looks at each mode alone; `Study::summary`
+//! compares it with second order and clusters, and gives each mode a verdict.
 //!
 //! # Modes that are equal at the nominal design are known by their order
 //!

@@ -75,8 +75,8 @@ pub struct MemberSpread {
 /// design variables: of `sampling`, the number of samples, seed and stream count.
 ///
 /// # Errors
-/// [`Error::Setting`] if points are not random, if matrices have the wrong number or size, are not finite, or for undamped modes are not real and
-/// symmetric, and for samples beyond the range of a double.
+/// [`Error::Setting`] if points are not random, if matrices have the wrong number or size, are not finite, or for
+/// undamped modes are not real and symmetric, and for samples beyond the range of a double.
 pub fn sample_cluster(
     couplings: &ModalCouplings,
     tolerances: &Tolerances,

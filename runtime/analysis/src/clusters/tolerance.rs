@@ -13,7 +13,7 @@ use crate::{Behaviour, Complex, Description, Equilibrium, Error, Modes, Shared};
 /// Limit on the additions and multiplications spent on the samples of one cluster, and the smallest number of samples.
 const BUDGET: f64 = 1.5e8;
 const FEWEST: usize = 256;
-/// Enough of them.
+/// A number of samples that is enough for any cluster.
 const SAMPLES: usize = 4096;
 
 /// Relative difference of eigenvalues, by nominal values and within tolerances, that is rounding.

@@ -76,8 +76,8 @@ impl Convergence {
                 )
             })
             .collect();
-        verdict(&outputs, |item| {
-            let texts: Vec<&str> = item.iter().map(String::as_str).collect();
+        verdict(&outputs, |outputs| {
+            let texts: Vec<&str> = outputs.iter().map(String::as_str).collect();
             names(&texts, "outputs")
         })
     }

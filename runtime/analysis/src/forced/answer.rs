@@ -235,8 +235,9 @@ impl Answer for ForcedSensitivities {
         let of = &self.response;
         let variables = variables(&of.description, &of.inputs);
         let rows = of.rows();
-        let list =
-            |slopes: Option<Slopes<f64>>| slopes.map_or(Vec::new(), |slope| slope.iter().collect());
+        let list = |slopes: Option<Slopes<f64>>| {
+            slopes.map_or(Vec::new(), |slopes| slopes.iter().collect())
+        };
         let derived = |name: String, unit: Unit, slopes: Option<Slopes<f64>>| Derived {
             name,
             unit,

@@ -117,10 +117,10 @@ pub fn second_derivatives(
         .collect();
     let mut most = 0.0_f64;
     let mut harmonics = Vec::new();
-    for (vibration, slope) in solved.vibrations.iter().zip(&slopes) {
+    for (vibration, first) in solved.vibrations.iter().zip(&slopes) {
         let moved = all
             .iter()
-            .map(|along| along.of(vibration, &slope.frequency));
+            .map(|along| along.of(vibration, &first.frequency));
         let moved: Vec<Moved<'_>> = moved.collect();
         let (_, frequency) = frequency_rows(mechanism, at, &adjoint, vibration, &all);
         let adjoints = OutputAdjoint::each(&solved, vibration, 0..mechanism.sizes().outputs);
@@ -136,7 +136,7 @@ pub fn second_derivatives(
             };
         let harmonic_curvature = HarmonicCurvature {
             frequency: symmetric(&frequency, at.inputs.len(), f64::abs).0,
-            outputs: slope.outputs.iter().zip(adjoints).map(of_output).collect(),
+            outputs: first.outputs.iter().zip(adjoints).map(of_output).collect(),
         };
         if !harmonic_curvature.finite() {
             return Err(solved.not_finite());

@@ -17,8 +17,8 @@ use crate::scalar::Real as _;
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// Share of a force along a vanishing direction that counts as none.
 const NOT_DRIVEN: f64 = 1e-9;
-/// Length that the inverse gives to a unit vector without a pattern, below which no direction vanishes: with one, the vector
-/// grows by the inverse of rounding, times its share along the direction.
+/// Length that the inverse gives to a unit vector without a pattern, below which no direction vanishes: with one, the
+/// vector grows by the inverse of rounding, times its share along the direction.
 const REGULAR: f64 = 1e6;
 /// Steps of inverse iteration: each gains as many digits as the direction is separated by.
 const STEPS: usize = 3;

@@ -330,9 +330,11 @@ impl Search<'_> {
             (square.value - half, square.slope)
         })?;
         let slope = zero.square().slope;
-        let (peak, vector) = (top.square_by_design(), zero.square_by_design());
-        let pairs = peak.iter().zip(&vector);
-        let by_design: Vector = pairs.map(|(peak, x)| (0.5 * peak - x) / slope).collect();
+        let (at_peak, at_half) = (top.square_by_design(), zero.square_by_design());
+        let pairs = at_peak.iter().zip(&at_half);
+        let by_design: Vector = pairs
+            .map(|(peak, half)| (0.5 * peak - half) / slope)
+            .collect();
         let frequency = zero.line.frequency.slopes.by_design.iter().zip(&by_design);
         let frequency = frequency.map(|(dw, du)| dw + zero.frequency_slope() * du);
         Ok(Half {

@@ -119,8 +119,8 @@ impl ResponsePoint {
     /// The derivatives of the modulus by the design.
     pub(super) fn modulus_by_design(&self) -> Vector {
         let modulus = self.line.amplitude.value.norm();
-        let vector = self.square_by_design();
-        vector.map(|value| value / (2.0 * modulus))
+        let square = self.square_by_design();
+        square.map(|value| value / (2.0 * modulus))
     }
 
     /// How far a peak here moves with the design.

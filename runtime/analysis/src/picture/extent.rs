@@ -63,10 +63,10 @@ impl Solid {
 /// The smallest box along the axes of the common frame that contains everything.
 pub(super) fn bounds(scene: &Scene) -> [[f64; 3]; 2] {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    let mut include = |values: [f64; 3], reach: [f64; 3]| {
+    let mut include = |centre: [f64; 3], reach: [f64; 3]| {
         for i in 0..3 {
-            low[i] = low[i].min(values[i] - reach[i]);
-            high[i] = high[i].max(values[i] + reach[i]);
+            low[i] = low[i].min(centre[i] - reach[i]);
+            high[i] = high[i].max(centre[i] + reach[i]);
         }
     };
     for body in &scene.bodies {

@@ -50,7 +50,7 @@ impl Scene {
     pub fn up(&self) -> [f64; 3] {
         if let Some(gravity) = self.gravity {
             let size = gravity.iter().fold(0.0_f64, |size, x| size.hypot(*x));
-            return gravity.map(|gravity| -gravity / size + 0.0);
+            return gravity.map(|component| -component / size + 0.0);
         }
         let on_ground = |joint: &&Joint| joint.driven && joint.from.body.is_none();
         let driven = self.joints.iter().find(on_ground);
@@ -63,7 +63,7 @@ impl Scene {
         } else {
             1.0
         };
-        axis.map(|axis| sign * axis + 0.0)
+        axis.map(|component| sign * component + 0.0)
     }
 
     /// Whether a body is the root or a station of a beam: a frame of a section, which the beam shows.
@@ -82,10 +82,10 @@ impl Scene {
 
     /// Transforms a place on a body, or on the ground, to the common frame.
     #[must_use]
-    pub fn place(&self, body: Option<usize>, values: [f64; 3]) -> [f64; 3] {
+    pub fn place(&self, body: Option<usize>, point: [f64; 3]) -> [f64; 3] {
         match body.and_then(|body| self.bodies.get(body)) {
-            Some(body) => body.pose.place(values),
-            None => values,
+            Some(body) => body.pose.place(point),
+            None => point,
         }
     }
 }
@@ -103,8 +103,8 @@ pub struct Pose {
 impl Pose {
     /// Transforms a place to the common frame.
     #[must_use]
-    pub fn place(&self, values: [f64; 3]) -> [f64; 3] {
-        let turned = self.direction(values);
+    pub fn place(&self, point: [f64; 3]) -> [f64; 3] {
+        let turned = self.direction(point);
         core::array::from_fn(|i| self.position[i] + turned[i])
     }
 
@@ -136,7 +136,8 @@ pub struct Beam {
     pub name: Text,
     /// Its sections are circles or tubes; otherwise rectangles, or known by numbers only.
     pub round: bool,
-    /// Sections from the root to the tip; their centres of mass are places of the centre line. Two are where a load splits it.
+    /// Sections from the root to the tip; their centres of mass are places of the centre line. Two are where a load
+    /// splits it.
     pub sections: Vec<Section>,
 }
 

@@ -13,8 +13,8 @@ use crate::{Complex, Equilibrium, Error, Modes};
 const STEP: f64 = 1e-4;
 /// Smaller displacements, relative to the size of the mechanism, are rounding: the body stands still.
 const STILL: f64 = 1e-12;
-/// Maximum rotation of a body or a section to either side, rad: the rotation is the only visible motion of a slender shaft in
-/// torsion.
+/// Maximum rotation of a body or a section to either side, rad: the rotation is the only visible motion of a slender
+/// shaft in torsion.
 const MOST_TURN: f64 = 0.5;
 
 /// Poses of all bodies, then of the sections of all beams, over one period of mode `mode` (counted from 0): at
@@ -51,8 +51,8 @@ pub fn mode_pictures(
 }
 
 /// Poses of all bodies, then of the sections of all beams, over one period of a forced vibration: the operating
-/// deflection shape, at `q* + a Re(z e^(i theta))` with the amplitudes `z` of its coordinates, enlarged or reduced by the factor `a` as modes
-/// are ([`mode_pictures`]).
+/// deflection shape, at `q* + a Re(z e^(i theta))` with the amplitudes `z` of its coordinates, enlarged or reduced by
+/// the factor `a` as modes are ([`mode_pictures`]).
 ///
 /// # Errors
 /// As [`mode_pictures`].

@@ -32,14 +32,14 @@ pub fn critical_curvature(
     if !at.free.held.is_empty() {
         return Err(none(NoDerivative::Family));
     }
-    let state = CriticalContext {
+    let context = CriticalContext {
         mechanism,
         critical,
         first: &first,
     };
     let rows = match critical.kind {
-        SpecialKind::Fold => state.limit_point()?,
-        SpecialKind::Pitchfork { .. } => state.pitchfork()?,
+        SpecialKind::Fold => context.limit_point()?,
+        SpecialKind::Pitchfork { .. } => context.pitchfork()?,
         SpecialKind::Transcritical => return Err(none(NoDerivative::Transcritical)),
         SpecialKind::Degenerate => return Err(Error::ClusteredMode { mode: 0 }),
     };

@@ -119,12 +119,13 @@ pub(super) fn mode_curvatures(
                             undamped_along(&mut ready, (directions, &shift), &changes);
                         }
                         Family::General => {
-                            for mode in &mut ready {
+                            for pending in &mut ready {
                                 let each = directions.iter().zip(&changes);
                                 let rows = each.map(|(direction, change)| {
-                                    mode.gradient.along(direction, change, &mode.shapes)
+                                    let (gradient, shapes) = (&pending.gradient, &pending.shapes);
+                                    gradient.along(direction, change, shapes)
                                 });
-                                mode.rows.extend(rows);
+                                pending.rows.extend(rows);
                             }
                         }
                     }
@@ -223,7 +224,10 @@ fn undamped_along(
     (directions, shift): (&[Direction], &Matrix),
     changes: &[Linear],
 ) {
-    let shapes: Vec<Vector> = modes.iter().map(|mode| mode.mode.real_shape()).collect();
+    let shapes: Vec<Vector> = modes
+        .iter()
+        .map(|pending| pending.mode.real_shape())
+        .collect();
     let n = shapes.first().map_or(0, |shape| shape.len());
     let columns = Matrix::from_fn(n, shapes.len(), |i, r| shapes[r][i]);
     let products = changes.iter().map(|change| {
@@ -236,21 +240,21 @@ fn undamped_along(
         [&change.stiffness, &change.mass].map(moved)
     });
     let products: Vec<[Matrix; 2]> = products.collect();
-    for (r, (mode, phi)) in modes.iter_mut().zip(&shapes).enumerate() {
+    for (r, (pending, phi)) in modes.iter_mut().zip(&shapes).enumerate() {
         let each = products.iter();
         let each = each.map(|[k, m]| (k.column(r), m.column(r)));
         let each: Vec<(Vector, Vector)> = each.collect();
         let rates = each
             .iter()
-            .map(|(k, m)| dot(phi, k) - mode.mode.lambda * dot(phi, m));
+            .map(|(k, m)| dot(phi, k) - pending.mode.lambda * dot(phi, m));
         let rates: Vec<f64> = rates.collect();
-        let Some(moved) = mode.shapes.undamped_along(&each, &rates) else {
+        let Some(moved) = pending.shapes.undamped_along(&each, &rates) else {
             continue;
         };
-        let rows = mode
+        let rows = pending
             .gradient
             .undamped_along((directions, shift), &moved, &rates);
-        mode.rows.extend(rows);
+        pending.rows.extend(rows);
     }
 }
 

@@ -49,7 +49,7 @@ impl PlotArea {
 
 /// Draws grid lines, ticks with their numbers, and headings.
 pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &Frame) -> Outcome {
-    let place = PlotArea::of(panel, frame);
+    let area = PlotArea::of(panel, frame);
     let Frame {
         left,
         right,
@@ -58,7 +58,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
     } = *frame;
     let hanging = hanging(panel);
     for (value, text) in ticks(&panel.x, 9.0) {
-        let (x, _) = place.pixel([value, panel.y.range[0]]);
+        let (x, _) = area.pixel([value, panel.y.range[0]]);
         if panel.x.categories.is_empty() {
             pen.hair([(x, top), (x, bottom)], 0.12)?;
             pen.hair([(x, bottom), (x, bottom + px(5))], 1.0)?;
@@ -75,7 +75,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
         }
     }
     for (value, text) in ticks(&panel.y, f64::from(bottom - top) / f64::from(px(52))) {
-        let (_, y) = place.pixel([panel.x.range[0], value]);
+        let (_, y) = area.pixel([panel.x.range[0], value]);
         if panel.y.categories.is_empty() {
             pen.hair([(left, y), (right, y)], 0.12)?;
             pen.hair([(left - px(5), y), (left, y)], 1.0)?;

@@ -20,7 +20,7 @@ pub(super) fn clip_band(edges: &[[f64; 3]], [left, right]: [f64; 2]) -> Vec<[f64
         let t = (x - from) / (to - from);
         [x, a + t * (c - a), b + t * (d - b)]
     };
-    let mut values: Vec<[f64; 3]> = edges.first().copied().filter(inside).into_iter().collect();
+    let mut clipped: Vec<[f64; 3]> = edges.first().copied().filter(inside).into_iter().collect();
     for pair in edges.windows(2) {
         let (from, to) = (pair[0][0], pair[1][0]);
         let ends = if from < to {
@@ -29,12 +29,12 @@ pub(super) fn clip_band(edges: &[[f64; 3]], [left, right]: [f64; 2]) -> Vec<[f64
             [right, left]
         };
         let between = |x: &f64| (from < *x && *x < to) || (to < *x && *x < from);
-        values.extend(ends.into_iter().filter(between).map(|x| at(pair, x)));
+        clipped.extend(ends.into_iter().filter(between).map(|x| at(pair, x)));
         if inside(&pair[1]) {
-            values.push(pair[1]);
+            clipped.push(pair[1]);
         }
     }
-    values
+    clipped
 }
 
 /// The parts of a curve whose y values lie between two limits.

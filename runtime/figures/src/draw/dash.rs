@@ -4,9 +4,9 @@ type Pixel = (i32, i32);
 
 /// The dashes of a line; `pattern` alternates dash and gap lengths.
 pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
-    let mut pixels = Vec::new();
+    let mut dashes = Vec::new();
     let Some(&first) = line.first() else {
-        return pixels;
+        return dashes;
     };
     let whole: f64 = pattern.iter().sum();
     if whole <= 0.0 {
@@ -15,8 +15,7 @@ pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
     let (mut turn, mut left) = (0, pattern[0]);
     let mut dash = vec![first];
     for pair in line.windows(2) {
-        let [(x, y), (to_x, to_y)] =
-            [pair[0], pair[1]].map(|pair| (f64::from(pair.0), f64::from(pair.1)));
+        let [(x, y), (to_x, to_y)] = [pair[0], pair[1]].map(|(x, y)| (f64::from(x), f64::from(y)));
         let length = (to_x - x).hypot(to_y - y);
         let mut done = 0.0;
         while length - done > left {
@@ -28,7 +27,7 @@ pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
             );
             if turn % 2 == 0 {
                 dash.push(at);
-                pixels.push(std::mem::take(&mut dash));
+                dashes.push(std::mem::take(&mut dash));
             } else {
                 dash = vec![at];
             }
@@ -41,9 +40,9 @@ pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
         }
     }
     if dash.len() > 1 {
-        pixels.push(dash);
+        dashes.push(dash);
     }
-    pixels
+    dashes
 }
 
 #[cfg(test)]

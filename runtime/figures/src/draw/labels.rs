@@ -67,10 +67,10 @@ impl Labels {
             |item: &&Box| self.inside(item) && !self.taken.iter().any(|other| meet(item, other));
         let inside = |x: &&Box| self.inside(x);
         let place = places.iter().find(free);
-        let mask = place
+        let chosen = place
             .or_else(|| places.iter().find(inside))
             .or(places.first());
-        if let Some(&[left, right, top, bottom]) = mask {
+        if let Some(&[left, right, top, bottom]) = chosen {
             // If no place is inside the panel, the label is nearly as long as the panel is wide, or longer.
             let room = self.frame.right + BEYOND - self.frame.left;
             let left = left

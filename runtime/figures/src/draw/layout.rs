@@ -126,7 +126,7 @@ fn wrapped(text: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     let words = text.split(' ').flat_map(|word| {
         let letters: Vec<char> = word.chars().collect();
-        let pieces = letters.chunks(LINE).map(|range| range.iter().collect());
+        let pieces = letters.chunks(LINE).map(|piece| piece.iter().collect());
         pieces.collect::<Vec<String>>()
     });
     for word in words {

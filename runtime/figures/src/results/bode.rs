@@ -319,7 +319,7 @@ impl<'a> Course<'a> {
     fn quantiles(&self) -> Option<[f64; 2]> {
         let spreads = self.spreads();
         let spread = spreads.iter().find_map(|spread| spread.1)?;
-        let [low, high] = outer(spread)?.map(|quantiles| quantiles.probability);
+        let [low, high] = outer(spread)?.map(|quantile| quantile.probability);
         Some([low, high])
     }
 

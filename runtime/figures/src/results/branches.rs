@@ -51,7 +51,7 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
                     _ => format!("branch {}, {word}", number + 1),
                 };
                 let middle = |pair: [&BranchPoint; 2]| {
-                    let [a, b] = pair.map(|pair| place(pair.value, &pair.equilibrium));
+                    let [a, b] = pair.map(|point| place(point.value, &point.equilibrium));
                     Some(between(a?, b?))
                 };
                 let points = stretch.iter().map(|x| place(x.value, &x.equilibrium));
@@ -67,12 +67,12 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
             ("stiffness is lost", Shape::Cross),
         ] {
             let here = special.iter().filter(|x| kind(x).0 == word);
-            let points = here.filter_map(|here| place(here.value, &here.equilibrium));
+            let points = here.filter_map(|point| place(point.value, &point.equilibrium));
             panel.markers(word, Colour::Black, shape, points);
         }
-        for (place_of, point) in special.iter().enumerate() {
+        for (k, point) in special.iter().enumerate() {
             if let Some(at) = place(point.value, &point.equilibrium) {
-                panel.label(at, (place_of + 1).to_string());
+                panel.label(at, (k + 1).to_string());
             }
         }
         panel.marks.extend(style.marks());

@@ -121,7 +121,7 @@ pub(super) fn oscillation(
             Some(Sense::Forward) => Stroke::Solid,
             None => Stroke::of(track.label),
         },
-        pieces: track.points(|track| [track.value, height(track)]),
+        pieces: track.points(|point| [point.value, height(point)]),
     }
 }
 

@@ -34,7 +34,7 @@ pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
             label: real,
             colour: Colour::Series(track.label),
             stroke: Stroke::Solid,
-            pieces: track.points(|track| [track.value, track.s.re]),
+            pieces: track.points(|point| [point.value, point.s.re]),
         };
         ends.add(&track, &curve);
         panel.curve(curve);
@@ -43,7 +43,7 @@ pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
                 label: format!("{}, imaginary part", style.mode(track.label)),
                 colour: Colour::Series(track.label),
                 stroke: Stroke::Dashed,
-                pieces: track.points(|track| [track.value, track.s.im]),
+                pieces: track.points(|point| [point.value, point.s.im]),
             });
         }
     }
@@ -83,7 +83,7 @@ pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
             label: format!("{}{kind}", style.mode(track.label)),
             colour: Colour::Series(track.label),
             stroke: Stroke::of(track.label),
-            pieces: track.points(|track| [track.s.re, track.s.im]),
+            pieces: track.points(|point| [point.s.re, point.s.im]),
         });
     }
     if panel.is_empty() {
@@ -100,7 +100,7 @@ pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
             .iter()
             .flat_map(|track: &Track| track.pieces.iter().flatten());
         let here = states.filter(|state| state.value == value);
-        let points: Vec<_> = here.map(|here| [here.s.re, here.s.im]).collect();
+        let points: Vec<_> = here.map(|state| [state.s.re, state.s.im]).collect();
         let label = format!("{} = {}", course.axis().name, words(value));
         panel.markers(label, Colour::Black, shape, points);
     }

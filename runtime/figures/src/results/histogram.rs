@@ -133,12 +133,10 @@ impl<'a> Histogram<'a> {
         let mut lines = vec![operating_point(d, &self.sampled.inputs, None), {
             let (mean, sigma) = (
                 scale * statistics.mean,
-                statistics
-                    .sigma
-                    .map(|mode_statistics| scale * mode_statistics),
+                statistics.sigma.map(|sigma| scale * sigma),
             );
-            let sigma = sigma.map_or_else(String::new, |mode_statistics| {
-                format!(", sigma {} {symbol}", number(mode_statistics))
+            let sigma = sigma.map_or_else(String::new, |sigma| {
+                format!(", sigma {} {symbol}", number(sigma))
             });
             {
                 let samples = self.sampled.drawn();

@@ -113,7 +113,7 @@ impl<'a> Spreads<'a> {
                 .error_bars
                 .iter()
                 .flat_map(|error_bar| &error_bar.bars)
-                .map(|bars| bars.high[1])
+                .map(|bar| bar.high[1])
                 .collect(),
         );
         upper.fit();

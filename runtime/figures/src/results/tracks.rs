@@ -250,7 +250,7 @@ fn softest(station: &Station) -> Option<usize> {
     least.map(|least| least.label)
 }
 
-/// Modes of `own` that continue in no mode of `other`.
+/// Modes of `station` that continue in no mode of `other`.
 fn unmatched(
     station: &Station,
     other: &Station,

@@ -150,11 +150,11 @@ attributes! {
         /// Names of the vibrations that have bands.
         banded: Vec<String> = {
             let each = self.0.banded.iter().copied().map(eigentol::response::Response::Vibration);
-            each.map(|excitation| excitation.name(&self.0.description)).collect()
+            each.map(|response| response.name(&self.0.description)).collect()
         };
         /// The spreads of these amplitudes at each value, or None.
         spreads: Vec<Option<Propagation>> = {
-            let spread = |point: &BodePoint| point.bands.as_ref().map(|point| point.spread.clone());
+            let spread = |point: &BodePoint| point.bands.as_ref().map(|bands| bands.spread.clone());
             self.0.points.iter().map(|point| spread(point).map(Propagation)).collect()
         };
         /// Means of the banded amplitudes, SI, shape (k, v).

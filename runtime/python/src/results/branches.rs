@@ -34,7 +34,8 @@ attributes! {
             let all = all.map(|x| x.equilibrium.coordinates.to_vec());
             rows(py, self.0.description.coordinates.len(), all)
         };
-        /// Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which counts as stable.
+        /// Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which
+        /// counts as stable.
         stable: Vec<bool> =
             self.0.points.iter().map(|point| point.equilibrium.stability.holds()).collect();
         /// The equilibrium at each point.

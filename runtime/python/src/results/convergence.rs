@@ -24,8 +24,8 @@ attributes! {
         names: Vec<String> = self.each(|x| x.answer.name(&self.0.description)).collect();
         /// Values with the declared coordinates, SI, shape (k,).
         values: Array1<'py> = vector(py, self.each(|x| x.value));
-        /// What one and two more coordinates add, relative to the larger of the two values compared, shape (k, 2); NaN where
-        /// the answer no longer exists.
+        /// What one and two more coordinates add, relative to the larger of the two values compared, shape (k, 2); NaN
+        /// where the answer no longer exists.
         changes: PyResult<Array2<'py>> =
             rows(py, 2, self.each(|row| row.relative.map(or_nan).to_vec()));
     }

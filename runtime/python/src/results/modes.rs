@@ -9,8 +9,8 @@ use crate::arrays::{Array1, Array2, optional, rows, vector};
 use crate::{hints, names};
 
 result! {
-    /// The modes about an equilibrium: undamped ones ascending in frequency, general ones in frequency too, those that do not oscillate first. `m` is their
-    /// number, `n` that of the unknowns.
+    /// The modes about an equilibrium: undamped ones ascending in frequency, general ones in frequency too, those that
+    /// do not oscillate first. `m` is their number, `n` that of the unknowns.
     Modes(eigentol::Modes)
 }
 

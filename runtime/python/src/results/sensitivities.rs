@@ -63,20 +63,20 @@ attributes! {
         /// Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where
         /// `s` has none.
         by_design: PyResult<Array2<'py, Complex>> =
-            self.complex(py, self.counts().1, |count| count.by_design.to_vec());
+            self.complex(py, self.counts().1, |slopes| slopes.by_design.to_vec());
         /// Derivatives of the eigenvalues `s` by inputs, 1/s per SI unit, complex, shape (m, inputs); NaN where `s` has
         /// none.
         by_input: PyResult<Array2<'py, Complex>> =
-            self.complex(py, self.counts().0, |count| count.by_input.to_vec());
+            self.complex(py, self.counts().0, |slopes| slopes.by_input.to_vec());
         /// Derivatives of `lambda = -Re s^2` by design variables, 1/s^2 per SI unit, shape (m, design).
         lambda_by_design: PyResult<Array2<'py>> =
-            self.rows(py, self.counts().1, |count| {
-                Some(count.lambda.by_design.to_vec())
+            self.rows(py, self.counts().1, |mode| {
+                Some(mode.lambda.by_design.to_vec())
             });
         /// Derivatives of `lambda = -Re s^2` by inputs, 1/s^2 per SI unit, shape (m, inputs).
         lambda_by_input: PyResult<Array2<'py>> =
-            self.rows(py, self.counts().0, |count| {
-                Some(count.lambda.by_input.to_vec())
+            self.rows(py, self.counts().0, |mode| {
+                Some(mode.lambda.by_input.to_vec())
             });
         /// Whether each mode is one of a cluster of nearly equal eigenvalues: then its derivatives belong to the computed
         /// basis only.

@@ -61,7 +61,7 @@ attributes! {
         critical: Array1<'py> = vector(py, self.0.critical.iter().map(|x| x.value));
         /// What happens at each of these, in words.
         critical_kinds: Vec<String> =
-            self.0.critical.iter().map(|critical_kind| critical_kind.kind.to_string()).collect();
+            self.0.critical.iter().map(|critical| critical.kind.to_string()).collect();
         /// Values of the input at which an oscillation begins or ceases to grow, SI.
         flutter_onsets: Array1<'py> = vector(py, self.0.flutter_onsets.iter().map(|flutter_onset| flutter_onset.value));
         /// The modes at each value, or None.
@@ -163,7 +163,7 @@ attributes! {
         };
         /// The direction of each whirl, in words, a list for each value; None where it does not apply.
         whirl_senses: Vec<Vec<Option<String>>> =
-            self.words(&|mode| mode.whirl.map(|word| word.sense().to_string()));
+            self.words(&|mode| mode.whirl.map(|whirl| whirl.sense().to_string()));
         /// Whether each motion is nearly equal to another, so that its spreads mean nothing, shape (k, motions).
         clustered: PyResult<Array2<'py, bool>> =
             self.by_label(py, false, |mode| Some(mode.clustered));

@@ -121,7 +121,7 @@ attributes! {
         band: Array1<'py> = optional(py, self.each(|x| x.band));
         /// Derivatives per SI unit of each variable, shape (o, variables).
         gradient: PyResult<Array2<'py>> =
-            optional_rows(py, self.variables(py).len(), self.each(|variable| variable.by_design.to_vec()));
+            optional_rows(py, self.variables(py).len(), self.each(|spread| spread.by_design.to_vec()));
         /// Shares of the variables in the variance, shape (o, variables).
         shares: PyResult<Array2<'py>> = {
             let all = self.each(|x| x.variance_shares.to_vec());

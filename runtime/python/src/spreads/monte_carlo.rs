@@ -68,7 +68,7 @@ attributes! {
         /// Equilibria of the samples, SI, shape (N, n); NaN where there is none.
         coordinates: PyResult<Array2<'py>> = {
             let all = self.kept(py)?.iter();
-            let all = all.map(|item| item.coordinates.as_ref().map(|coordinate| coordinate.to_vec()));
+            let all = all.map(|item| item.coordinates.as_ref().map(|coordinates| coordinates.to_vec()));
             optional_rows(py, self.0.description.coordinates.len(), all)
         };
         /// Eigenvalues of the samples, 1/s, complex, shape (N, m); NaN where there is none.
@@ -78,9 +78,9 @@ attributes! {
             rows(py, self.0.modes.len(), self.kept(py)?.iter().map(row))
         };
         /// Frequencies of the samples, rad/s, shape (N, m).
-        frequencies: PyResult<Array2<'py>> = self.of_samples(py, |of_sample| &of_sample.frequencies);
+        frequencies: PyResult<Array2<'py>> = self.of_samples(py, |sample| &sample.frequencies);
         /// Damping ratios of the samples, shape (N, m).
-        damping_ratios: PyResult<Array2<'py>> = self.of_samples(py, |of_sample| &of_sample.damping_ratios);
+        damping_ratios: PyResult<Array2<'py>> = self.of_samples(py, |sample| &sample.damping_ratios);
         /// What became of each sample: "Stable", "Divergent", "Flutter", "NoEquilibrium" ...
         outcomes: PyResult<Vec<String>> = {
             let all = self.kept(py)?.iter();

@@ -65,7 +65,7 @@ fn value(of: Option<Estimated>) -> Option<f64> {
 attributes! {
     Propagation(self, py) {
         /// For each response the doubts that distances raise about the model: texts; none for samples, which need no model.
-        doubts: Vec<Vec<String>> = self.0.doubts.iter().map(|doubt| texts(doubt)).collect();
+        doubts: Vec<Vec<String>> = self.0.doubts.iter().map(|doubts| texts(doubts)).collect();
         /// How it was found, in words.
         method: String = self.0.method.to_string();
         /// Why it was found that way.
@@ -81,7 +81,7 @@ attributes! {
         /// Skewness, shape (k,).
         skewness: Array1<'py> = self.each(py, |x| value(x.skewness));
         /// Quantiles, shape (k, 7), for the probabilities of -3, -2 ... 3 standard deviations of a normal variable.
-        quantiles: PyResult<Array2<'py>> = self.quantile_rows(py, |quantile_row| quantile_row.value);
+        quantiles: PyResult<Array2<'py>> = self.quantile_rows(py, |quantile| quantile.value);
         /// Covariances of the responses, shape (k, k).
         covariance: PyResult<Array2<'py>> = optional_matrix(py, &self.0.covariance);
         /// Shares of the designs that have each response, shape (k,).
@@ -95,7 +95,7 @@ attributes! {
         /// The same of the skewness, shape (k,).
         skewness_error: Array1<'py> = self.each(py, |x| x.skewness?.error);
         /// The same of the quantiles, shape (k, 7).
-        quantile_errors: PyResult<Array2<'py>> = self.quantile_rows(py, |quantile_row| or_nan(quantile_row.error));
+        quantile_errors: PyResult<Array2<'py>> = self.quantile_rows(py, |quantile| or_nan(quantile.error));
         /// Probabilities of the quantiles, shape (7,).
         probabilities: Array1<'py> = vector(py, QUANTILES);
         /// Covariances of the responses with the design variables, SI, shape (k, design).
@@ -199,7 +199,7 @@ impl WorstCase {
         let all = self.0.responses.iter();
         optional(
             py,
-            all.map(|limits| of(limits).as_ref().map(|extreme| extreme.value)),
+            all.map(|response| of(response).as_ref().map(|extreme| extreme.value)),
         )
     }
 
@@ -209,8 +209,8 @@ impl WorstCase {
         of: fn(&ResponseLimits) -> &Option<Extreme>,
     ) -> PyResult<Array2<'py>> {
         let all = self.0.responses.iter();
-        let all = all.map(|limits| {
-            let extreme = of(limits).as_ref();
+        let all = all.map(|response| {
+            let extreme = of(response).as_ref();
             extreme.map(|extreme| extreme.design.to_vec())
         });
         optional_rows(py, self.0.description.design.len(), all)
@@ -228,12 +228,12 @@ attributes! {
         /// Values at the nominal design, SI, shape (k,).
         nominal: Array1<'py> = optional(py, self.0.responses.iter().map(|response| response.nominal));
         /// Designs of the least values, SI, shape (k, design).
-        least_designs: PyResult<Array2<'py>> = self.designs(py, |design| &design.least);
+        least_designs: PyResult<Array2<'py>> = self.designs(py, |response| &response.least);
         /// Designs of the greatest values, SI, shape (k, design).
-        greatest_designs: PyResult<Array2<'py>> = self.designs(py, |design| &design.greatest);
+        greatest_designs: PyResult<Array2<'py>> = self.designs(py, |response| &response.greatest);
         /// Whether no design near that of the least and of the greatest value is worse, a pair for each response.
         confirmed: Vec<(bool, bool)> = {
-            let sure = |option: &Option<Extreme>| option.as_ref().is_some_and(|x| x.confirmed);
+            let sure = |extreme: &Option<Extreme>| extreme.as_ref().is_some_and(|x| x.confirmed);
             self.0.responses.iter().map(|response| (sure(&response.least), sure(&response.greatest))).collect()
         };
         /// For each response the names of the variables in which it is not monotonic.

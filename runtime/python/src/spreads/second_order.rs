@@ -40,7 +40,7 @@ impl SecondOrder {
 attributes! {
     SecondOrder(self, py) {
         /// For each mode the doubts that distances raise, as those of first order.
-        doubts: Vec<Vec<String>> = self.0.doubts.iter().map(|doubt| texts(doubt)).collect();
+        doubts: Vec<Vec<String>> = self.0.doubts.iter().map(|doubts| texts(doubts)).collect();
         /// Why a mode has no second order: a text for each mode, or None.
         failures: Vec<Option<String>> =
             self.0.modes.iter().map(|mode| mode.as_ref().err().map(ToString::to_string)).collect();
@@ -61,7 +61,7 @@ attributes! {
         mean_shift: Array1<'py> = self.each(py, quantity, |x| x.moments.mean_shift);
         /// Standard deviations to first order, shape (m,).
         first_order_sigma: Array1<'py> =
-            self.each(py, quantity, |deviation| deviation.moments.first_order_sigma);
+            self.each(py, quantity, |spread| spread.moments.first_order_sigma);
         /// Part of the standard deviations that curvature adds (its square is added to that of first order), shape (m,).
         curvature_sigma: Array1<'py> = self.each(py, quantity, |x| x.moments.curvature_sigma);
         /// Relative errors of the standard deviations to first order by this model, shape (m,).

@@ -50,7 +50,7 @@ attributes! {
         /// How probable each outcome is by the samples, by name: 95 % interval.
         outcomes: BTreeMap<String, (f64, f64)> = {
             let all = self.0.sampled().into_iter().flat_map(|x| &x.outcomes);
-            all.map(|(direction, chance)| (format!("{direction:?}"), (chance.lower, chance.upper))).collect()
+            all.map(|(outcome, chance)| (format!("{outcome:?}"), (chance.lower, chance.upper))).collect()
         };
         /// How probable it is that a design settles on another branch: 95 % interval; None where it was not looked for.
         on_another_branch: Option<(f64, f64)> = {
@@ -84,9 +84,9 @@ attributes! {
             self.checks(py, quantity, |check| Some(check.sigma.standard_error));
         /// Relative errors of the standard deviations to first order by the same samples, shape (m,).
         first_order_error: Array1<'py> =
-            self.checks(py, quantity, |x| x.first_order_error.map(|check| check.value));
+            self.checks(py, quantity, |check| check.first_order_error.map(|error| error.value));
         /// Relative errors of those to second order, shape (m,).
         second_order_error: Array1<'py> =
-            self.checks(py, quantity, |x| x.second_order_error.map(|check| check.value));
+            self.checks(py, quantity, |check| check.second_order_error.map(|error| error.value));
     }
 }

@@ -95,7 +95,7 @@ fn orbits(
             .map(Excitation::<Any>::new)
             .filter(|x| forced_response.harmonic(*x).is_some_and(moves));
         let figures =
-            moved.map(|moved| orbit(forced_response, [x, y], moved, &content.brief_style));
+            moved.map(|harmonic| orbit(forced_response, [x, y], harmonic, &content.brief_style));
         charts(html, figures)?;
     }
     Ok(())
@@ -119,20 +119,20 @@ fn motion(html: &mut Html, content: &Content) {
 }
 
 fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Result<(), Error> {
-    let sweep = match &along.bode {
+    let course = match &along.bode {
         Ok(bode) => bode,
         Err(error) => {
             refused(html, "vibration along the input is not known", error);
             return Ok(());
         }
     };
-    let failed = sweep
+    let failed = course
         .points
         .iter()
         .filter(|point| point.vibration.is_err())
         .count();
     if failed > 0 {
-        let all = sweep.points.len();
+        let all = course.points.len();
         let text =
             format!("At {failed} of {all} values there is no vibration: the table says why.");
         html.leaf("p", &[("class", "refused")], &text);
@@ -144,10 +144,10 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
         let name = Response::Vibration(vibration).name(&content.description);
         let style = content.style.clone();
         let style = style.title(format!("Bode plot of {name}"));
-        chart(html, &bode(sweep, vibration, &peaks, &style))?;
+        chart(html, &bode(course, vibration, &peaks, &style))?;
         let style = content.brief_style.clone();
         let style = style.title(format!("Polar plot of {name}"));
-        chart(html, &polar(sweep, vibration, &peaks, &style))?;
+        chart(html, &polar(course, vibration, &peaks, &style))?;
     }
     if wanted.len() > MODES {
         let more = wanted.len() - MODES;
@@ -160,7 +160,7 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
     {
         refused(html, "peaks are not known", error);
     }
-    for listing in sweep.tables() {
+    for listing in course.tables() {
         let caption = match &*listing.name {
             "bands" => "How tolerances spread the amplitudes along the input",
             _ => "Vibration along the input",

@@ -75,43 +75,43 @@ impl Rows {
         Self::with_threshold(rows, scale, NEARLY)
     }
 
-    fn with_threshold(mut row: Matrix, scale: Vector, threshold: f64) -> Self {
-        let count = row.row_count();
-        for entry in row.iter_mut() {
-            divide_each(entry, &scale);
+    fn with_threshold(mut rows: Matrix, scale: Vector, threshold: f64) -> Self {
+        let count = rows.row_count();
+        for row in rows.iter_mut() {
+            divide_each(row, &scale);
         }
-        let mut size: Vector = row.iter().map(norm).collect();
+        let mut size: Vector = rows.iter().map(norm).collect();
         let greatest = largest(&size);
-        for (entry, size) in row.iter_mut().zip(&mut size) {
+        for (row, size) in rows.iter_mut().zip(&mut size) {
             if *size > VANISHING * greatest {
-                divide(entry, *size);
+                divide(row, *size);
             } else {
-                entry.fill(0.0);
+                row.fill(0.0);
                 *size = if greatest > 0.0 { greatest } else { 1.0 };
             }
         }
-        let mut rows = Self {
+        let mut this = Self {
             rank: 0,
             least: 1.0,
             order: (0..count).collect(),
             size,
             scale,
-            unit: row.clone(),
-            row,
+            unit: rows.clone(),
+            row: rows,
             combination: Matrix::from_fn(count, count, |k, i| if i == k { 1.0 } else { 0.0 }),
         };
-        rows.eliminate(threshold);
-        for i in rows.rank..count {
+        this.eliminate(threshold);
+        for i in this.rank..count {
             for _ in 0..2 {
-                for known in rows.rank..i {
-                    let (known, left) = pair(&mut rows.combination, known, i);
+                for known in this.rank..i {
+                    let (known, left) = pair(&mut this.combination, known, i);
                     let along = dot(known, left);
                     add_to(left, -along, known);
                 }
-                normalise(&mut rows.combination[i]);
+                normalise(&mut this.combination[i]);
             }
         }
-        rows
+        this
     }
 
     /// Takes the largest remaining row into the basis until only rounding remains.

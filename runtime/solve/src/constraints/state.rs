@@ -16,8 +16,9 @@ pub struct ConstraintState {
     pub redundant: usize,
     /// The rows involved: any [`redundant`](Self::redundant) of them follow from the others.
     pub dependent: Vector<bool>,
-    /// Rows become dependent, or vanish, at exactly this configuration (within rounding), but are independent around it,
-    /// as for a flat parallelogram or a chain stretched to its limit. The linearised mechanism does not say how it can move.
+    /// Rows become dependent, or vanish, at exactly this configuration (within rounding), but are independent around
+    /// it, as for a flat parallelogram or a chain stretched to its limit. The linearised mechanism does not say how it
+    /// can move.
     pub singular: bool,
 }
 

@@ -24,10 +24,10 @@ use crate::kernels::RestParts;
 /// Newton's method doubles the digits: a start in the valley needs few steps.
 const MAX_ITERATIONS: usize = 8;
 
-/// Finds the minimum of the amended potential by Newton steps from `place`, all of them through states where it is
+/// Finds the minimum of the amended potential by Newton steps from `progress`, all of them through states where it is
 /// convex. For mechanisms without constraints.
 ///
-/// Overwrites `state` except for its stability. On failure, returns the last convex state, or `place`.
+/// Overwrites `state` except for its stability. On failure, returns the last convex state, or `progress`.
 pub(super) fn newton_fast_path(
     point: &OperatingPoint<'_>,
     progress: SearchState,

@@ -207,7 +207,8 @@ impl<'a> OperatingPoint<'a> {
         check_finite("start value of coordinate", |k| &unknowns[k].name, start)
     }
 
-    /// Residual and stiffness with the gauge fixed and the place held along free directions; `None` if either is not finite.
+    /// Residual and stiffness with the gauge fixed and the place held along free directions; `None` if either is not
+    /// finite.
     #[doc(hidden)]
     pub fn evaluate(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
         let n = self.size();

@@ -5,14 +5,13 @@
 //! that they leave free by `d / s^2`, so that an imbalance `F d / s^2` goes unnoticed. With a stiffness `K` this makes
 //! a displacement, which reaches the singular configuration at `s^3 = F d / K`. For gaps of rounding this is about a
 //! micrometre in a metre: states found there are random, balanced to all digits by reactions of a million times the
-//! weight, and are no equilibria. The test is therefore not a residual, but how far rounding moves a state towards the
-//! singular configuration.
+//! weight, and are no equilibria.
 //!
 //! # Near a singular configuration, residuals are not informative
 //!
 //! Reactions grow there as the inverse of the distance, and constraint gaps within rounding turn the free directions:
 //! any state within about a micrometre balances to all digits. The test is therefore how far rounding moves a result
-//! towards the singular configuration (error analysis in `equilibrium/regularity.rs`). If that is more than a
+//! towards the singular configuration (error analysis above). If that is more than a
 //! thousandth of its distance, the state counts as singular and is an equilibrium if forces balance without the lost
 //! constraint directions; if not, the search continues downhill.
 

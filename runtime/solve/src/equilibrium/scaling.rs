@@ -2,16 +2,16 @@
 //!
 //! # No unit is special
 //!
-//! `Khat` holds stiffnesses, damping and the unit vectors of constraints; in a micromachine the stiffnesses are rounding
-//! errors compared with the unit vectors. Whether a matrix is singular is therefore not judged by the size of a pivot but by what was
-//! subtracted to get it: one that is left over from cancelling terms counts as zero (`algebra/lu.rs`). Scaling the
-//! matrix first would need a structure for each matrix and performed worse near singular configurations. Newton's method
-//! compares gaps with forces, and speeds with coordinates, by the fastest rate of the mechanism
-//! (`equilibrium/scaling.rs`); a shortened step must reduce the residual only by its share. What counts as a large
-//! change of a coordinate (the reach of a first step, the distance at which two equilibria differ, the unit of arc
-//! length) is a radian or `Description::length`: the geometric mean of the shortest and the longest length that the
-//! declaration writes. Two settings still assume metres: the smallest motion against which a residual is measured,
-//! and the curvature that counts as straight.
+//! `Khat` holds stiffnesses, damping and the unit vectors of constraints; in a micromachine the stiffnesses are
+//! rounding errors compared with the unit vectors. Whether a matrix is singular is therefore not judged by the size of
+//! a pivot but by what was subtracted to get it: one that is left over from cancelling terms counts as zero
+//! (`algebra/lu.rs`). Scaling the matrix first would need a structure for each matrix and performed worse near singular
+//! configurations. Newton's method compares gaps with forces, and speeds with coordinates, by the fastest rate of the
+//! mechanism; a shortened step must reduce the residual only by its share. What counts as a large change of a
+//! coordinate (the reach of a first step, the distance at which two equilibria differ, the unit of arc length) is a
+//! radian or `Description::length`: the geometric mean of the shortest and the longest length that the declaration
+//! writes. Two settings still assume metres: the smallest motion against which a residual is measured, and the
+//! curvature that counts as straight.
 
 use core::ops::Range;
 

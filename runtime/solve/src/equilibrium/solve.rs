@@ -2,10 +2,11 @@
 //!
 //! # What a start value means
 //!
-//! A start value given by the user expresses an intention; a default does not. If the other coordinates relax about the given ones and those
-//! balance too, that equilibrium is the answer whatever its stability, and a note says so (`Note::Stays`); a default
-//! never keeps a mechanism upright that the user forgot. `Study::stay` asks for the nearest equilibrium of any kind.
-//! Designs near an unstable nominal state start from its shifted position and use Newton's method without descent. Conservative, rolling and coasting mechanisms are treated alike.
+//! A start value given by the user expresses an intention; a default does not. If the other coordinates relax about the
+//! given ones and those balance too, that equilibrium is the answer whatever its stability, and a note says so
+//! (`Note::Stays`); a default never keeps a mechanism upright that the user forgot. `Study::stay` asks for the nearest
+//! equilibrium of any kind. Designs near an unstable nominal state start from its shifted position and use Newton's
+//! method without descent. Conservative, rolling and coasting mechanisms are treated alike.
 
 use super::acceptance::{Measured, UnjudgedResult};
 use super::convergence::{SMALL_MOTION, relative_residual};
@@ -169,7 +170,7 @@ fn solve_by_descent(
             point,
             start,
             progress,
-            |state| straight(point, state),
+            |progress| straight(point, progress),
         )
     } else {
         descent::minimise_potential::<search_space::ConstraintManifold>(
@@ -250,7 +251,7 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
 /// equilibrium.
 const NAMED: f64 = 1e-8;
 
-/// The minimum that the fast path finds from `place`.
+/// The minimum that the fast path finds from `progress`.
 fn straight(point: &OperatingPoint<'_>, progress: descent::SearchState) -> Option<UnjudgedResult> {
     let mut state = point.blank_state();
     newton_fast_path::newton_fast_path(point, progress, &mut state).ok()?;

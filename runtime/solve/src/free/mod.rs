@@ -13,8 +13,8 @@
 //! by evaluation, it proves that the Lie derivative of the equations along a few candidate fields vanishes. The runtime
 //! holds the place by a border, `K + B H^T`, which is no restriction: whatever does not depend on the place comes out
 //! the same for any `B` and `H`. Only what is not determined is refused: a load along a free direction, and derivatives
-//! of outputs that depend on the place (`sensitivity/free_directions.rs`). Stiffness that only happens to vanish at one state is
-//! no free direction: the compiler does not count it, and the state is critical.
+//! of outputs that depend on the place (`sensitivity/free_directions.rs`). Stiffness that only happens to vanish at one
+//! state is no free direction: the compiler does not count it, and the state is critical.
 
 mod declared;
 mod directions;

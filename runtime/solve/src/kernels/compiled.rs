@@ -270,9 +270,9 @@ impl<M: Mechanism> Kernels for M {
     ) {
         let (q, u, b) = point::<M>(q, u, b);
         if const { M::Coordinates::<f64>::LEN > FEW_COORDINATES } {
-            let mechanism = Mechanism::residual_and_stiffness(self, q, u, b);
-            copy_array(&mechanism.0, residual);
-            copy_rows(&mechanism.1, stiffness);
+            let computed = Mechanism::residual_and_stiffness(self, q, u, b);
+            copy_array(&computed.0, residual);
+            copy_rows(&computed.1, stiffness);
             return;
         }
         // A few results go straight from registers to memory.
@@ -332,9 +332,9 @@ impl<M: Mechanism> Kernels for M {
         let (q, u, b) = point::<M>(q, u, b);
         if const { !few_partials::<M>() } {
             copy_partials::<M>(&Mechanism::linear_partials(self, q, u, b), matrices);
-            let mechanism = Mechanism::residual_partials(self, q, u, b);
-            copy_rows(&mechanism.0, residual.0.as_flattened_mut());
-            copy_rows(&mechanism.1, residual.1.as_flattened_mut());
+            let computed = Mechanism::residual_partials(self, q, u, b);
+            copy_rows(&computed.0, residual.0.as_flattened_mut());
+            copy_rows(&computed.1, residual.1.as_flattened_mut());
             return;
         }
         <f64 as Real>::run(
@@ -358,8 +358,8 @@ impl<M: Mechanism> Kernels for M {
         gradient: &mut Gradient,
     ) {
         let (q, u, b) = point::<M>(q, u, b);
-        let mechanism = Mechanism::mode_gradient(self, q, u, b, Array::view(phi), lambda);
-        copy_gradient::<M>(&mechanism, &mut gradient_results(gradient));
+        let computed = Mechanism::mode_gradient(self, q, u, b, Array::view(phi), lambda);
+        copy_gradient::<M>(&computed, &mut gradient_results(gradient));
     }
 
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {

@@ -1,9 +1,9 @@
 //! The kernels of a mechanism as a table over slices, as the solvers see them. A compiled mechanism provides them
 //! through its contract, a mechanism read at run time through the interpreter.
 //!
-//! Arguments are those of [`Mechanism`](eigentol_contract::Mechanism): `q` the unknowns, `u` the inputs, `b` the design variables,
-//! SI. A method named `.._into` overwrites every entry of buffers that have the sizes of the mechanism; the one without
-//! the suffix allocates them.
+//! Arguments are those of [`Mechanism`](eigentol_contract::Mechanism): `q` the unknowns, `u` the inputs, `b` the design
+//! variables, SI. A method named `.._into` overwrites every entry of buffers that have the sizes of the mechanism; the
+//! one without the suffix allocates them.
 //!
 //! # Panics
 //! Kernels may panic on a slice whose length does not match the mechanism: this is a bug in the caller. Values passed

@@ -130,17 +130,17 @@ pub fn match_with_assurance(
     if undamped && here <= there {
         let pairs = from.modes.iter().zip(&to.modes);
         let assurances = pairs.map(|(x, other)| real_assurance(x, other, &linear.mass));
-        let vector: Vector<_> = assurances.enumerate().map(Some).collect();
-        if vector.iter().flatten().all(|&(_, same)| same > CERTAIN) {
-            return vector;
+        let matched: Vector<_> = assurances.enumerate().map(Some).collect();
+        if matched.iter().flatten().all(|&(_, same)| same > CERTAIN) {
+            return matched;
         }
     }
     let table = assurance(from, to, linear);
-    let mut vector = Vector::filled(here, None);
+    let mut matched = Vector::filled(here, None);
     let mut used = vec![false; there];
     for _ in 0..here.min(there) {
         let mut best = None;
-        for i in (0..here).filter(|&i| vector[i].is_none()) {
+        for i in (0..here).filter(|&i| matched[i].is_none()) {
             for j in (0..there).filter(|&j| !used[j]) {
                 if best.is_none_or(|(_, _, most)| table[i][j] > most) {
                     best = Some((i, j, table[i][j]));
@@ -148,11 +148,11 @@ pub fn match_with_assurance(
             }
         }
         if let Some((i, j, most)) = best {
-            vector[i] = Some((j, most));
+            matched[i] = Some((j, most));
             used[j] = true;
         }
     }
-    vector
+    matched
 }
 
 impl Modes {

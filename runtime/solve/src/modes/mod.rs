@@ -326,8 +326,9 @@ impl Modes {
         self.solve_near(&at.linear, (free, at.rounding), nearby)
     }
 
-    /// Overwrites this set with the modes of these matrices, reusing its vectors. There are `free` directions that lead to
-    /// neighbouring steady motions, and a `lambda` not beyond `floor` counts as zero. For damped modes of an open mechanism, passing all modes of a nearby one saves time.
+    /// Overwrites this set with the modes of these matrices, reusing its vectors. There are `free` directions that lead
+    /// to neighbouring steady motions, and a `lambda` not beyond `floor` counts as zero. For damped modes of an open
+    /// mechanism, passing all modes of a nearby one saves time.
     pub(crate) fn solve_near(
         &mut self,
         linear: &Linear,

@@ -96,21 +96,21 @@ impl<'a> Adjoint<'a> {
         };
         match (modes.family, matrices, residual) {
             (Family::Undamped, Some(matrices), Some(residual)) => {
-                assemble_into(at, modes, sensitivities, |item, mode| {
-                    shared.undamped_from_partials(matrices, residual, item, mode);
+                assemble_into(at, modes, sensitivities, |sensitivity, mode| {
+                    shared.undamped_from_partials(matrices, residual, sensitivity, mode);
                 })
             }
             (Family::Undamped, ..) => {
                 let (mut gradient, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
-                assemble_into(at, modes, sensitivities, |item, mode| {
-                    shared.undamped(&mut gradient, &mut room, item, mode);
+                assemble_into(at, modes, sensitivities, |sensitivity, mode| {
+                    shared.undamped(&mut gradient, &mut room, sensitivity, mode);
                 })
             }
             (Family::General, ..) => {
                 let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
                 let mut room = Gradient::zeros(sizes);
-                assemble_into(at, modes, sensitivities, |item, mode| {
-                    shared.general(matrices, &mut gradient, &mut room, item, mode);
+                assemble_into(at, modes, sensitivities, |sensitivity, mode| {
+                    shared.general(matrices, &mut gradient, &mut room, sensitivity, mode);
                 })
             }
         }

@@ -124,8 +124,8 @@ fn first(mode: &ModeSensitivity) -> Quantity {
 /// Derivatives of a quantity by inputs and design variables; empty if it has none.
 fn slopes(mode: &ModeSensitivity, of: Quantity) -> Vec<f64> {
     let slopes = mode.of(of);
-    slopes.map_or_else(Vec::new, |slope| {
-        [&slope.by_input[..], &slope.by_design].concat()
+    slopes.map_or_else(Vec::new, |slopes| {
+        [&slopes.by_input[..], &slopes.by_design].concat()
     })
 }
 

@@ -22,7 +22,7 @@ pub fn sensitivities_explicit(
 ) -> Result<Sensitivities, Error> {
     let shift = equilibrium_shift(mechanism, at)?;
     let partials = partials_at(mechanism, at);
-    assemble(at, modes, Method::Explicit, |item, mode| {
+    assemble(at, modes, Method::Explicit, |sensitivity, mode| {
         let rate = Rate::of(at, modes.family, mode);
         let mut slopes = rate.slopes(
             partials.matrices(partials.by_input()),
@@ -38,7 +38,7 @@ pub fn sensitivities_explicit(
                 *total += moved * by;
             }
         }
-        item.set(mode, modes.family, &slopes);
+        sensitivity.set(mode, modes.family, &slopes);
     })
 }
 
@@ -56,13 +56,13 @@ pub fn sensitivities_with_frozen_equilibrium(
 ) -> Result<Sensitivities, Error> {
     check_state(mechanism, at)?;
     let partials = partials_at(mechanism, at);
-    assemble(at, modes, Method::FrozenEquilibrium, |item, mode| {
+    assemble(at, modes, Method::FrozenEquilibrium, |sensitivity, mode| {
         let rate = Rate::of(at, modes.family, mode);
         let slopes = rate.slopes(
             partials.matrices(partials.by_input()),
             partials.matrices(partials.by_design()),
         );
-        item.set(mode, modes.family, &slopes);
+        sensitivity.set(mode, modes.family, &slopes);
     })
 }
 

@@ -48,9 +48,9 @@ pub fn sensitivities_by_finite_difference(
         let (above, below) = (solve(&at.inputs, &up)?, solve(&at.inputs, &down)?);
         by_design.push(difference(&above, &below, up[j] - down[j]));
     }
-    assemble(at, modes, Method::FiniteDifference, |item, mode| {
+    assemble(at, modes, Method::FiniteDifference, |sensitivity, mode| {
         let slopes = Rate::of(at, modes.family, mode).slopes(by_input.iter(), by_design.iter());
-        item.set(mode, modes.family, &slopes);
+        sensitivity.set(mode, modes.family, &slopes);
     })
 }
 

@@ -58,7 +58,7 @@ impl Source {
     }
 }
 
-/// Whether one call of `shared` plus `use_of_it` operations per mode costs less than `calls` of `own` per mode.
+/// Whether one call of `shared` plus `use_of_it` operations per mode costs less than `calls` of `separate` per mode.
 fn pays(
     modes: usize,
     (shared, use_of_it): (Option<usize>, usize),

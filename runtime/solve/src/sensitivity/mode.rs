@@ -181,11 +181,11 @@ impl ModeSensitivity {
         by_design: impl ExactSizeIterator<Item = f64>,
     ) {
         let [inputs, design] = self.make_undamped(mode, by_input.len(), by_design.len());
-        for (input, slope) in inputs.iter_mut().zip(by_input) {
-            *input = slope;
+        for (slot, slope) in inputs.iter_mut().zip(by_input) {
+            *slot = slope;
         }
-        for (value, slope) in design.iter_mut().zip(by_design) {
-            *value = slope;
+        for (slot, slope) in design.iter_mut().zip(by_design) {
+            *slot = slope;
         }
     }
 

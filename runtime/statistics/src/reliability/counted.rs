@@ -113,12 +113,9 @@ impl<'a> Counted<'a> {
     }
 
     /// The error for a missing value at this place.
-    pub(super) fn no_value(&self, text: &'static str) -> Error {
+    pub(super) fn no_value(&self, place: &'static str) -> Error {
         let reason = self.reason.borrow().clone();
-        Error::NoLimitValue {
-            place: text,
-            reason,
-        }
+        Error::NoLimitValue { place, reason }
     }
 
     pub(super) fn evaluations(&self) -> Evaluations {

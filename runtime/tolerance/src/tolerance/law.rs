@@ -48,11 +48,11 @@ pub fn distribution(
                     ),
                 });
             }
-            let value = |value: f64| {
-                if value == 1.0 {
+            let value = |fraction: f64| {
+                if fraction == 1.0 {
                     high
                 } else {
-                    low + value * (high - low)
+                    low + fraction * (high - low)
                 }
             };
             let values: Vec<(f64, f64)> = values

@@ -21,7 +21,8 @@ const CHUNKS_SIDE_BY_SIDE: u64 = 4;
 ///
 /// # Errors
 /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a range that is not one of the
-/// samples or for points that are not random, [`Error::Threads`] if worker threads cannot be started. Samples that fail are counted and are not errors.
+/// samples or for points that are not random, [`Error::Threads`] if worker threads cannot be started. Samples that fail
+/// are counted and are not errors.
 pub fn monte_carlo(
     mechanism: &dyn BatchKernels,
     nominal: &Equilibrium,

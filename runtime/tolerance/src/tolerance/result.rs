@@ -24,7 +24,8 @@ pub struct MonteCarlo {
     pub ranges: Vec<Range<u64>>,
     /// Number of samples with each outcome.
     pub counts: Counts,
-    /// Samples as stable as the nominal equilibrium that lie on another branch: beyond a branch point, or in another valley.
+    /// Samples as stable as the nominal equilibrium that lie on another branch: beyond a branch point, or in another
+    /// valley.
     pub left_nominal_branch: usize,
     /// Statistics of the frequency, rad/s, by nominal mode, over the stable samples in which the mode oscillates;
     /// `None` if there are none. They include quantiles and a histogram ([`Statistics::quantile`],

@@ -2,10 +2,10 @@
 //!
 //! # A tolerance is a distribution of values
 //!
-//! The language and a study say how each value varies (`mechanism/tolerance.rs` of the contract), and `tolerance/tolerances.rs` derives
-//! covariance and means for first and second order and, where values are not jointly normal, the values as increasing
-//! functions of jointly normal numbers (a Gaussian copula with the requested linear correlations). Chance without
-//! mechanisms is in `runtime/statistics`, a crate that depends on none of the others.
+//! The language and a study say how each value varies (`mechanism/tolerance.rs` of the contract), and
+//! `tolerance/tolerances.rs` derives covariance and means for first and second order and, where values are not jointly
+//! normal, the values as increasing functions of jointly normal numbers (a Gaussian copula with the requested linear
+//! correlations). Chance without mechanisms is in `runtime/statistics`, a crate that depends on none of the others.
 
 use std::borrow::Cow;
 

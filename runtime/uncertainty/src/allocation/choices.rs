@@ -41,7 +41,7 @@ pub struct Choices<'a> {
 
 impl Choices<'_> {
     pub(super) fn check(&self, requirements: &Requirements<'_>) -> Result<(), Error> {
-        let values = requirements.deviations().tolerances().half_widths();
+        let present = requirements.deviations().tolerances().half_widths();
         if self.half_widths.is_empty() {
             return refuse("allocation", "no half-width may be chosen".to_owned());
         }
@@ -79,7 +79,7 @@ impl Choices<'_> {
                     format!("the lower limit of `{name}` must be positive, not {low} (SI)");
                 return refuse("half-width", reason);
             }
-            if values[variable] == 0.0 {
+            if present[variable] == 0.0 {
                 let reason = format!(
                     "`{name}` does not vary: give it any tolerance, which says how it is distributed"
                 );

@@ -56,8 +56,8 @@ impl Answer for Bode {
                 Some(row.amplitude()?.arg().to_degrees())
             })
             .digits(short);
-        table.number("Re", "", &|row| row.scaled(d, |row| row.re));
-        table.number("Im", "", &|row| row.scaled(d, |row| row.im));
+        table.number("Re", "", &|row| row.scaled(d, |y| y.re));
+        table.number("Im", "", &|row| row.scaled(d, |y| y.im));
         table.words("error", &|row| row.error.map(ToString::to_string));
         said.columns(table);
         self.bands(&mut said, &points);
@@ -132,10 +132,10 @@ impl Bode {
         let mut rows = Vec::new();
         for (point, bode_point) in self.points.iter().enumerate() {
             let value = bode_point.value;
-            let row = |harmonic_output, error| Row {
+            let row = |found, error| Row {
                 point,
                 value,
-                found: harmonic_output,
+                found,
                 error,
             };
             match &bode_point.vibration {
@@ -205,12 +205,12 @@ impl Bode {
         table.number("error of 99 %", "", &|row| Some(row.check?.upper));
         said.columns(table);
         let checks = || rows.iter().filter_map(|row| row.check);
-        let worst = checks().map(|py_result| py_result.sigma.abs().max(py_result.upper.abs()));
+        let worst = checks().map(|check| check.sigma.abs().max(check.upper.abs()));
         let Some(worst) = worst.reduce(f64::max) else {
             return;
         };
         let number = checks()
-            .map(|py_result| py_result.samples)
+            .map(|check| check.samples)
             .max()
             .unwrap_or_default();
         said.note(match worst > WORTH_SAYING {

@@ -25,8 +25,8 @@ pub(crate) fn doubts_of_models(
     tolerances: &Tolerances,
 ) -> Vec<Vec<Doubt>> {
     let critical = Doubt::NearCritical { distance: 0.0 };
-    let pose = tolerances.vary().then(|| distances(responses, tolerances));
-    let of = |response: &Response| match (&pose, response) {
+    let first_order = tolerances.vary().then(|| distances(responses, tolerances));
+    let of = |response: &Response| match (&first_order, response) {
         (Some(Ok(first)), Response::Mode { mode, .. }) => {
             let mut doubts = first.doubts(*mode);
             doubts.retain(|doubt| *doubt != Doubt::NoFrequency);

@@ -181,7 +181,7 @@ impl<'a> Control<'a> {
         .unwrap_or_else(|| self.expansion.first_order(x))
     }
 
-    /// The spread from the samples, whose quantities for this response start at `place`.
+    /// The spread from the samples, whose quantities for this response start at `index`.
     fn spread(
         &self,
         samples: &Gathered<'_>,
@@ -222,7 +222,7 @@ struct Corrected {
     worth: f64,
 }
 
-/// The mean of the quantity at `place`, with the next quantity, whose mean `known` is exact, as control variate:
+/// The mean of the quantity at `index`, with the next quantity, whose mean `known` is exact, as control variate:
 /// `f - beta (g - known)`, `beta = Cov(f, g) / Var(g)`.
 fn corrected(samples: &Gathered<'_>, index: usize, known: f64) -> Result<Option<Corrected>, Error> {
     let covariance = |i, j| samples.covariance(i, j);

@@ -10,7 +10,8 @@
 //! | [`first_order`], [`second_order`] | derivatives at the nominal design | everything, for the model; an estimate of its error |
 //! | [`worst_case`] | some corners of the box of limits | smallest and largest value |
 //!
-//! [`propagate`] chooses a method by the number of solutions allowed; [`influence`] attributes the scatter to the variables.
+//! [`propagate`] chooses a method by the number of solutions allowed; [`influence`] attributes the scatter to the
+//! variables.
 
 mod answers;
 mod choice;

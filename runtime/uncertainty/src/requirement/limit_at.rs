@@ -19,7 +19,7 @@ pub(crate) struct LimitAt<'a> {
 }
 
 impl<'a> LimitAt<'a> {
-    /// Creates one of [`Requirement::limits`], for the response at position `place`.
+    /// Creates one of [`Requirement::limits`], for the response at position `index`.
     pub(crate) fn new(
         responses: &'a Responses<'a>,
         index: usize,

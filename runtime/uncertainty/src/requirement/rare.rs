@@ -82,11 +82,9 @@ impl RareFailure {
 impl Requirements<'_> {
     /// Probability of failing any requirement, from at most the samples of `sampling` about the design points of `about`,
     /// fewer if its coefficient of variation falls to `accuracy`; identical for any number of threads. The estimate is
-    /// unbiased wherever failure lies, but its
-    /// standard error cannot see a failure region far from all design points: lines of designs do
-    /// ([`RareFailure::trusted`]). If a requirement has no design point,
-    /// sampling goes on until what its failures may hide ([`RareFailure::unseen`]) is within the target too, or until
-    /// the largest number of samples.
+    /// unbiased wherever failure lies, but its standard error cannot see a failure region far from all design points:
+    /// lines of designs do ([`RareFailure::trusted`]). If a requirement has no design point, sampling goes on until what
+    /// its failures may hide ([`RareFailure::unseen`]) is within the target too, or until the largest number of samples.
     ///
     /// # Errors
     /// [`Error::Setting`] if `about` has no design point, for zero samples, for points that are not random or for an

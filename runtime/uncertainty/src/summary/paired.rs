@@ -73,7 +73,7 @@ impl Paired {
         }
     }
 
-    /// Adds a sample; `found` is `None` if it does not have the quantity.
+    /// Adds a sample; `value` is `None` if it does not have the quantity.
     pub(super) fn add(&mut self, value: Option<f64>, first: f64, second: f64) {
         let group = &mut self.groups[self.samples % GROUPS];
         self.samples += 1;

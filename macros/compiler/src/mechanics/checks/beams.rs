@@ -12,10 +12,7 @@ use crate::model::mechanism::{Beam, Frame, Mechanism};
 pub(crate) fn notes_on_beams(mechanism: &Mechanism) -> Vec<String> {
     let mut notes = Vec::new();
     for beam in &mechanism.beams {
-        let [torsion, about_y, about_z] = beam
-            .coordinates
-            .each_ref()
-            .map(|coordinate| !coordinate.is_empty());
+        let [torsion, about_y, about_z] = beam.coordinates.each_ref().map(|ids| !ids.is_empty());
         let root = &mechanism.bodies[beam.body.index()].name;
         if beam.whole != beam.name {
             notes.push(format!(

@@ -3,10 +3,10 @@
 //! A beam's sections are at `r_a = L sum_k W_ak d_k` from the root, with the directions `d_k` of the beam at the places
 //! of quadrature and the numbers `W_ak` of integration up to place `a`. So its integrals of `rho` and `rho rho^T` have
 //! the form of those of a rigid body, `sum_k first_k d_k` and `sum_kj second_kj d_k d_j^T`, with constant `first` and
-//! `second`; only the arms `d_k` do not turn together. A centre of mass off the axis is one more arm `o_k`, with `first =
-//! m_k w_k L`, with this also as `second` with itself, and with `first L W_kj` as `second` with `d_j`. Each arm needs the
-//! force `S_k = first_k a_O + sum_j second_kj d_j'' + reach_k F`, where `F` acts on a station, and `d_k x S_k` is the moment
-//! that turns its section. The moment of its own inertia, `J w' + w x J w`, is written along its axes.
+//! `second`; only the arms `d_k` do not turn together. A centre of mass off the axis is one more arm `o_k`, with `first
+//! = m_k w_k L`, with this also as `second` with itself, and with `first L W_kj` as `second` with `d_j`. Each arm needs
+//! the force `S_k = first_k a_O + sum_j second_kj d_j'' + reach_k F`, where `F` acts on a station, and `d_k x S_k` is
+//! the moment that turns its section. The moment of its own inertia, `J w' + w x J w`, is written along its axes.
 
 use crate::algebra::{Direction, ExprId, Graph, Matrix3, Vector3};
 use crate::base::ids::BeamId;
@@ -143,9 +143,9 @@ impl BeamInertia {
     fn momenta(&self, g: &mut Graph, motion: &BeamMotion) -> Vec<Vector3> {
         let sections = motion.sections.iter().zip(&self.turning);
         let both = sections.zip(&self.spin);
-        both.map(|((section, inertia), &item)| {
+        both.map(|((section, inertia), &spin_momentum)| {
             let mut momentum = inertia.apply(g, section.spin);
-            momentum.0[0] = g.add(momentum.0[0], item);
+            momentum.0[0] = g.add(momentum.0[0], spin_momentum);
             momentum
         })
         .collect()
@@ -259,8 +259,8 @@ impl FromStations {
     pub(crate) fn turning(&self, g: &mut Graph, motion: &BeamMotion) -> BeamLoad {
         let zero = Vector3::zero(g);
         let directions = motion.directions.iter().zip(&self.brackets);
-        let moment = directions.fold(zero, |sum, (item, bracket)| {
-            let moment = item.vector.cross(g, *bracket);
+        let moment = directions.fold(zero, |sum, (direction, bracket)| {
+            let moment = direction.vector.cross(g, *bracket);
             sum.add(g, moment)
         });
         BeamLoad {

@@ -1,15 +1,12 @@
 //! Poses of the bodies and of the sections of beams, and the shapes of bodies, joints and points in the frames that carry
 //! them.
 //!
-//! Only the poses depend on the position. Everything else is written in body frames, so that it depends at most on inputs
-//! and design and is usually constant; the kernel does not return constants.
-//!
 //! # Pictures are written in body frames
 //!
-//! Only the poses of bodies and sections depend on the state; solids, joints and points are written in the frames that carry them
-//! and depend at most on the design. The kernel `picture` returns only the numbers that vary; `Mechanism::PICTURE`
-//! holds the constants, the names and the places of the computed numbers (`mechanics/kernels/picture.rs`). Callers that
-//! need no picture do not compile it.
+//! Only the poses of bodies and sections depend on the state; solids, joints and points are written in the frames that
+//! carry them and depend at most on the design. The kernel `picture` returns only the numbers that vary;
+//! `Mechanism::PICTURE` holds the constants, the names and the places of the computed numbers. Callers that need no
+//! picture do not compile it.
 
 use crate::algebra::{Array, ExprId, Function, Graph, Matrix3, Vector3};
 use crate::base::ids::{BeamId, JointId, PointId};
@@ -198,12 +195,12 @@ impl<'a> Numbers<'a> {
 
     /// The pose of a section at its centre of mass, from its place on the axis and the axes it would have without twist and
     /// prebend.
-    fn section(&mut self, g: &mut Graph, (vector, axes): (Vector3, Matrix3), section: &Section) {
+    fn section(&mut self, g: &mut Graph, (place, axes): (Vector3, Matrix3), section: &Section) {
         let arm = offset(g, self.values, section);
         let arm = axes.apply(g, arm);
-        let center = vector.add(g, arm);
-        let matrix3 = unbent(g, self.values, section);
-        self.pose(center, axes.multiply(g, matrix3));
+        let center = place.add(g, arm);
+        let turn = unbent(g, self.values, section);
+        self.pose(center, axes.multiply(g, turn));
     }
 
     /// A declared beam, from its parts between loads.

@@ -19,7 +19,8 @@ pub(super) fn slip_axes(
     let closing = tree.common_ancestor(plane, wheel);
     let below = |frame: Frame| {
         let path = tree.path(frame).into_iter();
-        path.take_while(|path| *path != closing).collect::<Vec<_>>()
+        path.take_while(|frame| *frame != closing)
+            .collect::<Vec<_>>()
     };
     let outwards = below(wheel).into_iter().rev();
     let carrier = turning(g, force_context, outwards, normal, Some(center));

@@ -206,7 +206,8 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
     along
 }
 
-/// Twist rate, curvatures and elastic moment of a beam at a point of it; see [`Expr::Bent`](crate::model::expression::Expr::Bent).
+/// Twist rate, curvatures and elastic moment of a beam at a point of it; see
+/// [`Expr::Bent`](crate::model::expression::Expr::Bent).
 pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [ExprId; 6] {
     let Some((beam, fraction, section)) = context.mechanism.section_at(point) else {
         return [g.zero(); 6];

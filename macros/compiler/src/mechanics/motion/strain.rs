@@ -98,11 +98,11 @@ pub(crate) fn headings_in_unknowns(g: &mut Graph, context: &Context, id: BeamId)
     let mut written = |v: Vector3| vector(&context.in_unknowns(g, &v.0));
     headings
         .into_iter()
-        .map(|item| Heading {
-            value: written(item.value),
-            rate: written(item.rate),
-            second: written(item.second),
-            slopes: item
+        .map(|heading| Heading {
+            value: written(heading.value),
+            rate: written(heading.rate),
+            second: written(heading.second),
+            slopes: heading
                 .slopes
                 .iter()
                 .map(|(row, slope)| (*row, written(*slope)))

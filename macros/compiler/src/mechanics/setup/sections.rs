@@ -51,7 +51,7 @@ pub(crate) struct OfBeam<T> {
 }
 
 impl<T: Copy> OfBeam<T> {
-    /// All that is known at the places of quadrature, place by place.
+    /// What is known at the places of quadrature: a list of each kind.
     fn at_sections(&self) -> [&[Components<T>]; 4] {
         [&self.rotations, &self.slopes, &self.curls, &self.strains]
     }
@@ -218,12 +218,12 @@ impl Sections {
         symbols: &Symbols,
         topology: &Topology,
         beam: &Beam,
-        value: f64,
+        fraction: f64,
     ) -> [Components<ExprId>; 2] {
         [integrals as fn(usize, f64) -> Vec<f64>, polynomials].map(|factors| {
             [0, 1, 2].map(|component| {
                 let ids = &beam.coordinates[component];
-                let factors = factors(ids.len(), value);
+                let factors = factors(ids.len(), fraction);
                 let terms: Vec<ExprId> = ids
                     .iter()
                     .zip(factors)

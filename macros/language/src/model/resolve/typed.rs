@@ -25,7 +25,7 @@ impl Quantity {
     pub(super) fn fits(self, dimension: Dimension) -> bool {
         match self {
             Quantity::Zero => true,
-            Quantity::Of(of) => of == dimension,
+            Quantity::Of(actual) => actual == dimension,
         }
     }
 

@@ -93,28 +93,32 @@ fn spreads(said: &mut Findings, rows: &[Row<'_>]) {
     table.words("error", &|row| Some(row.mode.as_ref().err()?.to_string()));
     table.words("doubts", &|row| joined(row.doubts));
     table.cells("nominal [rad/s]", &|row| {
-        row.cell(FREQUENCY, |row| number(row.model.value))
+        row.cell(FREQUENCY, |spread| number(spread.model.value))
     });
     table.cells("mean [rad/s]", &|row| {
-        row.cell(FREQUENCY, |row| number(row.moments.mean))
+        row.cell(FREQUENCY, |spread| number(spread.moments.mean))
     });
     table.cells("sigma, first order", &|row| {
-        row.cell(FREQUENCY, |row| {
-            sigma(row.moments.first_order_sigma, row.moments.mean)
+        row.cell(FREQUENCY, |spread| {
+            sigma(spread.moments.first_order_sigma, spread.moments.mean)
         })
     });
     table.cells("sigma [rad/s]", &|row| {
-        row.cell(FREQUENCY, |row| sigma(row.moments.sigma, row.moments.mean))
+        row.cell(FREQUENCY, |spread| {
+            sigma(spread.moments.sigma, spread.moments.mean)
+        })
     });
     table.cells("skewness", &|row| {
-        row.cell(FREQUENCY, |row| format!("{:+.3}", row.moments.skewness))
+        row.cell(FREQUENCY, |spread| {
+            format!("{:+.3}", spread.moments.skewness)
+        })
     });
     table.cells("damping ratio, mean", &|row| {
-        row.cell(DAMPING_RATIO, |row| rough(row.moments.mean))
+        row.cell(DAMPING_RATIO, |spread| rough(spread.moments.mean))
     });
     table.cells("sigma", &|row| {
-        row.cell(DAMPING_RATIO, |row| {
-            sigma(row.moments.sigma, row.moments.mean)
+        row.cell(DAMPING_RATIO, |spread| {
+            sigma(spread.moments.sigma, spread.moments.mean)
         })
     });
     said.columns(table);

@@ -525,7 +525,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         stop
     }
 
-    /// How the search continues past the last critical state; leaving the branch does not count as the onset of instability.
+    /// How the search continues past the last critical state; leaving the branch does not count as the onset of
+    /// instability.
     fn goes_on(&mut self, special: &SpecialPoint, arm: bool, after: &CurvePoint) -> Option<Next> {
         let next = self.leaves(special, arm, after)?;
         if let Some(last) = self.events.critical.last_mut()

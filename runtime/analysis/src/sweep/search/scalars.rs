@@ -472,9 +472,9 @@ impl Search<'_> {
     }
 }
 
-/// The place, no farther than `reach` from a place, at which a function with one minimum there is the lowest.
-fn lowest(function: impl Fn(f64) -> f64, value: f64, reach: f64) -> f64 {
-    let (mut from, mut to) = (value - reach, value + reach);
+/// The place, no farther than `reach` from `centre`, at which a function with one minimum there is the lowest.
+fn lowest(function: impl Fn(f64) -> f64, centre: f64, reach: f64) -> f64 {
+    let (mut from, mut to) = (centre - reach, centre + reach);
     for _ in 0..60 {
         let third = (to - from) / 3.0;
         match function(from + third) < function(to - third) {

@@ -160,8 +160,8 @@ fn link(first: &[Root], second: &[Root], h: f64) -> Option<Link> {
             (link.ahead[i], link.behind[j]) = (Some(j), Some(i));
         }
     }
-    let left = |item: &[Option<usize>], roots: &[Root]| {
-        let open = |&k: &usize| item[k].is_none();
+    let left = |links: &[Option<usize>], roots: &[Root]| {
+        let open = |&k: &usize| links[k].is_none();
         let all = (0..roots.len()).filter(open);
         let (pairs, real): (Vec<usize>, Vec<usize>) = all.partition(|&k| roots[k].paired);
         (pairs, real)

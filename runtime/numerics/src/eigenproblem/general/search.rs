@@ -89,7 +89,7 @@ impl<'a> Values<'a> {
     }
 }
 
-/// Finds all pairs from these values and, if they are near, from the vectors in `found`. Returns the number of pairs
+/// Finds all pairs from these values and, if they are near, from the vectors in `computed`. Returns the number of pairs
 /// that failed; a pair that would be refused counts more than all others.
 pub(super) fn find(
     solver: &mut PairSolver,

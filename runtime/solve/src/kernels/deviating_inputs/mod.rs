@@ -5,7 +5,8 @@
 //! A wandering speed adds a design variable, the deviation, which `kernels/deviating_inputs` presents as another table
 //! of kernels: no question knows of it, and each treats inputs like the design. Two questions compare a mode with an
 //! input that itself deviates: engine orders (`sweep/event_sensitivity.rs`) and bands around a speed
-//! (`second_order/forbidden_band.rs`); the table tells them which input a design variable is the deviation of.
+//! (`requirement/second_order.rs` of `runtime/uncertainty`); the table tells them which input a design variable is the
+//! deviation of.
 
 mod batch;
 mod deviations;

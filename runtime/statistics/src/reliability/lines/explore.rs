@@ -1,4 +1,5 @@
-//! Where failures are, before any line counts: how far along the directions in which they are expected, and in which others.
+//! Where failures are, before any line counts: how far along the directions in which they are expected, and in which
+//! others.
 
 use super::scan::{self, Stretch};
 use super::{Direction, LineSampler, SPACING};

@@ -38,8 +38,8 @@ impl Declared {
         self
     }
 
-    pub(super) fn section(&self, value: f64) -> Section {
-        self.table.section(value, (&self.twist, &self.prebend))
+    pub(super) fn section(&self, fraction: f64) -> Section {
+        self.table.section(fraction, (&self.twist, &self.prebend))
     }
 
     /// Whether the axis is curved about the second and about the third axis before the beam bends.

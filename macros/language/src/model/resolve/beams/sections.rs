@@ -357,15 +357,15 @@ fn both_ends(
     root: &[(usize, usize, Expr)],
     tip: &[(usize, usize, Expr)],
 ) -> [Vec<(usize, usize, Expr)>; 2] {
-    let missing = |item: &[(usize, usize, Expr)], other: &[(usize, usize, Expr)]| {
-        let mut all = item.to_vec();
+    let completed = |entries: &[(usize, usize, Expr)], other: &[(usize, usize, Expr)]| {
+        let mut all = entries.to_vec();
         for (i, j, _) in other {
-            if !item.iter().any(|(a, b, _)| (a, b) == (i, j)) {
+            if !entries.iter().any(|(a, b, _)| (a, b) == (i, j)) {
                 all.push((*i, *j, Expr::Number(0.0)));
             }
         }
         all.sort_by_key(|(i, j, _)| (*i, *j));
         all
     };
-    [missing(root, tip), missing(tip, root)]
+    [completed(root, tip), completed(tip, root)]
 }

@@ -108,15 +108,17 @@ impl Table {
     }
 
     /// The section at a fraction of the length.
-    pub(super) fn section(&self, value: f64, turned: (&Expr, &[Expr; 2])) -> Section {
+    pub(super) fn section(&self, fraction: f64, turned: (&Expr, &[Expr; 2])) -> Section {
         let [root, tip] = &self.ends;
         let both = root.iter().zip(tip);
-        let at: Vec<Expr> = both.map(|(root, tip)| between(root, tip, value)).collect();
-        let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], value));
+        let at: Vec<Expr> = both
+            .map(|(root, tip)| between(root, tip, fraction))
+            .collect();
+        let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], fraction));
         let pairs = self.coupling[0].iter().zip(&self.coupling[1]);
-        let pairs = pairs.map(|((i, j, root), (.., tip))| (*i, *j, between(root, tip, value)));
+        let pairs = pairs.map(|((i, j, root), (.., tip))| (*i, *j, between(root, tip, fraction)));
         let coupling = pairs.filter(|(.., x)| *x != Expr::Number(0.0)).collect();
-        let share = |whole: &Expr| multiply(Expr::Number(value), whole.clone());
+        let share = |whole: &Expr| multiply(Expr::Number(fraction), whole.clone());
         let (twist, prebend) = (share(turned.0), turned.1.each_ref().map(share));
         if let [
             mass,
@@ -265,17 +267,17 @@ impl Table {
 }
 
 /// What changes linearly from the root to the tip.
-fn between(root: &Expr, tip: &Expr, value: f64) -> Expr {
+fn between(root: &Expr, tip: &Expr, fraction: f64) -> Expr {
     match root == tip {
         true => root.clone(),
         false => add(
-            multiply(Expr::Number(1.0 - value), root.clone()),
-            multiply(Expr::Number(value), tip.clone()),
+            multiply(Expr::Number(1.0 - fraction), root.clone()),
+            multiply(Expr::Number(fraction), tip.clone()),
         ),
     }
 }
 
-/// Saint-Venant's constant of a rectangle `a` long and `b` thick:
+/// Saint-Venant's constant of a rectangle `long` by `thick`, with these called `a` and `b`:
 /// `a b^3 (1/3 - 64/pi^5 (b/a) sum tanh(n pi a / 2 b) / n^5)` over odd `n` (Timoshenko and Goodier 1951), with the
 /// sum of `1/n^5` in closed form, so that three terms leave less than 1e-12 for `a >= b`.
 fn torsion_of_rectangle(long: &Expr, thick: &Expr) -> Expr {
