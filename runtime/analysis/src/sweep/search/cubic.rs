@@ -66,6 +66,8 @@ where
 const SAMPLES: usize = 8;
 /// Share of the size of a number below which its changes count as none where it vanishes at every state.
 const STILL: f64 = 1e-6;
+/// Rounding of a cubic as a share of the terms that it adds up.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// How much larger the remainder of a piece may be than that of the whole, divided by 16 for its half length.
 const SAFETY: f64 = 8.0;
 
@@ -229,8 +231,12 @@ impl Triple {
         let (t, h) = (self.t[piece], self.t[piece + 1] - self.t[piece]);
         let (from, to) = (self.jets[piece], self.jets[piece + 1]);
         let [value, slope] = cubic([from.value, from.slope], [to.value, to.slope], h, share);
-        let bump = share * (1.0 - share);
-        let error = from.error * (1.0 - share) + to.error * share;
+        let (bump, linear) = (share * (1.0 - share), |of: fn(&Jet) -> f64| {
+            of(&from) * (1.0 - share) + of(&to) * share
+        });
+        let terms = from.value.abs() + to.value.abs() + h * linear(|jet| jet.slope.abs());
+        let rounding = ROUNDING * (linear(|jet| jet.value.abs()) + bump * terms);
+        let error = linear(|jet| jet.error) + rounding;
         Sample {
             t: t + share * h,
             value,

@@ -78,7 +78,9 @@ pub(super) fn pick(
             })
         }
         Kind::Merging => {
-            let (first, second) = (first?, nearest(roots, near[1], first, oscillates)?);
+            let first = first?;
+            let other = |root: &Root| oscillates(root) && !root.is_like(&roots[first]);
+            let second = nearest(roots, near[1], Some(first), other)?;
             Some(Picked {
                 positions: [first, second],
                 jet: difference(&roots[first], &roots[second]),

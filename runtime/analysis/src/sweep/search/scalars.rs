@@ -325,17 +325,22 @@ impl Search<'_> {
         let roots: Vec<[Root; 3]> = pairs.iter().map(|&chain| self.roots(chain)).collect();
         let keeps = |root: &Root| root.value.re.abs() <= root.error;
         let constant: Vec<bool> = roots.iter().map(|root| root.iter().all(keeps)).collect();
-        let mut merges = vec![false; pairs.len()];
+        let twins = |i: usize, j: usize| twins(&roots[i], &roots[j]);
+        let mut partners: Vec<Option<usize>> = vec![None; pairs.len()];
         for i in 0..pairs.len() {
             for j in i + 1..pairs.len() {
+                // Of equal oscillations each merges with one of those that their like merge with.
+                let taken = |i: usize, j: usize| partners[i].is_some_and(|k| twins(j, k));
                 if self.approach(&roots[i], &roots[j])
                     && mirrored(&roots[i], &roots[j])
+                    && !(twins(i, j) || taken(i, j) || taken(j, i))
                     && self.merging(pairs[i], pairs[j])?
                 {
-                    (merges[i], merges[j]) = (true, true);
+                    (partners[i], partners[j]) = (Some(j), Some(i));
                 }
             }
         }
+        let merges: Vec<bool> = partners.iter().map(Option::is_some).collect();
         for (i, &chain) in pairs.iter().enumerate() {
             if !constant[i] && !merges[i] {
                 self.sum(chain.map(Two::Pair))?;
@@ -485,6 +490,13 @@ fn lowest(function: impl Fn(f64) -> f64, centre: f64, reach: f64) -> f64 {
     0.5 * (from + to)
 }
 
+/// Whether two oscillations are one motion in two directions: alike at a state at which they keep their amplitude.
+fn twins(a: &[Root; 3], b: &[Root; 3]) -> bool {
+    let keeps = |root: &Root| root.value.re.abs() <= root.error;
+    let mut states = a.iter().zip(b);
+    states.any(|(a, b)| a.is_like(b) && keeps(a) && keeps(b))
+}
+
 /// Share of the squared distance of two eigenvalues below which the squares of their real parts do not matter.
 const SLIGHT: f64 = 1e-11;
 
@@ -513,16 +525,22 @@ pub(super) fn difference(a: &Root, b: &Root) -> Jet {
         } else {
             0.0
         },
-        error: error * error,
+        error: of_square(apart.norm(), error),
     }
+}
+
+/// The error of the square of a distance, and of what its slope adds to the cubic through it.
+fn of_square(distance: f64, error: f64) -> f64 {
+    error * (4.0 * distance + error)
 }
 
 /// `(s_1 - s_2)^2` of two eigenvalues that are real or conjugate, from their sum and product.
 pub(super) fn squared_difference(sum: [f64; 2], product: [f64; 2], error: f64) -> Jet {
+    let value = sum[0] * sum[0] - 4.0 * product[0];
     Jet {
-        value: sum[0] * sum[0] - 4.0 * product[0],
+        value,
         slope: 2.0 * sum[0] * sum[1] - 4.0 * product[1],
-        error: error * error,
+        error: of_square(value.abs().sqrt(), error),
     }
 }
 

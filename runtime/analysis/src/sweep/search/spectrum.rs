@@ -20,6 +20,20 @@ pub(super) struct Root {
     pub(super) neutral: bool,
 }
 
+/// Share of their slopes by which those of equal eigenvalues may differ.
+const ALIKE: f64 = 1e-6;
+
+impl Root {
+    /// Whether two eigenvalues are equal and move alike, as those of one motion in two directions; where others meet,
+    /// they have no slopes or different ones.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let error = self.error + other.error;
+        let turn = (self.slope - other.slope).norm();
+        let equal = (self.value - other.value).norm() <= error;
+        equal && turn <= error + ALIKE * (self.slope.norm() + other.slope.norm())
+    }
+}
+
 /// The numbers at one state of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Spectrum {
