@@ -66,8 +66,8 @@ const COARSEST_STEP: f64 = 0.1;
 const MOST_POINTS: usize = 50_000;
 /// Events are not separated below this share of the range.
 const RESOLUTION: f64 = 1e-10;
-/// Share of the range behind a critical state at which the equilibrium that follows is sought.
-const BEHIND: f64 = 1e-6;
+/// Shares of the range behind a critical state at which the equilibrium that follows is sought.
+const BEHIND: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 /// Share of the range within which a critical state at the end is the last one found.
 const SAME: f64 = 1e-9;
 /// Assurance below which a mode counts as not recognised, and a state between is sought.
@@ -364,7 +364,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             // Special points are known nevertheless.
             for point in located {
                 self.critical(point.special.clone(), Change::Pass, before.stiff());
-                if let Some(next) = self.goes_on(&point.special, turns || point.ends_arm, after) {
+                let settled = after.equilibrium.stability.holds();
+                if let Some(next) = self.goes_on(&point.special, turns || point.ends_arm, settled) {
                     return ControlFlow::Break(next);
                 }
             }
@@ -374,6 +375,16 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let value = |t: f64| before.place.p + t * (after.place.p - before.place.p);
         let mut places = findings.places.into_iter().peekable();
         let mut next = None;
+        let criticals = findings.events.iter();
+        let criticals = criticals.filter(|event| matches!(event.1, Event::Critical { .. }));
+        let criticals: Vec<f64> = criticals.map(|(t, _)| *t).collect();
+        // Between a critical state and the next one, or the end of the step.
+        let settled = |step: &mut Step<'_, '_>, t: f64| {
+            let next = criticals.iter().find(|other| **other > t);
+            let behind = step.node(0.5 * (t + next.unwrap_or(&1.0)));
+            let state = behind.as_ref().map_or(after, |node| &node.point);
+            state.equilibrium.stability.holds()
+        };
         for (t, event) in findings.events {
             while let Some(fraction) = places.next_if(|fraction| *fraction <= t) {
                 self.pass(&mut step, fraction);
@@ -390,7 +401,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                     let arm = located.iter().any(ends) || turns && last == Some(&*special);
                     next = match stop {
                         true => Some(Next::Done),
-                        false => self.goes_on(&special, arm, after),
+                        false => self.goes_on(&special, arm, settled(&mut step, t)),
                     };
                 }
                 Event::Met {
@@ -527,8 +538,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
 
     /// How the search continues past the last critical state; leaving the branch does not count as the onset of
     /// instability.
-    fn goes_on(&mut self, special: &SpecialPoint, arm: bool, after: &CurvePoint) -> Option<Next> {
-        let next = self.leaves(special, arm, after)?;
+    fn goes_on(&mut self, special: &SpecialPoint, arm: bool, settled: bool) -> Option<Next> {
+        let next = self.leaves(special, arm, settled)?;
         if let Some(last) = self.events.critical.last_mut()
             && last.value == special.value
         {
@@ -568,28 +579,29 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
     }
 
     /// How the way goes on where it leaves the branch at a special point, if it does.
-    fn leaves(&self, special: &SpecialPoint, arm: bool, after: &CurvePoint) -> Option<Next> {
+    fn leaves(&self, special: &SpecialPoint, arm: bool, settled: bool) -> Option<Next> {
         let from = &special.equilibrium.coordinates;
         let turns = special.kind == SpecialKind::Fold;
         if turns || arm {
             return Some(self.behind(special.value, from));
         }
         let potential = has_stiffness(&special.equilibrium);
-        let settled = after.equilibrium.stability.holds();
         if self.along.policy != Policy::Stable || !potential || settled {
             return None;
         }
-        let value = special.value + BEHIND * (self.settings.high - self.settings.low);
-        let inside = (self.settings.high - value) * self.forward() > 0.0;
-        let state = inside
-            .then(|| self.solve(value, from, Policy::Stable))?
-            .ok()?;
-        state.stability.holds().then(|| Next::From(Box::new(state)))
+        // Right behind it the stable state is too close to the branch to be told from it.
+        BEHIND.iter().find_map(|share| {
+            let value = special.value + share * (self.settings.high - self.settings.low);
+            let inside = (self.settings.high - value) * self.forward() > 0.0;
+            let state = inside.then(|| self.solve(value, from, Policy::Stable))?;
+            let state = state.ok().filter(|state| state.stability.holds())?;
+            Some(Next::From(Box::new(state)))
+        })
     }
 
     /// The state behind a value at which a branch ends.
     fn behind(&self, value: f64, from: &[f64]) -> Next {
-        let next = value + BEHIND * (self.settings.high - self.settings.low);
+        let next = value + BEHIND[0] * (self.settings.high - self.settings.low);
         if (self.settings.high - next) * self.forward() <= 0.0 {
             return Next::Done;
         }
