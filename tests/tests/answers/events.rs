@@ -273,6 +273,114 @@ fn an_onset_is_of_the_first_of_two_modes_that_merge() {
     }
 }
 
+/// Round rotors beside each other, in coordinates that turn: frequencies `|omega +- u|` of different rotors cross, and
+/// nothing ever grows.
+#[test]
+fn frequencies_that_cross_are_no_flutter() {
+    let mut random = RandomNumbers::new(6, 0);
+    for _ in 0..6 {
+        let mut text = String::from(
+            "mechanism Rotors { input speed: rad/s; body shaft: massless;
+             joint spin: revolute(z) from ground to shaft, driven at speed;\n",
+        );
+        for k in 0..count(&mut random, 2, 3) {
+            let omega = (10.0 * between(&mut random, 1.0, 9.0)).round() / 10.0;
+            let stiffness = omega * omega;
+            text += &format!(
+                "body s{k}: massless; body d{k}: point(mass: 1 kg);
+                 joint x{k}: prismatic(x) from shaft to s{k}; joint y{k}: prismatic(y) from s{k} to d{k};
+                 force fx{k}: spring(on: x{k}, stiffness: {stiffness} N/m);
+                 force fy{k}: spring(on: y{k}, stiffness: {stiffness} N/m);\n"
+            );
+        }
+        text += "}";
+        let study = study(&text);
+        for _ in 0..40 {
+            let ends = [
+                between(&mut random, 0.0, 1.0),
+                between(&mut random, 1.0, 20.0),
+            ];
+            let ends = ends.map(|end| (10.0 * end).round() / 10.0);
+            let found = study.campbell(Input::new(0), &ends, &[] as &[f64]);
+            let found = found.expect("a diagram");
+            assert!(found.flutter_onsets.is_empty(), "{ends:?} {found}\n{text}");
+        }
+    }
+}
+
+/// `x'' + a x + u y = 0` and `y'' + b y - u x = 0` merge at `u = (b - a) / 2`, several times the same as well as alone.
+#[test]
+fn equal_pairs_merge_once_each() {
+    let mut random = RandomNumbers::new(7, 0);
+    for copies in [1, 2, 3] {
+        for _ in 0..3 {
+            let a = between(&mut random, 5.0, 20.0);
+            let onset = between(&mut random, 2.0, 15.0);
+            let b = a + 2.0 * onset;
+            let mut text = String::from("mechanism Copies { input u: N/m;\n");
+            for k in 0..copies {
+                text += &format!(
+                    "body p{k}: point(mass: 1 kg); body q{k}: point(mass: 1 kg);
+                     joint x{k}: prismatic(x) from ground to p{k}; joint y{k}: prismatic(x) from ground to q{k};
+                     force f{k}: generalized(on: x{k}, value: -({a} N/m) * x{k} - u * y{k});
+                     force g{k}: generalized(on: y{k}, value: -({b} N/m) * y{k} + u * x{k});\n"
+                );
+            }
+            text += "}";
+            let study = study(&text);
+            for _ in 0..20 {
+                let (low, high) = (
+                    between(&mut random, 0.0, 1.0),
+                    onset * between(&mut random, 1.05, 4.0),
+                );
+                let found = study.events(Input::new(0), low, high, &[] as &[f64]);
+                let found = found.expect("events").crossings;
+                let values: Vec<(f64, Change)> =
+                    found.iter().map(|x| (x.value, x.change)).collect();
+                assert_eq!(values.len(), copies, "{low} to {high}: {values:?}\n{text}");
+                for (value, change) in &values {
+                    assert_eq!(*change, Change::Onset);
+                    assert!((value - onset).abs() < 1e-7 * high, "{values:?}\n{text}");
+                }
+            }
+        }
+    }
+}
+
+/// Where an equilibrium loses its stability to another one, the way goes on along that, whatever the range: there the
+/// second mass never loses its stiffness.
+#[test]
+fn the_way_past_a_branch_point_is_the_stable_one() {
+    let mut random = RandomNumbers::new(8, 0);
+    for _ in 0..4 {
+        let (first, second) = (
+            between(&mut random, 2.0, 6.0),
+            between(&mut random, 7.0, 12.0),
+        );
+        let study = study(&format!(
+            "mechanism Buckling {{ input u: N/m; body p: point(mass: 1 kg); body q: point(mass: 1 kg);
+             joint x: prismatic(x) from ground to p; joint y: prismatic(y) from ground to q;
+             force e: potential(energy: ({first} N/m - u) * x^2 / 2 + ({second} N/m - u) * y^2 / 2
+                + (3 N/m^3) * x^4 + (12 N/m^3) * x^2 * y^2); }}"
+        ));
+        for _ in 0..40 {
+            let high = second * 10f64.powf(between(&mut random, 0.02, 2.0));
+            let found = study.events(Input::new(0), 0.0, high, &[] as &[f64]);
+            let found = found.expect("events").critical;
+            let values: Vec<f64> = found.iter().map(|x| x.value).collect();
+            assert_eq!(
+                values.len(),
+                1,
+                "0 to {high}: {values:?}, {first}, {second}"
+            );
+            assert!(
+                (values[0] - first).abs() < 1e-9 * high,
+                "{values:?}, {first}"
+            );
+        }
+    }
+}
+
 /// Damping that touches zero from either side without passing it.
 #[test]
 fn growth_that_touches_zero() {

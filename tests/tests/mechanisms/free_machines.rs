@@ -1,6 +1,7 @@
 //! Machines that nothing holds in some direction, against reference values (`truth/practice`), in any coordinates.
 
 mod along;
+mod balanced;
 mod common;
 mod families;
 mod members;

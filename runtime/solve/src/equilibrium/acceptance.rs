@@ -1,6 +1,6 @@
 //! Candidate solutions: the last Newton step, and the acceptance tests of the state it reaches.
 
-use super::convergence::{TOLERANCE, is_rounding, relative_residual, relative_to};
+use super::convergence::{TOLERANCE, is_rounding, relative_residual, relative_to_parts};
 use super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Vector, add_scaled, all_finite, largest};
 use crate::kernels::Linear;
@@ -59,7 +59,7 @@ impl Candidate {
         let residual = add_scaled(&parts.inertia, -1.0, &parts.applied);
         let finite = all_finite(&residual) && point.check(&q, &linear).is_ok();
         let relative_residual = if finite {
-            relative_to(point, &parts, &q, &residual, &linear.stiffness)
+            relative_to_parts(point, &parts, &q, &residual, &linear.stiffness)
         } else {
             f64::INFINITY
         };

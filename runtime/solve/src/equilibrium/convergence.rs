@@ -5,6 +5,7 @@
 //! alone is no criterion where stiffnesses of very different size meet. A finished state therefore passes both tests.
 //! The gap of a constraint is measured by motions too, and a reaction relative to the largest one.
 
+use super::balance::without_rounding;
 use super::operating_point::{OperatingPoint, gap_unit};
 use crate::algebra::{Matrix, Vector, for_size, greater, largest};
 use crate::kernels::RestParts;
@@ -148,7 +149,8 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
 /// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, a reaction
 /// that is pure rounding as a small share of the largest one. The gap of a constraint is relative to what those motions
 /// open. A residual that is not small by this is compared with what the constraints pass on from other equations too:
-/// where links carry no load, all of their own forces are rounding.
+/// where links carry no load, all of their own forces are rounding. What is left then is compared with what rounding of
+/// the data changes in it ([`balance`](super::balance)).
 pub fn relative_residual(
     point: &OperatingPoint<'_>,
     q: &[f64],
@@ -167,13 +169,29 @@ fn relative_residual_into(
     parts: &mut RestParts,
 ) -> f64 {
     point.parts_into(q, parts);
-    let value = relative_to(point, parts, q, residual, stiffness);
-    if value > TOLERANCE && point.motions() < q.len() {
-        let forces = [&parts.inertia[..], &parts.applied];
-        value.min(relative_to_passed_on(point, forces, q, residual, stiffness))
-    } else {
-        value
-    }
+    relative_to_parts(point, parts, q, residual, stiffness)
+}
+
+/// Like [`relative_residual`], with the parts of the residual at `q` given.
+pub(crate) fn relative_to_parts(
+    point: &OperatingPoint<'_>,
+    parts: &RestParts,
+    q: &[f64],
+    residual: &[f64],
+    stiffness: &Matrix,
+) -> f64 {
+    let relative = |residual: &[f64]| {
+        let value = relative_to(point, parts, q, residual, stiffness);
+        if value > TOLERANCE && point.motions() < q.len() {
+            let forces = [&parts.inertia[..], &parts.applied];
+            value.min(relative_to_passed_on(point, forces, q, residual, stiffness))
+        } else {
+            value
+        }
+    };
+    let value = relative(residual);
+    let left = (value > TOLERANCE).then(|| without_rounding(point, q, residual));
+    left.flatten().map_or(value, |left| relative(&left))
 }
 
 /// Like [`relative_residual`], where constraints pass on forces.
@@ -223,9 +241,9 @@ fn relative_to_passed_on(
     })
 }
 
-/// Like [`relative_residual`], with the parts of the residual at `q` given.
+/// Like [`relative_to_parts`], for forces that do not cancel.
 #[inline]
-pub(crate) fn relative_to(
+fn relative_to(
     point: &OperatingPoint<'_>,
     parts: &RestParts,
     q: &[f64],

@@ -3,6 +3,7 @@
 mod acceptance;
 mod answer;
 mod assembly;
+mod balance;
 mod branch;
 mod constraint_projection;
 mod convergence;
