@@ -15,6 +15,7 @@ mod curved;
 mod damped;
 mod following;
 mod framed;
+mod hanging;
 mod inside;
 mod offset;
 mod orbits;

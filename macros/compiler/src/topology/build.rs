@@ -2,10 +2,10 @@
 
 use std::collections::VecDeque;
 
-use super::{Branch, Topology, cut, massless};
+use super::{Branch, Topology, cut, hang, massless};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, CoordinateId, JointId};
-use crate::model::mechanism::{Frame, Mechanism, Motion};
+use crate::model::mechanism::{Frame, Joint, Mechanism, Motion};
 
 /// Finds how every body is connected to the ground.
 pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
@@ -61,7 +61,7 @@ pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
 }
 
 /// A graph of frames and joints, kept a forest. The ground is node 0, body `i` is node `i + 1`.
-struct Graph {
+pub(super) struct Graph {
     /// Joints at each node in order of declaration: the joint, the other node, and whether it is declared from the
     /// other node.
     joints: Vec<Vec<(JointId, usize, bool)>>,
@@ -119,11 +119,39 @@ impl Graph {
                     }
                 }
             }
-            graph.joints[from].push((id, to, false));
-            graph.joints[to].push((id, from, true));
+            graph.add(joint, id);
         }
-        cut.sort();
+        hang::by_roots(mechanism, &mut graph, &mut cut, &needed);
         (graph, cut)
+    }
+
+    fn add(&mut self, joint: &Joint, id: JointId) {
+        let (from, to) = (node(joint.from), node(joint.to));
+        self.joints[from].push((id, to, false));
+        self.joints[to].push((id, from, true));
+    }
+
+    /// Cuts one joint and restores another.
+    pub(super) fn exchange(&mut self, mechanism: &Mechanism, cut: JointId, restored: JointId) {
+        self.remove(cut);
+        self.add(&mechanism.joints[restored.index()], restored);
+        let in_order = |list: &mut Vec<(JointId, usize, bool)>| list.sort();
+        self.joints.iter_mut().for_each(in_order);
+    }
+
+    /// The joints on the way between the ends of a joint.
+    pub(super) fn between(&self, joint: &Joint) -> Vec<JointId> {
+        self.path(node(joint.from), node(joint.to))
+            .unwrap_or_default()
+    }
+
+    /// Number of beams that are carried by their tips.
+    pub(super) fn turned(&self, mechanism: &Mechanism) -> usize {
+        let branches = self.branches_from(0).into_iter();
+        let turned = |branch: &Branch| {
+            branch.reversed && mechanism.joints[branch.joint.index()].flexure.is_some()
+        };
+        branches.filter(turned).count()
     }
 
     fn remove(&mut self, joint: JointId) {

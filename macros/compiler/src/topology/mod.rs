@@ -3,6 +3,7 @@
 
 pub mod build;
 mod cut;
+mod hang;
 mod massless;
 mod print;
 
