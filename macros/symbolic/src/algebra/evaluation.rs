@@ -102,19 +102,3 @@ pub(super) fn folded(operator: Unary, a: Evaluation) -> Evaluation {
         result
     }
 }
-
-/// Sums of constants up to this many times the bound on their rounding are zero: constants that are declared, as the
-/// weights of a quadrature, may be wrong by more than their last digit.
-const REMAINDER: f64 = 8.0;
-
-/// `a operator b` for numbers known to the compiler: a sum that rounding may have left over is zero, so that declared
-/// loads, lengths or masses that balance do so whatever the decimals.
-pub(super) fn folded_binary(operator: Operator, a: Evaluation, b: Evaluation) -> Evaluation {
-    let result = combined(operator, a, b);
-    let adds = matches!(operator, Operator::Add | Operator::Subtract);
-    if adds && result.value.abs() <= REMAINDER * result.error {
-        Evaluation::nearest(0.0)
-    } else {
-        result
-    }
-}

@@ -3,7 +3,7 @@
 //! A rule sees the operands of a node about to be built and may return something simpler. A test samples every rule
 //! numerically and checks that it fires.
 
-use super::evaluation::{Evaluation, combined, folded, folded_binary};
+use super::evaluation::{Evaluation, combined, folded};
 use super::graph::Graph;
 use super::node::Node;
 use crate::base::ids::ExprId;
@@ -120,7 +120,7 @@ const ADD: &[Rule] = &[
         "c + d is finite",
         |g, a, b| {
             let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
-            let sum = folded_binary(Operator::Add, c, d);
+            let sum = combined(Operator::Add, c, d);
             (x == y && sum.value.is_finite()).then(|| times(g, sum, x))
         },
     ),
@@ -166,7 +166,7 @@ const SUBTRACT: &[Rule] = &[
         "c - d is finite",
         |g, a, b| {
             let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
-            let difference = folded_binary(Operator::Subtract, c, d);
+            let difference = combined(Operator::Subtract, c, d);
             (x == y && difference.value.is_finite()).then(|| times(g, difference, x))
         },
     ),
@@ -308,7 +308,7 @@ pub(super) fn simplify_binary(
     b: ExprId,
 ) -> Option<ExprId> {
     if let (Some(x), Some(y)) = (g.number(a), g.number(b)) {
-        let number = folded_binary(operator, x, y);
+        let number = combined(operator, x, y);
         if number.value.is_finite() {
             return Some(g.computed(number));
         }

@@ -53,7 +53,7 @@ impl ContinuationFailure {
             self,
             Self::OutsideDomain(_)
                 | Self::Unphysical(_)
-                | Self::Refused(Failure::OutsideDomain { .. })
+                | Self::Refused(Failure::OutsideDomain { .. } | Failure::BentTooFar(_))
         )
     }
 }
@@ -256,6 +256,10 @@ impl<'a> Curve<'a> {
                 value: violation.value,
             }));
         }
+        let mut pose = self.mechanism.pose_margin(&at.q, &inputs, self.design);
+        if let Some(pose) = pose.take_if(|pose| pose.margin < pose.least) {
+            return Err(ContinuationFailure::Refused(Failure::BentTooFar(pose)));
+        }
         let point = self.operating_point(&inputs);
         let linear = point.linear(&at.q).map_err(ContinuationFailure::Refused)?;
         let residual = if self.dropped.contains(&true) {
@@ -292,7 +296,7 @@ impl<'a> Curve<'a> {
                 .map_err(ContinuationFailure::Refused)?
         };
         let mut state = Equilibrium::blank(&self.description, &inputs, self.design);
-        state.pose = self.mechanism.pose_margin(&at.q, &inputs, self.design);
+        state.pose = pose;
         state.coordinates = at.q.clone();
         state.stability = verdict.stability;
         state.rounding = verdict.rounding;

@@ -137,9 +137,9 @@ impl Curve<'_> {
                 coordinates: q.to_vec(),
             }),
             ContinuationFailure::Unphysical(error) => BranchEnd::Domain(error),
-            ContinuationFailure::Refused(failure @ Failure::OutsideDomain { .. }) => {
-                BranchEnd::Domain(failure.explain(&self.description))
-            }
+            ContinuationFailure::Refused(
+                failure @ (Failure::OutsideDomain { .. } | Failure::BentTooFar(_)),
+            ) => BranchEnd::Domain(failure.explain(&self.description)),
             ContinuationFailure::Refused(failure) => {
                 BranchEnd::Lost(failure.explain(&self.description))
             }
