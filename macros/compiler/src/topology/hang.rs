@@ -5,7 +5,7 @@
 
 use std::cmp::Reverse;
 
-use super::build::Graph;
+use super::graph::Graph;
 use crate::base::ids::JointId;
 use crate::model::mechanism::Mechanism;
 

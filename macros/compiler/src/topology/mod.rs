@@ -3,6 +3,7 @@
 
 pub mod build;
 mod cut;
+mod graph;
 mod hang;
 mod massless;
 mod print;

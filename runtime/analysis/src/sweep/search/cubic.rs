@@ -83,6 +83,8 @@ pub(super) struct Triple {
 struct Sample {
     t: f64,
     value: f64,
+    /// The error up to which the value counts as zero.
+    error: f64,
     /// 1 or -1 where it is certain, else 0.
     sign: i8,
     /// The sign of the slope, in the same way.
@@ -199,7 +201,7 @@ impl Triple {
         let bend = 2.0 * (to.value - jet.value - jet.slope * distance) / (distance * distance);
         let depth = jet.slope * jet.slope / (2.0 * bend.abs());
         let inner = &run[1..run.len() - 1];
-        let near = inner.len() <= 1 || inner.iter().all(|x| x.value.abs() <= 2.0 * jet.error);
+        let near = inner.len() <= 1 || inner.iter().all(|x| x.value.abs() <= 2.0 * x.error);
         if certain(bend, 0.0) == to.sign && near && depth <= jet.error {
             return Some(Passage::Touches);
         }
@@ -240,6 +242,7 @@ impl Triple {
         Sample {
             t: t + share * h,
             value,
+            error,
             sign: certain(value, 16.0 * rest * bump * bump + error),
             rising: certain(slope, 32.0 * rest * bump / h),
         }

@@ -146,7 +146,10 @@ fn settle(wanted: &Wanted, states: [&Rc<Spectrum>; 3], kind: Kind, division: &mu
             });
         }
     }
-    if division.events.len() == known && wanted.doubtful(kind, states) {
+    // Two that come together within the resolution, and grow nowhere, cross.
+    let growing = states.map(|state| wanted.count(Kind::Growth, state));
+    let crosses = kind == Kind::Merging && growing == [growing[0]; 3];
+    if division.events.len() == known && !crosses && wanted.doubtful(kind, states) {
         division.doubts.push(Doubt { between, kind });
     }
 }

@@ -22,6 +22,8 @@ pub(super) struct Root {
 
 /// Share of their slopes by which those of equal eigenvalues may differ.
 const ALIKE: f64 = 1e-6;
+/// Relative error beyond which eigenvalues merge rather than equal each other.
+const KNOWN: f64 = 1e-9;
 
 impl Root {
     /// Whether two eigenvalues are equal and move alike, as those of one motion in two directions; where others meet,
@@ -29,8 +31,9 @@ impl Root {
     pub(super) fn is_like(&self, other: &Self) -> bool {
         let error = self.error + other.error;
         let turn = (self.slope - other.slope).norm();
-        let equal = (self.value - other.value).norm() <= error;
-        equal && turn <= error + ALIKE * (self.slope.norm() + other.slope.norm())
+        let known = error <= KNOWN * self.value.norm();
+        let equal = known && (self.value - other.value).norm() <= error;
+        equal && turn <= ALIKE * (self.slope.norm() + other.slope.norm())
     }
 }
 
