@@ -150,7 +150,7 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
 /// that is pure rounding as a small share of the largest one. The gap of a constraint is relative to what those motions
 /// open. A residual that is not small by this is compared with what the constraints pass on from other equations too:
 /// where links carry no load, all of their own forces are rounding. What is left then is compared with what rounding of
-/// the data changes in it ([`balance`](super::balance)).
+/// the data changes in it (see `balance`).
 pub fn relative_residual(
     point: &OperatingPoint<'_>,
     q: &[f64],
