@@ -12,13 +12,15 @@ const SAMPLES: usize = 8;
 /// A sum at most this many times its largest change is rounding.
 const FACTOR: f64 = 4.0;
 
-/// The residual with zeros where it is rounding of the data; `None` if it is nowhere.
+/// The residual with zeros where it is rounding of the data; `None` if it is nowhere. Forces that lead held unknowns to
+/// their values may have been added to it; only what the mechanism returns is disturbed.
 #[cold]
 pub(super) fn without_rounding(
     point: &OperatingPoint<'_>,
     q: &[f64],
     residual: &[f64],
 ) -> Option<Vector> {
+    let given = point.mechanism.residual(q, point.inputs, point.design);
     let mut change = Vector::zeros(residual.len());
     for sample in 0..SAMPLES {
         let of = |values: &[f64], first: usize| -> Vector {
@@ -30,7 +32,7 @@ pub(super) fn without_rounding(
         let inputs = of(point.inputs, 0);
         let design = of(point.design, inputs.len());
         let disturbed = point.mechanism.residual(q, &inputs, &design);
-        for ((change, disturbed), value) in change.iter_mut().zip(&disturbed).zip(residual) {
+        for ((change, disturbed), value) in change.iter_mut().zip(&disturbed).zip(&given) {
             *change = greater(*change, (disturbed - value).abs());
         }
     }
@@ -43,8 +45,65 @@ pub(super) fn without_rounding(
     (left[..] != *residual).then_some(left)
 }
 
-/// One plus or minus up to two rounding units, different for each datum and sample.
+/// One plus or minus up to two rounding units, different for each datum and sample: their number, mixed by the golden
+/// ratio.
 fn disturbance(datum: usize, sample: usize) -> f64 {
-    let turn = (3 * datum + 2 * sample + datum * sample) % 5;
-    1.0 + (turn as f64 - 2.0) * f64::EPSILON
+    let number = (SAMPLES * datum + sample + 1) as u64;
+    let mixed = number.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32;
+    1.0 + ((mixed % 5) as f64 - 2.0) * f64::EPSILON
+}
+
+#[cfg(test)]
+mod tests {
+    use eigentol_macros::mechanism;
+
+    use super::*;
+    use crate::equilibrium::relative_residual;
+    use crate::free::{FreeDirections, Held};
+
+    mechanism! {
+        /// A bar on a shaft that may turn at any speed.
+        mechanism Conical {
+            design l = 0.8 m;
+            gravity 9.81 m/s^2 along -z;
+            body shaft: rigid(mass: 1 kg, inertia: [0.1, 0.1, 0.1] kg*m^2);
+            body bar: rod(mass: 1 kg, length: l, along: -z);
+            joint spin: revolute(z) from ground to shaft, coasting;
+            joint tilt: revolute(y) from shaft to bar;
+        }
+    }
+
+    /// A member of a family that is off its held value is no solution, although nothing in the mechanism resists.
+    #[test]
+    fn distances_from_held_values_are_no_rounding() {
+        let (length, tilt) = (0.8, 0.9_f64);
+        let speed = (1.5 * 9.81 / (length * tilt.cos())).sqrt();
+        let design = [length];
+        let point = OperatingPoint::unchecked(&Conical, &[], &design);
+        let q = [tilt, speed];
+        let (_, stiffness) = point.evaluate_plain(&q).expect("finite");
+        for (distance, solved) in [(0.0, true), (1e-6, false), (-1e-3, false)] {
+            let held = vec![Held::at(1, speed - distance)];
+            let directions = FreeDirections::of_member(&stiffness, 0, held);
+            assert_eq!(directions.count(), 1);
+            let point = point.clone().held_like(&directions).placed(&directions);
+            let (residual, stiffness) = point.evaluate(&q).expect("finite");
+            let relative = relative_residual(&point, &q, &residual, &stiffness);
+            assert_eq!(relative < 1e-10, solved, "{distance}: {relative}");
+        }
+    }
+
+    #[test]
+    fn every_datum_is_disturbed_in_its_own_way() {
+        let ways = (0..200).map(|datum| {
+            (0..SAMPLES)
+                .map(|k| disturbance(datum, k).to_bits())
+                .collect()
+        });
+        let ways: Vec<Vec<u64>> = ways.collect();
+        for (k, way) in ways.iter().enumerate() {
+            assert!(way.iter().any(|bits| *bits != way[0]), "{k}");
+            assert!(k == 0 || *way != ways[k - 1], "{k}");
+        }
+    }
 }
