@@ -968,6 +968,9 @@ class Bode(_Result):
     def values(self) -> Real:
         """Values of the input, SI, shape (k,)."""
     @property
+    def stable(self) -> Flags:
+        """Whether the equilibrium at each value is stable and no mode grows; elsewhere nothing settles in the vibration."""
+    @property
     def harmonics(self) -> list[list[str]]:
         """Names of the excitations that act together in each harmonic."""
     @property
@@ -1345,8 +1348,9 @@ class ForcedCurvature(_Result):
 @final
 class ForcedResponse(_Result):
     """The steady vibration under the declared excitations, `Re(y e^{i w t})`. Amplitudes are complex, SI: the modulus is
-    from 0 to peak, half of peak to peak; a positive phase leads. `h` is the number of harmonics, `o` of outputs, `n`
-    of unknowns, `e` of excitations.
+    from 0 to peak, half of peak to peak; a positive phase leads, and NaN stands for an output that has a value but no
+    derivative, like the length of a vector that is zero. `h` is the number of harmonics, `o` of outputs, `n` of
+    unknowns, `e` of excitations.
     """
 
     @property
@@ -1605,6 +1609,9 @@ class Peaks(_Result):
     @property
     def places_by_design(self) -> Real:
         """Their total derivatives by design variables, shape (k, design), per SI unit."""
+    @property
+    def stable(self) -> Flags:
+        """Whether the equilibrium at each peak is stable and no mode grows; elsewhere nothing settles in the vibration."""
     @property
     def frequencies(self) -> Real:
         """Frequencies at the peaks, rad/s, shape (k,)."""

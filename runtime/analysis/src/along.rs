@@ -26,7 +26,7 @@ pub(crate) fn value_of(d: &Description, input: Input, value: f64) -> String {
 }
 
 /// `speed = 3000 rpm`.
-pub(crate) fn place(d: &Description, input: Input, value: f64) -> String {
+pub fn place(d: &Description, input: Input, value: f64) -> String {
     let value_text = value_of(d, input, value);
     let value_text = match d.inputs.get(input.index()) {
         Some(info) => with_unit(value_text, &info.unit),

@@ -374,15 +374,28 @@ fn vibration(
     })
 }
 
-/// The excitation with a name; without one the first, if all have one frequency.
+/// The excitation with a name, or the first of several that act together, as results name them: `u, v`. Without a name the
+/// first, if all have one frequency.
 fn excitation(study: &Study<Interpreted>, under: Option<&str>) -> Result<Excitation, Failure> {
     let d = study.description();
     let known = d.excitations.iter().map(|info| &info.name);
     match under {
-        Some(under) => study
-            .find_excitation(under)
-            .map(|excitation| excitation.any())
-            .map_err(|_| unknown(d, "excitation", under, known)),
+        Some(under) => {
+            let mut names = under.split(',').map(str::trim);
+            let index = |name: &str| {
+                let found = d.excitations.iter().position(|info| info.name == *name);
+                found.ok_or_else(|| unknown(d, "excitation", name, known.clone()))
+            };
+            let first = index(names.next().unwrap_or_default())?;
+            for name in names {
+                let other = index(name)?;
+                if d.excitations[other].with != d.excitations[first].with {
+                    let message = format!("`{under}` act with different frequencies");
+                    return Err(Failure::usage(message, "name one of them"));
+                }
+            }
+            Ok(Excitation::new(first))
+        }
         None if d.excitations.is_empty() => {
             let help = "declare one: `unbalance u: on disk, amount: 20 g*mm;`, a `harmonic` force or a `shaken` joint";
             Err(Failure::usage("nothing excites a vibration", help))

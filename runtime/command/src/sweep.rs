@@ -136,7 +136,8 @@ impl Points {
 }
 
 impl Orders {
-    /// The orders, without repetitions, from the command line or else the study file.
+    /// The orders, without repetitions, from the command line or else the study file. Where the range has negative
+    /// speeds, an order is a multiple of their amount: it has the line of the negative order too.
     pub(crate) fn along(
         &self,
         range: Option<&Range>,
@@ -156,8 +157,12 @@ impl Orders {
         let mut orders = Vec::new();
         for &order in given {
             let order = multiple(order, range, &question.study)?;
-            if !orders.contains(&order) {
-                orders.push(order);
+            for line in [order, -order] {
+                let meets = |end: f64| line * end > 0.0;
+                let new = !orders.contains(&line);
+                if new && (meets(range.low) || meets(range.high)) {
+                    orders.push(line);
+                }
             }
         }
         Ok(orders)
@@ -187,7 +192,7 @@ pub(crate) fn multiple(
         0.0 => "order 1 is once per revolution: `--order 1`",
         order if !order.is_finite() => "give a finite number: `--order 1,2`",
         order if order < 0.0 && range.low.min(range.high) >= 0.0 => {
-            "an excitation has a positive frequency: `--order 1`; a negative order is for a negative speed"
+            "an excitation has a positive frequency: `--order 1`"
         }
         _ => return Ok(order),
     };

@@ -16,7 +16,7 @@ impl<M: Kernels> Study<M> {
     /// The steady vibration under the declared excitations ([`forced::response`]).
     #[doc = include_str!("shaken.txt")]
     /// let vibration = study.forced_response()?;
-    /// let amplitude = vibration.harmonics[0].outputs[Rotor::shake.index()].norm();
+    /// let amplitude = vibration.harmonics[0].outputs[Rotor::shake.index()].expect("it vibrates").norm();
     /// assert!((amplitude / 3.3888e-4 - 1.0).abs() < 1e-3);
     #[doc = include_str!("end.txt")]
     /// # Errors

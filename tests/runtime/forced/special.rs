@@ -41,7 +41,7 @@ fn resonance_without_damping_is_named() {
     // A speed that is not quite it has a response, of as many digits as the distance leaves.
     let found = response(&model, &near(natural * (1.0 + 1e-9))).unwrap();
     let expected = -4e-5 / 2e-9;
-    assert!((found.harmonics[0].outputs[0].re / expected - 1.0).abs() < 1e-5);
+    assert!((found.harmonics[0].outputs[0].unwrap().re / expected - 1.0).abs() < 1e-5);
 }
 
 #[test]
@@ -143,8 +143,8 @@ fn a_mode_in_resonance_that_nothing_drives_does_not_respond() {
     // Against each other: `(3 + 2 coupling - w^2) x = 1`.
     for (found, expected) in outputs.iter().zip([0.25, -0.25, 0.0, 0.5]) {
         assert!(
-            (found - Complex::new(expected, 0.0)).norm() < 1e-14,
-            "{found}"
+            (found.unwrap() - Complex::new(expected, 0.0)).norm() < 1e-14,
+            "{found:?}"
         );
     }
     // Only the difference does not see the mode in resonance.
@@ -231,8 +231,8 @@ fn a_free_direction_does_not_stand_in_the_way() {
     let determinant = (spring - i * w * w) * turned - spring * spring;
     let first = m * turned / determinant;
     let outputs = &of.first.response.harmonics[0].outputs;
-    assert!((outputs[0] - first).norm() < 1e-13 * first.norm());
-    assert!((outputs[1] - m * (w * w) / determinant).norm() < 1e-13 * first.norm());
+    assert!((outputs[0].unwrap() - first).norm() < 1e-13 * first.norm());
+    assert!((outputs[1].unwrap() - m * (w * w) / determinant).norm() < 1e-13 * first.norm());
     // By the inertia: `d/di (m turned / determinant) = m turned^2 w^2 / determinant^2`.
     let slope = m * turned * turned * (w * w) / (determinant * determinant);
     let slopes = of
@@ -333,9 +333,9 @@ fn redundant_constraints_share_their_reaction() {
     let stiffness = Complex::new(k + 5.0 - (m + 1.0) * w * w, 0.7 * w);
     let y = 2.0 / stiffness;
     let harmonic = &of.first.response.harmonics[0];
-    assert!((harmonic.outputs[0] - y).norm() < 1e-13 * y.norm());
+    assert!((harmonic.outputs[0].unwrap() - y).norm() < 1e-13 * y.norm());
     let tie = 2.0 - (k - m * w * w) * y;
-    assert!((harmonic.outputs[1] - tie).norm() < 1e-13 * tie.norm());
+    assert!((harmonic.outputs[1].unwrap() - tie).norm() < 1e-13 * tie.norm());
     assert!((harmonic.unknowns[2] - 3.0 * harmonic.unknowns[3]).norm() < 1e-13 * tie.norm());
     let slopes = of
         .first
@@ -365,7 +365,7 @@ fn redundant_constraints_are_shaken_together() {
     let first = found(0.1, 0.0).unwrap();
     let stiffness = Complex::new(k + 5.0 - (m + 1.0) * w * w, 0.7 * w);
     let y = (2.0 - (k - m * w * w) * 0.1) / stiffness;
-    assert!((first.response.harmonics[0].outputs[0] - y).norm() < 1e-13 * y.norm());
+    assert!((first.response.harmonics[0].outputs[0].unwrap() - y).norm() < 1e-13 * y.norm());
     let slopes = first
         .complex(0, Output::new(0), Measure::Displacement)
         .unwrap();

@@ -5,5 +5,6 @@ mod closed_forms;
 mod exceedance;
 mod requirements;
 mod rigid_rotor;
+mod rough;
 mod shares;
 mod side_by_side;

@@ -31,7 +31,7 @@ pub use node::Node;
 pub use null_space::{NullSpace, times};
 pub use reached::Reached;
 pub use regroup::{regroup, regrouped};
-pub use reverse::gradient;
+pub use reverse::{gradient, rough};
 pub use rules::{Rule, TABLES, Table};
 pub use substitute::substitute;
 pub use vector::{Matrix3, Vector3};

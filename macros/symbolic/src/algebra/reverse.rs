@@ -12,11 +12,52 @@ use crate::base::operators::{Operator, Unary};
 pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<ExprId> {
     let mask = Graph::mask(symbols.iter().copied());
     let zero = graph.zero();
-    let known = graph.len();
     let changing = Reached::dependent(graph, &[root], mask);
-    let mut adjoints = NodeMap::new(&changing);
-    adjoints.set(root, graph.constant(1.0));
+    let adjoints = adjoints(graph, root, &changing, mask);
     let mut by_symbol = vec![zero; graph.symbol_count()];
+    for &id in changing.nodes() {
+        if let Node::Symbol(symbol) = graph.node(id) {
+            by_symbol[symbol.index()] = adjoints.get(id).unwrap_or(zero);
+        }
+    }
+    let each = symbols.iter();
+    each.map(|symbol| by_symbol[symbol.index()]).collect()
+}
+
+/// The functions below `root` that have no slope somewhere, as a square root at zero, among those that change with one
+/// of `symbols`: the slope of each, and the derivative of `root` by it.
+pub fn rough(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<[ExprId; 2]> {
+    let mask = Graph::mask(symbols.iter().copied());
+    let zero = graph.zero();
+    let changing = Reached::dependent(graph, &[root], mask);
+    let rough = |graph: &Graph, id| match graph.node(id) {
+        Node::Unary(operator @ (Unary::Sqrt | Unary::Asin | Unary::Acos), a) => Some((operator, a)),
+        _ => None,
+    };
+    if changing
+        .nodes()
+        .iter()
+        .all(|&id| rough(graph, id).is_none())
+    {
+        return Vec::new();
+    }
+    let adjoints = adjoints(graph, root, &changing, mask);
+    let mut all = Vec::new();
+    for &id in changing.nodes() {
+        if let Some((operator, a)) = rough(graph, id) {
+            let slope = slope(graph, operator, id, a);
+            all.push([slope, adjoints.get(id).unwrap_or(zero)]);
+        }
+    }
+    all
+}
+
+/// Derivatives of `root` by each node below it that may depend on a symbol of `mask`.
+fn adjoints<'a>(graph: &mut Graph, root: ExprId, changing: &'a Reached, mask: u128) -> NodeMap<'a> {
+    let zero = graph.zero();
+    let known = graph.len();
+    let mut adjoints = NodeMap::new(changing);
+    adjoints.set(root, graph.constant(1.0));
     for &id in changing.nodes().iter().rev() {
         let adjoint = adjoints.get(id).unwrap_or(zero);
         if adjoint == zero {
@@ -35,8 +76,7 @@ pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<Ex
             }
         };
         match graph.node(id) {
-            Node::Constant(_) => {}
-            Node::Symbol(symbol) => by_symbol[symbol.index()] = adjoint,
+            Node::Constant(_) | Node::Symbol(_) => {}
             Node::Unary(Unary::Negate, a) => {
                 let minus = graph.constant(-1.0);
                 accumulate(graph, a, minus);
@@ -64,8 +104,5 @@ pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<Ex
             }
         }
     }
-    symbols
-        .iter()
-        .map(|symbol| by_symbol[symbol.index()])
-        .collect()
+    adjoints
 }

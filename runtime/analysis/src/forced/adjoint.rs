@@ -56,7 +56,8 @@ impl Vibration {
 }
 
 impl<'a> OutputAdjoint<'a> {
-    /// Of several outputs; `None` for one that sees a direction in which `D` vanishes: its derivatives are infinite.
+    /// Of several outputs; `None` for one that is not smooth, and for one that sees a direction in which `D` vanishes:
+    /// its derivatives are infinite.
     pub(super) fn each(
         solved: &'a Solved<'a>,
         vibration: &'a Vibration,
@@ -69,7 +70,7 @@ impl<'a> OutputAdjoint<'a> {
         let lefts = vibration.stiffness.solve_transposed(&weights);
         let of_matrices = pencil_slope_times(&solved.at.linear, s, z);
         let adjoint = |output: usize| {
-            let finite = !vibration.stiffness.seen_by(&rows[output]);
+            let finite = solved.smooth[output] && !vibration.stiffness.seen_by(&rows[output]);
             finite.then(|| {
                 let left = lefts.column(output - first);
                 let of_output = solved.seen.slope(output, s, z);

@@ -8,7 +8,7 @@ use super::{ForcedCurvature, ForcedResponse, ForcedSensitivities, Harmonic, Meas
 use crate::second_order::{Pair, names, pairs};
 use crate::sensitivity::Slopes;
 use crate::sensitivity::derivatives::{Derived, data, say, variables};
-use crate::{Complex, Description, Output, Text, Unit};
+use crate::{Complex, Description, Error, Output, Text, Unit};
 
 displayed!(ForcedResponse, ForcedSensitivities);
 
@@ -48,7 +48,7 @@ impl Answer for ForcedResponse {
             |row: &_| Some(d.excitations.get(share(row)?.excitation)?.name.to_string());
         table.words("excitation", &excitation).shown();
         of_output(&mut table, d, &|row| row.0.output, &|row| {
-            share(row)?.outputs.get(row.0.output).copied()
+            share(row)?.outputs.get(row.0.output).copied().flatten()
         });
         match self
             .harmonics
@@ -60,6 +60,7 @@ impl Answer for ForcedResponse {
         }
         self.unknowns(&mut said);
         self.unknown_phases(&mut said);
+        self.rough(&mut said);
         said.note(CONVENTIONS);
         said
     }
@@ -89,6 +90,17 @@ impl ForcedResponse {
                 with_unit(number_in(sum.greatest(), &info.unit), &info.unit),
                 with_unit(number_in(upper, &info.unit), &info.unit)
             ));
+        }
+    }
+
+    /// Outputs without amplitude.
+    fn rough(&self, said: &mut Findings) {
+        let first = self.harmonics.iter().take(1);
+        let all =
+            first.flat_map(|harmonic| harmonic.outputs.iter().zip(self.description.outputs.iter()));
+        for (_, info) in all.filter(|(amplitude, _)| amplitude.is_none()) {
+            let output = info.name.clone();
+            said.note(Error::NotSmooth { output }.to_string());
         }
     }
 
@@ -142,7 +154,7 @@ struct Row<'a> {
 
 impl Row<'_> {
     fn amplitude(&self) -> Option<Complex> {
-        self.harmonic.outputs.get(self.output).copied()
+        self.harmonic.outputs.get(self.output).copied().flatten()
     }
 
     /// `x at 380.0 rad/s`, or only the output if there is one harmonic; `x under u` if several have this frequency.
@@ -158,7 +170,7 @@ impl Row<'_> {
             (1, _) => name.to_owned(),
             (_, 1) => format!("{name} at {} rad/s", short(frequency)),
             _ => {
-                let under = excitations(self.harmonic, &of.description);
+                let under = self.harmonic.excitations(&of.description);
                 format!("{name} under {under}")
             }
         }
@@ -170,18 +182,22 @@ impl Row<'_> {
     }
 }
 
-/// The names of the excitations of a harmonic.
-fn excitations(of: &Harmonic, d: &Description) -> String {
-    let shares = of.shares.iter();
-    let infos = shares.filter_map(|share| d.excitations.get(share.excitation));
-    let names: Vec<&str> = infos.map(|info| &*info.name).collect();
-    names.join(", ")
+impl Harmonic {
+    /// The names of its excitations.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn excitations(&self, d: &Description) -> String {
+        let shares = self.shares.iter();
+        let infos = shares.filter_map(|share| d.excitations.get(share.excitation));
+        let names: Vec<&str> = infos.map(|info| &*info.name).collect();
+        names.join(", ")
+    }
 }
 
 /// Columns of the excitations and the frequency of a harmonic.
 fn of_harmonic<R>(table: &mut Columns<'_, R>, d: &Description, of: &dyn Fn(&R) -> &Harmonic) {
     table
-        .words("excitations", &|row| Some(excitations(of(row), d)))
+        .words("excitations", &|row| Some(of(row).excitations(d)))
         .shown();
     table
         .number("frequency", "rad/s", &|row| Some(of(row).frequency))

@@ -61,7 +61,7 @@ impl ForcedCurvature {
         let second = self.harmonics.get(harmonic)?;
         let o = output.index();
         let slopes = first.frequency.zip(first.outputs.get(o)?.as_ref()?);
-        let value = (of.frequency, *of.outputs.get(o)?);
+        let value = (of.frequency, (*of.outputs.get(o)?)?);
         let both = second.frequency.zip(second.outputs.get(o)?.as_ref()?);
         Some(both.combine(&slopes, |a, b, ab| measure.curvature(value, [a, b], ab)))
     }

@@ -69,13 +69,15 @@ impl Forces {
 
     pub(super) fn finite(&self) -> bool {
         let forces = &self.0;
-        let parts = [
-            &forces.cosine,
-            &forces.sine,
-            &forces.direct_cosine,
-            &forces.direct_sine,
-        ];
+        let parts = [&forces.cosine, &forces.sine];
         all_finite(&forces.frequency) && parts.into_iter().all(all_finite_matrix)
+    }
+
+    /// Whether what all excitations add to an output directly is finite.
+    fn finite_in(&self, output: usize) -> bool {
+        let parts = [&self.0.direct_cosine, &self.0.direct_sine];
+        let finite = |part: &Matrix| part.iter().all(|row| row[output].is_finite());
+        parts.into_iter().all(finite)
     }
 }
 
@@ -111,6 +113,20 @@ impl Seen {
         let mut matrices = [(); 3].map(|()| Matrix::zeros(sizes.outputs, sizes.coordinates));
         evaluate(&mut matrices.each_mut().map(Matrix::as_flattened_mut));
         Self(matrices)
+    }
+
+    /// Whether each output has a derivative; rows that have none are zero from here on.
+    pub(super) fn without_rough(&mut self, forces: &Forces) -> Vec<bool> {
+        let of_motion = |o: usize| self.0.iter().all(|matrix| all_finite(&matrix[o]));
+        let outputs = 0..self.0[0].row_count();
+        let smooth: Vec<bool> = outputs
+            .map(|o| of_motion(o) && forces.finite_in(o))
+            .collect();
+        let rough = smooth.iter().enumerate().filter(|(_, smooth)| !**smooth);
+        for (o, _) in rough {
+            self.0.iter_mut().for_each(|matrix| matrix[o].fill(0.0));
+        }
+        smooth
     }
 
     /// `c = s^2 o_qddot + s o_qdot + o_q`, with which an output sees the vibration `z e^{s t}`.

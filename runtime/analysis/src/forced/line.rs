@@ -71,6 +71,7 @@ pub(crate) fn along_input(
         .flatten()
         .next()
         .ok_or(none.clone())?;
+    let y = vibration.harmonic.outputs[output.index()].ok_or(none.clone())?;
     let terms = terms(
         &at.linear,
         frequency.value,
@@ -80,7 +81,6 @@ pub(crate) fn along_input(
     let (curved, total) = Curved::new(this_adjoint, &adjoint);
     let moved = along[0].of(vibration, &frequency.slopes);
     let row = curved.along(mechanism, &moved).ok_or(none)?;
-    let y = vibration.harmonic.outputs[output.index()];
     let slopes = joined(&total).map(|value| -value);
     if !(slopes.iter().chain(row.iter())).all(|value| value.is_finite()) {
         return Err(solved.not_finite());

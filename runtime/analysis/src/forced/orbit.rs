@@ -73,10 +73,11 @@ impl Orbit {
 }
 
 impl Harmonic {
-    /// The orbit of two outputs, which should be perpendicular displacements; `None` for outputs of another mechanism.
+    /// The orbit of two outputs, which should be perpendicular displacements; `None` for an output that has no
+    /// amplitude, and for one of another mechanism.
     #[must_use]
     pub fn orbit(&self, x: Output, y: Output) -> Option<Orbit> {
-        let amplitude = |output: Output| self.outputs.get(output.index()).copied();
+        let amplitude = |output: Output| self.outputs.get(output.index()).copied().flatten();
         Some(Orbit::of(amplitude(x)?, amplitude(y)?))
     }
 }

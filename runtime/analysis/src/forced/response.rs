@@ -34,8 +34,9 @@ pub struct ForcedResponse {
 pub struct Harmonic {
     /// `w`, rad/s; positive.
     pub frequency: f64,
-    /// Amplitude of each output, in its unit (SI).
-    pub outputs: Vector<Complex>,
+    /// Amplitude of each output, in its unit (SI); `None` if it has a value but no derivative, like the length of a
+    /// vector that is zero: it does not vibrate with this frequency.
+    pub outputs: Vec<Option<Complex>>,
     /// Amplitude of each unknown: displacements of coordinates, speeds, reactions of constraints, SI.
     pub unknowns: Vector<Complex>,
     /// What each excitation contributes to both.
@@ -51,8 +52,8 @@ pub struct Share {
     pub excitation: usize,
     /// Its frequency is declared against the positive direction: `-w`.
     pub reversed: bool,
-    /// Amplitude of each output, in its unit (SI).
-    pub outputs: Vector<Complex>,
+    /// Amplitude of each output, in its unit (SI); `None` as for all excitations together.
+    pub outputs: Vec<Option<Complex>>,
     /// Amplitude of each unknown, SI.
     pub unknowns: Vector<Complex>,
 }
@@ -76,12 +77,12 @@ impl ForcedResponse {
 }
 
 impl Harmonic {
-    /// The complex amplitude of an output as a displacement, velocity or acceleration; `None` for an output of another
-    /// mechanism.
+    /// The complex amplitude of an output as a displacement, velocity or acceleration; `None` for an output that has no
+    /// derivative, and for one of another mechanism.
     #[must_use]
     pub fn amplitude(&self, output: Output, measure: Measure) -> Option<Complex> {
-        let y = self.outputs.get(output.index())?;
-        Some(measure.of(self.frequency, *y))
+        let y = (*self.outputs.get(output.index())?)?;
+        Some(measure.of(self.frequency, y))
     }
 
     /// `s = i w`.
@@ -106,6 +107,8 @@ pub(super) struct Solved<'a> {
     pub(super) mechanism: &'a dyn Kernels,
     pub(super) at: &'a Equilibrium,
     pub(super) seen: Seen,
+    /// Whether each output has a derivative.
+    pub(super) smooth: Vec<bool>,
     pub(super) vibrations: Vec<Vibration>,
 }
 
@@ -113,7 +116,7 @@ pub(super) struct Solved<'a> {
 pub(super) struct Vibration {
     pub(super) harmonic: Harmonic,
     pub(super) stiffness: Rc<DynamicStiffness>,
-    /// How the outputs see the vibration, one row each.
+    /// How the outputs see the vibration, one row each; zeros for one without derivative.
     pub(super) seen: Matrix<Complex>,
 }
 
@@ -136,7 +139,8 @@ impl<'a> Solved<'a> {
             });
         }
         closes(at, &forces)?;
-        let seen = Seen::of(mechanism, at);
+        let mut seen = Seen::of(mechanism, at);
+        let smooth = seen.without_rough(&forces);
         let mut vibrations: Vec<Vibration> = Vec::new();
         for first in (0..infos.len()).filter(|&k| infos[k].with == k) {
             let frequency = forces.frequency(first).abs();
@@ -156,7 +160,7 @@ impl<'a> Solved<'a> {
             };
             let members = (first..infos.len()).filter(|&k| infos[k].with == first);
             let rows = seen.rows(Complex::new(0.0, frequency));
-            let shares = shares(at, &forces, members.collect(), (&stiffness, &rows));
+            let shares = shares(at, &forces, members.collect(), (&stiffness, &rows, &smooth));
             let shares = shares.map_err(|driven| resonance(at, driven, frequency))?;
             vibrations.push(Vibration {
                 harmonic: superposed(mechanism, frequency, shares),
@@ -168,23 +172,16 @@ impl<'a> Solved<'a> {
             mechanism,
             at,
             seen,
+            smooth,
             vibrations,
         })
     }
 
-    /// Why derivatives are not finite: an output without a first derivative is in the way of all.
+    /// Why derivatives are not finite: an output that has none by the value of the state is in the way of all.
     pub(super) fn not_finite(&self) -> Error {
-        let smooth = |vibration: &Vibration, output: usize| {
-            vibration.seen[output].iter().all(|value| value.is_finite())
-        };
-        let mut outputs = self.at.description.outputs.iter().enumerate();
-        let rough = outputs.find(|(k, _)| {
-            self.vibrations
-                .iter()
-                .any(|vibration| !smooth(vibration, *k))
-        });
-        match rough {
-            Some((_, info)) => Error::NotSmooth {
+        let mut outputs = self.at.description.outputs.iter().zip(&self.smooth);
+        match outputs.find(|(_, smooth)| !**smooth) {
+            Some((info, _)) => Error::NotSmooth {
                 output: info.name.clone(),
             },
             None => outside_domain(self.at),
@@ -244,7 +241,7 @@ fn shares(
     at: &Equilibrium,
     forces: &Forces,
     members: Vec<usize>,
-    (stiffness, seen): (&DynamicStiffness, &Matrix<Complex>),
+    (stiffness, seen, smooth): (&DynamicStiffness, &Matrix<Complex>, &[bool]),
 ) -> Result<Vec<Share>, usize> {
     let turn = |excitation: usize| match forces.frequency(excitation) < 0.0 {
         true => -1.0,
@@ -263,10 +260,11 @@ fn shares(
     let share = |(k, excitation): (usize, usize)| {
         let mut outputs = forces.direct(excitation, turn(excitation));
         add(&mut outputs, &seen.column(k));
+        let outputs = outputs.iter().zip(smooth);
         Share {
             excitation,
             reversed: turn(excitation) < 0.0,
-            outputs,
+            outputs: outputs.map(|(y, smooth)| smooth.then_some(*y)).collect(),
             unknowns: unknowns.column(k),
         }
     };
@@ -275,10 +273,12 @@ fn shares(
 
 fn superposed(mechanism: &dyn Kernels, frequency: f64, shares: Vec<Share>) -> Harmonic {
     let sizes = mechanism.sizes();
-    let mut outputs = Vector::zeros(sizes.outputs);
+    let mut outputs = vec![Some(Complex::ZERO); sizes.outputs];
     let mut unknowns = Vector::zeros(sizes.coordinates);
     for share in &shares {
-        add(&mut outputs, &share.outputs);
+        for (sum, y) in outputs.iter_mut().zip(&share.outputs) {
+            *sum = sum.zip(*y).map(|(sum, y)| sum + y);
+        }
         add(&mut unknowns, &share.unknowns);
     }
     Harmonic {

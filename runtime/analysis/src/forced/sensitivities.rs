@@ -27,8 +27,8 @@ pub struct ForcedSensitivities {
 pub struct HarmonicSensitivity {
     /// Of the frequency, rad/s per SI unit.
     pub frequency: Slopes<f64>,
-    /// Of the complex amplitude of each output, SI; `None` if it has a value but no derivative, because it depends on a
-    /// place that nothing determines, or sees an undamped mode that is in resonance but not driven.
+    /// Of the complex amplitude of each output, SI; `None` if it has no amplitude, or one without derivative, because it
+    /// depends on a place that nothing determines, or sees an undamped mode that is in resonance but not driven.
     pub outputs: Vec<Option<Slopes<Complex>>>,
 }
 
@@ -51,7 +51,7 @@ impl ForcedSensitivities {
     ) -> Option<Slopes<Complex>> {
         let (of, sensitivity) = self.pair(harmonic)?;
         let slopes = sensitivity.outputs.get(output.index())?.as_ref()?;
-        let value = (of.frequency, *of.outputs.get(output.index())?);
+        let value = (of.frequency, (*of.outputs.get(output.index())?)?);
         let both = sensitivity.frequency.zip(slopes);
         Some(both.map(|(dw, dy)| measure.slope(value, dw, dy)))
     }

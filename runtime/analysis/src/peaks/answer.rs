@@ -7,7 +7,7 @@ use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Listed, Subject, Table, displayed};
 
 use super::{HalfPower, Moving, Peak, Peaks};
-use crate::along::{name_of, value_of, varied};
+use crate::along::{name_of, place, value_of, varied};
 use crate::forced::CONVENTIONS;
 use crate::{Text, Unit};
 
@@ -183,13 +183,22 @@ impl Peaks {
                 Some(missing(&row.2.half_power[k])?.to_owned())
             });
         }
+        table.words("stable", &|row| {
+            Some(if row.2.stable { "yes" } else { "no" }.to_owned())
+        });
         table
     }
 
-    /// Why numbers are missing.
+    /// Why numbers are missing, and which mean less than they seem to.
     fn reasons(&self, said: &mut Findings) {
         let (d, input) = (&self.description, self.range.input);
         for peak in &self.peaks {
+            if !peak.stable {
+                let value = place(d, input, peak.place.value);
+                said.note(format!(
+                    "Unstable at {value}: nothing settles in this vibration."
+                ));
+            }
             for (side, word) in [
                 (&peak.half_power[0], "before"),
                 (&peak.half_power[1], "after"),

@@ -67,6 +67,8 @@ pub struct Peak {
     pub amplification: Option<Moving>,
     /// The equilibrium there.
     pub equilibrium: Equilibrium,
+    /// Whether that is stable and no mode grows. Elsewhere nothing settles in this vibration.
+    pub stable: bool,
 }
 
 /// A point beside a peak at which the power is half of that at the peak.
@@ -281,6 +283,7 @@ impl Search<'_> {
             phase: top.line.amplitude.value.arg(),
             half_power,
             amplification: factor.map(|(value, by_design)| moving(value, by_design)),
+            stable: top.stable,
             equilibrium: top.equilibrium,
         })
     }

@@ -26,6 +26,8 @@ pub(super) struct ResponsePoint {
     pub(super) equilibrium: Equilibrium,
     /// The eigenvalues of the modes, 1/s.
     pub(super) poles: Vec<Complex>,
+    /// The equilibrium is stable, and no mode grows.
+    pub(super) stable: bool,
     pub(super) line: Line,
     input: usize,
 }
@@ -67,9 +69,11 @@ impl<'a> Along<'a> {
         let (output, measure) = (self.vibration.output, self.vibration.measure);
         let what = (self.harmonic, output, measure);
         let line = along_input(self.mechanism, &at, what, self.input.index())?;
+        let modes = modes(&at)?;
         Ok(ResponsePoint {
             value,
-            poles: modes(&at)?.modes.iter().map(|mode| mode.s).collect(),
+            poles: modes.modes.iter().map(|mode| mode.s).collect(),
+            stable: at.stability.holds() && modes.stable(),
             equilibrium: at,
             line,
             input: self.input.index(),

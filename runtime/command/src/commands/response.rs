@@ -112,12 +112,12 @@ impl Response {
         if bode.points.len() < values.len() {
             return Ok(Verdict::stopped(bode.points.len(), values.len(), "values"));
         }
-        match bode.points.iter().any(|point| point.vibration.is_ok()) {
-            true => Ok(Verdict::Yes),
-            false => Ok(Verdict::No(
-                "no value of the range has a vibration".to_owned(),
-            )),
-        }
+        let mut solved = bode.points.iter().filter(|point| point.vibration.is_ok());
+        Ok(match solved.next() {
+            None => Verdict::No("no value of the range has a vibration".to_owned()),
+            Some(first) if first.stable || solved.any(|point| point.stable) => Verdict::Yes,
+            Some(_) => Verdict::No("every state in the range is unstable".to_owned()),
+        })
     }
 
     fn peaks_in(
@@ -145,6 +145,8 @@ impl Response {
             .filter(|x| !x.peaks.is_empty())
             .collect();
         let any = !peaked.is_empty();
+        let mut tops = peaked.iter().flat_map(|peaks| &peaks.peaks);
+        let stable = tops.any(|peak| peak.stable);
         if let (Some(operating), true) = (&operating, any) {
             let ends = [
                 operating.low.min(operating.high),
@@ -154,10 +156,11 @@ impl Response {
             answer.add(&margins)?;
         }
         self.output.write(&answer)?;
-        match any {
-            true => Ok(Verdict::Yes),
-            false => Ok(Verdict::No("no amplitude has a peak".to_owned())),
-        }
+        Ok(match (any, stable) {
+            (false, _) => Verdict::No("no amplitude has a peak".to_owned()),
+            (true, false) => Verdict::No("every peak is unstable".to_owned()),
+            (true, true) => Verdict::Yes,
+        })
     }
 
     /// The Bode plot or the polar plot of a vibration; `None` without outputs or excitations, which the analysis refuses.

@@ -505,7 +505,7 @@ fn every_subcommand_has_help_with_its_values() {
     assert_eq!(run(&[]).code, 2);
 }
 
-/// The same order twice is one order, and a negative one is for a negative speed.
+/// The same order twice is one order, and one of negative speeds is a multiple of their amount.
 #[test]
 fn orders_are_counted_once() {
     let along = |speeds: &str, orders: &str| {
@@ -514,11 +514,17 @@ fn orders_are_counted_once() {
     };
     let forwards = "speed=2000..4000rpm";
     assert_eq!(along(forwards, "1,1,1.0"), along(forwards, "1"));
-    let backwards = along("speed=-4000..-2000rpm", "-1");
-    assert!(
-        backwards.contains("frequency 1 is -1 times speed"),
-        "{backwards}"
-    );
+    for order in ["-1", "1", "1,-1"] {
+        let backwards = along("speed=-4000..-2000rpm", order);
+        let both = along("speed=-4000..4000rpm", order);
+        let crossing = "frequency 1 is -1 times speed";
+        assert!(backwards.contains(crossing), "{backwards}");
+        assert!(!backwards.contains("is 1 times"), "{backwards}");
+        assert!(
+            both.contains(crossing) && both.contains("frequency 1 is 1 times speed"),
+            "{both}"
+        );
+    }
 }
 
 #[test]

@@ -189,6 +189,91 @@ fn peaks_name_their_vibration() {
     );
 }
 
+/// Vibrations in which nothing settles are said to be so, and are no success.
+#[test]
+fn unstable_vibrations() {
+    let folder = folder("unstable");
+    let text = "mechanism Rocking {
+        input speed: rad/s; design push = 4 N*s/m;
+        body a: point(mass: 2 kg); body b: massless;
+        joint x: prismatic(x) from ground to b; joint y: prismatic(y) from b to a;
+        force k: spring(on: x, stiffness: 50 N/m); force d: damper(on: x, damping: 0.5 N*s/m);
+        force l: spring(on: y, stiffness: 90 N/m);
+        force e: damper(on: y, damping: 0.5 N*s/m - push * (speed / (10 rad/s))^2);
+        force h: harmonic(on: x, force: 1 N, frequency: speed);
+        force i: harmonic(on: y, force: 1 N, frequency: 2 * speed);
+        output shake = x; output sway = y; }";
+    let file = file(&folder, "rocking.mechanism", text);
+    let response =
+        |range: &str, more: &[&str]| run(&[&["response", &file, "--sweep", range], more].concat());
+    let some = response("speed=1..9rad/s", &["--points", "9"]);
+    assert_eq!(some.code, 0, "{}", some.err);
+    assert!(
+        some.out.contains(
+            "6 of 9 points are unstable, the first at speed = 4.00000 rad/s: nothing settles"
+        ),
+        "{}",
+        some.out
+    );
+    let all = response("speed=4..9rad/s", &["--points", "3"]);
+    assert_eq!(all.code, 1, "{}", all.out);
+    assert!(
+        all.err.contains("every state in the range is unstable"),
+        "{}",
+        all.err
+    );
+    let peaks = response("speed=2..9rad/s", &["--peaks", "--of", "shake under h"]);
+    assert_eq!(peaks.code, 1, "{}", peaks.out);
+    assert!(
+        peaks.err.contains("every peak is unstable"),
+        "{}",
+        peaks.err
+    );
+    assert!(
+        peaks.out.contains("Unstable at speed = 4.99"),
+        "{}",
+        peaks.out
+    );
+    // Both harmonics have a row at each speed: the excitation tells them apart.
+    for excitation in ["h", "i"] {
+        let rows = some
+            .out
+            .lines()
+            .filter(|row| row.split_whitespace().nth(1) == Some(excitation));
+        assert_eq!(rows.count(), 18, "{}", some.out);
+    }
+}
+
+/// Excitations that act together have one name in results, by which they are found.
+#[test]
+fn excitations_that_act_together_are_named_as_printed() {
+    let folder = folder("together");
+    let text = std::fs::read_to_string(rotor(&folder)).unwrap();
+    let second = "unbalance v: on disk, amount: 5 g*mm; output lean";
+    let file = file(
+        &folder,
+        "together.mechanism",
+        &text.replace("output lean", second),
+    );
+    let sweep = [
+        "response",
+        &file,
+        "--sweep",
+        "omega=20..200rad/s",
+        "--peaks",
+        "--of",
+    ];
+    let printed = answer(&[&sweep[..], &["shake under u, v"]].concat());
+    assert!(printed.contains("shake under u, v"), "{printed}");
+    assert_eq!(printed, answer(&[&sweep[..], &["shake under v"]].concat()));
+    let unknown = run(&[&sweep[..], &["shake under u, w"]].concat());
+    assert!(
+        unknown.code == 2 && unknown.err.contains("`w`"),
+        "{}",
+        unknown.err
+    );
+}
+
 /// The length of a vector has no derivative where it is zero: the error names the output.
 #[test]
 fn an_output_without_a_derivative_is_named() {

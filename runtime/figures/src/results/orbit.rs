@@ -39,7 +39,7 @@ pub fn orbit<M>(
         return Err(Error::nothing(text));
     }
     let unit = &first.unit;
-    let amplitudes = [x, y].map(|output| harmonic.outputs.get(output.index()).copied());
+    let amplitudes = [x, y].map(|output| harmonic.outputs.get(output.index()).copied().flatten());
     let [Some(across), Some(up)] = amplitudes else {
         return Err(Error::nothing("there is no such vibration"));
     };

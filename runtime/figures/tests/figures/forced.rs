@@ -182,7 +182,7 @@ fn an_orbit_is_passed_in_its_sense() {
     );
     let figure = figure.unwrap();
     let points = line(&figure.panels[0]);
-    let [x, y] = [0, 1].map(|k| found.harmonics[0].outputs[k]);
+    let [x, y] = [0, 1].map(|k| found.harmonics[0].outputs[k].expect("an amplitude"));
     assert!((points[0][0] - x.re).abs() < 1e-18 && (points[0][1] - y.re).abs() < 1e-18);
     // A quarter of a period later.
     let turn = Complex::from_polar(1.0, FRAC_PI_2);

@@ -17,18 +17,23 @@ use crate::{hints, names};
 
 result! {
     /// The steady vibration under the declared excitations, `Re(y e^{i w t})`. Amplitudes are complex, SI: the modulus is
-    /// from 0 to peak, half of peak to peak; a positive phase leads. `h` is the number of harmonics, `o` of outputs, `n`
-    /// of unknowns, `e` of excitations.
+    /// from 0 to peak, half of peak to peak; a positive phase leads, and NaN stands for an output that has a value but no
+    /// derivative, like the length of a vector that is zero. `h` is the number of harmonics, `o` of outputs, `n` of
+    /// unknowns, `e` of excitations.
     ForcedResponse(forced::ForcedResponse)
 }
 
-/// The complex amplitudes of all outputs of a harmonic.
+/// The complex amplitudes of all outputs of a harmonic, NaN for one that has none.
 pub(super) fn amplitudes(
     of: &Harmonic,
     measure: Measure,
 ) -> impl Iterator<Item = Complex> + use<'_> {
     let each = of.outputs.iter();
-    each.map(move |y| measure.of(of.frequency, *y))
+    each.map(move |y| y.map_or(NONE, |y| measure.of(of.frequency, y)))
+}
+
+fn or_none(outputs: &[Option<Complex>]) -> Vec<Complex> {
+    outputs.iter().map(|y| y.unwrap_or(NONE)).collect()
 }
 
 impl ForcedResponse {
@@ -54,7 +59,7 @@ attributes! {
         };
         /// Amplitudes of the outputs, complex, SI, shape (h, o).
         outputs: PyResult<Array2<'py, Complex>> = {
-            let all = self.0.harmonics.iter().map(|harmonic| harmonic.outputs.to_vec());
+            let all = self.0.harmonics.iter().map(|harmonic| or_none(&harmonic.outputs));
             rows(py, self.0.description.outputs.len(), all)
         };
         /// Amplitudes of the unknowns, complex, SI, shape (h, n): displacements of coordinates, speeds, reactions.
@@ -66,7 +71,7 @@ attributes! {
         excitations: Vec<&str> = names::excitations(&self.0.description);
         /// What each excitation contributes to the outputs, complex, SI, shape (e, o).
         shares: PyResult<Array2<'py, Complex>> = {
-            let all = self.contributions().into_iter().map(|contribution| contribution.outputs.to_vec());
+            let all = self.contributions().into_iter().map(|contribution| or_none(&contribution.outputs));
             rows(py, self.0.description.outputs.len(), all)
         };
         /// What each excitation contributes to the unknowns, complex, SI, shape (e, n).
@@ -127,7 +132,11 @@ impl ForcedResponse {
         let measure = self::measure(py, measure)?;
         let outputs = self.0.description.outputs.len();
         let each = |harmonic: &Harmonic| {
-            let all = (0..outputs).map(|k| of(&harmonic.unknown_phases(Output::new(k), measure)?));
+            let number = |(k, y): (usize, &Option<Complex>)| match y {
+                Some(_) => of(&harmonic.unknown_phases(Output::new(k), measure)?),
+                None => Ok(f64::NAN),
+            };
+            let all = harmonic.outputs.iter().enumerate().map(number);
             all.collect::<Result<Vec<f64>, _>>()
         };
         let all: Result<Vec<_>, _> = self.0.harmonics.iter().map(each).collect();

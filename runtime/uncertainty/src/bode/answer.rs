@@ -6,7 +6,7 @@ use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
 use super::{Bands, Bode};
-use crate::along::{not_reached, varied};
+use crate::along::{not_reached, place, varied};
 use crate::forced::Harmonic;
 use crate::propagation::{ResponseSpread, VibrationCheck};
 use crate::response::{Response, Vibration};
@@ -39,6 +39,11 @@ impl Answer for Bode {
         let visible = places.filter(|(_, row)| points.contains(&row.point));
         table.show_rows(visible.map(|(k, _)| k).collect());
         varied(&mut table, d, self.input, given, &|row| row.value);
+        let excitations = |row: &Row<'_>| Some(row.found?.0.excitations(d));
+        let column = table.words("excitations", &excitations);
+        if self.harmonics() > 1 {
+            column.shown();
+        }
         table
             .number("frequency", "rad/s", &|row| Some(row.found?.0.frequency))
             .digits(number);
@@ -53,11 +58,16 @@ impl Answer for Bode {
             .digits(number);
         table
             .number("phase", "deg", &|row| {
-                Some(row.amplitude()?.arg().to_degrees())
+                let amplitude = row.amplitude().filter(|y| *y != Complex::ZERO)?;
+                Some(amplitude.arg().to_degrees())
             })
             .digits(short);
         table.number("Re", "", &|row| row.scaled(d, |y| y.re));
         table.number("Im", "", &|row| row.scaled(d, |y| y.im));
+        table.words("stable", &|row| {
+            row.found
+                .map(|_| if row.stable { "yes" } else { "no" }.to_owned())
+        });
         table.words("error", &|row| row.error.map(ToString::to_string));
         said.columns(table);
         self.bands(&mut said, &points);
@@ -76,6 +86,7 @@ impl Answer for Bode {
                 "{failed} of {all} points have no vibration; the first: {error}."
             ));
         }
+        self.unstable(&mut said);
         said.note(CONVENTIONS);
         said
     }
@@ -87,6 +98,7 @@ displayed!(Bode);
 struct Row<'a> {
     point: usize,
     value: f64,
+    stable: bool,
     found: Option<(&'a Harmonic, usize)>,
     error: Option<&'a Error>,
 }
@@ -94,7 +106,7 @@ struct Row<'a> {
 impl Row<'_> {
     fn amplitude(&self) -> Option<Complex> {
         let (harmonic, output) = self.found?;
-        harmonic.outputs.get(output).copied()
+        harmonic.outputs.get(output).copied().flatten()
     }
 
     /// A part of the amplitude in the unit of the output.
@@ -128,13 +140,35 @@ impl Band<'_> {
 }
 
 impl Bode {
+    /// The largest number of harmonics at a value.
+    fn harmonics(&self) -> usize {
+        let solved = self.points.iter().flat_map(|point| &point.vibration);
+        let counts = solved.map(|vibration| vibration.response.harmonics.len());
+        counts.max().unwrap_or(0)
+    }
+
+    /// Where the vibration exists but nothing settles in it.
+    fn unstable(&self, said: &mut Findings) {
+        let solved = self.points.iter().filter(|point| point.vibration.is_ok());
+        let mut unstable = solved.filter(|point| !point.stable);
+        if let Some(first) = unstable.next() {
+            let (d, all) = (&self.description, self.points.len());
+            said.note(format!(
+                "{} of {all} points are unstable, the first at {}: nothing settles in the vibration there.",
+                unstable.count() + 1,
+                place(d, self.input, first.value)
+            ));
+        }
+    }
+
     fn rows(&self) -> Vec<Row<'_>> {
         let mut rows = Vec::new();
         for (point, bode_point) in self.points.iter().enumerate() {
-            let value = bode_point.value;
+            let (value, stable) = (bode_point.value, bode_point.stable);
             let row = |found, error| Row {
                 point,
                 value,
+                stable,
                 found,
                 error,
             };

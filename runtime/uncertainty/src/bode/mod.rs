@@ -40,6 +40,8 @@ pub struct Bode {
 pub struct BodePoint {
     /// The value, SI.
     pub value: f64,
+    /// Whether the equilibrium is stable and no mode grows. Elsewhere nothing settles in this vibration.
+    pub stable: bool,
     /// The vibration with its derivatives, or why there is none.
     pub vibration: Result<ForcedSensitivities, Error>,
     /// The spreads of the amplitudes, if they were asked for and exist.
@@ -156,6 +158,10 @@ fn point(
         Ok(equilibrium) => forced::sensitivities(mechanism, equilibrium),
         Err(error) => Err(error.clone()),
     };
+    let stable = match (&at.equilibrium, &at.modes) {
+        (Ok(equilibrium), Ok(modes)) => equilibrium.stability.holds() && modes.stable(),
+        _ => false,
+    };
     let mut bands = None;
     if let (Some(banded), Ok(equilibrium), Ok(modes), Ok(_)) =
         (banded, &at.equilibrium, &at.modes, &vibration)
@@ -175,6 +181,7 @@ fn point(
     }
     Ok(BodePoint {
         value,
+        stable,
         vibration,
         bands,
     })

@@ -1,13 +1,16 @@
 //! What a vibration forced by excitations needs besides the three matrices.
 
-use crate::algebra::{Array, ExprId, Function, Graph, Parameter, Stage, Unary, substitute};
+use crate::algebra::{
+    Array, ExprId, Function, Graph, Node, Operator, Parameter, Stage, SymbolId, Unary, rough,
+    substitute,
+};
 use crate::base::ids::CoordinateId;
 use crate::mechanics::checks::Turning;
 use crate::mechanics::equations::{Equations, Response};
 use crate::mechanics::functions::Excitation as Facts;
 use crate::mechanics::inertia::size;
 use crate::mechanics::kernel_name::KernelName;
-use crate::mechanics::setup::{Context, SymbolList, at_rest, columns, weighted_sum};
+use crate::mechanics::setup::{Context, SymbolList, Symbols, at_rest, columns, weighted_sum};
 use crate::model::mechanism::{Excitation, ExcitationLaw, Frequency, Motion, ShakenBy};
 
 use super::adjoint::{at_rest_along_motion, state_gradient};
@@ -234,6 +237,7 @@ pub(crate) fn forced(
         array("sine", vec![count, n], split(|f| &f.sine, false)),
         array("direct_sine", vec![count, m], split(|f| &f.sine, true)),
     ];
+    let without_slope = without_slope(g, s, &e.outputs_in_motion);
     let motion = [
         ("by_acceleration", &s.acceleration),
         ("by_velocity", &s.velocity),
@@ -244,7 +248,13 @@ pub(crate) fn forced(
         let rows: Vec<ExprId> = (0..m)
             .flat_map(|k| columns.iter().map(move |column| column[k]))
             .collect();
-        array(name, vec![m, n], at_rest(g, s, &rows))
+        let mut values = at_rest(g, s, &rows);
+        for (k, slope) in without_slope.iter().enumerate() {
+            if let Some(slope) = slope {
+                values[k * n..(k + 1) * n].fill(*slope);
+            }
+        }
+        array(name, vec![m, n], values)
     });
     let weights = Weights::new(g, context, count);
     let weighted = weights.weighted(g, context, e, excitations);
@@ -263,6 +273,32 @@ pub(crate) fn forced(
             gradient,
         ),
     ]
+}
+
+/// Of each output, its infinite slope if it has none at rest in any design, like the length of a vector that is zero.
+///
+/// Simplification does not see that: the slope `v / |v|` of a length is a product with zero. What stands in front of the
+/// length decides whether that is its value, as for `v |v|`, or whether there is none.
+fn without_slope(g: &mut Graph, s: &Symbols, outputs: &[ExprId]) -> Vec<Option<ExprId>> {
+    let moving: Vec<SymbolId> = [&s.q, &s.velocity, &s.acceleration]
+        .into_iter()
+        .flat_map(|list| list.ids.iter().copied())
+        .collect();
+    let of_output = |&output: &ExprId| {
+        let all: Vec<ExprId> = rough(g, output, &moving).into_flattened();
+        let all = at_rest(g, s, &all);
+        let infinite = |g: &Graph, slope: ExprId| {
+            let size = match g.node(slope) {
+                Node::Unary(Unary::Negate, size) => size,
+                _ => slope,
+            };
+            matches!(g.node(size), Node::Binary(Operator::Divide, _, divisor) if g.is(divisor, 0.0))
+        };
+        let mut pairs = all.as_chunks::<2>().0.iter();
+        let found = pairs.find(|[slope, factor]| infinite(g, *slope) && !g.is(*factor, 0.0));
+        found.map(|[slope, _]| *slope)
+    };
+    outputs.iter().map(of_output).collect()
 }
 
 /// The factors of the functional of a forced vibration.
