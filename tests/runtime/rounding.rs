@@ -48,6 +48,18 @@ mechanism! {
 }
 
 mechanism! {
+    /// A spring whose stiffness is a small difference of design variables.
+    mechanism Cancelling {
+        design a = 0.1 N/m;
+        design b = 0.2 N/m;
+        design c = 0.3 N/m;
+        body mass: point(mass: 1 kg);
+        joint x: prismatic(x) from ground to mass;
+        force k: spring(on: x, stiffness: a + b - c);
+    }
+}
+
+mechanism! {
     mechanism DampedBar {
         input  omega: rad/s;
         design m = 3 kg +/- 0.03 kg;
@@ -184,6 +196,41 @@ fn at_its_critical_speed_a_pendulum_is_neutral() {
             }
         }
     }
+}
+
+/// Data that balance in decimals leave a few rounding units of either sign.
+#[test]
+fn a_stiffness_that_is_rounding_of_the_design_is_zero() {
+    let judged = |values: [f64; 3]| {
+        let handles = [Cancelling::a, Cancelling::b, Cancelling::c];
+        let study = handles.into_iter().zip(values).fold(
+            Study::new(Cancelling).policy(Policy::Nearest),
+            |study, (handle, value)| study.design(handle, value),
+        );
+        let modes = study.modes().expect("modes");
+        let stability = study.equilibrium().expect("a state").stability;
+        (stability, modes.modes[0].behaviour)
+    };
+    for values in [
+        [0.1, 0.2, 0.3],
+        [0.7, 0.1, 0.8],
+        [1.1, 2.2, 3.3],
+        [4.35, 0.1, 4.45],
+    ] {
+        let [a, b, c] = values;
+        assert_ne!(a + b - c, 0.0);
+        let found = judged(values);
+        assert_eq!(
+            found,
+            (Stability::Neutral { zero: 1 }, Behaviour::Neutral),
+            "{values:?}"
+        );
+    }
+    assert_eq!(judged([0.1, 0.2, 0.3 - 1e-12]).0, Stability::Stable);
+    assert_eq!(
+        judged([0.1, 0.2, 0.3 + 1e-12]).0,
+        Stability::Divergent { negative: 1 }
+    );
 }
 
 /// Compared with the sign of the exact stiffness: no sign is wrong, and few are undecided.

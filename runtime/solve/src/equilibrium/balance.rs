@@ -2,15 +2,20 @@
 //!
 //! Lift and weight of a free machine are equal in the declaration, but add up to a few rounding units of either. Their
 //! sum is all that the kernels return, so nothing there tells how large its terms were. Data that differ by rounding
-//! alone do: they change such a sum by as much as it is (stochastic arithmetic; Vignes 1993).
+//! alone do: they change such a sum by as much as it is (stochastic arithmetic; Vignes 1993). The same holds for the
+//! stiffness that such forces leave along a direction in which nothing holds the machine. In any units that are found
+//! from the matrix itself it would pass for a stiffness like others.
 
 use super::operating_point::OperatingPoint;
-use crate::algebra::{Vector, greater};
+use crate::algebra::{Matrix, Vector, greater, largest};
 
 /// How often the data are disturbed.
 const SAMPLES: usize = 8;
 /// A sum at most this many times its largest change is rounding.
 const FACTOR: f64 = 4.0;
+/// Share of the largest stiffness, for motions of similar size, below which all stiffness against a motion may be
+/// rounding.
+const FAINT: f64 = 1e-10;
 
 /// The residual with zeros where it is rounding of the data; `None` if it is nowhere. Forces that lead held unknowns to
 /// their values may have been added to it; only what the mechanism returns is disturbed.
@@ -20,22 +25,9 @@ pub(super) fn without_rounding(
     q: &[f64],
     residual: &[f64],
 ) -> Option<Vector> {
-    let given = point.mechanism.residual(q, point.inputs, point.design);
-    let mut change = Vector::zeros(residual.len());
-    for sample in 0..SAMPLES {
-        let of = |values: &[f64], first: usize| -> Vector {
-            let values = values.iter().enumerate();
-            values
-                .map(|(k, value)| value * disturbance(first + k, sample))
-                .collect()
-        };
-        let inputs = of(point.inputs, 0);
-        let design = of(point.design, inputs.len());
-        let disturbed = point.mechanism.residual(q, &inputs, &design);
-        for ((change, disturbed), value) in change.iter_mut().zip(&disturbed).zip(&given) {
-            *change = greater(*change, (disturbed - value).abs());
-        }
-    }
+    let change = change(point, q, |q, inputs, design| {
+        point.mechanism.residual(q, inputs, design)
+    });
     let mut left = Vector::from(residual);
     for (value, change) in left.iter_mut().zip(&change) {
         if value.abs() <= FACTOR * change {
@@ -43,6 +35,77 @@ pub(super) fn without_rounding(
         }
     }
     (left[..] != *residual).then_some(left)
+}
+
+/// Sets to zero what is rounding of the data in a stiffness against motions that hardly anything resists.
+pub(super) fn remove_rounding(point: &OperatingPoint<'_>, q: &[f64], stiffness: &mut Matrix) {
+    let motions = point.motions();
+    let large = |i: usize| point.description.large(i);
+    let size = |i: usize| {
+        let row = stiffness[i].iter().take(motions).enumerate();
+        row.fold(0.0, |most, (j, value)| {
+            greater(most, value.abs() * large(i) * large(j))
+        })
+    };
+    let sizes: Vector = (0..motions).map(size).collect();
+    let faint = FAINT * largest(&sizes);
+    let faint: Vec<bool> = sizes.iter().map(|size| *size < faint).collect();
+    let resisted = |i: &usize| faint[*i] && sizes[*i] > 0.0;
+    if (0..motions).any(|i| resisted(&i)) {
+        remove(point, q, &faint, stiffness);
+    }
+}
+
+#[cold]
+fn remove(point: &OperatingPoint<'_>, q: &[f64], faint: &[bool], stiffness: &mut Matrix) {
+    let n = q.len();
+    let change = change(point, q, |q, inputs, design| {
+        let (_, stiffness) = point.mechanism.residual_and_stiffness(q, inputs, design);
+        stiffness.as_flattened().into()
+    });
+    let of = |i: usize, j: usize| match point.description.symmetric_stiffness {
+        true => greater(change[i * n + j], change[j * n + i]),
+        false => change[i * n + j],
+    };
+    for i in 0..faint.len() {
+        for j in 0..faint.len() {
+            let is_rounding = stiffness[i][j].abs() <= FACTOR * of(i, j);
+            if (faint[i] || faint[j]) && is_rounding {
+                stiffness[i][j] = 0.0;
+            }
+        }
+    }
+}
+
+/// The largest changes of some numbers by rounding of inputs, design variables and coordinates.
+fn change(
+    point: &OperatingPoint<'_>,
+    q: &[f64],
+    of: impl Fn(&[f64], &[f64], &[f64]) -> Vector,
+) -> Vector {
+    let given = of(q, point.inputs, point.design);
+    let mut change = Vector::zeros(given.len());
+    for sample in 0..SAMPLES {
+        let disturbed = |values: &[f64], first: usize| -> Vector {
+            let values = values.iter().enumerate();
+            values
+                .map(|(k, value)| value * disturbance(first + k, sample))
+                .collect()
+        };
+        let inputs = disturbed(point.inputs, 0);
+        let design = disturbed(point.design, inputs.len());
+        let data = inputs.len() + design.len();
+        // Coordinates balance each other: that of a tilt has the rounding of a motion of the size of the machine.
+        let moved = q.iter().enumerate().map(|(i, value)| {
+            let rounding = disturbance(data + i, sample) - 1.0;
+            value + rounding * (value.abs() + point.description.large(i))
+        });
+        let disturbed = of(&moved.collect::<Vector>(), &inputs, &design);
+        for ((change, disturbed), value) in change.iter_mut().zip(&disturbed).zip(&given) {
+            *change = greater(*change, (disturbed - value).abs());
+        }
+    }
+    change
 }
 
 /// One plus or minus up to two rounding units, different for each datum and sample: their number, mixed by the golden

@@ -24,7 +24,7 @@ use super::search_space::{Base, SearchSpace, Trial};
 use crate::algebra::{
     Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, for_size, form, largest, times,
 };
-use crate::eigenproblem::symmetric;
+use crate::eigenproblem::{EigenproblemError, symmetric};
 use crate::error::NotFound;
 use crate::kernels::Linear;
 use crate::rounding::{Sign, sign};
@@ -236,7 +236,10 @@ impl Curved {
     {
         point.linear_into(&base.q, &mut self.linear)?;
         let mass = base.space.reduced(&self.linear.mass);
-        symmetric::solve_into(stiffness, &mass, &mut self.pairs)?;
+        symmetric::solve_into(stiffness, &mass, &mut self.pairs).map_err(|error| match error {
+            EigenproblemError::SingularMass(row) => point.singular_mass(&base.q, row),
+            EigenproblemError::Inaccurate { .. } => error.into(),
+        })?;
         self.unstable = sign(self.pairs.lambda[0], self.pairs.errors[0]) == Sign::Negative;
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! One equilibrium problem: a mechanism with validated inputs and design variables, evaluated with checks.
 
+use super::balance::remove_rounding;
 use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix, for_size, greater};
 use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
@@ -239,6 +240,9 @@ impl<'a> OperatingPoint<'a> {
                 fix_gauge(stiffness, self.structure);
             }
         }
+        if finite && self.free() > 0 {
+            remove_rounding(self, q, stiffness);
+        }
         match self.place {
             Some(directions) if finite => {
                 directions.hold(stiffness);
@@ -318,6 +322,9 @@ impl<'a> OperatingPoint<'a> {
         self.mechanism
             .linear_into(q, self.inputs, self.design, linear);
         self.check(q, linear)?;
+        if self.free() > 0 {
+            remove_rounding(self, q, &mut linear.stiffness);
+        }
         if !self.structure.open() {
             fix_gauge(&mut linear.stiffness, self.structure);
         }
@@ -328,7 +335,21 @@ impl<'a> OperatingPoint<'a> {
     /// small mechanism the sines and other common terms are computed once.
     #[inline]
     pub(crate) fn parts_and_linear(&self, q: &[f64]) -> (RestParts, Linear) {
-        self.mechanism.parts_and_linear(q, self.inputs, self.design)
+        let (parts, mut linear) = self.mechanism.parts_and_linear(q, self.inputs, self.design);
+        if self.free() > 0 {
+            remove_rounding(self, q, &mut linear.stiffness);
+        }
+        (parts, linear)
+    }
+
+    /// Why the mass matrix is not positive definite at a state, by this row: beams that are bent too far, if there are any.
+    #[cold]
+    pub(super) fn singular_mass(&self, q: &[f64], row: usize) -> Failure {
+        let pose = self.mechanism.pose_margin(q, self.inputs, self.design);
+        match pose.filter(|pose| pose.margin < pose.least) {
+            Some(pose) => Failure::BentTooFar(pose),
+            None => Failure::SingularMass(row),
+        }
     }
 
     /// Refuses matrices that are not finite.

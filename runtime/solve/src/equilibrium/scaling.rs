@@ -32,7 +32,7 @@ pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, F
         for (i, weight) in weight.iter_mut().enumerate() {
             let mass = linear.mass[i][i];
             if mass.is_nan() || mass <= 0.0 {
-                return Err(Failure::SingularMass(i));
+                return Err(point.singular_mass(q, i));
             }
             *weight = 1.0 / mass;
         }
