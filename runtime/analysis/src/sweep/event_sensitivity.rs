@@ -1,6 +1,6 @@
 //! Sensitivity of a critical speed or a resonance to the design: `du_c/db`.
 
-use super::condition::{Condition, Crossing};
+use super::condition::{Change, Condition, Crossing};
 use super::points::CriticalState;
 use crate::algebra::{Matrix, Values, Vector, all_finite, dot, largest, times};
 use crate::branches::{Bordered, SpecialKind, critical_inertia};
@@ -53,7 +53,8 @@ pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Res
         });
     };
     let rate = by_input - other;
-    if rate.abs() <= 1e-12 * other.abs().max(by_input.abs()) || rate == 0.0 {
+    let touches = crossing.change == Change::Touch;
+    if touches || rate.abs() <= 1e-12 * other.abs().max(by_input.abs()) || rate == 0.0 {
         return Err(Error::NoSensitivity {
             reason: NoDerivative::Touch,
         });

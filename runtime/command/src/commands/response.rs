@@ -8,6 +8,7 @@ use eigentol::response::Vibration;
 use eigentol_figures as figures;
 use eigentol_interpreter::Interpreted;
 
+use crate::diagnostics;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
@@ -191,14 +192,24 @@ impl Response {
         let orbit = orbit.transpose()?;
         let verdict = Verdict::of(study)?;
         let mut answer = self.output.answer();
-        let forced_sensitivities = study.forced_sensitivities()?;
+        let response = match study.forced_sensitivities() {
+            Ok(derivatives) => {
+                answer.add(&derivatives)?;
+                derivatives.response
+            }
+            Err(error) if self.bands => return Err(error.into()),
+            // Amplitudes exist at critical states, and beside outputs that have none.
+            Err(error) => {
+                let response = study.forced_response().map_err(|_| error.clone())?;
+                diagnostics::note(&format!("the amplitudes have no derivatives: {error}"));
+                answer.add(&response)?;
+                response
+            }
+        };
         if let Some((pair, excitation)) = orbit {
             let style = self.picture.plain_style(question);
-            (self.picture).draw(|| {
-                figures::orbit(&forced_sensitivities.response, pair, excitation, &style)
-            })?;
+            (self.picture).draw(|| figures::orbit(&response, pair, excitation, &style))?;
         }
-        answer.add(&forced_sensitivities)?;
         if self.bands {
             answer.add(&study.vibration_spread(wanted)?)?;
         }

@@ -244,6 +244,25 @@ fn unstable_vibrations() {
     }
 }
 
+/// A mass that a damper alone holds vibrates, although its place has no derivatives: `f / |-m w^2 + i w c|`.
+#[test]
+fn amplitudes_without_derivatives() {
+    let folder = folder("limp");
+    let text = "mechanism Limp {
+        input k: N/m; body a: point(mass: 1 kg); joint x: prismatic(x) from ground to a;
+        force s: spring(on: x, stiffness: k); force d: damper(on: x, damping: 0.1 N*s/m);
+        force h: harmonic(on: x, force: 1 N, frequency: 2 rad/s); output shake = x; }";
+    let file = file(&folder, "limp.mechanism", text);
+    let found = run(&["response", &file, "--set", "k=0N/m"]);
+    assert_eq!(found.code, 0, "{}", found.err);
+    assert!(
+        found.err.contains("the amplitudes have no derivatives"),
+        "{}",
+        found.err
+    );
+    assert!(found.out.contains("0.249688"), "{}", found.out);
+}
+
 /// Excitations that act together have one name in results, by which they are found.
 #[test]
 fn excitations_that_act_together_are_named_as_printed() {
@@ -285,9 +304,21 @@ fn an_output_without_a_derivative_is_named() {
     );
     let file = file(&folder, "unsmooth.mechanism", &text);
     let sweep = ["--sweep", "omega=20..200rad/s"];
+    let at_point = run(&["response", &file, "--set", "omega=50rad/s"]);
+    assert_eq!(at_point.code, 0, "{}", at_point.err);
+    let why = "the amplitudes have no derivatives: output `far` has a value here but no derivative";
+    assert!(at_point.err.contains(why), "{}", at_point.err);
+    let shaken = at_point
+        .out
+        .lines()
+        .any(|row| row.contains("shake  m ") || row.contains("shake   m "));
+    assert!(
+        shaken && !at_point.out.contains("derivative by"),
+        "{}",
+        at_point.out
+    );
     for more in [
-        &["--set", "omega=50rad/s"][..],
-        &["--set", "omega=50rad/s", "--bands"],
+        &["--set", "omega=50rad/s", "--bands"][..],
         &[sweep[0], sweep[1], "--peaks", "--of", "shake"],
     ] {
         let found = run(&[&["response", &file][..], more].concat());

@@ -6,8 +6,9 @@
 //! stiffness that such forces leave along a direction in which nothing holds the machine. In any units that are found
 //! from the matrix itself it would pass for a stiffness like others.
 
-use super::operating_point::OperatingPoint;
+use crate::Description;
 use crate::algebra::{Matrix, Vector, greater, largest};
+use crate::kernels::Kernels;
 
 /// How often the data are disturbed.
 const SAMPLES: usize = 8;
@@ -17,16 +18,22 @@ const FACTOR: f64 = 4.0;
 /// rounding.
 const FAINT: f64 = 1e-10;
 
+/// What the equations are evaluated with.
+pub(super) struct Data<'a> {
+    pub(super) mechanism: &'a dyn Kernels,
+    pub(super) description: &'a Description,
+    /// The number of coordinates and speeds.
+    pub(super) motions: usize,
+    pub(super) inputs: &'a [f64],
+    pub(super) design: &'a [f64],
+}
+
 /// The residual with zeros where it is rounding of the data; `None` if it is nowhere. Forces that lead held unknowns to
 /// their values may have been added to it; only what the mechanism returns is disturbed.
 #[cold]
-pub(super) fn without_rounding(
-    point: &OperatingPoint<'_>,
-    q: &[f64],
-    residual: &[f64],
-) -> Option<Vector> {
-    let change = change(point, q, |q, inputs, design| {
-        point.mechanism.residual(q, inputs, design)
+pub(super) fn without_rounding(data: &Data<'_>, q: &[f64], residual: &[f64]) -> Option<Vector> {
+    let change = change(data, q, |q, inputs, design| {
+        data.mechanism.residual(q, inputs, design)
     });
     let mut left = Vector::from(residual);
     for (value, change) in left.iter_mut().zip(&change) {
@@ -38,9 +45,9 @@ pub(super) fn without_rounding(
 }
 
 /// Sets to zero what is rounding of the data in a stiffness against motions that hardly anything resists.
-pub(super) fn remove_rounding(point: &OperatingPoint<'_>, q: &[f64], stiffness: &mut Matrix) {
-    let motions = point.motions();
-    let large = |i: usize| point.description.large(i);
+pub(super) fn remove_rounding(data: &Data<'_>, q: &[f64], stiffness: &mut Matrix) {
+    let motions = data.motions;
+    let large = |i: usize| data.description.large(i);
     let size = |i: usize| {
         let row = stiffness[i].iter().take(motions).enumerate();
         row.fold(0.0, |most, (j, value)| {
@@ -52,18 +59,18 @@ pub(super) fn remove_rounding(point: &OperatingPoint<'_>, q: &[f64], stiffness: 
     let faint: Vec<bool> = sizes.iter().map(|size| *size < faint).collect();
     let resisted = |i: &usize| faint[*i] && sizes[*i] > 0.0;
     if (0..motions).any(|i| resisted(&i)) {
-        remove(point, q, &faint, stiffness);
+        remove(data, q, &faint, stiffness);
     }
 }
 
 #[cold]
-fn remove(point: &OperatingPoint<'_>, q: &[f64], faint: &[bool], stiffness: &mut Matrix) {
+fn remove(data: &Data<'_>, q: &[f64], faint: &[bool], stiffness: &mut Matrix) {
     let n = q.len();
-    let change = change(point, q, |q, inputs, design| {
-        let (_, stiffness) = point.mechanism.residual_and_stiffness(q, inputs, design);
+    let change = change(data, q, |q, inputs, design| {
+        let (_, stiffness) = data.mechanism.residual_and_stiffness(q, inputs, design);
         stiffness.as_flattened().into()
     });
-    let of = |i: usize, j: usize| match point.description.symmetric_stiffness {
+    let of = |i: usize, j: usize| match data.description.symmetric_stiffness {
         true => greater(change[i * n + j], change[j * n + i]),
         false => change[i * n + j],
     };
@@ -78,12 +85,8 @@ fn remove(point: &OperatingPoint<'_>, q: &[f64], faint: &[bool], stiffness: &mut
 }
 
 /// The largest changes of some numbers by rounding of inputs, design variables and coordinates.
-fn change(
-    point: &OperatingPoint<'_>,
-    q: &[f64],
-    of: impl Fn(&[f64], &[f64], &[f64]) -> Vector,
-) -> Vector {
-    let given = of(q, point.inputs, point.design);
+fn change(data: &Data<'_>, q: &[f64], of: impl Fn(&[f64], &[f64], &[f64]) -> Vector) -> Vector {
+    let given = of(q, data.inputs, data.design);
     let mut change = Vector::zeros(given.len());
     for sample in 0..SAMPLES {
         let disturbed = |values: &[f64], first: usize| -> Vector {
@@ -92,13 +95,13 @@ fn change(
                 .map(|(k, value)| value * disturbance(first + k, sample))
                 .collect()
         };
-        let inputs = disturbed(point.inputs, 0);
-        let design = disturbed(point.design, inputs.len());
-        let data = inputs.len() + design.len();
+        let inputs = disturbed(data.inputs, 0);
+        let design = disturbed(data.design, inputs.len());
+        let first = inputs.len() + design.len();
         // Coordinates balance each other: that of a tilt has the rounding of a motion of the size of the machine.
         let moved = q.iter().enumerate().map(|(i, value)| {
-            let rounding = disturbance(data + i, sample) - 1.0;
-            value + rounding * (value.abs() + point.description.large(i))
+            let rounding = disturbance(first + i, sample) - 1.0;
+            value + rounding * (value.abs() + data.description.large(i))
         });
         let disturbed = of(&moved.collect::<Vector>(), &inputs, &design);
         for ((change, disturbed), value) in change.iter_mut().zip(&disturbed).zip(&given) {
@@ -121,7 +124,7 @@ mod tests {
     use eigentol_macros::mechanism;
 
     use super::*;
-    use crate::equilibrium::relative_residual;
+    use crate::equilibrium::{OperatingPoint, relative_residual};
     use crate::free::{FreeDirections, Held};
 
     mechanism! {

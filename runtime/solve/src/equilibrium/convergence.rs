@@ -190,7 +190,7 @@ pub(crate) fn relative_to_parts(
         }
     };
     let value = relative(residual);
-    let left = (value > TOLERANCE).then(|| without_rounding(point, q, residual));
+    let left = (value > TOLERANCE).then(|| without_rounding(&point.data(), q, residual));
     left.flatten().map_or(value, |left| relative(&left))
 }
 

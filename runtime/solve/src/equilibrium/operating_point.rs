@@ -1,6 +1,6 @@
 //! One equilibrium problem: a mechanism with validated inputs and design variables, evaluated with checks.
 
-use super::balance::remove_rounding;
+use super::balance::{Data, remove_rounding};
 use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix, for_size, greater};
 use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
@@ -148,6 +148,17 @@ impl<'a> OperatingPoint<'a> {
         self
     }
 
+    /// What the equations are evaluated with.
+    pub(super) fn data(&self) -> Data<'_> {
+        Data {
+            mechanism: self.mechanism,
+            description: &self.description,
+            motions: self.motions(),
+            inputs: self.inputs,
+            design: self.design,
+        }
+    }
+
     /// Number of unknowns.
     pub(crate) fn size(&self) -> usize {
         self.description.coordinates.len()
@@ -241,7 +252,7 @@ impl<'a> OperatingPoint<'a> {
             }
         }
         if finite && self.free() > 0 {
-            remove_rounding(self, q, stiffness);
+            remove_rounding(&self.data(), q, stiffness);
         }
         match self.place {
             Some(directions) if finite => {
@@ -323,7 +334,7 @@ impl<'a> OperatingPoint<'a> {
             .linear_into(q, self.inputs, self.design, linear);
         self.check(q, linear)?;
         if self.free() > 0 {
-            remove_rounding(self, q, &mut linear.stiffness);
+            remove_rounding(&self.data(), q, &mut linear.stiffness);
         }
         if !self.structure.open() {
             fix_gauge(&mut linear.stiffness, self.structure);
@@ -337,7 +348,7 @@ impl<'a> OperatingPoint<'a> {
     pub(crate) fn parts_and_linear(&self, q: &[f64]) -> (RestParts, Linear) {
         let (parts, mut linear) = self.mechanism.parts_and_linear(q, self.inputs, self.design);
         if self.free() > 0 {
-            remove_rounding(self, q, &mut linear.stiffness);
+            remove_rounding(&self.data(), q, &mut linear.stiffness);
         }
         (parts, linear)
     }

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::time::Instant;
 
 use eigentol::{Input, Study};
+use eigentol_interpreter::Interpreted;
 
 use crate::beams::compared::{machine, numbers, truth};
 
@@ -146,4 +147,31 @@ fn a_few_coordinates_replace_many_bars() {
     }
     let rows: Vec<Row> = beams.into_iter().chain(chains).collect();
     print!("{}", table(&rows));
+}
+
+/// No coordinates of stretch and shear are what a beam has without these numbers.
+#[test]
+fn none_is_a_number_of_coordinates() {
+    let frequencies = |more: &str| {
+        let text = format!(
+            "mechanism Bar {{
+                body bar: beam(length: 1 m, along: x, up: z, mass_per_length: 1 kg/m, stiffness_y: 2 N*m^2, {more});
+                joint clamp: fixed from ground to bar; }}"
+        );
+        let machine = Interpreted::from_text(&text).map_err(|error| error.to_string())?;
+        let modes = Study::new(machine).modes().expect("modes");
+        Ok::<_, String>(modes.frequencies())
+    };
+    let plain = frequencies("bending_y: 3").expect("a beam");
+    for more in [
+        "stretch: 0",
+        "shear: 0",
+        "stretch: 0, shear: 0",
+        "torsion: 0",
+    ] {
+        let found = frequencies(&format!("bending_y: 3, {more}"));
+        assert_eq!(found.expect("a beam"), plain, "{more}");
+    }
+    let rigid = frequencies("bending_y: 0, stretch: 0").expect_err("no coordinates");
+    assert!(rigid.contains("it is rigid"), "{rigid}");
 }

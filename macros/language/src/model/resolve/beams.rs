@@ -164,7 +164,8 @@ impl Resolver<'_> {
             0
         };
         let torsion = torsion.unwrap_or(default);
-        let stretches = given.get("stretch").is_some();
+        let none = |value: &Value| matches!(value.kind, ValueKind::Number(0.0, None));
+        let stretches = given.get("stretch").is_some_and(|value| !none(value));
         if torsion + y + z == 0 && !stretches {
             let message = "this beam has no coordinates: it is rigid";
             let help = "give `bending: 5`, `bending_y`, `bending_z` or `torsion`, or use a `rod`";
@@ -182,7 +183,7 @@ impl Resolver<'_> {
         counts: Option<[usize; 3]>,
     ) -> Option<([usize; 3], bool)> {
         let stretch = match given.get("stretch") {
-            Some(value) => self.whole(value, "stretch", 1..=MOST),
+            Some(value) => self.whole(value, "stretch", 0..=MOST),
             None => Some(0),
         };
         let [_, about_y, about_z] = counts?;
@@ -198,7 +199,7 @@ impl Resolver<'_> {
             self.diagnostics.error(value.extent, message);
             return None;
         }
-        let shear = self.whole(value, "shear", 1..=MOST)?;
+        let shear = self.whole(value, "shear", 0..=MOST)?;
         let along = |bends: usize| if bends > 0 { shear } else { 0 };
         Some(([stretch?, along(about_z), along(about_y)], false))
     }
