@@ -49,6 +49,10 @@ pub(crate) fn along_input(
             count: mechanism.sizes().outputs,
         });
     };
+    if !solved.smooth[output.index()] {
+        let output = at.description.outputs[output.index()].name.clone();
+        return Err(Error::NotSmooth { output });
+    }
     let none = Error::NoSensitivity {
         reason: NoDerivative::NotSmooth,
     };

@@ -149,8 +149,9 @@ impl<'a> Resolvent<'a> {
         })
     }
 
-    /// The frequency, rad/s, and the amplitude of every output at a design, SI; `None` where there is no response.
-    pub fn amplitudes(&self, design: &[f64]) -> Option<(f64, Vector<Complex>)> {
+    /// The frequency, rad/s, and the amplitude of every output at a design, SI; `None` where there is no response, and
+    /// for an output that has no derivative.
+    pub fn amplitudes(&self, design: &[f64]) -> Option<(f64, Vec<Option<Complex>>)> {
         let changes: Vector = self
             .variables
             .iter()
@@ -175,10 +176,8 @@ impl<'a> Resolvent<'a> {
         add(&mut amplitudes, &times(&self.rest.at(&changes), &force));
         let (first, turn) = *self.members.first()?;
         let frequency = turn * forces.frequency(first);
-        amplitudes
-            .iter()
-            .all(|y| y.is_finite())
-            .then_some((frequency, amplitudes))
+        let finite = amplitudes.iter().map(|y| y.is_finite().then_some(*y));
+        Some((frequency, finite.collect()))
     }
 }
 

@@ -197,7 +197,6 @@ impl Response {
                 answer.add(&derivatives)?;
                 derivatives.response
             }
-            Err(error) if self.bands => return Err(error.into()),
             // Amplitudes exist at critical states, and beside outputs that have none.
             Err(error) => {
                 let response = study.forced_response().map_err(|_| error.clone())?;

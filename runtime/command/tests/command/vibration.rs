@@ -317,12 +317,16 @@ fn an_output_without_a_derivative_is_named() {
         "{}",
         at_point.out
     );
-    for more in [
-        &["--set", "omega=50rad/s", "--bands"][..],
-        &[sweep[0], sweep[1], "--peaks", "--of", "shake"],
-    ] {
-        let found = run(&[&["response", &file][..], more].concat());
-        assert_eq!(found.code, 1, "{more:?}: {}", found.err);
+    let bands = run(&["response", &file, "--set", "omega=50rad/s", "--bands"]).out;
+    let row = |name: &str| {
+        let mut rows = bands.lines().filter(|row| row.contains(name));
+        rows.next().expect("a row").to_owned()
+    };
+    assert!(row("far under u").contains("no value"), "{bands}");
+    assert!(!row("shake under u").contains("no value"), "{bands}");
+    for of in ["shake", "far"] {
+        let found = run(&["response", &file, sweep[0], sweep[1], "--peaks", "--of", of]);
+        assert_eq!(found.code, 1, "{of}: {}", found.err);
         assert!(
             found
                 .err

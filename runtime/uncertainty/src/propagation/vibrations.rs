@@ -77,8 +77,8 @@ impl Model for Vibrations<'_> {
                 *value = amplitudes[*index]
                     .as_ref()
                     .and_then(|(frequency, outputs)| {
-                        let y = outputs.get(vibration.output.index())?;
-                        Some(vibration.measure.of(*frequency, *y).norm())
+                        let y = (*outputs.get(vibration.output.index())?)?;
+                        Some(vibration.measure.of(*frequency, y).norm())
                     });
             }
             let outcome = Outcome::Stable;
