@@ -4,6 +4,7 @@ mod along;
 mod balanced;
 mod common;
 mod families;
+mod followed;
 mod members;
 mod random;
 mod reference;

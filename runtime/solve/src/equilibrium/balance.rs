@@ -44,27 +44,29 @@ pub(super) fn without_rounding(data: &Data<'_>, q: &[f64], residual: &[f64]) -> 
     (left[..] != *residual).then_some(left)
 }
 
-/// Sets to zero what is rounding of the data in a stiffness against motions that hardly anything resists.
+/// Sets to zero what is rounding of the data in a stiffness against motions that hardly anything resists, and in equations
+/// that hardly any motion appears in.
 pub(super) fn remove_rounding(data: &Data<'_>, q: &[f64], stiffness: &mut Matrix) {
-    let motions = data.motions;
-    let large = |i: usize| data.description.large(i);
-    let size = |i: usize| {
-        let row = stiffness[i].iter().take(motions).enumerate();
-        row.fold(0.0, |most, (j, value)| {
-            greater(most, value.abs() * large(i) * large(j))
-        })
-    };
-    let sizes: Vector = (0..motions).map(size).collect();
-    let faint = FAINT * largest(&sizes);
-    let faint: Vec<bool> = sizes.iter().map(|size| *size < faint).collect();
-    let resisted = |i: &usize| faint[*i] && sizes[*i] > 0.0;
-    if (0..motions).any(|i| resisted(&i)) {
+    let n = data.motions;
+    let (mut rows, mut columns) = (Vector::zeros(n), Vector::zeros(n));
+    for i in 0..n {
+        for j in 0..n {
+            let large = data.description.large(i) * data.description.large(j);
+            let size = stiffness[i][j].abs() * large;
+            rows[i] = greater(rows[i], size);
+            columns[j] = greater(columns[j], size);
+        }
+    }
+    let limit = FAINT * largest(&rows);
+    let faint = |size: &f64| *size < limit;
+    if (rows.iter().chain(&columns)).any(|size| faint(size) && *size > 0.0) {
+        let faint = [rows, columns].map(|sizes| sizes.iter().map(faint).collect::<Vec<bool>>());
         remove(data, q, &faint, stiffness);
     }
 }
 
 #[cold]
-fn remove(data: &Data<'_>, q: &[f64], faint: &[bool], stiffness: &mut Matrix) {
+fn remove(data: &Data<'_>, q: &[f64], [rows, columns]: &[Vec<bool>; 2], stiffness: &mut Matrix) {
     let n = q.len();
     let change = change(data, q, |q, inputs, design| {
         let (_, stiffness) = data.mechanism.residual_and_stiffness(q, inputs, design);
@@ -74,10 +76,10 @@ fn remove(data: &Data<'_>, q: &[f64], faint: &[bool], stiffness: &mut Matrix) {
         true => greater(change[i * n + j], change[j * n + i]),
         false => change[i * n + j],
     };
-    for i in 0..faint.len() {
-        for j in 0..faint.len() {
+    for i in 0..rows.len() {
+        for j in 0..columns.len() {
             let is_rounding = stiffness[i][j].abs() <= FACTOR * of(i, j);
-            if (faint[i] || faint[j]) && is_rounding {
+            if (rows[i] || columns[j]) && is_rounding {
                 stiffness[i][j] = 0.0;
             }
         }

@@ -11,8 +11,10 @@
 //! K' = V^T (K - C Z A W^T C) Y
 //! ```
 //!
-//! where `V` and `Y` complete `W` and `Z`. It has the other eigenvalues, and the symmetries of the first. A motion that
-//! is damped but not held (`W^T C Z` regular) has a single zero, which stays in the pencil.
+//! where `V` and `Y` complete `W` and `Z`. It has the other eigenvalues, and the symmetries of the first if `V = Y`, which
+//! selects coordinates, completes both. Where `W` differs from `Z`, as under follower loads, `V = Y - Z A W^T M Y`: so
+//! `M' = V^T M V` is symmetric and positive definite as `M` is. A motion that is damped but not held (`W^T C Z` regular)
+//! has a single zero, which stays in the pencil.
 //!
 //! # Zeros are taken out exactly
 //!
@@ -45,9 +47,10 @@ struct Deflated<'a> {
     left: Vec<Vector>,
     /// `A`.
     inverse: Matrix,
-    /// The coordinates and equations that `Y` and `V` select.
-    kept_right: Vec<usize>,
-    kept_left: Vec<usize>,
+    /// The coordinates that `Y` selects.
+    kept: Vec<usize>,
+    /// `V`, one vector for each; `None` if it is `Y`.
+    test: Option<Vec<Vector>>,
 }
 
 impl<'a> Deflated<'a> {
@@ -60,19 +63,36 @@ impl<'a> Deflated<'a> {
         let inverse = inverse(&product(&left, mass, &right))?;
         let size = Vector::from_fn(mass.row_count(), |i| mass[i][i].abs().sqrt());
         let weighted = |x: &Vector| x.iter().zip(&size).map(|(x, size)| x * size).collect();
-        let kept_right = others(right.iter().map(weighted));
-        let kept_left = match left == right {
-            true => kept_right.clone(),
-            false => others(left.iter().map(weighted)),
-        };
-        Some(Self {
+        let kept = others(right.iter().map(weighted));
+        let mut deflated = Self {
             linear,
             right,
             left,
             inverse,
-            kept_right,
-            kept_left,
-        })
+            kept,
+            test: None,
+        };
+        if deflated.left != deflated.right {
+            deflated.test = Some(deflated.projected());
+        }
+        Some(deflated)
+    }
+
+    /// `Y - Z A W^T M Y`.
+    fn projected(&self) -> Vec<Vector> {
+        let mass = &self.linear.mass;
+        let images: Vec<Vector> = self.left.iter().map(|w| times_left(w, mass)).collect();
+        let vector = |&kept: &usize| {
+            let mut vector = Vector::zeros(mass.row_count());
+            vector[kept] = 1.0;
+            for (row, z) in self.inverse.iter().zip(&self.right) {
+                let terms = row.iter().zip(&images);
+                let amount: f64 = terms.map(|(inverse, image)| inverse * image[kept]).sum();
+                add_to(&mut vector, -amount, z);
+            }
+            vector
+        };
+        self.kept.iter().map(vector).collect()
     }
 
     fn pencil(&self) -> Linear {
@@ -82,22 +102,29 @@ impl<'a> Deflated<'a> {
             stiffness,
         } = self.linear;
         let (m, c) = (self.images(mass), self.images(damping));
+        let kept = &self.kept;
         let block = |matrix: &Matrix, pairs: &[(&Images, &Images)]| {
-            let mut reduced =
-                Matrix::from_fn(self.kept_left.len(), self.kept_right.len(), |i, j| {
-                    let (i, j) = (self.kept_left[i], self.kept_right[j]);
-                    pairs.iter().fold(matrix[i][j], |sum, (of_right, of_left)| {
-                        sum - self.coupling(of_right, of_left, i, j)
-                    })
-                });
-            restore_symmetry(&mut reduced, matrix);
-            reduced
+            let element = |i: usize, j: usize| {
+                pairs.iter().fold(matrix[i][j], |sum, (of_right, of_left)| {
+                    sum - self.coupling(of_right, of_left, i, j)
+                })
+            };
+            let Some(test) = &self.test else {
+                let mut reduced =
+                    Matrix::from_fn(kept.len(), kept.len(), |i, j| element(kept[i], kept[j]));
+                restore_symmetry(&mut reduced, matrix);
+                return reduced;
+            };
+            let rows = Matrix::from_fn(kept.len(), matrix.row_count(), |j, i| element(i, kept[j]));
+            Matrix::from_fn(kept.len(), kept.len(), |i, j| dot(&test[i], &rows[j]))
         };
-        Linear {
+        let mut pencil = Linear {
             mass: block(mass, &[(&m, &m)]),
             damping: block(damping, &[(&m, &c), (&c, &m)]),
             stiffness: block(stiffness, &[(&c, &c)]),
-        }
+        };
+        restore_symmetry(&mut pencil.mass, mass);
+        pencil
     }
 
     /// `matrix Z` and `W^T matrix`.
@@ -121,7 +148,7 @@ impl<'a> Deflated<'a> {
 
     /// `phi` of `e`.
     fn right(&self, s: Complex64, e: &[Complex64]) -> Vector<Complex64> {
-        let mut phi = placed(self.linear.mass.column_count(), &self.kept_right, e);
+        let mut phi = placed(self.linear.mass.column_count(), &self.kept, e);
         let along: Vec<Complex64> = (self.left.iter())
             .map(|w| {
                 let terms = times_left(w, &self.linear.mass);
@@ -141,7 +168,18 @@ impl<'a> Deflated<'a> {
 
     /// `psi` of the left vector of the deflated pencil.
     fn left(&self, s: Complex64, e: &[Complex64]) -> Vector<Complex64> {
-        let mut psi = placed(self.linear.mass.row_count(), &self.kept_left, e);
+        let mut psi = match &self.test {
+            None => placed(self.linear.mass.row_count(), &self.kept, e),
+            Some(test) => {
+                let mut psi = Vector::zeros(self.linear.mass.row_count());
+                for (amount, vector) in e.iter().zip(test) {
+                    psi.iter_mut()
+                        .zip(vector)
+                        .for_each(|(psi, value)| *psi += amount * value);
+                }
+                psi
+            }
+        };
         let along: Vec<Complex64> = (self.right.iter())
             .map(|z| {
                 let terms = times(&self.linear.mass, z);

@@ -1,0 +1,98 @@
+//! Machines that nothing holds, under loads that follow them: their stiffness has different null vectors on the left and
+//! on the right. Eigenvalues against those of the whole system of first order, zeros included, by another library.
+
+use eigentol::kernels::Linear;
+use eigentol::{Complex, Matrix, Stability};
+use eigentol_statistics::random::RandomNumbers;
+use nalgebra::DMatrix;
+
+use super::common::study;
+
+/// Four bars in a row that floats in a plane, with springs and perhaps dampers in the joints, between two thrusts along
+/// the first and the last bar.
+fn row(random: &mut RandomNumbers, damped: bool) -> String {
+    let mut number = |low: f64, high: f64| low + (high - low) * random.fraction();
+    let thrust = number(-10.0, 60.0);
+    let mut text = format!(
+        "body b0: rod(mass: {} kg, length: 1 m, along: x);
+         joint float: planar(u: x, v: z, q: y) from ground to b0;",
+        number(0.5, 2.0)
+    );
+    for k in 1..4 {
+        text += &format!(
+            "body b{k}: rod(mass: {} kg, length: 1 m, along: x);
+             joint j{k}: revolute(y) from b{} to b{k} at [1, 0, 0] m;
+             force s{k}: spring(on: j{k}, stiffness: {} N*m/rad);",
+            number(0.5, 2.0),
+            k - 1,
+            number(5.0, 20.0)
+        );
+        if damped {
+            let damping = number(0.05, 0.5);
+            text += &format!("force d{k}: damper(on: j{k}, damping: {damping} N*m*s/rad);");
+        }
+    }
+    format!(
+        "mechanism Row {{
+            design p = {thrust} N;
+            {text}
+            point tail: b0; point tip: b3 at [1, 0, 0] m;
+            force push: follower(at: tail, force: [1, 0, 0] * p);
+            force pull: follower(at: tip, force: [-1, 0, 0] * p); }}"
+    )
+}
+
+/// The eigenvalues above and on the real axis, those of zero first: six, found to the root of rounding.
+fn eigenvalues(linear: &Linear) -> Vec<Complex> {
+    let matrix = |matrix: &Matrix| DMatrix::from_fn(6, 6, |i, j| matrix[i][j]);
+    let [mass, damping, stiffness] = [&linear.mass, &linear.damping, &linear.stiffness].map(matrix);
+    let factors = mass.lu();
+    let [damping, stiffness] =
+        [damping, stiffness].map(|matrix| factors.solve(&matrix).expect("masses"));
+    let whole = DMatrix::from_fn(12, 12, |i, j| match (i < 6, j < 6) {
+        (true, true) => 0.0,
+        (true, false) => f64::from(u8::from(i + 6 == j)),
+        (false, true) => -stiffness[(i - 6, j)],
+        (false, false) => -damping[(i - 6, j - 6)],
+    });
+    let mut all: Vec<Complex> = whole.complex_eigenvalues().iter().copied().collect();
+    all.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    assert!(all[5].norm() < 1e-5 && all[6].norm() > 1e-2, "{all:?}");
+    let above = all.drain(6..).filter(|s| s.im > -1e-9 * s.norm());
+    above.collect()
+}
+
+/// Whether every one of some numbers is near one of others, or to its conjugate.
+fn among(some: &[Complex], others: &[Complex]) -> bool {
+    some.iter().all(|a| {
+        let near = |b: &Complex| (a - b).norm().min((a - b.conj()).norm()) < 1e-7 * a.norm();
+        others.iter().any(near)
+    })
+}
+
+#[test]
+fn modes_of_floating_rows_between_thrusts() {
+    let mut random = RandomNumbers::new(5, 0);
+    let mut unstable = 0;
+    for k in 0..80 {
+        let text = row(&mut random, k % 2 == 0);
+        let study = study(&text);
+        let at = study
+            .equilibrium()
+            .unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let expected = eigenvalues(&at.linear);
+        let modes = study
+            .modes()
+            .unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let found: Vec<Complex> = modes.modes.iter().map(|mode| mode.s).collect();
+        assert_eq!(found[..3], [Complex::ZERO; 3], "{found:?}\n{text}");
+        let (found, whole) = (&found[3..], (&found, &expected));
+        assert!(among(found, &expected), "{whole:?}\n{text}");
+        assert!(among(&expected, found), "{whole:?}\n{text}");
+        let grows = expected.iter().any(|s| s.re > 1e-7 * s.norm());
+        unstable += usize::from(grows);
+        let neutral = at.stability == Stability::Neutral { zero: 3 };
+        assert_eq!(neutral, !grows, "{:?}\n{text}", at.stability);
+    }
+    assert!((10..70).contains(&unstable), "{unstable}");
+}
