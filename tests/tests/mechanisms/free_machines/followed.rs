@@ -2,7 +2,7 @@
 //! on the right. Eigenvalues against those of the whole system of first order, zeros included, by another library.
 
 use eigentol::kernels::Linear;
-use eigentol::{Complex, Matrix, Stability};
+use eigentol::{Complex, DesignVariable, Matrix, Stability};
 use eigentol_statistics::random::RandomNumbers;
 use nalgebra::DMatrix;
 
@@ -95,4 +95,42 @@ fn modes_of_floating_rows_between_thrusts() {
         assert_eq!(neutral, !grows, "{:?}\n{text}", at.stability);
     }
     assert!((10..70).contains(&unstable), "{unstable}");
+}
+
+/// Derivatives by the thrust, which the left vectors decide, against differences.
+#[test]
+fn derivatives_of_floating_rows_between_thrusts() {
+    let mut random = RandomNumbers::new(6, 0);
+    let mut compared = 0;
+    for k in 0..20 {
+        let text = row(&mut random, k % 2 == 0);
+        let study = study(&text);
+        let thrust: DesignVariable<_> = DesignVariable::new(0);
+        let at = study.design_values()[0];
+        let step = 1e-5 * at.abs();
+        let ends = [at - step, at + step].map(|value| {
+            let modes = study.clone().design(thrust, value).modes();
+            modes.expect("modes").modes
+        });
+        let modes = study.modes().expect("modes").modes;
+        let found = study.sensitivities().expect("derivatives").modes;
+        for (k, mode) in modes.iter().enumerate().skip(3) {
+            let Some(slopes) = found[k].s() else { continue };
+            let [low, high] = ends.each_ref().map(|modes| {
+                let others = modes.iter().map(|other| other.s);
+                let near =
+                    |a: &Complex, b: &Complex| (a - mode.s).norm().total_cmp(&(b - mode.s).norm());
+                others.min_by(near).expect("a mode")
+            });
+            let difference = (high - low) / (2.0 * step);
+            let error = (slopes.by_design[0] - difference).norm();
+            assert!(
+                error < 1e-5 * (difference.norm() + mode.s.norm() / at.abs()),
+                "{} {difference}\n{text}",
+                slopes.by_design[0]
+            );
+            compared += 1;
+        }
+    }
+    assert!(compared > 50, "{compared}");
 }
