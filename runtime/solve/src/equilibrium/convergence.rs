@@ -149,8 +149,8 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
 /// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, a reaction
 /// that is pure rounding as a small share of the largest one. The gap of a constraint is relative to what those motions
 /// open. A residual that is not small by this is compared with what the constraints pass on from other equations too:
-/// where links carry no load, all of their own forces are rounding. What is left then is compared with what rounding of
-/// the data changes in it (see `balance`).
+/// where links carry no load, all of their own forces are rounding. Where nothing resists some motion, what is left then
+/// is compared with what rounding of the data changes in it (see `balance`).
 pub fn relative_residual(
     point: &OperatingPoint<'_>,
     q: &[f64],
@@ -190,7 +190,9 @@ pub(crate) fn relative_to_parts(
         }
     };
     let value = relative(residual);
-    let left = (value > TOLERANCE).then(|| without_rounding(&point.data(), q, residual));
+    let unresisted = point.free() > 0 || point.of_family();
+    let left =
+        (value > TOLERANCE && unresisted).then(|| without_rounding(&point.data(), q, residual));
     left.flatten().map_or(value, |left| relative(&left))
 }
 

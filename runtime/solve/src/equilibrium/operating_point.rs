@@ -103,7 +103,10 @@ impl<'a> OperatingPoint<'a> {
     #[doc(hidden)]
     #[inline]
     pub fn held_like(mut self, other: &FreeDirections) -> Self {
-        self.held = self.at_declared_values(&other.held);
+        match other.held.is_empty() {
+            true => self.held.clear(),
+            false => self.held = self.at_declared_values(&other.held),
+        }
         self
     }
 
