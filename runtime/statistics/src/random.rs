@@ -47,12 +47,14 @@ impl RandomNumbers {
     }
 
     /// The next number as a probability in (0, 1).
+    #[inline]
     pub fn probability(&mut self) -> f64 {
         probability(self.bits())
     }
 }
 
 /// Converts 64 random bits to a probability strictly between 0 and 1, an odd multiple of `2^-53`.
+#[inline]
 #[must_use]
 pub fn probability(bits: u64) -> f64 {
     ((bits >> 12) as f64 + 0.5) * 2.0_f64.powi(-52)

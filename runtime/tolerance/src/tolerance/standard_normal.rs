@@ -7,6 +7,15 @@ impl Tolerances {
     #[doc(hidden)]
     pub fn design_from_normal(&self, nominal: &[f64], z: &[f64], into: &mut [f64]) {
         match self.joint() {
+            None if self.correlation().is_none() => {
+                let means = nominal.iter().zip(self.shifts());
+                let normal = self.sigmas().iter().zip(z);
+                for (value, ((nominal, shift), (sigma, z))) in
+                    into.iter_mut().zip(means.zip(normal))
+                {
+                    *value = nominal + shift + sigma * z;
+                }
+            }
             None => {
                 let means = nominal.iter().zip(self.shifts());
                 let rows = self.factor().iter().zip(means);
