@@ -6,7 +6,6 @@ mod residual;
 
 use super::tridiagonal;
 use crate::algebra::{Matrix, Vector, for_size, largest};
-use refine::refine;
 use residual::Matrices;
 
 /// Why the eigenproblem was not solved.
@@ -249,6 +248,36 @@ pub(crate) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), 
     Ok(())
 }
 
+/// Improves pairs by inverse iteration, and keeps them mass-orthogonal to the earlier ones near them. Leaves those
+/// unchanged that it does not improve. The mass may be singular, as where unknowns include reactions.
+///
+/// # Errors
+/// If a pair was found twice.
+pub fn refine(
+    stiffness: &Matrix,
+    mass: &Matrix,
+    pairs: &mut Pairs,
+    which: &[usize],
+) -> Result<(), EigenproblemError> {
+    let n = stiffness.row_count();
+    let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
+    let shapes = pairs.shapes.as_flattened_mut();
+    for &r in which {
+        refine::refine(&Matrices { n, k, m }, &mut pairs.lambda, shapes, r);
+    }
+    distinct(m, shapes, n)
+}
+
+fn distinct(mass: &[f64], shapes: &[f64], n: usize) -> Result<(), EigenproblemError> {
+    match refine::repeated(mass, shapes, n) {
+        None => Ok(()),
+        Some(mode) => Err(EigenproblemError::Inaccurate {
+            mode,
+            residual: f64::INFINITY,
+        }),
+    }
+}
+
 /// Sorts, refines where needed, fixes signs and checks each residual.
 #[inline(always)]
 fn finish(
@@ -264,13 +293,14 @@ fn finish(
         let range = r * n..(r + 1) * n;
         (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[range.clone()]);
         if residuals[r] > INACCURATE {
-            refine(matrices, lambda, shapes, r);
+            refine::refine(matrices, lambda, shapes, r);
             (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[range.clone()]);
             refined = true;
         }
         residuals[r] = accepted(matrices, (lambda[r], &shapes[range]), (r, residuals[r]))?;
     }
     if refined {
+        distinct(matrices.m, shapes, n)?;
         sort(n, lambda, shapes, (residuals, errors));
     }
     let small = SMALL * largest(lambda);

@@ -11,6 +11,8 @@ use crate::algebra::{Lu, Matrix, largest};
 const STEPS: usize = 4;
 /// Eigenvalues closer than this, relative to the larger, may mix in an inverse iteration.
 const NEAR: f64 = 1e-3;
+/// Mass product of two shapes above which they are of one mode; those of equal modes need not be exactly orthogonal.
+const SAME: f64 = 0.5;
 
 /// Improves pair `r` and keeps it mass-orthogonal to the earlier pairs near it. Leaves it unchanged if that does not
 /// help.
@@ -61,6 +63,18 @@ pub(super) fn refine(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64]
             shapes[range.clone()].copy_from_slice(shape);
         }
     }
+}
+
+/// The first pair whose shape is that of an earlier one, which inverse iteration may find again where eigenvalues spread
+/// over more orders of magnitude than a double has digits.
+#[cold]
+pub(super) fn repeated(mass: &[f64], shapes: &[f64], n: usize) -> Option<usize> {
+    let mut weighted = vec![0.0; n];
+    shapes.chunks_exact(n).enumerate().position(|(r, shape)| {
+        multiply(mass, shape, &mut weighted);
+        let mut earlier = shapes[..r * n].chunks_exact(n);
+        earlier.any(|other| dot(other, &weighted).abs() > SAME)
+    })
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

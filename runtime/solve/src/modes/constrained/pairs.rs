@@ -78,14 +78,37 @@ fn reduced_pairs(
         *lambda += numerator;
         pairs.errors[r] = pairs.errors[r].max(rounding);
         let shape = with_reactions(linear, tangent, *lambda, &x);
-        let residual = residual(linear, tangent, *lambda, &shape);
+        pairs.residuals[r] = residual(linear, tangent, *lambda, &shape);
         pairs.shapes[r].copy_from_slice(&shape);
-        pairs.residuals[r] = residual;
-        if residual.is_nan() || residual > ACCEPTED {
-            return Err(EigenproblemError::Inaccurate { mode: r, residual });
+    }
+    refine(linear, tangent, &mut pairs)?;
+    Ok(pairs)
+}
+
+/// Improves those pairs with the complete matrices that the projection onto the free directions left inaccurate: stiff
+/// members leave their rounding in the projected matrices.
+fn refine(linear: &Linear, tangent: &Tangent, pairs: &mut Pairs) -> Result<(), EigenproblemError> {
+    let all = 0..tangent.freedom;
+    let inaccurate: Vec<usize> = all.filter(|&r| !accurate(pairs.residuals[r])).collect();
+    if inaccurate.is_empty() {
+        return Ok(());
+    }
+    symmetric::refine(&linear.stiffness, &linear.mass, pairs, &inaccurate)?;
+    for mode in inaccurate {
+        let (lambda, shape) = (pairs.lambda[mode], &pairs.shapes[mode]);
+        let (off, rounding) = quotient(linear, lambda, shape);
+        pairs.errors[mode] = rounding + 2.0 * off.abs();
+        let residual = residual(linear, tangent, lambda, shape);
+        pairs.residuals[mode] = residual;
+        if !accurate(residual) {
+            return Err(EigenproblemError::Inaccurate { mode, residual });
         }
     }
-    Ok(pairs)
+    Ok(())
+}
+
+fn accurate(residual: f64) -> bool {
+    residual <= ACCEPTED
 }
 
 /// Accepted residual of a pair relative to the terms in it.

@@ -4,6 +4,7 @@ mod checks;
 mod closed_forms;
 mod conservative;
 mod families;
+mod graded;
 mod hard;
 mod known;
 mod near;
