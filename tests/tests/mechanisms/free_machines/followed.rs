@@ -134,3 +134,52 @@ fn derivatives_of_floating_rows_between_thrusts() {
     }
     assert!(compared > 50, "{compared}");
 }
+
+/// A row with its second bar split into two that are pinned to each other at both ends, a closed loop.
+fn with_a_loop(row: &str, share: f64) -> String {
+    let (start, rest) = row.split_once("body b1: rod(mass: ").expect("a second bar");
+    let (mass, rest) = rest.split_once(" kg").expect("its mass");
+    let mass: f64 = mass.parse().expect("a number");
+    let rest = rest.replacen(
+        "point tail",
+        &format!(
+            "body twin: rod(mass: {} kg, length: 1 m, along: x);
+             joint root: revolute(y) from b0 to twin at [1, 0, 0] m;
+             joint end: revolute(y) from b1 to twin at [1, 0, 0] m at [1, 0, 0] m on twin;
+             point tail",
+            mass * share
+        ),
+        1,
+    );
+    let mass = mass * (1.0 - share);
+    format!("{start}body b1: rod(mass: {mass} kg{rest}")
+}
+
+/// A bar in two parts moves as in one piece: eigenvalues and derivatives are those of the row without a loop.
+#[test]
+fn loops_in_floating_rows_between_thrusts() {
+    let mut random = RandomNumbers::new(7, 0);
+    for k in 0..20 {
+        let text = row(&mut random, k % 2 == 0);
+        let closed = with_a_loop(&text, 0.1 + 0.8 * random.fraction());
+        let [expected, found] = [&text, &closed].map(|text| {
+            let derivatives = study(text).sensitivities();
+            let derivatives = derivatives.unwrap_or_else(|error| panic!("{error}\n{text}"));
+            let slopes = derivatives.modes.into_iter().map(|mode| {
+                let slopes = mode.s().map(|slopes| slopes.by_design[0]);
+                slopes.unwrap_or_default()
+            });
+            let modes = study(text).modes().expect("modes").modes;
+            let values = modes.iter().map(|mode| mode.s);
+            values.zip(slopes).collect::<Vec<_>>()
+        });
+        assert_eq!(found.len(), expected.len(), "{closed}");
+        for ((s, slope), (exact, exact_slope)) in found.iter().zip(&expected) {
+            let error = (s - exact).norm();
+            assert!(error <= 1e-8 * exact.norm(), "{s} {exact}\n{closed}");
+            let error = (slope - exact_slope).norm();
+            let size = exact_slope.norm() + exact.norm();
+            assert!(error <= 1e-6 * size, "{slope} {exact_slope}\n{closed}");
+        }
+    }
+}
