@@ -3,7 +3,7 @@
 use super::refine::refine;
 use super::residual::{Matrices, Rest, second_order};
 use super::{
-    EigenproblemError, INACCURATE, SMALL, accepted, distinct, fix_sign, not_found, sort, symmetrise,
+    EigenproblemError, INACCURATE, SMALL, accepted, fix_sign, not_found, sort, symmetrise,
 };
 use crate::algebra::largest;
 use crate::eigenproblem::dense::{self, add, dot, dot_sizes};
@@ -42,7 +42,6 @@ pub(crate) fn solve(
         residuals[r] = accepted(matrices, (lambda[r], shape), (r, residuals[r]))?;
     }
     if moved {
-        distinct(matrices.m, shapes, n)?;
         sort(n, lambda, shapes, (residuals, errors));
     }
     let small = SMALL * largest(lambda);

@@ -265,11 +265,7 @@ pub fn refine(
     for &r in which {
         refine::refine(&Matrices { n, k, m }, &mut pairs.lambda, shapes, r);
     }
-    distinct(m, shapes, n)
-}
-
-fn distinct(mass: &[f64], shapes: &[f64], n: usize) -> Result<(), EigenproblemError> {
-    match refine::repeated(mass, shapes, n) {
+    match refine::repeated(m, shapes, n) {
         None => Ok(()),
         Some(mode) => Err(EigenproblemError::Inaccurate {
             mode,
@@ -300,7 +296,6 @@ fn finish(
         residuals[r] = accepted(matrices, (lambda[r], &shapes[range]), (r, residuals[r]))?;
     }
     if refined {
-        distinct(matrices.m, shapes, n)?;
         sort(n, lambda, shapes, (residuals, errors));
     }
     let small = SMALL * largest(lambda);
