@@ -58,7 +58,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-results",
             "eigentol-statistics",
         ],
-        15_850,
+        15_900,
     ),
     (
         "runtime/tolerance",
