@@ -148,7 +148,7 @@ fn judge_free(
             .any(|&value| value != 0.0);
     let stability = if negative > 0 && (!damped || (zero == 0 && negative % 2 == 1)) {
         Stability::Divergent { negative }
-    } else if negative > 0 || (damped && feeds_energy(linear)?) {
+    } else if negative > 0 || (damped && !dissipates(linear)) {
         return Ok(general((negative, zero), floor));
     } else if zero > 0 {
         Stability::Neutral { zero }
@@ -230,14 +230,15 @@ fn skew(matrix: &Matrix) -> bool {
         .all(|i| (0..=i).all(|j| (matrix[i][j] + matrix[j][i]).abs() <= threshold))
 }
 
-/// Whether the symmetric part of `Chat` has a negative eigenvalue beyond rounding.
-fn feeds_energy(linear: &Linear) -> Result<bool, Failure> {
+/// Whether no eigenvalue of the symmetric part of `Chat` is negative beyond rounding; `false` where that cannot be told.
+fn dissipates(linear: &Linear) -> bool {
     let damping = &linear.damping;
     let n = damping.row_count();
     let symmetric_part = Matrix::from_fn(n, n, |i, j| 0.5 * (damping[i][j] + damping[j][i]));
-    let pairs = symmetric::solve(&symmetric_part, &linear.mass)?;
-    Ok((0..n).any(|r| {
-        let error = pairs.errors[r].max(of_form(damping, &pairs.shapes[r]));
-        sign(pairs.lambda[r], error) == Sign::Negative
-    }))
+    symmetric::solve(&symmetric_part, &linear.mass).is_ok_and(|pairs| {
+        (0..n).all(|r| {
+            let error = pairs.errors[r].max(of_form(damping, &pairs.shapes[r]));
+            sign(pairs.lambda[r], error) != Sign::Negative
+        })
+    })
 }

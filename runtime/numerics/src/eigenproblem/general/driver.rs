@@ -125,17 +125,23 @@ pub fn solve_near(
         let pair = &computed.pairs[i];
         let vectors = i * n..(i + 1) * n;
         let (phi, psi) = (&computed.right[vectors.clone()], &computed.left[vectors]);
-        let Some(residual) = accepted(&mut solver, pair, phi, psi) else {
+        let (s, error) = (pair.s * rate, pair.error * rate);
+        if !s.is_finite() || error.is_nan() {
             let residual = pair.residual;
             return Err(EigenproblemError::Inaccurate { mode, residual });
+        }
+        // An eigenvalue with its error is an answer; without vectors it has no derivative.
+        let (residual, condition) = match accepted(&mut solver, pair, phi, psi) {
+            Some(residual) => (residual, pair.condition),
+            None => (pair.residual, f64::INFINITY),
         };
         roots.push(Root {
-            s: pair.s * rate,
+            s,
             right: finish(phi, right_units),
             left: finish(psi, left_units),
             residual,
-            error: pair.error * rate,
-            condition: pair.condition,
+            error,
+            condition,
         });
     }
     Ok(roots)

@@ -96,11 +96,16 @@ impl PairSolver<'_> {
             for k in 0..cluster.nullity {
                 step += self.basis_pair(cluster.s, k).newton / cluster.nullity as f64;
             }
+            if cluster.s.im == 0.0 {
+                step.im = 0.0;
+            }
             moved += modulus(step);
-            if step == Complex64::ZERO || moved.is_nan() || moved > allowed {
+            let next = cluster.s - step;
+            let crosses = cluster.s.im > 0.0 && next.im <= 0.0;
+            if step == Complex64::ZERO || moved.is_nan() || moved > allowed || crosses {
                 break;
             }
-            cluster.s -= step;
+            cluster.s = next;
         }
         if cluster.s.norm_sqr() < ZERO * ZERO {
             let zero = Cluster {

@@ -70,8 +70,10 @@ impl PairSolver<'_> {
                     break;
                 }
             }
-            let next = s - pair.newton;
-            if start.im > 0.0 && next.im <= 0.0 {
+            let mut next = s - pair.newton;
+            if start.im == 0.0 {
+                next.im = 0.0;
+            } else if next.im <= 0.0 {
                 break;
             }
             s = next;

@@ -2,9 +2,7 @@
 
 use super::refine::refine;
 use super::residual::{Matrices, Rest, second_order};
-use super::{
-    EigenproblemError, INACCURATE, SMALL, accepted, fix_sign, not_found, sort, symmetrise,
-};
+use super::{EigenproblemError, INACCURATE, SMALL, fix_sign, judged, not_found, sort, symmetrise};
 use crate::algebra::largest;
 use crate::eigenproblem::dense::{self, add, dot, dot_sizes};
 use crate::eigenproblem::tridiagonal;
@@ -39,7 +37,8 @@ pub(crate) fn solve(
             (residuals[r], errors[r]) = (residual.rest.relative(), residual.rest.error(n));
         }
         let shape = &shapes[r * n..(r + 1) * n];
-        residuals[r] = accepted(matrices, (lambda[r], shape), (r, residuals[r]))?;
+        (residuals[r], errors[r]) =
+            judged(matrices, (r, lambda), shape, (residuals[r], errors[r]))?;
     }
     if moved {
         sort(n, lambda, shapes, (residuals, errors));

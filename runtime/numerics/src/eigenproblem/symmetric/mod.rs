@@ -13,7 +13,7 @@ use residual::Matrices;
 pub enum EigenproblemError {
     /// The mass matrix has no positive pivot in this row.
     SingularMass(usize),
-    /// This pair failed its residual check.
+    /// This pair was not found.
     Inaccurate { mode: usize, residual: f64 },
 }
 
@@ -35,10 +35,8 @@ impl Pairs {
     }
 }
 
-/// Largest residual of an accepted pair, relative to `|K| + |lambda| |M|`.
+/// Residual, relative to the terms in it, up to which these terms measure a pair.
 const ACCEPTED: f64 = 1e-9;
-/// Residual of a pair that is exact up to rounding.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Residual above which a pair is improved by inverse iteration.
 pub const INACCURATE: f64 = 1e-13;
 
@@ -250,31 +248,16 @@ pub(crate) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), 
 
 /// Improves pairs by inverse iteration, and keeps them mass-orthogonal to the earlier ones near them. Leaves those
 /// unchanged that it does not improve. The mass may be singular, as where unknowns include reactions.
-///
-/// # Errors
-/// If a pair was found twice.
-pub fn refine(
-    stiffness: &Matrix,
-    mass: &Matrix,
-    pairs: &mut Pairs,
-    which: &[usize],
-) -> Result<(), EigenproblemError> {
+pub fn refine(stiffness: &Matrix, mass: &Matrix, pairs: &mut Pairs, which: &[usize]) {
     let n = stiffness.row_count();
     let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
     let shapes = pairs.shapes.as_flattened_mut();
     for &r in which {
         refine::refine(&Matrices { n, k, m }, &mut pairs.lambda, shapes, r);
     }
-    match refine::repeated(m, shapes, n) {
-        None => Ok(()),
-        Some(mode) => Err(EigenproblemError::Inaccurate {
-            mode,
-            residual: f64::INFINITY,
-        }),
-    }
 }
 
-/// Sorts, refines where needed, fixes signs and checks each residual.
+/// Sorts, refines where needed, measures each pair and fixes signs.
 #[inline(always)]
 fn finish(
     n: usize,
@@ -293,7 +276,8 @@ fn finish(
             (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[range.clone()]);
             refined = true;
         }
-        residuals[r] = accepted(matrices, (lambda[r], &shapes[range]), (r, residuals[r]))?;
+        let measured = (residuals[r], errors[r]);
+        (residuals[r], errors[r]) = judged(matrices, (r, lambda), &shapes[range], measured)?;
     }
     if refined {
         sort(n, lambda, shapes, (residuals, errors));
@@ -310,19 +294,27 @@ fn finish(
     Ok(())
 }
 
-/// The residual of pair `mode`, if it passes the check.
+/// The residual and the error of pair `r`. Where a matrix maps a shape to zero, the terms in the residual are rounding
+/// themselves and measure nothing: the matrices do, in their own metric.
+///
+/// # Errors
+/// If the pair is not finite.
 #[inline(always)]
-fn accepted(
+fn judged(
     matrices: &Matrices,
-    (lambda, shape): (f64, &[f64]),
-    (mode, residual): (usize, f64),
-) -> Result<f64, EigenproblemError> {
+    (r, lambda): (usize, &[f64]),
+    shape: &[f64],
+    (residual, error): (f64, f64),
+) -> Result<(f64, f64), EigenproblemError> {
     if residual <= ACCEPTED {
-        return Ok(residual);
+        return Ok((residual, error));
     }
-    // Relative to the matrices, because the terms are rounding themselves.
-    let rounding = matrices.is_rounding(lambda, shape).then_some(ROUNDING);
-    rounding.ok_or(EigenproblemError::Inaccurate { mode, residual })
+    let distance = matrices.distance(lambda[r], shape);
+    if !distance.is_finite() {
+        return Err(EigenproblemError::Inaccurate { mode: r, residual });
+    }
+    let share = distance / largest(lambda);
+    Ok((share.min(residual), error.max(distance)))
 }
 
 /// The error for a spectrum that was not found.

@@ -15,7 +15,8 @@ const NEAR: f64 = 1e-3;
 const SAME: f64 = 0.5;
 
 /// Improves pair `r` and keeps it mass-orthogonal to the earlier pairs near it. Leaves it unchanged if that does not
-/// help.
+/// help, or finds another pair again, as inverse iteration may where eigenvalues spread over more orders of magnitude
+/// than a double has digits.
 #[cold]
 pub(super) fn refine(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64], r: usize) {
     let n = matrices.n;
@@ -57,24 +58,15 @@ pub(super) fn refine(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64]
             return;
         }
         let reached = matrices.relative_residual(value, shape);
-        if reached < best {
+        multiply(matrices.m, shape, weighted);
+        let mut others = shapes.chunks_exact(n).enumerate().filter(|(s, _)| *s != r);
+        let repeated = others.any(|(_, other)| dot(other, weighted).abs() > SAME);
+        if reached < best && !repeated {
             best = reached;
             lambda[r] = value;
             shapes[range.clone()].copy_from_slice(shape);
         }
     }
-}
-
-/// The first pair whose shape is that of an earlier one, which inverse iteration may find again where eigenvalues spread
-/// over more orders of magnitude than a double has digits.
-#[cold]
-pub(super) fn repeated(mass: &[f64], shapes: &[f64], n: usize) -> Option<usize> {
-    let mut weighted = vec![0.0; n];
-    shapes.chunks_exact(n).enumerate().position(|(r, shape)| {
-        multiply(mass, shape, &mut weighted);
-        let mut earlier = shapes[..r * n].chunks_exact(n);
-        earlier.any(|other| dot(other, &weighted).abs() > SAME)
-    })
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -4,7 +4,8 @@
     reason = "index loops read as the formulas they are"
 )]
 
-use crate::algebra::{Vector, greater, largest};
+use crate::algebra::{Vector, greater};
+use crate::eigenproblem::dense;
 use crate::rounding::of_elements;
 
 /// Stiffness and mass, row by row.
@@ -21,12 +22,24 @@ impl Matrices<'_> {
         self.rest(self.n, lambda, phi).relative()
     }
 
-    /// Whether rounding of `phi` explains the residual: a shape that `K` maps to zero has nothing but rounding in the
-    /// active rows, so their terms are no measure.
-    pub(super) fn is_rounding(&self, lambda: f64, phi: &[f64]) -> bool {
-        let most = self.rest(self.n, lambda, phi).most;
-        let matrices = largest(self.k) + lambda.abs() * largest(self.m);
-        most <= of_elements(self.n) * matrices * largest(phi)
+    /// Distance from `lambda` within which there is an eigenvalue: the length of `K phi - lambda M phi` in the metric
+    /// `M^-1`, for `phi^T M phi = 1` (Parlett, "The Symmetric Eigenvalue Problem", 1998, theorem 15.9.1).
+    #[cold]
+    pub(super) fn distance(&self, lambda: f64, phi: &[f64]) -> f64 {
+        let n = self.n;
+        let mut lower = vec![0.0; n * n];
+        if dense::cholesky(n, self.m, &mut lower).is_err() {
+            return f64::INFINITY;
+        }
+        let mut rest = self.residual(lambda, phi).to_vec();
+        dense::solve_lower(n, &lower, 1, &mut rest);
+        rest.iter().map(|x| x * x).sum::<f64>().sqrt()
+    }
+
+    fn residual(&self, lambda: f64, phi: &[f64]) -> Vector {
+        let n = self.n;
+        let row = |matrix: &[f64], i: usize| dense::dot(&matrix[i * n..(i + 1) * n], phi);
+        Vector::from_fn(n, |i| row(self.k, i) - lambda * row(self.m, i))
     }
 
     /// Error of an eigenvalue caused by components of other modes in its shape `r`.
@@ -34,13 +47,7 @@ impl Matrices<'_> {
     pub(super) fn error_of_shape(&self, lambda: &[f64], shapes: &[f64], r: usize) -> f64 {
         let n = self.n;
         let phi = &shapes[r * n..(r + 1) * n];
-        let rest = Vector::from_fn(n, |i| {
-            let row = |matrix: &[f64]| -> f64 {
-                let row = &matrix[i * n..(i + 1) * n];
-                row.iter().zip(phi).map(|(a, b)| a * b).sum()
-            };
-            row(self.k) - lambda[r] * row(self.m)
-        });
+        let rest = self.residual(lambda[r], phi);
         let part = |values: &[f64]| values.iter().zip(&rest).map(|(a, b)| a * b).sum();
         second_order(lambda, r, shapes.chunks_exact(n).map(part))
     }

@@ -171,7 +171,7 @@ fn normalise(x: &mut [Complex], mass: &Matrix, size: Normalisation, leading: usi
     x.iter().all(|value| value.is_finite())
 }
 
-/// Collects roots: measures each pair on the bordered pencil, improves its eigenvalue and checks it.
+/// Collects roots: measures each pair on the bordered pencil and improves its eigenvalue.
 struct Gathered<'a> {
     linear: &'a Linear,
     structure: Structure,
@@ -198,10 +198,6 @@ impl<'a> Gathered<'a> {
         mut right: Vector<Complex>,
         mut left: Vector<Complex>,
     ) -> Result<(), EigenproblemError> {
-        let inaccurate = |residual| EigenproblemError::Inaccurate {
-            mode: self.roots.len(),
-            residual,
-        };
         let motions = self.structure.motions();
         // A left vector may consist of reactions only.
         let left_leading = match self.size {
@@ -213,7 +209,10 @@ impl<'a> Gathered<'a> {
                 && normalise(left, &self.linear.mass, self.size, left_leading)
         };
         if !settle(&mut right, &mut left) {
-            return Err(inaccurate(f64::INFINITY));
+            return Err(EigenproblemError::Inaccurate {
+                mode: self.roots.len(),
+                residual: f64::INFINITY,
+            });
         }
         let mut s = reduced.s;
         let mut measure = Measure::new(self.linear, motions, s, &right, &left);
@@ -249,14 +248,16 @@ impl<'a> Gathered<'a> {
                 (s, right, left, measure) = unimproved;
             }
         }
+        let mut condition = reduced.condition;
         if measure.residual.is_nan() || measure.residual > measure::ACCEPTED {
-            if !measure.rounding_only {
-                return Err(inaccurate(measure.residual));
+            match measure.rounding_only {
+                true => measure.residual = measure::ROUNDING,
+                // The eigenvalue is that of the smaller problem; without vectors it has no derivative.
+                false => (s, condition) = (reduced.s, f64::INFINITY),
             }
-            measure.residual = measure::ROUNDING;
         }
         let estimate = measure.doubt + 2.0 * measure.newton.norm() + f64::EPSILON * s.norm();
-        let error = if reduced.condition.is_finite() && estimate.is_finite() {
+        let error = if condition.is_finite() && estimate.is_finite() {
             reduced.error.max(estimate)
         } else {
             reduced.error
@@ -267,7 +268,7 @@ impl<'a> Gathered<'a> {
             left,
             residual: measure.residual,
             error,
-            condition: reduced.condition,
+            condition,
         });
         Ok(())
     }

@@ -81,37 +81,30 @@ fn reduced_pairs(
         pairs.residuals[r] = residual(linear, tangent, *lambda, &shape);
         pairs.shapes[r].copy_from_slice(&shape);
     }
-    refine(linear, tangent, &mut pairs)?;
+    refine(linear, tangent, &mut pairs);
     Ok(pairs)
 }
 
 /// Improves those pairs with the complete matrices that the projection onto the free directions left inaccurate: stiff
 /// members leave their rounding in the projected matrices.
-fn refine(linear: &Linear, tangent: &Tangent, pairs: &mut Pairs) -> Result<(), EigenproblemError> {
+fn refine(linear: &Linear, tangent: &Tangent, pairs: &mut Pairs) {
+    let accurate = |residual: f64| residual <= ACCEPTED;
     let all = 0..tangent.freedom;
     let inaccurate: Vec<usize> = all.filter(|&r| !accurate(pairs.residuals[r])).collect();
-    if inaccurate.is_empty() {
-        return Ok(());
-    }
-    symmetric::refine(&linear.stiffness, &linear.mass, pairs, &inaccurate)?;
+    symmetric::refine(&linear.stiffness, &linear.mass, pairs, &inaccurate);
     for mode in inaccurate {
         let (lambda, shape) = (pairs.lambda[mode], &pairs.shapes[mode]);
         let (off, rounding) = quotient(linear, lambda, shape);
-        pairs.errors[mode] = rounding + 2.0 * off.abs();
-        let residual = residual(linear, tangent, lambda, shape);
-        pairs.residuals[mode] = residual;
-        if !accurate(residual) {
-            return Err(EigenproblemError::Inaccurate { mode, residual });
-        }
+        pairs.residuals[mode] = residual(linear, tangent, lambda, shape);
+        let error = rounding + 2.0 * off.abs();
+        pairs.errors[mode] = match accurate(pairs.residuals[mode]) {
+            true => error,
+            false => error.max(pairs.errors[mode]),
+        };
     }
-    Ok(())
 }
 
-fn accurate(residual: f64) -> bool {
-    residual <= ACCEPTED
-}
-
-/// Accepted residual of a pair relative to the terms in it.
+/// Residual, relative to the terms in it, above which a pair is refined.
 const ACCEPTED: f64 = 1e-9;
 
 fn symmetrise(matrix: &mut Matrix) {

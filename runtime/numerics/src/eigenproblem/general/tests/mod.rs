@@ -6,6 +6,7 @@ mod conservative;
 mod families;
 mod hard;
 mod known;
+mod machines;
 mod near;
 mod parts;
 mod pencils;
