@@ -53,6 +53,7 @@ pub use crate::constraints::ConstraintState;
 pub use crate::free::{FreeDirections, Held};
 pub use crate::state::{Equilibrium, Note, Stability};
 
+use crate::error::NotFound;
 use crate::kernels::Kernels;
 use crate::{Error, Mode};
 
@@ -122,5 +123,22 @@ pub fn equilibrium_into(
 ) -> Result<Vec<Mode>, Error> {
     point.check_values()?;
     point.check_start(start)?;
-    solve_into(point, start, policy, state).map_err(|failure| failure.explain(&point.description))
+    solve_into(point, start, policy, state).or_else(|failure| {
+        let comes_to_rest = matches!(
+            failure,
+            Failure::NotFound {
+                reason: NotFound::IterationLimit | NotFound::Minimum,
+                ..
+            }
+        );
+        let beside = comes_to_rest.then(|| multistart::from_beside(point, start, policy));
+        let Some(mut found) = beside.flatten() else {
+            return Err(failure.explain(&point.description));
+        };
+        let unknowns = 0..point.motions();
+        let far = solve::far(point, start, &found.state.coordinates, unknowns);
+        found.state.notes.extend(far);
+        *state = found.state;
+        Ok(found.modes)
+    })
 }

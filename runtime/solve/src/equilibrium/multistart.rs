@@ -193,6 +193,28 @@ pub fn find_equilibria(
     })
 }
 
+/// Starts beside one from which the search comes to rest at no equilibrium.
+const BESIDE: usize = 8;
+
+/// The equilibrium found from the first of some starts around `start` that leads to one; each is farther away.
+#[cold]
+pub(super) fn from_beside(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    policy: Policy,
+) -> Option<SolvedState> {
+    let mut random = RandomNumbers::new(0, 0);
+    let (motions, share) = (point.motions(), 1.0 / BESIDE as f64);
+    (1..=BESIDE).find_map(|k| {
+        let beside = Vector::from_fn(start.len(), |i| {
+            let reach = share * k as f64 * point.description.large(i);
+            let moved = start[i] + reach * (2.0 * random.fraction() - 1.0);
+            if i < motions { moved } else { start[i] }
+        });
+        solve(point, &beside, policy).ok()
+    })
+}
+
 /// Whether half an equilibrium or more is still expected, after `found` distinct ones were met `met` times.
 fn more_expected(found: usize, met: usize) -> bool {
     2 * found * (found + 1) >= met.saturating_sub(found + 2)

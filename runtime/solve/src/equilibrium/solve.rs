@@ -83,10 +83,12 @@ fn solve_slowly(
             solved_state = member::select_member(point, start, solved_state)?;
         }
         if policy == Policy::Nearest {
-            solved_state
-                .state
-                .notes
-                .extend(far(point, start, &solved_state.state.coordinates));
+            solved_state.state.notes.extend(far(
+                point,
+                start,
+                &solved_state.state.coordinates,
+                point.named(),
+            ));
         }
         return Ok(solved_state);
     }
@@ -109,13 +111,16 @@ fn solve_slowly(
     solved_state
 }
 
-/// What to say if the nearest equilibrium is far from the start values that were given.
-fn far(point: &OperatingPoint<'_>, start: &[f64], q: &[f64]) -> Option<Note> {
+/// What to say if the nearest equilibrium is far from the start values of some unknowns.
+pub(super) fn far(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    q: &[f64],
+    unknowns: impl Iterator<Item = usize>,
+) -> Option<Note> {
     let away = |unknown: usize| (start[unknown] - q[unknown]).abs();
     let share = |unknown: usize| away(unknown) / point.description.large(unknown);
-    let unknown = point
-        .named()
-        .max_by(|a, b| share(*a).total_cmp(&share(*b)))?;
+    let unknown = unknowns.max_by(|a, b| share(*a).total_cmp(&share(*b)))?;
     let distance = away(unknown);
     (share(unknown) > FAR).then_some(Note::Far { unknown, distance })
 }

@@ -8,6 +8,9 @@ use super::pair::INACCURATE;
 use super::pencil::{bound, modulus};
 use super::solver::PairSolver;
 
+/// Errors in terms of the rounding of all elements to first order: what roundings of the products add to it. The most seen
+/// among 11,174 eigenvalues of random machines, known to 34 digits, is 2.6.
+pub(super) const MARGIN: f64 = 3.0;
 /// Eigenvalues farther away than this many errors are ignored.
 const FAR: f64 = 8.0;
 /// Accepted error of the sum of the eigenvalues, relative to their sizes.
@@ -119,7 +122,7 @@ fn error(solver: &mut PairSolver, computed: &ComputedPairs, i: usize) -> (f64, b
     let pair = &computed.pairs[i];
     let step = modulus(pair.newton);
     let rounding = pair.rounding();
-    let first = pair.doubt() + 2.0 * step + pair.second + rounding;
+    let first = MARGIN * pair.doubt() + 2.0 * step + pair.second + rounding;
     let n = solver.pencil.n;
     let mut gap = f64::INFINITY;
     for (s, _, _) in others(computed, i) {

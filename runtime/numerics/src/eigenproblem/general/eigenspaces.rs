@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::accuracy::DEFECTIVE;
+use super::accuracy::{DEFECTIVE, MARGIN};
 use super::cluster::{Cluster, ComputedPairs};
 use super::lu::Lu;
 use super::measure::{Pair, ZERO, normalise};
@@ -243,7 +243,7 @@ impl PairSolver<'_> {
         pair.conjugate = conjugate;
         if regular {
             pair.condition = self.condition(&pair, right, left);
-            pair.error = pair.doubt() + 2.0 * modulus(pair.newton) + pair.rounding();
+            pair.error = MARGIN * pair.doubt() + 2.0 * modulus(pair.newton) + pair.rounding();
         } else {
             let block = (cluster.multiplicity - cluster.regular)
                 .div_ceil(defective)
