@@ -46,9 +46,9 @@ impl Forced {
             };
             let ends = (values.first(), values.last());
             let peaks = match ends {
-                (Some(&first), Some(&last)) if first != last => (wanted.iter())
-                    .map(|x| (*x, study.peaks(*x, input, first, last)))
-                    .collect(),
+                (Some(&first), Some(&last)) if first != last => {
+                    peaks(study, &wanted, input, (first, last))
+                }
                 _ => Vec::new(),
             };
             ForcedAlong { bode, peaks }
@@ -58,6 +58,23 @@ impl Forced {
             spread: spread.transpose()?,
             along,
         })
+    }
+}
+
+/// The peaks of all vibrations; one by one if some have none because they are infinite.
+fn peaks<M: SummaryKernels>(
+    study: &Study<M>,
+    wanted: &[Vibration],
+    input: Input<M>,
+    (first, last): (f64, f64),
+) -> Vec<(Vibration, Result<Peaks, Error>)> {
+    let each = wanted.iter().copied();
+    match study.peaks_of(wanted, input, first, last) {
+        Ok(peaks) => each.zip(peaks.into_iter().map(Ok)).collect(),
+        Err(Error::Stopped) => each.map(|x| (x, Err(Error::Stopped))).collect(),
+        Err(_) => each
+            .map(|x| (x, study.peaks(x, input, first, last)))
+            .collect(),
     }
 }
 

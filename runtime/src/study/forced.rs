@@ -84,6 +84,21 @@ impl<M: CurvatureKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Peaks, Error> {
+        let peaks = self.peaks_of(&[vibration], input, low, high)?;
+        Ok(peaks.into_iter().next().expect("one for each vibration"))
+    }
+
+    /// The peaks of several amplitudes along an input, from the same states.
+    ///
+    /// # Errors
+    /// As [`Study::peaks`].
+    pub fn peaks_of(
+        &self,
+        vibrations: &[Vibration],
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+    ) -> Result<Vec<Peaks>, Error> {
         let low = self.settings.si(input.any().into(), low.into())?;
         let high = self.settings.si(input.any().into(), high.into())?;
         let table = Table::<dyn CurvatureKernels>::deviating(&self.settings, &self.mechanism)?;
@@ -95,9 +110,9 @@ impl<M: CurvatureKernels> Study<M> {
             point,
             &start,
             following,
-            Range::new(input.any(), low, high),
-            vibration,
+            (Range::new(input.any(), low, high), vibrations),
             Some(tolerances),
+            self.settings.watch(),
         )
     }
 }

@@ -5,7 +5,7 @@ use eigentol::forced::{Measure, response};
 use eigentol::peaks::{HalfPower, Moving, Peaks, peaks};
 use eigentol::response::Vibration;
 use eigentol::sweep::Range;
-use eigentol::{Any, Error, Excitation, Input, Output, Policy, Tolerances};
+use eigentol::{Any, Error, Excitation, Input, Output, Policy, Tolerances, Watch};
 use eigentol_interpreter::Interpreted;
 
 use super::models::{Jeffcott, Shaken};
@@ -16,22 +16,25 @@ fn vibration(o: usize) -> Vibration {
     Vibration::new(Output::<Any>::new(o), Excitation::<Any>::new(0))
 }
 
+fn one(found: Result<Vec<Peaks>, Error>) -> Peaks {
+    found.unwrap().remove(0)
+}
+
 const DESIGN: [f64; 4] = [12.0, 1.9e6, 310.0, 4e-5];
 
 fn jeffcott(low: f64, high: f64, steps: usize, tolerances: Option<&Tolerances>) -> Peaks {
     let range = Range::new(Input::new(0), low, high).steps(steps);
     let from = (&[0.0][..], &DESIGN[..]);
     let (policy, model) = (Policy::Stable, Derived(Jeffcott));
-    peaks(
+    one(peaks(
         &model,
         from,
         &[0.0; 2],
         policy,
-        range,
-        vibration(0),
+        (range, &[vibration(0)]),
         tolerances,
-    )
-    .unwrap()
+        Watch::default(),
+    ))
 }
 
 #[test]
@@ -95,9 +98,9 @@ fn an_undamped_mode_has_no_highest_amplitude() {
         from,
         &[0.0; 2],
         Policy::Stable,
-        range,
-        vibration(0),
+        (range, &[vibration(0)]),
         None,
+        Watch::default(),
     );
     assert!(
         matches!(error, Err(Error::Resonance { mode: Some(_), .. })),
@@ -142,7 +145,15 @@ fn the_poles_decide_how_many_peaks_there_are() {
                 let range = Range::new(Input::new(0), 0.5, 30.0).steps(steps);
                 let from = (&[1.0][..], &design[..]);
                 let wanted = vibration(o).measure(measure);
-                peaks(&model, from, &[0.0; 7], Policy::Stable, range, wanted, None).unwrap()
+                one(peaks(
+                    &model,
+                    from,
+                    &[0.0; 7],
+                    Policy::Stable,
+                    (range, &[wanted]),
+                    None,
+                    Watch::default(),
+                ))
             };
             let found = find(1);
             for steps in [2, 13] {
@@ -197,16 +208,15 @@ fn peaks_follow_the_design() {
     let find = |design: &[f64]| {
         let range = Range::new(Input::new(0), 6.0, 12.0);
         let from = (&[8.0, 6.5][..], design);
-        peaks(
+        one(peaks(
             &model,
             from,
             &[1.0],
             Policy::Stable,
-            range,
-            vibration(1),
+            (range, &[vibration(1)]),
             None,
-        )
-        .unwrap()
+            Watch::default(),
+        ))
     };
     let design = [1.3, 0.45, 0.02, 9.81, 0.002];
     let found = find(&design);

@@ -2,12 +2,12 @@
 
 use super::Search;
 use super::scan::scan;
-use super::state::{Along, ResponsePoint};
-use crate::Error;
+use super::state::{Along, Heard};
 use crate::algebra::Vector;
 use crate::forced::Vibration;
 use crate::kernels::CurvatureKernels;
 use crate::sweep::{Following, Range};
+use crate::{Error, Watch};
 
 /// What is asked about a vibration in a range of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +30,15 @@ pub(crate) fn highest(
     start: &[f64],
     (vibration, range, quantity): (Vibration, Range, PeakQuantity),
 ) -> Result<(f64, Option<Vector>), Error> {
-    let along = Along::new(mechanism, values, Following::default(), (range, vibration))?;
+    let vibrations = [vibration];
+    let of = (&range, &vibrations[..]);
+    let along = Along::new(
+        mechanism,
+        values,
+        Following::default(),
+        of,
+        Watch::default(),
+    )?;
     let scanned = scan(&along, &range, start)?;
     if let Some(gap) = scanned.gaps.first() {
         return Err(gap.reason.clone());
@@ -41,25 +49,33 @@ pub(crate) fn highest(
         scan: &scanned,
         ascending: range.high > range.low,
         tolerances: None,
+        which: 0,
     };
     let tops = search.tops()?;
-    let tops = tops.iter().map(|top| &top.1);
+    let tops = tops.iter().map(|top| top.1.heard(0));
     let (value, slopes) = match quantity {
         PeakQuantity::Height => {
             let ends = [scanned.states.first(), scanned.states.last()];
-            let all = tops.chain(ends.into_iter().flatten());
-            let greatest = all.max_by(lower).ok_or_else(none)?;
-            (greatest.square().value.sqrt(), greatest.modulus_by_design())
+            let ends = ends.into_iter().flatten().map(|end| {
+                let end = end.heard(0);
+                (end, end.square_by_design())
+            });
+            let all = tops.map(|top| (top, top.top_by_design())).chain(ends);
+            let (greatest, slopes) = all.max_by(|a, b| lower(&a.0, &b.0)).ok_or_else(none)?;
+            (
+                greatest.square().value.sqrt(),
+                greatest.modulus_by_design(&slopes),
+            )
         }
         PeakQuantity::Place => {
             let top = tops.max_by(lower).ok_or_else(none)?;
-            (top.value, top.place_by_design())
+            (top.point.value, top.place_by_design())
         }
     };
     let smooth = slopes.iter().all(|slope| slope.is_finite());
     Ok((value, smooth.then_some(slopes)))
 }
 
-fn lower(a: &&ResponsePoint, b: &&ResponsePoint) -> core::cmp::Ordering {
+fn lower(a: &Heard<'_>, b: &Heard<'_>) -> core::cmp::Ordering {
     a.square().value.total_cmp(&b.square().value)
 }

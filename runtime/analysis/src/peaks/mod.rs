@@ -15,14 +15,15 @@ pub(crate) use highest::highest;
 pub use separation::{Separation, SeparationMargin};
 
 use scan::{Scan, scan};
-use state::{Along, ResponsePoint};
+use state::{Along, Heard, ResponsePoint};
 
 use crate::algebra::Vector;
 use crate::forced::Vibration;
 use crate::kernels::CurvatureKernels;
+use crate::modes::modes;
 use crate::sweep::{Following, Gap, Range};
 use crate::tolerance::{Spread, Tolerances};
-use crate::{Description, Equilibrium, Error, Shared};
+use crate::{Description, Equilibrium, Error, Shared, Watch};
 
 /// The peaks of a vibration along an input.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,7 +130,8 @@ impl Moving {
     }
 }
 
-/// Finds every peak of a vibration in a range of an input, along the followed equilibria, from one at `start`.
+/// Finds every peak of some vibrations in a range of an input, along the followed equilibria, from one at `start`. Progress
+/// counts states.
 ///
 /// Peaks do not depend on the steps of the range: it is divided according to the distance of the poles from the
 /// frequency, until no peak can hide.
@@ -137,40 +139,45 @@ impl Moving {
 /// # Errors
 /// [`Error::UnknownHandle`], [`Error::Setting`], [`Error::NoExcitation`], [`Error::Resonance`] if an undamped mode is
 /// driven at its natural frequency within the range: the peak there is infinite. [`Error::WrongLength`] for tolerances
-/// of another mechanism, and the reason why there is no vibration in the whole range. A stretch without one is a gap.
+/// of another mechanism, [`Error::Stopped`], and the reason why there is no vibration in the whole range. A stretch without
+/// one is a gap.
 pub fn peaks(
     mechanism: &dyn CurvatureKernels,
     (u, b): (&[f64], &[f64]),
     start: &[f64],
     following: impl Into<Following>,
-    range: Range,
-    vibration: Vibration,
+    (range, vibrations): (Range, &[Vibration]),
     tolerances: Option<&Tolerances>,
-) -> Result<Peaks, Error> {
+    watch: Watch<'_>,
+) -> Result<Vec<Peaks>, Error> {
     if let Some(tolerances) = tolerances {
         tolerances.check_count(b.len())?;
     }
-    let along = Along::new(mechanism, (u, b), following.into(), (range, vibration))?;
+    let of = (&range, vibrations);
+    let along = Along::new(mechanism, (u, b), following.into(), of, watch)?;
     let scanned = scan(&along, &range, start)?;
-    let search = Search {
-        along: &along,
-        scan: &scanned,
-        ascending: range.high > range.low,
-        tolerances,
-    };
-    let tops = search.tops()?.into_iter();
-    let peaks = tops.map(|(k, top)| search.peak(k, top));
-    let peaks = peaks.collect::<Result<_, _>>()?;
-    Ok(Peaks {
-        vibration,
-        range,
-        peaks,
-        states: scanned.states.len(),
-        gaps: scanned.gaps,
-        sigma_level: tolerances.map(Tolerances::sigma_level),
-        inputs: u.into(),
-        description: mechanism.description(),
-    })
+    let each = vibrations.iter().enumerate().map(|(which, vibration)| {
+        let search = Search {
+            along: &along,
+            scan: &scanned,
+            ascending: range.high > range.low,
+            tolerances,
+            which,
+        };
+        let tops = search.tops()?.into_iter();
+        let peaks = tops.map(|(k, top)| search.peak(k, top));
+        Ok(Peaks {
+            vibration: *vibration,
+            range,
+            peaks: peaks.collect::<Result<_, Error>>()?,
+            states: scanned.states.len(),
+            gaps: scanned.gaps.clone(),
+            sigma_level: tolerances.map(Tolerances::sigma_level),
+            inputs: u.into(),
+            description: mechanism.description(),
+        })
+    });
+    each.collect()
 }
 
 /// The search for what lies between the states of a scan.
@@ -179,6 +186,8 @@ struct Search<'a> {
     scan: &'a Scan,
     ascending: bool,
     tolerances: Option<&'a Tolerances>,
+    /// The vibration.
+    which: usize,
 }
 
 /// A half-power point, and its frequency with the derivatives by the design.
@@ -192,7 +201,7 @@ const STEPS: usize = 80;
 
 impl Search<'_> {
     /// Whether the amplitude rises along the range.
-    fn rises(&self, state: &ResponsePoint) -> bool {
+    fn rises(&self, state: Heard<'_>) -> bool {
         let slope = state.square().slope;
         if self.ascending {
             slope > 0.0
@@ -201,11 +210,16 @@ impl Search<'_> {
         }
     }
 
-    /// The states at peaks, with the number of the state after each.
+    /// A state of the scan.
+    fn state(&self, k: usize) -> Heard<'_> {
+        self.scan.states[k].heard(self.which)
+    }
+
+    /// The states at peaks, each with this vibration alone, and the number of the state after each.
     fn tops(&self) -> Result<Vec<(usize, ResponsePoint)>, Error> {
         let mut tops = Vec::new();
         for k in 1..self.scan.states.len() {
-            let [a, b] = [k - 1, k].map(|k| &self.scan.states[k]);
+            let [a, b] = [k - 1, k].map(|k| self.state(k));
             let rises = self.rises(a) && !self.rises(b);
             if rises && !self.scan.after_gap.contains(&k) && a.line.audible {
                 let top = self.zero((a, b), |state| {
@@ -222,14 +236,14 @@ impl Search<'_> {
     /// as long as they stay between the signs and shrink, else halves.
     fn zero(
         &self,
-        (a, b): (&ResponsePoint, &ResponsePoint),
-        f: impl Fn(&ResponsePoint) -> (f64, f64),
+        (a, b): (Heard<'_>, Heard<'_>),
+        f: impl Fn(Heard<'_>) -> (f64, f64),
     ) -> Result<ResponsePoint, Error> {
-        let (mut low, mut high) = (a.value, b.value);
+        let (mut low, mut high) = (a.point.value, b.point.value);
         let positive = f(a).0 > 0.0;
         let nearer = if f(a).0.abs() < f(b).0.abs() { a } else { b };
-        let (mut value, mut at) = (nearer.value, f(nearer));
-        let mut from = nearer.equilibrium.coordinates.clone();
+        let (mut value, mut at) = (nearer.point.value, f(nearer));
+        let mut from = nearer.point.equilibrium.coordinates.clone();
         let mut last = (high - low).abs();
         for _ in 0..STEPS {
             let newton = value - at.0 / at.1;
@@ -238,9 +252,9 @@ impl Search<'_> {
                 true => newton,
                 false => 0.5 * (low + high),
             };
-            let state = self.along.state(next, &from)?;
+            let state = self.along.vibration(next, &from, self.which)?;
             let step = (next - value).abs();
-            (value, at, last) = (next, f(&state), step);
+            (value, at, last) = (next, f(state.heard(0)), step);
             if (at.0 > 0.0) == positive {
                 low = next;
             } else {
@@ -253,11 +267,14 @@ impl Search<'_> {
             }
             from = state.equilibrium.coordinates;
         }
-        self.along.state(value, &from)
+        self.along.vibration(value, &from, self.which)
     }
 
     /// The peak in the stretch before state `k`.
     fn peak(&self, k: usize, top: ResponsePoint) -> Result<Peak, Error> {
+        let at = top.equilibrium.clone();
+        let stable = at.stability.holds() && modes(&at)?.stable();
+        let top = top.heard(0);
         let square = top.square();
         let bend = top.place_by_design();
         let by_frequency = &top.line.frequency.slopes.by_design;
@@ -265,8 +282,8 @@ impl Search<'_> {
         let frequency: Vector = frequency
             .map(|(dw, du)| dw + top.frequency_slope() * du)
             .collect();
-        let before = self.half_power(&top, (0..k).rev())?;
-        let after = self.half_power(&top, k..self.scan.states.len())?;
+        let before = self.half_power(top, (0..k).rev())?;
+        let after = self.half_power(top, k..self.scan.states.len())?;
         let factor = match (&before, &after) {
             (Ok(a), Ok(b)) => amplification((top.line.frequency.value, &frequency), [a, b]),
             _ => None,
@@ -277,29 +294,33 @@ impl Search<'_> {
             Err(missing) => missing,
         });
         Ok(Peak {
-            place: moving(top.value, bend),
-            height: moving(square.value.sqrt(), top.modulus_by_design()),
+            place: moving(top.point.value, bend),
+            height: moving(
+                square.value.sqrt(),
+                top.modulus_by_design(&top.top_by_design()),
+            ),
             frequency: moving(top.line.frequency.value, frequency),
             phase: top.line.amplitude.value.arg(),
             half_power,
             amplification: factor.map(|(value, by_design)| moving(value, by_design)),
-            stable: top.stable,
-            equilibrium: top.equilibrium,
+            stable,
+            equilibrium: at,
         })
     }
 
     /// The half-power point on the way from a peak along these states, or why there is none.
     fn half_power(
         &self,
-        top: &ResponsePoint,
+        top: Heard<'_>,
         way: impl Iterator<Item = usize>,
     ) -> Result<Result<Half, HalfPower>, Error> {
         let half = 0.5 * top.square().value;
         let mut last = top;
         for (count, k) in way.enumerate() {
-            let next = &self.scan.states[k];
-            let up = (next.value - top.value) * next.square().slope > 0.0;
-            let onwards = (next.value > last.value) == self.ascending;
+            let next = self.state(k);
+            let [from, to, at] = [last, next, top].map(|state| state.point.value);
+            let up = (to - at) * next.square().slope > 0.0;
+            let onwards = (to > from) == self.ascending;
             let gap = if onwards { k } else { k + 1 };
             if count > 0 && self.scan.after_gap.contains(&gap) {
                 break;
@@ -312,10 +333,11 @@ impl Search<'_> {
                     let square = state.square();
                     (square.slope, square.bend)
                 })?;
+                let lowest = lowest.heard(0);
                 if lowest.square().value > half {
                     return Ok(Err(HalfPower::RisesAgain));
                 }
-                return self.half(top, half, (last, &lowest)).map(Ok);
+                return self.half(top, half, (last, lowest)).map(Ok);
             }
             last = next;
         }
@@ -324,16 +346,17 @@ impl Search<'_> {
 
     fn half(
         &self,
-        top: &ResponsePoint,
+        top: Heard<'_>,
         half: f64,
-        between: (&ResponsePoint, &ResponsePoint),
+        between: (Heard<'_>, Heard<'_>),
     ) -> Result<Half, Error> {
         let zero = self.zero(between, |state| {
             let square = state.square();
             (square.value - half, square.slope)
         })?;
+        let zero = zero.heard(0);
         let slope = zero.square().slope;
-        let (at_peak, at_half) = (top.square_by_design(), zero.square_by_design());
+        let (at_peak, at_half) = (top.top_by_design(), zero.square_by_design());
         let pairs = at_peak.iter().zip(&at_half);
         let by_design: Vector = pairs
             .map(|(peak, half)| (0.5 * peak - half) / slope)
@@ -342,7 +365,7 @@ impl Search<'_> {
         let frequency = frequency.map(|(dw, du)| dw + zero.frequency_slope() * du);
         Ok(Half {
             frequency: (zero.line.frequency.value, frequency.collect()),
-            place: Moving::new(zero.value, by_design, self.tolerances),
+            place: Moving::new(zero.point.value, by_design, self.tolerances),
         })
     }
 }

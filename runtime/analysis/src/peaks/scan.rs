@@ -3,16 +3,20 @@
 //! As a function of the input, the squared amplitude has no finer features than the distance from `i w` to the nearest
 //! pole `s_j`, measured by how fast the two move relative to each other. A stretch along which they move by a small part
 //! of that distance is as good as a cubic; where the cubic through the slopes at its ends changes its sign twice, it is
-//! divided all the same. Few states suffice: the stretches shrink geometrically towards a resonance and no farther than
+//! divided all the same. A pole that the excitation does not reach, or the output does not see, has no residue and makes
+//! no peak. Few states suffice: the stretches shrink geometrically towards a resonance and no farther than
 //! its width.
 
-use super::state::{Along, ResponsePoint};
-use crate::forced::resonance;
+use super::state::{Along, Heard, ResponsePoint};
 use crate::sweep::Gap;
 use crate::{Error, sweep::Range};
 
-/// Part of the distance to the nearest pole by which poles may move along a stretch.
-const PART: f64 = 0.35;
+/// Widths from a pole within which a peak may have any place.
+const NEAR: f64 = 3.0;
+/// Share of a width within which a state is at the pole.
+const AT: f64 = 0.1;
+/// Share of a stretch that a division leaves at either end.
+const LEAST: f64 = 1e-4;
 /// Most divisions of a step: beyond them, a stretch is rounding.
 const DIVISIONS: usize = 44;
 /// Most divisions towards a value at which there is no vibration.
@@ -62,7 +66,7 @@ impl End {
     fn new(along: &Along<'_>, value: f64, from: &[f64]) -> Result<Self, Error> {
         match along.state(value, from) {
             Ok(state) => Ok(Self::Found(state.into())),
-            Err(error @ Error::Resonance { .. }) => Err(error),
+            Err(error @ (Error::Resonance { .. } | Error::Stopped)) => Err(error),
             Err(error) => Ok(Self::Missing(value, error)),
         }
     }
@@ -97,6 +101,7 @@ impl Scan {
 
     /// Adds the states after `a` up to `b`; returns `b`.
     fn divide(&mut self, along: &Along<'_>, a: End, mut b: End, left: usize) -> Result<End, Error> {
+        let mut divided_at = None;
         match (&a, &b) {
             (End::Missing(from, reason), End::Missing(to, _)) => {
                 self.gap(*from, *to, reason);
@@ -115,15 +120,15 @@ impl Scan {
             }
             (End::Taken(index, ..), End::Found(state)) => {
                 let before = &self.states[*index];
-                if resolved(before, state) {
+                divided_at = division(before, state);
+                if divided_at.is_none() {
                     self.begin(&mut b);
                     return Ok(b);
                 }
                 if left == 0 {
-                    if !still(before, state) {
-                        let at = &state.equilibrium;
-                        let with = along.vibration.excitation.index();
-                        return Err(resonance(at, with, state.line.frequency.value));
+                    let moving = |k: &usize| !still(before.heard(*k), state.heard(*k));
+                    if let Some(k) = (0..state.lines.len()).find(moving) {
+                        return Err(along.resonance(k, state));
                     }
                     self.begin(&mut b);
                     return Ok(b);
@@ -131,7 +136,8 @@ impl Scan {
             }
             _ => {}
         }
-        let middle = 0.5 * (a.value() + b.value());
+        let (low, high) = (a.value(), b.value());
+        let middle = low + divided_at.unwrap_or(0.5) * (high - low);
         let from = a.coordinates(&b.coordinates(&[]));
         let middle = End::new(along, middle, &from)?;
         let middle = self.divide(along, a, middle, left - 1)?;
@@ -150,15 +156,48 @@ impl Scan {
     }
 }
 
-/// Whether nothing can hide between two states.
-fn resolved(a: &ResponsePoint, b: &ResponsePoint) -> bool {
-    let near = a.distance().min(b.distance());
-    a.moved(b) <= PART * near && !turns_between(a, b)
+/// Where to divide the stretch between two states, as a share of it; `None` if nothing can hide there.
+///
+/// Away from its own width, a single pole that comes nearer leaves at most a minimum, `|r / (i x) + g|^2` with `g` from all
+/// others. A pole that is passed is found by its place; about it, a few widths are divided until it holds.
+fn division(a: &ResponsePoint, b: &ResponsePoint) -> Option<f64> {
+    (0..a.lines.len()).find_map(|k| division_of(a.heard(k), b.heard(k)))
+}
+
+fn division_of(a: Heard<'_>, b: Heard<'_>) -> Option<f64> {
+    let mut approached = 0;
+    for (from, to, back) in [(a, b, false), (b, a, true)] {
+        let share = |share: f64| Some(if back { 1.0 - share } else { share });
+        for passage in from.passages(to).filter(|passage| !passage.holds) {
+            let [here, there] = passage.off;
+            let (width, change) = (passage.width, here - there);
+            let least = here.abs().min(there.abs());
+            if !passage.known {
+                return Some(0.5);
+            }
+            if here * there < 0.0 && least > AT * width {
+                return share((here / change).clamp(LEAST, 1.0 - LEAST));
+            }
+            if least < NEAR * width {
+                // From the pole outwards, or to either side of it.
+                let beside = (NEAR * width).copysign(there - here);
+                let outwards = (beside - here) / (there - here);
+                return share(if outwards > f64::EPSILON && outwards < 0.5 {
+                    outwards
+                } else {
+                    0.5
+                });
+            }
+            approached += 1;
+        }
+    }
+    let alone = approached <= 2;
+    (!alone || turns_between(a, b)).then_some(0.5)
 }
 
 /// Whether the cubic through the slopes at both ends has a sign that neither end has.
-fn turns_between(a: &ResponsePoint, b: &ResponsePoint) -> bool {
-    let h = b.value - a.value;
+fn turns_between(a: Heard<'_>, b: Heard<'_>) -> bool {
+    let h = b.point.value - a.point.value;
     let (first, last) = (a.square(), b.square());
     let (f, g) = (first.slope, last.slope);
     if (f > 0.0) != (g > 0.0) {
@@ -174,7 +213,7 @@ fn turns_between(a: &ResponsePoint, b: &ResponsePoint) -> bool {
 }
 
 /// Whether the amplitude is about the same at both states.
-fn still(a: &ResponsePoint, b: &ResponsePoint) -> bool {
+fn still(a: Heard<'_>, b: Heard<'_>) -> bool {
     let [a, b] = [a, b].map(|x| x.square().value);
     (a - b).abs() <= STILL * a.max(b)
 }

@@ -137,9 +137,10 @@ impl Response {
             let message = "the range of operation is of another input";
             return Err(Failure::usage(message, help));
         }
-        let each = wanted.iter();
-        let each = each.map(|item| study.peaks(*item, along.input, along.low, along.high));
-        let peaks: Vec<Peaks> = each.collect::<Result<_, _>>()?;
+        let bar = progress::bar("states", None);
+        let study = progress::watched(study.clone(), &bar);
+        let peaks = study.peaks_of(wanted, along.input, along.low, along.high)?;
+        bar.finish_and_clear();
         let mut answer = self.output.answer();
         answer.add(&peaks)?;
         let peaked: Vec<Peaks> = (peaks.into_iter())
