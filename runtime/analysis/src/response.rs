@@ -358,7 +358,9 @@ impl<'a> Responses<'a> {
     ) -> Result<Realisation, Error> {
         crate::arguments::check_count("design variables", design, self.nominal.design.len())?;
         self.counted()?;
-        solved.solve(self.mechanism, self.nominal, self.modes, design);
+        let of_mode = |response: &Response| matches!(response, Response::Mode { .. });
+        let modes = (self.modes, self.wanted.iter().any(of_mode));
+        solved.solve(self.mechanism, self.nominal, modes, design);
         let stable = solved.continues(self.nominal);
         let unstable = matches!(solved.outcome, Outcome::Divergent | Outcome::Flutter);
         let mut realisation = Realisation {

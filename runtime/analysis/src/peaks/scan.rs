@@ -180,7 +180,7 @@ fn division_of(a: Heard<'_>, b: Heard<'_>) -> Option<f64> {
             }
             if least < NEAR * width {
                 // From the pole outwards, or to either side of it.
-                let beside = (NEAR * width).copysign(there - here);
+                let beside = (1.2 * NEAR * width).copysign(there - here);
                 let outwards = (beside - here) / (there - here);
                 return share(if outwards > f64::EPSILON && outwards < 0.5 {
                     outwards

@@ -57,13 +57,13 @@ impl Solution {
         }
     }
 
-    /// Solves the sample with this design, starting from the nominal state.
+    /// Solves the sample with this design, starting from the nominal state; without its modes if they are not `wanted`.
     #[doc(hidden)]
     pub fn solve(
         &mut self,
         mechanism: &dyn Kernels,
         nominal: &Equilibrium,
-        modes: &Modes,
+        (modes, wanted): (&Modes, bool),
         design: &[f64],
     ) {
         self.places = Vector::default();
@@ -77,7 +77,7 @@ impl Solution {
             Ok(judged) => judged,
         };
         self.outcome = Outcome::from(self.state.stability);
-        if self.state.regular().is_err() {
+        if !wanted || self.state.regular().is_err() {
             return;
         }
         let (solved, state) = (&mut self.modes, &self.state);

@@ -208,7 +208,7 @@ impl<'a> SampleSolver<'a> {
         (sample, design): (u64, &[f64]),
         Part { chunk, kept, .. }: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {
-        solved.solve(self.mechanism, self.nominal, self.modes, design);
+        solved.solve(self.mechanism, self.nominal, (self.modes, true), design);
         chunk.count(solved.outcome as usize, 1)?;
         let count = self.modes.modes.len();
         if solved.continues(self.nominal) {
