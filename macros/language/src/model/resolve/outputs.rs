@@ -47,10 +47,11 @@ impl Resolver<'_> {
 
     /// The SI unit of a value.
     pub(super) fn unit_of(&self, value: &Expr, dimension: Dimension) -> Unit {
-        match self.measure(value) {
-            Some(Measure::Angle) => Unit::one("rad"),
-            Some(Measure::Energy) => Unit::one("J"),
-            None => Unit::si(dimension),
+        // A number may have a unit: a stiffness times an angle is a moment.
+        match (self.measure(value), dimension) {
+            (Some(Measure::Angle), Dimension::NONE) => Unit::one("rad"),
+            (Some(Measure::Energy), Dimension::MOMENT) => Unit::one("J"),
+            _ => Unit::si(dimension),
         }
     }
 
