@@ -111,9 +111,11 @@ fn judge_free(
         return Err(Failure::SingularMass(row));
     }
     // Stability is that of the other motions.
-    let rest = deflated(linear, description.free_directions);
-    let free = linear.mass.row_count() - rest.as_ref().map_or(linear, |rest| rest).mass.row_count();
-    let linear = rest.as_ref().unwrap_or(linear);
+    let Some(rest) = deflated(linear, description.free_directions) else {
+        return Ok(general((0, 0), 0.0));
+    };
+    let free = linear.mass.row_count() - rest.mass.row_count();
+    let linear = &*rest;
     if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > SYMMETRIC {
         let negative =
             Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
