@@ -6,6 +6,7 @@ mod common;
 mod families;
 mod followed;
 mod members;
+mod pieces;
 mod random;
 mod reference;
 mod unstable;

@@ -28,7 +28,7 @@ pub use forward::{Direction, derivatives_along};
 pub use function::{Array, Function, Parameter};
 pub use graph::{Graph, Stage, Symbol};
 pub use node::Node;
-pub use null_space::{NullSpace, times};
+pub use null_space::{NullSpace, scale, times};
 pub use reached::Reached;
 pub use regroup::{regroup, regrouped};
 pub use reverse::{gradient, rough};

@@ -1,22 +1,37 @@
 //! Linear equations in disturbed numbers.
 
+use std::ops::Range;
+
 use super::disturbed::Disturbed;
+
+/// What rounding may leave of a coefficient, relative to the largest of its equation, for it to count as zero. Where it
+/// may have left more, rounding hides whether there is anything.
+const CLEAR: f64 = 1e-6;
 
 /// The solutions of homogeneous linear equations `L x + M y = 0` for `y`.
 pub struct NullSpace {
-    /// A basis of all `y` for which there is an `x`.
+    /// A basis of all `y` for which there is an `x`, as far as rounding lets see.
     pub vectors: Vec<Vec<Disturbed>>,
+    /// How many more there may be: equations in which rounding hides whether they take one away. They count as if they did.
+    pub hidden: usize,
     /// Rank of `L`.
     pub lead_rank: usize,
 }
 
 impl NullSpace {
     /// Solves equations given row by row, with the entries of `L`, `lead` of them, before those of `M`. Each value counts
-    /// as zero if its own rounding can explain it (see [`Disturbed::is_rounding`]), so no unit and no scale matters.
+    /// as zero if its own rounding can explain it (see [`Disturbed::is_rounding`]) and is small, so no unit matters, and
+    /// of scale only what rounding hides.
     ///
     /// Gaussian elimination, one equation after the other; the pivot of each is its largest entry, in `L` if that has
     /// any, relative to the largest of the column.
-    pub fn new(rows: Vec<Vec<Disturbed>>, lead: usize, operations: usize) -> Self {
+    pub fn new(mut rows: Vec<Vec<Disturbed>>, lead: usize, operations: usize) -> Self {
+        scale(&mut rows, operations);
+        Self::of_scaled(rows, lead, operations)
+    }
+
+    /// The same for equations whose terms are of order one, whatever is left of them.
+    pub fn of_scaled(rows: Vec<Vec<Disturbed>>, lead: usize, operations: usize) -> Self {
         let columns = rows.first().map_or(lead, Vec::len);
         let mut sizes = vec![0.0_f64; columns];
         for row in &rows {
@@ -25,20 +40,50 @@ impl NullSpace {
             }
         }
         let mut pivots: Vec<Pivot> = Vec::new();
-        for mut row in rows {
-            for pivot in &pivots {
+        let mut postponed = Vec::new();
+        let reduced = |mut row: Vec<Disturbed>, pivots: &[Pivot]| {
+            for pivot in pivots {
                 pivot.eliminate_from(&mut row);
             }
-            for entry in row.iter_mut().filter(|entry| entry.is_rounding(operations)) {
-                *entry = Disturbed::exact(0.0);
+            for entry in &mut row {
+                if entry.is_rounding(operations) && entry.rounding(operations) <= CLEAR {
+                    *entry = Disturbed::exact(0.0);
+                }
             }
-            let largest = |columns: std::ops::Range<usize>| {
-                let size = |k: &usize| row[*k].value().abs() / sizes[*k];
-                let present = columns.filter(|&k| !row[k].is_zero());
-                present.max_by(|a, b| size(a).total_cmp(&size(b)))
+            row
+        };
+        let largest = |row: &[Disturbed], of: Range<usize>, counts: &dyn Fn(&Disturbed) -> bool| {
+            let size = |k: &usize| row[*k].value().abs() / sizes[*k];
+            let present = of.filter(|&k| counts(&row[k]));
+            present.max_by(|a, b| size(a).total_cmp(&size(b)))
+        };
+        let clear = |entry: &Disturbed| !entry.is_rounding(operations);
+        for row in rows {
+            let row = reduced(row, &pivots);
+            let of_lead = largest(&row, 0..lead, &clear);
+            let undecided = of_lead.is_none() && row[..lead].iter().any(|entry| !entry.is_zero());
+            let column = match undecided {
+                true => None,
+                false => of_lead.or_else(|| largest(&row, lead..columns, &clear)),
             };
-            if let Some(column) = largest(0..lead).or_else(|| largest(lead..columns)) {
+            match column {
+                Some(column) => pivots.push(Pivot::new(column, &row)),
+                None if row.iter().all(Disturbed::is_zero) => {}
+                None => postponed.push(row),
+            }
+        }
+        let mut hidden = 0;
+        for row in postponed {
+            let row = reduced(row, &pivots);
+            let present = |entry: &Disturbed| !entry.is_zero();
+            if let Some(column) = largest(&row, lead..columns, &clear) {
                 pivots.push(Pivot::new(column, &row));
+            } else if let Some(column) = largest(&row, lead..columns, &present) {
+                hidden += 1;
+                pivots.push(Pivot {
+                    column,
+                    others: Vec::new(),
+                });
             }
         }
         let is_pivot = |k: usize| pivots.iter().any(|pivot| pivot.column == k);
@@ -53,7 +98,26 @@ impl NullSpace {
         }
         Self {
             vectors,
+            hidden,
             lead_rank: pivots.iter().filter(|pivot| pivot.column < lead).count(),
+        }
+    }
+}
+
+/// Divides each equation by its largest entry, or by that of all if rounding hides its own.
+pub fn scale(rows: &mut [Vec<Disturbed>], operations: usize) {
+    let largest = |row: &[Disturbed]| {
+        let clear = row.iter().filter(|entry| !entry.is_rounding(operations));
+        clear.fold(0.0_f64, |most, entry| most.max(entry.value().abs()))
+    };
+    let sizes: Vec<f64> = rows.iter().map(|row| largest(row)).collect();
+    let most = sizes.iter().fold(0.0_f64, |most, size| most.max(*size));
+    for (row, size) in rows.iter_mut().zip(sizes) {
+        let size = if size > 0.0 { size } else { most };
+        if size > 0.0 {
+            let unit = Disturbed::exact(size);
+            let present = row.iter_mut().filter(|entry| !entry.is_zero());
+            present.for_each(|entry| *entry = *entry / unit);
         }
     }
 }

@@ -21,6 +21,12 @@ struct Case {
     /// Expected words of a line of the text, separated by `&`.
     #[serde(default)]
     text: Vec<String>,
+    /// Words that no line of the text has.
+    #[serde(default)]
+    absent: Vec<String>,
+    /// Smaller numbers are left out.
+    #[serde(default)]
+    ignore: f64,
     /// The numbers are among those of the column, in any order.
     #[serde(default)]
     among: bool,
@@ -58,12 +64,23 @@ impl Case {
             let run = self.run(&["--csv"]);
             for (name, expected) in &self.columns {
                 column(&run.out, name)
-                    .and_then(|found| self.compare(&found, expected))
+                    .map(|found| {
+                        found
+                            .into_iter()
+                            .filter(|x| x.abs() >= self.ignore)
+                            .collect()
+                    })
+                    .and_then(|found: Vec<f64>| self.compare(&found, expected))
                     .map_err(|what| format!("{name}: {what}\n{}{}", run.out, run.err))?;
             }
         }
-        if !self.text.is_empty() {
+        if !self.text.is_empty() || !self.absent.is_empty() {
             let run = self.run(&[]);
+            for word in &self.absent {
+                if run.out.is_empty() || run.out.contains(word) {
+                    return Err(format!("{word}\n{}{}", run.out, run.err));
+                }
+            }
             for words in &self.text {
                 let has = |line: &str| words.split('&').all(|word| line.contains(word));
                 if !run.out.lines().any(has) {

@@ -6,12 +6,15 @@
 //! stiffness that such forces leave along a direction in which nothing holds the machine. In any units that are found
 //! from the matrix itself it would pass for a stiffness like others.
 
+use super::convergence::ROUNDING;
 use crate::Description;
 use crate::algebra::{Matrix, Vector, greater, largest};
 use crate::kernels::Kernels;
 
 /// How often the data are disturbed.
 const SAMPLES: usize = 8;
+/// Largest disturbance in rounding units: so many that sums of the same few terms are rounded in several ways.
+const AMPLITUDE: u64 = 16;
 /// A sum at most this many times its largest change is rounding.
 const FACTOR: f64 = 4.0;
 /// Share of the largest stiffness, for motions of similar size, below which all stiffness against a motion may be
@@ -35,9 +38,23 @@ pub(super) fn without_rounding(data: &Data<'_>, q: &[f64], residual: &[f64]) -> 
     let change = change(data, q, |q, inputs, design| {
         data.mechanism.residual(q, inputs, design)
     });
+    // What the numbers of a declaration leave is the same whatever the data: beside forces that balance here, but
+    // nowhere else, it is small.
+    let mut sizes = Vector::zeros(residual.len());
+    for sample in 0..SAMPLES {
+        let moved = q.iter().enumerate().map(|(i, value)| {
+            let share = (disturbance(i, sample) - 1.0) / (AMPLITUDE as f64 * f64::EPSILON);
+            value + share * data.description.large(i)
+        });
+        let moved: Vector = moved.collect();
+        let residual = data.mechanism.residual(&moved, data.inputs, data.design);
+        for (size, value) in sizes.iter_mut().zip(&residual) {
+            *size = greater(*size, value.abs());
+        }
+    }
     let mut left = Vector::from(residual);
-    for (value, change) in left.iter_mut().zip(&change) {
-        if value.abs() <= FACTOR * change {
+    for ((value, change), size) in left.iter_mut().zip(&change).zip(&sizes) {
+        if value.abs() <= FACTOR * greater(*change, ROUNDING * size) {
             *value = 0.0;
         }
     }
@@ -113,12 +130,12 @@ fn change(data: &Data<'_>, q: &[f64], of: impl Fn(&[f64], &[f64], &[f64]) -> Vec
     change
 }
 
-/// One plus or minus up to two rounding units, different for each datum and sample: their number, mixed by the golden
-/// ratio.
+/// One plus or minus up to [`AMPLITUDE`] rounding units, different for each datum and sample: their number, mixed by the
+/// golden ratio.
 fn disturbance(datum: usize, sample: usize) -> f64 {
     let number = (SAMPLES * datum + sample + 1) as u64;
     let mixed = number.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32;
-    1.0 + ((mixed % 5) as f64 - 2.0) * f64::EPSILON
+    1.0 + ((mixed % (2 * AMPLITUDE + 1)) as f64 - AMPLITUDE as f64) * f64::EPSILON
 }
 
 #[cfg(test)]

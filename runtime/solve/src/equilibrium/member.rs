@@ -21,6 +21,7 @@ use super::convergence::{StepsLeft, TOLERANCE, last, relative_residual};
 use super::finish::{SolvedState, finished};
 use super::operating_point::{Failure, OperatingPoint};
 use super::scaling::units;
+use super::stability::judge_member;
 
 use crate::algebra::{Lu, Matrix, Vector, add_scaled, dot, largest};
 use crate::error::NotFound;
@@ -65,6 +66,10 @@ pub(super) fn select_member(
         coordinate.value = state.coordinates[coordinate.unknown];
     }
     state.free = FreeDirections::of_member(&state.linear.stiffness, point.free(), held);
+    if !point.structure.holonomic() {
+        let verdict = judge_member(state);
+        (state.stability, state.rounding) = (verdict.stability, verdict.rounding);
+    }
     state.notes.push(Note::Member { dimension });
     for unknown in point.named() {
         let (asked, coordinate) = (start[unknown], state.coordinates[unknown]);

@@ -8,7 +8,10 @@ use crate::free::FreeDirections;
 use crate::kernels::{Kernels, Linear};
 use crate::modes::{Family, Modes, SYMMETRIC, change_to_zero, deflated, free_pairs, solve_modes};
 use crate::rounding::{self, CheckedState, Sign, of_form, sign};
-use crate::{Behaviour, DampingKind, Description, Mode, Shared, Stability};
+use crate::{Behaviour, DampingKind, Description, Equilibrium, Mode, Shared, Stability};
+
+/// Condition number beyond which an eigenvalue shares its vector with another.
+const DEFECTIVE: f64 = 1e6;
 
 /// The judgement of a state.
 #[doc(hidden)]
@@ -78,7 +81,9 @@ pub fn judge(
     let free = FreeDirections::of(&linear.stiffness, description.free_directions);
     let held = free.held(&linear.stiffness);
     let doubt = |lambda, phi: &[f64]| rounding::of_data(mechanism, at, &held, (lambda, phi));
-    let general = |unstable, floor| by_eigenvalues((linear, nearby), description, unstable, floor);
+    let count = description.free_directions;
+    let general =
+        |unstable, floor| by_eigenvalues((linear, nearby), (description, count), unstable, floor);
     if structure.open() {
         return judge_free(description, linear, linear, &doubt, &general);
     }
@@ -111,9 +116,11 @@ fn judge_free(
         return Err(Failure::SingularMass(row));
     }
     // Stability is that of the other motions.
-    let rest = deflated(linear, description.free_directions);
-    let free = linear.mass.row_count() - rest.as_ref().map_or(linear, |rest| rest).mass.row_count();
-    let linear = rest.as_ref().unwrap_or(linear);
+    let Some(rest) = deflated(linear, description.free_directions) else {
+        return Ok(general((0, 0), 0.0));
+    };
+    let free = linear.mass.row_count() - rest.mass.row_count();
+    let linear = &*rest;
     if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > SYMMETRIC {
         let negative =
             Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
@@ -158,19 +165,23 @@ fn judge_free(
     Ok(Verdict::without_modes(stability, floor))
 }
 
-/// Judges by the general eigenvalues, with `negative` directions of negative and `free` ones of zero stiffness; a
+/// Judges a member of a family of steady motions. Each of its parameters is a zero, as each free direction is.
+pub(super) fn judge_member(at: &Equilibrium) -> Verdict {
+    let count = at.description.free_directions + at.free.held.len();
+    by_eigenvalues((&at.linear, &[]), (&at.description, count), (0, 0), 0.0)
+}
+
+/// Judges by the general eigenvalues, `count` of which are zero in any case, with `negative` directions of negative and
+/// `free` ones of zero stiffness; a
 /// `lambda` not beyond `floor` counts as zero.
 fn by_eigenvalues(
     (linear, nearby): (&Linear, &[Mode]),
-    description: &Shared<Description>,
+    (description, count): (&Shared<Description>, usize),
     (negative, free): (usize, usize),
     floor: f64,
 ) -> Verdict {
     let mut spectrum = Modes::empty(Family::General, description);
-    if spectrum
-        .solve_near(linear, (description.free_directions, floor), nearby)
-        .is_err()
-    {
+    if spectrum.solve_near(linear, (count, floor), nearby).is_err() {
         return Verdict::without_modes(Stability::Undecided, floor);
     }
     let count = |wanted: fn(Behaviour) -> bool| {
@@ -181,6 +192,14 @@ fn by_eigenvalues(
     let growing = count(|behaviour| matches!(behaviour, Behaviour::Flutter(_)));
     let zero = count(|behaviour| matches!(behaviour, Behaviour::Free | Behaviour::Neutral));
     let constant = count(|behaviour| matches!(behaviour, Behaviour::Oscillating(_)));
+    // Two that share an eigenvector grow in proportion to time, as a motion that drifts does.
+    let drifts = |mode: &&Mode| {
+        let near = |other: &Mode| (mode.s - other.s).norm() <= mode.error + other.error;
+        let oscillates = matches!(mode.behaviour, Behaviour::Oscillating(_));
+        let others = spectrum.modes.iter().filter(|other| near(other));
+        oscillates && mode.condition > DEFECTIVE && others.count() > 1
+    };
+    let zero = zero + spectrum.modes.iter().filter(drifts).count();
     let stability = if divergent > 0 {
         Stability::Divergent {
             negative: divergent,
@@ -220,6 +239,7 @@ pub fn judge_critical(
     modes.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
     let critical = modes.get(zero.checked_sub(1)?)?;
     let floor = MARGIN * change_to_zero(linear, critical);
+    let description = (description, description.free_directions);
     Some(by_eigenvalues((linear, &[]), description, (0, zero), floor))
 }
 

@@ -8,6 +8,9 @@ use crate::algebra::{Matrix, Vector, add_to, dot, greater, is_symmetric, largest
 
 /// Share of the terms of an element below which what elimination leaves of it counts as zero.
 const NEGLIGIBLE: f64 = 1e-10;
+/// Size of the terms that elements are taken to have at least, in the units of the elimination: what is left of an
+/// element that vanishes exactly, but for rounding, is none of its own terms.
+const SMALL: f64 = 1e-9;
 /// Sweeps that make the largest element of every row and column about one.
 const SWEEPS: usize = 6;
 
@@ -110,7 +113,7 @@ impl Elimination {
         let n = matrix.row_count();
         let factors = Matrix::from_fn(n, n, |i, j| matrix[i][j] * row[i] * column[j]);
         Self {
-            terms: factors.map(f64::abs),
+            terms: factors.map(|entry| greater(entry.abs(), SMALL)),
             factors,
             row_order: (0..n).collect(),
             column_order: (0..n).collect(),

@@ -27,15 +27,19 @@
     reason = "index loops read as the formulas they are"
 )]
 
+use std::borrow::Cow;
+
 use num_complex::Complex64;
 
 use crate::algebra::{Lu, Matrix, Vector, add_to, dot, is_symmetric, times};
 use crate::eigenproblem::{EigenproblemError, Pairs, Root, symmetric};
-use crate::free::{FreeDirections, NullSpace};
+use crate::free::NullSpace;
 use crate::kernels::Linear;
 
 /// Share of its terms below which a damping of a free direction counts as zero.
 const UNDAMPED: f64 = 1e-10;
+/// Square of a component of a null vector below which it counts as zero.
+const NOTHING: f64 = 1e-24;
 /// What elimination may leave of a matrix along its zeros, relative to the terms in it.
 const REMAINDER: f64 = 1e-6;
 
@@ -203,10 +207,23 @@ struct Images {
     left: Vec<Vector>,
 }
 
-/// The pencil without the zeros of motions that drift; `None` if there are none.
-pub(crate) fn deflated(linear: &Linear, count: usize) -> Option<Linear> {
-    let split = Split::new(linear, count)?;
-    Deflated::new(linear, split.drifting).map(|deflated| deflated.pencil())
+/// The pencil without the zeros of motions that drift, itself if there are none; `None` if some of these motions drift
+/// faster and faster, for which there is no such pencil.
+pub(crate) fn deflated(linear: &Linear, count: usize) -> Option<Cow<'_, Linear>> {
+    let Some(split) = Split::new(linear, count) else {
+        return Some(Cow::Borrowed(linear));
+    };
+    if split.accelerates(linear) {
+        return None;
+    }
+    let deflated = Deflated::new(linear, split.drifting).map(|deflated| deflated.pencil());
+    Some(deflated.map_or(Cow::Borrowed(linear), Cow::Owned))
+}
+
+/// Whether motions along `count` free directions drift faster and faster: their roots are those of a system of first
+/// order.
+pub(crate) fn accelerates(linear: &Linear, count: usize) -> bool {
+    Split::new(linear, count).is_some_and(|split| split.accelerates(linear))
 }
 
 /// The roots of a pencil with `count` free directions, those of the motions that drift first; `solve` finds the roots
@@ -303,31 +320,43 @@ pub(crate) fn pairs(
 ///
 /// Along `A Z = 0` with `x = Y e + Z a`, the equations at the places that `Y` leaves out determine `s a`, and the others
 /// become `A' e = s e`. If such a motion drifts, its zero is double, and `A'` still has the second one: it is taken out
-/// in the same way.
+/// in the same way. So are those after it, of a motion that a load accelerates which turns with another free one. Two
+/// of these are a motion of its own that nothing resists.
 pub(crate) fn first_order_roots(
     matrix: &Matrix,
     count: usize,
     solve: impl FnOnce(&Matrix) -> Result<Vec<Root>, EigenproblemError>,
 ) -> Result<Vec<Root>, EigenproblemError> {
-    let space = NullSpace::of(matrix, count);
+    let mut space = NullSpace::of(matrix, count);
     if count == 0 || space.remainder > REMAINDER {
         return solve(matrix);
     }
-    let (right, left) = (&space.right[..count], &space.left[..count]);
-    let rest = WithoutZeros::new(matrix, &space, count);
-    let drifting = count - NullSpace::rank(&products(left, right));
-    let again = (drifting > 0).then(|| {
-        let space = NullSpace::of(&rest.matrix, drifting);
-        WithoutZeros::new(&rest.matrix, &space, drifting)
-    });
-    let innermost = again.as_ref().unwrap_or(&rest);
-    let mut roots: Vec<Root> = right
-        .iter()
-        .zip(left)
-        .map(|(z, w)| standing(z, w))
-        .collect();
-    for mut root in solve(&innermost.matrix)? {
-        for level in again.iter().chain([&rest]) {
+    let mut roots = Vec::new();
+    let mut levels: Vec<WithoutZeros> = Vec::new();
+    let mut left_over = count;
+    while left_over > 0 && space.remainder <= REMAINDER {
+        let (right, left) = (&space.right[..left_over], &space.left[..left_over]);
+        // With the first zeros of motions that drift belong the second ones, with every third a fourth.
+        if levels.len().is_multiple_of(2) {
+            roots.extend(right.iter().zip(left).map(|(z, w)| {
+                let mut root = standing(z, w);
+                for level in levels.iter().rev() {
+                    root.right = placed(level.size(), &level.kept, &root.right);
+                    root.left = placed(level.size(), &level.kept, &root.left);
+                }
+                root
+            }));
+        }
+        let whole = levels.last().map_or(matrix, |level| &level.matrix);
+        let next = left_over - NullSpace::rank(&products(&space, left_over));
+        let rest = WithoutZeros::new(whole, &space, left_over);
+        left_over = next;
+        space = NullSpace::of(&rest.matrix, left_over);
+        levels.push(rest);
+    }
+    let innermost = levels.last().map_or(matrix, |level| &level.matrix);
+    for mut root in solve(innermost)? {
+        for level in levels.iter().rev() {
             root.right = level.right(root.s, &root.right);
             root.left = level.left(&root.left);
         }
@@ -380,8 +409,12 @@ impl WithoutZeros {
         }
     }
 
+    fn size(&self) -> usize {
+        self.kept.len() + self.left_out.len()
+    }
+
     fn right(&self, s: Complex64, e: &[Complex64]) -> Vector<Complex64> {
-        let mut x = placed(self.kept.len() + self.left_out.len(), &self.kept, e);
+        let mut x = placed(self.size(), &self.kept, e);
         let images: Vec<Complex64> = self.rows.iter().map(|row| product_with(row, e)).collect();
         for (k, z) in self.zeros.iter().enumerate() {
             let amount = product_with(&self.inverse[k], &images) / s;
@@ -393,7 +426,7 @@ impl WithoutZeros {
     }
 
     fn left(&self, e: &[Complex64]) -> Vector<Complex64> {
-        let mut y = placed(self.kept.len() + self.left_out.len(), &self.kept, e);
+        let mut y = placed(self.size(), &self.kept, e);
         let along: Vec<Complex64> = self.zeros.iter().map(|z| product_with(z, &y)).collect();
         for (i, &index) in self.left_out.iter().enumerate() {
             let column = along.iter().enumerate();
@@ -405,8 +438,18 @@ impl WithoutZeros {
     }
 }
 
-/// `W^T Z`, with what is rounding set to zero.
-fn products(left: &[Vector], right: &[Vector]) -> Matrix {
+/// `W^T Z` of the first `count` null vectors, with what is rounding set to zero.
+fn products(space: &NullSpace, count: usize) -> Matrix {
+    // In the units of the elimination, in which the vectors are of order one.
+    let clear = |(x, dual): (&f64, &f64)| if (x * dual).abs() <= NOTHING { 0.0 } else { *x };
+    let cleared = |vectors: &[Vector], duals: &[Vector]| -> Vec<Vector> {
+        let pairs = vectors.iter().zip(duals).take(count);
+        pairs
+            .map(|(x, dual)| x.iter().zip(dual).map(clear).collect())
+            .collect()
+    };
+    let right = cleared(&space.right, &space.rows);
+    let left = cleared(&space.left, &space.columns);
     Matrix::from_fn(left.len(), right.len(), |i, j| {
         let pairs = left[i].iter().zip(&right[j]);
         let terms = pairs.fold(0.0, |sum, (w, z)| sum + (w * z).abs());
@@ -417,6 +460,11 @@ fn products(left: &[Vector], right: &[Vector]) -> Matrix {
             product
         }
     })
+}
+
+/// Whether a root is that of [`standing`].
+pub(crate) fn is_standing(root: &Root) -> bool {
+    root.s == Complex64::ZERO && root.condition.is_infinite()
 }
 
 /// The root of a motion along which the mechanism stays where it is put, or drifts.
@@ -441,18 +489,26 @@ struct Split {
 impl Split {
     /// `None` if there are none.
     fn new(linear: &Linear, count: usize) -> Option<Self> {
-        let free = FreeDirections::of(&linear.stiffness, count);
-        if free.is_empty() {
+        if count == 0 {
             return None;
         }
-        let (right, left) = (&free.motions, &free.balances);
-        let coupled = damping_among(&linear.damping, right, left);
+        // Where nothing resists more than these motions, which of them are meant is arbitrary.
+        let NullSpace {
+            right,
+            left,
+            remainder,
+            ..
+        } = NullSpace::of(&linear.stiffness, count);
+        if remainder > REMAINDER {
+            return None;
+        }
+        let coupled = product_without_rounding(&linear.damping, &right, &left);
         let space = NullSpace::of(&coupled, 0);
         let both = |of_right: &[Vector], of_left: &[Vector]| {
-            (combined(right, of_right), combined(left, of_left))
+            (combined(&right, of_right), combined(&left, of_left))
         };
         let across = |space: &[Vector]| {
-            let rows = Matrix::from_fn(free.count(), free.count(), |i, j| {
+            let rows = Matrix::from_fn(right.len(), right.len(), |i, j| {
                 space.get(i).map_or(0.0, |x| x[j])
             });
             NullSpace::of(&rows, 0).right
@@ -462,13 +518,19 @@ impl Split {
             damped: both(&across(&space.right), &across(&space.left)),
         })
     }
+
+    /// Whether `W^T M Z` is singular: a motion that drifts turns a load, which accelerates another.
+    fn accelerates(&self, linear: &Linear) -> bool {
+        let (right, left) = &self.drifting;
+        NullSpace::rank(&product_without_rounding(&linear.mass, right, left)) < right.len()
+    }
 }
 
-/// `W^T C Z`, with what is rounding set to zero.
-fn damping_among(damping: &Matrix, right: &[Vector], left: &[Vector]) -> Matrix {
-    let mut coupled = product(left, damping, right);
+/// `W^T matrix Z`, with what is rounding set to zero.
+fn product_without_rounding(matrix: &Matrix, right: &[Vector], left: &[Vector]) -> Matrix {
+    let mut coupled = product(left, matrix, right);
     let sizes = |all: &[Vector]| -> Vec<Vector> { all.iter().map(|x| x.map(f64::abs)).collect() };
-    let terms = product(&sizes(left), &damping.map(f64::abs), &sizes(right));
+    let terms = product(&sizes(left), &matrix.map(f64::abs), &sizes(right));
     let both = coupled
         .as_flattened_mut()
         .iter_mut()

@@ -393,11 +393,12 @@ fn solve_general(
     modes: &mut Vec<Mode>,
 ) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
-    let roots = if structure.open() && free > 0 {
+    let open = structure.open() && !deflation::accelerates(linear, free);
+    let roots = if open && free > 0 {
         deflation::roots(linear, free, |rest| {
             roots_near(Eigenproblem::Quadratic(rest), &[])
         })
-    } else if structure.open() {
+    } else if open {
         let nearby: Vec<_> = nearby.iter().map(Mode::near).collect();
         roots_near(Eigenproblem::Quadratic(linear), &nearby)
     } else {

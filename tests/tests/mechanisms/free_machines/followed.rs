@@ -4,7 +4,7 @@
 use eigentol::kernels::Linear;
 use eigentol::{Complex, DesignVariable, Matrix, Stability};
 use eigentol_statistics::random::RandomNumbers;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::common::study;
 
@@ -181,5 +181,158 @@ fn loops_in_floating_rows_between_thrusts() {
             let size = exact_slope.norm() + exact.norm();
             assert!(error <= 1e-6 * size, "{slope} {exact_slope}\n{closed}");
         }
+    }
+}
+
+/// Rods in a row under a thrust at the end of the first, which falls as fast as it is pushed: the thrust turns with the
+/// whole, which accelerates it across.
+struct Missile {
+    text: String,
+    /// By place of the nozzle across and angle of each rod: mass, stiffness and damping at rest.
+    matrices: [DMatrix<f64>; 3],
+}
+
+impl Missile {
+    fn new(random: &mut RandomNumbers, rods: usize, (thrust, damped): (f64, bool)) -> Self {
+        let mut number = |low: f64, high: f64| low + (high - low) * random.fraction();
+        let masses: Vec<f64> = (0..rods).map(|_| number(0.5, 2.0)).collect();
+        let acceleration = thrust / masses.iter().sum::<f64>();
+        let size = rods + 1;
+        let [mut mass, mut stiffness, mut damping] = [(); 3].map(|()| DMatrix::zeros(size, size));
+        let mut text = format!(
+            "mechanism Missile {{
+                input thrust: N;
+                gravity thrust / ({} kg) along -x;
+                body b0: rod(mass: {} kg, length: 1 m, along: x);
+                joint flight: planar(px: x, pz: z, q0: -y) from ground to b0;
+                point nozzle: b0; force push: follower(at: nozzle, force: [thrust, 0, 0]);\n",
+            masses.iter().sum::<f64>(),
+            masses[0]
+        );
+        for (k, &own) in masses.iter().enumerate() {
+            let centre = DVector::from_fn(size, |i, _| match i {
+                0 => 1.0,
+                i if i <= k => 1.0,
+                i if i == k + 1 => 0.5,
+                _ => 0.0,
+            });
+            mass += own * &centre * centre.transpose();
+            mass[(k + 1, k + 1)] += own / 12.0;
+            for i in 0..=k {
+                stiffness[(i + 1, i + 1)] -= own * acceleration * centre[i + 1];
+            }
+            if k > 0 {
+                let (spring, damper) = (
+                    number(5.0, 20.0),
+                    if damped { number(0.05, 0.5) } else { 0.0 },
+                );
+                let bend = DVector::from_fn(size, |i, _| f64::from(i == k + 1) - f64::from(i == k));
+                stiffness += spring * &bend * bend.transpose();
+                damping += damper * &bend * bend.transpose();
+                text += &format!(
+                    "body b{k}: rod(mass: {own} kg, length: 1 m, along: x);
+                     joint j{k}: revolute(-y) from b{} to b{k} at [1 m, 0, 0];
+                     force s{k}: spring(on: j{k}, stiffness: {spring} N*m/rad);\n",
+                    k - 1
+                );
+                if damped {
+                    text +=
+                        &format!("force d{k}: damper(on: j{k}, damping: {damper} N*m*s/rad);\n");
+                }
+            }
+        }
+        stiffness[(0, 1)] -= thrust;
+        Self {
+            text: text + "}",
+            matrices: [mass, stiffness, damping],
+        }
+    }
+
+    /// The eigenvalues that are not zero, above and on the real axis.
+    fn eigenvalues(&self) -> Vec<Complex> {
+        let [mass, stiffness, damping] = &self.matrices;
+        let n = mass.nrows();
+        let factors = mass.clone().lu();
+        let [stiffness, damping] =
+            [stiffness, damping].map(|matrix| factors.solve(matrix).expect("masses"));
+        let whole = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, _) => f64::from(u8::from(i + n == j)),
+            (false, true) => -stiffness[(i - n, j)],
+            (false, false) => -damping[(i - n, j - n)],
+        });
+        let all: Vec<Complex> = whole.complex_eigenvalues().iter().copied().collect();
+        let most = all.iter().fold(0.0, |most: f64, s| most.max(s.norm()));
+        // Four zeros are found to the fourth root of rounding.
+        let clear = |s: &Complex| s.norm() > 5e-3 * most && s.im > -1e-9 * s.norm();
+        all.into_iter().filter(clear).collect()
+    }
+}
+
+#[test]
+fn missiles_under_thrust() {
+    let mut random = RandomNumbers::new(8, 0);
+    for k in 0..40 {
+        let rods = 2 + k % 4;
+        let thrust = [0.0, 0.01, 1.0, 3.0, -5.0, 20.0][k % 6] * (1.0 + random.fraction());
+        let missile = Missile::new(&mut random, rods, (thrust, k % 3 == 0));
+        let study = study(&missile.text).input(eigentol::Input::new(0), thrust);
+        let modes = study.modes();
+        let modes = modes.unwrap_or_else(|error| panic!("{error}\n{thrust} {}", missile.text));
+        let found: Vec<Complex> = modes.modes.iter().map(|mode| mode.s).collect();
+        let expected = missile.eigenvalues();
+        assert_eq!(
+            found[..3],
+            [Complex::ZERO; 3],
+            "{found:?}\n{}",
+            missile.text
+        );
+        let whole = (thrust, &found, &expected);
+        assert!(among(&found[3..], &expected), "{whole:?}\n{}", missile.text);
+        assert!(among(&expected, &found[3..]), "{whole:?}\n{}", missile.text);
+        let shapes = modes
+            .modes
+            .iter()
+            .flat_map(|mode| mode.shape.iter().chain(mode.left()));
+        assert!(
+            shapes.into_iter().all(|x| x.is_finite()),
+            "{}",
+            missile.text
+        );
+        let grows = expected.iter().any(|s| s.re > 1e-7 * s.norm());
+        let at = study.equilibrium().expect("an equilibrium");
+        let neutral = at.stability == Stability::Neutral { zero: 3 };
+        assert_eq!(
+            neutral, !grows,
+            "{:?} {whole:?}\n{}",
+            at.stability, missile.text
+        );
+    }
+}
+
+/// Two equal rods: `omega^2 = 24 - 3 T`, zero at 8 N. There another motion is neutral.
+#[test]
+fn two_rods_under_thrust() {
+    let text = include_str!("../../../truth/strangers/thrust_two_rods.mechanism");
+    for thrust in [0.0, 0.1, 1.0, 3.7, 5.96, 7.0, 7.99, 8.0, 8.01, 12.0] {
+        let study = study(text).input(eigentol::Input::new(0), thrust);
+        let modes = study
+            .modes()
+            .unwrap_or_else(|error| panic!("{thrust}: {error}"));
+        let lambda: Vec<f64> = modes.modes.iter().map(|mode| mode.lambda).collect();
+        assert_eq!(lambda[..3], [0.0; 3], "{thrust}");
+        for lambda in &lambda[3..] {
+            let expected = 24.0 - 3.0 * thrust;
+            assert!(
+                (lambda - expected).abs() < 1e-11,
+                "{thrust}: {lambda} {expected}"
+            );
+        }
+        let stability = study.equilibrium().expect("an equilibrium").stability;
+        let expected = match thrust {
+            ..8.0 => Stability::Neutral { zero: 3 },
+            8.0 => Stability::Neutral { zero: 4 },
+            _ => Stability::Divergent { negative: 1 },
+        };
+        assert_eq!(stability, expected, "{thrust}");
     }
 }

@@ -24,15 +24,20 @@ pub(super) fn roots(
     let reduced = deflation::first_order_roots(&matrix, free, |matrix| {
         roots_of(Eigenproblem::FirstOrder(matrix))
     })?;
-    let mut gathered = Gathered::new(linear, tangent.structure, Normalisation::Largest);
+    let size = match tangent.structure.holonomic() {
+        true => Normalisation::Mass,
+        false => Normalisation::Largest,
+    };
+    let mut gathered = Gathered::new(linear, tangent.structure, size);
     for (i, root) in reduced.iter().enumerate() {
         let phi = system.motion(&root.right);
-        gathered.add(
-            root,
-            is_shared(&reduced, i),
-            with_reactions(linear, tangent, root.s, &phi),
-            system.left(root.s, &root.left),
-        )?;
+        let right = with_reactions(linear, tangent, root.s, &phi);
+        let left = system.left(root.s, &root.left);
+        match i >= free && deflation::is_standing(root) {
+            // No eigenvector of its own, but the motion that accelerates one before it.
+            true => gathered.keep(root.clone(), right, left),
+            false => gathered.add(root, is_shared(&reduced, i), right, left)?,
+        }
     }
     Ok(gathered.roots)
 }

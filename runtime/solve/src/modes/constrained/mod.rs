@@ -189,6 +189,28 @@ impl<'a> Gathered<'a> {
         }
     }
 
+    /// Normalises vectors.
+    fn settle(&self, right: &mut [Complex], left: &mut [Complex]) -> bool {
+        let motions = self.structure.motions();
+        // A left vector may consist of reactions only.
+        let left_leading = match self.size {
+            Normalisation::Mass => motions,
+            Normalisation::Largest => left.len(),
+        };
+        normalise(right, &self.linear.mass, self.size, motions)
+            && normalise(left, &self.linear.mass, self.size, left_leading)
+    }
+
+    /// Adds a root as it is.
+    fn keep(&mut self, root: Root, mut right: Vector<Complex>, mut left: Vector<Complex>) {
+        self.settle(&mut right, &mut left);
+        self.roots.push(Root {
+            right,
+            left,
+            ..root
+        });
+    }
+
     /// Adds the pair obtained from a root of the smaller problem. `shared` eigenvalues belong to several vectors and
     /// stay equal.
     fn add(
@@ -199,15 +221,7 @@ impl<'a> Gathered<'a> {
         mut left: Vector<Complex>,
     ) -> Result<(), EigenproblemError> {
         let motions = self.structure.motions();
-        // A left vector may consist of reactions only.
-        let left_leading = match self.size {
-            Normalisation::Mass => motions,
-            Normalisation::Largest => left.len(),
-        };
-        let settle = |right: &mut [Complex], left: &mut [Complex]| {
-            normalise(right, &self.linear.mass, self.size, motions)
-                && normalise(left, &self.linear.mass, self.size, left_leading)
-        };
+        let settle = |right: &mut [Complex], left: &mut [Complex]| self.settle(right, left);
         if !settle(&mut right, &mut left) {
             return Err(EigenproblemError::Inaccurate {
                 mode: self.roots.len(),

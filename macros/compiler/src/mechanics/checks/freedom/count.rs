@@ -4,43 +4,95 @@ use crate::algebra::{Disturbed, NullSpace, times};
 use crate::mechanics::setup::RandomState;
 
 use super::state::{Friction, Linearised, System};
-use super::symmetry::{Combinations, symmetries};
+use super::symmetry::{Combinations, symmetries, unresisted_wholes};
 
 /// The free directions of one design.
 pub(super) struct Count {
     /// How many there are at an equilibrium.
     pub(super) directions: usize,
+    /// How many more there may be behind rounding.
+    hidden: usize,
+    /// Whether an equilibrium was found.
+    pub(super) rests: bool,
     pub(super) proof: Proof,
+}
+
+impl Count {
+    /// What rounding hides.
+    pub(super) fn hidden(&self) -> Option<String> {
+        (self.hidden > 0).then(|| {
+            format!(
+                "rounding hides whether anything resists in {} of the directions in which there seems to be little stiffness; they count as held",
+                self.hidden
+            )
+        })
+    }
 }
 
 /// How free directions were found.
 pub(super) enum Proof {
-    /// The mechanism rests where all coordinates are zero, and these rates of the free coordinates meet no resistance
-    /// there. Some may meet some farther away.
-    AtZero(Vec<Vec<Disturbed>>),
+    /// The mechanism rests where all coordinates are zero, and these directions meet no resistance there. Some may meet
+    /// some farther away.
+    AtZero(Unresisted),
     /// Motions that leave the equations as they are.
     Symmetries(Combinations, Friction),
+}
+
+/// Directions that meet no resistance at an equilibrium.
+pub(super) struct Unresisted {
+    /// Motions of connected parts as wholes.
+    pub(super) wholes: Combinations,
+    /// The rates of the free coordinates, first in `wholes`, then in others.
+    pub(super) rates: Vec<Vec<Disturbed>>,
+    /// How many more there may be behind rounding.
+    hidden: usize,
 }
 
 /// Counts the free directions of a design; `None` if the equations are rarely finite.
 pub(super) fn count(system: &System, design: u64) -> Option<Count> {
     if let Some(state) = system.at_zero(design) {
-        let vectors = unresisted(system, &state);
+        let unresisted = unresisted(system, &state);
         return Some(Count {
-            directions: vectors.len(),
-            proof: Proof::AtZero(vectors),
+            directions: unresisted.rates.len(),
+            hidden: unresisted.hidden,
+            rests: true,
+            proof: Proof::AtZero(unresisted),
         });
     }
     by_symmetry(system, design)
 }
 
-/// The rates of the free coordinates in all null vectors of the stiffness that move no speed.
-fn unresisted(system: &System, state: &Linearised) -> Vec<Vec<Disturbed>> {
+/// All null vectors of the stiffness that move no speed. With wholes held at as many coordinates, only others are left.
+fn unresisted(system: &System, state: &Linearised) -> Unresisted {
     let (free, n) = (system.fields.free, state.residual.len());
     let moving = system.context.moving().1;
-    let columns: Vec<usize> = (moving..n).chain(0..free).collect();
+    let wholes = unresisted_wholes(system, state);
+    let mut rates = transposed(&rates(system, state, &wholes));
+    let values = |rates: &Vec<Disturbed>| rates.iter().map(Disturbed::value).collect();
+    let held = clear_pivots(rates.iter().map(values).collect());
+    let columns: Vec<usize> = (moving..n)
+        .chain((0..free).filter(|k| !held.contains(k)))
+        .collect();
     let row = |i: usize| columns.iter().map(|&j| state.stiffness[j][i]).collect();
-    NullSpace::new((0..n).map(row).collect(), n - moving, state.operations).vectors
+    let null = NullSpace::new((0..n).map(row).collect(), n - moving, state.operations);
+    rates.extend(null.vectors.iter().map(|vector| {
+        let mut rates = vec![Disturbed::exact(0.0); free];
+        for (&k, &rate) in columns[n - moving..].iter().zip(vector) {
+            rates[k] = rate;
+        }
+        rates
+    }));
+    Unresisted {
+        wholes,
+        rates,
+        hidden: null.hidden,
+    }
+}
+
+fn transposed(rows: &[Vec<Disturbed>]) -> Vec<Vec<Disturbed>> {
+    let columns = rows.first().map_or(0, Vec::len);
+    let column = |k: usize| rows.iter().map(|row| row[k]).collect();
+    (0..columns).map(column).collect()
 }
 
 /// Rolling at rest takes no place away: at rest its equations hold everywhere. Besides the motions that leave the
@@ -67,9 +119,11 @@ fn by_symmetry(system: &System, design: u64) -> Option<Count> {
     let places = independent(system, &state, &idle) - rank(&slips, state.operations);
     let resting = system.equilibria(design).find(|x| !is_singular(&state, x));
     let proven = dimension(system, &state, &symmetries, resting.as_ref()) + places;
-    let shown = resting.map_or(0, |resting| unresisted(system, &resting).len());
+    let shown = resting.map(|resting| unresisted(system, &resting));
     Some(Count {
-        directions: proven.max(shown),
+        directions: proven.max(shown.as_ref().map_or(0, |shown| shown.rates.len())),
+        hidden: shown.as_ref().map_or(0, |shown| shown.hidden),
+        rests: shown.is_some(),
         proof: Proof::Symmetries(symmetries, friction),
     })
 }
@@ -107,11 +161,11 @@ fn slips(
     combinations: &Combinations,
 ) -> Vec<Vec<Disturbed>> {
     let rates = rates(system, state, combinations);
-    let columns: Vec<Vec<Disturbed>> = (0..combinations.len())
-        .map(|k| rates.iter().map(|row| row[k]).collect())
-        .collect();
     let row = |&k: &usize| state.stiffness[k][..system.fields.free].to_vec();
-    times(&constraints.iter().map(row).collect::<Vec<_>>(), &columns)
+    times(
+        &constraints.iter().map(row).collect::<Vec<_>>(),
+        &transposed(&rates),
+    )
 }
 
 /// How many of the constraints on velocities demand what no other constraint does.
@@ -125,9 +179,11 @@ fn independent(system: &System, state: &Linearised, constraints: &[usize]) -> us
     constraints.len() - null.vectors.len()
 }
 
-fn rank(rows: &[Vec<Disturbed>], operations: usize) -> usize {
+/// The rank that is certain.
+pub(super) fn rank(rows: &[Vec<Disturbed>], operations: usize) -> usize {
     let columns = rows.first().map_or(0, Vec::len);
-    columns - NullSpace::new(rows.to_vec(), 0, operations).vectors.len()
+    let null = NullSpace::new(rows.to_vec(), 0, operations);
+    columns - null.vectors.len() - null.hidden
 }
 
 /// The number of independent directions of the combinations at an equilibrium, or at a random place if none is found:
@@ -156,7 +212,7 @@ fn dimension(
     let scaled: Vec<Vec<f64>> = scaled
         .map(|(row, size)| row.iter().map(|x| x.value() / size).collect())
         .collect();
-    dimension.min(clear_rank(scaled))
+    dimension.min(clear_pivots(scaled).len())
 }
 
 /// Whether coordinates fail to describe some motion of space that they describe elsewhere.
@@ -168,11 +224,12 @@ fn is_singular(elsewhere: &Linearised, here: &Linearised) -> bool {
 /// Relative size below which a direction at an equilibrium, found by iteration, counts as none.
 const NOTHING: f64 = 1e-8;
 
-/// Rank by elimination with complete pivoting.
-fn clear_rank(mut rows: Vec<Vec<f64>>) -> usize {
+/// The columns of the pivots in elimination with complete pivoting.
+fn clear_pivots(mut rows: Vec<Vec<f64>>) -> Vec<usize> {
     let columns = rows.first().map_or(0, Vec::len);
-    let mut rank = 0;
-    while rank < columns {
+    let mut pivots = Vec::new();
+    while pivots.len() < columns.min(rows.len()) {
+        let rank = pivots.len();
         let places = (rank..rows.len()).flat_map(|i| (0..columns).map(move |j| (i, j)));
         let size = |(i, j): (usize, usize)| rows[i][j].abs();
         let Some((row, column)) = places.max_by(|a, b| size(*a).total_cmp(&size(*b))) else {
@@ -191,7 +248,7 @@ fn clear_rank(mut rows: Vec<Vec<f64>>) -> usize {
             }
             other[column] = 0.0;
         }
-        rank += 1;
+        pivots.push(column);
     }
-    rank
+    pivots
 }

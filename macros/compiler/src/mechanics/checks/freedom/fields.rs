@@ -1,10 +1,11 @@
 //! Candidates for motions that leave the equations as they are, as vector fields over the free coordinates.
 //!
 //! A coordinate alone is one, `zeta = e_i`. Others are motions of space, as far as the joints between the ground and a
-//! body allow them: with `J` the derivatives of the body's twist about the ground's origin by the rates of these
-//! coordinates, `J zeta = xi` for a constant twist `xi`. Everything that the body carries moves with it. The derivatives
-//! of the field follow from `dJ zeta + J dzeta = dxi`. A ball that rolls may also spin about its own centre `c`, with the
-//! twist `(omega, c x omega)`.
+//! body allow them: with `J` the derivatives of the body's twist about its own origin `p` by the rates of these
+//! coordinates, `J zeta = (omega, v + omega x p)` for a constant twist `(omega, v)`. Everything that the body carries moves
+//! with it. The derivatives of the field follow from `dJ zeta + J dzeta = (0, omega x dp)`. About its own origin, `J` is
+//! as well conditioned far from the ground's origin as near it. A ball that rolls may also spin about its own centre `c`,
+//! with the twist `(omega, omega x (p - c))`.
 
 use crate::algebra::{Disturbed, ExprId, Graph};
 use crate::base::ids::BodyId;
@@ -34,14 +35,16 @@ pub(super) struct Carrier {
     twists: Vec<Twist<ExprId>>,
     /// `slopes[i][k]`: derivative of `twists[k]` by coordinate `i`.
     slopes: Vec<Vec<Twist<ExprId>>>,
-    /// Centre of a ball that rolls, and its derivative by each coordinate.
-    centers: Vec<[ExprId; 3]>,
+    /// The body's origin, and its derivative by each coordinate.
+    places: Vec<[ExprId; 3]>,
+    /// From the centre of a ball that rolls to that origin, and the derivative by each coordinate.
+    offsets: Vec<[ExprId; 3]>,
 }
 
 impl Carrier {
     /// Number of candidates: the motions of space, and the spins of a ball.
     pub(super) fn len(&self) -> usize {
-        match self.centers.is_empty() {
+        match self.offsets.is_empty() {
             true => RIGID,
             false => RIGID + 3,
         }
@@ -71,8 +74,7 @@ impl Fields {
                 .chain(free_steps)
                 .take(RIGID + 1)
                 .collect();
-            let turns = path.iter().any(|(_, step, _)| step.turn.is_some());
-            if turns && path.len() > before.len() && (2..=RIGID).contains(&path.len()) {
+            if path.len() > before.len() && path.len() <= RIGID {
                 carriers.push(Carrier::new(g, context, &kinematics, branch.body, &path));
             }
             paths[branch.body.index()] = path;
@@ -93,7 +95,8 @@ impl Fields {
         let all = self.carriers.iter().flat_map(|carrier| {
             let slopes = carrier.slopes.iter().flatten();
             let twists = carrier.twists.iter().chain(slopes).flatten();
-            twists.chain(carrier.centers.iter().flatten())
+            let places = carrier.places.iter().chain(&carrier.offsets);
+            twists.chain(places.flatten())
         });
         all.copied().collect()
     }
@@ -110,10 +113,14 @@ impl Fields {
             let n = carrier.coordinates.len();
             let twists: Vec<&[Disturbed]> = next(n * RIGID).chunks_exact(RIGID).collect();
             let slopes: Vec<&[Disturbed]> = next(n * n * RIGID).chunks_exact(RIGID).collect();
-            let centers: Vec<&[Disturbed]> = next(3 * carrier.centers.len()).chunks(3).collect();
+            let places: Vec<&[Disturbed]> = next(3 + 3 * n).chunks(3).collect();
+            let offsets: Vec<&[Disturbed]> = next(3 * carrier.offsets.len()).chunks(3).collect();
             let inverse = Inverse::new(&twists, operations);
             for component in 0..carrier.len() {
-                let wanted = wanted(component, &centers, n);
+                let wanted = match component.checked_sub(RIGID) {
+                    None => wanted(component, &places),
+                    Some(axis) => wanted(axis, &offsets),
+                };
                 let Some(inverse) = &inverse else {
                     // coordinates that do the same
                     fields.push(Field::impossible(wanted[0]));
@@ -140,20 +147,18 @@ impl Fields {
     }
 }
 
-/// The twist of a candidate, and its derivatives by `n` coordinates.
-fn wanted(component: usize, centers: &[&[Disturbed]], n: usize) -> Vec<Twist<Disturbed>> {
+/// The twist of a candidate, and its derivatives by the coordinates: a rotation at the end of these arms, or a
+/// translation.
+fn wanted(component: usize, arms: &[&[Disturbed]]) -> Vec<Twist<Disturbed>> {
     let zero = Disturbed::exact(0.0);
-    let mut twists = vec![[zero; RIGID]; 1 + n];
-    match component.checked_sub(RIGID) {
-        None => twists[0][component] = Disturbed::exact(1.0),
-        Some(axis) => {
-            twists[0][axis] = Disturbed::exact(1.0);
-            let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-            for (twist, center) in twists.iter_mut().zip(centers) {
-                // c x e_axis
-                twist[3 + next] = center[last];
-                twist[3 + last] = -center[next];
-            }
+    let mut twists = vec![[zero; RIGID]; arms.len()];
+    twists[0][component] = Disturbed::exact(1.0);
+    if component < 3 {
+        let (next, last) = ((component + 1) % 3, (component + 2) % 3);
+        for (twist, arm) in twists.iter_mut().zip(arms) {
+            // e_component x arm
+            twist[3 + next] = -arm[last];
+            twist[3 + last] = arm[next];
         }
     }
     twists
@@ -171,12 +176,12 @@ impl Carrier {
         body: BodyId,
         path: &[(usize, StepAxis, BodyId)],
     ) -> Self {
+        let place = kinematics.of(body).frame.position;
         let twists: Vec<Twist<ExprId>> = path
             .iter()
             .map(|(_, step, body)| {
-                let origin = kinematics.of(*body).frame.position;
-                let to_ground = origin.neg(g);
-                let velocity = step.velocity(g, to_ground);
+                let arm = place.sub(g, kinematics.of(*body).frame.position);
+                let velocity = step.velocity(g, arm);
                 let zero = g.zero();
                 let turn = step.turn.map_or([zero; 3], |turn| turn.0);
                 let [a, b, c] = turn;
@@ -203,17 +208,22 @@ impl Carrier {
             let on_body = context.mechanism.points[wheel.index()].frame == Frame::Body(body);
             on_body.then_some(*wheel)
         });
-        let centers = wheel.map_or(Vec::new(), |wheel| {
-            let center = kinematics.points[wheel.index()].position.0;
+        let with_slopes = |g: &mut Graph, vector: [ExprId; 3]| -> Vec<[ExprId; 3]> {
             let ids = path.iter().map(|(index, ..)| context.symbols.q.ids[*index]);
-            let slopes = ids.map(|id| by_symbol(g, &center, id));
+            let slopes = ids.map(|id| by_symbol(g, &vector, id));
             let slopes = slopes.map(|slope| std::array::from_fn(|k| slope[k]));
-            std::iter::once(center).chain(slopes).collect()
+            std::iter::once(vector).chain(slopes).collect()
+        };
+        let places = with_slopes(g, place.0);
+        let offsets = wheel.map_or(Vec::new(), |wheel| {
+            let offset = place.sub(g, kinematics.points[wheel.index()].position);
+            with_slopes(g, offset.0)
         });
         Self {
             body,
             slopes,
-            centers,
+            places,
+            offsets,
             coordinates: path.iter().map(|(index, ..)| *index).collect(),
             twists,
         }

@@ -1,6 +1,6 @@
 //! Loads along free directions. Where the work along a direction is the same everywhere and not zero, nothing balances it.
 
-use crate::algebra::{ExprId, Graph, NullSpace};
+use crate::algebra::{Disturbed, ExprId, Graph};
 use crate::base::diagnostics::{Diagnostic, listed};
 use crate::base::ids::ForceId;
 use crate::base::span::Extent;
@@ -9,10 +9,13 @@ use crate::mechanics::motion::in_common_frame_at_zero;
 use crate::mechanics::setup::{Context, ForceSelection, RandomState, Selection, at_rest};
 use crate::model::mechanism::Force;
 
-use super::count::{at_random, rates};
-use super::state::{Friction, System};
+use super::count::{at_random, rank, rates};
+use super::state::{Friction, Linearised, System};
 use super::symmetry::{Combinations, conserved, powers};
-use super::words::{Direction, exact, independent, readable};
+use super::words::{Direction, FEW, exact, independent, readable};
+
+/// Relative difference of work that is the same.
+const SAME: f64 = 1e-3;
 
 /// The directions along which the loads of a design do not balance: those along which they do the same work everywhere.
 /// Loads that follow a free motion do not; then the mechanism rests nowhere if it cannot be brought to rest.
@@ -26,31 +29,37 @@ pub(super) fn unbalanced(
         return Vec::new();
     };
     let conserved = conserved(system, design, friction);
-    let loaded = |combinations: &Combinations| {
+    let loaded = |combinations: &Combinations, places: &[Linearised]| {
         let mut directions = readable(system, combinations, state.operations);
         let along: Vec<_> = directions
             .iter()
             .map(|direction| exact(direction))
             .collect();
-        let powers = powers(&state, &along, &state.residual, system.fields.free);
-        let mut works = powers
-            .iter()
-            .map(|power| !power.is_rounding(state.operations));
-        directions.retain(|_| works.next() == Some(true));
+        let power = |state: &Linearised| powers(state, &along, &state.residual, system.fields.free);
+        let here = power(&state);
+        let elsewhere: Vec<_> = places.iter().map(power).collect();
+        let mut k = 0..;
+        directions.retain(|_| {
+            let k = k.next().unwrap_or(0);
+            let there = |powers: &Vec<Disturbed>| powers[k].value() / here[k].value() - 1.0;
+            !here[k].is_rounding(state.operations)
+                && elsewhere.iter().all(|powers| there(powers).abs() < SAME)
+        });
         independent(system, &state, directions)
     };
-    let everywhere = loaded(&conserved);
-    let dimension = |of: &Combinations| {
-        let motions = rates(system, &state, of);
-        of.len() - NullSpace::new(motions, 0, state.operations).vectors.len()
-    };
+    // What rounding let pass changes from place to place.
+    let others =
+        (141..144).filter_map(|motion| system.at(RandomState { design, motion }, friction));
+    let others: Vec<_> = others.collect();
+    let everywhere = loaded(&conserved, &others);
+    let dimension = |of: &Combinations| rank(&rates(system, &state, of), state.operations);
     let rolls = system.first_of_velocities() < system.size();
     if !everywhere.is_empty() || rolls || dimension(&conserved) >= dimension(symmetries) {
         return everywhere;
     }
     match system.equilibria(design).next() {
         Some(_) => Vec::new(),
-        None => loaded(symmetries),
+        None => loaded(symmetries, &[]),
     }
 }
 
@@ -152,6 +161,9 @@ fn mistake(loads: &[&Cause], directions: &[Direction]) -> Diagnostic {
     });
     let names: Vec<String> = match loads {
         [] => vec!["a load".to_owned()],
+        [first, others @ ..] if others.len() >= FEW => {
+            vec![first.text(), format!("{} other loads", others.len())]
+        }
         loads => loads.iter().map(|load| load.text()).collect(),
     };
     let along: Vec<String> = directions

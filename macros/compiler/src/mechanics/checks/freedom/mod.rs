@@ -40,33 +40,48 @@ pub(crate) fn free_directions(
 ) -> Result<FreeDirections, Diagnostics> {
     let fields = Fields::new(g, context);
     let system = System::new(g, context, equations, jacobians, &fields);
-    let mut least = usize::MAX;
-    for design in 1..=DESIGNS {
-        least = least.min(count(&system, design).map_or(0, |count| count.directions));
-        if least == 0 {
-            return Ok(FreeDirections::default());
-        }
-    }
+    // Without anything that a design could change, one says all.
+    let alike = context.symbols.b.ids.is_empty() && context.symbols.u.ids.is_empty();
     let mut free = FreeDirections {
-        count: least,
+        count: usize::MAX,
         notes: Vec::new(),
     };
-    let (Some(nominal), Some(state)) = (
-        count(&system, NOMINAL),
-        at_random(&system, NOMINAL, Friction::Any),
-    ) else {
+    let mut first = None;
+    for design in (1..=if alike { 1 } else { DESIGNS }).rev() {
+        first = count(&system, design);
+        let directions = first.as_ref().map_or(0, |count| count.directions);
+        free.count = free.count.min(directions);
+        if free.count == 0 {
+            free.notes.extend(first.and_then(|count| count.hidden()));
+            return Ok(free);
+        }
+    }
+    let rests = first.as_ref().is_some_and(|count| count.rests);
+    let nominal = match alike {
+        true => first,
+        false => count(&system, NOMINAL),
+    };
+    let state = at_random(&system, NOMINAL, Friction::Any);
+    let (Some(nominal), Some(state)) = (nominal, state) else {
         return Ok(free);
     };
-    if nominal.directions == least {
+    if nominal.directions == free.count {
         free.notes.push(note(&system, &nominal, &state));
     }
+    free.notes.extend(nominal.hidden());
     let (symmetries, friction) = match nominal.proof {
         Proof::AtZero(_) => (Vec::new(), Friction::Any),
         Proof::Symmetries(symmetries, friction) => (symmetries, friction),
     };
-    let loaded = unbalanced(&system, NOMINAL, &symmetries, friction);
+    let loaded = match nominal.rests {
+        true => Vec::new(),
+        false => unbalanced(&system, NOMINAL, &symmetries, friction),
+    };
     if loaded.is_empty() {
-        let elsewhere = unbalanced(&system, 1, &symmetries, friction);
+        let elsewhere = match rests {
+            true => Vec::new(),
+            false => unbalanced(&system, 1, &symmetries, friction),
+        };
         let text = |along: &Vec<f64>| described(context, &fields, along).text;
         let texts: Vec<String> = elsewhere.iter().map(text).collect();
         if !texts.is_empty() {

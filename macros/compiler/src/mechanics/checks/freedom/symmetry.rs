@@ -1,7 +1,10 @@
 //! Combinations of the candidates with a property at every place. The property is linear in the coefficients, which are
 //! the same everywhere.
 
-use crate::algebra::{Disturbed, NullSpace, times};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+use crate::algebra::{Disturbed, NullSpace, scale, times};
 use crate::mechanics::setup::RandomState;
 
 use super::fields::{Field, RIGID};
@@ -19,22 +22,30 @@ type Rows = Vec<Vec<Disturbed>>;
 /// The motions that leave the equations as they are, up to reactions of constraints:
 /// `K zeta + (d zeta/dq)^T g + Phi_q^T nu = 0` and `Phi_q zeta = 0`, with any `nu` at every place.
 pub(super) fn symmetries(system: &System, design: u64, friction: Friction) -> Combinations {
+    found(system, design, friction, 0, changes)
+}
+
+/// The motions of [`wholes`] that meet no resistance at an equilibrium.
+pub(super) fn unresisted_wholes(system: &System, state: &Linearised) -> Combinations {
+    let wholes = wholes(system, state, 0);
+    let (rows, lead) = of_combinations(changes(system, state), system.fields.len(), &wholes);
+    let null_space = NullSpace::of_scaled(rows, lead, state.operations);
+    combined(&wholes, &null_space.vectors)
+}
+
+fn changes(system: &System, state: &Linearised) -> Rows {
     let moving = system.context.moving().1;
-    common(system, design, friction, system.fields.len(), |state| {
-        let n = state.residual.len();
-        let reactions = |i: usize| (moving..n).map(move |j| state.stiffness[j][i]);
-        let change = |i: usize| {
-            state
-                .fields
-                .iter()
-                .map(move |field| change(field, state, i))
-        };
-        let mut rows: Rows = (0..n)
-            .map(|i| reactions(i).chain(change(i)).collect())
-            .collect();
-        rows.extend(missed(system, state, n - moving, 0));
-        rows
-    })
+    let n = state.residual.len();
+    let reactions = |i: usize| (moving..n).map(move |j| state.stiffness[j][i]);
+    let change = |i: usize| {
+        let fields = state.fields.iter();
+        fields.map(move |field| change(field, state, i))
+    };
+    let row = |i: usize| reactions(i).chain(change(i)).collect();
+    let mut rows: Rows = (0..n).map(row).collect();
+    scale(&mut rows, state.operations);
+    rows.extend(missed(system, state, n - moving, 0));
+    rows
 }
 
 /// The directions along which the loads do the same work everywhere, apart from gaps of constraints:
@@ -42,18 +53,66 @@ pub(super) fn symmetries(system: &System, design: u64, friction: Friction) -> Co
 /// are followed by the equations of coasting coordinates.
 pub(super) fn conserved(system: &System, design: u64, friction: Friction) -> Combinations {
     let (free, moving) = system.context.moving();
-    let candidates = system.fields.len() + moving - free;
-    common(system, design, friction, candidates, |state| {
+    found(system, design, friction, moving - free, |system, state| {
         let n = state.residual.len();
         let gaps = |j: usize| (moving..n).map(move |i| state.stiffness[j][i]);
         let slope = |j: usize| state.fields.iter().map(move |field| slope(field, state, j));
         let coasting = |j: usize| (free..moving).map(move |i| state.stiffness[j][i]);
-        let mut rows: Rows = (0..n)
-            .map(|j| gaps(j).chain(slope(j)).chain(coasting(j)).collect())
-            .collect();
+        let row = |j: usize| gaps(j).chain(slope(j)).chain(coasting(j)).collect();
+        let mut rows: Rows = (0..n).map(row).collect();
+        scale(&mut rows, state.operations);
         rows.extend(missed(system, state, n - moving, moving - free));
         rows
     })
+}
+
+/// The motions of space of each connected part as a whole: bodies in it are tied to each other, not to the ground, so
+/// that whatever stands between them leaves these motions exactly as they are, however stiff it is. By candidate,
+/// followed by `more`.
+fn wholes(system: &System, state: &Linearised, more: usize) -> Combinations {
+    let carriers = &system.fields.carriers;
+    let mut parts: Vec<usize> = (0..system.size()).collect();
+    let mut join = |i: usize, j: usize| {
+        let (from, to) = (parts[i].max(parts[j]), parts[i].min(parts[j]));
+        if from != to {
+            parts
+                .iter_mut()
+                .filter(|part| **part == from)
+                .for_each(|part| *part = to);
+        }
+    };
+    for (j, column) in state.stiffness.iter().enumerate() {
+        let tied = (0..column.len()).filter(|&i| !column[i].is_zero());
+        tied.for_each(|i| join(i, j));
+    }
+    for carrier in carriers {
+        let first = carrier.coordinates[0];
+        carrier.coordinates.iter().for_each(|&k| join(first, k));
+    }
+    // Of the bodies that a joint carries, those that can move in most ways.
+    let mut first = system.fields.free;
+    let mut order = Vec::new();
+    for carrier in carriers {
+        order.push((first, &carrier.coordinates));
+        first += carrier.len();
+    }
+    order.sort_by_key(|(_, coordinates)| Reverse(coordinates.len()));
+    let mut moved = vec![false; system.fields.free];
+    let none = vec![Disturbed::exact(0.0); system.fields.len() + more];
+    let mut wholes: BTreeMap<(usize, usize), Vec<Disturbed>> = BTreeMap::new();
+    for (first, coordinates) in order {
+        let singular = state.fields[first].coordinates.is_empty();
+        if singular || coordinates.iter().any(|&k| moved[k]) {
+            continue;
+        }
+        coordinates.iter().for_each(|&k| moved[k] = true);
+        for component in 0..RIGID {
+            let whole = (parts[coordinates[0]], component);
+            let whole = wholes.entry(whole).or_insert_with(|| none.clone());
+            whole[first + component] = Disturbed::exact(1.0);
+        }
+    }
+    wholes.into_values().collect()
 }
 
 /// `w . g` for each combination.
@@ -76,47 +135,69 @@ pub(super) fn powers(
     times(&[row], along).concat()
 }
 
-/// All combinations that solve the equations `rows` at every state; columns in front of those of the candidates belong
-/// to unknowns of their own at every state.
-fn common(
+/// All combinations that solve the equations `rows` at every state: those of [`wholes`], of which there are few, then any
+/// that rounding lets see. Columns in front of those of the candidates, `more` than the fields, belong to unknowns of
+/// their own at every state.
+fn found(
     system: &System,
     design: u64,
     friction: Friction,
-    candidates: usize,
-    rows: impl Fn(&Linearised) -> Rows,
+    more: usize,
+    rows: impl Fn(&System, &Linearised) -> Rows,
 ) -> Combinations {
-    let mut combinations: Option<Combinations> = None;
-    let mut confirmed = 0;
-    for motion in 1..=ATTEMPTS {
-        let Some(state) = system.at(RandomState { design, motion }, friction) else {
-            continue;
-        };
-        let mut rows = rows(&state);
-        let lead = rows.first().map_or(0, Vec::len).saturating_sub(candidates);
-        if let Some(found) = &combinations {
-            for row in &mut rows {
-                let tail = row.split_off(lead);
-                row.extend(times(&[tail], found).concat());
+    let random = |motion| system.at(RandomState { design, motion }, friction);
+    let Some(state) = (1..=ATTEMPTS).find_map(random) else {
+        return Combinations::new();
+    };
+    let candidates = system.fields.len() + more;
+    let common = |start: Option<Combinations>| {
+        let mut combinations = start;
+        let mut confirmed = 0;
+        for state in (1..=ATTEMPTS).filter_map(random) {
+            let before = combinations.as_ref().map_or(candidates, Vec::len);
+            let (rows, lead) = match &combinations {
+                None => {
+                    let rows = rows(system, &state);
+                    let lead = rows.first().map_or(0, Vec::len).saturating_sub(candidates);
+                    (rows, lead)
+                }
+                Some(found) => of_combinations(rows(system, &state), candidates, found),
+            };
+            let next = NullSpace::of_scaled(rows, lead, state.operations).vectors;
+            let next = match &combinations {
+                None => next,
+                Some(found) => combined(found, &next),
+            };
+            confirmed = if next.len() == before {
+                confirmed + 1
+            } else {
+                0
+            };
+            let done = next.is_empty() || confirmed == CONFIRMED;
+            combinations = Some(next);
+            if done {
+                break;
             }
         }
-        let next = NullSpace::new(rows, lead, state.operations).vectors;
-        let next = match &combinations {
-            None => next,
-            Some(found) => combined(found, &next),
-        };
-        let before = combinations.as_ref().map_or(candidates, Vec::len);
-        confirmed = if next.len() == before {
-            confirmed + 1
-        } else {
-            0
-        };
-        let done = next.is_empty() || confirmed == CONFIRMED;
-        combinations = Some(next);
-        if done {
-            break;
-        }
+        combinations.unwrap_or_default()
+    };
+    let mut all = common(Some(wholes(system, &state, more)));
+    all.extend(common(None));
+    all
+}
+
+/// The equations for the shares of some combinations, and the number of columns in front.
+fn of_combinations(
+    mut rows: Rows,
+    candidates: usize,
+    combinations: &Combinations,
+) -> (Rows, usize) {
+    let lead = rows.first().map_or(0, Vec::len).saturating_sub(candidates);
+    for row in &mut rows {
+        let tail = row.split_off(lead);
+        row.extend(times(&[tail], combinations).concat());
     }
-    combinations.unwrap_or_default()
+    (rows, lead)
 }
 
 /// What remains of the motions of space that the joints do not allow, after `before` zeros and followed by `after`.

@@ -4,7 +4,7 @@ use crate::algebra::{Disturbed, NullSpace};
 use crate::base::span::Extent;
 use crate::mechanics::setup::Context;
 
-use super::count::{Count, Proof, rates};
+use super::count::{Count, Proof, rank, rates};
 use super::fields::Fields;
 use super::state::{Linearised, System};
 use super::symmetry::{Combinations, combined};
@@ -18,10 +18,20 @@ pub(super) struct Direction {
 /// What the free directions of the nominal design are, if they are as many as in every other.
 pub(super) fn note(system: &System, count: &Count, state: &Linearised) -> String {
     let directions: Vec<String> = match &count.proof {
-        Proof::AtZero(vectors) => reduced(vectors)
-            .iter()
-            .map(|rates| together(system.context, rates))
-            .collect(),
+        Proof::AtZero(unresisted) => {
+            let wholes = unresisted.wholes.iter();
+            let wholes = wholes.map(|x| x.iter().map(Disturbed::value).collect::<Vec<_>>());
+            let others = reduced(&unresisted.rates[unresisted.wholes.len()..]);
+            let all = reduced(&unresisted.rates);
+            let moved = |rates: &Vec<f64>| rates.iter().filter(|x| x.abs() > NOTHING).count();
+            match all.iter().all(|rates| moved(rates) <= FEW) {
+                true => all.iter().map(|x| together(system.context, x)).collect(),
+                false => wholes
+                    .map(|whole| described(system.context, system.fields, &whole).text)
+                    .chain(others.iter().map(|x| together(system.context, x)))
+                    .collect(),
+            }
+        }
         Proof::Symmetries(combinations, _) => {
             let readable = readable(system, combinations, state.operations);
             independent(system, state, readable)
@@ -66,6 +76,11 @@ pub(super) fn readable(
         all.extend(without(combinations, of_coordinates, operations));
     }
     all.extend(reduced(combinations));
+    let coordinates = |x: &Vec<f64>| {
+        let alone = x.iter().take(system.fields.free);
+        alone.filter(|x| x.abs() > NOTHING).count()
+    };
+    all.sort_by_key(|x| coordinates(x) > FEW);
     all
 }
 
@@ -98,10 +113,7 @@ pub(super) fn independent(
         let mut motions = rates(system, state, &all);
         let coasting = system.fields.len()..all[0].len();
         motions.extend(coasting.map(|k| all.iter().map(|x| x[k]).collect()));
-        if !NullSpace::new(motions, 0, state.operations)
-            .vectors
-            .is_empty()
-        {
+        if rank(&motions, state.operations) < chosen.len() {
             chosen.pop();
         }
     }
@@ -113,6 +125,9 @@ pub(super) fn exact(values: &[f64]) -> Vec<Disturbed> {
     let rounded = |(seed, &x): (u64, &f64)| Disturbed::rounded(x, 1e-13 * x.abs(), seed);
     (0..).zip(values).map(rounded).collect()
 }
+
+/// Names that a list may have.
+pub(super) const FEW: usize = 6;
 
 /// Size below which a coefficient is none.
 const NOTHING: f64 = 1e-9;
@@ -173,7 +188,23 @@ pub(super) fn described(context: &Context, fields: &Fields, combination: &[f64])
         .iter()
         .map(|(carrier, _)| format!("`{}`", context.mechanism.bodies[carrier.body.index()].name))
         .collect();
-    let names = names.join(", ");
+    let moves = |k: &usize| {
+        carried
+            .iter()
+            .any(|(carrier, _)| carrier.coordinates.contains(k))
+    };
+    let names = match &names[..] {
+        few if few.len() <= FEW => names.join(", "),
+        _ if fields
+            .carriers
+            .iter()
+            .all(|other| other.coordinates.iter().any(|k| moves(k))) =>
+        {
+            "the whole".to_owned()
+        }
+        [first, others @ ..] => format!("{first} and {} other bodies", others.len()),
+        [] => String::new(),
+    };
     let (turn, shift) = twist.split_at(3);
     let (shift, spin) = shift.split_at(3);
     let spin = spin.iter().copied().chain([0.0; 3]);
@@ -221,6 +252,9 @@ fn together(context: &Context, rates: &[f64]) -> String {
     match &present[..] {
         [] => String::new(),
         [_] => format!("`{}`", names[0]),
+        [_, others @ ..] if others.len() >= FEW => {
+            format!("`{}` and {} other coordinates", names[0], others.len())
+        }
         [first, ..] => {
             let shares = present.iter().map(|&k| short(rates[k] / rates[*first]));
             let shares: Vec<String> = shares.collect();
