@@ -45,6 +45,8 @@ pub(crate) struct Lines {
     pub(crate) worth: u64,
     /// How many times the usual budget an answer is worth.
     pub(crate) effort: f64,
+    /// Seed and stream of the lines.
+    pub(crate) sequence: (u64, u64),
 }
 
 impl Lines {
@@ -57,6 +59,7 @@ impl Lines {
             directions: vec![Direction { along, distance }],
             worth: 0,
             effort: 1.0,
+            sequence: (0, 0),
         }
     }
 
@@ -99,11 +102,13 @@ impl<'a> Event<'a> {
         let budget = lines.effort * BUDGET;
         let affordable = (budget / each).min(MOST as f64);
         let evaluations = lines.worth.max(affordable as u64);
+        let (seed, stream) = lines.sequence;
         let settings = LineSettings {
+            seed,
+            stream,
             evaluations,
             coefficient_of_variation: ACCURACY,
             reach: (lines.farthest() + BEYOND).clamp(REACH, FARTHEST),
-            ..LineSettings::default()
         };
         let dimension = self.deviations.dimension();
         let sampler = LineSampler::new(dimension, &variables, &lines.directions, &settings)?;

@@ -127,8 +127,12 @@ impl Requirements<'_> {
         let mut reliability = None;
         let mut judgements: Vec<(Judgement, bool)> = Vec::new();
         if continuous {
-            let mut form = reliability_of(self, deviations, &FormSettings::default())?;
-            judgements = judge_requirements(self, sampling.samples as u64, &mut form)?;
+            let settings = FormSettings {
+                seed: sampling.seed,
+                ..FormSettings::default()
+            };
+            let mut form = reliability_of(self, deviations, &settings)?;
+            judgements = judge_requirements(self, sampling, &mut form)?;
             reliability = (!form.limits.is_empty()).then_some(form);
         }
         let settled = |index: usize| {
