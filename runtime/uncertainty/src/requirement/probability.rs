@@ -56,6 +56,7 @@ impl FailureProbability {
             interval: judged.interval(),
             untold: judged.untold.value.min(1.0),
             by: match described {
+                _ if judged.lines == 0 => EstimatedBy::Samples,
                 true => EstimatedBy::DesignPoint,
                 false => EstimatedBy::Lines,
             },

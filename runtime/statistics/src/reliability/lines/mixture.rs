@@ -13,13 +13,15 @@ const ROUND: usize = 24;
 const FEWEST_OF_EACH: usize = 4;
 /// For so many of them, one runs along a variable, whatever is expected.
 const EXPLORED_BY_ONE_OF: usize = 3;
+/// The weight of all variables, of which the directions in which failure is expected have nearly one.
+const RARELY: f64 = 0.1;
 /// A density less than that of the nearest place of a stretch by this logarithm does not count.
 const NEGLIGIBLE: f64 = 40.0;
 
-/// Directions, and the number of lines along each. Every point `z` lies on a line of each direction `n`, in a density of
-/// lines proportional to `exp((n . z)^2 / 2)` times the normal density; it counts with the density of all lines together
-/// (the balance heuristic: Veach and Guibas 1995, *Optimally combining sampling techniques for Monte Carlo rendering*),
-/// which keeps the sum unbiased and what a line contributes bounded, whatever the directions.
+/// Directions, and the number of lines along each. Every point `z` lies on lines of all directions `n`, met with a density
+/// proportional to `exp((n . z)^2 / 2)` times the normal density; they share it in proportion to these densities times
+/// weights (the balance heuristic: Veach and Guibas 1995, *Optimally combining sampling techniques for Monte Carlo
+/// rendering*), which keeps the sum unbiased and what a line contributes bounded, whatever the directions and weights.
 #[derive(Clone, Debug)]
 pub(super) struct Mixture {
     /// Of length one: those in which failure is expected, then those of the variables.
@@ -28,8 +30,10 @@ pub(super) struct Mixture {
     distances: Vec<f64>,
     /// Lines of a round along each direction in which failure is expected, then along all variables together.
     round: Vec<usize>,
-    /// The share of each direction in all lines.
-    shares: Vec<f64>,
+    /// The weight of each direction where lines of several meet.
+    weights: Vec<f64>,
+    /// What lines of each group count.
+    factors: Vec<f64>,
 }
 
 impl Mixture {
@@ -64,20 +68,26 @@ impl Mixture {
         let expected: usize = round.iter().sum();
         let exploring = (lines / EXPLORED_BY_ONE_OF).max(if known.is_empty() { lines } else { 0 });
         let all = (expected + exploring) as f64;
-        let mut shares: Vec<f64> = round.iter().map(|count| *count as f64 / all).collect();
+        // Of the directions in which failure is expected by their lines; of the variables, to which nothing is left where
+        // the others look, little.
+        let mut weights: Vec<f64> = round.iter().map(|count| *count as f64 / all).collect();
+        let rarely = if known.is_empty() { 1.0 } else { RARELY };
+        weights.extend(variables.iter().map(|_| rarely / variables.len() as f64));
+        let mut factors: Vec<f64> = round.iter().map(|_| 1.0).collect();
+        factors.push(rarely * all / exploring as f64);
         round.push(exploring);
         let mut directions: Vec<Vec<f64>> = known.into_iter().map(|(along, _)| along).collect();
         for &k in variables {
             let mut direction = vec![0.0; dimension];
             direction[k] = 1.0;
             directions.push(direction);
-            shares.push(exploring as f64 / all / variables.len() as f64);
         }
         Self {
             directions,
             distances,
             round,
-            shares,
+            weights,
+            factors,
         }
     }
 
@@ -112,17 +122,23 @@ impl Mixture {
     }
 
     /// What a line through a point contributes.
-    pub(super) fn weigh(&self, scanned: &Scanned, across: &[f64], direction: &[f64]) -> Line {
-        let along = self.directions.iter().zip(&self.shares);
+    pub(super) fn weigh(
+        &self,
+        group: usize,
+        scanned: &Scanned,
+        across: &[f64],
+        direction: &[f64],
+    ) -> Line {
+        let along = self.directions.iter().zip(&self.weights);
         let along: Vec<[f64; 3]> = along
-            .map(|(other, share)| [share.ln(), dot(other, across), dot(other, direction)])
+            .map(|(other, weight)| [weight.ln(), dot(other, across), dot(other, direction)])
             .collect();
         let density = |t: f64| {
-            let all = along.iter().map(|[share, start, slope]| {
+            let all = along.iter().map(|[weight, start, slope]| {
                 let place = start + slope * t;
-                (share + 0.5 * place * place).exp()
+                (weight + 0.5 * place * place).exp()
             });
-            (TAU.sqrt() * all.sum::<f64>()).recip()
+            self.factors[group] / (TAU.sqrt() * all.sum::<f64>())
         };
         let whole = |(from, to): Stretch| {
             let near = 0.0_f64.clamp(from, to);
@@ -153,7 +169,7 @@ impl Mixture {
             fails,
             without_value,
             known,
-            group: 0,
+            group,
             evaluations: scanned.evaluations,
         }
     }

@@ -6,7 +6,8 @@
 //! out than samples lie are tried first: they show how far failure is along the directions in which it is expected, and
 //! others in which nobody expected it. Lines then run along these directions and, one of four, along a variable; each
 //! point counts with the density of all lines, so the sum is unbiased, whatever the directions. Failure, its opposite and
-//! what has no value are shares of the same lines, so they sum to one.
+//! what has no value are shares of the same lines, so they sum to one. Where plain samples scatter less for what they cost,
+//! because failure is no rarer than its opposite or lies on all sides, they decide.
 
 mod explore;
 mod line;
@@ -59,6 +60,13 @@ const POINTS_OF_ONE: u64 = 257;
 const SPACING: f64 = 0.5;
 /// Fewer rounds of lines say nothing about their scatter.
 const FEWEST_ROUNDS: u64 = 2;
+/// The error is looked at again after so small a part more.
+const SELDOM: u64 = 4;
+/// Fewest plain samples that fail, or do not, and how much less than lines they must scatter for what they cost.
+const ENOUGH: f64 = 100.0;
+const DOUBT: f64 = 4.0;
+/// Numbers of plain samples, which no line takes, start here.
+const PLAIN: u64 = 1 << 59;
 /// The probability must come from at least as many lines as this, weighted by what they contribute.
 const CONTRIBUTING: f64 = 10.0;
 
@@ -75,11 +83,11 @@ pub struct LineProbability {
     pub probability: Estimate,
     /// Probability that the limit state has no value.
     pub without_value: Estimate,
-    /// Whether a single variable matters, or enough lines contribute for the standard error to be meaningful.
+    /// Whether a single variable matters, or enough lines or samples contribute for the standard error to be meaningful.
     pub settled: bool,
     /// Whether, moreover, the target coefficient of variation was reached.
     pub reached: bool,
-    /// Number of lines.
+    /// Number of lines; none if plain samples tell more.
     pub lines: u64,
     /// Number of evaluations of the limit state.
     pub evaluations: u64,
@@ -148,10 +156,7 @@ impl LineSampler {
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
         let value = Self::along(limit, &across, direction);
         let scanned = scan::scan(value, everywhere, self.settings.reach, self.spacing());
-        Line {
-            group,
-            ..self.mixture.weigh(&scanned, &across, direction)
-        }
+        self.mixture.weigh(group, &scanned, &across, direction)
     }
 
     /// A point across a direction, from a value of each variable that matters.
@@ -273,19 +278,84 @@ impl LineSampler {
         let LineSettings { seed, stream, .. } = self.settings;
         let mut samples = NormalSamples::new(seed, stream, 0, self.variables.len());
         let mut lines = Vec::new();
+        let (mut spent, mut due) = (0, FEWEST_ROUNDS);
         for round in 1.. {
+            let from = lines.len();
             let groups = self
                 .mixture
                 .groups()
                 .take(if self.alone() { 1 } else { usize::MAX });
             lines.extend(groups.map(|group| self.line(limit, group, &mut samples)));
-            let estimate = self.estimate(&lines, round);
-            let next = estimate.evaluations + estimate.evaluations / round;
-            if estimate.reached || next > most || self.alone() {
-                return estimate;
+            spent += evaluations(&lines[from..]);
+            let last = spent + spent / round > most || self.alone();
+            if last || round >= due {
+                let estimate = self.estimate(&lines, round);
+                if self.tells_less_than_samples(&estimate) {
+                    return self.plain(limit, most.saturating_sub(spent), estimate);
+                }
+                if last || estimate.reached {
+                    return estimate;
+                }
+                due = round + (round / SELDOM).max(1);
             }
         }
         self.estimate(&lines, 0)
+    }
+
+    /// Whether plain samples, of which enough would fail and enough would not, scatter less for what they cost than lines,
+    /// whose scatter is itself known from few of them.
+    fn tells_less_than_samples(&self, found: &LineProbability) -> bool {
+        let Estimate {
+            value,
+            standard_error,
+        } = found.probability;
+        let rarer = value.min(1.0 - value - found.without_value.value);
+        let spread = standard_error * standard_error * found.evaluations as f64;
+        !self.alone()
+            && rarer * self.settings.evaluations as f64 >= ENOUGH
+            && DOUBT * spread > value * (1.0 - value)
+    }
+
+    /// The estimate from plain samples.
+    fn plain<L: LimitState>(
+        &self,
+        limit: &L,
+        most: u64,
+        lines: LineProbability,
+    ) -> LineProbability {
+        let LineSettings { seed, stream, .. } = self.settings;
+        let mut samples = NormalSamples::new(seed, stream, PLAIN, self.variables.len());
+        let (mut fails, mut without_value) = (0.0, 0.0);
+        let origin = vec![0.0; self.dimension];
+        for drawn in 1.. {
+            let point = self.across(samples.next_sample(), &origin);
+            match limit.value(&point).unwrap_or(f64::NAN) {
+                value if value.is_nan() => without_value += 1.0,
+                value if value <= 0.0 => fails += 1.0,
+                _ => {}
+            }
+            let count = drawn as f64;
+            let share = |number: f64| Estimate {
+                value: number / count,
+                standard_error: (number * (count - number) / count).sqrt() / count,
+            };
+            let probability = share(fails);
+            let rarer = fails.min(count - fails - without_value);
+            let settled = rarer >= ENOUGH;
+            let wished = self.settings.coefficient_of_variation * rarer / count;
+            let reached = settled && probability.standard_error <= wished;
+            if reached || drawn >= most {
+                return LineProbability {
+                    settled,
+                    reached,
+                    probability,
+                    without_value: share(without_value),
+                    lines: 0,
+                    evaluations: lines.evaluations + drawn,
+                };
+            }
+        }
+        lines
     }
 }
 
