@@ -128,37 +128,3 @@ fn curved_limits() {
     }
     tally.check("curved");
 }
-
-#[test]
-fn scratch() {
-    let f = |z: &[f64]| z[0].tanh() - 0.7 * (1.5 * z[1]).tanh() + 0.4 * z[2];
-    for half in [0.05] {
-        let g = limit(8, |z| ((f(z) - 0.5).abs() - half, vec![0.0; 8]));
-        let mut random = RandomNumbers::starting_at(1, 1, 0);
-        let n = 1_000_000;
-        let hits = (0..n)
-            .filter(|_| {
-                let z = [0; 3].map(|_| normal(&mut random));
-                (f(&z) - 0.5).abs() < half
-            })
-            .count();
-        println!("exact {}", hits as f64 / f64::from(n));
-        for seed in 0..4 {
-            for directions in [
-                vec![],
-                vec![toward(&[1., -1., 0.4, 0., 0., 0., 0., 0.], 0.3)],
-            ] {
-                let settings = LineSettings {
-                    seed,
-                    evaluations: 200_000,
-                    ..LineSettings::default()
-                };
-                let variables: Vec<usize> = (0..8).collect();
-                let found = LineSampler::new(8, &variables, &directions, &settings)
-                    .unwrap()
-                    .run(&g);
-                println!("{found:?}");
-            }
-        }
-    }
-}

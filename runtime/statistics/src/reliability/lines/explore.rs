@@ -1,7 +1,7 @@
 //! Where failures are, before any line counts: how far along the directions in which they are expected, and in which
 //! others.
 
-use super::scan::{self, Stretch};
+use super::scan::{self, Scanned, Stretch};
 use super::{Direction, LineSampler, SPACING};
 use crate::normal;
 use crate::reliability::limit_state::LimitState;
@@ -79,18 +79,25 @@ struct Explorer<'a, L> {
     limit: &'a L,
     sampler: &'a LineSampler,
     evaluations: u64,
+    /// The variables along which anything changes.
+    moving: Vec<usize>,
 }
 
 impl LineSampler {
-    /// Directions in which failures were found, those expected first, and the number of evaluations.
-    pub(super) fn explore<L: LimitState>(&self, limit: &L) -> (Vec<Direction>, u64) {
+    /// Directions in which failures were found, those expected first; the variables along which anything changes; and the
+    /// number of evaluations.
+    pub(super) fn explore<L: LimitState>(&self, limit: &L) -> (Vec<Direction>, Vec<usize>, u64) {
         let mut explorer = Explorer {
             limit,
             sampler: self,
             evaluations: 0,
+            moving: Vec::new(),
         };
         let directions = explorer.directions();
-        (directions, explorer.evaluations)
+        if explorer.moving.is_empty() {
+            explorer.moving.clone_from(&self.variables);
+        }
+        (directions, explorer.moving, explorer.evaluations)
     }
 
     /// About how many evaluations that takes.
@@ -166,14 +173,20 @@ impl<L: LimitState> Explorer<'_, L> {
         let mut all = Vec::new();
         for k in 0..sampler.mixture.count() {
             let direction = sampler.mixture.direction(k);
+            let mut moves = false;
             for _ in 0..LINES {
                 let (share, sample) = samples.next_with_choice();
                 let across = unit(&sampler.across(sample, direction)).unwrap_or_default();
                 let across = scaled(share * farthest, &across);
-                let reach = f64::INFINITY;
-                for interval in self.line(&across, direction, (-reach, reach)) {
+                let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+                let scanned = self.scan(&across, direction, everywhere);
+                moves |= scanned.moves;
+                for interval in scanned.failing() {
                     all.push(add_scaled(&across, nearest(&interval), direction));
                 }
+            }
+            if let Some(variable) = k.checked_sub(sampler.mixture.expected()).filter(|_| moves) {
+                self.moving.push(variables[variable]);
             }
         }
         all
@@ -214,10 +227,14 @@ impl<L: LimitState> Explorer<'_, L> {
 
     /// Where designs fail on a line.
     fn line(&mut self, across: &[f64], direction: &[f64], stretch: Stretch) -> Vec<Stretch> {
+        self.scan(across, direction, stretch).failing().collect()
+    }
+
+    fn scan(&mut self, across: &[f64], direction: &[f64], stretch: Stretch) -> Scanned {
         let value = LineSampler::along(self.limit, across, direction);
         let scanned = scan::scan(value, stretch, self.sampler.settings.reach, SPACING);
         self.evaluations += scanned.evaluations;
-        scanned.failing().collect()
+        scanned
     }
 }
 

@@ -14,7 +14,7 @@ const FEWEST_OF_EACH: usize = 4;
 /// For so many of them, one runs along a variable, whatever is expected.
 const EXPLORED_BY_ONE_OF: usize = 3;
 /// The weight of all variables, of which the directions in which failure is expected have nearly one.
-const RARELY: f64 = 0.1;
+const RARELY: f64 = 0.01;
 /// A density less than that of the nearest place of a stretch by this logarithm does not count.
 const NEGLIGIBLE: f64 = 40.0;
 
@@ -37,7 +37,12 @@ pub(super) struct Mixture {
 }
 
 impl Mixture {
-    pub(super) fn new(dimension: usize, variables: &[usize], directions: &[Direction]) -> Self {
+    /// Of `variables`, lines run along those `explored`.
+    pub(super) fn new(
+        dimension: usize,
+        (variables, explored): (&[usize], &[usize]),
+        directions: &[Direction],
+    ) -> Self {
         let within = |item: &Direction| {
             let mut along = vec![0.0; dimension];
             for &k in variables {
@@ -72,12 +77,12 @@ impl Mixture {
         // the others look, little.
         let mut weights: Vec<f64> = round.iter().map(|count| *count as f64 / all).collect();
         let rarely = if known.is_empty() { 1.0 } else { RARELY };
-        weights.extend(variables.iter().map(|_| rarely / variables.len() as f64));
+        weights.extend(explored.iter().map(|_| rarely / explored.len() as f64));
         let mut factors: Vec<f64> = round.iter().map(|_| 1.0).collect();
         factors.push(rarely * all / exploring as f64);
         round.push(exploring);
         let mut directions: Vec<Vec<f64>> = known.into_iter().map(|(along, _)| along).collect();
-        for &k in variables {
+        for &k in explored {
             let mut direction = vec![0.0; dimension];
             direction[k] = 1.0;
             directions.push(direction);

@@ -137,7 +137,7 @@ impl LineSampler {
             settings: settings.clone(),
             dimension,
             variables: variables.to_vec(),
-            mixture: Mixture::new(dimension, variables, directions),
+            mixture: Mixture::new(dimension, (variables, variables), directions),
         })
     }
 
@@ -266,9 +266,10 @@ impl LineSampler {
         if self.alone() || 2 * self.cost_of_exploring() > left {
             return (self.clone(), 0);
         }
-        let (directions, spent) = self.explore(limit);
+        let (directions, explored, spent) = self.explore(limit);
+        let variables = (&self.variables[..], &explored[..]);
         let sampler = Self {
-            mixture: Mixture::new(self.dimension, &self.variables, &directions),
+            mixture: Mixture::new(self.dimension, variables, &directions),
             ..self.clone()
         };
         (sampler, spent)

@@ -10,6 +10,8 @@ const NARROW_JUMP: f64 = 1e-7;
 const CAUTION: f64 = 5.0;
 /// A line takes at most so many times the points that it takes at first.
 const MOST: usize = 12;
+/// Values that differ by less than this share of themselves are one.
+const ROUNDING: f64 = 1e-9;
 /// Fewest intervals of a stretch.
 const FEWEST_STEPS: f64 = 2.0;
 /// How far a secant is moved towards the middle, relative to the square of the width.
@@ -52,6 +54,8 @@ pub(super) type Stretch = (f64, f64);
 pub(super) struct Scanned {
     /// Stretches of one side, in ascending order.
     pub(super) stretches: Vec<(f64, f64, Side)>,
+    /// Whether any value differs from another by more than rounding.
+    pub(super) moves: bool,
     /// Number of evaluations of the limit state.
     pub(super) evaluations: u64,
 }
@@ -95,7 +99,12 @@ pub(super) fn scan(
     };
     let mut points: Vec<Point> = (0..=steps as i32).map(|k| scan.at(abscissa(k))).collect();
     scan.refine(&mut points);
-    let mut found = Scanned::default();
+    let first = points[0];
+    let moved = |x: &Point| (x.value - first.value).abs() > ROUNDING * first.value.abs();
+    let mut found = Scanned {
+        moves: (points.iter()).any(|x| x.side() != first.side() || moved(x)),
+        ..Scanned::default()
+    };
     found.enter(from, points[0].side());
     for pair in points.windows(2) {
         scan.between(pair[0], pair[1], 0, &mut found);
