@@ -4,10 +4,36 @@ use super::{Response, Responses};
 use crate::forced;
 use crate::kernels::Kernels;
 use crate::peaks;
-use crate::sweep::{Condition, Following, critical_state, first_crossing};
+use crate::sweep::{
+    Condition, Crossing, Following, critical_state, first_crossing, flutter_onsets,
+};
 use crate::{Error, Output};
 
 impl Responses<'_> {
+    /// The first mode whose flutter begins or ends in the nominal design, and where, if a response is about that of another
+    /// mode which has none.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn flutters_instead(&self, response: Response) -> Option<(usize, f64)> {
+        let Response::Crossing {
+            mode,
+            condition: Condition::FlutterOnset,
+            range,
+        } = response
+        else {
+            return None;
+        };
+        let at = self.nominal();
+        let (u, b, start) = (&at.inputs, &at.design, &at.coordinates);
+        let onsets = flutter_onsets(self.mechanism(), u, b, start, Following::default(), range);
+        let label = |crossing: &Crossing| crossing.modes.modes[crossing.mode].label;
+        let all: Vec<(usize, f64)> = (onsets.iter().flatten())
+            .map(|crossing| (label(crossing), crossing.value))
+            .collect();
+        let own = all.iter().any(|(other, _)| *other == mode);
+        all.first().copied().filter(|_| !own)
+    }
+
     /// Why the nominal design lacks a response; `None` if it has it.
     #[doc(hidden)]
     #[must_use]

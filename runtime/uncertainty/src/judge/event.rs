@@ -16,6 +16,9 @@ use crate::response::{Realisation, Responses, Workspace};
 
 /// Most designs: further ones would not change a verdict.
 const MOST: u64 = 20_000;
+/// States that a search along an input solves for each of its steps, and designs worth such a search whatever it costs.
+const STATES: f64 = 20.0;
+const SEARCHES: u64 = 800;
 /// Target coefficient of variation, well within what is trusted.
 const ACCURACY: f64 = 0.02;
 /// Standard deviations up to which lines are searched at least and at most, and by how much beyond what is known to
@@ -98,10 +101,15 @@ impl<'a> Event<'a> {
         if joint.is_some_and(|all| !all.iter().all(Distribution::is_continuous)) {
             return Ok(Judgement::Open(Unjudged::Discrete));
         }
-        let each = operations(self.responses.modes(), false) * self.responses.price() as f64;
+        let price = self.responses.price();
+        let (worth, states) = match price {
+            1 => (lines.worth, 1.0),
+            _ => (lines.worth.min(SEARCHES), price as f64 * STATES),
+        };
+        let each = operations(self.responses.modes(), false) * states;
         let budget = lines.effort * BUDGET;
         let affordable = (budget / each).min(MOST as f64);
-        let evaluations = lines.worth.max(affordable as u64);
+        let evaluations = worth.max(affordable as u64);
         let (seed, stream) = lines.sequence;
         let settings = LineSettings {
             seed,

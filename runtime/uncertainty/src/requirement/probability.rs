@@ -113,7 +113,8 @@ impl Requirements<'_> {
     ///
     /// # Errors
     /// [`Error::Setting`] if no tolerance is declared; [`Error::NoDesignTells`] if no design that was solved has the
-    /// response of a requirement; those of [`Self::chances`]; [`Error::Stopped`].
+    /// response of a requirement; [`Error::Setting`] for the flutter of a mode that has none where another has;
+    /// those of [`Self::chances`]; [`Error::Stopped`].
     pub fn probabilities(&self, sampling: &Sampling<'_>) -> Result<Probabilities, Error> {
         let (deviations, state) = (self.deviations(), self.responses().nominal());
         let tolerances = deviations.tolerances();
@@ -123,6 +124,7 @@ impl Requirements<'_> {
                 reason: "no tolerance is declared, so nothing is left to chance".to_owned(),
             });
         }
+        self.check_flutter()?;
         let variables = tolerances.joint().map(|(joint, _)| joint.variables());
         let continuous = variables.is_none_or(|all| all.iter().all(Distribution::is_continuous));
         let mut reliability = None;

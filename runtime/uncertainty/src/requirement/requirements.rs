@@ -1,5 +1,7 @@
 //! All requirements of a design.
 
+use eigentol_results::numbers::{short, with_unit};
+
 use super::kinds::Requirement;
 use crate::deviations::Deviations;
 use crate::kernels::CurvatureKernels;
@@ -100,6 +102,26 @@ impl<'a> Requirements<'a> {
     pub(super) fn nominal_has_all(&self) -> bool {
         let mut all = self.responses.wanted().iter();
         all.all(|x| self.responses.missing(*x).is_none())
+    }
+
+    /// Refuses the flutter of a mode that has none in the nominal design, where another has: names that one at once.
+    pub(super) fn check_flutter(&self) -> Result<(), Error> {
+        let wanted = self.responses.wanted().iter();
+        let found = wanted.filter_map(|x| Some((*x, self.responses.flutters_instead(*x)?)));
+        for (response, (mode, value)) in found {
+            let of = &self.responses.nominal().description;
+            let unit = response.unit(of);
+            return Err(Error::Setting {
+                setting: "requirement",
+                reason: format!(
+                    "the nominal design has no `{}`; mode {} flutters from {} on",
+                    response.name(of),
+                    mode + 1,
+                    with_unit(short(value / unit.scale), &unit)
+                ),
+            });
+        }
+        Ok(())
     }
 
     /// The error of a requirement whose response no design has.

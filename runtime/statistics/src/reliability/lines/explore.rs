@@ -2,7 +2,7 @@
 //! others.
 
 use super::scan::{self, Scanned, Stretch};
-use super::{Direction, LineSampler, SPACING};
+use super::{Direction, LineSampler};
 use crate::normal;
 use crate::reliability::limit_state::LimitState;
 use crate::reliability::random::NormalSamples;
@@ -107,7 +107,7 @@ impl LineSampler {
             few if few <= MOST_VARIABLES => (self.mixture.expected() + MOST) * 2 * few,
             _ => 0,
         };
-        let along = |reach: f64| 2.0 * reach / SPACING;
+        let along = |reach: f64| 2.0 * reach / self.spacing();
         (lines as f64 * along(self.settings.reach) + slopes as f64 * along(AROUND)) as u64
     }
 }
@@ -232,7 +232,12 @@ impl<L: LimitState> Explorer<'_, L> {
 
     fn scan(&mut self, across: &[f64], direction: &[f64], stretch: Stretch) -> Scanned {
         let value = LineSampler::along(self.limit, across, direction);
-        let scanned = scan::scan(value, stretch, self.sampler.settings.reach, SPACING);
+        let scanned = scan::scan(
+            value,
+            stretch,
+            self.sampler.settings.reach,
+            self.sampler.spacing(),
+        );
         self.evaluations += scanned.evaluations;
         scanned
     }

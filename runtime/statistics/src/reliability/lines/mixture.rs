@@ -8,8 +8,7 @@ use crate::legendre;
 use crate::normal;
 use crate::reliability::vector::{dot, unit};
 
-/// Lines of a round along the directions in which failure is expected: in all, and of each at least.
-const ROUND: usize = 24;
+/// Lines of a round along each direction in which failure is expected, at least.
 const FEWEST_OF_EACH: usize = 4;
 /// For so many of them, one runs along a variable, whatever is expected.
 const EXPLORED_BY_ONE_OF: usize = 3;
@@ -42,6 +41,7 @@ impl Mixture {
         dimension: usize,
         (variables, explored): (&[usize], &[usize]),
         directions: &[Direction],
+        round: usize,
     ) -> Self {
         let within = |item: &Direction| {
             let mut along = vec![0.0; dimension];
@@ -63,7 +63,7 @@ impl Mixture {
         let likely =
             |distance: f64| (normal::ln_upper(distance) - normal::ln_upper(known[0].1)).exp();
         let sum: f64 = known.iter().map(|(_, distance)| likely(*distance)).sum();
-        let lines = ROUND.max(FEWEST_OF_EACH * known.len());
+        let lines = round.max(FEWEST_OF_EACH * known.len());
         let spare = (lines - FEWEST_OF_EACH * known.len()) as f64;
         let of_each = |distance: f64| FEWEST_OF_EACH + (spare * likely(distance) / sum) as usize;
         let mut round: Vec<usize> = known
@@ -71,7 +71,9 @@ impl Mixture {
             .map(|(_, distance)| of_each(*distance))
             .collect();
         let expected: usize = round.iter().sum();
-        let exploring = (lines / EXPLORED_BY_ONE_OF).max(if known.is_empty() { lines } else { 0 });
+        let exploring = (lines / EXPLORED_BY_ONE_OF)
+            .max(FEWEST_OF_EACH - 1)
+            .max(if known.is_empty() { lines } else { 0 });
         let all = (expected + exploring) as f64;
         // Of the directions in which failure is expected by their lines; of the variables, to which nothing is left where
         // the others look, little.

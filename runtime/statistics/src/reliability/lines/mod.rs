@@ -56,10 +56,16 @@ impl Default for LineSettings {
 
 /// A single line bears the whole result and takes this many points at first.
 const POINTS_OF_ONE: u64 = 257;
-/// Standard deviations between the points of a line at first.
+/// Standard deviations between the points of a line at first, and lines of a round along directions in which failure is
+/// expected.
 const SPACING: f64 = 0.5;
-/// Fewer rounds of lines say nothing about their scatter.
-const FEWEST_ROUNDS: u64 = 2;
+const ROUND: usize = 24;
+/// The same where fewer evaluations than this are allowed.
+const FEW: u64 = 5_000;
+const COARSE_SPACING: f64 = 1.0;
+const COARSE_ROUND: usize = 8;
+/// Fewer lines say nothing about their scatter.
+const FEWEST: u64 = 32;
 /// The error is looked at again after so small a part more.
 const SELDOM: u64 = 4;
 /// Fewest plain samples that fail, or do not, and how much less than lines they must scatter for what they cost.
@@ -137,7 +143,12 @@ impl LineSampler {
             settings: settings.clone(),
             dimension,
             variables: variables.to_vec(),
-            mixture: Mixture::new(dimension, (variables, variables), directions),
+            mixture: Mixture::new(
+                dimension,
+                (variables, variables),
+                directions,
+                round(settings),
+            ),
         })
     }
 
@@ -179,14 +190,17 @@ impl LineSampler {
     /// Between the points of a line at first. A single line takes as many points as half of the evaluations allow.
     fn spacing(&self) -> f64 {
         if !self.alone() {
-            return SPACING;
+            return match self.settings.evaluations < FEW {
+                true => COARSE_SPACING,
+                false => SPACING,
+            };
         }
         let points = (self.settings.evaluations / 2).clamp(33, POINTS_OF_ONE);
         2.0 * self.settings.reach / (points - 1) as f64
     }
 
     /// The estimate from whole rounds of lines.
-    fn estimate(&self, lines: &[Line], rounds: u64) -> LineProbability {
+    fn estimate(&self, lines: &[Line]) -> LineProbability {
         let probability = estimate(lines, |line| line.fails);
         let without_value = estimate(lines, |line| line.without_value);
         // What is rarer, failure or its opposite, and whether enough lines meet it for their scatter to be meaningful.
@@ -200,7 +214,7 @@ impl LineSampler {
             false => (lines.iter().map(safe).collect(), opposite),
         };
         let (sum, squares) = (rarer.iter().sum::<f64>(), dot(&rarer, &rarer));
-        let enough = rounds >= FEWEST_ROUNDS && part > 0.0;
+        let enough = lines.len() as u64 >= FEWEST && part > 0.0;
         let settled = self.alone() || enough && sum * sum >= CONTRIBUTING * squares;
         let unmet = match self.alone() {
             true => 0.0,
@@ -225,7 +239,10 @@ impl LineSampler {
     pub fn fewest(&self) -> u64 {
         let lines = match self.alone() {
             true => 1,
-            false => FEWEST_ROUNDS * self.mixture.groups().count() as u64,
+            false => {
+                let round = self.mixture.groups().count() as u64;
+                FEWEST.div_ceil(round).max(2) * round
+            }
         };
         (lines as f64 * 2.0 * self.settings.reach / self.spacing()) as u64
     }
@@ -269,7 +286,12 @@ impl LineSampler {
         let (directions, explored, spent) = self.explore(limit);
         let variables = (&self.variables[..], &explored[..]);
         let sampler = Self {
-            mixture: Mixture::new(self.dimension, variables, &directions),
+            mixture: Mixture::new(
+                self.dimension,
+                variables,
+                &directions,
+                round(&self.settings),
+            ),
             ..self.clone()
         };
         (sampler, spent)
@@ -279,7 +301,7 @@ impl LineSampler {
         let LineSettings { seed, stream, .. } = self.settings;
         let mut samples = NormalSamples::new(seed, stream, 0, self.variables.len());
         let mut lines = Vec::new();
-        let (mut spent, mut due) = (0, FEWEST_ROUNDS);
+        let (mut spent, mut due) = (0, 2);
         for round in 1.. {
             let from = lines.len();
             let groups = self
@@ -289,8 +311,8 @@ impl LineSampler {
             lines.extend(groups.map(|group| self.line(limit, group, &mut samples)));
             spent += evaluations(&lines[from..]);
             let last = spent + spent / round > most || self.alone();
-            if last || round >= due {
-                let estimate = self.estimate(&lines, round);
+            if last || round >= due && lines.len() as u64 >= FEWEST {
+                let estimate = self.estimate(&lines);
                 if self.tells_less_than_samples(&estimate) {
                     return self.plain(limit, most.saturating_sub(spent), estimate);
                 }
@@ -300,7 +322,7 @@ impl LineSampler {
                 due = round + (round / SELDOM).max(1);
             }
         }
-        self.estimate(&lines, 0)
+        self.estimate(&lines)
     }
 
     /// Whether plain samples, of which enough would fail and enough would not, scatter less for what they cost than lines,
@@ -357,6 +379,14 @@ impl LineSampler {
             }
         }
         lines
+    }
+}
+
+/// Lines of a round along the directions in which failure is expected.
+fn round(settings: &LineSettings) -> usize {
+    match settings.evaluations < FEW {
+        true => COARSE_ROUND,
+        false => ROUND,
     }
 }
 
