@@ -10,15 +10,14 @@ use crate::sweep::{
 use crate::{Error, Output};
 
 impl Responses<'_> {
-    /// The first mode whose flutter begins or ends in the nominal design, and where, if a response is about that of another
-    /// mode which has none.
+    /// The modes whose flutter begins or ends in the nominal design, and where, if a response is about flutter.
     #[doc(hidden)]
     #[must_use]
-    pub fn flutters_instead(&self, response: Response) -> Option<(usize, f64)> {
+    pub fn nominal_flutter(&self, response: Response) -> Option<Vec<(usize, f64)>> {
         let Response::Crossing {
-            mode,
             condition: Condition::FlutterOnset,
             range,
+            ..
         } = response
         else {
             return None;
@@ -26,12 +25,12 @@ impl Responses<'_> {
         let at = self.nominal();
         let (u, b, start) = (&at.inputs, &at.design, &at.coordinates);
         let onsets = flutter_onsets(self.mechanism(), u, b, start, Following::default(), range);
-        let label = |crossing: &Crossing| crossing.modes.modes[crossing.mode].label;
-        let all: Vec<(usize, f64)> = (onsets.iter().flatten())
-            .map(|crossing| (label(crossing), crossing.value))
-            .collect();
-        let own = all.iter().any(|(other, _)| *other == mode);
-        all.first().copied().filter(|_| !own)
+        let onsets = onsets.into_iter().flatten();
+        let all = onsets.map(|crossing| {
+            let label = crossing.modes.modes[crossing.mode].label;
+            (label, crossing.value)
+        });
+        Some(all.collect())
     }
 
     /// Why the nominal design lacks a response; `None` if it has it.
@@ -80,7 +79,7 @@ impl Responses<'_> {
                 range,
             } => {
                 let (following, what) = (Following::default(), (mode, condition));
-                match first_crossing(mechanism, values, start, following, range, what) {
+                match first_crossing(mechanism, values, start, following, range, what, None) {
                     Ok(Some(_)) => None,
                     Ok(None) => Some(range.without(met(condition), d)),
                     Err(error) => Some(error),

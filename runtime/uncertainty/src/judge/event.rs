@@ -18,7 +18,7 @@ use crate::response::{Realisation, Responses, Workspace};
 const MOST: u64 = 20_000;
 /// States that a search along an input solves for each of its steps, and designs worth such a search whatever it costs.
 const STATES: f64 = 20.0;
-const SEARCHES: u64 = 800;
+const SEARCHES: u64 = 600;
 /// Target coefficient of variation, well within what is trusted.
 const ACCURACY: f64 = 0.02;
 /// Standard deviations up to which lines are searched at least and at most, and by how much beyond what is known to

@@ -106,20 +106,28 @@ impl<'a> Requirements<'a> {
 
     /// Refuses the flutter of a mode that has none in the nominal design, where another has: names that one at once.
     pub(super) fn check_flutter(&self) -> Result<(), Error> {
-        let wanted = self.responses.wanted().iter();
-        let found = wanted.filter_map(|x| Some((*x, self.responses.flutters_instead(*x)?)));
-        for (response, (mode, value)) in found {
-            let of = &self.responses.nominal().description;
-            let unit = response.unit(of);
-            return Err(Error::Setting {
-                setting: "requirement",
-                reason: format!(
-                    "the nominal design has no `{}`; mode {} flutters from {} on",
-                    response.name(of),
-                    mode + 1,
-                    with_unit(short(value / unit.scale), &unit)
-                ),
-            });
+        for response in self.responses.wanted() {
+            let Response::Crossing { mode, .. } = *response else {
+                continue;
+            };
+            let onsets = self
+                .responses
+                .nominal_flutter(*response)
+                .unwrap_or_default();
+            let own = onsets.iter().any(|(other, _)| *other == mode);
+            if let Some((other, value)) = onsets.first().filter(|_| !own) {
+                let of = &self.responses.nominal().description;
+                let unit = response.unit(of);
+                return Err(Error::Setting {
+                    setting: "requirement",
+                    reason: format!(
+                        "the nominal design has no `{}`; mode {} flutters from {} on",
+                        response.name(of),
+                        other + 1,
+                        with_unit(short(value / unit.scale), &unit)
+                    ),
+                });
+            }
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ const NARROW_JUMP: f64 = 1e-7;
 /// A value may come nearer to the limit between two points than a parabola would, by this factor.
 const CAUTION: f64 = 5.0;
 /// A line takes at most so many times the points that it takes at first.
-const MOST: usize = 12;
+const MOST: usize = 6;
 /// Values that differ by less than this share of themselves are one.
 const ROUNDING: f64 = 1e-9;
 /// Fewest intervals of a stretch.
