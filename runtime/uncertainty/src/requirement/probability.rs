@@ -106,6 +106,17 @@ pub struct Probabilities {
     pub description: Shared<Description>,
 }
 
+/// Where each evaluation takes a search along an input, a few starts must do.
+fn of_searches() -> FormSettings {
+    FormSettings {
+        optimiser_evaluations: 20,
+        iterations: 15,
+        restarts: 2,
+        regions: 3,
+        ..FormSettings::default()
+    }
+}
+
 impl Requirements<'_> {
     /// How probable it is that each requirement, and that any, is failed: by design points and lines of designs along
     /// them, which also settle small probabilities; by plain samples, with the settings of `sampling`, where these tell
@@ -130,9 +141,13 @@ impl Requirements<'_> {
         let mut reliability = None;
         let mut judgements: Vec<(Judgement, bool)> = Vec::new();
         if continuous {
+            let settings = match self.responses().price() {
+                1 => FormSettings::default(),
+                _ => of_searches(),
+            };
             let settings = FormSettings {
                 seed: sampling.seed,
-                ..FormSettings::default()
+                ..settings
             };
             let mut form = reliability_of(self, deviations, &settings)?;
             judgements = judge_requirements(self, sampling, &mut form)?;
