@@ -181,6 +181,9 @@ pub struct Responses<'a> {
     modes: &'a Modes,
     wanted: Vec<Response>,
     watch: Watch<'a>,
+    /// For flutter, the modes that flutter in the nominal design. Two modes merge there, and either may be the one that
+    /// grows: one that does not flutter in the nominal design stands for the one that does.
+    flutter: Vec<(Response, Vec<usize>)>,
 }
 
 /// Buffers reused between evaluations.
@@ -216,7 +219,7 @@ impl<'a> Responses<'a> {
                 }
             }
         }
-        Ok(Self {
+        let mut responses = Self {
             mechanism,
             batches: None,
             vectors: Some(Instructions::best()),
@@ -224,7 +227,17 @@ impl<'a> Responses<'a> {
             modes,
             wanted,
             watch: Watch::default(),
-        })
+            flutter: Vec::new(),
+        };
+        let flutter = responses.wanted.iter().filter_map(|response| {
+            let onsets = responses.nominal_flutter(*response)?;
+            Some((
+                *response,
+                onsets.into_iter().map(|(mode, _)| mode).collect(),
+            ))
+        });
+        responses.flutter = flutter.collect();
+        Ok(responses)
     }
 
     /// Reports every design to `watch`, which can end the evaluation with [`Error::Stopped`].
@@ -530,6 +543,7 @@ impl<'a> Responses<'a> {
         };
         let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
         let (values, what) = ((&**inputs, design), (mode, condition));
+        let known = self.flutter.iter().find(|(own, _)| own == response);
         first_crossing(
             self.mechanism,
             values,
@@ -537,6 +551,9 @@ impl<'a> Responses<'a> {
             Following::default(),
             range,
             what,
+            known
+                .filter(|(_, all)| all.contains(&mode))
+                .map(|(_, all)| &all[..]),
         )
         .ok()
         .flatten()

@@ -4,10 +4,35 @@ use super::{Response, Responses};
 use crate::forced;
 use crate::kernels::Kernels;
 use crate::peaks;
-use crate::sweep::{Condition, Following, critical_state, first_crossing};
+use crate::sweep::{
+    Condition, Crossing, Following, critical_state, first_crossing, flutter_onsets,
+};
 use crate::{Error, Output};
 
 impl Responses<'_> {
+    /// The modes whose flutter begins or ends in the nominal design, and where, if a response is about flutter.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn nominal_flutter(&self, response: Response) -> Option<Vec<(usize, f64)>> {
+        let Response::Crossing {
+            condition: Condition::FlutterOnset,
+            range,
+            ..
+        } = response
+        else {
+            return None;
+        };
+        let at = self.nominal();
+        let (u, b, start) = (&at.inputs, &at.design, &at.coordinates);
+        let onsets = flutter_onsets(self.mechanism(), u, b, start, Following::default(), range);
+        let onsets = onsets.into_iter().flatten();
+        let all = onsets.map(|crossing| {
+            let label = crossing.modes.modes[crossing.mode].label;
+            (label, crossing.value)
+        });
+        Some(all.collect())
+    }
+
     /// Why the nominal design lacks a response; `None` if it has it.
     #[doc(hidden)]
     #[must_use]
@@ -54,7 +79,7 @@ impl Responses<'_> {
                 range,
             } => {
                 let (following, what) = (Following::default(), (mode, condition));
-                match first_crossing(mechanism, values, start, following, range, what) {
+                match first_crossing(mechanism, values, start, following, range, what, None) {
                     Ok(Some(_)) => None,
                     Ok(None) => Some(range.without(met(condition), d)),
                     Err(error) => Some(error),

@@ -91,8 +91,8 @@ pub fn flutter_onsets(
     meetings(&along, Condition::FlutterOnset, |_| false)
 }
 
-/// The first value in a range at which the mode that has position `mode` at the start meets a condition; `None` if
-/// there is none.
+/// The first value in a range at which the mode that has position `mode` at the start, or else none of `others`, meets a
+/// condition; `None` if there is none.
 pub(crate) fn first_crossing(
     mechanism: &dyn DirectionalKernels,
     values: (&[f64], &[f64]),
@@ -100,9 +100,13 @@ pub(crate) fn first_crossing(
     following: Following,
     range: Range,
     (mode, condition): (usize, Condition),
+    others: Option<&[usize]>,
 ) -> Result<Option<Crossing>, Error> {
     // Labels at the start are positions; modes that end on the way change the positions of others.
-    let wanted = |crossing: &Crossing| crossing.modes.modes[crossing.mode].label == mode;
+    let wanted = |crossing: &Crossing| {
+        let label = crossing.modes.modes[crossing.mode].label;
+        label == mode || others.is_some_and(|others| !others.contains(&label))
+    };
     let along = along(mechanism, values, start, following, range);
     let crossings = meetings(&along, condition, wanted)?;
     Ok(crossings.into_iter().find(wanted))

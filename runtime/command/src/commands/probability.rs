@@ -1,7 +1,7 @@
 //! How probable it is that requirements are failed.
 
 use clap::Args;
-use eigentol::requirement::Probabilities;
+use eigentol::requirement::{Probabilities, Requirement};
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -30,6 +30,9 @@ const KEYS: &str = concat!(
     "\n\nOther keys: mechanism, set, start, guess, tolerance, correlation, sigma_level, samples, seed, stream"
 );
 
+/// Samples where each takes a search along an input.
+const SEARCHES: usize = 600;
+
 /// How probable it is that requirements are failed, with nothing to choose: by design points, lines of designs, or samples
 #[derive(Args, Debug)]
 #[command(after_long_help = KEYS)]
@@ -39,7 +42,7 @@ pub(crate) struct Probability {
     /// A requirement: `frequency 1 >= 20 Hz`; may be given several times, in place of those of a study file
     #[arg(long, value_name = "REQUIREMENT", value_parser = parsed)]
     require: Vec<Require>,
-    /// Samples, where only samples can tell [default: 3000]
+    /// Samples, where only samples can tell [default: 3000; 600 if each takes a search along an input]
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
     /// Seed of the samples [default: 0]
@@ -64,10 +67,15 @@ impl Probability {
         }
         let bar = progress::bar("designs", None);
         let study = progress::watched(study, &bar)
-            .samples(samples(self.samples, &file)?)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let wanted = requirements(&study, required)?;
+        let mut responses = wanted.iter().filter_map(Requirement::response);
+        let usual = responses
+            .any(|response| !response.of_state())
+            .then_some(SEARCHES);
+        let count = samples(self.samples.or(file.samples).or(usual), &file)?;
+        let study = study.samples(count);
         let outcome = study.probability(&wanted);
         bar.finish_and_clear();
         let probabilities = outcome?;

@@ -67,6 +67,17 @@ impl Held {
     }
 }
 
+/// The combinations of motions along which no held unknown moves.
+fn unheld(motions: &[Vector], held: &[Held]) -> Vec<Vector> {
+    let moved = Matrix::from_fn(motions.len(), motions.len(), |i, k| {
+        held.get(i).map_or(0.0, |held| motions[k][held.unknown])
+    });
+    let free = motions.len().saturating_sub(held.len());
+    let mut all = NullSpace::of(&moved, free).right;
+    all.truncate(free);
+    all
+}
+
 impl FreeDirections {
     /// The directions at an equilibrium with this stiffness, which has `count` of them. None where the stiffness has
     /// fewer, which is the case away from equilibria.
@@ -97,14 +108,7 @@ impl FreeDirections {
         if directions.is_empty() {
             return directions;
         }
-        // How the held unknowns move along the directions; what moves none of them is free.
-        let moved = Matrix::from_fn(directions.count(), directions.count(), |i, k| {
-            match held.get(i) {
-                Some(held) => directions.motions[k][held.unknown],
-                None => 0.0,
-            }
-        });
-        let free = NullSpace::of(&moved, count).right;
+        let free = unheld(&directions.motions, &held);
         let n = stiffness.row_count();
         let unit = |index: usize| Vector::from_fn(n, |i| if i == index { 1.0 } else { 0.0 });
         let combined = |shares: &Vector| {
@@ -116,10 +120,28 @@ impl FreeDirections {
         };
         let rows = held.iter().map(|held| unit(held.unknown));
         Self {
-            rows: rows.chain(free.iter().take(count).map(combined)).collect(),
+            rows: rows.chain(free.iter().map(combined)).collect(),
             held,
             ..directions
         }
+    }
+
+    /// The motions that nothing holds: those along which no held unknown moves.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn undetermined(&self) -> Vec<Vector> {
+        if self.held.is_empty() {
+            return self.motions.clone();
+        }
+        let free = unheld(&self.motions, &self.held).into_iter();
+        free.map(|shares| {
+            let mut motion = Vector::zeros(self.motions[0].len());
+            for (share, direction) in shares.iter().zip(&self.motions) {
+                add_to(&mut motion, *share, direction);
+            }
+            motion
+        })
+        .collect()
     }
 
     /// Number of directions.

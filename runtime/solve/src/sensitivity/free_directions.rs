@@ -45,9 +45,10 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
     Ok(())
 }
 
-/// Whether an output with these derivatives by the unknowns depends on the position along the free directions.
+/// Whether an output with these derivatives by the unknowns depends on the position along free directions that no held
+/// unknown determines.
 pub fn depends(at: &Equilibrium, by_unknown: &[f64]) -> bool {
-    at.free.motions.iter().any(|z| {
+    at.free.undetermined().iter().any(|z| {
         let terms = by_unknown
             .iter()
             .zip(z)

@@ -2,6 +2,7 @@
 
 mod benchmarks;
 mod common;
+mod coverage;
 mod form;
 mod lines;
 mod random_limits;

@@ -43,12 +43,10 @@ impl fmt::Display for Judged {
         if value > self.unseen {
             write!(f, " +- {}", short(0.5 * (interval.upper - interval.lower)))?;
         }
-        write!(
-            f,
-            " over {} along {}",
-            counted(self.designs, "design"),
-            counted(self.lines, "line")
-        )?;
+        write!(f, " over {}", counted(self.designs, "design"))?;
+        if self.lines > 0 {
+            write!(f, " along {}", counted(self.lines, "line"))?;
+        }
         if !self.settled {
             write!(f, ", too few for the error to be known")?;
         }

@@ -16,6 +16,9 @@ use crate::response::{Realisation, Responses, Workspace};
 
 /// Most designs: further ones would not change a verdict.
 const MOST: u64 = 20_000;
+/// States that a search along an input solves for each of its steps, and designs worth such a search whatever it costs.
+const STATES: f64 = 20.0;
+const SEARCHES: u64 = 600;
 /// Target coefficient of variation, well within what is trusted.
 const ACCURACY: f64 = 0.02;
 /// Standard deviations up to which lines are searched at least and at most, and by how much beyond what is known to
@@ -45,6 +48,8 @@ pub(crate) struct Lines {
     pub(crate) worth: u64,
     /// How many times the usual budget an answer is worth.
     pub(crate) effort: f64,
+    /// Seed and stream of the lines.
+    pub(crate) sequence: (u64, u64),
 }
 
 impl Lines {
@@ -57,6 +62,7 @@ impl Lines {
             directions: vec![Direction { along, distance }],
             worth: 0,
             effort: 1.0,
+            sequence: (0, 0),
         }
     }
 
@@ -95,15 +101,22 @@ impl<'a> Event<'a> {
         if joint.is_some_and(|all| !all.iter().all(Distribution::is_continuous)) {
             return Ok(Judgement::Open(Unjudged::Discrete));
         }
-        let each = operations(self.responses.modes(), false) * self.responses.price() as f64;
+        let price = self.responses.price();
+        let (worth, states) = match price {
+            1 => (lines.worth, 1.0),
+            _ => (lines.worth.min(SEARCHES), price as f64 * STATES),
+        };
+        let each = operations(self.responses.modes(), false) * states;
         let budget = lines.effort * BUDGET;
         let affordable = (budget / each).min(MOST as f64);
-        let evaluations = lines.worth.max(affordable as u64);
+        let evaluations = worth.max(affordable as u64);
+        let (seed, stream) = lines.sequence;
         let settings = LineSettings {
+            seed,
+            stream,
             evaluations,
             coefficient_of_variation: ACCURACY,
             reach: (lines.farthest() + BEYOND).clamp(REACH, FARTHEST),
-            ..LineSettings::default()
         };
         let dimension = self.deviations.dimension();
         let sampler = LineSampler::new(dimension, &variables, &lines.directions, &settings)?;

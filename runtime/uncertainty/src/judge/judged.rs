@@ -23,9 +23,9 @@ pub struct Judged {
     pub untold: Estimate,
     /// Probability of the designs beyond the ends of the lines.
     pub unseen: f64,
-    /// Whether enough lines contribute to the probability for its standard error to be meaningful.
+    /// Whether enough lines or samples contribute to the probability for its standard error to be meaningful.
     pub settled: bool,
-    /// Number of lines.
+    /// Number of lines; none if plain samples tell more.
     pub lines: u64,
     /// Number of designs solved.
     pub designs: u64,

@@ -56,6 +56,7 @@ impl FailureProbability {
             interval: judged.interval(),
             untold: judged.untold.value.min(1.0),
             by: match described {
+                _ if judged.lines == 0 => EstimatedBy::Samples,
                 true => EstimatedBy::DesignPoint,
                 false => EstimatedBy::Lines,
             },
@@ -105,6 +106,17 @@ pub struct Probabilities {
     pub description: Shared<Description>,
 }
 
+/// Where each evaluation takes a search along an input, a few starts must do.
+fn of_searches() -> FormSettings {
+    FormSettings {
+        optimiser_evaluations: 20,
+        iterations: 15,
+        restarts: 2,
+        regions: 3,
+        ..FormSettings::default()
+    }
+}
+
 impl Requirements<'_> {
     /// How probable it is that each requirement, and that any, is failed: by design points and lines of designs along
     /// them, which also settle small probabilities; by plain samples, with the settings of `sampling`, where these tell
@@ -112,7 +124,8 @@ impl Requirements<'_> {
     ///
     /// # Errors
     /// [`Error::Setting`] if no tolerance is declared; [`Error::NoDesignTells`] if no design that was solved has the
-    /// response of a requirement; those of [`Self::chances`]; [`Error::Stopped`].
+    /// response of a requirement; [`Error::Setting`] for the flutter of a mode that has none where another has;
+    /// those of [`Self::chances`]; [`Error::Stopped`].
     pub fn probabilities(&self, sampling: &Sampling<'_>) -> Result<Probabilities, Error> {
         let (deviations, state) = (self.deviations(), self.responses().nominal());
         let tolerances = deviations.tolerances();
@@ -122,13 +135,22 @@ impl Requirements<'_> {
                 reason: "no tolerance is declared, so nothing is left to chance".to_owned(),
             });
         }
+        self.check_flutter()?;
         let variables = tolerances.joint().map(|(joint, _)| joint.variables());
         let continuous = variables.is_none_or(|all| all.iter().all(Distribution::is_continuous));
         let mut reliability = None;
         let mut judgements: Vec<(Judgement, bool)> = Vec::new();
         if continuous {
-            let mut form = reliability_of(self, deviations, &FormSettings::default())?;
-            judgements = judge_requirements(self, sampling.samples as u64, &mut form)?;
+            let settings = match self.responses().price() {
+                1 => FormSettings::default(),
+                _ => of_searches(),
+            };
+            let settings = FormSettings {
+                seed: sampling.seed,
+                ..settings
+            };
+            let mut form = reliability_of(self, deviations, &settings)?;
+            judgements = judge_requirements(self, sampling, &mut form)?;
             reliability = (!form.limits.is_empty()).then_some(form);
         }
         let settled = |index: usize| {

@@ -15,6 +15,7 @@ use crate::deviations::Deviations;
 use crate::judge::{Distance, Event, Judgement, Lines, Unjudged, distances};
 use crate::response::Response;
 use crate::sensitivity::Quantity;
+use crate::tolerance::Sampling;
 use crate::{Description, Error, Shared};
 
 /// A limit and its design points.
@@ -290,7 +291,7 @@ pub(crate) fn judge(
     deviations: &Deviations<'_>,
     reliability: &mut Reliability,
 ) -> Result<(), Error> {
-    let about = About::new(requirements, deviations, 0);
+    let about = About::new(requirements, deviations, 0, (0, 0));
     let all = about.judge_limits(reliability)?;
     reliability.judgement = match (&reliability.limits[..], &reliability.left_out[..]) {
         ([only], []) => only.judgement,
@@ -299,15 +300,16 @@ pub(crate) fn judge(
     Ok(())
 }
 
-/// Judges design points, each requirement, and all of them together, by designs solved anew, at least `worth` of them
-/// for each. Returns the judgement of each requirement, then that of all, each with whether design points describe the
+/// Judges design points, each requirement, and all of them together, by designs solved anew, at least as many as samples
+/// are asked for each. Returns the judgement of each requirement, then that of all, each with whether design points describe the
 /// failure.
 pub(super) fn judge_requirements(
     requirements: &Requirements<'_>,
-    worth: u64,
+    sampling: &Sampling<'_>,
     reliability: &mut Reliability,
 ) -> Result<Vec<(Judgement, bool)>, Error> {
-    let about = About::new(requirements, requirements.deviations(), worth);
+    let (worth, sequence) = (sampling.samples as u64, (sampling.seed, sampling.stream));
+    let about = About::new(requirements, requirements.deviations(), worth, sequence);
     let all = about.judge_limits(reliability)?;
     let count = requirements.wanted().len();
     let mut judgements = Vec::with_capacity(count + 1);
@@ -344,16 +346,23 @@ struct About<'a> {
     requirements: &'a Requirements<'a>,
     deviations: &'a Deviations<'a>,
     worth: u64,
+    sequence: (u64, u64),
     /// Where modes lose their stability.
     unstable: Vec<Direction>,
 }
 
 impl<'a> About<'a> {
-    fn new(requirements: &'a Requirements<'a>, deviations: &'a Deviations<'a>, worth: u64) -> Self {
+    fn new(
+        requirements: &'a Requirements<'a>,
+        deviations: &'a Deviations<'a>,
+        worth: u64,
+        sequence: (u64, u64),
+    ) -> Self {
         Self {
             requirements,
             deviations,
             worth,
+            sequence,
             unstable: ways_to_instability(requirements, deviations),
         }
     }
@@ -375,6 +384,7 @@ impl<'a> About<'a> {
             let mut lines = Lines {
                 worth: self.worth,
                 effort: EFFORT,
+                sequence: self.sequence,
                 ..lines(self.requirements, self.deviations, index, limit)
             };
             if alone.response().is_some_and(Response::of_state) {
@@ -420,6 +430,7 @@ impl<'a> About<'a> {
             directions: Vec::new(),
             worth: self.worth,
             effort: EFFORT,
+            sequence: self.sequence,
         };
         for part in all {
             lines.directions.extend(part.directions.iter().cloned());
@@ -459,6 +470,7 @@ fn lines(
             directions,
             worth: 0,
             effort: 0.0,
+            sequence: (0, 0),
         };
     }
     let limit = LimitAt::new(

@@ -1,5 +1,7 @@
 //! All requirements of a design.
 
+use eigentol_results::numbers::{short, with_unit};
+
 use super::kinds::Requirement;
 use crate::deviations::Deviations;
 use crate::kernels::CurvatureKernels;
@@ -100,6 +102,34 @@ impl<'a> Requirements<'a> {
     pub(super) fn nominal_has_all(&self) -> bool {
         let mut all = self.responses.wanted().iter();
         all.all(|x| self.responses.missing(*x).is_none())
+    }
+
+    /// Refuses the flutter of a mode that has none in the nominal design, where another has: names that one at once.
+    pub(super) fn check_flutter(&self) -> Result<(), Error> {
+        for response in self.responses.wanted() {
+            let Response::Crossing { mode, .. } = *response else {
+                continue;
+            };
+            let onsets = self
+                .responses
+                .nominal_flutter(*response)
+                .unwrap_or_default();
+            let own = onsets.iter().any(|(other, _)| *other == mode);
+            if let Some((other, value)) = onsets.first().filter(|_| !own) {
+                let of = &self.responses.nominal().description;
+                let unit = response.unit(of);
+                return Err(Error::Setting {
+                    setting: "requirement",
+                    reason: format!(
+                        "the nominal design has no `{}`; mode {} flutters from {} on",
+                        response.name(of),
+                        other + 1,
+                        with_unit(short(value / unit.scale), &unit)
+                    ),
+                });
+            }
+        }
+        Ok(())
     }
 
     /// The error of a requirement whose response no design has.

@@ -1,8 +1,8 @@
 //! Where failures are, before any line counts: how far along the directions in which they are expected, and in which
 //! others.
 
-use super::scan::{self, Stretch};
-use super::{Direction, LineSampler, SPACING};
+use super::scan::{self, Scanned, Stretch};
+use super::{Direction, LineSampler};
 use crate::normal;
 use crate::reliability::limit_state::LimitState;
 use crate::reliability::random::NormalSamples;
@@ -40,11 +40,16 @@ impl Central {
         all.fold(f64::INFINITY, f64::min)
     }
 
-    /// The direction, unless nothing fails along it.
+    /// The direction towards failure, and where this begins: nearest to the origin of all places where anything changes.
     fn direction(&self) -> Option<Direction> {
-        let distance = self.distance();
-        distance.is_finite().then(|| Direction {
-            along: self.direction.clone(),
+        let changes = self
+            .failing
+            .iter()
+            .flat_map(|(from, to)| [(1.0, *from), (-1.0, -to)]);
+        let changes = changes.filter(|(_, distance)| distance.is_finite());
+        let (sign, distance) = changes.min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        Some(Direction {
+            along: scaled(sign, &self.direction),
             distance,
         })
     }
@@ -74,28 +79,35 @@ struct Explorer<'a, L> {
     limit: &'a L,
     sampler: &'a LineSampler,
     evaluations: u64,
+    /// The variables along which anything changes.
+    moving: Vec<usize>,
 }
 
 impl LineSampler {
-    /// Directions in which failures were found, those expected first, and the number of evaluations.
-    pub(super) fn explore<L: LimitState>(&self, limit: &L) -> (Vec<Direction>, u64) {
+    /// Directions in which failures were found, those expected first; the variables along which anything changes; and the
+    /// number of evaluations.
+    pub(super) fn explore<L: LimitState>(&self, limit: &L) -> (Vec<Direction>, Vec<usize>, u64) {
         let mut explorer = Explorer {
             limit,
             sampler: self,
             evaluations: 0,
+            moving: Vec::new(),
         };
         let directions = explorer.directions();
-        (directions, explorer.evaluations)
+        if explorer.moving.is_empty() {
+            explorer.moving.clone_from(&self.variables);
+        }
+        (directions, explorer.moving, explorer.evaluations)
     }
 
     /// About how many evaluations that takes.
     pub(super) fn cost_of_exploring(&self) -> u64 {
-        let lines = self.regions() as u64 * (LINES + 1);
+        let lines = self.mixture.count() as u64 * (LINES + 1);
         let slopes = match self.variables.len() {
-            few if few <= MOST_VARIABLES => (self.regions.expected() + MOST) * 2 * few,
+            few if few <= MOST_VARIABLES => (self.mixture.expected() + MOST) * 2 * few,
             _ => 0,
         };
-        let along = |reach: f64| 2.0 * reach / SPACING;
+        let along = |reach: f64| 2.0 * reach / self.spacing();
         (lines as f64 * along(self.settings.reach) + slopes as f64 * along(AROUND)) as u64
     }
 }
@@ -104,10 +116,10 @@ impl<L: LimitState> Explorer<'_, L> {
     /// The directions in which failure is expected, turned towards it; then, again and again, that of the nearest failure
     /// that is not in line with those known.
     fn directions(&mut self) -> Vec<Direction> {
-        let regions = &self.sampler.regions;
+        let mixture = &self.sampler.mixture;
         let mut known: Vec<Central> = Vec::new();
-        for k in 0..regions.expected() {
-            let central = self.central(regions.direction(k).to_vec());
+        for k in 0..mixture.expected() {
+            let central = self.central(mixture.direction(k).to_vec());
             let turned = central.nearest().and_then(|point| self.towards(&point));
             let central = turned.map_or(central, |direction| self.central(direction));
             if !known.iter().any(|x| x.is_like(&central)) {
@@ -159,16 +171,22 @@ impl<L: LimitState> Explorer<'_, L> {
         let mut samples =
             NormalSamples::new(settings.seed, settings.stream, first, variables.len());
         let mut all = Vec::new();
-        for region in 0..sampler.regions() {
-            let direction = sampler.regions.direction(region);
+        for k in 0..sampler.mixture.count() {
+            let direction = sampler.mixture.direction(k);
+            let mut moves = false;
             for _ in 0..LINES {
                 let (share, sample) = samples.next_with_choice();
                 let across = unit(&sampler.across(sample, direction)).unwrap_or_default();
                 let across = scaled(share * farthest, &across);
-                let reach = f64::INFINITY;
-                for interval in self.line(&across, direction, (-reach, reach)) {
+                let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+                let scanned = self.scan(&across, direction, everywhere);
+                moves |= scanned.moves;
+                for interval in scanned.failing() {
                     all.push(add_scaled(&across, nearest(&interval), direction));
                 }
+            }
+            if let Some(variable) = k.checked_sub(sampler.mixture.expected()).filter(|_| moves) {
+                self.moving.push(variables[variable]);
             }
         }
         all
@@ -209,10 +227,19 @@ impl<L: LimitState> Explorer<'_, L> {
 
     /// Where designs fail on a line.
     fn line(&mut self, across: &[f64], direction: &[f64], stretch: Stretch) -> Vec<Stretch> {
+        self.scan(across, direction, stretch).failing().collect()
+    }
+
+    fn scan(&mut self, across: &[f64], direction: &[f64], stretch: Stretch) -> Scanned {
         let value = LineSampler::along(self.limit, across, direction);
-        let scanned = scan::scan(value, stretch, self.sampler.settings.reach, SPACING);
-        self.evaluations += scanned.line.evaluations;
-        scanned.failing
+        let scanned = scan::scan(
+            value,
+            stretch,
+            self.sampler.settings.reach,
+            self.sampler.spacing(),
+        );
+        self.evaluations += scanned.evaluations;
+        scanned
     }
 }
 

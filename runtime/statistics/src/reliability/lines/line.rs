@@ -6,17 +6,22 @@
 pub struct Direction {
     /// The direction, of any length and either sign.
     pub along: Vec<f64>,
-    /// Distance from the origin at which failure is expected, in standard deviations.
+    /// Distance from the origin beyond which failure is expected, in standard deviations; negative if the origin fails.
     pub distance: f64,
 }
 
-/// A line: the probabilities along it within its region, given its position.
-#[derive(Clone, Copy, Debug, Default)]
+/// A line: what it contributes to each probability.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Line {
-    /// Probability of failure.
+    /// To that of failure.
     pub(super) fails: f64,
-    /// Probability that the limit state has no value.
+    /// To that of having no value.
     pub(super) without_value: f64,
+    /// To that of everything, then to those beyond each plane across an expected direction at its distance; less what is
+    /// known of them: their means are zero.
+    pub(super) known: Vec<f64>,
+    /// The group of directions that it belongs to.
+    pub(super) group: usize,
     /// Number of evaluations of the limit state.
     pub(super) evaluations: u64,
 }

@@ -4,15 +4,19 @@
 //!
 //! A single variable takes one line; thin layers of failure, far regions and jumps cost no more than a plane. Lines farther
 //! out than samples lie are tried first: they show how far failure is along the directions in which it is expected, and
-//! others in which nobody expected it. The space is then divided among these directions and the variables, each of which
-//! answers for what lies farthest along it, so the sum is unbiased, whatever the directions.
+//! others in which nobody expected it. Lines then run along these directions and, one of four, along a variable; each
+//! point counts with the density of all lines, so the sum is unbiased, whatever the directions. Failure, its opposite and
+//! what has no value are shares of the same lines, so they sum to one. Where plain samples scatter less for what they cost,
+//! because failure is no rarer than its opposite or lies on all sides, they decide.
 
 mod explore;
 mod line;
-mod regions;
+mod mixture;
 mod scan;
 
 pub use line::Direction;
+
+use nalgebra::{DMatrix, DVector};
 
 use super::limit_state::LimitState;
 use super::random::NormalSamples;
@@ -20,7 +24,7 @@ use super::sampling::Estimate;
 use super::vector::{add_scaled, dot};
 use crate::Error;
 use line::Line;
-use regions::Regions;
+use mixture::Mixture;
 
 /// Which lines to draw and when to stop.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,20 +56,30 @@ impl Default for LineSettings {
 
 /// A single line bears the whole result and takes this many points at first.
 const POINTS_OF_ONE: u64 = 257;
-/// Standard deviations between the points of a line at first.
+/// Standard deviations between the points of a line at first, and lines of a round along directions in which failure is
+/// expected.
 const SPACING: f64 = 0.5;
-/// Fewer lines say nothing about their scatter: in all, and along a direction of several.
-const FEWEST: usize = 32;
-const FEWEST_OF_SEVERAL: usize = 12;
-/// Lines along a variable along which nothing is expected.
-const FEWEST_EXPLORING: usize = 4;
-/// Lines drawn together in the region that needs them most.
-const MORE: usize = 8;
-/// The share of all lines that is divided evenly among the regions, whatever they have shown.
-const EVENLY: f64 = 0.25;
-/// The probability must come from at least as many lines as this, weighted by what they contribute, but for a share.
+const ROUND: usize = 24;
+/// The same where fewer evaluations than this are allowed.
+const FEW: u64 = 5_000;
+const COARSE_SPACING: f64 = 1.0;
+const COARSE_ROUND: usize = 8;
+/// Fewer lines say nothing about their scatter.
+const FEWEST: u64 = 32;
+/// The error is looked at again after so small a part more.
+const SELDOM: u64 = 4;
+/// Fewest plain samples that fail, or do not, and how much less than lines they must scatter for what they cost.
+const ENOUGH: f64 = 100.0;
+const DOUBT: f64 = 4.0;
+/// Numbers of plain samples, which no line takes, start here.
+const PLAIN: u64 = 1 << 59;
+/// The probability must come from at least as many lines as this, weighted by what they contribute.
 const CONTRIBUTING: f64 = 10.0;
-const SHARE: f64 = 0.05;
+
+/// A share of the probability that lines may not have met, in lines.
+const UNMET: f64 = 0.5;
+/// Smallest singular value, relative to values of at most one, of quantities that are not combinations of each other.
+const DEPENDENT: f64 = 1e-10;
 
 /// A failure probability estimated from lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,11 +89,11 @@ pub struct LineProbability {
     pub probability: Estimate,
     /// Probability that the limit state has no value.
     pub without_value: Estimate,
-    /// Whether a single variable matters, or enough lines contribute for the standard error to be meaningful.
+    /// Whether a single variable matters, or enough lines or samples contribute for the standard error to be meaningful.
     pub settled: bool,
     /// Whether, moreover, the target coefficient of variation was reached.
     pub reached: bool,
-    /// Number of lines.
+    /// Number of lines; none if plain samples tell more.
     pub lines: u64,
     /// Number of evaluations of the limit state.
     pub evaluations: u64,
@@ -95,7 +109,7 @@ pub struct LineSampler {
     dimension: usize,
     /// The variables that matter.
     variables: Vec<usize>,
-    regions: Regions,
+    mixture: Mixture,
 }
 
 impl LineSampler {
@@ -129,7 +143,12 @@ impl LineSampler {
             settings: settings.clone(),
             dimension,
             variables: variables.to_vec(),
-            regions: Regions::new(dimension, variables, directions),
+            mixture: Mixture::new(
+                dimension,
+                (variables, variables),
+                directions,
+                round(settings),
+            ),
         })
     }
 
@@ -137,42 +156,18 @@ impl LineSampler {
         self.variables.len() == 1
     }
 
-    /// Number of regions into which the directions divide the space.
-    fn regions(&self) -> usize {
-        self.regions.count()
-    }
-
-    /// Line number `index` of a region through a limit state.
-    fn line<L: LimitState>(&self, limit: &L, region: usize, index: u64) -> Line {
-        let LineSettings {
-            seed,
-            stream,
-            reach,
-            ..
-        } = self.settings;
-        let direction = self.regions.direction(region);
+    /// A line of a group of directions through a limit state.
+    fn line<L: LimitState>(&self, limit: &L, group: usize, samples: &mut NormalSamples) -> Line {
+        let (choice, sample) = samples.next_with_choice();
+        let direction = self.mixture.pick(group, choice);
         let across = match self.alone() {
             true => vec![0.0; self.dimension],
-            false => {
-                let number = index * self.regions() as u64 + region as u64;
-                let mut samples = NormalSamples::new(seed, stream, number, self.variables.len());
-                self.across(samples.next_sample(), direction)
-            }
+            false => self.across(sample, direction),
         };
+        let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
         let value = Self::along(limit, &across, direction);
-        let spacing = self.spacing();
-        let stretches = match self.alone() {
-            true => vec![(f64::NEG_INFINITY, f64::INFINITY)],
-            false => self.regions.stretches(region, &across).to_vec(),
-        };
-        let mut line = Line::default();
-        for stretch in stretches {
-            let segment = scan::scan(&value, stretch, reach, spacing).line;
-            line.fails += segment.fails;
-            line.without_value += segment.without_value;
-            line.evaluations += segment.evaluations;
-        }
-        line
+        let scanned = scan::scan(value, everywhere, self.settings.reach, self.spacing());
+        self.mixture.weigh(group, &scanned, &across, direction)
     }
 
     /// A point across a direction, from a value of each variable that matters.
@@ -195,81 +190,61 @@ impl LineSampler {
     /// Between the points of a line at first. A single line takes as many points as half of the evaluations allow.
     fn spacing(&self) -> f64 {
         if !self.alone() {
-            return SPACING;
+            return match self.settings.evaluations < FEW {
+                true => COARSE_SPACING,
+                false => SPACING,
+            };
         }
         let points = (self.settings.evaluations / 2).clamp(33, POINTS_OF_ONE);
         2.0 * self.settings.reach / (points - 1) as f64
     }
 
-    /// The estimate from lines of each region.
-    fn estimate(&self, lines: &[Vec<Line>]) -> LineProbability {
-        let all = |of: fn(&Line) -> f64| -> Estimate {
-            let each = lines.iter().map(|line| mean(line, of));
-            let (value, variance) = each.fold((0.0, 0.0), |(value, variance), item| {
-                (
-                    value + item.value,
-                    variance + item.standard_error * item.standard_error,
-                )
-            });
-            Estimate {
-                value,
-                standard_error: variance.sqrt(),
-            }
+    /// The estimate from whole rounds of lines.
+    fn estimate(&self, lines: &[Line]) -> LineProbability {
+        let probability = estimate(lines, |line| line.fails);
+        let without_value = estimate(lines, |line| line.without_value);
+        // What is rarer, failure or its opposite, and whether enough lines meet it for their scatter to be meaningful.
+        let safe = |line: &Line| 1.0 + line.known[0] - line.without_value - line.fails;
+        let opposite = 1.0 - without_value.value - probability.value;
+        let (rarer, part): (Vec<f64>, f64) = match probability.value <= opposite {
+            true => (
+                lines.iter().map(|line| line.fails).collect(),
+                probability.value,
+            ),
+            false => (lines.iter().map(safe).collect(), opposite),
         };
-        let probability = all(|line| line.fails);
-        let count: usize = lines.iter().map(Vec::len).sum();
-        let enough = count >= FEWEST && lines.iter().all(|line| !line.is_empty());
-        let settled = self.alone() || enough && probability.value > 0.0 && is_certain(lines);
-        let wished = self.settings.coefficient_of_variation * probability.value;
+        let (sum, squares) = (rarer.iter().sum::<f64>(), dot(&rarer, &rarer));
+        let enough = lines.len() as u64 >= FEWEST && part > 0.0;
+        let settled = self.alone() || enough && sum * sum >= CONTRIBUTING * squares;
+        let unmet = match self.alone() {
+            true => 0.0,
+            false => UNMET * part / lines.len() as f64,
+        };
+        let probability = Estimate {
+            standard_error: probability.standard_error.hypot(unmet),
+            ..probability
+        };
         LineProbability {
             settled,
-            reached: settled && probability.standard_error <= wished,
+            reached: settled
+                && probability.standard_error <= self.settings.coefficient_of_variation * part,
             probability,
-            without_value: all(|line| line.without_value),
-            lines: count as u64,
+            without_value,
+            lines: lines.len() as u64,
             evaluations: evaluations(lines),
         }
     }
 
-    /// How many lines a region takes at first.
-    fn first(&self, region: usize) -> usize {
-        let (count, expected) = (self.regions(), self.regions.expected());
-        match region < expected {
-            _ if self.alone() => 1,
-            true if expected == 1 => FEWEST,
-            true => FEWEST_OF_SEVERAL,
-            false => (FEWEST / count).max(FEWEST_EXPLORING),
-        }
-    }
-
-    /// About how many evaluations the first lines take.
+    /// About how many evaluations the fewest lines take.
     pub fn fewest(&self) -> u64 {
-        let lines: usize = (0..self.regions()).map(|region| self.first(region)).sum();
+        let lines = match self.alone() {
+            true => 1,
+            false => {
+                let round = self.mixture.groups().count() as u64;
+                FEWEST.div_ceil(round).max(2) * round
+            }
+        };
         (lines as f64 * 2.0 * self.settings.reach / self.spacing()) as u64
-    }
-
-    /// The region that takes the next lines: one that has had less than its share; or one whose scatter is not known
-    /// yet, if that matters; or the one where they reduce the variance most, for what they cost.
-    fn neediest(lines: &[Vec<Line>]) -> usize {
-        let most = |need: &dyn Fn(&Vec<Line>) -> f64| {
-            let needs = lines.iter().map(need).enumerate();
-            let (region, need) = needs
-                .max_by(|(_, a), (_, b)| a.total_cmp(b))
-                .unwrap_or_default();
-            (need > 0.0).then_some(region)
-        };
-        let count: usize = lines.iter().map(Vec::len).sum();
-        let share = EVENLY * count as f64 / lines.len() as f64;
-        let doubtful = !is_certain(lines);
-        let uncertain = |lines: &Vec<Line>| if doubtful { uncertain(lines) } else { 0.0 };
-        let scatter = |lines: &Vec<Line>| {
-            let error = failure(lines).standard_error;
-            error / (evaluations(core::slice::from_ref(lines)) as f64).sqrt()
-        };
-        let lacking = |lines: &Vec<Line>| share - lines.len() as f64;
-        (most(&lacking).or_else(|| most(&uncertain)))
-            .or_else(|| most(&scatter))
-            .unwrap_or(0)
     }
 
     /// Draws lines until the target coefficient of variation or the number of evaluations is reached.
@@ -308,89 +283,173 @@ impl LineSampler {
         if self.alone() || 2 * self.cost_of_exploring() > left {
             return (self.clone(), 0);
         }
-        let (directions, spent) = self.explore(limit);
+        let (directions, explored, spent) = self.explore(limit);
+        let variables = (&self.variables[..], &explored[..]);
         let sampler = Self {
-            regions: Regions::new(self.dimension, &self.variables, &directions),
+            mixture: Mixture::new(
+                self.dimension,
+                variables,
+                &directions,
+                round(&self.settings),
+            ),
             ..self.clone()
         };
         (sampler, spent)
     }
 
     fn draw<L: LimitState>(&self, limit: &L, most: u64) -> LineProbability {
-        let mut lines = vec![Vec::new(); self.regions()];
-        let draw = |lines: &mut Vec<Vec<Line>>, region: usize, count: usize| {
-            for _ in 0..count {
-                if evaluations(lines) < most {
-                    let index = lines[region].len() as u64;
-                    lines[region].push(self.line(limit, region, index));
+        let LineSettings { seed, stream, .. } = self.settings;
+        let mut samples = NormalSamples::new(seed, stream, 0, self.variables.len());
+        let mut lines = Vec::new();
+        let (mut spent, mut due) = (0, 2);
+        for round in 1.. {
+            let from = lines.len();
+            let groups = self
+                .mixture
+                .groups()
+                .take(if self.alone() { 1 } else { usize::MAX });
+            lines.extend(groups.map(|group| self.line(limit, group, &mut samples)));
+            spent += evaluations(&lines[from..]);
+            let last = spent + spent / round > most || self.alone();
+            if last || round >= due && lines.len() as u64 >= FEWEST {
+                let estimate = self.estimate(&lines);
+                if self.tells_less_than_samples(&estimate) {
+                    return self.plain(limit, most.saturating_sub(spent), estimate);
                 }
+                if last || estimate.reached {
+                    return estimate;
+                }
+                due = round + (round / SELDOM).max(1);
             }
-        };
-        for region in 0..self.regions() {
-            draw(&mut lines, region, self.first(region));
         }
-        loop {
-            let estimate = self.estimate(&lines);
-            if estimate.reached || estimate.evaluations >= most || self.alone() {
-                return estimate;
+        self.estimate(&lines)
+    }
+
+    /// Whether plain samples, of which enough would fail and enough would not, scatter less for what they cost than lines,
+    /// whose scatter is itself known from few of them.
+    fn tells_less_than_samples(&self, found: &LineProbability) -> bool {
+        let Estimate {
+            value,
+            standard_error,
+        } = found.probability;
+        let rarer = value.min(1.0 - value - found.without_value.value);
+        let spread = standard_error * standard_error * found.evaluations as f64;
+        !self.alone()
+            && rarer * self.settings.evaluations as f64 >= ENOUGH
+            && DOUBT * spread > value * (1.0 - value)
+    }
+
+    /// The estimate from plain samples.
+    fn plain<L: LimitState>(
+        &self,
+        limit: &L,
+        most: u64,
+        lines: LineProbability,
+    ) -> LineProbability {
+        let LineSettings { seed, stream, .. } = self.settings;
+        let mut samples = NormalSamples::new(seed, stream, PLAIN, self.variables.len());
+        let (mut fails, mut without_value) = (0.0, 0.0);
+        let origin = vec![0.0; self.dimension];
+        for drawn in 1.. {
+            let point = self.across(samples.next_sample(), &origin);
+            match limit.value(&point).unwrap_or(f64::NAN) {
+                value if value.is_nan() => without_value += 1.0,
+                value if value <= 0.0 => fails += 1.0,
+                _ => {}
             }
-            let region = Self::neediest(&lines);
-            draw(&mut lines, region, MORE);
+            let count = drawn as f64;
+            let share = |number: f64| Estimate {
+                value: number / count,
+                standard_error: (number * (count - number) / count).sqrt() / count,
+            };
+            let probability = share(fails);
+            let rarer = fails.min(count - fails - without_value);
+            let settled = rarer >= ENOUGH;
+            let wished = self.settings.coefficient_of_variation * rarer / count;
+            let reached = settled && probability.standard_error <= wished;
+            if reached || drawn >= most {
+                return LineProbability {
+                    settled,
+                    reached,
+                    probability,
+                    without_value: share(without_value),
+                    lines: 0,
+                    evaluations: lines.evaluations + drawn,
+                };
+            }
         }
+        lines
     }
 }
 
-/// Mean over lines.
-fn mean(lines: &[Line], of: fn(&Line) -> f64) -> Estimate {
-    if lines.is_empty() {
+/// Lines of a round along the directions in which failure is expected.
+fn round(settings: &LineSettings) -> usize {
+    match settings.evaluations < FEW {
+        true => COARSE_ROUND,
+        false => ROUND,
+    }
+}
+
+/// The mean over lines of whole rounds, less what their scatter shares with quantities whose means are known to be zero
+/// (control variates: Owen 2013, *Monte Carlo theory, methods and examples*, section 8.9). Its error is the scatter that
+/// is left within each group of directions.
+fn estimate(lines: &[Line], of: fn(&Line) -> f64) -> Estimate {
+    let largest =
+        |of: &dyn Fn(&Line) -> f64| lines.iter().map(of).fold(0.0, |a: f64, b| a.max(b.abs()));
+    let scale = largest(&of);
+    if scale == 0.0 {
         return Estimate {
             value: 0.0,
             standard_error: 0.0,
         };
     }
-    let n = lines.len() as f64;
-    let value = lines.iter().map(of).sum::<f64>() / n;
-    let squares = lines.iter().map(|line| (of(line) - value).powi(2));
-    let variance = squares.sum::<f64>() / (n - 1.0).max(1.0);
-    Estimate {
-        value,
-        standard_error: (variance / n).sqrt(),
+    let count = lines.len() as f64;
+    let groups: Vec<Vec<usize>> = (0..=lines.iter().map(|line| line.group).max().unwrap_or(0))
+        .map(|group| {
+            (0..lines.len())
+                .filter(|k| lines[*k].group == group)
+                .collect()
+        })
+        .collect();
+    let off_mean = |values: &[f64]| {
+        let mut off = values.to_vec();
+        for group in &groups {
+            let mean = group.iter().map(|k| values[*k]).sum::<f64>() / group.len() as f64;
+            group.iter().for_each(|k| off[*k] -= mean);
+        }
+        off
+    };
+    let mut values: Vec<f64> = lines.iter().map(|line| of(line) / scale).collect();
+    let known: Vec<Vec<f64>> = (0..lines[0].known.len())
+        .map(|j| {
+            let scale = largest(&|line| line.known[j]).max(f64::MIN_POSITIVE);
+            lines.iter().map(|line| line.known[j] / scale).collect()
+        })
+        .collect();
+    let columns: Vec<DVector<f64>> = known.iter().map(|x| off_mean(x).into()).collect();
+    let shared = DMatrix::from_columns(&columns).svd(true, true);
+    let shared = shared.solve(&DVector::from(off_mean(&values)), DEPENDENT);
+    if let Ok(factors) = shared {
+        for (known, factor) in known.iter().zip(&factors) {
+            values
+                .iter_mut()
+                .zip(known)
+                .for_each(|(x, y)| *x -= factor * y);
+        }
     }
-}
-
-/// The probability in a region, if its scatter is not known.
-fn uncertain(lines: &[Line]) -> f64 {
-    match contribute(lines) {
-        true => 0.0,
-        false => failure(lines).value,
-    }
-}
-
-/// Whether the scatter is known of all that matters.
-fn is_certain(lines: &[Vec<Line>]) -> bool {
-    let all = lines.iter().map(|line| failure(line).value).sum::<f64>();
-    lines.iter().map(|line| uncertain(line)).sum::<f64>() <= SHARE * all
-}
-
-fn failure(lines: &[Line]) -> Estimate {
-    mean(lines, |line| line.fails)
-}
-
-/// Whether enough lines contribute for their scatter to be meaningful.
-fn contribute(lines: &[Line]) -> bool {
-    let largest = lines
-        .iter()
-        .fold(0.0_f64, |most, line| most.max(line.fails));
-    if largest == 0.0 {
-        return true;
-    }
-    let [sum, squares] = [1, 2].map(|power| {
-        let parts = lines.iter().map(|line| (line.fails / largest).powi(power));
-        parts.sum::<f64>()
+    let off = off_mean(&values);
+    let squares = groups.iter().map(|group| {
+        let squares: f64 = group.iter().map(|k| off[*k].powi(2)).sum();
+        let size = group.len() as f64;
+        squares * size / (size - 3.0).max(1.0)
     });
-    sum * sum >= CONTRIBUTING * squares
+    let free = (count - known.len() as f64).max(1.0);
+    Estimate {
+        value: (scale * values.iter().sum::<f64>() / count).clamp(0.0, 1.0),
+        standard_error: scale * (squares.sum::<f64>() * count / free).sqrt() / count,
+    }
 }
 
-fn evaluations(lines: &[Vec<Line>]) -> u64 {
-    lines.iter().flatten().map(|line| line.evaluations).sum()
+fn evaluations(lines: &[Line]) -> u64 {
+    lines.iter().map(|line| line.evaluations).sum()
 }
