@@ -54,10 +54,13 @@ impl Wanted {
         }
     }
 
-    /// The line at a state and its derivative along the step.
+    /// The line at a state and its derivative along the step; no frequency is negative.
     pub(super) fn line(&self, k: usize, state: &Spectrum) -> [f64; 2] {
         let (Line { ratio, offset }, [u, du]) = (self.lines[k], state.input);
-        [ratio * u + offset, ratio * du]
+        match ratio * u + offset {
+            line if line > 0.0 => [line, ratio * du],
+            _ => [0.0, 0.0],
+        }
     }
 
     /// The number of an eigenvalue that decides, positive where it counts, its derivative along the step, and its error.
@@ -95,21 +98,25 @@ impl Wanted {
             value > error
         };
         let counts = match kind {
-            Kind::Line(k) => self.line(k, state)[0] > 0.0 && above(),
+            Kind::Line(_) => above(),
             Kind::Critical if self.real(kind) => above(),
             Kind::Growth | Kind::Critical => root.grows,
         };
         counts && self.relevant(kind, root)
     }
 
+    /// Whether an eigenvalue can be at the threshold: no frequency is at a line that is not positive.
+    pub(super) fn meets(&self, kind: Kind, state: &Spectrum) -> bool {
+        match kind {
+            Kind::Line(k) => self.line(k, state)[0] > 0.0,
+            _ => true,
+        }
+    }
+
     /// Whether the number of an eigenvalue is within its error of the threshold.
     pub(super) fn touches(&self, kind: Kind, state: &Spectrum, root: &Root) -> bool {
         let ([value, _], error) = self.number(kind, state, root);
-        let met = match kind {
-            Kind::Line(k) => self.line(k, state)[0] > 0.0,
-            _ => true,
-        };
-        met && self.relevant(kind, root) && value.abs() <= error
+        self.meets(kind, state) && self.relevant(kind, root) && value.abs() <= error
     }
 
     /// Positions of the eigenvalues that count.

@@ -66,7 +66,8 @@ impl Curve {
         }
     }
 
-    pub(super) fn time(&self, (piece, share): Place) -> f64 {
+    #[cfg(test)]
+    fn time(&self, (piece, share): Place) -> f64 {
         self.t[piece] + share * (self.t[piece + 1] - self.t[piece])
     }
 

@@ -227,7 +227,7 @@ fn enclose(
     let mut left = MOST;
     while let Some(([low, high], halve)) = open.pop() {
         let [before, after] = [&low, &high].map(|state| wanted.count(kind, state));
-        if before == after {
+        if before == after || !(wanted.meets(kind, &low) || wanted.meets(kind, &high)) {
             continue;
         }
         let (width, middle) = (high.t - low.t, 0.5 * (low.t + high.t));
@@ -317,7 +317,8 @@ impl Wanted {
                 error,
                 merging,
             };
-            (t > low && t < high && error <= high - low).then_some(aim)
+            let inside = t >= low - CLOSEST && t <= high + CLOSEST;
+            (inside && error <= high - low).then_some(aim)
         };
         let roots = self.roots(kind, state);
         let relevant = roots.iter().filter(|root| self.relevant(kind, root));

@@ -64,7 +64,7 @@ impl Wanted {
         }
         let stable = stiff && self.conservative;
         let general = |kind: &Kind| match kind {
-            Kind::Line(k) => states.iter().any(|state| self.line(*k, state)[0] > 0.0),
+            Kind::Line(_) => states.iter().any(|state| self.meets(*kind, state)),
             // Growth is about every eigenvalue.
             Kind::Critical => !kinds.contains(&Kind::Growth),
             Kind::Growth => !stable,
