@@ -75,8 +75,12 @@ const NEAR: f64 = 0.02;
 const CLOSEST: f64 = 8.0 * f64::EPSILON;
 /// A Newton step this small, as a share of the whole step, leads to the event.
 const NEWTON: f64 = 1e-6;
+/// Share of a bracket below which a last step of Newton's method has found the event.
+const CONVERGED: f64 = 1e-3;
 /// Most states solved for one event.
 const MOST: usize = 200;
+/// Distance of two places, as a share of the step, at which a number may be within its error between them.
+const TOUCH: f64 = 1e-4;
 /// Relative error of an eigenvalue beyond which its touching a threshold may be rounding.
 const KNOWN: f64 = 1e-9;
 
@@ -140,6 +144,7 @@ pub(super) fn divide(
         }
     }
     division.events.sort_by(|a, b| a.t.total_cmp(&b.t));
+    division.join_touches(source, wanted);
     // A doubt about an interval that ends at an event is that event.
     let Division { events, doubts, .. } = &mut division;
     doubts.retain(|Doubt { between, kind }| {
@@ -236,8 +241,8 @@ fn enclose(
         let aim = aims.min_by(|a, b| a.step.total_cmp(&b.step));
         let reach = aim.map_or(finest, |aim| finest.max(4.0 * aim.error));
         if width <= 2.0 * reach {
-            let (t, merging) = aim.map_or((middle, false), |aim| (aim.t, aim.merging));
-            let at = (wanted.polished(source, kind, t, [low.t, high.t]), merging);
+            let aim = aim.map_or((middle, false), |aim| (aim.t, aim.merging));
+            let at = wanted.polished(source, kind, aim, [low.t, high.t]);
             division.found(wanted, kind, at, [low, high]);
             continue;
         }
@@ -264,8 +269,8 @@ fn enclose(
             && wanted.count(kind, a) == before
             && wanted.count(kind, b) == after
         {
-            let at = wanted.polished(source, kind, aim.t, [a.t, b.t]);
-            division.found(wanted, kind, (at, aim.merging), [a.clone(), b.clone()]);
+            let at = wanted.polished(source, kind, (aim.t, aim.merging), [a.t, b.t]);
+            division.found(wanted, kind, at, [a.clone(), b.clone()]);
             continue;
         }
         states.insert(0, low);
@@ -294,21 +299,45 @@ struct Aim {
 const REAL: f64 = 1e-6;
 
 impl Wanted {
-    /// A place close to an event, moved by Newton's method as long as that converges.
-    fn polished(&self, source: &mut impl States, kind: Kind, mut t: f64, ends: [f64; 2]) -> f64 {
-        let mut last = f64::INFINITY;
-        while let Some(state) = source.state(t)
-            && let Some(aim) = self.aim(kind, &state, ends)
-            && aim.step < 0.5 * last
-        {
-            (t, last) = (aim.t, aim.step);
-        }
-        t
+    /// A place close to an event, moved to it by Newton's method where that converges, and whether two eigenvalues merge
+    /// there.
+    fn polished(
+        &self,
+        source: &mut impl States,
+        kind: Kind,
+        (from, merging): (f64, bool),
+        ends: [f64; 2],
+    ) -> (f64, bool) {
+        // Where one passes by itself, others may merge close by.
+        let mut steps = [false, true].into_iter().filter_map(|merging| {
+            let (mut t, mut last) = (from, f64::INFINITY);
+            while let Some(state) = source.state(t)
+                && let Some(aim) = self.aims(kind, &state, ends, merging)
+                && aim.step < 0.5 * last
+            {
+                (t, last) = (aim.t, aim.step);
+            }
+            (last < CONVERGED * (ends[1] - ends[0])).then_some((t, merging))
+        });
+        steps.next().unwrap_or((from, merging))
     }
 
     /// The nearest place between two others at which an eigenvalue, or two that merge, meet the threshold.
-    fn aim(&self, kind: Kind, state: &Spectrum, [low, high]: [f64; 2]) -> Option<Aim> {
-        let aim = |[value, slope]: [f64; 2], error: f64, merging: bool| {
+    fn aim(&self, kind: Kind, state: &Spectrum, ends: [f64; 2]) -> Option<Aim> {
+        let aims = [false, true].map(|merging| self.aims(kind, state, ends, merging));
+        let aims = aims.into_iter().flatten();
+        aims.min_by(|a, b| a.step.total_cmp(&b.step))
+    }
+
+    /// The nearest such place of single eigenvalues, or of two that merge.
+    fn aims(
+        &self,
+        kind: Kind,
+        state: &Spectrum,
+        [low, high]: [f64; 2],
+        merging: bool,
+    ) -> Option<Aim> {
+        let aim = |[value, slope]: [f64; 2], error: f64| {
             let t = state.t - value / slope;
             let error = error / slope.abs();
             let aim = Aim {
@@ -318,15 +347,15 @@ impl Wanted {
                 merging,
             };
             let inside = t >= low - CLOSEST && t <= high + CLOSEST;
-            (inside && error <= high - low).then_some(aim)
+            (inside && error <= NEWTON).then_some(aim)
         };
         let roots = self.roots(kind, state);
-        let relevant = roots.iter().filter(|root| self.relevant(kind, root));
+        let relevant = roots.iter().filter(|root| !merging && self.relevant(kind, root));
         let single = relevant.filter_map(|root| {
             let (jet, error) = self.number(kind, state, root);
-            aim(jet, error, false)
+            aim(jet, error)
         });
-        let merges = !self.real(kind) && !matches!(kind, Kind::Line(_));
+        let merges = merging && !self.real(kind) && !matches!(kind, Kind::Line(_));
         let pairs = (0..roots.len()).filter(|_| merges).flat_map(|i| {
             let conjugate = roots[i].paired.then(|| roots[i].conjugate());
             conjugate.into_iter().chain(roots[i + 1..].iter().copied()).map(move |other| (i, other))
@@ -337,7 +366,7 @@ impl Wanted {
             let slope = 2.0 * (distance * (roots[i].slope - other.slope)).re;
             let of_square = error * (2.0 * distance.norm() + error);
             let real = square.im.abs() <= REAL * square.re.abs() + of_square;
-            real.then(|| aim([square.re, slope], of_square, true))?
+            real.then(|| aim([square.re, slope], of_square))?
         });
         let all = single.chain(both);
         all.min_by(|a, b| a.step.total_cmp(&b.step))
@@ -345,6 +374,32 @@ impl Wanted {
 }
 
 impl Division {
+    /// Makes an end of growth and the onset behind it one touch, if the state between them is at the threshold.
+    fn join_touches(&mut self, source: &mut impl States, wanted: &Wanted) {
+        let mut k = 0;
+        while k + 1 < self.events.len() {
+            let (a, b) = (&self.events[k], &self.events[k + 1]);
+            let opposite = a.kind == b.kind && (a.rises, b.rises) == (Some(false), Some(true));
+            if opposite
+                && b.t - a.t < TOUCH
+                && !a.merging
+                && let Some(state) = source.state(0.5 * (a.t + b.t))
+                && let Some(root) = (wanted.roots(a.kind, &state).iter())
+                    .find(|root| wanted.touches(a.kind, &state, root) && root.error <= KNOWN * root.value.norm())
+            {
+                let touch = Found {
+                    t: state.t,
+                    sides: [a.sides[0].clone(), b.sides[1].clone()],
+                    near: root.value,
+                    rises: None,
+                    ..a.clone()
+                };
+                self.events.splice(k..k + 2, [touch]);
+            }
+            k += 1;
+        }
+    }
+
     /// Adds an event for each of the eigenvalues that count on one side only.
     fn found(&mut self, wanted: &Wanted, kind: Kind, (t, merging): (f64, bool), sides: [Rc<Spectrum>; 2]) {
         let [mut before, mut after] = sides.each_ref().map(|state| {

@@ -58,6 +58,8 @@ pub(super) struct Findings {
     pub(super) places: Vec<f64>,
 }
 
+/// Relative distance of two eigenvalues that merge at an event.
+const MERGED: f64 = 1e-3;
 /// Distance of two events, as a share of the step, below which they are one for several modes.
 const SAME: f64 = 1e-9;
 /// Share of what the branch bends between two known stations by which it may miss the cubic between them, and share of
@@ -325,16 +327,19 @@ impl<'a, 'b> Step<'a, 'b> {
             all.min_by(|a, b| apart(a).total_cmp(&apart(b)))
         };
         let first = nearest(None)?;
-        let second = (merging && !turning).then(|| nearest(Some(first))).flatten();
-        let met = merging
-            || turning
-            || condition.is_met(&node.modes.modes[first], node.spectrum.input[0]);
+        let second = nearest(Some(first)).filter(|_| found.kind == Kind::Growth && !turning);
+        let met = condition.is_met(&node.modes.modes[first], node.spectrum.input[0]);
+        // Next to where two merge, neither meets the condition to rounding.
+        let close = |r: usize| apart(&r) < MERGED * roots[r].value.norm();
+        let merging = turning || merging || !met && second.is_some_and(close);
+        let met = met || merging;
+        let second = second.filter(|_| merging);
         let event = Event::Met {
             value: value.unwrap_or(node.point.place.p),
             condition,
             modes: [first, second.unwrap_or(first)],
             change,
-            merging: merging || turning,
+            merging,
             node,
         };
         met.then_some((first, event))
