@@ -11,7 +11,7 @@ use crate::modes::{Family, Mode, Modes, Whirl, whirls};
 use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
 use crate::sweep::{
     Condition, Crossing, Event, EventTolerance, Events, Following, Line, Searched, Sought, Tracker,
-    between, critical_tolerance, crossing_tolerance,
+    between, critical_tolerance, crossing_tolerance, growing,
 };
 use crate::tolerance::{Spread, Tolerances};
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
@@ -188,11 +188,12 @@ pub fn campbell_each(
     let way = (mechanism, (u, b), start);
     let (all_events, route) = between(way, &following, (input, values), &sought)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input).on(route);
-    let mut unreached = values.len();
+    let (mut unreached, mut states) = (values.len(), Vec::new());
     for &value in values {
         let failed = tracker.advance(value);
         if let Some(point) = failed.as_ref().or(tracker.last.as_deref()) {
             unreached -= 1;
+            states.extend(point.modes.iter().map(|modes| growing(value, modes)));
             let describe = |(state, modes)| describe(mechanism, state, modes, tolerances);
             let shown = each(CampbellPoint {
                 value,
@@ -223,6 +224,10 @@ pub fn campbell_each(
         _ => events,
     };
     if let Some(events) = all_events.map(until) {
+        let events = match diagram.family {
+            Family::General => events.compared_with(&states),
+            Family::Undamped => events,
+        };
         let spread = |state| critical_tolerance(mechanism, state, tolerances);
         diagram.critical = events.critical.iter().map(spread).collect();
         for crossing in &events.crossings {

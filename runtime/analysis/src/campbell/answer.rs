@@ -8,7 +8,7 @@ use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
 use super::{Campbell, CampbellMode, CampbellPoint};
 use crate::along::{not_reached, varied};
 use crate::modes::{Family, Sense, undamped};
-use crate::sweep::{EventTolerance, event_columns};
+use crate::sweep::{EventTolerance, event_columns, unresolved};
 use crate::tolerance::{Spread, spread_of};
 use crate::{Description, Error, Input};
 
@@ -69,6 +69,7 @@ impl Answer for Campbell {
         not_reached(&mut said, self.unreached);
         said.data(mode_table(d, self.input, &self.points));
         self.events(&mut said);
+        unresolved(&mut said, d, self.input, self.searched.as_ref());
         self.by_mode(&mut said);
         self.by_point(&mut said);
         undamped(&mut said, self.family, d);

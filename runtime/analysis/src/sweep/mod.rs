@@ -20,7 +20,7 @@ mod sweep;
 mod track;
 
 pub use answers::sweep_table;
-pub(crate) use answers::{event_columns, meeting};
+pub(crate) use answers::{event_columns, meeting, unresolved};
 pub use condition::{Change, Condition, Crossing, Line};
 pub use critical::critical_state;
 pub(crate) use crossing::first_crossing;
@@ -30,7 +30,7 @@ pub use event_sensitivity::{critical_sensitivity, crossing_sensitivity};
 pub use event_tolerance::{Event, EventTolerance, critical_tolerance, crossing_tolerance};
 pub use points::{CriticalState, Sweep, SweepPoint};
 pub use range::Range;
-pub(crate) use search::Sought;
+pub(crate) use search::{Sought, growing};
 pub use search::{Events, Gap, Searched, Unresolved};
 pub use sensitivity_sweep::sensitivity_sweep;
 #[doc(hidden)]

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use super::driver::follow;
 use super::points::{Sweep, SweepPoint};
 use super::range::Range;
-use super::search::{Along, Events, Route, Sought, search};
+use super::search::{Along, Events, Route, Sought, growing, search};
 use super::track::{Following, Tracker};
 use crate::arguments::check_input;
 use crate::kernels::{BatchKernels, DirectionalKernels};
@@ -64,17 +64,21 @@ pub fn sweep_each(
     let (all_events, _) = between(way, &following, (input, values), &sought)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let mut unreached = values.len();
-    let mut last = f64::NAN;
+    let (mut last, mut states) = (f64::NAN, Vec::new());
     follow(&mut tracker, mechanism, values, false, |station| {
         unreached -= 1;
         last = station.point.value;
+        let general = station.point.modes.iter();
+        let general = general.filter(|modes| modes.family == Family::General);
+        states.extend(general.map(|modes| growing(last, modes)));
         each(station.point)
     });
     let until = |events: Events| match unreached {
         0 => events,
         _ => events.until(last),
     };
-    let (critical, flutter_onsets, searched) = match all_events.map(until) {
+    let compared = |events: Events| until(events).compared_with(&states);
+    let (critical, flutter_onsets, searched) = match all_events.map(compared) {
         Some(events) => (events.critical, events.crossings, Some(events.searched)),
         None => Default::default(),
     };

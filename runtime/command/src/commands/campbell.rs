@@ -7,6 +7,7 @@ use eigentol::campbell::CampbellPoint;
 use eigentol::campbell::campbell_table;
 use eigentol_figures as figures;
 
+use crate::diagnostics;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
@@ -73,7 +74,13 @@ impl Campbell {
         let style = self.picture.style(&question, modes)?;
         self.picture.draw(|| figures::campbell(&found, &style))?;
         match rows {
-            Some(rows) => rows.finish()?,
+            Some(rows) => {
+                rows.finish()?;
+                let searched = found.searched.iter();
+                for sentence in searched.flat_map(|x| x.sentences(d, input.any())) {
+                    diagnostics::note(&sentence);
+                }
+            }
             None => {
                 let mut answer = self.output.answer();
                 answer.add(&found)?;

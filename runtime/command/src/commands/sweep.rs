@@ -65,6 +65,10 @@ impl Follow {
         match rows {
             Some(rows) => {
                 rows.finish()?;
+                let searched = sweep.searched.iter();
+                for sentence in searched.flat_map(|x| x.sentences(d, input.any())) {
+                    diagnostics::note(&sentence);
+                }
                 if labels > motions {
                     let more = labels - motions;
                     diagnostics::note(&format!(

@@ -95,6 +95,7 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
             "crossings" => "Where a frequency is a multiple of the input",
             "critical states" => "Where the equilibrium loses its stiffness",
             "flutter onsets" => "Where an oscillation begins or ceases to grow",
+            "unresolved" => "Where events may lie that are not resolved",
             _ => "All modes along the input",
         };
         table(html, caption, &listing, &on_a_page(&listing))?;

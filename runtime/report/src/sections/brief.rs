@@ -216,11 +216,15 @@ fn along(along: &Along, style: &Style) -> Vec<Line> {
     let bad: Vec<Line> = bad
         .map(|event| (Some(false), happening(campbell, event, style)))
         .collect();
+    let (d, input) = (&campbell.description, campbell.input);
+    let searched = campbell.searched.iter();
+    let unresolved = searched.flat_map(|x| x.sentences(d, input));
+    let unresolved = unresolved.map(|sentence| (None, format!("{sentence}.")));
     let met = campbell
         .crossings
         .iter()
         .map(|event| (None, happening(campbell, event, style)));
-    let mut lines: Vec<Line> = bad.into_iter().chain(met).collect();
+    let mut lines: Vec<Line> = bad.into_iter().chain(unresolved).chain(met).collect();
     let more = lines.len().saturating_sub(EVENTS);
     lines.truncate(EVENTS);
     if more > 0 {

@@ -6,10 +6,11 @@ use eigentol_results::shares::mostly;
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
 
-use crate::along::{name_of, place, together, varied};
+use crate::along::{name_of, place, together, value_of, varied};
 use crate::modes::undamped;
-use crate::sweep::{Change, Condition, Event, EventTolerance};
+use crate::sweep::{Change, Condition, Event, EventTolerance, Line, Searched};
 use crate::tolerance::Spread;
+use crate::{Description, Input};
 
 /// `events`: one row.
 impl Answer for EventTolerance {
@@ -133,14 +134,7 @@ impl EventTolerance {
 pub(crate) fn meeting(mode: usize, condition: Condition, change: Change, name: &str) -> String {
     let mode = mode + 1;
     match condition {
-        Condition::Line(line) if line.offset == 0.0 => {
-            format!("frequency {mode} is {} times {name}", given(line.ratio))
-        }
-        Condition::Line(line) => format!(
-            "frequency {mode} is {} times {name} plus {} rad/s",
-            given(line.ratio),
-            given(line.offset)
-        ),
+        Condition::Line(line) => format!("frequency {mode} is {}", multiple(line, name)),
         Condition::FlutterOnset => match change {
             Change::End => format!("end of flutter of mode {mode}"),
             Change::Touch => format!("mode {mode} keeps its amplitude"),
@@ -148,6 +142,68 @@ pub(crate) fn meeting(mode: usize, condition: Condition, change: Change, name: &
             Change::ToFlutter => format!("divergence turns into flutter of mode {mode}"),
             _ => format!("onset of flutter of mode {mode}"),
         },
+    }
+}
+
+impl Searched {
+    /// Where events may lie that are not resolved, and where nothing was searched: a sentence for each stretch.
+    #[must_use]
+    pub fn sentences(&self, d: &Description, input: Input) -> Vec<String> {
+        let name = name_of(d, input);
+        let ends = |from, to| [from, to].map(|value| value_of(d, input, value));
+        let unresolved = self.unresolved.iter().map(|stretch| {
+            let [from, to] = ends(stretch.from, stretch.to);
+            let what = match stretch.condition {
+                None => "vanishing stiffness".to_owned(),
+                Some(Condition::FlutterOnset) => "flutter".to_owned(),
+                Some(Condition::Line(line)) => format!("a frequency at {}", multiple(line, name)),
+            };
+            format!("unresolved: {what} between {name} = {from} and {to}")
+        });
+        let gaps = self.gaps.iter().map(|gap| {
+            let [from, to] = ends(gap.from, gap.to);
+            format!("not searched: {name} from {from} to {to}: {}", gap.reason)
+        });
+        unresolved.chain(gaps).collect()
+    }
+}
+
+/// Says what is not resolved.
+pub(crate) fn unresolved(
+    said: &mut Findings,
+    d: &Description,
+    input: Input,
+    searched: Option<&Searched>,
+) {
+    let (Some(searched), Some(info)) = (searched, d.inputs.get(input.index())) else {
+        return;
+    };
+    for sentence in searched.sentences(d, input) {
+        said.note(sentence);
+    }
+    if searched.unresolved.is_empty() {
+        return;
+    }
+    let mut table = Columns::new("unresolved", &searched.unresolved);
+    table.measured("from", &info.unit, &|row| Some(row.from));
+    table.measured("to", &info.unit, &|row| Some(row.to));
+    table.words("event", &|row| {
+        let word = match row.condition {
+            None => "critical",
+            Some(Condition::FlutterOnset) => "flutter",
+            Some(Condition::Line(_)) => "crossing",
+        };
+        Some(word.to_owned())
+    });
+    said.data(table.finish().0);
+}
+
+/// `2 times speed plus 30 rad/s`.
+fn multiple(line: Line, name: &str) -> String {
+    let times = format!("{} times {name}", given(line.ratio));
+    match line.offset {
+        0.0 => times,
+        offset => format!("{times} plus {} rad/s", given(offset)),
     }
 }
 

@@ -4,5 +4,5 @@ mod events;
 mod states;
 mod sweep;
 
-pub(crate) use events::{event_columns, meeting};
+pub(crate) use events::{event_columns, meeting, unresolved};
 pub use sweep::sweep_table;

@@ -3,6 +3,7 @@ use eigentol_results::relevance::{EVERYTHING, shown};
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
 
+use super::events::unresolved;
 use super::states::critical_columns;
 use crate::along::{Moving, not_reached, place, varied};
 use crate::modes::undamped;
@@ -56,6 +57,7 @@ impl Answer for Sweep {
             let location = place(d, self.input, critical.value);
             said.note(format!("critical at {location} ({})", critical.kind));
         }
+        unresolved(&mut said, d, self.input, self.searched.as_ref());
         if let Some(table) = critical_columns(&self.critical) {
             said.data(table.finish().0);
         }

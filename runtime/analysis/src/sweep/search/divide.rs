@@ -1,17 +1,52 @@
-//! Divides a step until every stretch of it shows its events.
+//! Finds the events of a step: between any two states whose integers ([`super::count`]) differ there is one.
+//!
+//! First states are solved until none of the numbers behind the integers can pass its threshold and come back unseen
+//! ([`super::hidden`]). Then each change of an integer is enclosed: by Newton's method where it stays within the bracket,
+//! by halves elsewhere, until the states on either side of a place show the change.
 
 use std::rc::Rc;
 
-use super::cubic::{Passage, Zero};
-use super::scalars::{Candidate, Kind, Stretch, Wanted};
+use super::count::{Kind, Wanted};
 use super::spectrum::{Root, Spectrum};
-use crate::sweep::condition::Line;
+use crate::Complex;
 
 /// Solves states along a step.
 pub(super) trait States {
     /// The state at a place; `None` if it is not found there, if an eigenvalue has no slope, or if no more states may be
     /// solved.
     fn state(&mut self, t: f64) -> Option<Rc<Spectrum>>;
+    /// All states solved so far, in order.
+    fn all(&self) -> Vec<Rc<Spectrum>>;
+}
+
+/// An event of a step.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub(super) kind: Kind,
+    pub(super) t: f64,
+    /// The states before and behind it.
+    pub(super) sides: [Rc<Spectrum>; 2],
+    /// About the eigenvalue there.
+    pub(super) near: Complex,
+    /// Whether more count behind it; `None` if it is but a touch.
+    pub(super) rises: Option<bool>,
+    /// Whether two eigenvalues merge there.
+    pub(super) merging: bool,
+}
+
+impl Found {
+    /// Whether this is but a growing pair that becomes real there, or the reverse; one of both may also lose its growth.
+    pub(super) fn turns(&self, wanted: &Wanted) -> bool {
+        let [a, b] = self.sides.each_ref().map(|state| {
+            let flutter = wanted.count(Kind::Growth, state);
+            [flutter, state.divergent()].map(usize::cast_signed)
+        });
+        let [flutter, divergent] = [b[0] - a[0], b[1] - a[1]];
+        match self.kind {
+            Kind::Growth => flutter * divergent < 0,
+            _ => flutter != 0 && divergent == -2 * flutter,
+        }
+    }
 }
 
 /// A stretch whose events are not resolved.
@@ -24,12 +59,12 @@ pub(super) struct Doubt {
 /// The events of a step.
 #[derive(Debug, Default)]
 pub(super) struct Division {
-    pub(super) events: Vec<Candidate>,
+    pub(super) events: Vec<Found>,
     pub(super) doubts: Vec<Doubt>,
     /// Whether a state between two others was not found.
     pub(super) broken: bool,
-    /// The states that divide the step, in order.
-    pub(super) states: Vec<Rc<Spectrum>>,
+    /// The places of the states that divide the step, in order.
+    pub(super) places: Vec<f64>,
 }
 
 /// Places at which a state between two others is sought, as shares of the distance.
@@ -38,17 +73,25 @@ const MIDDLES: [f64; 3] = [0.5, 0.44, 0.57];
 const NEAR: f64 = 0.02;
 /// Distance of two states of a step below which rounding may make them one.
 const CLOSEST: f64 = 8.0 * f64::EPSILON;
+/// A Newton step this small, as a share of the whole step, leads to the event.
+const NEWTON: f64 = 1e-6;
+/// Share of a bracket below which a last step of Newton's method has found the event.
+const CONVERGED: f64 = 1e-3;
+/// Most states solved for one event.
+const MOST: usize = 200;
+/// Distance of two places, as a share of the step, at which a number may be within its error between them.
+const TOUCH: f64 = 1e-4;
+/// Relative error of an eigenvalue beyond which its touching a threshold may be rounding.
+const KNOWN: f64 = 1e-9;
 
 /// A stretch between two states.
 pub(super) struct Interval {
     pub(super) ends: [Rc<Spectrum>; 2],
-    /// Whether what happens at its first state belongs to it.
-    pub(super) opens: bool,
-    /// Whether what happens at its last state belongs to it.
-    pub(super) closes: bool,
+    /// Whether the search begins or ends with it: what happens at that state belongs to it.
+    pub(super) outer: [bool; 2],
 }
 
-/// Finds the events in a stretch, no finer than `finest`.
+/// Finds the events between two states, no finer than `finest`.
 pub(super) fn divide(
     source: &mut impl States,
     wanted: &Wanted,
@@ -56,9 +99,12 @@ pub(super) fn divide(
     finest: f64,
 ) -> Division {
     let mut division = Division::default();
-    let [first, last] = interval.ends;
+    let Interval {
+        ends: [first, last],
+        outer,
+    } = interval;
     let (begin, end) = (first.t, last.t);
-    division.states.push(first.clone());
+    division.places.push(begin);
     let mut open = vec![(first, last)];
     while let Some((a, b)) = open.pop() {
         let width = b.t - a.t;
@@ -67,23 +113,17 @@ pub(super) fn divide(
             .find_map(|share| source.state(a.t + share * width));
         let Some(middle) = middle else {
             division.broken = true;
-            division.doubts.push(Doubt {
-                between: [a.t, b.t],
-                kind: Kind::Critical,
-            });
-            division.states.push(b);
+            division.doubt([a.t, b.t], Kind::Critical);
+            division.places.push(b.t);
             continue;
         };
-        match wanted.events([&a, &middle, &b], interval.closes && b.t == end) {
-            Stretch::Events(events) => {
-                division.events.extend(events);
-                division.states.extend([middle, b]);
+        match wanted.hidden([&a, &middle, &b]) {
+            None => division.places.extend([middle.t, b.t]),
+            Some((_, kind)) if width <= finest => {
+                division.doubt([a.t, b.t], kind);
+                division.places.push(b.t);
             }
-            Stretch::Divide(_, kind) if width <= finest => {
-                settle(wanted, [&a, &middle, &b], kind, &mut division);
-                division.states.push(b);
-            }
-            Stretch::Divide(t, _) => {
+            Some((t, _)) => {
                 let off = (t - a.t).min(b.t - t);
                 let distinct = (t - middle.t).abs() > NEAR * width && off > CLOSEST;
                 let at = distinct
@@ -94,122 +134,300 @@ pub(super) fn divide(
             }
         }
     }
-    if !interval.opens {
-        division
-            .events
-            .retain(|event| event.zero.between != [begin; 2]);
+    for kind in wanted.kinds() {
+        let within = |state: &Rc<Spectrum>| (begin..=end).contains(&state.t);
+        let states: Vec<_> = source.all().into_iter().filter(within).collect();
+        let sure = division.touches(wanted, kind, &states, outer);
+        for two in sure.windows(2) {
+            let bracket = [two[0].clone(), two[1].clone()];
+            enclose(source, wanted, kind, bracket, finest, &mut division);
+        }
     }
-    // Beside a root of a root nothing is smooth: such a doubt belongs to the event.
+    division.events.sort_by(|a, b| a.t.total_cmp(&b.t));
+    division.join_touches(source, wanted);
+    // A doubt about an interval that ends at an event is that event.
     let Division { events, doubts, .. } = &mut division;
-    doubts.retain(|doubt| {
-        let [from, to] = [
-            doubt.between[0] - 4.0 * finest,
-            doubt.between[1] + 4.0 * finest,
-        ];
-        let beside =
-            |event: &Candidate| event.zero.between[1] >= from && event.zero.between[0] <= to;
-        !events.iter().any(beside)
+    doubts.retain(|Doubt { between, kind }| {
+        let [from, to] = [between[0] - 4.0 * finest, between[1] + 4.0 * finest];
+        !events.iter().any(|event| event.kind == *kind && event.t >= from && event.t <= to)
     });
     division
 }
 
-/// Decides about a stretch as narrow as the search resolves: what changes by counting is an event, anything else is in
-/// doubt.
-fn settle(wanted: &Wanted, states: [&Rc<Spectrum>; 3], kind: Kind, division: &mut Division) {
-    let [a, middle, b] = states;
-    let between = [a.t, b.t];
-    let mut kinds = vec![kind];
-    if matches!(kind, Kind::Growth | Kind::Line(_)) {
-        // The eigenvalues were not followed: any event may be there.
-        kinds.extend((0..wanted.lines.len()).map(Kind::Line));
-        kinds.extend(wanted.growth.then_some(Kind::Growth));
-        kinds.sort_by_key(|kind| format!("{kind:?}"));
-        kinds.dedup();
+impl Division {
+    fn doubt(&mut self, between: [f64; 2], kind: Kind) {
+        self.doubts.push(Doubt { between, kind });
     }
-    let known = division.events.len();
-    for kind in kinds {
-        let counts = [a, b].map(|state| wanted.count(kind, state));
-        let passage = match counts[1] > counts[0] {
-            true => Passage::Rises,
-            false => Passage::Falls,
-        };
-        for _ in 0..counts[0].abs_diff(counts[1]) {
-            let near = wanted.nearest(kind, middle);
-            division.events.push(Candidate {
-                kind,
-                zero: Zero {
-                    between,
-                    at: middle.t,
-                    passage,
-                },
-                near: [near.value; 2],
-            });
+
+    /// The states that are at no event. At the others a number touches its threshold, if the states around it show no
+    /// change; at an end of the search it may also pass.
+    fn touches(
+        &mut self,
+        wanted: &Wanted,
+        kind: Kind,
+        states: &[Rc<Spectrum>],
+        outer: [bool; 2],
+    ) -> Vec<Rc<Spectrum>> {
+        let doubtful = |state: &Rc<Spectrum>| wanted.doubtful(kind, state);
+        let groups: Vec<&[Rc<Spectrum>]> = (states.chunk_by(|a, b| doubtful(a) == doubtful(b))).collect();
+        let last = groups.len() - 1;
+        let mut sure = Vec::new();
+        for (k, group) in groups.iter().enumerate() {
+            let around = [k.checked_sub(1), (k < last).then_some(k + 1)];
+            let around = around.map(|k| k.map(|k| groups[k]));
+            let most = around.iter().flatten().map(|other| doubtful(&other[0])).max();
+            let new = most.map_or(0, |most| doubtful(&group[0]).saturating_sub(most));
+            let (begins, ends) = (around[0].is_none(), around[1].is_none());
+            // Between two bands of flutter everything may be neutral.
+            let counts = |state: &Rc<Spectrum>| wanted.count(kind, state);
+            let below = |side: &[Rc<Spectrum>]| counts(&side[0]) == counts(&group[0]);
+            let touch = kind != Kind::Growth || around.iter().flatten().all(|side| below(side));
+            if new == 0 || begins || ends || !touch {
+                sure.extend(group.iter().cloned());
+            }
+            let at = match (begins, ends) {
+                (true, _) => 0,
+                (_, true) => group.len() - 1,
+                _ => group.len() / 2,
+            };
+            let (state, outer) = (&group[at], begins && outer[0] || ends && outer[1]);
+            if new == 0 || !touch || (begins || ends) && !outer {
+                continue;
+            }
+            let sides = [
+                around[0].map_or(state, |before| &before[before.len() - 1]),
+                around[1].map_or(state, |after| &after[0]),
+            ];
+            let [before, after] = sides.map(counts);
+            let touches = |root: &&Root| {
+                let known = wanted.real(kind) || root.error <= KNOWN * root.value.norm();
+                known && wanted.touches(kind, state, root)
+            };
+            let roots = wanted.roots(kind, state).iter().filter(touches);
+            for root in roots.take(if before == after { new } else { 0 }) {
+                self.events.push(Found {
+                    kind,
+                    t: state.t,
+                    sides: sides.map(Rc::clone),
+                    near: root.value,
+                    rises: (begins || ends).then_some(ends),
+                    merging: false,
+                });
+            }
         }
-    }
-    // Two that come together within the resolution, and grow nowhere, cross.
-    let growing = states.map(|state| wanted.count(Kind::Growth, state));
-    let crosses = kind == Kind::Merging && growing == [growing[0]; 3];
-    if division.events.len() == known && !crosses && wanted.doubtful(kind, states) {
-        division.doubts.push(Doubt { between, kind });
+        sure
     }
 }
 
-impl Wanted {
-    /// The number that an eigenvalue makes zero at an event, positive beyond it.
-    fn excess(&self, kind: Kind, state: &Spectrum, root: &Root) -> f64 {
-        match kind {
-            Kind::Line(k) => {
-                let Line { ratio, offset } = self.lines[k];
-                let line = ratio * state.input[0] + offset;
-                match self.undamped {
-                    true => root.value.re - line * line,
-                    false => root.value.im - line,
-                }
-            }
-            Kind::Growth | Kind::Merging | Kind::Turning => root.value.re - root.error,
-            Kind::Critical => root.value.re,
+/// Adds the events between two states, as many as the integer changes by.
+fn enclose(
+    source: &mut impl States,
+    wanted: &Wanted,
+    kind: Kind,
+    bracket: [Rc<Spectrum>; 2],
+    finest: f64,
+    division: &mut Division,
+) {
+    let mut open = vec![(bracket, false)];
+    let mut left = MOST;
+    while let Some(([low, high], halve)) = open.pop() {
+        let [before, after] = [&low, &high].map(|state| wanted.count(kind, state));
+        if before == after || !(wanted.meets(kind, &low) || wanted.meets(kind, &high)) {
+            continue;
         }
-    }
-
-    /// The eigenvalues that an event of this kind is about.
-    fn of<'a>(&self, kind: Kind, state: &'a Spectrum) -> Vec<&'a Root> {
-        match kind {
-            Kind::Critical if self.symmetric && !self.undamped => state.stiffness.iter().collect(),
-            Kind::Critical => state.roots.iter().filter(|root| !root.paired).collect(),
-            _ if self.undamped => state.roots.iter().collect(),
-            _ => state.roots.iter().filter(|root| root.paired).collect(),
+        let (width, middle) = (high.t - low.t, 0.5 * (low.t + high.t));
+        let aims = [&low, &high].map(|state| wanted.aim(kind, state, [low.t, high.t]));
+        let aims = aims.into_iter().flatten();
+        let aim = aims.min_by(|a, b| a.step.total_cmp(&b.step));
+        let reach = aim.map_or(finest, |aim| finest.max(4.0 * aim.error));
+        if width <= 2.0 * reach {
+            let aim = aim.map_or((middle, false), |aim| (aim.t, aim.merging));
+            let at = wanted.polished(source, kind, aim, [low.t, high.t]);
+            division.found(wanted, kind, at, [low, high]);
+            continue;
         }
-    }
-
-    fn count(&self, kind: Kind, state: &Spectrum) -> usize {
-        let beyond = |root: &&Root| self.excess(kind, state, root) > 0.0;
-        self.of(kind, state).into_iter().filter(beyond).count()
-    }
-
-    fn nearest(&self, kind: Kind, state: &Spectrum) -> Root {
-        let all = self.of(kind, state).into_iter();
-        let distance = |root: &&Root| self.excess(kind, state, root).abs();
-        let nearest = all.min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        nearest.copied().unwrap_or(Root {
-            value: crate::Complex::ZERO,
-            slope: crate::Complex::ZERO,
-            error: f64::INFINITY,
-            paired: false,
-            neutral: false,
-        })
-    }
-
-    /// Whether the eigenvalues move so much between the states that one may pass the event and come back.
-    fn doubtful(&self, kind: Kind, [a, middle, b]: [&Rc<Spectrum>; 3]) -> bool {
-        let nearest = self.nearest(kind, middle);
-        let moved = |root: &&Root| {
-            let others = self.of(kind, b).into_iter();
-            let apart = others.map(|other| (other.value - root.value).norm());
-            apart.fold(f64::INFINITY, f64::min)
+        // Newton's method, and at last both sides of where it leads; every other time at least half is gained.
+        let places = match aim {
+            Some(aim) if !halve && aim.step < NEWTON => vec![aim.t - reach, aim.t + reach],
+            Some(aim) if !halve => vec![aim.t],
+            _ => vec![middle],
         };
-        let all = self.of(kind, a);
-        let moved = all.iter().map(moved).fold(0.0, f64::max);
-        self.excess(kind, middle, &nearest).abs() <= 4.0 * moved + nearest.error
+        let inside = |t: &f64| *t > low.t + CLOSEST && *t < high.t - CLOSEST;
+        let mut states: Vec<_> = (places.into_iter().filter(inside))
+            .filter_map(|t| source.state(t))
+            .collect();
+        if states.is_empty() {
+            let mut places = MIDDLES.iter().map(|share| low.t + share * width);
+            states.extend(places.find_map(|t| source.state(t)));
+        }
+        left -= 1;
+        if states.is_empty() || left == 0 {
+            division.doubt([low.t, high.t], kind);
+            continue;
+        }
+        if let (Some(aim), [a, b]) = (aim, &states[..])
+            && wanted.count(kind, a) == before
+            && wanted.count(kind, b) == after
+        {
+            let at = wanted.polished(source, kind, (aim.t, aim.merging), [a.t, b.t]);
+            division.found(wanted, kind, at, [a.clone(), b.clone()]);
+            continue;
+        }
+        states.insert(0, low);
+        states.push(high);
+        let brackets = states.windows(2).map(|two| [two[0].clone(), two[1].clone()]);
+        open.extend(brackets.map(|two| {
+            let slow = two[1].t - two[0].t > 0.5 * width;
+            (two, slow && !halve)
+        }));
+    }
+}
+
+/// Where Newton's method leads from a state.
+#[derive(Clone, Copy, Debug)]
+struct Aim {
+    t: f64,
+    /// How far that is.
+    step: f64,
+    /// The error of the place.
+    error: f64,
+    /// Whether two eigenvalues merge there.
+    merging: bool,
+}
+
+/// Share by which `(s_1 - s_2)^2` may miss the real axis where two eigenvalues merge on a threshold.
+const REAL: f64 = 1e-6;
+
+impl Wanted {
+    /// A place close to an event, moved to it by Newton's method where that converges, and whether two eigenvalues merge
+    /// there.
+    fn polished(
+        &self,
+        source: &mut impl States,
+        kind: Kind,
+        (from, merging): (f64, bool),
+        ends: [f64; 2],
+    ) -> (f64, bool) {
+        // Where one passes by itself, others may merge close by.
+        let mut steps = [false, true].into_iter().filter_map(|merging| {
+            let (mut t, mut last) = (from, f64::INFINITY);
+            while let Some(state) = source.state(t)
+                && let Some(aim) = self.aims(kind, &state, ends, merging)
+                && aim.step < 0.5 * last
+            {
+                (t, last) = (aim.t, aim.step);
+            }
+            (last < CONVERGED * (ends[1] - ends[0])).then_some((t, merging))
+        });
+        steps.next().unwrap_or((from, merging))
+    }
+
+    /// The nearest place between two others at which an eigenvalue, or two that merge, meet the threshold.
+    fn aim(&self, kind: Kind, state: &Spectrum, ends: [f64; 2]) -> Option<Aim> {
+        let aims = [false, true].map(|merging| self.aims(kind, state, ends, merging));
+        let aims = aims.into_iter().flatten();
+        aims.min_by(|a, b| a.step.total_cmp(&b.step))
+    }
+
+    /// The nearest such place of single eigenvalues, or of two that merge.
+    fn aims(
+        &self,
+        kind: Kind,
+        state: &Spectrum,
+        [low, high]: [f64; 2],
+        merging: bool,
+    ) -> Option<Aim> {
+        let aim = |[value, slope]: [f64; 2], error: f64| {
+            let t = state.t - value / slope;
+            let error = error / slope.abs();
+            let aim = Aim {
+                t,
+                step: (t - state.t).abs(),
+                error,
+                merging,
+            };
+            let inside = t >= low - CLOSEST && t <= high + CLOSEST;
+            (inside && error <= NEWTON).then_some(aim)
+        };
+        let roots = self.roots(kind, state);
+        let relevant = roots.iter().filter(|root| !merging && self.relevant(kind, root));
+        let single = relevant.filter_map(|root| {
+            let (jet, error) = self.number(kind, state, root);
+            aim(jet, error)
+        });
+        let merges = merging && !self.real(kind) && !matches!(kind, Kind::Line(_));
+        let pairs = (0..roots.len()).filter(|_| merges).flat_map(|i| {
+            let conjugate = roots[i].paired.then(|| roots[i].conjugate());
+            conjugate.into_iter().chain(roots[i + 1..].iter().copied()).map(move |other| (i, other))
+        });
+        let both = pairs.filter_map(|(i, other)| {
+            let (distance, error) = (roots[i].value - other.value, roots[i].error + other.error);
+            let square = distance * distance;
+            let slope = 2.0 * (distance * (roots[i].slope - other.slope)).re;
+            let of_square = error * (2.0 * distance.norm() + error);
+            let real = square.im.abs() <= REAL * square.re.abs() + of_square;
+            real.then(|| aim([square.re, slope], of_square))?
+        });
+        let all = single.chain(both);
+        all.min_by(|a, b| a.step.total_cmp(&b.step))
+    }
+}
+
+impl Division {
+    /// Makes an end of growth and the onset behind it one touch, if the state between them is at the threshold.
+    fn join_touches(&mut self, source: &mut impl States, wanted: &Wanted) {
+        let mut k = 0;
+        while k + 1 < self.events.len() {
+            let (a, b) = (&self.events[k], &self.events[k + 1]);
+            let opposite = a.kind == b.kind && (a.rises, b.rises) == (Some(false), Some(true));
+            if opposite
+                && b.t - a.t < TOUCH
+                && !a.merging
+                && let Some(state) = source.state(0.5 * (a.t + b.t))
+                && let Some(root) = (wanted.roots(a.kind, &state).iter())
+                    .find(|root| wanted.touches(a.kind, &state, root) && root.error <= KNOWN * root.value.norm())
+            {
+                let touch = Found {
+                    t: state.t,
+                    sides: [a.sides[0].clone(), b.sides[1].clone()],
+                    near: root.value,
+                    rises: None,
+                    ..a.clone()
+                };
+                self.events.splice(k..k + 2, [touch]);
+            }
+            k += 1;
+        }
+    }
+
+    /// Adds an event for each of the eigenvalues that count on one side only.
+    fn found(&mut self, wanted: &Wanted, kind: Kind, (t, merging): (f64, bool), sides: [Rc<Spectrum>; 2]) {
+        let [mut before, mut after] = sides.each_ref().map(|state| {
+            let roots = wanted.roots(kind, state);
+            let counted = wanted.counted(kind, state).into_iter();
+            counted.map(|r| roots[r].value).collect::<Vec<Complex>>()
+        });
+        let rises = after.len() > before.len();
+        let (more, fewer) = match rises {
+            true => (&mut after, &before),
+            false => (&mut before, &after),
+        };
+        for value in fewer {
+            let apart = |other: &Complex| (*other - *value).norm();
+            let all = more.iter().enumerate();
+            let nearest = all.min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
+            if let Some(r) = nearest.map(|(r, _)| r) {
+                more.remove(r);
+            }
+        }
+        self.events.extend(more.iter().map(|near| Found {
+            kind,
+            t,
+            sides: sides.clone(),
+            near: *near,
+            rises: Some(rises),
+            merging,
+        }));
     }
 }
 

@@ -2,8 +2,7 @@
 
 use std::rc::Rc;
 
-use super::super::cubic::Passage;
-use super::super::scalars::{Kind, Wanted};
+use super::super::count::{Kind, Wanted};
 use super::super::spectrum::{Root, Spectrum};
 use super::{Division, Interval, States, divide};
 use crate::Complex;
@@ -24,12 +23,14 @@ fn oscillator(c: Jet, k: Jet, roots: &mut Vec<Root>) {
     let inside = Complex::from(0.25 * c[0] * c[0] - k[0]).sqrt();
     let mut add = |value: Complex| {
         let slope = -(value * c[1] + k[1]) / (2.0 * value + c[0]);
+        let error = 1e-14 * (1.0 + value.norm());
         roots.push(Root {
             value,
             slope,
-            error: 1e-14 * (1.0 + value.norm()),
+            error,
             paired: value.im > 0.0,
             neutral: false,
+            grows: value.re > error,
         });
     };
     let middle = Complex::from(-0.5 * c[0]);
@@ -45,10 +46,14 @@ struct Family<F> {
     roots: F,
     count: usize,
     ends: [f64; 2],
+    solved: Vec<Rc<Spectrum>>,
 }
 
 impl<F: Fn(f64) -> (Vec<Root>, Vec<Root>)> States for Family<F> {
     fn state(&mut self, t: f64) -> Option<Rc<Spectrum>> {
+        if let Some(known) = self.solved.iter().find(|state| state.t == t) {
+            return Some(known.clone());
+        }
         self.count += 1;
         let [low, high] = self.ends;
         let u = low + (high - low) * t;
@@ -57,19 +62,24 @@ impl<F: Fn(f64) -> (Vec<Root>, Vec<Root>)> States for Family<F> {
             root.slope *= high - low;
         }
         let finite = roots.iter().all(|root| root.slope.is_finite());
-        (finite && self.count < 2000).then(|| {
-            Rc::new(Spectrum {
-                t,
-                input: [u, high - low],
-                roots,
-                stiffness,
-            })
-        })
+        let state = Rc::new(Spectrum {
+            t,
+            input: [u, high - low],
+            roots,
+            stiffness,
+        });
+        self.solved.push(state.clone());
+        self.solved.sort_by(|a, b| a.t.total_cmp(&b.t));
+        (finite && self.count < 2000).then_some(state)
+    }
+
+    fn all(&self) -> Vec<Rc<Spectrum>> {
+        self.solved.clone()
     }
 }
 
-/// Kind, passage, and place between two others.
-type FoundEvent = (Kind, Passage, [f64; 3]);
+/// Kind, whether more count behind it, and place.
+type FoundEvent = (Kind, Option<bool>, f64);
 
 /// The events from one value to another, in `steps` steps, and the number of states.
 fn search(
@@ -87,22 +97,21 @@ fn search(
             roots: &roots,
             count: 0,
             ends,
+            solved: Vec::new(),
         };
         let interval = Interval {
             ends: [0.0, 1.0].map(|t| family.state(t).expect("a state")),
-            opens: true,
-            closes: step + 1 == steps,
+            outer: [step == 0, step + 1 == steps],
         };
         let findings = divide(&mut family, wanted, interval, 1e-9);
-        for event in &findings.events {
-            let [from, to] = event.zero.between;
-            let at = [event.zero.at, from, to].map(|t| ends[0] + (ends[1] - ends[0]) * t);
-            events.push((event.kind, event.zero.passage, at));
+        for event in findings.events.iter().filter(|event| !event.turns(wanted)) {
+            let at = ends[0] + (ends[1] - ends[0]) * event.t;
+            events.push((event.kind, event.rises, at));
         }
         all.doubts.extend(findings.doubts);
         states += family.count - usize::from(step > 0);
     }
-    events.sort_by(|a, b| a.2[0].total_cmp(&b.2[0]));
+    events.sort_by(|a, b| a.2.total_cmp(&b.2));
     (events, all, states)
 }
 
@@ -180,8 +189,7 @@ fn onsets_and_ends_of_random_oscillators() {
         expected.sort_by(|a, b| a.1.total_cmp(&b.1));
         let mut last = 0;
         for steps in [16, 11] {
-            let (mut events, all, states) = search(roots, &general(), [0.0, 1.0], steps);
-            events.retain(|event| event.0 != Kind::Turning);
+            let (events, all, states) = search(roots, &general(), [0.0, 1.0], steps);
             assert_eq!(all.doubts, [], "{case} {machines:?}");
             assert_eq!(
                 events.len(),
@@ -189,9 +197,8 @@ fn onsets_and_ends_of_random_oscillators() {
                 "{case} {steps} {machines:?}\n{events:?}\n{expected:?}"
             );
             for (kind, u) in &expected {
-                let matches = |event: &&(Kind, Passage, [f64; 3])| {
-                    event.0 == *kind && event.2[1] <= u + 1e-9 && event.2[2] >= u - 1e-9
-                };
+                let matches =
+                    |event: &&FoundEvent| event.0 == *kind && (event.2 - u).abs() <= 1e-9;
                 assert!(
                     events.iter().any(|event| matches(&event)),
                     "{case} {events:?} {expected:?}"
@@ -225,14 +232,17 @@ fn passing(
         } else {
             distance
         };
+        let value = distance - delta;
+        let error = 1e-15
+            * mean.sqrt()
+            * (2.0 + coupling.sqrt() / (root.norm() + 1e-8 * coupling.sqrt() + 1e-300));
         roots.push(Root {
-            value: distance - delta,
+            value,
             slope: -change / (2.0 * distance),
-            error: 1e-13
-                * mean.sqrt()
-                * (2.0 + coupling.sqrt() / (root.norm() + 1e-8 * coupling.sqrt() + 1e-300)),
+            error,
             paired: true,
             neutral: false,
+            grows: value.re > error,
         });
     }
 }
@@ -267,12 +277,12 @@ fn bands_in_which_two_modes_merge() {
         };
         let mut expected = Vec::new();
         for &((mean, slope, centre), coupling, delta) in &pairs {
-            let left = coupling - 4.0 * delta * delta * (mean - delta * delta);
+            let left = coupling - 4.0 * delta * delta * mean;
             if left > 0.0 {
                 let half = left.sqrt() / slope;
                 expected.extend([
-                    (Passage::Rises, centre - half),
-                    (Passage::Falls, centre + half),
+                    (Some(true), centre - half),
+                    (Some(false), centre + half),
                 ]);
             }
         }
@@ -286,9 +296,8 @@ fn bands_in_which_two_modes_merge() {
                 "{case} {steps} {pairs:?}\n{events:?}\n{expected:?}"
             );
             for (passage, u) in &expected {
-                let matches = |event: &&(Kind, Passage, [f64; 3])| {
-                    event.1 == *passage && event.2[1] <= u + 1e-8 && event.2[2] >= u - 1e-8
-                };
+                let matches =
+                    |event: &&FoundEvent| event.1 == *passage && (event.2 - u).abs() <= 1e-8;
                 assert!(
                     events.iter().any(|event| matches(&event)),
                     "{case} {events:?} {expected:?}"
@@ -333,6 +342,7 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
                         error: 1e-14 * lambda[0],
                         paired: false,
                         neutral: false,
+            grows: false,
                     });
                 } else {
                     // s = -0.1 + i sqrt(lambda)
@@ -348,11 +358,11 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
             ..general()
         };
         let mut expected = match width {
-            0.0 => vec![(Passage::Touches, a)],
+            0.0 => vec![(None, a)],
             _ => {
                 let passages = match amount > 0.0 {
-                    true => [Passage::Falls, Passage::Rises],
-                    false => [Passage::Rises, Passage::Falls],
+                    true => [Some(false), Some(true)],
+                    false => [Some(true), Some(false)],
                 };
                 vec![(passages[0], a), (passages[1], a + width)]
             }
@@ -368,9 +378,8 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
                 "{case} {events:?} {expected:?}"
             );
             for (passage, u) in &expected {
-                let matches = |event: &&(Kind, Passage, [f64; 3])| {
-                    event.1 == *passage && event.2[1] <= u + 1e-6 && event.2[2] >= u - 1e-6
-                };
+                let matches =
+                    |event: &&FoundEvent| event.1 == *passage && (event.2 - u).abs() <= 1e-6;
                 assert_eq!(
                     events.iter().filter(matches).count(),
                     number,

@@ -1,8 +1,8 @@
 //! The events that a search finds, and what it has searched.
 
-use crate::sweep::condition::{Condition, Crossing};
+use crate::sweep::condition::{Change, Condition, Crossing};
 use crate::sweep::points::{CriticalState, SweepPoint};
-use crate::{Description, Error, Input, Shared};
+use crate::{Behaviour, Description, Error, Input, Modes, Shared};
 
 /// A stretch of the input in which an event may lie that was not resolved, or several that were not separated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,8 +32,10 @@ pub struct Gap {
 
 /// What a search for events has covered.
 ///
-/// It follows the eigenvalues by their derivatives and divides a stretch until what remains between two states can hide
-/// no event. An event is missed only if it leaves no trace in the values and derivatives at any of these states.
+/// Every event changes an integer of a single state, such as the number of growing oscillations. Between two states with
+/// different integers there is an event; a stretch with the same ones is divided until the eigenvalues and their
+/// derivatives at its states exclude that an even number of events hides there. What the list of events does not explain
+/// is unresolved.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -80,7 +82,75 @@ pub(crate) struct Route {
     pub(crate) unused: usize,
 }
 
+/// Share of the range within which an event and a state are at one value.
+const SAME: f64 = 1e-9;
+
+/// A state along the way: its value, its growing oscillations, and its motions that grow without oscillation.
+pub(crate) type Growing = (f64, [usize; 2]);
+
+/// How many motions grow.
+pub(crate) fn growing(value: f64, modes: &Modes) -> Growing {
+    let count = |of: fn(&Behaviour) -> bool| {
+        let all = modes.modes.iter();
+        all.filter(|mode| of(&mode.behaviour)).count()
+    };
+    let flutter = count(|behaviour| matches!(behaviour, Behaviour::Flutter(_)));
+    let divergent = count(|behaviour| matches!(behaviour, Behaviour::Divergent(_)));
+    (value, [flutter, divergent])
+}
+
 impl Events {
+    /// Adds to what is unresolved each stretch between neighbouring states whose growing motions the events between them
+    /// do not explain: list and states never contradict each other.
+    pub(crate) fn compared_with(mut self, states: &[Growing]) -> Self {
+        let Searched { low, high, .. } = self.searched;
+        let slack = SAME * (high - low).abs();
+        for two in states.windows(2) {
+            let ((from, before), (to, after)) = (two[0], two[1]);
+            let (least, most) = (from.min(to) - slack, from.max(to) + slack);
+            let inside = |value: f64| value >= least && value <= most;
+            let at_end = |value: f64| inside(value) && !(value > least + 2.0 * slack && value < most - 2.0 * slack);
+            let gap = |gap: &Gap| gap.from.min(gap.to) <= most && gap.from.max(gap.to) >= least;
+            // There the way goes on along another branch.
+            let leaves = self.critical.iter().any(|critical| inside(critical.value))
+                || self.searched.gaps.iter().any(gap);
+            let growth = || {
+                let all = self.crossings.iter();
+                all.filter(|x| x.condition == Condition::FlutterOnset && inside(x.value))
+            };
+            if leaves || growth().any(|x| at_end(x.value)) {
+                continue;
+            }
+            let mut expected = before.map(usize::cast_signed);
+            for crossing in growth() {
+                let [flutter, divergent] = match crossing.change {
+                    Change::Onset => [1, 0],
+                    Change::End => [-1, 0],
+                    Change::ToDivergence => [-1, 2],
+                    Change::ToFlutter => [1, -2],
+                    Change::Pass | Change::Touch => [0, 0],
+                };
+                expected = [expected[0] + flutter, expected[1] + divergent];
+            }
+            let conditions = [Some(Condition::FlutterOnset), None];
+            for (k, condition) in conditions.into_iter().enumerate() {
+                let known = |x: &Unresolved| {
+                    let overlaps = x.from.min(x.to) <= most && x.from.max(x.to) >= least;
+                    overlaps && x.condition == condition
+                };
+                let explained = expected[k] == after[k].cast_signed();
+                if !explained && !self.searched.unresolved.iter().any(known) {
+                    self.searched.unresolved.push(Unresolved {
+                        from,
+                        to,
+                        condition,
+                    });
+                }
+            }
+        }
+        self
+    }
+
     /// The events up to a value at which the work was stopped.
     pub(crate) fn until(mut self, value: f64) -> Self {
         let Searched { low, high, .. } = self.searched;

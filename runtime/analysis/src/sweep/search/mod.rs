@@ -1,31 +1,28 @@
-//! Search for events along an input.
+//! Search for events along an input, by counting.
 //!
-//! The eigenvalues and their derivatives are known at every state. Between two states they are followed as smooth
-//! functions ([`cubic`], [`spectrum`]); where one of the numbers that make an event ([`scalars`]) may vanish without a
-//! certain change of sign, another state is solved ([`divide`]). So events depend on the mechanism alone, not on a grid
-//! of values. States are those of the branch that the mechanism follows ([`route`]).
+//! Every event changes an integer of a single state ([`count`]): how many motions grow, how many directions have no
+//! stiffness, how many frequencies lie above a line. So integers decide whether there is an event, and curves only help
+//! to find where: between two states with different integers there is one ([`divide`]); between two with the same ones
+//! an even number may hide, and the eigenvalues with their exact derivatives tell where to solve another state
+//! ([`hidden`]). Modes are matched only to name the one that an event is of.
 //!
 //! # Events belong to the machine, not to a grid
 //!
-//! Where frequencies cross lines, motions begin or cease to grow, and stiffness vanishes is sought separately from the
-//! points of a sweep (`sweep/search`). The search follows the branch by arc length. Between two states each eigenvalue
-//! is the cubic through its values and exact derivatives; a number that makes an event (a distance from a line, a
-//! growth, a least stiffness, the squared difference of two eigenvalues that may merge) is bounded over the stretch,
-//! and the stretch is divided until the number has no zero or exactly one, or what remains is narrower than the
-//! resolution. Then Newton's method with exact derivatives locates it. What is not resolved is listed with its interval
-//! (`Searched::unresolved`), as are stretches without an equilibrium. The points of a sweep start from the states of
-//! this route.
+//! The search follows the branch by arc length ([`route`]), separately from the points of a sweep, which start from the
+//! states of this route. What is not resolved is listed with its interval (`Searched::unresolved`), as are stretches
+//! without an equilibrium. Where the points of a sweep count otherwise than the events between them, that stretch is
+//! listed as well.
 
+mod count;
 mod cubic;
 mod divide;
 mod events;
+mod hidden;
 mod node;
-mod pick;
 mod route;
-mod scalars;
 mod spectrum;
 mod step;
 
-pub(crate) use events::Route;
+pub(crate) use events::{Route, growing};
 pub use events::{Events, Gap, Searched, Unresolved};
 pub(crate) use route::{Along, Met, Sought, search};

@@ -125,6 +125,7 @@ fn real_roots(
         error: error(r),
         paired: false,
         neutral: neutral(r),
+        grows: values[r] < -error(r),
     };
     (0..values.len()).map(root).collect()
 }
@@ -153,7 +154,8 @@ fn general(modes: &[Mode], linear: &Linear, change: &Linear) -> Vec<Root> {
         slope,
         error: mode.error,
         paired: mode.s.im > 0.0,
-        neutral: mode.behaviour == Behaviour::Neutral,
+        neutral: matches!(mode.behaviour, Behaviour::Neutral | Behaviour::Free),
+        grows: mode.behaviour.grows(),
     };
     roots.map(root).collect()
 }

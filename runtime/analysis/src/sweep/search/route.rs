@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use super::events::{Events, Gap, Route, Searched, Unresolved};
 use super::node::{Node, Question, has_stiffness};
-use super::scalars::{Kind, Wanted};
+use super::count::{Kind, Wanted};
 use super::step::{Event, Step};
 use crate::branches::{
     BranchEnd, Continuation, ContinuationFailure, Curve, CurvePoint, CurvePosition, Located, Pass,
@@ -133,7 +133,6 @@ pub(crate) fn search(
         wanted: &wanted,
         enough,
         left: MOST_STATES,
-        finest: f64::INFINITY,
         last: None,
         route: Route::default(),
         events: Events {
@@ -165,7 +164,6 @@ struct Search<'a, F> {
     wanted: &'a Wanted,
     enough: F,
     left: usize,
-    finest: f64,
     /// The last modes on the way, with their labels.
     last: Option<Modes>,
     route: Route,
@@ -343,6 +341,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         located: &[Located],
     ) -> ControlFlow<Next, Pass> {
         let closes = after.place.p == self.settings.high;
+        let outer = [self.route.points.is_empty(), closes];
         let turns = before.signs.falling != after.signs.falling;
         let mut left = self.left;
         let step = Step::new(curve, self.question, [before, after], &mut left);
@@ -350,7 +349,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             return ControlFlow::Continue(Pass::On);
         };
         let findings = match step.follows() {
-            true => step.findings(self.wanted, located, closes, RESOLUTION),
+            true => step.findings(self.wanted, located, outer, RESOLUTION),
             false => None,
         };
         let shorter = step.can_be_shorter();
@@ -371,7 +370,6 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             }
             return ControlFlow::Continue(Pass::On);
         };
-        self.finest = self.finest.min(findings.finest);
         let value = |t: f64| before.place.p + t * (after.place.p - before.place.p);
         let mut places = findings.places.into_iter().peekable();
         let mut next = None;
@@ -433,7 +431,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             let condition = match kind {
                 Kind::Critical => None,
                 Kind::Line(k) => Some(Condition::Line(self.wanted.lines[k])),
-                Kind::Growth | Kind::Merging | Kind::Turning => Some(Condition::FlutterOnset),
+                Kind::Growth => Some(Condition::FlutterOnset),
             };
             self.doubt(between.map(value), condition);
         }

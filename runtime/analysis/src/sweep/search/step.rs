@@ -2,15 +2,14 @@
 
 use std::rc::Rc;
 
-use super::cubic::{Jet, Passage, Zero, cubic};
-use super::divide::{Interval, States, divide};
+use super::count::{Kind, Wanted};
+use super::cubic::cubic;
+use super::divide::{Found, Interval, States, divide};
 use super::node::{Node, Question};
-use super::pick::pick;
-use super::scalars::{Candidate, Kind, Wanted};
 use super::spectrum::{Root, Spectrum};
 use crate::branches::{Curve, CurvePoint, CurvePosition, Located, SpecialKind, SpecialPoint};
 use crate::sweep::condition::{Change, Condition};
-use crate::{Behaviour, Complex, Stability, Vector};
+use crate::{Stability, Vector};
 
 /// A step from one station of a branch to the next, and the states solved on it.
 pub(super) struct Step<'a, 'b> {
@@ -57,20 +56,10 @@ pub(super) struct Findings {
     pub(super) doubts: Vec<([f64; 2], Kind)>,
     /// Places of the states that divide the step.
     pub(super) places: Vec<f64>,
-    /// Width of the narrowest stretch.
-    pub(super) finest: f64,
 }
 
-/// Most Newton steps towards an event.
-const MAX_STEPS: usize = 60;
-/// A step this small, as a share of the whole, changes nothing.
-const LAST_STEP: f64 = 4.0 * f64::EPSILON;
-/// A Newton step this small leaves a remainder at rounding.
-const NEWTON: f64 = 1e-7;
-/// Distance beyond the ends of a stretch, as a share of the step, at which an event may still belong to it.
-const SLACK: f64 = 1e-5;
-/// Below this size, a step that does not shrink has reached rounding.
-const ROUNDING: f64 = 1e-9;
+/// Relative distance of two eigenvalues that merge at an event.
+const MERGED: f64 = 1e-3;
 /// Distance of two events, as a share of the step, below which they are one for several modes.
 const SAME: f64 = 1e-9;
 /// Share of what the branch bends between two known stations by which it may miss the cubic between them, and share of
@@ -87,17 +76,18 @@ const ASIDE: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 const ROUGHLY: f64 = 1e-6;
 /// Local length of a step that is not shortened any more.
 const SHORTEST: f64 = 1e-6;
-/// Distance from an event at which the states on either side of it are told apart.
-const BESIDE: f64 = 1e-10;
-
 impl States for Step<'_, '_> {
     fn state(&mut self, t: f64) -> Option<Rc<Spectrum>> {
-        let node = self.node(t)?;
-        let spectrum = node.spectrum.clone();
+        let spectrum = self.node(t)?.spectrum.clone();
         let mut all = spectrum.roots.iter().chain(&spectrum.stiffness);
         let inner = t > 0.0 && t < 1.0;
         let known = |root: &Root| root.slope.is_finite() || root.neutral;
         (!inner || all.all(known)).then_some(spectrum)
+    }
+
+    fn all(&self) -> Vec<Rc<Spectrum>> {
+        let all = self.nodes.iter();
+        all.map(|node| node.spectrum.clone()).collect()
     }
 }
 
@@ -190,13 +180,13 @@ impl<'a, 'b> Step<'a, 'b> {
         (turned <= TURNED * turn + slack).then_some(corrected)
     }
 
-    /// The events of the step, in order; `located` are the special points that the walk has found on it. The end is part
-    /// of the step only if it `closes` the search. `None` if a shorter step tells more.
+    /// The events of the step, in order; `located` are the special points that the walk has found on it, `outer` whether
+    /// the search begins or ends with it. `None` if a shorter step tells more.
     pub(super) fn findings(
         &mut self,
         wanted: &Wanted,
         located: &[Located],
-        closes: bool,
+        outer: [bool; 2],
         finest: f64,
     ) -> Option<Findings> {
         let mut findings = Findings::default();
@@ -207,28 +197,22 @@ impl<'a, 'b> Step<'a, 'b> {
             .collect();
         specials.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The special points that are known divide the step.
-        let mut from = (self.state(0.0)?, true);
+        let mut from = (self.state(0.0)?, outer[0]);
         for special in specials.iter().map(Some).chain([None]) {
             let fraction = special.map(|pair| pair.0);
             let last = match special {
                 Some(point) => self.beside(point, -1.0, from.0.t),
                 None => Some(self.state(1.0)?),
             };
-            if let Some(last) = last {
+            if let Some(last) = &last {
                 let interval = Interval {
-                    ends: [from.0.clone(), last],
-                    opens: from.1,
-                    closes: closes && fraction.is_none(),
+                    ends: [from.0.clone(), last.clone()],
+                    outer: [from.1, outer[1] && fraction.is_none()],
                 };
                 let division = divide(self, wanted, interval, finest / self.length);
-                let doubts = division
-                    .doubts
-                    .iter()
-                    .map(|doubt| (doubt.between, doubt.kind));
-                findings.doubts.extend(doubts);
-                findings
-                    .places
-                    .extend(division.states.iter().map(|state| state.t));
+                let doubts = division.doubts.into_iter();
+                findings.doubts.extend(doubts.map(|x| (x.between, x.kind)));
+                findings.places.extend(division.places);
                 events.extend(division.events);
                 broken |= division.broken;
             } else {
@@ -237,195 +221,146 @@ impl<'a, 'b> Step<'a, 'b> {
                 findings.doubts.push(([from.0.t, to], Kind::Critical));
             }
             if let Some(point) = special {
-                match self.beside(point, 1.0, 1.0) {
-                    Some(next) => from = (next, false),
-                    None => break,
+                let Some(next) = self.beside(point, 1.0, 1.0) else {
+                    break;
+                };
+                // What else changes this close to a special point is not told from it.
+                for kind in wanted.kinds() {
+                    if let Some(last) = &last
+                        && kind != Kind::Critical
+                        && wanted.count(kind, last) != wanted.count(kind, &next)
+                    {
+                        findings.doubts.push(([last.t, next.t], kind));
+                    }
+                }
+                from = (next, false);
+            }
+        }
+        // A station at an event would leave half of it to the next step.
+        let at_event = |kind: &Kind| {
+            let end = self.nodes.last().map(|node| &node.spectrum);
+            let beside = self.before(1.0);
+            let doubtful = |state: &Spectrum| wanted.doubtful(*kind, state);
+            let more = end.zip(beside).is_some_and(|(a, b)| doubtful(a) > doubtful(&b.spectrum));
+            more && !outer[1]
+        };
+        broken |= wanted.kinds().iter().any(at_event);
+        // A growing pair that becomes real leaves no stiffness.
+        events.retain(|event| event.kind != Kind::Critical || wanted.real(event.kind) || !event.turns(wanted));
+        let (critical, met): (Vec<_>, Vec<_>) =
+            (events.into_iter()).partition(|event| event.kind == Kind::Critical);
+        let groups: Vec<&[Found]> = critical
+            .chunk_by(|a, b| b.t - a.t <= SAME && a.rises == b.rises)
+            .collect();
+        // Where the sign of the determinant changes twice, or that of an eigenvalue, the walk sees it on shorter steps.
+        let seen = |group: &&[Found]| {
+            group[0].rises.is_some() && (wanted.symmetric || group.len() % 2 == 1)
+        };
+        if self.can_be_shorter() && (broken || groups.iter().any(seen)) {
+            return None;
+        }
+        let mut taken: Vec<(f64, Kind, usize)> = Vec::new();
+        for event in &met {
+            match self.meet(wanted, event, &taken) {
+                Some((first, met)) => {
+                    taken.push((event.t, event.kind, first));
+                    findings.events.push((event.t, met));
+                }
+                None => {
+                    let between = event.sides.each_ref().map(|state| state.t);
+                    findings.doubts.push((between, event.kind));
                 }
             }
         }
-        let (critical, met): (Vec<_>, Vec<_>) =
-            (events.into_iter()).partition(|event| event.kind == Kind::Critical);
-        if self.can_be_shorter() && (broken || !explained(&critical)) {
-            return None;
+        let mut criticals: Vec<(f64, SpecialPoint, Option<Change>)> = (specials.iter())
+            .map(|(t, x)| (*t, x.special.clone(), x.ends_arm.then_some(Change::Pass)))
+            .collect();
+        for group in groups {
+            let t = group[0].t;
+            let touches = group[0].rises.is_none().then_some(Change::Touch);
+            let special = self.degenerate(t, group.len());
+            criticals.extend(special.map(|special| (t, special, touches)));
         }
-        for candidate in &met {
-            match self.meet(wanted, candidate) {
-                Some(event) => findings.events.push(event),
-                None if candidate.zero.passage == Passage::Touches => {}
-                None => findings
-                    .doubts
-                    .push((candidate.zero.between, candidate.kind)),
-            }
-        }
-        self.criticals(wanted, critical, &specials, &mut findings);
+        self.criticals(criticals, &mut findings);
         findings.events.sort_by(|a, b| a.0.total_cmp(&b.0));
         Some(findings)
     }
 
-    /// Locates the state at which a mode meets a condition.
-    fn meet(&mut self, wanted: &Wanted, candidate: &Candidate) -> Option<(f64, Event)> {
-        let Candidate { kind, zero, near } = *candidate;
-        let condition = match kind {
+    /// The state at which a mode meets a condition, with the position of the mode.
+    fn meet(
+        &mut self,
+        wanted: &Wanted,
+        found: &Found,
+        taken: &[(f64, Kind, usize)],
+    ) -> Option<(usize, Event)> {
+        let (turning, merging) = (found.turns(wanted), found.merging);
+        let condition = match found.kind {
             Kind::Line(k) => Condition::Line(wanted.lines[k]),
             _ => Condition::FlutterOnset,
         };
-        let (t, near) = self.root(wanted, kind, zero, near)?;
-        // On the side where two keep their amplitude, both are there; and a pair, where it oscillates.
-        let there = |step: &Self, node: &Node| match kind {
-            Kind::Merging => growing(node) <= step.least(zero),
-            Kind::Turning => pick(wanted, kind, &node.spectrum, near)
-                .is_some_and(|picked| picked.positions[0] == picked.positions[1]),
-            _ => true,
-        };
-        let side = match zero.passage {
-            Passage::Rises => -1.0,
-            _ => 1.0,
-        };
-        let exact = self.node(t);
-        let value = exact.as_ref().map(|node| node.point.place.p);
-        let mut nearby = exact.filter(|node| there(self, node));
-        let mut aside = BESIDE / self.length;
-        while nearby.is_none() && aside < SAME.sqrt() {
-            let beside = (t + side * aside).clamp(0.0, 1.0);
-            nearby = self.node(beside).filter(|node| there(self, node));
-            aside *= 10.0;
-        }
-        let node = nearby?;
-        let value = value.unwrap_or(node.point.place.p);
-        let pair = pick(wanted, kind, &node.spectrum, near)?.positions;
-        let first = pair[0].min(pair[1]);
-        let met = match kind {
-            Kind::Merging | Kind::Turning => true,
-            _ => condition.is_met(&node.modes.modes[first], node.spectrum.input[0]),
-        };
-        let change = match (kind, zero.passage) {
-            (_, Passage::Touches) => Change::Touch,
+        let change = match (found.kind, found.rises) {
+            (_, None) => Change::Touch,
             (Kind::Line(_), _) => Change::Pass,
-            (Kind::Turning, Passage::Rises) => Change::ToDivergence,
-            (Kind::Turning, Passage::Falls) => Change::ToFlutter,
-            (_, Passage::Rises) => Change::Onset,
-            (_, Passage::Falls) => Change::End,
+            (_, Some(false)) if turning => Change::ToDivergence,
+            (_, Some(true)) if turning => Change::ToFlutter,
+            (_, Some(true)) => Change::Onset,
+            (_, Some(false)) => Change::End,
         };
-        met.then_some((
-            t,
-            Event::Met {
-                value,
-                condition,
-                node,
-                modes: pair,
-                change,
-                merging: matches!(kind, Kind::Merging | Kind::Turning),
-            },
-        ))
+        let exact = self.node(found.t);
+        let value = exact.as_ref().map(|node| node.point.place.p);
+        // Where two merge, both are there on one side only: before they grow, or where they oscillate.
+        let side = usize::from((found.rises == Some(true)) == turning);
+        let beside = self.node(found.sides[side].t);
+        let node = match merging || turning {
+            true => beside,
+            false => exact.or(beside),
+        }?;
+        let roots = &node.spectrum.roots;
+        let free = |r: &usize| {
+            let oscillates = wanted.undamped || roots[*r].paired;
+            oscillates && !taken.contains(&(found.t, found.kind, *r))
+        };
+        let apart = |r: &usize| (roots[*r].value - found.near).norm();
+        let nearest = |but: Option<usize>| {
+            let like = |r: &usize| but.is_some_and(|k| k == *r || roots[*r].is_like(&roots[k]));
+            let all = (0..roots.len()).filter(|r| free(r) && !like(r));
+            all.min_by(|a, b| apart(a).total_cmp(&apart(b)))
+        };
+        let first = nearest(None)?;
+        let second = nearest(Some(first)).filter(|_| found.kind == Kind::Growth && !turning);
+        let met = condition.is_met(&node.modes.modes[first], node.spectrum.input[0]);
+        // Next to where two merge, neither meets the condition to rounding.
+        let close = |r: usize| apart(&r) < MERGED * roots[r].value.norm();
+        let merging = turning || merging || !met && second.is_some_and(close);
+        let met = met || merging;
+        let second = second.filter(|_| merging);
+        let event = Event::Met {
+            value: value.unwrap_or(node.point.place.p),
+            condition,
+            modes: [first, second.unwrap_or(first)],
+            change,
+            merging,
+            node,
+        };
+        met.then_some((first, event))
     }
 
-    /// The place where the number of an event vanishes, and the eigenvalues there.
-    fn root(
-        &mut self,
-        wanted: &Wanted,
-        kind: Kind,
-        zero: Zero,
-        mut near: [Complex; 2],
-    ) -> Option<(f64, [Complex; 2])> {
-        let (mut t, [mut low, mut high]) = (zero.at, zero.between);
-        if zero.passage == Passage::Touches {
-            return Some((t, near));
-        }
-        let rises = zero.passage == Passage::Rises;
-        let mut last = f64::INFINITY;
-        for _ in 0..MAX_STEPS {
-            let node = self.node(t);
-            let spectrum = node.as_ref().map(|node| &node.spectrum);
-            let picked =
-                spectrum.and_then(|spectrum| Some((spectrum, pick(wanted, kind, spectrum, near)?)));
-            let close = last < ROUNDING.sqrt();
-            let known = picked.filter(|(_, x)| x.jet.slope.is_finite() || !close);
-            let Some((spectrum, picked)) = known else {
-                // Where eigenvalues merge they have no derivatives; a Newton step from beside it has led there.
-                return close.then_some((t, near));
-            };
-            let roots = picked.positions.map(|r| spectrum.roots[r]);
-            let Jet { value, slope, .. } = picked.jet;
-            if value == 0.0 {
-                return Some((t, roots.map(|root| root.value)));
-            }
-            if (value > 0.0) == rises {
-                high = high.min(t);
-            } else {
-                low = low.max(t);
-            }
-            let newton = t - value / slope;
-            // Right beside an end the sign is not known.
-            let [before, after] = [low, high].map(|end| {
-                if zero.between.contains(&end) {
-                    SLACK
-                } else {
-                    0.0
-                }
-            });
-            let next = match newton > low - before && newton < high + after {
-                true => newton,
-                false => 0.5 * (low + high),
-            };
-            let size = (next - t).abs();
-            near = roots.map(|root| {
-                let moved = root.value + root.slope * (next - t);
-                match kind != Kind::Turning && moved.is_finite() && size < ROUNDING.sqrt() {
-                    true => moved,
-                    false => root.value,
-                }
-            });
-            if kind == Kind::Turning && roots[0].paired {
-                near[1] = near[0].conj();
-            }
-            if size <= LAST_STEP || (size < ROUNDING && size >= 0.5 * last) {
-                return Some((t, roots.map(|root| root.value)));
-            }
-            (t, last) = (next, size);
-        }
-        None
-    }
-
-    /// Adds the special points of the branch: those that are known, and those at further places where stiffness vanishes.
+    /// Adds the special points of the branch, with what changes there if that is known.
     fn criticals(
         &mut self,
-        wanted: &Wanted,
-        candidates: Vec<Candidate>,
-        known: &[(f64, &Located)],
+        mut specials: Vec<(f64, SpecialPoint, Option<Change>)>,
         findings: &mut Findings,
     ) {
-        let (touching, mut crossing): (Vec<_>, Vec<_>) = (candidates.into_iter())
-            .partition(|candidate| candidate.zero.passage == Passage::Touches);
-        for candidate in &mut crossing {
-            candidate.zero.at = self.refined(wanted, candidate);
-        }
-        crossing.sort_by(|a, b| a.zero.at.total_cmp(&b.zero.at));
-        let of_walk = (known.iter()).map(|(t, x)| (*t, x.special.clone(), x.ends_arm));
-        let separated = self.separated(&crossing).into_iter();
-        let mut specials: Vec<_> = separated
-            .map(|(t, x)| (t, x, false))
-            .chain(of_walk)
-            .collect();
         specials.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let touching = touching.iter().map(|x| x.zero.at);
-        let touching = touching.filter_map(|t| Some((t, self.degenerate(t, 1)?)));
-        for (t, special) in touching.collect::<Vec<_>>() {
-            findings.events.push((
-                t,
-                Event::Critical {
-                    special: special.into(),
-                    change: Change::Touch,
-                    loses: self.holds_before(t),
-                },
-            ));
-        }
-        for (k, (t, special, ends_arm)) in specials.into_iter().enumerate() {
+        for (k, (t, special, change)) in specials.into_iter().enumerate() {
             let sides = [self.before(t), self.after(t)];
-            let counts = sides.each_ref().map(|node| node.as_deref().map(divergent));
-            let change = match counts {
-                _ if ends_arm => Change::Pass,
-                [Some(before), Some(after)] if before < after => Change::Onset,
-                [Some(before), Some(after)] if before > after => Change::End,
+            let counts = sides
+                .each_ref()
+                .map(|node| node.as_deref().map(|node| node.spectrum.divergent()));
+            let change = match (change, counts) {
+                (Some(change), _) => change,
+                (_, [Some(before), Some(after)]) if before < after => Change::Onset,
+                (_, [Some(before), Some(after)]) if before > after => Change::End,
                 _ => Change::Pass,
             };
             let loses = match k {
@@ -441,13 +376,6 @@ impl<'a, 'b> Step<'a, 'b> {
                 },
             ));
         }
-    }
-
-    /// The smaller number of growing oscillations on either side of an event.
-    fn least(&self, zero: Zero) -> usize {
-        let sides = [self.before(zero.at), self.after(zero.at)];
-        let counts = sides.iter().flatten().map(|node| growing(node));
-        counts.min().unwrap_or(0)
     }
 
     fn holds_before(&self, t: f64) -> bool {
@@ -469,72 +397,6 @@ impl<'a, 'b> Step<'a, 'b> {
             let inside = (limit - near) * side > 0.0;
             inside.then(|| self.state(near)).flatten()
         })
-    }
-
-    /// The place at which stiffness vanishes, by Newton steps from states at which it does not.
-    fn refined(&mut self, wanted: &Wanted, candidate: &Candidate) -> f64 {
-        let Candidate { kind, zero, near } = *candidate;
-        let [low, high] = zero.between;
-        let mut t = zero.at;
-        for _ in 0..MAX_STEPS {
-            let picked = (self.node(t)).and_then(|node| pick(wanted, kind, &node.spectrum, near));
-            let Some(Jet { value, slope, .. }) = picked.map(|picked| picked.jet) else {
-                return t;
-            };
-            let next = t - value / slope;
-            let size = (next - t).abs();
-            if !(next > low && next < high) {
-                return t;
-            }
-            t = next;
-            if size < NEWTON {
-                return t;
-            }
-        }
-        t
-    }
-
-    /// The special points at several places, each sought between the middles of the ways to its neighbours.
-    fn separated(&mut self, crossing: &[Candidate]) -> Vec<(f64, SpecialPoint)> {
-        let mut special_points = Vec::new();
-        let mut rest = crossing;
-        let mut previous: Option<&Candidate> = None;
-        while let Some(first) = rest.first() {
-            let same = |candidate: &&Candidate| candidate.zero.at - first.zero.at <= SAME;
-            let count = rest.iter().take_while(same).count();
-            let (group, after) = rest.split_at(count);
-            let last = &group[count - 1];
-            let middle = |a: &Candidate, b: &Candidate| 0.5 * (a.zero.at + b.zero.at);
-            let mut low = first.zero.between[0];
-            let mut high = last.zero.between[1];
-            if low == high {
-                // At a state itself: between its neighbours.
-                low = self.before(low).map_or(0.0, |node| node.spectrum.t);
-                high = self.after(high).map_or(1.0, |node| node.spectrum.t);
-            }
-            low = previous.map_or(low, |previous| low.max(middle(previous, first)));
-            high = after.first().map_or(high, |x| high.min(middle(last, x)));
-            let ends = [self.node(low), self.node(high)];
-            let mut located = Vec::new();
-            if let [Some(a), Some(b)] = &ends
-                && low < first.zero.at
-                && high > last.zero.at
-            {
-                let _ = self.curve.locate(&a.point, &b.point, &mut located);
-            }
-            let at: Vec<(f64, SpecialPoint)> = (located.into_iter())
-                .map(|x| (self.place_of(&x.special), x.special))
-                .collect();
-            match at.is_empty() {
-                false => special_points.extend(at),
-                true => {
-                    let t = first.zero.at;
-                    special_points.extend(self.degenerate(t, count).map(|special| (t, special)));
-                }
-            }
-            (rest, previous) = (after, Some(last));
-        }
-        special_points
     }
 
     /// A special point that is not resolved further.
@@ -590,16 +452,6 @@ fn curve_between(
     })
 }
 
-/// Whether none of these places where stiffness vanishes needs a shorter step, in which the walk sees it.
-fn explained(critical: &[Candidate]) -> bool {
-    critical.iter().all(|item| {
-        let Zero {
-            between, passage, ..
-        } = item.zero;
-        passage == Passage::Touches || between[0] == between[1]
-    })
-}
-
 /// Whether all stiffness is positive, and the determinant of one that is not symmetric.
 fn holds(point: &CurvePoint) -> bool {
     // Two directions without stiffness leave the determinant of a non-symmetric one positive.
@@ -607,18 +459,4 @@ fn holds(point: &CurvePoint) -> bool {
     // What holds the member of a family decides the sign of its determinant.
     let family = !point.equilibrium.free.held.is_empty();
     (family || point.stiff()) && !diverges
-}
-
-/// Number of growing oscillations.
-fn growing(node: &Node) -> usize {
-    let all = node.modes.modes.iter();
-    all.filter(|mode| matches!(mode.behaviour, Behaviour::Flutter(_)))
-        .count()
-}
-
-/// Number of motions that grow without oscillation.
-fn divergent(node: &Node) -> usize {
-    let all = node.modes.modes.iter();
-    all.filter(|mode| matches!(mode.behaviour, Behaviour::Divergent(_)))
-        .count()
 }
