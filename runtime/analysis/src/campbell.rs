@@ -149,7 +149,7 @@ pub fn campbell(
     axes: &Axes<'_>,
     tolerances: &Tolerances,
 ) -> Result<Campbell, Error> {
-    let mut points = Vec::with_capacity(axes.values.len());
+    let mut points = Vec::new();
     let each = |point| {
         points.push(point);
         ControlFlow::Continue(())

@@ -10,11 +10,12 @@ use eigentol::Error;
 use crate::color::Color;
 use crate::commands::{
     allocate, branches, campbell, check, completions, converge, equilibria, expand, import, merge,
-    modes, new, probability, report, response, sample, sensitivities, sweep, tolerance,
+    modes, new, probability, report, response, sample, schema, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::progress;
 use crate::verdict::Verdict;
 
 /// Natural frequencies of mechanisms in steady motion, and how tolerances move them.
@@ -104,6 +105,7 @@ enum Command {
     Expand(expand::Expand),
     New(new::New),
     Import(import::Import),
+    Schema(schema::Schema),
     Completions(completions::Completions),
 }
 
@@ -111,7 +113,8 @@ impl Arguments {
     /// Runs the command; messages go to standard error.
     pub(crate) fn run(self) -> ExitCode {
         let color = self.color;
-        let code = match interrupt::watch().and_then(|()| self.command.run(color)) {
+        let run = || progress::clocked(|| self.command.run(color));
+        let code = match interrupt::watch().and_then(|()| run()) {
             Ok(Verdict::Yes) => 0,
             Ok(Verdict::No(reason)) => {
                 diagnostics::say_no("no", &reason, color);
@@ -156,6 +159,7 @@ impl Command {
             Self::Expand(expand) => expand.run(),
             Self::New(new) => new.run(),
             Self::Import(import) => import.run(),
+            Self::Schema(schema) => schema.run(),
             Self::Completions(completions) => completions.run(Arguments::command()),
         }
     }

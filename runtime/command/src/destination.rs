@@ -8,6 +8,7 @@ use std::process;
 use clap::Args;
 
 use crate::failure::Failure;
+use crate::interrupt;
 
 /// Where an answer goes.
 #[derive(Args, Debug)]
@@ -38,6 +39,7 @@ impl Destination {
 
     /// Writes text or binary data.
     pub(crate) fn write_bytes(&self, content: &[u8]) -> Result<(), Failure> {
+        interrupt::answer();
         let written = match &self.output {
             Some(path) => Target::of(path).write(content),
             None => {

@@ -1,10 +1,11 @@
-//! Ctrl-C and requests to terminate (SIGTERM): interruptible work keeps its results, any other work ends at once.
+//! Ctrl-C and requests to terminate (SIGTERM): work that can stop soon keeps its results, any other work ends at once.
 //!
 //! SIGHUP is left alone, so that `nohup` works.
 
-use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock};
+use std::time::Duration;
+use std::{process, thread};
 
 use crate::failure::Failure;
 
@@ -13,6 +14,10 @@ pub(crate) const INTERRUPTED: u8 = 130;
 
 static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 static STOPPABLE: AtomicBool = AtomicBool::new(false);
+static ANSWERS: AtomicBool = AtomicBool::new(false);
+
+/// Time in which stopped work may begin to write what it has.
+const GRACE: Duration = Duration::from_millis(700);
 
 /// Makes an interrupt end the program with a message.
 pub(crate) fn watch() -> Result<(), Failure> {
@@ -28,10 +33,34 @@ pub(crate) fn watch() -> Result<(), Failure> {
 
 fn interrupted() {
     let again = STOP.swap(true, Ordering::Relaxed);
-    if again || !STOPPABLE.load(Ordering::Relaxed) {
-        eprintln!("stopped: nothing was written");
-        process::exit(i32::from(INTERRUPTED));
+    if again || answers() || !STOPPABLE.load(Ordering::Relaxed) {
+        end();
     }
+    thread::spawn(|| {
+        thread::sleep(GRACE);
+        if !answers() {
+            end();
+        }
+    });
+}
+
+fn end() {
+    let written = match answers() {
+        true => "before the answer was complete",
+        false => "nothing was written",
+    };
+    eprintln!("stopped: {written}");
+    process::exit(i32::from(INTERRUPTED));
+}
+
+/// From now on the answer is written.
+pub(crate) fn answer() {
+    ANSWERS.store(true, Ordering::Relaxed);
+}
+
+/// Whether the answer is being written.
+pub(crate) fn answers() -> bool {
+    ANSWERS.load(Ordering::Relaxed)
 }
 
 /// Makes the first interrupt set this flag and the second end the program.

@@ -33,6 +33,9 @@ pub(crate) struct Output {
     place: Destination,
 }
 
+/// Endings of files that hold a text.
+const TEXTS: [&str; 5] = ["txt", "text", "md", "log", "out"];
+
 impl Output {
     /// Rejects unwritable files and inconsistent options before any long computation.
     pub(crate) fn check(&self) -> Result<(), Failure> {
@@ -46,6 +49,14 @@ impl Output {
             );
             let help =
                 "`modes`, `tolerance`, `campbell` and `branches` draw it with `--figure FILE`";
+            return Err(Failure::usage(message, help));
+        }
+        if let (Form::Text, Some(path)) = (form, self.place.path())
+            && let Some(ending) = path.extension().and_then(|ending| ending.to_str())
+            && !TEXTS.contains(&ending)
+        {
+            let message = format!("`.{ending}` is the ending of no format that is known here");
+            let help = "numbers go to `.csv`, `.json` and `.parquet`, a text to `.txt`";
             return Err(Failure::usage(message, help));
         }
         if self.table.is_some() && !form.has_rows() {

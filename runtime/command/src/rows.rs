@@ -7,6 +7,7 @@ use eigentol_tables::{Error, Table, csv, parquet};
 use crate::answer::Form;
 use crate::destination::{Begun, Destination, Unfinished};
 use crate::failure::Failure;
+use crate::interrupt;
 
 /// Items per block of rows: small for CSV, which is read while it grows; large for Parquet, where each block is a row
 /// group.
@@ -71,6 +72,7 @@ impl<'a, T> Rows<'a, T> {
 
     /// Writes the remaining rows and moves the file into place. Without rows, a file has only headings.
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
+        interrupt::answer();
         self.write()?;
         let destination = self.place;
         let complete = match self.file {

@@ -129,11 +129,19 @@ impl Points {
                 help,
             ));
         }
+        if count > MOST_POINTS {
+            let message = format!("{count} points are more than one answer can hold");
+            let help = format!("`--points {MOST_POINTS}` is the most: divide the range");
+            return Err(Failure::usage(message, help));
+        }
         let step = (range.high - range.low) / (count - 1) as f64;
         let inner = (0..count - 1).map(|k| range.low + k as f64 * step);
         Ok(inner.chain([range.high]).collect())
     }
 }
+
+/// Most values of an input in one answer: some kilobytes each are held at once.
+const MOST_POINTS: usize = 100_000;
 
 impl Orders {
     /// The orders, without repetitions, from the command line or else the study file. Where the range has negative

@@ -175,7 +175,8 @@ impl<M: SummaryKernels> Study<M> {
         let banded = Banded {
             wanted: wanted.to_vec(),
             tolerances: self.settings.tolerances()?,
-            sampling: self.settings.sampling(),
+            // Progress counts values.
+            sampling: self.settings.sampling().progress(None),
             checked,
         };
         table.bode((input.any(), &values), Some(&banded))

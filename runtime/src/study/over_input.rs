@@ -30,7 +30,7 @@ impl<M: BatchKernels> Study<M> {
         input: Input<M>,
         values: &[impl Into<Value> + Copy],
     ) -> Result<Sweep, Error> {
-        let mut points = Vec::with_capacity(values.len());
+        let mut points = Vec::new();
         let mut whole = self.sweep_each(input, values, |point| {
             points.push(point.clone());
             ControlFlow::Continue(())
@@ -117,7 +117,7 @@ impl<M: DirectionalKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
         orders: &[impl Into<Line> + Copy],
     ) -> Result<Campbell, Error> {
-        let mut points = Vec::with_capacity(values.len());
+        let mut points = Vec::new();
         let mut whole = self.campbell_each(input, values, orders, |point| {
             points.push(point);
             ControlFlow::Continue(())

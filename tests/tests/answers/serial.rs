@@ -3,4 +3,5 @@
 
 mod answers;
 mod kinds;
+mod schema;
 mod types;

@@ -29,7 +29,7 @@ pub fn sweep(
     input: Input,
     values: &[f64],
 ) -> Result<Sweep, Error> {
-    let mut points = Vec::with_capacity(values.len());
+    let mut points = Vec::new();
     let each = |point: &SweepPoint| {
         points.push(point.clone());
         ControlFlow::Continue(())

@@ -72,7 +72,7 @@ impl Allocate {
             choose(&study, choice, &mut choices)?;
         }
         let allocation = study.allocation(&wanted, &choices)?;
-        bar.finish_and_clear();
+        drop(bar);
         let mut answer = self.output.answer();
         answer.add(&allocation)?;
         self.output.write(&answer)?;

@@ -49,7 +49,7 @@ impl Branches {
             }
         })?;
         written?;
-        bar.finish_and_clear();
+        drop(bar);
         let style = self.picture.plain_style(&question);
         self.picture.draw(|| figures::branches(&branches, &style))?;
         match rows {

@@ -67,7 +67,7 @@ impl Campbell {
             }
         })?;
         written?;
-        bar.finish_and_clear();
+        drop(bar);
         let mut found = campbell;
         found.points = points;
         let modes = found.labels().last().map_or(0, |last| last + 1);

@@ -16,6 +16,7 @@ pub(crate) mod probability;
 pub(crate) mod report;
 pub(crate) mod response;
 pub(crate) mod sample;
+pub(crate) mod schema;
 pub(crate) mod sensitivities;
 pub(crate) mod sweep;
 pub(crate) mod tolerance;

@@ -77,7 +77,7 @@ impl Probability {
         let count = samples(self.samples.or(file.samples).or(usual), &file)?;
         let study = study.samples(count);
         let outcome = study.probability(&wanted);
-        bar.finish_and_clear();
+        drop(bar);
         let probabilities = outcome?;
         let mut answer = self.output.answer();
         answer.add(&probabilities)?;

@@ -84,7 +84,7 @@ impl Report {
             report = report.sweep(range.input, &values);
         }
         let html = report.html()?;
-        bar.finish_and_clear();
+        drop(bar);
         self.place.write(&html)?;
         if interrupt::stopped() {
             let reason = "the report says what is done";

@@ -105,7 +105,7 @@ impl Response {
             true => study.bode_bands(input, &values, &wanted, self.checked.unwrap_or(CHECKED))?,
             false => study.bode(input, &values)?,
         };
-        bar.finish_and_clear();
+        drop(bar);
         self.figure(&question, &range, &bode, wanted.first().copied())?;
         let mut answer = self.output.answer();
         answer.add(&bode)?;
@@ -140,7 +140,7 @@ impl Response {
         let bar = progress::bar("states", None);
         let study = progress::watched(study.clone(), &bar);
         let peaks = study.peaks_of(wanted, along.input, along.low, along.high)?;
-        bar.finish_and_clear();
+        drop(bar);
         let mut answer = self.output.answer();
         answer.add(&peaks)?;
         let peaked: Vec<Peaks> = (peaks.into_iter())

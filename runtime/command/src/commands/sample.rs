@@ -8,14 +8,13 @@ use eigentol::tolerance::numbered_samples_table;
 use eigentol::tolerance::{PartialMonteCarlo, Sample as Solution, Sampling};
 use eigentol::{Error, Study};
 use eigentol_interpreter::Interpreted;
-use indicatif::ProgressBar;
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::Output;
 use crate::parts::{self, Shard};
 use crate::point::{Point, exact, samples, whole};
-use crate::progress;
+use crate::progress::{self, Bar};
 use crate::verdict::Verdict;
 
 /// Monte Carlo: samples of the design within its tolerances, each solved again; all of them, or a part that `merge`
@@ -60,6 +59,11 @@ impl Sample {
         let file = &question.file;
         let samples = samples(self.samples, file)?;
         let shown = self.output.wants_table("samples");
+        if self.keep && !shown && samples > MOST_KEPT {
+            let message = format!("one document cannot hold {samples} samples");
+            let help = "as rows there is no limit: `--csv --table samples`, or `--parquet`";
+            return Err(Failure::usage(message, help));
+        }
         let study = question
             .study
             .samples(samples)
@@ -124,6 +128,8 @@ impl Sample {
     }
 }
 
+/// Most samples in one document: each takes some kilobytes of memory.
+const MOST_KEPT: usize = 100_000;
 /// Number of samples in memory at once when all are written.
 const TOGETHER: u64 = 16_384;
 
@@ -132,7 +138,7 @@ struct Run<'a> {
     study: &'a Study<Interpreted>,
     sampling: Sampling<'a>,
     range: &'a Range<u64>,
-    bar: &'a ProgressBar,
+    bar: &'a Bar,
 }
 
 impl Run<'_> {

@@ -61,7 +61,7 @@ impl Follow {
             }
         })?;
         written?;
-        bar.finish_and_clear();
+        drop(bar);
         match rows {
             Some(rows) => {
                 rows.finish()?;

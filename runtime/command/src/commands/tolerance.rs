@@ -51,7 +51,7 @@ impl Tolerance {
         let modes = study.modes()?;
         let mut answer = self.output.answer();
         let summary = of(Summary::KIND).then(|| study.summary());
-        bar.finish_and_clear();
+        drop(bar);
         let stopped = matches!(summary, Some(Err(Error::Stopped)));
         let first = match of(FirstOrder::KIND) || stopped || self.picture.is_wanted() {
             true => Some(study.first_order()?),

@@ -100,7 +100,7 @@ pub fn bode(
         None => (TOGETHER, threads),
     };
     let size = (u.len() + start.len(), b.len());
-    let mut points = Vec::with_capacity(values.len());
+    let mut points = Vec::new();
     let mut solve = |states: &[SweepPoint]| {
         let one = |(): &mut (), k: usize| point(mechanism, &states[k], banded);
         for point in pool::run(threads, size, states.len(), || (), one)? {

@@ -18,6 +18,8 @@ use eigentol_tests::rederived::{Operation, operating_points};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::schema::refused;
+
 /// For more unknowns than this, only cheap results are requested.
 const SMALL: usize = 3;
 
@@ -65,6 +67,9 @@ impl Answers {
         let back: A =
             json::read(text.as_bytes()).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
         assert_eq!(back, answer, "{name}");
+        let document = serde_json::from_str(&text).expect("JSON");
+        let refused = refused(&document);
+        assert!(refused.is_empty(), "{name}, {}: {refused:?}", A::KIND);
         let tables = json::read_tables(text.as_bytes()).expect("tables");
         assert_eq!(tables, answer.tables(), "{name}");
     }
@@ -155,6 +160,7 @@ impl Answers {
                 self.both(name, found.clone());
                 let Ok(found) = found else { continue };
                 self.peaks += found.peaks.len();
+                self.both(name, Ok(vec![found.clone()]));
                 self.both(name, Ok(found.separation([0.9 * value, value])));
             }
         }

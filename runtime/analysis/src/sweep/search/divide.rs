@@ -149,7 +149,9 @@ pub(super) fn divide(
     let Division { events, doubts, .. } = &mut division;
     doubts.retain(|Doubt { between, kind }| {
         let [from, to] = [between[0] - 4.0 * finest, between[1] + 4.0 * finest];
-        !events.iter().any(|event| event.kind == *kind && event.t >= from && event.t <= to)
+        !events
+            .iter()
+            .any(|event| event.kind == *kind && event.t >= from && event.t <= to)
     });
     division
 }
@@ -169,13 +171,18 @@ impl Division {
         outer: [bool; 2],
     ) -> Vec<Rc<Spectrum>> {
         let doubtful = |state: &Rc<Spectrum>| wanted.doubtful(kind, state);
-        let groups: Vec<&[Rc<Spectrum>]> = (states.chunk_by(|a, b| doubtful(a) == doubtful(b))).collect();
+        let groups: Vec<&[Rc<Spectrum>]> =
+            (states.chunk_by(|a, b| doubtful(a) == doubtful(b))).collect();
         let last = groups.len() - 1;
         let mut sure = Vec::new();
         for (k, group) in groups.iter().enumerate() {
             let around = [k.checked_sub(1), (k < last).then_some(k + 1)];
             let around = around.map(|k| k.map(|k| groups[k]));
-            let most = around.iter().flatten().map(|other| doubtful(&other[0])).max();
+            let most = around
+                .iter()
+                .flatten()
+                .map(|other| doubtful(&other[0]))
+                .max();
             let new = most.map_or(0, |most| doubtful(&group[0]).saturating_sub(most));
             let (begins, ends) = (around[0].is_none(), around[1].is_none());
             // Between two bands of flutter everything may be neutral.
@@ -275,7 +282,9 @@ fn enclose(
         }
         states.insert(0, low);
         states.push(high);
-        let brackets = states.windows(2).map(|two| [two[0].clone(), two[1].clone()]);
+        let brackets = states
+            .windows(2)
+            .map(|two| [two[0].clone(), two[1].clone()]);
         open.extend(brackets.map(|two| {
             let slow = two[1].t - two[0].t > 0.5 * width;
             (two, slow && !halve)
@@ -350,7 +359,9 @@ impl Wanted {
             (inside && error <= NEWTON).then_some(aim)
         };
         let roots = self.roots(kind, state);
-        let relevant = roots.iter().filter(|root| !merging && self.relevant(kind, root));
+        let relevant = roots
+            .iter()
+            .filter(|root| !merging && self.relevant(kind, root));
         let single = relevant.filter_map(|root| {
             let (jet, error) = self.number(kind, state, root);
             aim(jet, error)
@@ -358,7 +369,10 @@ impl Wanted {
         let merges = merging && !self.real(kind) && !matches!(kind, Kind::Line(_));
         let pairs = (0..roots.len()).filter(|_| merges).flat_map(|i| {
             let conjugate = roots[i].paired.then(|| roots[i].conjugate());
-            conjugate.into_iter().chain(roots[i + 1..].iter().copied()).map(move |other| (i, other))
+            conjugate
+                .into_iter()
+                .chain(roots[i + 1..].iter().copied())
+                .map(move |other| (i, other))
         });
         let both = pairs.filter_map(|(i, other)| {
             let (distance, error) = (roots[i].value - other.value, roots[i].error + other.error);
@@ -384,8 +398,9 @@ impl Division {
                 && b.t - a.t < TOUCH
                 && !a.merging
                 && let Some(state) = source.state(0.5 * (a.t + b.t))
-                && let Some(root) = (wanted.roots(a.kind, &state).iter())
-                    .find(|root| wanted.touches(a.kind, &state, root) && root.error <= KNOWN * root.value.norm())
+                && let Some(root) = (wanted.roots(a.kind, &state).iter()).find(|root| {
+                    wanted.touches(a.kind, &state, root) && root.error <= KNOWN * root.value.norm()
+                })
             {
                 let touch = Found {
                     t: state.t,
@@ -401,7 +416,13 @@ impl Division {
     }
 
     /// Adds an event for each of the eigenvalues that count on one side only.
-    fn found(&mut self, wanted: &Wanted, kind: Kind, (t, merging): (f64, bool), sides: [Rc<Spectrum>; 2]) {
+    fn found(
+        &mut self,
+        wanted: &Wanted,
+        kind: Kind,
+        (t, merging): (f64, bool),
+        sides: [Rc<Spectrum>; 2],
+    ) {
         let [mut before, mut after] = sides.each_ref().map(|state| {
             let roots = wanted.roots(kind, state);
             let counted = wanted.counted(kind, state).into_iter();

@@ -197,8 +197,7 @@ fn onsets_and_ends_of_random_oscillators() {
                 "{case} {steps} {machines:?}\n{events:?}\n{expected:?}"
             );
             for (kind, u) in &expected {
-                let matches =
-                    |event: &&FoundEvent| event.0 == *kind && (event.2 - u).abs() <= 1e-9;
+                let matches = |event: &&FoundEvent| event.0 == *kind && (event.2 - u).abs() <= 1e-9;
                 assert!(
                     events.iter().any(|event| matches(&event)),
                     "{case} {events:?} {expected:?}"
@@ -280,10 +279,7 @@ fn bands_in_which_two_modes_merge() {
             let left = coupling - 4.0 * delta * delta * mean;
             if left > 0.0 {
                 let half = left.sqrt() / slope;
-                expected.extend([
-                    (Some(true), centre - half),
-                    (Some(false), centre + half),
-                ]);
+                expected.extend([(Some(true), centre - half), (Some(false), centre + half)]);
             }
         }
         let mut last = 0;
@@ -342,7 +338,7 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
                         error: 1e-14 * lambda[0],
                         paired: false,
                         neutral: false,
-            grows: false,
+                        grows: false,
                     });
                 } else {
                     // s = -0.1 + i sqrt(lambda)
