@@ -1,5 +1,6 @@
 //! The destination of text: standard output, or a file that is replaced only once everything is written.
 
+use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, IsTerminal as _, Write};
 use std::path::{Path, PathBuf};
@@ -154,6 +155,33 @@ pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
     whole(one) == whole(other)
 }
 
+/// Removes the temporary files that killed runs left beside a file, where the system says which processes run.
+fn remove_left_behind(path: &Path) {
+    let processes = Path::new("/proc");
+    let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(OsStr::to_str))
+    else {
+        return;
+    };
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let (true, Ok(entries)) = (processes.join("self").exists(), fs::read_dir(folder)) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let entry_name = entry.file_name();
+        let rest = entry_name.to_str().and_then(|text| text.strip_prefix(name));
+        let process = rest.and_then(|rest| rest.strip_prefix('.')?.strip_suffix(".part"));
+        let process = process.and_then(|process| process.parse::<u32>().ok());
+        if process.is_some_and(|process| !processes.join(process.to_string()).exists()) {
+            // What cannot be removed is in nobody's way.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
 /// A file to write.
 pub(crate) enum Target {
     /// Written next to its destination and moved into place, so that a failure keeps the existing file.
@@ -184,6 +212,7 @@ impl Target {
                 if path.is_dir() {
                     return Err(io::ErrorKind::IsADirectory.into());
                 }
+                remove_left_behind(path);
                 File::create(beside)?;
                 fs::remove_file(beside)
             }

@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use eigentol::Error;
 use eigentol::tolerance::PartialMonteCarlo;
+use eigentol_tables::part;
 
 use crate::failure::Failure;
 
@@ -51,11 +52,11 @@ impl Shard {
 /// Reads a partial result.
 pub(crate) fn read(path: &Path) -> Result<PartialMonteCarlo, Failure> {
     let text = fs::read_to_string(path).map_err(|source| Failure::read(path, source))?;
-    serde_json::from_str(&text).map_err(|error| Failure::Part {
+    part::read(&text).map_err(|error| Failure::Part {
         path: path.to_owned(),
-        message: match error.is_eof() {
-            true => "the file is cut off".to_owned(),
-            false => error.to_string(),
+        message: match error {
+            eigentol_tables::Error::Content(reason) => reason,
+            other => other.to_string(),
         },
     })
 }
@@ -87,9 +88,7 @@ pub(crate) fn add(
 
 /// Serialises a partial result as the text of a file.
 pub(crate) fn text(part: &PartialMonteCarlo) -> Result<String, Failure> {
-    let text =
-        serde_json::to_string(part).map_err(|error| eigentol_tables::Error::Write(error.into()))?;
-    Ok(text + "\n")
+    Ok(part::to_string(part)?)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Sampling runs split into parts, for many processes and machines.
 
 use eigentol::tolerance::PartialMonteCarlo;
+use eigentol_tables::part;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -30,20 +31,14 @@ attributes! {
 impl Part {
     /// The text of a file: what the command `eigentol sample --partial` writes and `eigentol merge` reads.
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
-        serde_json::to_string(&self.0).map_err(|error| new(py, Kind::Error, error.to_string()))
+        part::to_string(&self.0).map_err(|error| new(py, Kind::Error, error.to_string()))
     }
 
     /// A part from such a text.
     #[classmethod]
     fn from_json(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
-        let read = serde_json::from_str(text).map(Self);
-        read.map_err(|error| {
-            let message = match error.is_eof() {
-                true => "the partial result is cut off".to_owned(),
-                false => format!("this is not a partial result: {error}"),
-            };
-            new(py, Kind::InvalidValue, message)
-        })
+        let read = part::read(text).map(Self);
+        read.map_err(|error| new(py, Kind::InvalidValue, error.to_string()))
     }
 
     /// Adds samples of the same run; those of another one, and samples that are here already, are refused.
