@@ -4,9 +4,7 @@ use super::{Response, Responses};
 use crate::forced;
 use crate::kernels::Kernels;
 use crate::peaks;
-use crate::sweep::{
-    Condition, Crossing, Following, critical_state, first_crossing, flutter_onsets,
-};
+use crate::sweep::{Condition, Following, critical_state, first_crossing, flutter_onsets};
 use crate::{Error, Output};
 
 impl Responses<'_> {
