@@ -21,7 +21,8 @@ impl Tally {
             evaluations: 20_000,
             ..LineSettings::default()
         };
-        let sampler = LineSampler::new(dimension, &variables, directions, &settings).unwrap();
+        let sampler = LineSampler::new(dimension, &variables, directions, &settings);
+        let sampler = sampler.expect("valid settings");
         let found = sampler.run(limit);
         assert!(found.settled, "{found:?} {exact}");
         assert!((0.0..=1.0).contains(&found.probability.value), "{found:?}");
@@ -114,4 +115,33 @@ fn curved_limits() {
         tally.add(&paraboloid, &[toward(&along, sign * beta)], trial, exact);
     }
     tally.check("curved");
+}
+
+/// Bands and ends of sums of uniform variables, whose ends are flat, among variables that do not matter.
+#[test]
+fn bands_of_flat_distributions() {
+    let mut random = RandomNumbers::starting_at(58, 8, 0);
+    let mut tally = Tally::default();
+    for trial in 0..200 {
+        let (a, b) = (1.0, 0.3 + random.probability());
+        let low = (a + b) * (0.1 + 0.8 * random.probability());
+        let high = match trial % 2 {
+            0 => low + 10.0_f64.powf(-3.0 * random.probability() - 0.5),
+            _ => a + b + 1.0,
+        };
+        let steps = (0..20_000).map(|k| (f64::from(k) + 0.5) / 20_000.0);
+        let share = |u: f64| {
+            let [from, to] = [low, high].map(|end| ((end - a * u) / b).clamp(0.0, 1.0));
+            to - from
+        };
+        let exact = steps.map(share).sum::<f64>() / 20_000.0;
+        let value = |z: &[f64]| {
+            let sum = a * cdf(z[1]) + b * cdf(z[3]);
+            (low - sum).max(sum - high)
+        };
+        let band = limit(5, |z| (value(z), vec![0.0; 5]));
+        let directions = [toward(&[0.0, a, 0.0, b, 0.0], (low - 0.5 * (a + b)) / 0.4)];
+        tally.add(&band, &directions, trial, exact);
+    }
+    tally.check("flat");
 }
