@@ -287,3 +287,39 @@ fn the_mode_that_flutters_is_named() {
         .filter(|err| err.contains("flutters from 1.50 on"));
     assert_eq!(named.count(), 1, "{errors:?}");
 }
+
+/// Outputs at a member of a family of steady motions have derivatives, with what holds the member held: the height of a
+/// coin's centre is `r cos(lean)`.
+#[test]
+fn outputs_of_a_held_family_have_a_spread() {
+    let coin = file(
+        &folder("held_coin"),
+        "coin.mechanism",
+        "mechanism Coin {
+            design r = 50 cm +/- 1%; gravity 9.81 m/s^2 along -z;
+            body base: massless; body mast: massless; body fork: massless;
+            body wheel: disk(mass: 1 kg, radius: r, axis: y);
+            joint travel: planar(forward: x, side: y, yaw: z) from ground to base, coasting;
+            joint height: prismatic(z) from base to mast; joint lean: revolute(x) from mast to fork;
+            joint spin: revolute(y) from fork to wheel, coasting;
+            point hub: wheel; point road: ground;
+            constraint contact: rolling(wheel: hub, axis: y, radius: r, on: road);
+            output high = height; }",
+    );
+    let held = [
+        "--guess",
+        "height=50cm",
+        "--hold",
+        "lean=20deg",
+        "--hold",
+        "yaw=-1.2rad/s",
+    ];
+    let text = answer(&[&["tolerance", &coin][..], &held].concat());
+    let row = text
+        .lines()
+        .find(|line| line.trim_start().starts_with("high "))
+        .unwrap();
+    let sigma: f64 = row.split_whitespace().nth(3).unwrap().parse().unwrap();
+    let exact = 0.5 * 0.01 / 3.0 * 20_f64.to_radians().cos();
+    assert!((sigma / exact - 1.0).abs() < 1e-3, "{text}");
+}
