@@ -205,3 +205,121 @@ fn a_study_file_says_how_much_is_allowed() {
     let found = run(&[&["probability", "--study", &few], &other[..]].concat());
     assert_eq!(found.code, 0, "{}", found.err);
 }
+
+/// What is failed by some designs is met by the others: the two sum to one, whatever finds them.
+#[test]
+fn a_requirement_and_its_opposite_sum_to_one() {
+    let folder = folder("opposites");
+    let small = file(
+        &folder,
+        "small.mechanism",
+        "mechanism T {
+            design m = 7.75 kg +/- 1.5 kg lognormal; design k = 46500 N/m +/- 7800 N/m uniform;
+            design c = 17.8 N*s/m +2.1 -1.0 N*s/m truncated normal;
+            body b: point(mass: m); joint q: prismatic(x) from ground to b;
+            force s: spring(on: q, stiffness: k); force d: damper(on: q, damping: c); }",
+    );
+    let middle = file(
+        &folder,
+        "middle.mechanism",
+        "mechanism T {
+            design m = 3.2687 kg +/- 0.45452 kg triangular; design k = 77715.5 N/m +10067.9 -9176.8 N/m uniform;
+            body b: point(mass: m); joint q: prismatic(x) from ground to b; force ks: spring(on: q, stiffness: k); }",
+    );
+    // The exact values are those of twenty million draws.
+    for (machine, of, limit, exact) in [
+        (&small, "damping_ratio 1", "0.018", 0.9959),
+        (&middle, "frequency 1", "154 rad/s", 0.5330),
+    ] {
+        for seed in ["0", "5"] {
+            let failed = |sign: &str| {
+                let require = format!("{of} {sign} {limit}");
+                let table = answer(&[
+                    "probability",
+                    machine,
+                    "--require",
+                    &require,
+                    "--seed",
+                    seed,
+                    "--csv",
+                ]);
+                let of = |name: &str| numbers(&table, name)[0];
+                (of("probability of failure"), of("95 % from"), of("95 % to"))
+            };
+            let (low, from, to) = failed(">=");
+            let exact = if machine == &small {
+                exact
+            } else {
+                1.0 - exact
+            };
+            assert!(
+                from - 1e-3 <= exact && exact <= to + 1e-3 && to <= 1.0,
+                "{low} {from} {to}"
+            );
+            let (high, other, end) = failed("<=");
+            let error = (to - from).hypot(end - other);
+            assert!((low + high - 1.0).abs() <= error, "{low} {high}");
+        }
+    }
+}
+
+/// The flutter of a mode that has none is not searched in thousands of designs: the one that flutters is named.
+#[test]
+fn the_mode_that_flutters_is_named() {
+    let folder = folder("flutters");
+    let band = file(
+        &folder,
+        "band.mechanism",
+        "mechanism Band {
+            input p: 1; design b = 0.5 +/- 0.05; design c = 0.01 N*s/m +/- 0.002 N*s/m;
+            body u: point(mass: 1 kg); body w: point(mass: 1 kg);
+            joint x: prismatic(x) from ground to u; joint y: prismatic(y) from ground to w;
+            force fx: generalized(on: x, value: -(8 + p) * (1 N/m) * x - b * (1 N/m) * y - c * rate(x));
+            force fy: generalized(on: y, value: -(12 - p) * (1 N/m) * y + b * (1 N/m) * x - c * rate(y)); }",
+    );
+    let flutters = |mode: u32| {
+        let require = format!("flutter {mode} p=0..4 >= 1.45");
+        run(&["probability", &band, "--set", "p=1", "--require", &require])
+    };
+    let errors = [1, 2].map(|mode| flutters(mode).err);
+    let named = errors
+        .iter()
+        .filter(|err| err.contains("flutters from 1.50 on"));
+    assert_eq!(named.count(), 1, "{errors:?}");
+}
+
+/// Outputs at a member of a family of steady motions have derivatives, with what holds the member held: the height of a
+/// coin's centre is `r cos(lean)`.
+#[test]
+fn outputs_of_a_held_family_have_a_spread() {
+    let coin = file(
+        &folder("held_coin"),
+        "coin.mechanism",
+        "mechanism Coin {
+            design r = 50 cm +/- 1%; gravity 9.81 m/s^2 along -z;
+            body base: massless; body mast: massless; body fork: massless;
+            body wheel: disk(mass: 1 kg, radius: r, axis: y);
+            joint travel: planar(forward: x, side: y, yaw: z) from ground to base, coasting;
+            joint height: prismatic(z) from base to mast; joint lean: revolute(x) from mast to fork;
+            joint spin: revolute(y) from fork to wheel, coasting;
+            point hub: wheel; point road: ground;
+            constraint contact: rolling(wheel: hub, axis: y, radius: r, on: road);
+            output high = height; }",
+    );
+    let held = [
+        "--guess",
+        "height=50cm",
+        "--hold",
+        "lean=20deg",
+        "--hold",
+        "yaw=-1.2rad/s",
+    ];
+    let text = answer(&[&["tolerance", &coin][..], &held].concat());
+    let row = text
+        .lines()
+        .find(|line| line.trim_start().starts_with("high "))
+        .unwrap();
+    let sigma: f64 = row.split_whitespace().nth(3).unwrap().parse().unwrap();
+    let exact = 0.5 * 0.01 / 3.0 * 20_f64.to_radians().cos();
+    assert!((sigma / exact - 1.0).abs() < 1e-3, "{text}");
+}

@@ -33,6 +33,9 @@ struct Case {
     /// The numbers are the first of the column.
     #[serde(default)]
     first: bool,
+    /// The 95 % interval of the table holds them.
+    #[serde(default)]
+    inside: bool,
     #[serde(default)]
     relative: f64,
 }
@@ -71,6 +74,7 @@ impl Case {
                             .collect()
                     })
                     .and_then(|found: Vec<f64>| self.compare(&found, expected))
+                    .and_then(|()| self.hold(&run.out, expected))
                     .map_err(|what| format!("{name}: {what}\n{}{}", run.out, run.err))?;
             }
         }
@@ -89,6 +93,18 @@ impl Case {
             }
         }
         Ok(())
+    }
+
+    fn hold(&self, table: &str, expected: &[f64]) -> Result<(), String> {
+        if !self.inside {
+            return Ok(());
+        }
+        let (low, high) = (column(table, "95 % from")?, column(table, "95 % to")?);
+        let mut ends = low.iter().zip(&high).zip(expected);
+        match ends.all(|((low, high), x)| (low..=high).contains(&x)) {
+            true => Ok(()),
+            false => Err(format!("{expected:?} not in {low:?} to {high:?}")),
+        }
     }
 
     fn compare(&self, values: &[f64], expected: &[f64]) -> Result<(), String> {

@@ -145,10 +145,6 @@ impl Requirements<'_> {
                 1 => FormSettings::default(),
                 _ => of_searches(),
             };
-            let settings = FormSettings {
-                seed: sampling.seed,
-                ..settings
-            };
             let mut form = reliability_of(self, deviations, &settings)?;
             judgements = judge_requirements(self, sampling, &mut form)?;
             reliability = (!form.limits.is_empty()).then_some(form);

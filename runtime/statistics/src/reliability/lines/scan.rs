@@ -112,6 +112,11 @@ pub(super) fn scan(
     if let Some((_, end, _)) = found.stretches.last_mut() {
         *end = to;
     }
+    // A single point without a value has no probability.
+    let point = |(from, to, side): &(f64, f64, Side)| {
+        *side == Side::WithoutValue && to - from <= 2.0 * NARROW_JUMP
+    };
+    found.stretches.retain(|stretch| !point(stretch));
     found.evaluations = scan.evaluations.get();
     found
 }
