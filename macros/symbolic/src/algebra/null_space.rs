@@ -40,50 +40,40 @@ impl NullSpace {
             }
         }
         let mut pivots: Vec<Pivot> = Vec::new();
-        let mut postponed = Vec::new();
-        let reduced = |mut row: Vec<Disturbed>, pivots: &[Pivot]| {
-            for pivot in pivots {
-                pivot.eliminate_from(&mut row);
-            }
-            for entry in &mut row {
-                if entry.is_rounding(operations) && entry.rounding(operations) <= CLEAR {
-                    *entry = Disturbed::exact(0.0);
-                }
-            }
-            row
-        };
-        let largest = |row: &[Disturbed], of: Range<usize>, counts: &dyn Fn(&Disturbed) -> bool| {
-            let size = |k: &usize| row[*k].value().abs() / sizes[*k];
-            let present = of.filter(|&k| counts(&row[k]));
-            present.max_by(|a, b| size(a).total_cmp(&size(b)))
-        };
-        let clear = |entry: &Disturbed| !entry.is_rounding(operations);
-        for row in rows {
-            let row = reduced(row, &pivots);
-            let of_lead = largest(&row, 0..lead, &clear);
-            let undecided = of_lead.is_none() && row[..lead].iter().any(|entry| !entry.is_zero());
-            let column = match undecided {
-                true => None,
-                false => of_lead.or_else(|| largest(&row, lead..columns, &clear)),
-            };
-            match column {
-                Some(column) => pivots.push(Pivot::new(column, &row)),
-                None if row.iter().all(Disturbed::is_zero) => {}
-                None => postponed.push(row),
-            }
-        }
         let mut hidden = 0;
-        for row in postponed {
-            let row = reduced(row, &pivots);
-            let present = |entry: &Disturbed| !entry.is_zero();
-            if let Some(column) = largest(&row, lead..columns, &clear) {
-                pivots.push(Pivot::new(column, &row));
-            } else if let Some(column) = largest(&row, lead..columns, &present) {
-                hidden += 1;
-                pivots.push(Pivot {
-                    column,
-                    others: Vec::new(),
-                });
+        let clear = |entry: &Disturbed| !entry.is_rounding(operations);
+        let mut waiting = rows;
+        // What rounding hides is looked at again once all other equations have been used.
+        for last in [false, true] {
+            for mut row in std::mem::take(&mut waiting) {
+                for pivot in &pivots {
+                    pivot.eliminate_from(&mut row);
+                }
+                for entry in &mut row {
+                    if !clear(entry) && entry.rounding(operations) <= CLEAR {
+                        *entry = Disturbed::exact(0.0);
+                    }
+                }
+                let largest = |of: Range<usize>, counts: &dyn Fn(&Disturbed) -> bool| {
+                    let size = |k: &usize| row[*k].value().abs() / sizes[*k];
+                    let present = of.filter(|&k| counts(&row[k]));
+                    present.max_by(|a, b| size(a).total_cmp(&size(b)))
+                };
+                let any = |entry: &Disturbed| !entry.is_zero();
+                let of_lead = largest(0..lead, &clear);
+                let sure = last || of_lead.is_some() || largest(0..lead, &any).is_none();
+                let column = of_lead.or_else(|| largest(lead..columns, &clear));
+                if let Some(column) = column.filter(|_| sure) {
+                    pivots.push(Pivot::new(column, &row));
+                } else if !last && row.iter().any(any) {
+                    waiting.push(row);
+                } else if let Some(column) = largest(lead..columns, &any) {
+                    hidden += 1;
+                    pivots.push(Pivot {
+                        column,
+                        others: Vec::new(),
+                    });
+                }
             }
         }
         let is_pivot = |k: usize| pivots.iter().any(|pivot| pivot.column == k);

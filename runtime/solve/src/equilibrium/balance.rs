@@ -6,7 +6,6 @@
 //! stiffness that such forces leave along a direction in which nothing holds the machine. In any units that are found
 //! from the matrix itself it would pass for a stiffness like others.
 
-use super::convergence::ROUNDING;
 use crate::Description;
 use crate::algebra::{Matrix, Vector, greater, largest};
 use crate::kernels::Kernels;
@@ -15,6 +14,8 @@ use crate::kernels::Kernels;
 const SAMPLES: usize = 8;
 /// Largest disturbance in rounding units: so many that sums of the same few terms are rounded in several ways.
 const AMPLITUDE: u64 = 16;
+/// Rounding of a sum of forces, relative to what it is elsewhere.
+const FORCES: f64 = 32.0 * f64::EPSILON;
 /// A sum at most this many times its largest change is rounding.
 const FACTOR: f64 = 4.0;
 /// Share of the largest stiffness, for motions of similar size, below which all stiffness against a motion may be
@@ -54,7 +55,7 @@ pub(super) fn without_rounding(data: &Data<'_>, q: &[f64], residual: &[f64]) -> 
     }
     let mut left = Vector::from(residual);
     for ((value, change), size) in left.iter_mut().zip(&change).zip(&sizes) {
-        if value.abs() <= FACTOR * greater(*change, ROUNDING * size) {
+        if value.abs() <= FACTOR * greater(*change, FORCES * size) {
             *value = 0.0;
         }
     }

@@ -22,6 +22,10 @@
 //! directions known, `modes/deflation.rs` writes the pencil of the other motions, with the same symmetries; its roots
 //! are as accurate as if the zeros had never been there. The rolling and coasting system of first order loses its zeros
 //! in the same way.
+//!
+//! Under a thrust that turns with a free machine, `W^T M Z` may be singular: a turn of the whole, which nothing resists,
+//! accelerates it across, and the zero of this motion has a chain of four vectors. There is no pencil without it, but
+//! the system of first order loses two more zeros in the same way, as often as there are any.
 #![allow(
     clippy::needless_range_loop,
     reason = "index loops read as the formulas they are"

@@ -36,7 +36,7 @@ pub use undamped::undamped;
 pub use whirl::{Sense, Whirl, Whirls, whirls};
 
 use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
-use crate::constraints::Structure;
+use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::{Eigenproblem, EigenproblemError, Pairs, Root, roots_near};
 use crate::kernels::{DeviatingInputs, Kernels, Linear};
 use crate::rounding::{Sign, sign};
@@ -393,7 +393,16 @@ fn solve_general(
     modes: &mut Vec<Mode>,
 ) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
-    let open = structure.open() && !deflation::accelerates(linear, free);
+    let accelerates = free > 0
+        && structure.holonomic()
+        && match structure.open() {
+            true => deflation::accelerates(linear, free),
+            false => {
+                let reduced = Tangent::new(linear, structure).reduce_linear(linear);
+                deflation::accelerates(&reduced, free)
+            }
+        };
+    let open = structure.open() && !accelerates;
     let roots = if open && free > 0 {
         deflation::roots(linear, free, |rest| {
             roots_near(Eigenproblem::Quadratic(rest), &[])
@@ -402,7 +411,7 @@ fn solve_general(
         let nearby: Vec<_> = nearby.iter().map(Mode::near).collect();
         roots_near(Eigenproblem::Quadratic(linear), &nearby)
     } else {
-        constrained::general_roots(linear, structure, free)
+        constrained::general_roots(linear, structure, (free, accelerates))
     };
     let roots = roots.map_err(ModesFailure::Pencil)?;
     // Without dissipation, a motion that stays bounded has imaginary eigenvalues.

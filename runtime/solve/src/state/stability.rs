@@ -19,7 +19,8 @@ pub enum Stability {
     Marginal,
     /// Not unstable, but with directions of zero stiffness: the mechanism rests anywhere along them.
     Neutral {
-        /// Number of eigenvalues that are zero within rounding.
+        /// Number of eigenvalues that are zero within rounding, or that oscillate with a vector of another one: seen from
+        /// a turning frame, a motion that drifts does.
         zero: usize,
     },
     /// A disturbance grows without oscillation (static instability).

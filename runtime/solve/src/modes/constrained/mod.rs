@@ -38,14 +38,15 @@ use measure::Measure;
 
 /// All roots of the bordered pencil with `Im s >= 0`.
 ///
-/// Those of `free` directions come first.
+/// Those of `free` directions come first; if some of these motions drift faster and faster, the roots are those of the
+/// first-order system.
 pub(super) fn general_roots(
     linear: &Linear,
     structure: Structure,
-    free: usize,
+    (free, accelerates): (usize, bool),
 ) -> Result<Vec<Root>, EigenproblemError> {
     let tangent = Tangent::new(linear, structure);
-    if structure.holonomic() {
+    if structure.holonomic() && !accelerates {
         quadratic::roots(linear, &tangent, free)
     } else {
         first_order::roots(linear, &tangent, free)

@@ -1,6 +1,6 @@
 //! Constraints on positions only: the quadratic problem `(s^2 P^T M P + s P^T C P + P^T K_c P) y = 0`.
 
-use super::{Gathered, Normalisation, first_order, is_shared, lift, projected, with_reactions};
+use super::{Gathered, Normalisation, is_shared, lift, projected, with_reactions};
 use crate::constraints::Tangent;
 use crate::eigenproblem::{EigenproblemError, Root, general};
 use crate::kernels::Linear;
@@ -17,9 +17,6 @@ pub(super) fn roots(
         damping: projected(&linear.damping, tangent),
         stiffness: projected(&linear.stiffness, tangent),
     };
-    if deflation::accelerates(&reduced, free) {
-        return first_order::roots(linear, tangent, free);
-    }
     let reduced = deflation::roots(&reduced, free, general::solve)
         .map_err(|trouble| tangent_trouble(trouble, tangent))?;
     let transposed = transposed(linear);

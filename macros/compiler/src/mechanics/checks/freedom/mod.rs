@@ -4,6 +4,11 @@
 //! Lie derivative of `g` vanishes everywhere. Wherever the forces balance, `K zeta = 0` then: an equilibrium may be moved
 //! along the field, and the mechanism has a mode of frequency zero. That is no mistake unless a load acts along the
 //! direction. The candidates are few ([`fields`]), and the proof is by evaluation at random places and designs.
+//!
+//! What ties bodies to each other leaves their motion as a whole exactly as it is. These few combinations are tested by
+//! themselves first, so that nothing but rounding of single terms is left in them, however different the stiffnesses are.
+//! Other combinations come from elimination, where rounding grows from piece to piece: what it leaves in doubt counts as
+//! held. A load is refused only where the mechanism does not rest, and where it does the same work at other places too.
 
 mod count;
 mod fields;

@@ -28,7 +28,9 @@ pub(super) fn symmetries(system: &System, design: u64, friction: Friction) -> Co
 /// The motions of [`wholes`] that meet no resistance at an equilibrium.
 pub(super) fn unresisted_wholes(system: &System, state: &Linearised) -> Combinations {
     let wholes = wholes(system, state, 0);
-    let (rows, lead) = of_combinations(changes(system, state), system.fields.len(), &wholes);
+    let mut rows = changes(system, state);
+    let lead = system.size() - system.context.moving().1;
+    combine(&mut rows, lead, &wholes);
     let null_space = NullSpace::of_scaled(rows, lead, state.operations);
     combined(&wholes, &null_space.vectors)
 }
@@ -155,19 +157,15 @@ fn found(
         let mut confirmed = 0;
         for state in (1..=ATTEMPTS).filter_map(random) {
             let before = combinations.as_ref().map_or(candidates, Vec::len);
-            let (rows, lead) = match &combinations {
-                None => {
-                    let rows = rows(system, &state);
-                    let lead = rows.first().map_or(0, Vec::len).saturating_sub(candidates);
-                    (rows, lead)
-                }
-                Some(found) => of_combinations(rows(system, &state), candidates, found),
-            };
-            let next = NullSpace::of_scaled(rows, lead, state.operations).vectors;
-            let next = match &combinations {
-                None => next,
-                Some(found) => combined(found, &next),
-            };
+            let mut rows = rows(system, &state);
+            let lead = rows.first().map_or(0, Vec::len).saturating_sub(candidates);
+            if let Some(found) = &combinations {
+                combine(&mut rows, lead, found);
+            }
+            let mut next = NullSpace::of_scaled(rows, lead, state.operations).vectors;
+            if let Some(found) = &combinations {
+                next = combined(found, &next);
+            }
             confirmed = if next.len() == before {
                 confirmed + 1
             } else {
@@ -186,18 +184,12 @@ fn found(
     all
 }
 
-/// The equations for the shares of some combinations, and the number of columns in front.
-fn of_combinations(
-    mut rows: Rows,
-    candidates: usize,
-    combinations: &Combinations,
-) -> (Rows, usize) {
-    let lead = rows.first().map_or(0, Vec::len).saturating_sub(candidates);
-    for row in &mut rows {
+/// Equations for the shares of the candidates, after `lead` others, as equations for those of some combinations.
+fn combine(rows: &mut Rows, lead: usize, combinations: &Combinations) {
+    for row in rows {
         let tail = row.split_off(lead);
         row.extend(times(&[tail], combinations).concat());
     }
-    (rows, lead)
 }
 
 /// What remains of the motions of space that the joints do not allow, after `before` zeros and followed by `after`.

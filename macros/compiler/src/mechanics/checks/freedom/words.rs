@@ -198,7 +198,7 @@ pub(super) fn described(context: &Context, fields: &Fields, combination: &[f64])
         _ if fields
             .carriers
             .iter()
-            .all(|other| other.coordinates.iter().any(|k| moves(k))) =>
+            .all(|other| other.coordinates.iter().any(&moves)) =>
         {
             "the whole".to_owned()
         }
