@@ -30,8 +30,8 @@ pub use event_sensitivity::{critical_sensitivity, crossing_sensitivity};
 pub use event_tolerance::{Event, EventTolerance, critical_tolerance, crossing_tolerance};
 pub use points::{CriticalState, Sweep, SweepPoint};
 pub use range::Range;
-pub(crate) use search::{Sought, growing};
 pub use search::{Events, Gap, Searched, Unresolved};
+pub(crate) use search::{Sought, growing};
 pub use sensitivity_sweep::sensitivity_sweep;
 #[doc(hidden)]
 pub use sensitivity_sweep::states_each;

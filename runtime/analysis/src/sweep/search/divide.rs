@@ -71,11 +71,13 @@ pub(super) struct Division {
 const MIDDLES: [f64; 3] = [0.5, 0.44, 0.57];
 /// Share of a stretch within which a wanted place counts as the middle.
 const NEAR: f64 = 0.02;
+/// Share of a stretch from an end within which a place is close to it.
+const ASIDE: f64 = 0.1;
 /// Distance of two states of a step below which rounding may make them one.
 const CLOSEST: f64 = 8.0 * f64::EPSILON;
-/// A Newton step this small, as a share of the whole step, leads to the event.
-const NEWTON: f64 = 1e-6;
-/// Share of a bracket below which a last step of Newton's method has found the event.
+/// A Newton step of at most so many times the resolution leads to the event.
+const NEWTON: f64 = 1e3;
+/// Share of the distance from a place below which a last step of Newton's method has found the event.
 const CONVERGED: f64 = 1e-3;
 /// Most states solved for one event.
 const MOST: usize = 200;
@@ -126,11 +128,19 @@ pub(super) fn divide(
             Some((t, _)) => {
                 let off = (t - a.t).min(b.t - t);
                 let distinct = (t - middle.t).abs() > NEAR * width && off > CLOSEST;
-                let at = distinct
-                    .then(|| source.state(t))
-                    .flatten()
-                    .unwrap_or(middle);
-                open.extend([(at.clone(), b), (a, at)]);
+                let at = distinct.then(|| source.state(t)).flatten();
+                let mut states = vec![a, b];
+                // A place close to an end does not divide the rest.
+                if at.is_none() || off < ASIDE * width {
+                    states.push(middle);
+                }
+                states.extend(at);
+                states.sort_by(|a, b| b.t.total_cmp(&a.t));
+                open.extend(
+                    states
+                        .windows(2)
+                        .map(|two| (two[1].clone(), two[0].clone())),
+                );
             }
         }
     }
@@ -149,7 +159,9 @@ pub(super) fn divide(
     let Division { events, doubts, .. } = &mut division;
     doubts.retain(|Doubt { between, kind }| {
         let [from, to] = [between[0] - 4.0 * finest, between[1] + 4.0 * finest];
-        !events.iter().any(|event| event.kind == *kind && event.t >= from && event.t <= to)
+        !events
+            .iter()
+            .any(|event| event.kind == *kind && event.t >= from && event.t <= to)
     });
     division
 }
@@ -169,13 +181,18 @@ impl Division {
         outer: [bool; 2],
     ) -> Vec<Rc<Spectrum>> {
         let doubtful = |state: &Rc<Spectrum>| wanted.doubtful(kind, state);
-        let groups: Vec<&[Rc<Spectrum>]> = (states.chunk_by(|a, b| doubtful(a) == doubtful(b))).collect();
+        let groups: Vec<&[Rc<Spectrum>]> =
+            (states.chunk_by(|a, b| doubtful(a) == doubtful(b))).collect();
         let last = groups.len() - 1;
         let mut sure = Vec::new();
         for (k, group) in groups.iter().enumerate() {
             let around = [k.checked_sub(1), (k < last).then_some(k + 1)];
             let around = around.map(|k| k.map(|k| groups[k]));
-            let most = around.iter().flatten().map(|other| doubtful(&other[0])).max();
+            let most = around
+                .iter()
+                .flatten()
+                .map(|other| doubtful(&other[0]))
+                .max();
             let new = most.map_or(0, |most| doubtful(&group[0]).saturating_sub(most));
             let (begins, ends) = (around[0].is_none(), around[1].is_none());
             // Between two bands of flutter everything may be neutral.
@@ -236,19 +253,20 @@ fn enclose(
             continue;
         }
         let (width, middle) = (high.t - low.t, 0.5 * (low.t + high.t));
-        let aims = [&low, &high].map(|state| wanted.aim(kind, state, [low.t, high.t]));
+        let aims =
+            [&low, &high].map(|state| wanted.aim(kind, state, [low.t, high.t], NEWTON * finest));
         let aims = aims.into_iter().flatten();
         let aim = aims.min_by(|a, b| a.step.total_cmp(&b.step));
         let reach = aim.map_or(finest, |aim| finest.max(4.0 * aim.error));
         if width <= 2.0 * reach {
             let aim = aim.map_or((middle, false), |aim| (aim.t, aim.merging));
-            let at = wanted.polished(source, kind, aim, [low.t, high.t]);
+            let at = wanted.polished(source, kind, aim, reach);
             division.found(wanted, kind, at, [low, high]);
             continue;
         }
         // Newton's method, and at last both sides of where it leads; every other time at least half is gained.
         let places = match aim {
-            Some(aim) if !halve && aim.step < NEWTON => vec![aim.t - reach, aim.t + reach],
+            Some(aim) if !halve && aim.step < NEWTON * finest => vec![aim.t - reach, aim.t + reach],
             Some(aim) if !halve => vec![aim.t],
             _ => vec![middle],
         };
@@ -269,13 +287,15 @@ fn enclose(
             && wanted.count(kind, a) == before
             && wanted.count(kind, b) == after
         {
-            let at = wanted.polished(source, kind, (aim.t, aim.merging), [a.t, b.t]);
+            let at = wanted.polished(source, kind, (aim.t, aim.merging), reach);
             division.found(wanted, kind, at, [a.clone(), b.clone()]);
             continue;
         }
         states.insert(0, low);
         states.push(high);
-        let brackets = states.windows(2).map(|two| [two[0].clone(), two[1].clone()]);
+        let brackets = states
+            .windows(2)
+            .map(|two| [two[0].clone(), two[1].clone()]);
         open.extend(brackets.map(|two| {
             let slow = two[1].t - two[0].t > 0.5 * width;
             (two, slow && !halve)
@@ -299,32 +319,35 @@ struct Aim {
 const REAL: f64 = 1e-6;
 
 impl Wanted {
-    /// A place close to an event, moved to it by Newton's method where that converges, and whether two eigenvalues merge
-    /// there.
+    /// A place close to an event, moved to it by Newton's method where that converges within its error, and whether two
+    /// eigenvalues merge there.
     fn polished(
         &self,
         source: &mut impl States,
         kind: Kind,
         (from, merging): (f64, bool),
-        ends: [f64; 2],
+        reach: f64,
     ) -> (f64, bool) {
+        let everywhere = ([f64::NEG_INFINITY, f64::INFINITY], f64::INFINITY);
         // Where one passes by itself, others may merge close by.
-        let mut steps = [false, true].into_iter().filter_map(|merging| {
+        let mut places = [false, true].into_iter().filter_map(|merging| {
             let (mut t, mut last) = (from, f64::INFINITY);
             while let Some(state) = source.state(t)
-                && let Some(aim) = self.aims(kind, &state, ends, merging)
+                && let Some(aim) = self.aims(kind, &state, everywhere, merging)
                 && aim.step < 0.5 * last
+                && (aim.t - from).abs() <= 2.0 * reach.max(4.0 * aim.error)
             {
                 (t, last) = (aim.t, aim.step);
             }
-            (last < CONVERGED * (ends[1] - ends[0])).then_some((t, merging))
+            (last < CONVERGED * reach).then_some((t, merging))
         });
-        steps.next().unwrap_or((from, merging))
+        places.next().unwrap_or((from, merging))
     }
 
-    /// The nearest place between two others at which an eigenvalue, or two that merge, meet the threshold.
-    fn aim(&self, kind: Kind, state: &Spectrum, ends: [f64; 2]) -> Option<Aim> {
-        let aims = [false, true].map(|merging| self.aims(kind, state, ends, merging));
+    /// The nearest place between two others at which an eigenvalue, or two that merge, meet the threshold, if it is
+    /// `known` that well.
+    fn aim(&self, kind: Kind, state: &Spectrum, ends: [f64; 2], known: f64) -> Option<Aim> {
+        let aims = [false, true].map(|merging| self.aims(kind, state, (ends, known), merging));
         let aims = aims.into_iter().flatten();
         aims.min_by(|a, b| a.step.total_cmp(&b.step))
     }
@@ -334,7 +357,7 @@ impl Wanted {
         &self,
         kind: Kind,
         state: &Spectrum,
-        [low, high]: [f64; 2],
+        ([low, high], known): ([f64; 2], f64),
         merging: bool,
     ) -> Option<Aim> {
         let aim = |[value, slope]: [f64; 2], error: f64| {
@@ -347,10 +370,12 @@ impl Wanted {
                 merging,
             };
             let inside = t >= low - CLOSEST && t <= high + CLOSEST;
-            (inside && error <= NEWTON).then_some(aim)
+            (inside && error <= known).then_some(aim)
         };
         let roots = self.roots(kind, state);
-        let relevant = roots.iter().filter(|root| !merging && self.relevant(kind, root));
+        let relevant = roots
+            .iter()
+            .filter(|root| !merging && self.relevant(kind, root));
         let single = relevant.filter_map(|root| {
             let (jet, error) = self.number(kind, state, root);
             aim(jet, error)
@@ -358,7 +383,10 @@ impl Wanted {
         let merges = merging && !self.real(kind) && !matches!(kind, Kind::Line(_));
         let pairs = (0..roots.len()).filter(|_| merges).flat_map(|i| {
             let conjugate = roots[i].paired.then(|| roots[i].conjugate());
-            conjugate.into_iter().chain(roots[i + 1..].iter().copied()).map(move |other| (i, other))
+            conjugate
+                .into_iter()
+                .chain(roots[i + 1..].iter().copied())
+                .map(move |other| (i, other))
         });
         let both = pairs.filter_map(|(i, other)| {
             let (distance, error) = (roots[i].value - other.value, roots[i].error + other.error);
@@ -384,8 +412,9 @@ impl Division {
                 && b.t - a.t < TOUCH
                 && !a.merging
                 && let Some(state) = source.state(0.5 * (a.t + b.t))
-                && let Some(root) = (wanted.roots(a.kind, &state).iter())
-                    .find(|root| wanted.touches(a.kind, &state, root) && root.error <= KNOWN * root.value.norm())
+                && let Some(root) = (wanted.roots(a.kind, &state).iter()).find(|root| {
+                    wanted.touches(a.kind, &state, root) && root.error <= KNOWN * root.value.norm()
+                })
             {
                 let touch = Found {
                     t: state.t,
@@ -398,10 +427,27 @@ impl Division {
             }
             k += 1;
         }
+        // Rounding may part the places at which one number is within its error.
+        let touches: Vec<(Kind, f64)> = (self.events.iter())
+            .filter(|event| event.rises.is_none())
+            .map(|event| (event.kind, event.t))
+            .collect();
+        self.events.retain(|event| {
+            let earlier = |(kind, t): &(Kind, f64)| {
+                *kind == event.kind && *t < event.t && event.t - *t < TOUCH
+            };
+            event.rises.is_some() || !touches.iter().any(earlier)
+        });
     }
 
     /// Adds an event for each of the eigenvalues that count on one side only.
-    fn found(&mut self, wanted: &Wanted, kind: Kind, (t, merging): (f64, bool), sides: [Rc<Spectrum>; 2]) {
+    fn found(
+        &mut self,
+        wanted: &Wanted,
+        kind: Kind,
+        (t, merging): (f64, bool),
+        sides: [Rc<Spectrum>; 2],
+    ) {
         let [mut before, mut after] = sides.each_ref().map(|state| {
             let roots = wanted.roots(kind, state);
             let counted = wanted.counted(kind, state).into_iter();

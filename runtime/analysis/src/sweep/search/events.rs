@@ -109,7 +109,9 @@ impl Events {
             let ((from, before), (to, after)) = (two[0], two[1]);
             let (least, most) = (from.min(to) - slack, from.max(to) + slack);
             let inside = |value: f64| value >= least && value <= most;
-            let at_end = |value: f64| inside(value) && !(value > least + 2.0 * slack && value < most - 2.0 * slack);
+            let at_end = |value: f64| {
+                inside(value) && !(value > least + 2.0 * slack && value < most - 2.0 * slack)
+            };
             let gap = |gap: &Gap| gap.from.min(gap.to) <= most && gap.from.max(gap.to) >= least;
             // There the way goes on along another branch.
             let leaves = self.critical.iter().any(|critical| inside(critical.value))

@@ -101,6 +101,12 @@ impl Wanted {
             if near.is_empty() && (real || kind != Kind::Critical) {
                 passings[usize::from(real)].extend(passing(&number, t, counts)?);
             }
+            // A third one near a growing pair that may part decides how it does: two at once are no pair any more.
+            let grows = |root: &Root| root.value.re > root.error;
+            let parts = near.iter().any(|&j| one.is_pair_with(&all[j]));
+            if kind == Kind::Growth && near.len() > 1 && parts && one.row.iter().any(grows) {
+                return Err(t[1]);
+            }
             for j in near {
                 let other = &all[j];
                 if j < i && other.row[1].value.im >= 0.0 {
@@ -113,7 +119,9 @@ impl Wanted {
                     true => {
                         let parted = one.row.map(|root| root.value.im == 0.0);
                         let apart = |sign: f64| Apart { of: &upper.0, sign };
-                        for (number, oscillates) in [(&upper, true), (&upper, false), (&lower, false)] {
+                        for (number, oscillates) in
+                            [(&upper, true), (&upper, false), (&lower, false)]
+                        {
                             let both = [0, 1, 2].map(|k| number.1[k] && parted[k] != oscillates);
                             let apart = apart(if oscillates { -1.0 } else { 1.0 });
                             let number = Both([&number.0, &apart]);
@@ -139,7 +147,10 @@ impl Wanted {
         let numbers = [0, 1, 2].map(|k| self.number(kind, states[k], &row[k]));
         let curve = Curve::new(states.map(|state| state.t), numbers.map(|x| x.0));
         let error = numbers.iter().fold(0.0, |most: f64, x| most.max(x.1));
-        (Single { curve, error }, numbers.map(|(jet, error)| jet[0] > error))
+        (
+            Single { curve, error },
+            numbers.map(|(jet, error)| jet[0] > error),
+        )
     }
 
     /// The greater or the smaller number of two eigenvalues.
@@ -210,7 +221,9 @@ impl Followed {
     /// Whether the two are a pair or real at every state, so that the square of their difference is real.
     fn is_pair_with(&self, other: &Self) -> bool {
         let mut both = self.row.iter().zip(&other.row);
-        both.all(|(a, b)| a.value.im == -b.value.im && (a.value.im == 0.0 || a.value.re == b.value.re))
+        both.all(|(a, b)| {
+            a.value.im == -b.value.im && (a.value.im == 0.0 || a.value.re == b.value.re)
+        })
     }
 
     /// Whether the two may meet between the states.
@@ -223,12 +236,16 @@ impl Followed {
             .map(|(a, b)| a.0 - b.0)
             .collect();
         // Smooth is what keeps farther apart than it moves.
-        apart.chunks(SAMPLES + 1).zip(self.disks.chunks(SAMPLES + 1)).zip(other.disks.chunks(SAMPLES + 1)).any(|((apart, a), b)| {
-            let way: f64 = apart.windows(2).map(|two| (two[1] - two[0]).norm()).sum();
-            let reach = a.iter().zip(b).map(|(a, b)| a.1 + b.1).fold(0.0, f64::max);
-            let least = apart.iter().map(|x| x.norm()).fold(f64::INFINITY, f64::min);
-            !(least > way + FAR * reach)
-        })
+        apart
+            .chunks(SAMPLES + 1)
+            .zip(self.disks.chunks(SAMPLES + 1))
+            .zip(other.disks.chunks(SAMPLES + 1))
+            .any(|((apart, a), b)| {
+                let way: f64 = apart.windows(2).map(|two| (two[1] - two[0]).norm()).sum();
+                let reach = a.iter().zip(b).map(|(a, b)| a.1 + b.1).fold(0.0, f64::max);
+                let least = apart.iter().map(|x| x.norm()).fold(f64::INFINITY, f64::min);
+                !(least > way + FAR * reach)
+            })
     }
 
     /// Whether its number keeps farther from the threshold than the other eigenvalue can bring it.

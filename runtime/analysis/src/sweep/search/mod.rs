@@ -23,6 +23,6 @@ mod route;
 mod spectrum;
 mod step;
 
-pub(crate) use events::{Route, growing};
 pub use events::{Events, Gap, Searched, Unresolved};
+pub(crate) use events::{Route, growing};
 pub(crate) use route::{Along, Met, Sought, search};

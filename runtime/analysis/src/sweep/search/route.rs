@@ -3,9 +3,9 @@
 
 use core::ops::ControlFlow;
 
+use super::count::{Kind, Wanted};
 use super::events::{Events, Gap, Route, Searched, Unresolved};
 use super::node::{Node, Question, has_stiffness};
-use super::count::{Kind, Wanted};
 use super::step::{Event, Step};
 use crate::branches::{
     BranchEnd, Continuation, ContinuationFailure, Curve, CurvePoint, CurvePosition, Located, Pass,

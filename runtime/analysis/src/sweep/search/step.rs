@@ -241,12 +241,16 @@ impl<'a, 'b> Step<'a, 'b> {
             let end = self.nodes.last().map(|node| &node.spectrum);
             let beside = self.before(1.0);
             let doubtful = |state: &Spectrum| wanted.doubtful(*kind, state);
-            let more = end.zip(beside).is_some_and(|(a, b)| doubtful(a) > doubtful(&b.spectrum));
+            let more = end
+                .zip(beside)
+                .is_some_and(|(a, b)| doubtful(a) > doubtful(&b.spectrum));
             more && !outer[1]
         };
         broken |= wanted.kinds().iter().any(at_event);
         // A growing pair that becomes real leaves no stiffness.
-        events.retain(|event| event.kind != Kind::Critical || wanted.real(event.kind) || !event.turns(wanted));
+        events.retain(|event| {
+            event.kind != Kind::Critical || wanted.real(event.kind) || !event.turns(wanted)
+        });
         let (critical, met): (Vec<_>, Vec<_>) =
             (events.into_iter()).partition(|event| event.kind == Kind::Critical);
         let groups: Vec<&[Found]> = critical
