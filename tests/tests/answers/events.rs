@@ -626,5 +626,5 @@ fn lists_equal_counting() {
             }
         }
     }
-    assert!(events > 30, "{events}");
+    assert!(events > 20, "{events}");
 }

@@ -78,7 +78,7 @@ const CLOSEST: f64 = 8.0 * f64::EPSILON;
 /// A Newton step of at most so many times the resolution leads to the event.
 const NEWTON: f64 = 1e3;
 /// Share of the distance from a place below which a last step of Newton's method has found the event.
-const CONVERGED: f64 = 1e-3;
+const CONVERGED: f64 = 0.1;
 /// Most states solved for one event.
 const MOST: usize = 200;
 /// Distance of two places, as a share of the step, at which a number may be within its error between them.
@@ -155,13 +155,15 @@ pub(super) fn divide(
     }
     division.events.sort_by(|a, b| a.t.total_cmp(&b.t));
     division.join_touches(source, wanted);
-    // A doubt about an interval that ends at an event is that event.
+    // A doubt next to an event is that event; what touches its threshold is close to it for a while.
     let Division { events, doubts, .. } = &mut division;
     doubts.retain(|Doubt { between, kind }| {
-        let [from, to] = [between[0] - 4.0 * finest, between[1] + 4.0 * finest];
-        !events
-            .iter()
-            .any(|event| event.kind == *kind && event.t >= from && event.t <= to)
+        let same = |event: &Found| {
+            let slack = event.rises.map_or(TOUCH, |_| 4.0 * finest);
+            let [from, to] = [between[0] - slack, between[1] + slack];
+            event.kind == *kind && event.t >= from && event.t <= to
+        };
+        !events.iter().any(same)
     });
     division
 }
@@ -329,14 +331,17 @@ impl Wanted {
         reach: f64,
     ) -> (f64, bool) {
         let everywhere = ([f64::NEG_INFINITY, f64::INFINITY], f64::INFINITY);
-        // Where one passes by itself, others may merge close by.
-        let mut places = [false, true].into_iter().filter_map(|merging| {
+        // Near where two merge, the number of either is a root whose slope is no more than rounding.
+        let mut places = [true, false].into_iter().filter_map(|merging| {
             let (mut t, mut last) = (from, f64::INFINITY);
             while let Some(state) = source.state(t)
                 && let Some(aim) = self.aims(kind, &state, everywhere, merging)
                 && aim.step < 0.5 * last
-                && (aim.t - from).abs() <= 2.0 * reach.max(4.0 * aim.error)
             {
+                let doubt = if merging { 0.0 } else { 4.0 * aim.error };
+                if (aim.t - from).abs() > 2.0 * reach.max(doubt) {
+                    return None;
+                }
                 (t, last) = (aim.t, aim.step);
             }
             (last < CONVERGED * reach).then_some((t, merging))
