@@ -332,14 +332,15 @@ impl Wanted {
     ) -> (f64, bool) {
         let everywhere = ([f64::NEG_INFINITY, f64::INFINITY], f64::INFINITY);
         // Near where two merge, the number of either is a root whose slope is no more than rounding.
-        let mut places = [true, false].into_iter().filter_map(|merging| {
-            let (mut t, mut last) = (from, f64::INFINITY);
-            while let Some(state) = source.state(t)
+        let starts =
+            [true, false].map(|merging| [from, from - reach, from + reach].map(|t| (t, merging)));
+        let mut places = starts.into_iter().flatten().filter_map(|(start, merging)| {
+            let (mut t, mut last) = (start, f64::INFINITY);
+            while let Some(state) = source.state(t.clamp(0.0, 1.0))
                 && let Some(aim) = self.aims(kind, &state, everywhere, merging)
                 && aim.step < 0.5 * last
             {
-                let doubt = if merging { 0.0 } else { 4.0 * aim.error };
-                if (aim.t - from).abs() > 2.0 * reach.max(doubt) {
+                if (aim.t - from).abs() > 2.0 * reach.max(4.0 * aim.error) {
                     return None;
                 }
                 (t, last) = (aim.t, aim.step);
