@@ -79,6 +79,8 @@ const CLOSEST: f64 = 8.0 * f64::EPSILON;
 const NEWTON: f64 = 1e3;
 /// Share of the distance from a place below which a last step of Newton's method has found the event.
 const CONVERGED: f64 = 0.1;
+/// How much farther than the resolution the error of an eigenvalue may move the place at which its integer changes.
+const DOUBT: f64 = 4e4;
 /// Most states solved for one event.
 const MOST: usize = 200;
 /// Distance of two places, as a share of the step, at which a number may be within its error between them.
@@ -340,7 +342,8 @@ impl Wanted {
                 && let Some(aim) = self.aims(kind, &state, everywhere, merging)
                 && aim.step < 0.5 * last
             {
-                if (aim.t - from).abs() > 2.0 * reach.max(4.0 * aim.error) {
+                let doubt = (4.0 * aim.error).min(DOUBT * reach);
+                if (aim.t - from).abs() > 2.0 * reach.max(doubt) {
                     return None;
                 }
                 (t, last) = (aim.t, aim.step);
