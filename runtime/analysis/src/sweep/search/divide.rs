@@ -319,6 +319,8 @@ struct Aim {
     merging: bool,
 }
 
+/// Relative distance of two eigenvalues that may merge.
+const MERGING: f64 = 1e-3;
 /// Share by which `(s_1 - s_2)^2` may miss the real axis where two eigenvalues merge on a threshold.
 const REAL: f64 = 1e-6;
 
@@ -385,11 +387,16 @@ impl Wanted {
         let relevant = roots
             .iter()
             .filter(|root| !merging && self.relevant(kind, root));
+        let grows = !self.real(kind) && !matches!(kind, Kind::Line(_));
         let single = relevant.filter_map(|root| {
             let (jet, error) = self.number(kind, state, root);
-            aim(jet, error)
+            // Next to another eigenvalue a number within its error has a slope of rounding.
+            let close =
+                |other: &&Root| (other.value - root.value).norm() <= MERGING * root.value.norm();
+            let known = !grows || jet[0].abs() > error || roots.iter().filter(close).count() == 1;
+            known.then(|| aim(jet, error))?
         });
-        let merges = merging && !self.real(kind) && !matches!(kind, Kind::Line(_));
+        let merges = merging && grows;
         let pairs = (0..roots.len()).filter(|_| merges).flat_map(|i| {
             let conjugate = roots[i].paired.then(|| roots[i].conjugate());
             conjugate
