@@ -90,10 +90,13 @@ impl Wanted {
                 continue;
             }
             let (number, counts) = self.single(kind, states, one.row);
+            // What grows counts as flutter or not by its imaginary part.
+            let grows = |root: &Root| root.value.re > root.error;
+            let grows = kind == Kind::Growth && one.row.iter().any(grows);
             let near = |j: &usize| {
                 let other = &all[*j];
                 let (second, _) = self.single(kind, states, other.row);
-                let away = one.stays(&number, other) && other.stays(&second, one);
+                let away = !grows && one.stays(&number, other) && other.stays(&second, one);
                 *j != i && !away && one.meets(other)
             };
             let near: Vec<usize> = (0..all.len()).filter(near).collect();
@@ -101,10 +104,11 @@ impl Wanted {
             if near.is_empty() && (real || kind != Kind::Critical) {
                 passings[usize::from(real)].extend(passing(&number, t, counts)?);
             }
-            // A third one near a growing pair that may part decides how it does: two at once are no pair any more.
-            let grows = |root: &Root| root.value.re > root.error;
-            let parts = near.iter().any(|&j| one.is_pair_with(&all[j]));
-            if kind == Kind::Growth && near.len() > 1 && parts && one.row.iter().any(grows) {
+            // Of three that grow and meet on the real axis no two are a pair throughout.
+            let real = |root: &Root| root.value.im == 0.0;
+            let rows = near.iter().map(|&j| &all[j]).chain([one]);
+            let parts = rows.flat_map(|x| &x.row).any(real);
+            if grows && near.len() > 1 && parts {
                 return Err(t[1]);
             }
             for j in near {
