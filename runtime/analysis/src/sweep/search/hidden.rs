@@ -248,7 +248,7 @@ impl Followed {
                 let way: f64 = apart.windows(2).map(|two| (two[1] - two[0]).norm()).sum();
                 let reach = a.iter().zip(b).map(|(a, b)| a.1 + b.1).fold(0.0, f64::max);
                 let least = apart.iter().map(|x| x.norm()).fold(f64::INFINITY, f64::min);
-                !(least > way + FAR * reach)
+                (way + FAR * reach).is_nan() || least <= way + FAR * reach
             })
     }
 
