@@ -510,3 +510,121 @@ fn two_plates_beyond_their_pull_in() {
         }
     }
 }
+
+/// Random masses coupled by springs, dampers, gyroscopic and circulatory forces that change with the speed: the list
+/// tells how many oscillations grow anywhere, as eigenvalues of another library at many speeds count them, whatever the
+/// range and the number of points.
+#[test]
+fn lists_equal_counting() {
+    use nalgebra::{DMatrix, Schur};
+    let mut random = RandomNumbers::new(9, 0);
+    let mut events = 0;
+    for case in 0..15 {
+        let n = count(&mut random, 2, 3);
+        let mut matrix = |symmetric: f64, skew: f64, diagonal: f64| {
+            let any = DMatrix::from_fn(n, n, |_, _| between(&mut random, -1.0, 1.0));
+            let (sum, difference) = (&any + any.transpose(), &any - any.transpose());
+            let rest = DMatrix::from_fn(n, n, |i, j| if i == j { diagonal } else { 0.0 });
+            sum * (0.5 * symmetric) + difference * (0.5 * skew) + rest
+        };
+        let damping = [0.0, 0.001, 0.05][case % 3];
+        // Stiffness and damping, at speed 0 and per unit of speed.
+        let [k0, k1, c0, c1] = match case % 5 {
+            0 => [
+                matrix(2.0, 0.0, 9.0),
+                matrix(0.5, 0.0, 0.0),
+                matrix(0.1, 0.0, 0.2),
+                matrix(0.1, 0.0, 0.0),
+            ],
+            1 => [
+                matrix(2.0, 1.0, 9.0),
+                matrix(0.4, 2.0, 0.0),
+                matrix(0.0, 0.0, damping),
+                matrix(0.0, 0.0, 0.0),
+            ],
+            2 => [
+                matrix(2.0, 0.0, -9.0),
+                matrix(0.0, 0.0, 0.0),
+                matrix(0.0, 0.0, 0.0),
+                matrix(0.0, 6.0, 0.0),
+            ],
+            3 => [
+                matrix(0.02, 0.0, 8.0),
+                matrix(0.1, 0.1, 0.0),
+                matrix(0.0, 0.0, damping),
+                matrix(0.0, 0.0, 0.0),
+            ],
+            _ => [
+                matrix(3.0, 1.0, 9.0),
+                matrix(2.0, 0.0, 0.0),
+                matrix(0.0, 0.0, damping),
+                matrix(0.0, 0.0, 0.0),
+            ],
+        };
+        let mut text = String::from("mechanism Pencil { input speed: rad/s;\n");
+        for i in 0..n {
+            text += &format!(
+                "body b{i}: point(mass: 1 kg); joint x{i}: prismatic(x) from ground to b{i};\n"
+            );
+        }
+        for i in 0..n {
+            let terms = (0..n).map(|j| {
+                format!(
+                    "({} N/m) * x{j} + ({} N*s/m/rad) * speed * x{j} + ({} N*s/m) * rate(x{j}) + ({} N*s^2/m/rad) * speed * rate(x{j})",
+                    -k0[(i, j)], -k1[(i, j)], -c0[(i, j)], -c1[(i, j)]
+                )
+            });
+            let terms: Vec<String> = terms.collect();
+            text += &format!(
+                "force f{i}: generalized(on: x{i}, value: {});\n",
+                terms.join(" + ")
+            );
+        }
+        text += "}";
+        let flutter = |speed: f64| {
+            let mut system = DMatrix::zeros(2 * n, 2 * n);
+            for i in 0..n {
+                system[(i, n + i)] = 1.0;
+                for j in 0..n {
+                    system[(n + i, j)] = -k0[(i, j)] - speed * k1[(i, j)];
+                    system[(n + i, n + j)] = -c0[(i, j)] - speed * c1[(i, j)];
+                }
+            }
+            let values = Schur::new(system).complex_eigenvalues();
+            let grows = values.iter().filter(|s| s.im > 1e-7 && s.re > 1e-9);
+            grows.count().cast_signed()
+        };
+        let study = study(&text).stay();
+        for (ends, points) in [([0.0, 4.0], 2), ([4.0, 0.0], 11), ([0.7, 3.3], 4)] {
+            let last = f64::from(points - 1);
+            let grid = (0..points).map(|k| ends[0] + (ends[1] - ends[0]) * f64::from(k) / last);
+            let found = study.campbell(Input::new(0), &grid.collect::<Vec<_>>(), &[] as &[f64]);
+            let found = found.expect("a diagram");
+            let searched = found.searched.as_ref().expect("a search");
+            assert!(searched.unresolved.is_empty(), "{found}\n{text}");
+            let at = |event: &eigentol::sweep::EventTolerance| event.value;
+            let onsets = &found.flutter_onsets;
+            events += onsets.len();
+            let change = |event: &eigentol::sweep::EventTolerance| match event.change {
+                Change::Onset | Change::ToFlutter => 1,
+                Change::End | Change::ToDivergence => -1,
+                _ => 0,
+            };
+            let start = ends[0] - 1e-6 * (ends[1] - ends[0]);
+            let (mut last, mut expected) = (start, flutter(ends[0]));
+            for k in 1..=200 {
+                let speed = ends[0] + (ends[1] - ends[0]) * f64::from(k) / 200.0;
+                let near = |x: f64| onsets.iter().any(|event| (at(event) - x).abs() < 1e-4);
+                if near(speed) {
+                    continue;
+                }
+                let between = |x: f64| (x - last) * (speed - x) > 0.0;
+                let new = onsets.iter().filter(|event| between(at(event)));
+                expected += new.map(change).sum::<isize>();
+                assert_eq!(flutter(speed), expected, "{speed}: {found}\n{text}");
+                last = speed;
+            }
+        }
+    }
+    assert!(events > 20, "{events}");
+}

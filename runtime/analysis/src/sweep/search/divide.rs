@@ -71,12 +71,16 @@ pub(super) struct Division {
 const MIDDLES: [f64; 3] = [0.5, 0.44, 0.57];
 /// Share of a stretch within which a wanted place counts as the middle.
 const NEAR: f64 = 0.02;
+/// Share of a stretch from an end within which a place is close to it.
+const ASIDE: f64 = 0.1;
 /// Distance of two states of a step below which rounding may make them one.
 const CLOSEST: f64 = 8.0 * f64::EPSILON;
-/// A Newton step this small, as a share of the whole step, leads to the event.
-const NEWTON: f64 = 1e-6;
-/// Share of a bracket below which a last step of Newton's method has found the event.
-const CONVERGED: f64 = 1e-3;
+/// A Newton step of at most so many times the resolution leads to the event.
+const NEWTON: f64 = 1e3;
+/// Share of the distance from a place below which a last step of Newton's method has found the event.
+const CONVERGED: f64 = 0.1;
+/// How much farther than the resolution the error of an eigenvalue may move the place at which its integer changes.
+const DOUBT: f64 = 4e4;
 /// Most states solved for one event.
 const MOST: usize = 200;
 /// Distance of two places, as a share of the step, at which a number may be within its error between them.
@@ -126,11 +130,19 @@ pub(super) fn divide(
             Some((t, _)) => {
                 let off = (t - a.t).min(b.t - t);
                 let distinct = (t - middle.t).abs() > NEAR * width && off > CLOSEST;
-                let at = distinct
-                    .then(|| source.state(t))
-                    .flatten()
-                    .unwrap_or(middle);
-                open.extend([(at.clone(), b), (a, at)]);
+                let at = distinct.then(|| source.state(t)).flatten();
+                let mut states = vec![a, b];
+                // A place close to an end does not divide the rest.
+                if at.is_none() || off < ASIDE * width {
+                    states.push(middle);
+                }
+                states.extend(at);
+                states.sort_by(|a, b| b.t.total_cmp(&a.t));
+                open.extend(
+                    states
+                        .windows(2)
+                        .map(|two| (two[1].clone(), two[0].clone())),
+                );
             }
         }
     }
@@ -145,13 +157,15 @@ pub(super) fn divide(
     }
     division.events.sort_by(|a, b| a.t.total_cmp(&b.t));
     division.join_touches(source, wanted);
-    // A doubt about an interval that ends at an event is that event.
+    // A doubt next to an event is that event; what touches its threshold is close to it for a while.
     let Division { events, doubts, .. } = &mut division;
     doubts.retain(|Doubt { between, kind }| {
-        let [from, to] = [between[0] - 4.0 * finest, between[1] + 4.0 * finest];
-        !events
-            .iter()
-            .any(|event| event.kind == *kind && event.t >= from && event.t <= to)
+        let same = |event: &Found| {
+            let slack = event.rises.map_or(TOUCH, |_| 4.0 * finest);
+            let [from, to] = [between[0] - slack, between[1] + slack];
+            event.kind == *kind && event.t >= from && event.t <= to
+        };
+        !events.iter().any(same)
     });
     division
 }
@@ -243,19 +257,20 @@ fn enclose(
             continue;
         }
         let (width, middle) = (high.t - low.t, 0.5 * (low.t + high.t));
-        let aims = [&low, &high].map(|state| wanted.aim(kind, state, [low.t, high.t]));
+        let aims =
+            [&low, &high].map(|state| wanted.aim(kind, state, [low.t, high.t], NEWTON * finest));
         let aims = aims.into_iter().flatten();
         let aim = aims.min_by(|a, b| a.step.total_cmp(&b.step));
         let reach = aim.map_or(finest, |aim| finest.max(4.0 * aim.error));
         if width <= 2.0 * reach {
             let aim = aim.map_or((middle, false), |aim| (aim.t, aim.merging));
-            let at = wanted.polished(source, kind, aim, [low.t, high.t]);
+            let at = wanted.polished(source, kind, aim, reach);
             division.found(wanted, kind, at, [low, high]);
             continue;
         }
         // Newton's method, and at last both sides of where it leads; every other time at least half is gained.
         let places = match aim {
-            Some(aim) if !halve && aim.step < NEWTON => vec![aim.t - reach, aim.t + reach],
+            Some(aim) if !halve && aim.step < NEWTON * finest => vec![aim.t - reach, aim.t + reach],
             Some(aim) if !halve => vec![aim.t],
             _ => vec![middle],
         };
@@ -276,7 +291,7 @@ fn enclose(
             && wanted.count(kind, a) == before
             && wanted.count(kind, b) == after
         {
-            let at = wanted.polished(source, kind, (aim.t, aim.merging), [a.t, b.t]);
+            let at = wanted.polished(source, kind, (aim.t, aim.merging), reach);
             division.found(wanted, kind, at, [a.clone(), b.clone()]);
             continue;
         }
@@ -304,36 +319,46 @@ struct Aim {
     merging: bool,
 }
 
+/// Relative distance of two eigenvalues that may merge.
+const MERGING: f64 = 1e-3;
 /// Share by which `(s_1 - s_2)^2` may miss the real axis where two eigenvalues merge on a threshold.
 const REAL: f64 = 1e-6;
 
 impl Wanted {
-    /// A place close to an event, moved to it by Newton's method where that converges, and whether two eigenvalues merge
-    /// there.
+    /// A place close to an event, moved to it by Newton's method where that converges within its error, and whether two
+    /// eigenvalues merge there.
     fn polished(
         &self,
         source: &mut impl States,
         kind: Kind,
         (from, merging): (f64, bool),
-        ends: [f64; 2],
+        reach: f64,
     ) -> (f64, bool) {
-        // Where one passes by itself, others may merge close by.
-        let mut steps = [false, true].into_iter().filter_map(|merging| {
-            let (mut t, mut last) = (from, f64::INFINITY);
-            while let Some(state) = source.state(t)
-                && let Some(aim) = self.aims(kind, &state, ends, merging)
+        let everywhere = ([f64::NEG_INFINITY, f64::INFINITY], f64::INFINITY);
+        // Near where two merge, the number of either is a root whose slope is no more than rounding.
+        let starts =
+            [true, false].map(|merging| [from, from - reach, from + reach].map(|t| (t, merging)));
+        let mut places = starts.into_iter().flatten().filter_map(|(start, merging)| {
+            let (mut t, mut last) = (start, f64::INFINITY);
+            while let Some(state) = source.state(t.clamp(0.0, 1.0))
+                && let Some(aim) = self.aims(kind, &state, everywhere, merging)
                 && aim.step < 0.5 * last
             {
+                let doubt = (4.0 * aim.error).min(DOUBT * reach);
+                if (aim.t - from).abs() > 2.0 * reach.max(doubt) {
+                    return None;
+                }
                 (t, last) = (aim.t, aim.step);
             }
-            (last < CONVERGED * (ends[1] - ends[0])).then_some((t, merging))
+            (last < CONVERGED * reach).then_some((t, merging))
         });
-        steps.next().unwrap_or((from, merging))
+        places.next().unwrap_or((from, merging))
     }
 
-    /// The nearest place between two others at which an eigenvalue, or two that merge, meet the threshold.
-    fn aim(&self, kind: Kind, state: &Spectrum, ends: [f64; 2]) -> Option<Aim> {
-        let aims = [false, true].map(|merging| self.aims(kind, state, ends, merging));
+    /// The nearest place between two others at which an eigenvalue, or two that merge, meet the threshold, if it is
+    /// `known` that well.
+    fn aim(&self, kind: Kind, state: &Spectrum, ends: [f64; 2], known: f64) -> Option<Aim> {
+        let aims = [false, true].map(|merging| self.aims(kind, state, (ends, known), merging));
         let aims = aims.into_iter().flatten();
         aims.min_by(|a, b| a.step.total_cmp(&b.step))
     }
@@ -343,7 +368,7 @@ impl Wanted {
         &self,
         kind: Kind,
         state: &Spectrum,
-        [low, high]: [f64; 2],
+        ([low, high], known): ([f64; 2], f64),
         merging: bool,
     ) -> Option<Aim> {
         let aim = |[value, slope]: [f64; 2], error: f64| {
@@ -356,17 +381,22 @@ impl Wanted {
                 merging,
             };
             let inside = t >= low - CLOSEST && t <= high + CLOSEST;
-            (inside && error <= NEWTON).then_some(aim)
+            (inside && error <= known).then_some(aim)
         };
         let roots = self.roots(kind, state);
         let relevant = roots
             .iter()
             .filter(|root| !merging && self.relevant(kind, root));
+        let grows = !self.real(kind) && !matches!(kind, Kind::Line(_));
         let single = relevant.filter_map(|root| {
             let (jet, error) = self.number(kind, state, root);
-            aim(jet, error)
+            // Next to another eigenvalue a number within its error has a slope of rounding.
+            let close =
+                |other: &&Root| (other.value - root.value).norm() <= MERGING * root.value.norm();
+            let known = !grows || jet[0].abs() > error || roots.iter().filter(close).count() == 1;
+            known.then(|| aim(jet, error))?
         });
-        let merges = merging && !self.real(kind) && !matches!(kind, Kind::Line(_));
+        let merges = merging && grows;
         let pairs = (0..roots.len()).filter(|_| merges).flat_map(|i| {
             let conjugate = roots[i].paired.then(|| roots[i].conjugate());
             conjugate
@@ -413,6 +443,17 @@ impl Division {
             }
             k += 1;
         }
+        // Rounding may part the places at which one number is within its error.
+        let touches: Vec<(Kind, f64)> = (self.events.iter())
+            .filter(|event| event.rises.is_none())
+            .map(|event| (event.kind, event.t))
+            .collect();
+        self.events.retain(|event| {
+            let earlier = |(kind, t): &(Kind, f64)| {
+                *kind == event.kind && *t < event.t && event.t - *t < TOUCH
+            };
+            event.rises.is_some() || !touches.iter().any(earlier)
+        });
     }
 
     /// Adds an event for each of the eigenvalues that count on one side only.

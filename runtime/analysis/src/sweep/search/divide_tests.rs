@@ -387,3 +387,116 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
     }
     println!("{most} states at most");
 }
+
+/// Two masses coupled by forces without a potential flutter between `2 -+ sqrt(1/4 - 10 c^2)`; a third one on its own
+/// passes them anywhere. The list is that of every range and every number of steps.
+#[test]
+fn bands_beside_a_third_mode() {
+    let mut most = 0;
+    for case in 0..120 {
+        let c = [0.0, 0.0001, 0.001, 0.02, 0.1, 0.158][case % 6];
+        let slope = [0.0, 0.3, -0.3, 1.0, -1.0, 3.0, -3.0, 0.01, 20.0, -20.0][case % 10];
+        let roots = |u: f64| {
+            let mut roots = Vec::new();
+            passing((10.0, 1.0, 2.0), 0.25, 0.5 * c, u, &mut roots);
+            oscillator([c, 0.0], [10.0 + slope * (u - 2.0), slope], &mut roots);
+            (roots, Vec::new())
+        };
+        let half = (0.25 - 10.0 * c * c).sqrt();
+        let expected = [(Some(true), 2.0 - half), (Some(false), 2.0 + half)];
+        let ends = [
+            [0.01, 4.0],
+            [1.21, 2.9],
+            [0.3, 2.2],
+            [1.81, 3.3],
+            [1.9, 2.1],
+        ][case % 5];
+        let inside = |event: &&(Option<bool>, f64)| event.1 > ends[0] && event.1 < ends[1];
+        let expected: Vec<_> = expected.iter().filter(inside).collect();
+        for steps in [1, 2, 3, 5, 10, 11, 16] {
+            let wanted = Wanted {
+                critical: slope.abs() < 2.0,
+                ..general()
+            };
+            let (events, all, states) = search(roots, &wanted, ends, steps);
+            let events: Vec<_> = events
+                .iter()
+                .filter(|event| event.0 == Kind::Growth)
+                .collect();
+            assert_eq!(all.doubts, [], "{c} {slope} {ends:?} {steps}");
+            assert_eq!(
+                events.len(),
+                expected.len(),
+                "{c} {slope} {ends:?} {steps} {events:?}"
+            );
+            for (event, (rises, u)) in events.iter().zip(&expected) {
+                assert_eq!(event.1, *rises);
+                assert!((event.2 - u).abs() < 1e-7, "{c} {slope} {event:?} {u}");
+            }
+            most = most.max(states);
+        }
+    }
+    println!("{most} states at most");
+}
+
+/// Disks on shafts: `s^2 -+ i g u s + w^2 = 0` meets the line `r u` at `w / sqrt(r^2 -+ g r)`.
+#[test]
+fn critical_speeds_of_rotors() {
+    let mut random = Random(5);
+    for case in 0..100 {
+        let disks: Vec<[f64; 2]> = (0..1 + case % 3)
+            .map(|_| [random.between(1.0, 6.0), random.between(0.0, 1.6)])
+            .collect();
+        let lines: Vec<Line> = [1.0, 2.0, 0.5].map(Line::from).to_vec();
+        let roots = |u: f64| {
+            let mut roots = Vec::new();
+            for [w, g] in &disks {
+                let (half, rate) = (0.5 * g * u, 0.5 * g);
+                let root = (w * w + half * half).sqrt();
+                for sign in [1.0, -1.0] {
+                    roots.push(Root {
+                        value: Complex::new(-0.01, root + sign * half),
+                        slope: Complex::new(0.0, half * rate / root + sign * rate),
+                        error: 1e-14 * root,
+                        paired: true,
+                        neutral: false,
+                        grows: false,
+                    });
+                }
+            }
+            (roots, Vec::new())
+        };
+        let mut expected = Vec::new();
+        for (k, line) in lines.iter().enumerate() {
+            for [w, g] in &disks {
+                for sign in [1.0, -1.0] {
+                    let r = line.ratio;
+                    let at = w / (r * r - sign * g * r).sqrt();
+                    if at < 5.0 {
+                        expected.push((Kind::Line(k), at));
+                    }
+                }
+            }
+        }
+        expected.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let wanted = Wanted {
+            lines,
+            growth: false,
+            critical: false,
+            ..general()
+        };
+        for steps in [1, 4, 13] {
+            let (events, all, _) = search(roots, &wanted, [0.0, 5.0], steps);
+            assert_eq!(all.doubts, [], "{disks:?}");
+            assert_eq!(
+                events.len(),
+                expected.len(),
+                "{disks:?} {events:?} {expected:?}"
+            );
+            for (event, (kind, at)) in events.iter().zip(&expected) {
+                assert_eq!(event.0, *kind, "{disks:?}");
+                assert!((event.2 - at).abs() < 1e-8, "{event:?} {at}");
+            }
+        }
+    }
+}

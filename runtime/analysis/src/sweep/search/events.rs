@@ -82,6 +82,25 @@ pub(crate) struct Route {
     pub(crate) unused: usize,
 }
 
+impl Searched {
+    /// Joins unresolved stretches that are no farther apart than they are long.
+    pub(super) fn join(&mut self) {
+        let mut all: Vec<Unresolved> = Vec::new();
+        for stretch in self.unresolved.drain(..) {
+            let length = |x: &Unresolved| (x.to - x.from).abs();
+            let follows = |x: &&mut Unresolved| {
+                let apart = (stretch.from - x.to).abs();
+                x.condition == stretch.condition && apart <= length(x).max(length(&stretch))
+            };
+            match all.iter_mut().find(follows) {
+                Some(last) => last.to = stretch.to,
+                None => all.push(stretch),
+            }
+        }
+        self.unresolved = all;
+    }
+}
+
 /// Share of the range within which an event and a state are at one value.
 const SAME: f64 = 1e-9;
 

@@ -90,16 +90,26 @@ impl Wanted {
                 continue;
             }
             let (number, counts) = self.single(kind, states, one.row);
+            // What grows counts as flutter or not by its imaginary part.
+            let grows = |root: &Root| root.value.re > root.error;
+            let grows = kind == Kind::Growth && one.row.iter().any(grows);
             let near = |j: &usize| {
                 let other = &all[*j];
                 let (second, _) = self.single(kind, states, other.row);
-                let away = one.stays(&number, other) && other.stays(&second, one);
+                let away = !grows && one.stays(&number, other) && other.stays(&second, one);
                 *j != i && !away && one.meets(other)
             };
             let near: Vec<usize> = (0..all.len()).filter(near).collect();
             let real = one.row.iter().all(|root| root.value.im == 0.0);
             if near.is_empty() && (real || kind != Kind::Critical) {
                 passings[usize::from(real)].extend(passing(&number, t, counts)?);
+            }
+            // Of three that grow and meet on the real axis no two are a pair throughout.
+            let real = |root: &Root| root.value.im == 0.0;
+            let rows = near.iter().map(|&j| &all[j]).chain([one]);
+            let parts = rows.flat_map(|x| &x.row).any(real);
+            if grows && near.len() > 1 && parts {
+                return Err(t[1]);
             }
             for j in near {
                 let other = &all[j];
@@ -238,7 +248,7 @@ impl Followed {
                 let way: f64 = apart.windows(2).map(|two| (two[1] - two[0]).norm()).sum();
                 let reach = a.iter().zip(b).map(|(a, b)| a.1 + b.1).fold(0.0, f64::max);
                 let least = apart.iter().map(|x| x.norm()).fold(f64::INFINITY, f64::min);
-                !(least > way + FAR * reach)
+                (way + FAR * reach).is_nan() || least <= way + FAR * reach
             })
     }
 

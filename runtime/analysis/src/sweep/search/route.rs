@@ -153,6 +153,7 @@ pub(crate) fn search(
     search.run();
     let mut events = search.events;
     events.searched.states = MOST_STATES - search.left;
+    events.searched.join();
     events.searched.resolution = RESOLUTION * (high - low).abs();
     Ok((events, search.route))
 }
@@ -445,13 +446,6 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
 
     fn doubt(&mut self, [from, to]: [f64; 2], condition: Option<Condition>) {
         let all = &mut self.events.searched.unresolved;
-        if let Some(last) = all.last_mut()
-            && last.to == from
-            && last.condition == condition
-        {
-            last.to = to;
-            return;
-        }
         all.push(Unresolved {
             from,
             to,

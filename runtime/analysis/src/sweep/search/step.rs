@@ -58,8 +58,9 @@ pub(super) struct Findings {
     pub(super) places: Vec<f64>,
 }
 
-/// Relative distance of two eigenvalues that merge at an event.
-const MERGED: f64 = 1e-3;
+/// Relative distance of two eigenvalues that merge at an event, and of two that do so next to a place.
+const MERGED: f64 = 3e-5;
+const NEARLY: f64 = 1e-3;
 /// Distance of two events, as a share of the step, below which they are one for several modes.
 const SAME: f64 = 1e-9;
 /// Share of what the branch bends between two known stations by which it may miss the cubic between them, and share of
@@ -297,7 +298,7 @@ impl<'a, 'b> Step<'a, 'b> {
         found: &Found,
         taken: &[(f64, Kind, usize)],
     ) -> Option<(usize, Event)> {
-        let (turning, merging) = (found.turns(wanted), found.merging);
+        let turning = found.turns(wanted);
         let condition = match found.kind {
             Kind::Line(k) => Condition::Line(wanted.lines[k]),
             _ => Condition::FlutterOnset,
@@ -315,7 +316,7 @@ impl<'a, 'b> Step<'a, 'b> {
         // Where two merge, both are there on one side only: before they grow, or where they oscillate.
         let side = usize::from((found.rises == Some(true)) == turning);
         let beside = self.node(found.sides[side].t);
-        let node = match merging || turning {
+        let node = match found.merging || turning {
             true => beside,
             false => exact.or(beside),
         }?;
@@ -333,9 +334,10 @@ impl<'a, 'b> Step<'a, 'b> {
         let first = nearest(None)?;
         let second = nearest(Some(first)).filter(|_| found.kind == Kind::Growth && !turning);
         let met = condition.is_met(&node.modes.modes[first], node.spectrum.input[0]);
-        // Next to where two merge, neither meets the condition to rounding.
-        let close = |r: usize| apart(&r) < MERGED * roots[r].value.norm();
-        let merging = turning || merging || !met && second.is_some_and(close);
+        // Next to where two merge, neither need meet the condition to rounding.
+        let distance = if met { MERGED } else { NEARLY };
+        let close = |r: usize| apart(&r) < distance * roots[r].value.norm();
+        let merging = turning || found.merging || second.is_some_and(close);
         let met = met || merging;
         let second = second.filter(|_| merging);
         let event = Event::Met {
