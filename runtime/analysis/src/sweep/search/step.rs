@@ -254,8 +254,14 @@ impl<'a, 'b> Step<'a, 'b> {
         });
         let (critical, met): (Vec<_>, Vec<_>) =
             (events.into_iter()).partition(|event| event.kind == Kind::Critical);
+        // Next to a special point that the walk has located, a change of the number is that point.
+        let known = |group: &&[Found]| {
+            let mut places = specials.iter().map(|(t, _)| (t - group[0].t).abs());
+            places.any(|away| away * self.length <= ROUGHLY)
+        };
         let groups: Vec<&[Found]> = critical
             .chunk_by(|a, b| b.t - a.t <= SAME && a.rises == b.rises)
+            .filter(|group| !known(group))
             .collect();
         // Where the sign of the determinant changes twice, or that of an eigenvalue, the walk sees it on shorter steps.
         let seen = |group: &&[Found]| {
