@@ -100,6 +100,11 @@ impl Output {
         }
     }
 
+    /// Whether rows are written as they arrive.
+    pub(crate) fn streams(&self) -> bool {
+        self.form().has_rows()
+    }
+
     /// An empty answer in this format.
     pub(crate) fn answer(&self) -> Answer {
         Answer::new(self.form())

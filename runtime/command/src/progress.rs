@@ -56,6 +56,7 @@ fn started(bar: ProgressBar, template: &str) -> ProgressBar {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
     };
+    bar.tick();
     bar.enable_steady_tick(TICK);
     bar
 }

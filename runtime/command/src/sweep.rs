@@ -119,8 +119,13 @@ impl Points {
         }
     }
 
-    /// The values, SI.
-    pub(crate) fn values(&self, range: &Range, question: &Question) -> Result<Vec<f64>, Failure> {
+    /// The values of a range, SI; `held` says that an answer for each is in memory at once.
+    pub(crate) fn values(
+        &self,
+        range: &Range,
+        question: &Question,
+        held: bool,
+    ) -> Result<Vec<f64>, Failure> {
         let count = self.points.or(question.file.points).unwrap_or(POINTS);
         if count < 2 {
             let help = "a range has two ends: `--points 2` is the least";
@@ -129,9 +134,11 @@ impl Points {
                 help,
             ));
         }
-        if count > MOST_POINTS {
+        if held && count > MOST_POINTS {
             let message = format!("{count} points are more than one answer can hold");
-            let help = format!("`--points {MOST_POINTS}` is the most: divide the range");
+            let help = format!(
+                "`--points {MOST_POINTS}` is the most: divide the range, or write the rows of `campbell` and `sweep` as CSV"
+            );
             return Err(Failure::usage(message, help));
         }
         let step = (range.high - range.low) / (count - 1) as f64;
@@ -140,7 +147,7 @@ impl Points {
     }
 }
 
-/// Most values of an input in one answer: some kilobytes each are held at once.
+/// Most values of an input in one answer that is held at once: some kilobytes each.
 const MOST_POINTS: usize = 100_000;
 
 impl Orders {

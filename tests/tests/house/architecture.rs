@@ -81,7 +81,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        20_500,
+        20_700,
     ),
     (
         "runtime/uncertainty",

@@ -201,6 +201,10 @@ pub(crate) fn of_vibration<M: BatchKernels + CurvatureKernels + PictureKernels>(
             let [low, high] = range.crossings;
             told(s, s.peaks(wanted::<M>(), input(), low, high));
         }),
+        ("peaks_of", |s, range| {
+            let [low, high] = range.crossings;
+            told(s, s.peaks_of(&[wanted::<M>(); 2], input(), low, high));
+        }),
         ("vibration_spread", |s, _| {
             told(s, s.vibration_spread(&[wanted::<M>()]));
         }),

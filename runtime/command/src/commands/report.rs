@@ -55,7 +55,7 @@ impl Report {
         let question = self.point.question()?;
         let range = self.sweep.range_if_any(&question)?;
         let values = match &range {
-            Some(range) => self.points.values(range, &question)?,
+            Some(range) => self.points.values(range, &question, true)?,
             None => {
                 self.points.refuse_without_sweep()?;
                 Vec::new()

@@ -97,7 +97,7 @@ impl Response {
         if self.peaks {
             return self.peaks_in(&question.study, &range, &wanted);
         }
-        let values = self.points.values(&range, &question)?;
+        let values = self.points.values(&range, &question, true)?;
         let bar = progress::bar("values", Some(values.len() as u64));
         question.study = progress::watched(question.study, &bar);
         let (study, input) = (&question.study, range.input);

@@ -32,7 +32,9 @@ impl Follow {
         self.output.check()?;
         let question = self.point.question()?;
         let range = self.sweep.range(&question)?;
-        let values = self.points.values(&range, &question)?;
+        let values = self
+            .points
+            .values(&range, &question, !self.output.streams())?;
         let bar = progress::bar("values", Some(values.len() as u64));
         let study = progress::watched(question.study, &bar);
         let (d, inputs, input) = (study.description(), study.input_values(), range.input);

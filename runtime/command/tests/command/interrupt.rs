@@ -194,18 +194,18 @@ fn an_allocation_is_checked_by_the_samples_that_are_done() {
     let folder = folder("half an allocation");
     let declaration = fs::canonicalize(examples().join(PENDULUM)).unwrap();
     let study = format!(
-        "mechanism = {declaration:?}\nsamples = 2000000000\nset.omega = \"5 rad/s\"\nstart.theta = \"60 deg\"\n\
+        "mechanism = {declaration:?}\nsamples = 100000000\nset.omega = \"5 rad/s\"\nstart.theta = \"60 deg\"\n\
          tolerance.l = \"10%\"\n[[require]]\nmode = 1\nat_least = \"3.9 rad/s\"\nfailure = 0.01\n\
          [[choose]]\ntolerance = \"l\"\nleast = \"1 mm\"\nmost = \"300 mm\"\ncost = {{ fixed = 0, factor = 1.0, power = 1 }}\n"
     );
     let study = file(&folder, "study.toml", &study);
     let (out, err) = stopped(&["allocate", "--study", &study]);
     assert!(
-        err.starts_with("stopped: after ") && err.contains("of 2000000000 samples"),
+        err.starts_with("stopped: after ") && err.contains("of 100000000 samples"),
         "{err}"
     );
     assert!(
-        out.contains("Not complete: 2000000000 samples were asked for"),
+        out.contains("Not complete: 100000000 samples were asked for"),
         "{out}"
     );
 }

@@ -127,7 +127,7 @@ fn damaged_files_are_refused() {
     );
     refused(
         &["merge", &files[0], &with("{}")],
-        &["cannot be merged: missing field"],
+        &["cannot be merged", "missing field"],
     );
     refused(
         &["merge", &files[0], &with(&sample(&["--json"]))],
