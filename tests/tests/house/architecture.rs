@@ -128,7 +128,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     (
         "runtime/tables",
         &["eigentol-contract", "eigentol-results"],
-        1_000,
+        1_040,
     ),
     ("runtime/figures", &["eigentol"], 5_000),
     (
