@@ -147,7 +147,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        4_800,
+        5_000,
     ),
     (
         "runtime/python",

@@ -157,13 +157,6 @@ pub(super) fn divide(
     }
     division.events.sort_by(|a, b| a.t.total_cmp(&b.t));
     division.join_touches(source, wanted);
-    // What an end of the range is alone, as equal motions at rest, begins or ends nothing within it.
-    division.events.retain(|event| {
-        let begins = outer[0] && event.t - begin <= finest;
-        let ends = outer[1] && end - event.t <= finest;
-        let changes = event.kind == Kind::Growth && event.rises.is_some();
-        !(changes && (begins || ends))
-    });
     // A doubt next to an event is that event; what touches its threshold is close to it for a while.
     let Division { events, doubts, .. } = &mut division;
     doubts.retain(|Doubt { between, kind }| {
