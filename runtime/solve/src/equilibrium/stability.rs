@@ -172,8 +172,7 @@ pub(super) fn judge_member(at: &Equilibrium) -> Verdict {
 }
 
 /// Judges by the general eigenvalues, `count` of which are zero in any case, with `negative` directions of negative and
-/// `free` ones of zero stiffness; a
-/// `lambda` not beyond `floor` counts as zero.
+/// `free` ones of zero stiffness; a `lambda` not beyond `floor` counts as zero.
 fn by_eigenvalues(
     (linear, nearby): (&Linear, &[Mode]),
     (description, count): (&Shared<Description>, usize),
