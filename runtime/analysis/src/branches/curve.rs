@@ -25,7 +25,7 @@ pub(crate) struct Curve<'a> {
     pub(crate) settings: &'a Continuation,
     /// What holds the place along free directions. At a critical state the stiffness alone does not tell them from the
     /// critical one.
-    place: FreeDirections,
+    pub(crate) place: FreeDirections,
     /// A large change of every unknown, SI.
     pub(crate) large: Vector,
     pub(crate) watch: Watch<'a>,

@@ -2,10 +2,11 @@
 
 use super::curve::{ContinuationFailure, Curve, plane};
 use super::local_scaling::{CurvePosition, Frame, System};
-use crate::algebra::{Cholesky, Vector, asymmetry};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, asymmetry, dot, times};
 use crate::constraints::Structure;
 use crate::equilibrium::{Equilibrium, SolvedState};
 use crate::error::NotFound;
+use crate::free::FreeDirections;
 use crate::kernels::Linear;
 use crate::modes::free_pairs;
 use crate::{Description, Mode};
@@ -30,12 +31,18 @@ pub(crate) struct Signs {
     pub(crate) falling: bool,
     /// The input is stationary along the branch.
     pub(crate) vertical: bool,
-    /// `det [Khat dg/du; t^T] < 0`, corrected for the sign of each constraint; changes where branches cross.
+    /// `det [Khat dg/du; t^T] < 0`, corrected for the sign of each constraint and of what holds the place; changes where
+    /// branches cross.
     pub(crate) crossed: bool,
+    /// Whether the bases of the free directions and of their balances have another orientation than `W^T M Z > 0` at the
+    /// first station has, followed from there.
+    turned: bool,
     /// Number of negative eigenvalues of a symmetric `Khat` in the directions that the constraints leave free.
     pub(crate) negative: Option<usize>,
 }
 
+/// Least cosine between the free directions or balances of neighbouring points by which their orientation is followed.
+const TURN: f64 = 0.3;
 /// Tangents with a smaller input component are vertical.
 pub(crate) const VERTICAL: f64 = 1e-10;
 
@@ -47,7 +54,7 @@ impl Curve<'_> {
         system: &System,
         judged: SolvedState,
         towards: &CurvePosition,
-        before: Option<&Signs>,
+        before: Option<&CurvePoint>,
     ) -> Result<CurvePoint, ContinuationFailure> {
         let frame = self.frame(curve_position, system);
         let scaled = frame.scaled(system);
@@ -61,14 +68,19 @@ impl Curve<'_> {
         let tangent = CurvePosition { q, p }.unit().ok_or(singular)?;
         let vertical = tangent.p.abs() <= VERTICAL;
         let constraints = self.structure.constraints();
+        let turned = turned(&judged.state, before)?;
         let signs = Signs {
             falling: match before {
-                Some(before) if vertical => before.falling,
+                Some(before) if vertical => before.signs.falling,
                 _ => tangent.p < 0.0,
             },
             vertical,
             // Each constraint flips the sign: its multiplier adds a negative eigenvalue.
-            crossed: factors.negative_determinant() != (constraints % 2 == 1),
+            crossed: factors.negative_determinant()
+                ^ (constraints % 2 == 1)
+                ^ self.flips(&judged.state.free)
+                ^ turned,
+            turned,
             negative: if vertical {
                 None
             } else {
@@ -126,6 +138,61 @@ impl Curve<'_> {
         let direction = frame.stretched(&tangent);
         self.station(&position, &system, judged, &direction, None)
     }
+}
+
+impl Curve<'_> {
+    /// Whether holding the place makes the sign of the determinant another one: with columns `C` and rows `R`,
+    /// `det(K + C R^T) = det(K + W Z^T) det(W^T C) det(R^T Z)` up to positive factors.
+    fn flips(&self, free: &FreeDirections) -> bool {
+        let place = &self.place;
+        negative_product(&free.balances, &place.columns)
+            ^ negative_product(&place.rows, &free.motions)
+    }
+}
+
+/// Whether the bases of free directions and balances of a state are turned, as far as the mass tells; an error if a
+/// neighbour is too far away to tell.
+fn turned(state: &Equilibrium, before: Option<&CurvePoint>) -> Result<bool, ContinuationFailure> {
+    let (free, mass) = (&state.free, &state.linear.mass);
+    let Some(before) = before else {
+        return Ok(negative_product(&free.balances, &moved(mass, &free.motions)));
+    };
+    let last = &before.equilibrium.free;
+    let turns = [
+        (&last.balances, &free.balances),
+        (&last.motions, &free.motions),
+    ]
+    .map(|(a, b)| cosine(mass, a, b));
+    if turns.iter().flatten().any(|turn| turn.abs() < TURN) {
+        return Err(ContinuationFailure::Missed(NotFound::BendsSharply));
+    }
+    let odd = turns.iter().flatten().filter(|turn| **turn < 0.0).count() % 2 == 1;
+    Ok(before.signs.turned ^ odd)
+}
+
+/// The cosine between two spaces in the metric of the mass, negative if their bases have opposite orientations; `None` if
+/// they move no mass.
+fn cosine(mass: &Matrix, a: &[Vector], b: &[Vector]) -> Option<f64> {
+    let moved = [a, b].map(|basis| moved(mass, basis));
+    let product = |a: &[Vector], b: &[Vector]| Some(Lu::of(gram(a, b))?.determinant());
+    let sizes = product(a, &moved[0])? * product(b, &moved[1])?;
+    // Spaces at a right angle have a product that is not regular.
+    let across = product(a, &moved[1]).unwrap_or(0.0);
+    (a.len() == b.len() && sizes > 0.0).then(|| across / sizes.sqrt())
+}
+
+fn moved(mass: &Matrix, basis: &[Vector]) -> Vec<Vector> {
+    basis.iter().map(|z| times(mass, z)).collect()
+}
+
+/// `A^T B`.
+fn gram(a: &[Vector], b: &[Vector]) -> Matrix {
+    Matrix::from_fn(a.len(), b.len(), |i, j| dot(&a[i], &b[j]))
+}
+
+/// Whether `det(A^T B)` is negative, for as many columns of either; not if it is zero.
+fn negative_product(a: &[Vector], b: &[Vector]) -> bool {
+    a.len() == b.len() && Lu::of(gram(a, b)).is_some_and(|factors| factors.negative_determinant())
 }
 
 impl CurvePoint {

@@ -203,7 +203,8 @@ impl Curve<'_> {
             Ok(corrected) => corrected.place,
             Err(_) => a.frame.place(&from),
         };
-        let special = self.degenerate(&position, (&a.frame, &normal), zero)?;
+        let shapes = (&*normal.q, &*normal.q);
+        let special = self.degenerate(&position, &a.frame, shapes, zero)?;
         Ok(Located {
             special,
             direction: a.frame.stretched(&normal),

@@ -128,11 +128,12 @@ impl Curve<'_> {
     }
 
     /// Like [`Self::special`], for a point that is not resolved further. The critical vector is the softest mode if
-    /// there are modes, otherwise the tangent.
+    /// the stiffness has modes of its own, otherwise that of `shapes`.
     pub(crate) fn degenerate(
         &self,
         curve_position: &CurvePosition,
-        (frame, tangent): (&Frame, &CurvePosition),
+        frame: &Frame,
+        shapes: (&[f64], &[f64]),
         zero: usize,
     ) -> Result<SpecialPoint, ContinuationFailure> {
         let linear = self.linear(curve_position)?;
@@ -145,12 +146,12 @@ impl Curve<'_> {
                 let (_, least) = shapes.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
                 Some(Vector::from(least))
             });
-        let v = softest.unwrap_or_else(|| tangent.q.clone());
+        let shapes = softest.as_deref().map_or(shapes, |v| (v, v));
         let residual = largest(&frame.weights(&self.system(curve_position)?.residual));
         self.special(
             SpecialKind::Degenerate,
             curve_position,
-            (&v, &v),
+            shapes,
             zero,
             Some(residual),
         )

@@ -276,7 +276,6 @@ impl Curve<'_> {
         let position = &corrected.place;
         let system = &corrected.system;
         let judged = self.equilibrium(position, system, corrected.iterations, None)?;
-        let before = before.map(|station| &station.signs);
         self.station(position, system, judged, towards, before)
     }
 

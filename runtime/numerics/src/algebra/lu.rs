@@ -240,6 +240,12 @@ fn pivot_row<T: Field>(n: usize, k: usize, factors: &[T], size: &[f64]) -> Optio
 }
 
 impl Lu<f64> {
+    /// The determinant, of a small matrix: that of a large one may leave the range of numbers.
+    pub fn determinant(&self) -> f64 {
+        let sign = if self.odd { -1.0 } else { 1.0 };
+        (0..self.order.len()).fold(sign, |product, i| product * self.factors[i][i])
+    }
+
     /// Whether the determinant is negative.
     pub fn negative_determinant(&self) -> bool {
         (0..self.order.len()).fold(self.odd, |negative, i| {

@@ -29,7 +29,8 @@ pub struct FreeDirections {
     /// mechanism, the motions.
     pub balances: Vec<Vector>,
     /// What is held along the motions, by unknown.
-    pub(crate) rows: Vec<Vector>,
+    #[doc(hidden)]
+    pub rows: Vec<Vector>,
     /// Where the forces that hold it act, by equation.
     #[doc(hidden)]
     pub columns: Vec<Vector>,

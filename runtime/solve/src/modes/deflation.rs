@@ -320,14 +320,15 @@ pub(crate) fn pairs(
     Ok(())
 }
 
-/// The roots of `A x = s x` with `count` free directions, which come first; `solve` finds the roots of the rest.
+/// The roots of `A x = s x` with `count` free directions, which come first; `solve` finds the roots of the rest. The
+/// elements of `A` are sums of `terms` of these sizes.
 ///
 /// Along `A Z = 0` with `x = Y e + Z a`, the equations at the places that `Y` leaves out determine `s a`, and the others
 /// become `A' e = s e`. If such a motion drifts, its zero is double, and `A'` still has the second one: it is taken out
 /// in the same way. So are those after it, of a motion that a load accelerates which turns with another free one. Two
 /// of these are a motion of its own that nothing resists.
 pub(crate) fn first_order_roots(
-    matrix: &Matrix,
+    (matrix, terms): (&Matrix, &Matrix),
     count: usize,
     solve: impl FnOnce(&Matrix) -> Result<Vec<Root>, EigenproblemError>,
 ) -> Result<Vec<Root>, EigenproblemError> {
@@ -351,7 +352,10 @@ pub(crate) fn first_order_roots(
                 root
             }));
         }
-        let whole = levels.last().map_or(matrix, |level| &level.matrix);
+        let whole = match levels.last() {
+            Some(level) => (&level.matrix, &level.terms),
+            None => (matrix, terms),
+        };
         let next = left_over - NullSpace::rank(&products(&space, left_over));
         let rest = WithoutZeros::new(whole, &space, left_over);
         left_over = next;
@@ -360,6 +364,8 @@ pub(crate) fn first_order_roots(
     }
     let innermost = levels.last().map_or(matrix, |level| &level.matrix);
     for mut root in solve(innermost)? {
+        let moved = levels.last().map(|level| level.moves(&root));
+        root.error = moved.map_or(root.error, |moved| root.error.max(moved));
         for level in levels.iter().rev() {
             root.right = level.right(root.s, &root.right);
             root.left = level.left(&root.left);
@@ -372,6 +378,8 @@ pub(crate) fn first_order_roots(
 /// A matrix without some of its zero eigenvalues.
 struct WithoutZeros {
     matrix: Matrix,
+    /// The sizes of the terms of its elements, which may cancel.
+    terms: Matrix,
     /// `Z`.
     zeros: Vec<Vector>,
     kept: Vec<usize>,
@@ -384,7 +392,7 @@ struct WithoutZeros {
 
 impl WithoutZeros {
     /// Without the first `count` zeros of its null space.
-    fn new(whole: &Matrix, space: &NullSpace, count: usize) -> Self {
+    fn new((whole, terms): (&Matrix, &Matrix), space: &NullSpace, count: usize) -> Self {
         let zeros = &space.right[..count];
         let kept = others(space.basis[..count].iter().cloned());
         let n = whole.row_count();
@@ -397,14 +405,17 @@ impl WithoutZeros {
         let amounts = Matrix::from_fn(zeros.len(), kept.len(), |k, j| {
             (0..left_out.len()).fold(0.0, |sum, i| sum + inverse[k][i] * rows[i][j])
         });
-        let matrix = Matrix::from_fn(kept.len(), kept.len(), |i, j| {
-            let numbered = zeros.iter().enumerate();
-            numbered.fold(whole[kept[i]][kept[j]], |sum, (k, z)| {
-                sum - z[kept[i]] * amounts[k][j]
+        let added = |first: &Matrix, size: fn(f64) -> f64| {
+            Matrix::from_fn(kept.len(), kept.len(), |i, j| {
+                let numbered = zeros.iter().enumerate();
+                numbered.fold(first[kept[i]][kept[j]], |sum, (k, z)| {
+                    sum + size(-z[kept[i]] * amounts[k][j])
+                })
             })
-        });
+        };
         Self {
-            matrix,
+            matrix: added(whole, |term| term),
+            terms: added(terms, f64::abs),
             zeros: zeros.to_vec(),
             kept,
             inverse,
@@ -415,6 +426,18 @@ impl WithoutZeros {
 
     fn size(&self) -> usize {
         self.kept.len() + self.left_out.len()
+    }
+
+    /// How far the rounding of its elements may move an eigenvalue.
+    fn moves(&self, root: &Root) -> f64 {
+        let products = root.left.iter().zip(&root.right);
+        let rate = products.map(|(l, r)| l * r).sum::<Complex64>().norm();
+        let rows = root.left.iter().zip(self.terms.iter());
+        let moved = rows.fold(0.0, |sum, (l, row)| {
+            let along = row.iter().zip(&root.right);
+            sum + l.norm() * along.map(|(term, r)| term * r.norm()).sum::<f64>()
+        });
+        f64::EPSILON * moved / rate
     }
 
     fn right(&self, s: Complex64, e: &[Complex64]) -> Vector<Complex64> {

@@ -385,6 +385,19 @@ fn solve_undamped(
     Ok(())
 }
 
+/// Whether a load accelerates motions along `free` directions, which drift faster and faster.
+pub fn accelerates(linear: &Linear, structure: Structure, free: usize) -> bool {
+    free > 0
+        && structure.holonomic()
+        && match structure.open() {
+            true => deflation::accelerates(linear, free),
+            false => {
+                let reduced = Tangent::new(linear, structure).reduce_linear(linear);
+                deflation::accelerates(&reduced, free)
+            }
+        }
+}
+
 fn solve_general(
     linear: &Linear,
     description: &Description,
@@ -393,15 +406,7 @@ fn solve_general(
     modes: &mut Vec<Mode>,
 ) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
-    let accelerates = free > 0
-        && structure.holonomic()
-        && match structure.open() {
-            true => deflation::accelerates(linear, free),
-            false => {
-                let reduced = Tangent::new(linear, structure).reduce_linear(linear);
-                deflation::accelerates(&reduced, free)
-            }
-        };
+    let accelerates = accelerates(linear, structure, free);
     let open = structure.open() && !accelerates;
     let roots = if open && free > 0 {
         deflation::roots(linear, free, |rest| {

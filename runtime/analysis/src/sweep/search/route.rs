@@ -241,7 +241,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let begin = self.route.points.len();
         let mut next = None;
         let mut reached = station.clone();
-        let mut stiff = false;
+        let mut behind = station.clone();
         let walk = curve.walk(
             &station,
             &station.place,
@@ -249,7 +249,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                 ControlFlow::Continue(pass) => {
                     if pass == Pass::On {
                         reached = after.clone();
-                        stiff = before.stiff();
+                        behind = before.clone();
                     }
                     pass
                 }
@@ -273,11 +273,11 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         match walk.end {
             end if end == curve.end_at(self.settings.high) => {
                 if let Some(end) = walk.points.last() {
-                    let stiff = match reached.place.p == self.settings.high {
-                        true => stiff,
-                        false => reached.stiff(),
+                    let beside = match reached.place.p == self.settings.high {
+                        true => &behind,
+                        false => &reached,
                     };
-                    self.critical_at_end(&curve, &end.equilibrium, &reached, stiff);
+                    self.critical_at_end(&curve, &end.equilibrium, beside);
                 }
                 Next::Done
             }
@@ -292,29 +292,19 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             q: state.coordinates.clone(),
             p: self.settings.low,
         };
-        let zero = match state.stability {
-            Stability::Neutral { zero } => zero,
-            _ => 1,
-        };
-        let tangent = (&beside.frame, &beside.tangent);
+        let zero = zeros(state).max(1);
+        let shapes = (&*beside.direction().q, &*beside.direction().q);
         if self.wanted.critical
-            && let Ok(special) = curve.degenerate(&curve_position, tangent, zero)
+            && zero > zeros(&beside.equilibrium)
+            && let Ok(special) = curve.degenerate(&curve_position, &beside.frame, shapes, zero)
         {
             self.critical(special, Change::Pass, false);
         }
     }
 
-    /// The end itself lacks stiffness; `stiff` if there was some before.
-    fn critical_at_end(
-        &mut self,
-        curve: &Curve<'_>,
-        end: &Equilibrium,
-        beside: &CurvePoint,
-        stiff: bool,
-    ) {
-        let Stability::Neutral { zero } = end.stability else {
-            return;
-        };
+    /// The end itself lacks stiffness that a point beside it has.
+    fn critical_at_end(&mut self, curve: &Curve<'_>, end: &Equilibrium, beside: &CurvePoint) {
+        let zero = zeros(end);
         let curve_position = CurvePosition {
             q: end.coordinates.clone(),
             p: self.settings.high,
@@ -324,13 +314,13 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             (critical_state.value - high).abs() <= SAME * (high - low).abs()
         };
         let known = self.events.critical.last().is_some_and(near);
+        let shapes = (&*beside.direction().q, &*beside.direction().q);
         if self.wanted.critical
             && !known
-            && let Ok(special) =
-                curve.degenerate(&curve_position, (&beside.frame, &beside.tangent), zero)
-            && zero > special.equilibrium.free.count()
+            && zero > zeros(&beside.equilibrium)
+            && let Ok(special) = curve.degenerate(&curve_position, &beside.frame, shapes, zero)
         {
-            self.critical(special, Change::Pass, stiff);
+            self.critical(special, Change::Pass, beside.stiff());
         }
     }
 
@@ -697,5 +687,13 @@ fn counts(condition: Condition, change: Change, node: &Node, (first, last): (boo
         Change::End => last || !undamped,
         Change::ToDivergence | Change::ToFlutter => true,
         _ => false,
+    }
+}
+
+/// Number of motions that nothing resists.
+fn zeros(state: &Equilibrium) -> usize {
+    match state.stability {
+        Stability::Neutral { zero } => zero,
+        _ => 0,
     }
 }

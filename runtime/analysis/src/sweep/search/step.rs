@@ -8,8 +8,9 @@ use super::divide::{Found, Interval, States, divide};
 use super::node::{Node, Question};
 use super::spectrum::{Root, Spectrum};
 use crate::branches::{Curve, CurvePoint, CurvePosition, Located, SpecialKind, SpecialPoint};
+use crate::constraints::Structure;
 use crate::sweep::condition::{Change, Condition};
-use crate::{Stability, Vector};
+use crate::{Complex, Mode, Stability, Vector, modes};
 
 /// A step from one station of a branch to the next, and the states solved on it.
 pub(super) struct Step<'a, 'b> {
@@ -265,7 +266,8 @@ impl<'a, 'b> Step<'a, 'b> {
             .collect();
         // Where the sign of the determinant changes twice, or that of an eigenvalue, the walk sees it on shorter steps.
         let seen = |group: &&[Found]| {
-            group[0].rises.is_some() && (wanted.symmetric || group.len() % 2 == 1)
+            let told = wanted.symmetric || group.len() % 2 == 1 && !accelerates(self.ends[1]);
+            group[0].rises.is_some() && told
         };
         if self.can_be_shorter() && (broken || groups.iter().any(seen)) {
             return None;
@@ -289,7 +291,7 @@ impl<'a, 'b> Step<'a, 'b> {
         for group in groups {
             let t = group[0].t;
             let touches = group[0].rises.is_none().then_some(Change::Touch);
-            let special = self.degenerate(t, group.len());
+            let special = self.degenerate(&group[0], group.len());
             criticals.extend(special.map(|special| (t, special, touches)));
         }
         self.criticals(criticals, &mut findings);
@@ -411,15 +413,24 @@ impl<'a, 'b> Step<'a, 'b> {
         })
     }
 
-    /// A special point that is not resolved further.
-    fn degenerate(&mut self, t: f64, zero: usize) -> Option<SpecialPoint> {
+    /// A special point that is not resolved further, with the shape of what counts on one side of it.
+    fn degenerate(&mut self, found: &Found, zero: usize) -> Option<SpecialPoint> {
         let (from, to) = (self.ends[0], self.ends[1]);
-        let position = match self.node(t) {
+        let position = match self.node(found.t) {
             Some(node) => node.point.place.clone(),
-            None => from.frame.place(&from.frame.local(&to.place).scaled(t)),
+            None => from.frame.place(&from.frame.local(&to.place).scaled(found.t)),
         };
-        let tangent = (&from.frame, &self.normal);
-        self.curve.degenerate(&position, tangent, zero).ok()
+        let side = usize::from(found.rises != Some(false));
+        let beside = self.node(found.sides[side].t)?;
+        let apart = |mode: &&Mode| (mode.s - found.near).norm();
+        let modes = beside.modes.modes.iter();
+        let mode = modes.min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+        let real = |shape: &[Complex]| shape.iter().map(|x| x.re).collect::<Vector>();
+        let shapes = (&*real(&mode.shape), &*real(mode.left()));
+        let special = self
+            .curve
+            .degenerate(&position, &from.frame, shapes, zero);
+        special.ok()
     }
 
     /// The place of a special point along the step.
@@ -470,5 +481,13 @@ fn holds(point: &CurvePoint) -> bool {
     let diverges = matches!(point.equilibrium.stability, Stability::Divergent { .. });
     // What holds the member of a family decides the sign of its determinant.
     let family = !point.equilibrium.free.held.is_empty();
-    (family || point.stiff()) && !diverges
+    (family || accelerates(point) || point.stiff()) && !diverges
+}
+
+/// Whether a load accelerates free motions: a stiffness that vanishes then leaves the determinant as it is, and makes the
+/// chain of a zero longer.
+fn accelerates(point: &CurvePoint) -> bool {
+    let state = &point.equilibrium;
+    let structure = Structure::of(&state.description);
+    modes::accelerates(&state.linear, structure, state.free.count())
 }

@@ -4,7 +4,7 @@
 use super::system::System;
 use super::{Gathered, Normalisation, is_shared, lift, with_reactions};
 use crate::Complex;
-use crate::algebra::Vector;
+use crate::algebra::{Matrix, Vector};
 use crate::constraints::Tangent;
 use crate::eigenproblem::{Eigenproblem, EigenproblemError, Root, roots_of};
 use crate::kernels::Linear;
@@ -17,11 +17,11 @@ pub(super) fn roots(
     free: usize,
 ) -> Result<Vec<Root>, EigenproblemError> {
     let system = System::new(linear, tangent)?;
-    let matrix = match free {
-        0 => system.matrix(),
+    let (matrix, terms) = match free {
+        0 => (system.matrix(), Matrix::default()),
         _ => system.matrix_without_rounding(),
     };
-    let reduced = deflation::first_order_roots(&matrix, free, |matrix| {
+    let reduced = deflation::first_order_roots((&matrix, &terms), free, |matrix| {
         roots_of(Eigenproblem::FirstOrder(matrix))
     })?;
     let size = match tangent.structure.holonomic() {

@@ -176,8 +176,9 @@ impl<'a> System<'a> {
         matrix
     }
 
-    /// [`Self::matrix`] with zeros where forces cancel: free directions are found by its zeros.
-    pub(super) fn matrix_without_rounding(&self) -> Matrix {
+    /// [`Self::matrix`] with zeros where forces cancel, by which free directions are found, and the sizes of the terms of
+    /// its elements.
+    pub(super) fn matrix_without_rounding(&self) -> (Matrix, Matrix) {
         let size = |x: &Vector| x.map(f64::abs);
         let opposite = |x: &Vector| x.map(|value| -value.abs());
         let sizes = Self {
@@ -190,15 +191,15 @@ impl<'a> System<'a> {
             stiffness: self.stiffness.map(f64::abs),
             ..*self
         };
-        let (mut matrix, sizes) = (self.matrix(), sizes.matrix());
+        let (mut matrix, sizes) = (self.matrix(), sizes.matrix().map(f64::abs));
         let rounding = 4.0 * self.velocities() as f64 * f64::EPSILON;
         let pairs = matrix.as_flattened_mut().iter_mut();
         for (value, size) in pairs.zip(sizes.as_flattened()) {
-            if value.abs() <= rounding * size.abs() {
+            if value.abs() <= rounding * size {
                 *value = 0.0;
             }
         }
-        matrix
+        (matrix, sizes)
     }
 }
 
