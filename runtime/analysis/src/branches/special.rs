@@ -69,6 +69,7 @@ pub struct SpecialPoint {
     /// speeds of coasting coordinates, `Mhat` includes their inertia, which otherwise is part of `Chat`.
     pub v: Vector,
     /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1` with the same `Mhat`; equal to `v` for a symmetric `Khat`.
+    /// Where a load accelerates free motions that this one joins, the product is zero, and `w^T Mhat w = 1`.
     pub w: Vector,
 }
 
@@ -164,7 +165,11 @@ pub(crate) fn critical_inertia(linear: &Linear, structure: Structure, v: &[f64])
     inertia(linear, structure, 1.0, core::iter::once(&*shape))
 }
 
-/// Scales the vectors so that `v^T M v = 1`, with the largest component of a motion positive, and `w^T M v = 1`.
+/// Share of its terms below which `w^T M v` is zero: the critical vector is one of a chain of free motions.
+const CHAINED: f64 = 1e-12;
+
+/// Scales the vectors so that `v^T M v = 1`, with the largest component of a motion positive, and `w^T M v = 1`, or
+/// `w^T M w = 1` where the former is zero.
 fn normalised(
     linear: &Linear,
     structure: Structure,
@@ -180,7 +185,10 @@ fn normalised(
     let mass = critical_inertia(linear, structure, v);
     let length = form(v, &mass, v).sqrt() * lead.signum();
     let v = v.map(|value| value / length);
+    let size = form(w, &mass, w).sqrt();
     let both = dot(w, &times(&mass, &v));
+    let chained = both.abs() <= CHAINED * size;
+    let both = if chained { size } else { both };
     let w = w.map(|value| value / both);
     let finite = v.iter().chain(&w).all(|value| value.is_finite());
     finite.then_some((v, w))
