@@ -155,7 +155,10 @@ impl Curve<'_> {
 fn turned(state: &Equilibrium, before: Option<&CurvePoint>) -> Result<bool, ContinuationFailure> {
     let (free, mass) = (&state.free, &state.linear.mass);
     let Some(before) = before else {
-        return Ok(negative_product(&free.balances, &moved(mass, &free.motions)));
+        return Ok(negative_product(
+            &free.balances,
+            &moved(mass, &free.motions),
+        ));
     };
     let last = &before.equilibrium.free;
     let turns = [

@@ -6,7 +6,7 @@ use super::forces::{Forces, Seen};
 use super::measure::Measure;
 use super::response::{Solved, Vibration};
 use super::sensitivities::{ForcedSensitivities, first_derivatives, modulus_slope};
-use crate::algebra::{Matrix, Vector, dot_complex, times_complex};
+use crate::algebra::{Matrix, Vector, dot, dot_complex, times_complex};
 use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_results};
 use crate::modes::{pencil_slope_times, pencil_times, transposed};
 use crate::second_order::{Adjoint, SecondDerivatives, joined, symmetric};
@@ -112,15 +112,16 @@ pub fn second_derivatives(
     let solved = Solved::new(mechanism, at)?;
     let slopes = first_derivatives(&solved)?;
     let adjoint = Adjoint::new(mechanism, at)?;
-    let all: Vec<Along<'_>> = (directions(mechanism, at)?.enumerate())
-        .map(|(number, direction)| Along::new(mechanism, at, number, direction))
+    let all: Vec<Along<'_>> = directions(mechanism, at)?
+        .map(|direction| Along::new(mechanism, at, direction))
         .collect();
     let mut most = 0.0_f64;
     let mut harmonics = Vec::new();
     for (vibration, first) in solved.vibrations.iter().zip(&slopes) {
         let moved = all
             .iter()
-            .map(|along| along.of(vibration, &first.frequency));
+            .zip(first.frequency.iter())
+            .map(|(along, dw)| along.of(vibration, dw));
         let moved: Vec<Moved<'_>> = moved.collect();
         let (_, frequency) = frequency_rows(mechanism, at, &adjoint, vibration, &all);
         let adjoints = OutputAdjoint::each(&solved, vibration, 0..mechanism.sizes().outputs);
@@ -156,7 +157,6 @@ pub fn second_derivatives(
 /// A direction of one variable, and how everything that a vibration depends on changes along it.
 pub(super) struct Along<'a> {
     at: &'a Equilibrium,
-    number: usize,
     direction: Direction,
     linear: Linear,
     transposed: Linear,
@@ -168,13 +168,11 @@ impl<'a> Along<'a> {
     pub(super) fn new(
         mechanism: &dyn CurvatureKernels,
         at: &'a Equilibrium,
-        number: usize,
         direction: Direction,
     ) -> Self {
         let linear = direction.linear(mechanism, at);
         Self {
             at,
-            number,
             transposed: transposed(&linear),
             linear,
             forces: Forces::along(mechanism, at, &direction),
@@ -183,11 +181,11 @@ impl<'a> Along<'a> {
         }
     }
 
-    /// The change of a vibration, whose frequency has these derivatives.
-    pub(super) fn of(&self, vibration: &Vibration, frequency: &Slopes<f64>) -> Moved<'_> {
+    /// The change of a vibration, whose frequency changes by `dw`.
+    pub(super) fn of<'b>(&'b self, vibration: &'b Vibration, dw: f64) -> Moved<'b> {
         let harmonic = &vibration.harmonic;
         let (s, z) = (harmonic.s(), &harmonic.unknowns);
-        let ds = Complex::new(0.0, frequency.iter().nth(self.number).unwrap_or(f64::NAN));
+        let ds = Complex::new(0.0, dw);
         let slope = pencil_slope_times(&self.at.linear, s, z);
         let change = pencil_times(&self.linear, s, z);
         let mut right = Vector::from_fn(z.len(), |i| -change[i] - ds * slope[i]);
@@ -199,6 +197,7 @@ impl<'a> Along<'a> {
         let finite = !stiffness.driven_by(&right);
         Moved {
             along: self,
+            vibration,
             ds,
             dz: finite.then(|| {
                 stiffness
@@ -212,9 +211,22 @@ impl<'a> Along<'a> {
 /// A vibration's change along a direction.
 pub(super) struct Moved<'a> {
     along: &'a Along<'a>,
+    vibration: &'a Vibration,
     ds: Complex,
     /// `None` if it is infinite.
     dz: Option<Vector<Complex>>,
+}
+
+impl Moved<'_> {
+    /// The change of an output; `None` if it is infinite.
+    pub(super) fn output(&self, solved: &Solved<'_>, output: usize) -> Option<Complex> {
+        let harmonic = &self.vibration.harmonic;
+        let (s, z, dz) = (harmonic.s(), &harmonic.unknowns, self.dz.as_ref()?);
+        let of_frequency = self.ds * solved.seen.slope(output, s, z);
+        let of_output = dot_complex(&self.along.seen.row(output, s), z);
+        let of_motion = dot_complex(&solved.seen.row(output, s), dz);
+        Some(of_frequency + of_output + of_motion)
+    }
 }
 
 /// An output's adjoint gradient, prepared for differentiation.
@@ -287,7 +299,7 @@ impl<'a> Curved<'a> {
 
     /// How the factors of `h` change.
     fn change(&self, moved: &Moved<'_>) -> Option<(Factors, Motion)> {
-        let Moved { along, ds, dz } = moved;
+        let Moved { along, ds, dz, .. } = moved;
         let (dz, ds) = (dz.as_ref()?, *ds);
         let (vibration, seen, o) = (
             self.output_adjoint.vibration,
@@ -346,6 +358,26 @@ fn gradient_along(
         &change.after(direction.parts()),
         &mut gradient_results(gradient),
     );
+}
+
+/// The total derivative of a frequency along a direction.
+pub(super) fn frequency_along(
+    mechanism: &dyn CurvatureKernels,
+    at: &Equilibrium,
+    vibration: &Vibration,
+    along: &Along<'_>,
+) -> f64 {
+    let mut gradient = Gradient::zeros(mechanism.sizes());
+    let weights = Weights::of_frequency(mechanism.sizes(), vibration);
+    weights.gradient_into(mechanism, at, gradient_results(&mut gradient));
+    let Direction {
+        coordinates,
+        inputs,
+        design,
+    } = &along.direction;
+    dot(&gradient.coordinates, coordinates)
+        + dot(&gradient.inputs, inputs)
+        + dot(&gradient.design, design)
 }
 
 /// The total gradient of a frequency, and its derivatives along each direction.

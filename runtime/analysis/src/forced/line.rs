@@ -1,12 +1,13 @@
-//! Forced vibration of one output, with the derivatives that finding its peaks along an input takes.
+//! Forced vibration of one output along an input, as finding its peaks takes it, with its derivatives where they are
+//! wanted.
 
 use core::slice;
 
 use super::adjoint::OutputAdjoint;
-use super::curvature::{Along, Curved, frequency_rows};
+use super::curvature::{Along, Curved, frequency_along, frequency_rows};
 use super::forces::Forces;
 use super::measure::Measure;
-use super::response::{Solved, add};
+use super::response::{Solved, Vibration, add};
 use crate::algebra::{Vector, dot_complex};
 use crate::error::NoDerivative;
 use crate::kernels::{CurvatureKernels, Linear};
@@ -15,19 +16,12 @@ use crate::second_order::{Adjoint, joined};
 use crate::sensitivity::{Slopes, directions};
 use crate::{Complex, Equilibrium, Error, Mode, Output};
 
-/// A number, its total derivatives by every variable, and the derivatives of these along one input.
-pub(crate) struct Curving<T> {
-    pub(crate) value: T,
-    pub(crate) slopes: Slopes<T>,
-    pub(crate) along: Slopes<T>,
-}
-
-/// One output of a harmonic near one value of an input.
+/// One output of a harmonic at one value of an input.
 pub(crate) struct Line {
-    /// The frequency, rad/s.
-    pub(crate) frequency: Curving<f64>,
-    /// The complex amplitude as displacement, velocity or acceleration.
-    pub(crate) amplitude: Curving<Complex>,
+    /// The frequency, rad/s, and its derivative along the input.
+    pub(crate) frequency: [f64; 2],
+    /// The complex amplitude as displacement, velocity or acceleration, and its derivative along the input.
+    pub(crate) amplitude: [Complex; 2],
     /// It is more than what rounding leaves of the terms that cancel in it.
     pub(crate) audible: bool,
     /// By mode, the share of the displacement that its pole would have at a distance of 1/s: the size of its residue
@@ -35,109 +29,150 @@ pub(crate) struct Line {
     pub(crate) residues: Vec<f64>,
 }
 
+/// Total derivatives of a number by every variable, and the derivatives of these along one input.
+pub(crate) struct Curving<T> {
+    pub(crate) slopes: Slopes<T>,
+    pub(crate) along: Slopes<T>,
+}
+
+/// How one output of a harmonic changes near one value of an input.
+pub(crate) struct CurvingLine {
+    pub(crate) frequency: Curving<f64>,
+    pub(crate) amplitude: Curving<Complex>,
+}
+
 /// Relative rounding that cancelling terms may leave.
 const ROUNDING: f64 = 1e-12;
 
-/// Outputs of harmonics, and their derivatives along an input. Without modes there are no residues.
-pub(crate) fn along_input(
-    mechanism: &dyn CurvatureKernels,
-    (at, modes): (&Equilibrium, &[Mode]),
-    wanted: &[(usize, Output, Measure)],
+/// Outputs of harmonics near one value of an input.
+pub(crate) struct Lines<'a> {
+    mechanism: &'a dyn CurvatureKernels,
+    solved: Solved<'a>,
+    along: Along<'a>,
     input: usize,
-) -> Result<Vec<Line>, Error> {
-    let solved = Solved::new(mechanism, at)?;
-    let adjoint = Adjoint::new(mechanism, at)?;
-    let direction = directions(mechanism, at)?.nth(input);
-    let direction = direction.ok_or(Error::NoSensitivity {
-        reason: NoDerivative::UnknownInput,
-    })?;
-    let along = Along::new(mechanism, at, input, direction);
-    let each = wanted.iter();
-    each.map(|&what| line((mechanism, &solved), (&adjoint, &along, input), modes, what))
-        .collect()
 }
 
-fn line(
-    (mechanism, solved): (&dyn CurvatureKernels, &Solved<'_>),
-    (adjoint, along, input): (&Adjoint<'_>, &Along, usize),
-    modes: &[Mode],
-    (harmonic, output, measure): (usize, Output, Measure),
-) -> Result<Line, Error> {
-    let at = solved.at;
-    let (Some(vibration), true) = (
-        solved.vibrations.get(harmonic),
-        output.index() < mechanism.sizes().outputs,
-    ) else {
-        return Err(Error::UnknownHandle {
-            kind: "output",
-            index: output.index(),
-            mechanism: at.description.name.clone(),
-            count: mechanism.sizes().outputs,
-        });
-    };
-    if !solved.smooth[output.index()] {
-        let output = at.description.outputs[output.index()].name.clone();
-        return Err(Error::NotSmooth { output });
+/// A harmonic, an output, and as what it is measured.
+pub(crate) type Wanted = (usize, Output, Measure);
+
+impl<'a> Lines<'a> {
+    pub(crate) fn new(
+        mechanism: &'a dyn CurvatureKernels,
+        at: &'a Equilibrium,
+        input: usize,
+    ) -> Result<Self, Error> {
+        let direction = directions(mechanism, at)?.nth(input);
+        let direction = direction.ok_or(Error::NoSensitivity {
+            reason: NoDerivative::UnknownInput,
+        })?;
+        Ok(Self {
+            solved: Solved::new(mechanism, at)?,
+            along: Along::new(mechanism, at, direction),
+            mechanism,
+            input,
+        })
     }
-    let none = Error::NoSensitivity {
-        reason: NoDerivative::NotSmooth,
-    };
-    let along = slice::from_ref(along);
-    let (slopes, rows) = frequency_rows(mechanism, at, adjoint, vibration, along);
-    let frequency = Curving {
-        value: vibration.harmonic.frequency,
-        slopes,
-        along: rows.into_iter().next().ok_or(none.clone())?,
-    };
-    let only = output.index()..output.index() + 1;
-    let output_adjoint = OutputAdjoint::each(solved, vibration, only);
-    let this_adjoint = output_adjoint
-        .into_iter()
-        .flatten()
-        .next()
-        .ok_or(none.clone())?;
-    let y = vibration.harmonic.outputs[output.index()].ok_or(none.clone())?;
-    let terms = terms(
-        &at.linear,
-        frequency.value,
-        &this_adjoint.factors.left,
-        &vibration.harmonic.unknowns,
-    );
-    let seen = &vibration.seen[output.index()];
-    let (forces, mut force) = (
-        Forces::of(mechanism, at),
-        Vector::zeros(at.coordinates.len()),
-    );
-    for share in &vibration.harmonic.shares {
-        add(&mut force, &forces.force(share.excitation, share.turn()));
+
+    /// The vibration that an output is asked of, and its adjoint.
+    fn of(&self, (harmonic, output, _): Wanted) -> Result<(&Vibration, OutputAdjoint<'_>), Error> {
+        let (solved, at) = (&self.solved, self.solved.at);
+        let (Some(vibration), true) = (
+            solved.vibrations.get(harmonic),
+            output.index() < self.mechanism.sizes().outputs,
+        ) else {
+            return Err(Error::UnknownHandle {
+                kind: "output",
+                index: output.index(),
+                mechanism: at.description.name.clone(),
+                count: self.mechanism.sizes().outputs,
+            });
+        };
+        if !solved.smooth[output.index()] {
+            let output = at.description.outputs[output.index()].name.clone();
+            return Err(Error::NotSmooth { output });
+        }
+        let only = output.index()..output.index() + 1;
+        let mut output_adjoint = OutputAdjoint::each(solved, vibration, only).into_iter();
+        let output_adjoint = output_adjoint.next().flatten().ok_or(NOT_SMOOTH)?;
+        Ok((vibration, output_adjoint))
     }
-    let residue = |mode: &Mode| residue(&at.linear, mode, seen, &force) / y.norm();
-    let residues = modes.iter().map(residue).collect();
-    let (curved, total) = Curved::new(this_adjoint, adjoint);
-    let moved = along[0].of(vibration, &frequency.slopes);
-    let row = curved.along(mechanism, &moved).ok_or(none)?;
-    let slopes = joined(&total).map(|value| -value);
-    if !(slopes.iter().chain(row.iter())).all(|value| value.is_finite()) {
-        return Err(solved.not_finite());
+
+    /// One output. Without modes there are no residues.
+    pub(crate) fn line(&self, wanted: Wanted, modes: &[Mode]) -> Result<Line, Error> {
+        let (mechanism, at) = (self.mechanism, self.solved.at);
+        let (vibration, output_adjoint) = self.of(wanted)?;
+        let (harmonic, output, measure) = (&vibration.harmonic, wanted.1.index(), wanted.2);
+        let y = harmonic.outputs[output].ok_or(NOT_SMOOTH)?;
+        let w = harmonic.frequency;
+        let dw = frequency_along(mechanism, at, vibration, &self.along);
+        let moved = self.along.of(vibration, dw);
+        let dy = moved.output(&self.solved, output).ok_or(NOT_SMOOTH)?;
+        let terms = terms(
+            &at.linear,
+            w,
+            &output_adjoint.factors.left,
+            &harmonic.unknowns,
+        );
+        let seen = &vibration.seen[output];
+        let (forces, mut force) = (
+            Forces::of(mechanism, at),
+            Vector::zeros(at.coordinates.len()),
+        );
+        for share in &harmonic.shares {
+            add(&mut force, &forces.force(share.excitation, share.turn()));
+        }
+        let residue = |mode: &Mode| residue(&at.linear, mode, seen, &force) / y.norm();
+        let amplitude = [measure.of(w, y), measure.slope((w, y), dw, dy)];
+        match amplitude.iter().all(|value| value.is_finite()) && dw.is_finite() {
+            true => Ok(Line {
+                audible: y.norm() > ROUNDING * terms,
+                residues: modes.iter().map(residue).collect(),
+                frequency: [w, dw],
+                amplitude,
+            }),
+            false => Err(self.solved.not_finite()),
+        }
     }
-    let w = &frequency;
-    let by_input = (w.slopes.by_input[input], slopes.by_input[input]);
-    let first = w.slopes.zip(&slopes);
-    let second = w.along.zip(&row);
-    let value = (w.value, y);
-    let curvature = |(item, second)| measure.curvature(value, [by_input, item], second);
-    let amplitude = Curving {
-        value: measure.of(w.value, y),
-        along: first.zip(&second).map(curvature),
-        slopes: first.map(|(dw, dy)| measure.slope(value, dw, dy)),
-    };
-    Ok(Line {
-        audible: y.norm() > ROUNDING * terms,
-        residues,
-        frequency,
-        amplitude,
-    })
+
+    /// How one output changes.
+    pub(crate) fn curving(&self, wanted: Wanted) -> Result<CurvingLine, Error> {
+        let (mechanism, at) = (self.mechanism, self.solved.at);
+        let adjoint = Adjoint::new(mechanism, at)?;
+        let (vibration, output_adjoint) = self.of(wanted)?;
+        let (harmonic, measure) = (&vibration.harmonic, wanted.2);
+        let y = harmonic.outputs[wanted.1.index()].ok_or(NOT_SMOOTH)?;
+        let along = slice::from_ref(&self.along);
+        let (slopes, rows) = frequency_rows(mechanism, at, &adjoint, vibration, along);
+        let w = Curving {
+            slopes,
+            along: rows.into_iter().next().ok_or(NOT_SMOOTH)?,
+        };
+        let (curved, total) = Curved::new(output_adjoint, &adjoint);
+        let moved = self.along.of(vibration, w.slopes.by_input[self.input]);
+        let row = curved.along(mechanism, &moved).ok_or(NOT_SMOOTH)?;
+        let slopes = joined(&total).map(|value| -value);
+        if !(slopes.iter().chain(row.iter())).all(|value| value.is_finite()) {
+            return Err(self.solved.not_finite());
+        }
+        let by_input = (w.slopes.by_input[self.input], slopes.by_input[self.input]);
+        let first = w.slopes.zip(&slopes);
+        let second = w.along.zip(&row);
+        let value = (harmonic.frequency, y);
+        let curvature = |(item, second)| measure.curvature(value, [by_input, item], second);
+        Ok(CurvingLine {
+            amplitude: Curving {
+                along: first.zip(&second).map(curvature),
+                slopes: first.map(|(dw, dy)| measure.slope(value, dw, dy)),
+            },
+            frequency: w,
+        })
+    }
 }
+
+/// What depends on a place that nothing determines, or is infinite.
+const NOT_SMOOTH: Error = Error::NoSensitivity {
+    reason: NoDerivative::NotSmooth,
+};
 
 /// `|(c . phi) (psi . f) / psi^T (2 s M + C) phi|`: the size of the residue of `c . D^-1 f` at the pole of a mode; zero
 /// where rounding alone makes it differ from that.

@@ -19,7 +19,7 @@ mod vibration;
 pub(crate) use answer::CONVENTIONS;
 pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
 pub use eigentol_statistics::random_phases::RandomPhases;
-pub(crate) use line::{Line, along_input};
+pub(crate) use line::{CurvingLine, Line, Lines, Wanted};
 pub use measure::Measure;
 pub use orbit::{Orbit, Turning};
 #[doc(hidden)]

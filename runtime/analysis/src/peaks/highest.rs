@@ -2,7 +2,7 @@
 
 use super::Search;
 use super::scan::scan;
-use super::state::{Along, Heard};
+use super::state::{Along, Curve};
 use crate::algebra::Vector;
 use crate::forced::Vibration;
 use crate::kernels::CurvatureKernels;
@@ -51,19 +51,19 @@ pub(crate) fn highest(
         tolerances: None,
         which: 0,
     };
-    let tops = search.tops()?;
-    let tops = tops.iter().map(|top| top.1.heard(0));
+    let tops = search.tops()?.into_iter().map(|top| top.1);
     let (value, slopes) = match quantity {
         PeakQuantity::Height => {
             let ends = [scanned.states.first(), scanned.states.last()];
-            let ends = ends.into_iter().flatten().map(|end| {
-                let end = end.heard(0);
-                (end, end.square_by_design())
-            });
-            let all = tops.map(|top| (top, top.top_by_design())).chain(ends);
-            let (greatest, slopes) = all.max_by(|a, b| lower(&a.0, &b.0)).ok_or_else(none)?;
+            let ends = ends.into_iter().flatten();
+            let ends = ends.map(|end| along.curve(end.value, &end.equilibrium.coordinates, 0));
+            let ends: Vec<Curve> = ends.collect::<Result<_, Error>>()?;
+            let all = tops.map(|top| (top.top_by_design(), top));
+            let ends = ends.into_iter().map(|end| (end.square_by_design(), end));
+            let greatest = all.chain(ends).max_by(|a, b| lower(&a.1, &b.1));
+            let (slopes, greatest) = greatest.ok_or_else(none)?;
             (
-                greatest.square().value.sqrt(),
+                greatest.heard().square().value.sqrt(),
                 greatest.modulus_by_design(&slopes),
             )
         }
@@ -76,6 +76,7 @@ pub(crate) fn highest(
     Ok((value, smooth.then_some(slopes)))
 }
 
-fn lower(a: &Heard<'_>, b: &Heard<'_>) -> core::cmp::Ordering {
-    a.square().value.total_cmp(&b.square().value)
+fn lower(a: &Curve, b: &Curve) -> core::cmp::Ordering {
+    let [a, b] = [a, b].map(|curve| curve.heard().square().value);
+    a.total_cmp(&b)
 }

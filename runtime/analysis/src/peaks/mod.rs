@@ -15,7 +15,7 @@ pub(crate) use highest::highest;
 pub use separation::{Separation, SeparationMargin};
 
 use scan::{Scan, scan};
-use state::{Along, Heard, ResponsePoint};
+use state::{Along, Curve, Heard};
 
 use crate::algebra::Vector;
 use crate::forced::Vibration;
@@ -215,77 +215,79 @@ impl Search<'_> {
         self.scan.states[k].heard(self.which)
     }
 
-    /// The states at peaks, each with this vibration alone, and the number of the state after each.
-    fn tops(&self) -> Result<Vec<(usize, ResponsePoint)>, Error> {
+    /// The peaks, and the number of the state after each.
+    fn tops(&self) -> Result<Vec<(usize, Curve)>, Error> {
         let mut tops = Vec::new();
         for k in 1..self.scan.states.len() {
             let [a, b] = [k - 1, k].map(|k| self.state(k));
             let rises = self.rises(a) && !self.rises(b);
             if rises && !self.scan.after_gap.contains(&k) && a.line.audible {
-                let top = self.zero((a, b), |state| {
-                    let square = state.square();
-                    (square.slope, square.bend)
-                })?;
-                tops.push((k, top));
+                tops.push((k, self.level([a, b])?));
             }
         }
         Ok(tops)
     }
 
-    /// The zero of a function, which comes with its derivative, between two states with different signs: Newton's steps
-    /// as long as they stay between the signs and shrink, else halves.
-    fn zero(
+    /// Where the amplitude is stationary between two states with opposite slopes.
+    fn level(&self, ends: [Heard<'_>; 2]) -> Result<Curve, Error> {
+        let slopes = ends.map(|end| end.square().slope);
+        self.zero(ends, slopes, |value, from| {
+            let curve = self.along.curve(value, from, self.which)?;
+            let jet = [curve.heard().square().slope, curve.bend()];
+            let coordinates = curve.point.equilibrium.coordinates.clone();
+            Ok((curve, jet, coordinates))
+        })
+    }
+
+    /// The zero of a function between two states at which it has opposite signs; `solve` returns a state, the function
+    /// with its derivative, and the coordinates: Newton's steps as long as they stay between the signs and shrink, else
+    /// halves.
+    fn zero<P>(
         &self,
-        (a, b): (Heard<'_>, Heard<'_>),
-        f: impl Fn(Heard<'_>) -> (f64, f64),
-    ) -> Result<ResponsePoint, Error> {
-        let (mut low, mut high) = (a.point.value, b.point.value);
-        let positive = f(a).0 > 0.0;
-        let nearer = if f(a).0.abs() < f(b).0.abs() { a } else { b };
-        let (mut value, mut at) = (nearer.point.value, f(nearer));
-        let mut from = nearer.point.equilibrium.coordinates.clone();
-        let mut last = (high - low).abs();
-        for _ in 0..STEPS {
-            let newton = value - at.0 / at.1;
+        ends: [Heard<'_>; 2],
+        at_ends: [f64; 2],
+        solve: impl Fn(f64, &[f64]) -> Result<(P, [f64; 2], Vector), Error>,
+    ) -> Result<P, Error> {
+        let [mut low, mut high] = ends.map(|end| end.point.value);
+        let positive = at_ends[0] > 0.0;
+        let mut last = high - low;
+        let mut value = low + (high - low) * at_ends[0] / (at_ends[0] - at_ends[1]);
+        let mut from = ends[0].point.equilibrium.coordinates.clone();
+        for left in (0..STEPS).rev() {
+            let (state, [f, df], coordinates) = solve(value, &from)?;
+            if (f > 0.0) == positive {
+                low = value;
+            } else {
+                high = value;
+            }
+            let enough = 4.0 * f64::EPSILON * value.abs();
+            let newton = value - f / df;
+            let found = f == 0.0 || (f / df).abs() <= enough || (high - low).abs() <= enough;
+            if found || left == 0 {
+                return Ok(state);
+            }
             let between = (newton - low) * (high - newton) > 0.0;
-            let next = match between && (newton - value).abs() <= 0.5 * last {
+            let next = match between && (newton - value).abs() <= 0.5 * last.abs() {
                 true => newton,
                 false => 0.5 * (low + high),
             };
-            let state = self.along.vibration(next, &from, self.which)?;
-            let step = (next - value).abs();
-            (value, at, last) = (next, f(state.heard(0)), step);
-            if (at.0 > 0.0) == positive {
-                low = next;
-            } else {
-                high = next;
-            }
-            let enough = 4.0 * f64::EPSILON * value.abs();
-            let correction = (at.0 / at.1).abs();
-            if at.0 == 0.0 || correction <= enough || (high - low).abs() <= enough {
-                return Ok(state);
-            }
-            from = state.equilibrium.coordinates;
+            (last, value, from) = (next - value, next, coordinates);
         }
-        self.along.vibration(value, &from, self.which)
+        solve(value, &from).map(|found| found.0)
     }
 
     /// The peak in the stretch before state `k`.
-    fn peak(&self, k: usize, top: ResponsePoint) -> Result<Peak, Error> {
-        let at = top.equilibrium.clone();
+    fn peak(&self, k: usize, top: Curve) -> Result<Peak, Error> {
+        let at = top.point.equilibrium.clone();
         let stable = at.stability.holds() && modes(&at)?.stable();
-        let top = top.heard(0);
-        let square = top.square();
-        let bend = top.place_by_design();
-        let by_frequency = &top.line.frequency.slopes.by_design;
-        let frequency = by_frequency.iter().zip(&bend);
-        let frequency: Vector = frequency
-            .map(|(dw, du)| dw + top.frequency_slope() * du)
-            .collect();
-        let before = self.half_power(top, (0..k).rev())?;
-        let after = self.half_power(top, k..self.scan.states.len())?;
+        let (square, line) = (top.heard().square(), top.heard().line);
+        let place = top.place_by_design();
+        let by_design = top.frequency_by_design(&place);
+        let before = self.half_power(&top, (0..k).rev())?;
+        let after = self.half_power(&top, k..self.scan.states.len())?;
+        let [frequency, _] = line.frequency;
         let factor = match (&before, &after) {
-            (Ok(a), Ok(b)) => amplification((top.line.frequency.value, &frequency), [a, b]),
+            (Ok(a), Ok(b)) => amplification((frequency, &by_design), [a, b]),
             _ => None,
         };
         let moving = |value, by_design| Moving::new(value, by_design, self.tolerances);
@@ -294,13 +296,13 @@ impl Search<'_> {
             Err(missing) => missing,
         });
         Ok(Peak {
-            place: moving(top.point.value, bend),
+            place: moving(top.point.value, place),
             height: moving(
                 square.value.sqrt(),
                 top.modulus_by_design(&top.top_by_design()),
             ),
-            frequency: moving(top.line.frequency.value, frequency),
-            phase: top.line.amplitude.value.arg(),
+            frequency: moving(frequency, by_design),
+            phase: line.amplitude[0].arg(),
             half_power,
             amplification: factor.map(|(value, by_design)| moving(value, by_design)),
             stable,
@@ -311,14 +313,14 @@ impl Search<'_> {
     /// The half-power point on the way from a peak along these states, or why there is none.
     fn half_power(
         &self,
-        top: Heard<'_>,
+        top: &Curve,
         way: impl Iterator<Item = usize>,
     ) -> Result<Result<Half, HalfPower>, Error> {
-        let half = 0.5 * top.square().value;
-        let mut last = top;
+        let half = 0.5 * top.heard().square().value;
+        let mut last = top.heard();
         for (count, k) in way.enumerate() {
             let next = self.state(k);
-            let [from, to, at] = [last, next, top].map(|state| state.point.value);
+            let [from, to, at] = [last.point, next.point, &top.point].map(|point| point.value);
             let up = (to - at) * next.square().slope > 0.0;
             let onwards = (to > from) == self.ascending;
             let gap = if onwards { k } else { k + 1 };
@@ -326,45 +328,40 @@ impl Search<'_> {
                 break;
             }
             if next.square().value <= half {
-                return self.half(top, half, (last, next)).map(Ok);
+                return self.half(top, half, [last, next]).map(Ok);
             }
             if up {
-                let lowest = self.zero((last, next), |state| {
-                    let square = state.square();
-                    (square.slope, square.bend)
-                })?;
-                let lowest = lowest.heard(0);
-                if lowest.square().value > half {
+                let lowest = self.level([last, next])?;
+                if lowest.heard().square().value > half {
                     return Ok(Err(HalfPower::RisesAgain));
                 }
-                return self.half(top, half, (last, lowest)).map(Ok);
+                return self.half(top, half, [last, lowest.heard()]).map(Ok);
             }
             last = next;
         }
         Ok(Err(HalfPower::EndOfRange))
     }
 
-    fn half(
-        &self,
-        top: Heard<'_>,
-        half: f64,
-        between: (Heard<'_>, Heard<'_>),
-    ) -> Result<Half, Error> {
-        let zero = self.zero(between, |state| {
-            let square = state.square();
-            (square.value - half, square.slope)
+    fn half(&self, top: &Curve, half: f64, ends: [Heard<'_>; 2]) -> Result<Half, Error> {
+        let off = ends.map(|end| end.square().value - half);
+        let zero = self.zero(ends, off, |value, from| {
+            let state = self.along.vibration(value, from, self.which)?;
+            let square = state.heard(0).square();
+            let coordinates = state.equilibrium.coordinates.clone();
+            Ok((state, [square.value - half, square.slope], coordinates))
         })?;
-        let zero = zero.heard(0);
-        let slope = zero.square().slope;
+        let zero = self
+            .along
+            .curve(zero.value, &zero.equilibrium.coordinates, self.which)?;
+        let slope = zero.heard().square().slope;
         let (at_peak, at_half) = (top.top_by_design(), zero.square_by_design());
         let pairs = at_peak.iter().zip(&at_half);
         let by_design: Vector = pairs
             .map(|(peak, half)| (0.5 * peak - half) / slope)
             .collect();
-        let frequency = zero.line.frequency.slopes.by_design.iter().zip(&by_design);
-        let frequency = frequency.map(|(dw, du)| dw + zero.frequency_slope() * du);
+        let [frequency, _] = zero.heard().line.frequency;
         Ok(Half {
-            frequency: (zero.line.frequency.value, frequency.collect()),
+            frequency: (frequency, zero.frequency_by_design(&by_design)),
             place: Moving::new(zero.point.value, by_design, self.tolerances),
         })
     }

@@ -2,7 +2,7 @@
 //!
 //! As a function of the input, the squared amplitude has no finer features than the distance from `i w` to the nearest
 //! pole `s_j`, measured by how fast the two move relative to each other. A stretch along which they move by a small part
-//! of that distance is as good as a cubic; where the cubic through the slopes at its ends changes its sign twice, it is
+//! of that distance is as good as a cubic; where the cubic through both ends turns twice, it is
 //! divided all the same. A pole that the excitation does not reach, or the output does not see, has no residue and makes
 //! no peak. Few states suffice: the stretches shrink geometrically towards a resonance and no farther than
 //! its width.
@@ -21,6 +21,8 @@ const LEAST: f64 = 1e-4;
 const DIVISIONS: usize = 44;
 /// Most divisions towards a value at which there is no vibration.
 const TOWARDS_GAP: usize = 20;
+/// Relative rounding of a squared amplitude.
+const ROUNDING: f64 = 1e-12;
 /// Relative change of an amplitude along the shortest stretch that counts as none.
 const STILL: f64 = 1e-3;
 
@@ -165,6 +167,9 @@ fn division(a: &ResponsePoint, b: &ResponsePoint) -> Option<f64> {
 }
 
 fn division_of(a: Heard<'_>, b: Heard<'_>) -> Option<f64> {
+    if !a.line.audible && !b.line.audible {
+        return None;
+    }
     let mut approached = 0;
     for (from, to, back) in [(a, b, false), (b, a, true)] {
         let share = |share: f64| Some(if back { 1.0 - share } else { share });
@@ -195,7 +200,7 @@ fn division_of(a: Heard<'_>, b: Heard<'_>) -> Option<f64> {
     (!alone || turns_between(a, b)).then_some(0.5)
 }
 
-/// Whether the cubic through the slopes at both ends has a sign that neither end has.
+/// Whether the cubic through both ends has a slope whose sign neither end has.
 fn turns_between(a: Heard<'_>, b: Heard<'_>) -> bool {
     let h = b.point.value - a.point.value;
     let (first, last) = (a.square(), b.square());
@@ -203,12 +208,13 @@ fn turns_between(a: Heard<'_>, b: Heard<'_>) -> bool {
     if (f > 0.0) != (g > 0.0) {
         return false;
     }
-    let (df, dg) = (first.bend * h, last.bend * h);
+    let mean = (last.value - first.value) / h;
+    let rounding = ROUNDING * first.value.max(last.value) / h.abs();
     (1..8).any(|k| {
         let t = f64::from(k) / 8.0;
         let r = 1.0 - t;
-        let value = r * r * ((1.0 + 2.0 * t) * f + t * df) + t * t * ((3.0 - 2.0 * t) * g - r * dg);
-        (value > 0.0) != (f > 0.0)
+        let value = r * (r - 2.0 * t) * f + t * (t - 2.0 * r) * g + 6.0 * t * r * mean;
+        (value > 0.0) != (f > 0.0) && value.abs() > rounding
     })
 }
 

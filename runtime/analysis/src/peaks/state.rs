@@ -2,11 +2,11 @@
 
 use crate::algebra::Vector;
 use crate::equilibrium::{OperatingPoint, solve_into};
-use crate::forced::{Line, Measure, Vibration, along_input, resonance};
+use crate::forced::{CurvingLine, Line, Lines, Vibration, Wanted, resonance};
 use crate::kernels::CurvatureKernels;
 use crate::modes::{Family, Modes};
 use crate::sweep::{Following, Range};
-use crate::{Complex, Equilibrium, Error, Input, Output, Watch};
+use crate::{Complex, Equilibrium, Error, Input, Watch};
 
 /// Where vibrations are looked for.
 pub(super) struct Along<'a> {
@@ -16,8 +16,7 @@ pub(super) struct Along<'a> {
     following: Following,
     input: Input,
     vibrations: &'a [Vibration],
-    /// Harmonic, output and measure of each vibration.
-    wanted: Vec<(usize, Output, Measure)>,
+    wanted: Vec<Wanted>,
     pub(super) watch: Watch<'a>,
 }
 
@@ -28,7 +27,6 @@ pub(super) struct ResponsePoint {
     /// The eigenvalues of the modes, 1/s; empty if only the vibrations were wanted.
     poles: Vec<Complex>,
     pub(super) lines: Vec<Line>,
-    pub(super) input: usize,
 }
 
 /// One vibration at one value of the input.
@@ -36,6 +34,13 @@ pub(super) struct ResponsePoint {
 pub(super) struct Heard<'a> {
     pub(super) point: &'a ResponsePoint,
     pub(super) line: &'a Line,
+}
+
+/// A single vibration at one value of the input, and how it changes with the design.
+pub(super) struct Curve {
+    pub(super) point: ResponsePoint,
+    curving: CurvingLine,
+    input: usize,
 }
 
 impl<'a> Along<'a> {
@@ -69,32 +74,60 @@ impl<'a> Along<'a> {
 
     /// The state at a value of the input, on the branch of the equilibrium `from`, with its poles.
     pub(super) fn state(&self, value: f64, from: &[f64]) -> Result<ResponsePoint, Error> {
-        self.solved(value, from, (&self.wanted, true))
+        let (equilibrium, modes) = self.equilibrium(value, from, true)?;
+        let lines = Lines::new(self.mechanism, &equilibrium, self.input.index())?;
+        let each = self.wanted.iter();
+        let lines = each.map(|wanted| lines.line(*wanted, &modes.modes));
+        Ok(ResponsePoint {
+            value,
+            lines: lines.collect::<Result<_, Error>>()?,
+            poles: modes.modes.iter().map(|mode| mode.s).collect(),
+            equilibrium,
+        })
     }
 
-    /// Like [`Self::state`], with one vibration and without poles.
+    /// The state with one vibration and without poles.
     pub(super) fn vibration(
         &self,
         value: f64,
         from: &[f64],
         which: usize,
     ) -> Result<ResponsePoint, Error> {
-        self.solved(value, from, (&self.wanted[which..=which], false))
+        let (equilibrium, _) = self.equilibrium(value, from, false)?;
+        let lines = Lines::new(self.mechanism, &equilibrium, self.input.index())?;
+        Ok(ResponsePoint {
+            value,
+            lines: vec![lines.line(self.wanted[which], &[])?],
+            poles: Vec::new(),
+            equilibrium,
+        })
+    }
+
+    /// The same, and how it changes.
+    pub(super) fn curve(&self, value: f64, from: &[f64], which: usize) -> Result<Curve, Error> {
+        let point = self.vibration(value, from, which)?;
+        let input = self.input.index();
+        let lines = Lines::new(self.mechanism, &point.equilibrium, input)?;
+        Ok(Curve {
+            curving: lines.curving(self.wanted[which])?,
+            input,
+            point,
+        })
     }
 
     /// The error for a vibration whose amplitude is infinite next to a state.
     pub(super) fn resonance(&self, which: usize, state: &ResponsePoint) -> Error {
         let with = self.vibrations[which].excitation.index();
-        let frequency = state.lines[which].frequency.value;
+        let [frequency, _] = state.lines[which].frequency;
         resonance(&state.equilibrium, with, frequency)
     }
 
-    fn solved(
+    fn equilibrium(
         &self,
         value: f64,
         from: &[f64],
-        (wanted, poles): (&[(usize, Output, Measure)], bool),
-    ) -> Result<ResponsePoint, Error> {
+        poles: bool,
+    ) -> Result<(Equilibrium, Modes), Error> {
         if self.watch.stopped() {
             return Err(Error::Stopped);
         }
@@ -111,24 +144,15 @@ impl<'a> Along<'a> {
         if poles {
             modes.solve_at(&at, judged)?;
         }
-        let of_state = (&at, &modes.modes[..]);
-        let lines = along_input(self.mechanism, of_state, wanted, self.input.index())?;
         self.watch.advance(1);
-        Ok(ResponsePoint {
-            value,
-            poles: modes.modes.iter().map(|mode| mode.s).collect(),
-            equilibrium: at,
-            lines,
-            input: self.input.index(),
-        })
+        Ok((at, modes))
     }
 }
 
-/// The square of the modulus of the amplitude and its derivatives: `A`, `dA/du`, `d2A/du2` with the input `u`.
+/// The square of the modulus of the amplitude, `A`, and `dA/du` with the input `u`.
 pub(super) struct Square {
     pub(super) value: f64,
     pub(super) slope: f64,
-    pub(super) bend: f64,
 }
 
 impl ResponsePoint {
@@ -141,49 +165,48 @@ impl ResponsePoint {
     }
 }
 
-impl<'a> Heard<'a> {
-    pub(super) fn square(&self) -> Square {
-        let (y, u) = (self.line.amplitude.value, self.point.input);
-        let dy = self.line.amplitude.slopes.by_input[u];
-        let ddy = self.line.amplitude.along.by_input[u];
-        Square {
-            value: y.norm_sqr(),
-            slope: 2.0 * (y.conj() * dy).re,
-            bend: 2.0 * (dy.norm_sqr() + (y.conj() * ddy).re),
-        }
+impl Curve {
+    pub(super) fn heard(&self) -> Heard<'_> {
+        self.point.heard(0)
+    }
+
+    /// `d2A/du2`.
+    pub(super) fn bend(&self) -> f64 {
+        let [y, dy] = self.heard().line.amplitude;
+        let ddy = self.curving.amplitude.along.by_input[self.input];
+        2.0 * (dy.norm_sqr() + (y.conj() * ddy).re)
     }
 
     /// `dA/db` for each design variable.
     pub(super) fn square_by_design(&self) -> Vector {
-        let y = self.line.amplitude.value.conj();
-        let slopes = self.line.amplitude.slopes.by_design.iter();
+        let y = self.heard().line.amplitude[0].conj();
+        let slopes = self.curving.amplitude.slopes.by_design.iter();
         slopes.map(|dy| 2.0 * (y * dy).re).collect()
     }
 
     /// `d2A/(du db)` for each design variable.
     pub(super) fn bend_by_design(&self) -> Vector {
-        let (y, amplitude) = (self.line.amplitude.value.conj(), &self.line.amplitude);
-        let along = amplitude.slopes.by_input[self.point.input].conj();
-        let each = amplitude
+        let [y, along] = self.heard().line.amplitude.map(|y| y.conj());
+        let curving = &self.curving.amplitude;
+        let each = curving
             .slopes
             .by_design
             .iter()
-            .zip(&amplitude.along.by_design);
+            .zip(&curving.along.by_design);
         each.map(|(dy, ddy)| 2.0 * (along * dy + y * ddy).re)
             .collect()
     }
 
     /// The derivatives of the modulus by the design, of those of its square.
     pub(super) fn modulus_by_design(&self, square: &Vector) -> Vector {
-        let modulus = self.line.amplitude.value.norm();
+        let modulus = self.heard().line.amplitude[0].norm();
         square.map(|value| value / (2.0 * modulus))
     }
 
     /// The derivatives by the design of the square at the peak next to here: as if its place were exact, where a sharp
     /// peak leaves nothing of the digits of its place.
     pub(super) fn top_by_design(&self) -> Vector {
-        let square = self.square();
-        let off = square.slope / square.bend;
+        let off = self.heard().square().slope / self.bend();
         let pairs = self
             .square_by_design()
             .into_iter()
@@ -193,18 +216,30 @@ impl<'a> Heard<'a> {
 
     /// How far a peak here moves with the design.
     pub(super) fn place_by_design(&self) -> Vector {
-        let bend = self.square().bend;
+        let bend = self.bend();
         self.bend_by_design().map(|value| -value / bend)
     }
 
-    /// `dw/du`.
-    pub(super) fn frequency_slope(&self) -> f64 {
-        self.line.frequency.slopes.by_input[self.point.input]
+    /// How the frequency moves with the design at a place that moves so.
+    pub(super) fn frequency_by_design(&self, place: &Vector) -> Vector {
+        let [_, slope] = self.heard().line.frequency;
+        let here = self.curving.frequency.slopes.by_design.iter().zip(place);
+        here.map(|(dw, du)| dw + slope * du).collect()
+    }
+}
+
+impl<'a> Heard<'a> {
+    pub(super) fn square(&self) -> Square {
+        let [y, dy] = self.line.amplitude;
+        Square {
+            value: y.norm_sqr(),
+            slope: 2.0 * (y.conj() * dy).re,
+        }
     }
 
     /// How the poles that are heard here pass `i w` on the way to another state.
     pub(super) fn passages(self, to: Self) -> impl Iterator<Item = Passage> + 'a {
-        let [w, w_there] = [self, to].map(|state| state.line.frequency.value);
+        let [w, w_there] = [self, to].map(|state| state.line.frequency[0]);
         let poles = self.point.poles.iter().zip(&self.line.residues);
         let heard = poles.filter(|(s, residue)| **residue > QUIET * s.re.abs());
         heard.map(move |(&s, _)| {

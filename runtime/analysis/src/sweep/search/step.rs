@@ -418,7 +418,9 @@ impl<'a, 'b> Step<'a, 'b> {
         let (from, to) = (self.ends[0], self.ends[1]);
         let position = match self.node(found.t) {
             Some(node) => node.point.place.clone(),
-            None => from.frame.place(&from.frame.local(&to.place).scaled(found.t)),
+            None => from
+                .frame
+                .place(&from.frame.local(&to.place).scaled(found.t)),
         };
         let side = usize::from(found.rises != Some(false));
         let beside = self.node(found.sides[side].t)?;
@@ -427,9 +429,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let mode = modes.min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
         let real = |shape: &[Complex]| shape.iter().map(|x| x.re).collect::<Vector>();
         let shapes = (&*real(&mode.shape), &*real(mode.left()));
-        let special = self
-            .curve
-            .degenerate(&position, &from.frame, shapes, zero);
+        let special = self.curve.degenerate(&position, &from.frame, shapes, zero);
         special.ok()
     }
 
