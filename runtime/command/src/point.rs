@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use eigentol::equilibrium::Search;
+use eigentol::judge;
 use eigentol::{
     Coordinate, CoordinateInfo, Description, DesignVariable, Input, Law, Matrix, Parameter, Role,
     Study, Text, ToleranceInfo, Unit,
@@ -122,6 +123,15 @@ pub(crate) fn samples(option: Option<usize>, file: &StudyFile) -> Result<usize, 
             Err(Failure::usage("0 samples have no result", help))
         }
         count => Ok(count),
+    }
+}
+
+impl Question {
+    /// The number of samples of an answer that is not about samples: fewer than usual where each is costly.
+    pub(crate) fn few_samples(&self, option: Option<usize>) -> Result<usize, Failure> {
+        let modes = self.study.modes();
+        let usual = modes.map_or(3000, |modes| judge::affordable(&modes));
+        samples(option.or(self.file.samples).or(Some(usual)), &self.file)
     }
 }
 

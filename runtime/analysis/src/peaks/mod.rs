@@ -15,7 +15,7 @@ pub(crate) use highest::highest;
 pub use separation::{Separation, SeparationMargin};
 
 use scan::{Scan, scan};
-use state::{Along, Curve, Heard};
+use state::{Along, Curve, Heard, Square};
 
 use crate::algebra::Vector;
 use crate::forced::Vibration;
@@ -196,6 +196,8 @@ struct Half {
     frequency: (f64, Vector),
 }
 
+/// Share of the length of its features to which a zero is found.
+const EXACT: f64 = 1e-11;
 /// Most steps of a search for a zero.
 const STEPS: usize = 80;
 
@@ -233,20 +235,21 @@ impl Search<'_> {
         let slopes = ends.map(|end| end.square().slope);
         self.zero(ends, slopes, |value, from| {
             let curve = self.along.curve(value, from, self.which)?;
-            let jet = [curve.heard().square().slope, curve.bend()];
+            let Square { value, slope } = curve.heard().square();
+            let jet = [slope, curve.bend(), (value / curve.bend()).abs().sqrt()];
             let coordinates = curve.point.equilibrium.coordinates.clone();
             Ok((curve, jet, coordinates))
         })
     }
 
     /// The zero of a function between two states at which it has opposite signs; `solve` returns a state, the function
-    /// with its derivative, and the coordinates: Newton's steps as long as they stay between the signs and shrink, else
-    /// halves.
+    /// with its derivative and the length of its features, and the coordinates: Newton's steps as long as they stay
+    /// between the signs and shrink, else halves.
     fn zero<P>(
         &self,
         ends: [Heard<'_>; 2],
         at_ends: [f64; 2],
-        solve: impl Fn(f64, &[f64]) -> Result<(P, [f64; 2], Vector), Error>,
+        solve: impl Fn(f64, &[f64]) -> Result<(P, [f64; 3], Vector), Error>,
     ) -> Result<P, Error> {
         let [mut low, mut high] = ends.map(|end| end.point.value);
         let positive = at_ends[0] > 0.0;
@@ -254,13 +257,13 @@ impl Search<'_> {
         let mut value = low + (high - low) * at_ends[0] / (at_ends[0] - at_ends[1]);
         let mut from = ends[0].point.equilibrium.coordinates.clone();
         for left in (0..STEPS).rev() {
-            let (state, [f, df], coordinates) = solve(value, &from)?;
+            let (state, [f, df, length], coordinates) = solve(value, &from)?;
             if (f > 0.0) == positive {
                 low = value;
             } else {
                 high = value;
             }
-            let enough = 4.0 * f64::EPSILON * value.abs();
+            let enough = f64::max(4.0 * f64::EPSILON * value.abs(), EXACT * length.abs());
             let newton = value - f / df;
             let found = f == 0.0 || (f / df).abs() <= enough || (high - low).abs() <= enough;
             if found || left == 0 {
@@ -346,9 +349,9 @@ impl Search<'_> {
         let off = ends.map(|end| end.square().value - half);
         let zero = self.zero(ends, off, |value, from| {
             let state = self.along.vibration(value, from, self.which)?;
-            let square = state.heard(0).square();
+            let Square { value, slope } = state.heard(0).square();
             let coordinates = state.equilibrium.coordinates.clone();
-            Ok((state, [square.value - half, square.slope], coordinates))
+            Ok((state, [value - half, slope, value / slope], coordinates))
         })?;
         let zero = self
             .along

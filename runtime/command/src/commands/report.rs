@@ -7,7 +7,7 @@ use crate::destination::Destination;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::picture::Wording;
-use crate::point::{Point, Question, exact, samples, whole};
+use crate::point::{Point, Question, exact, whole};
 use crate::progress;
 use crate::requirements::named_pair;
 use crate::sweep::{Orders, Points, Sweep};
@@ -27,7 +27,7 @@ pub(crate) struct Report {
     /// Two outputs whose orbits are drawn, `shake,lift`; may be given several times
     #[arg(long = "orbit", value_name = "OUTPUTS")]
     orbits: Vec<String>,
-    /// Number of Monte Carlo samples [default: 3000]
+    /// Number of Monte Carlo samples [default: 3000; fewer where each is costly]
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
     /// Seed of the samples [default: 0]
@@ -65,7 +65,7 @@ impl Report {
         let file = &question.file;
         let bar = progress::bar("samples, values and points", None);
         let study = progress::watched(question.study.clone(), &bar)
-            .samples(samples(self.samples, file)?)
+            .samples(question.few_samples(self.samples)?)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let orders = self.orders.along(range.as_ref(), &question)?;

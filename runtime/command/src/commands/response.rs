@@ -12,7 +12,7 @@ use crate::diagnostics;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
-use crate::point::{Point, Question, samples, whole};
+use crate::point::{Point, Question, whole};
 use crate::progress;
 use crate::requirements::{named_orbit, named_vibration};
 use crate::sweep::{Points, Range, Sweep, range, unswept};
@@ -34,7 +34,7 @@ pub(crate) struct Response {
     /// Bands of the amplitudes under tolerances
     #[arg(long)]
     bands: bool,
-    /// Number of samples of a band [default: 3000]
+    /// Number of samples of a band [default: 3000; fewer where each is costly]
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true, requires = "bands")]
     samples: Option<usize>,
     /// Number of designs solved anew to check each band along an input [default: 64]
@@ -70,7 +70,7 @@ impl Response {
             Some(text) => vec![named_vibration(&question.study, text)?],
             None => Vibration::all(question.study.description()),
         };
-        let number = samples(self.samples, &question.file)?;
+        let number = question.few_samples(self.samples)?;
         question.study = question.study.samples(number);
         if self.orbit.is_some() && self.sweep.range_if_any(&question)?.is_some() {
             let message = "an orbit is drawn at one operating point, not along an input";

@@ -14,6 +14,17 @@ const STEPS: f64 = 4.0;
 /// Time of a vectorised operation relative to a scalar one.
 const SIDE_BY_SIDE: f64 = 0.25;
 
+/// Number of samples whose results are not rough.
+const ENOUGH: usize = 200;
+/// Operations spent on samples that nobody counted: about a second.
+const UNCOUNTED: f64 = 7e8;
+
+/// A number of samples with modes like these that takes about a second: 3000, or fewer, but at least 200.
+pub fn affordable(modes: &Modes) -> usize {
+    let most = UNCOUNTED / operations(modes, together(modes));
+    (most as usize).clamp(ENOUGH, 3000)
+}
+
 /// Whether samples may be solved in vectorised blocks.
 pub(crate) fn together(modes: &Modes) -> bool {
     side_by_side_possible(&modes.description, modes.family)

@@ -33,7 +33,7 @@ pub use distances::TRUSTED_SIGMA_ERROR;
 pub use judged::{Judged, Judgement, TRUSTED_PROBABILITY_ERROR, Unjudged};
 
 pub(crate) use answer::{chance, judged, verdict};
-pub use cost::BUDGET;
+pub use cost::{BUDGET, affordable};
 pub(crate) use cost::{operations, together};
 pub(crate) use distances::{distances, doubts_of_models};
 pub(crate) use event::{Distance, Event, Lines};
