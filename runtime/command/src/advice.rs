@@ -5,12 +5,20 @@ use std::sync::OnceLock;
 use eigentol::kernels::PictureKernels as _;
 use eigentol::{Error, Role};
 use eigentol_interpreter::Interpreted;
+use eigentol_tables::{Table, Values};
+
+use crate::diagnostics;
+use crate::failure::plural;
 
 /// Beams without `stretch` of the machine that the command is about, if its loops could hold them at both ends.
 static INEXTENSIBLE: OnceLock<Vec<String>> = OnceLock::new();
 
+/// How many of the first modes of that machine have coordinates enough by the rule, if it has beams.
+static GOOD: OnceLock<Option<usize>> = OnceLock::new();
+
 /// Remembers the machine.
 pub(crate) fn remember(machine: &Interpreted) {
+    let _ = GOOD.set(machine.good_modes());
     let d = eigentol::kernels::Kernels::description(machine);
     let unknowns = || d.coordinates.iter();
     let stretches = |beam: &str| {
@@ -27,6 +35,42 @@ pub(crate) fn remember(machine: &Interpreted) {
     let closed = unknowns().any(|x| x.role == Role::PositionReaction);
     let inextensible = beams.filter(|beam| closed && !stretches(beam)).collect();
     let _ = INEXTENSIBLE.set(inextensible);
+}
+
+/// The last mode, counted from 1, that the rows of tables rest on: the one that they name, and at least the first for
+/// critical values and peaks; 0 if none.
+pub(crate) fn last_mode(tables: &[Table]) -> usize {
+    let last = |table: &Table| {
+        let named = table.column("mode").map(|column| &column.values);
+        match named {
+            Some(Values::Whole(modes)) => {
+                let last = modes.iter().flatten().max();
+                last.map_or(0, |last| usize::try_from(*last).unwrap_or(0))
+            }
+            _ => usize::from(matches!(&*table.name, "critical states" | "peaks")),
+        }
+    };
+    tables.iter().map(last).max().unwrap_or(0)
+}
+
+/// Says that an answer rests on modes up to `last`, if beams have fewer good ones.
+pub(crate) fn on_beams(last: usize) {
+    let Some(Some(good)) = GOOD.get() else {
+        return;
+    };
+    if last > *good {
+        let modes = plural(*good, "mode", "modes");
+        diagnostics::note(&format!(
+            "m modes of a plane of bending take 1.5 m + 2 coordinates: by this rule the beams have enough for {good} \
+             {modes}; `eigentol converge` tells how far each mode changes with more, and with `--sweep` critical \
+             values, onsets and peaks"
+        ));
+    }
+}
+
+/// Whether the machine has beams, so that answers rest on the number of their coordinates.
+pub(crate) fn has_beams() -> bool {
+    matches!(GOOD.get(), Some(Some(_)))
 }
 
 /// Advice on a failure of that machine.

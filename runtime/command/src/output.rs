@@ -145,6 +145,8 @@ impl Output {
 
     pub(crate) fn write(&self, answer: &Answer) -> Result<(), Failure> {
         let content = answer.written(self.result.as_deref(), self.table.as_deref())?;
-        self.place.write_bytes(&content)
+        self.place.write_bytes(&content)?;
+        answer.advise();
+        Ok(())
     }
 }

@@ -348,8 +348,15 @@ impl Study {
             py,
             answer
                 .into_iter()
-                .map(|whirl| whirl.map(|whirl| whirl.ratio)),
+                .map(|whirl| whirl.and_then(|whirl| whirl.ratio)),
         ))
+    }
+
+    /// Kind of each mode, "lateral", "torsional", "axial", "mixed" or "blade"; None where nothing that spins moves.
+    fn kinds(&self, py: Python<'_>) -> PyResult<Vec<Option<String>>> {
+        let answer = self.ask(py, |study| study.whirls())?;
+        let kind = |whirl: Option<eigentol::modes::Whirl>| Some(whirl?.kind.to_string());
+        Ok(answer.into_iter().map(kind).collect())
     }
 
     /// First and second derivatives of one mode, counted from 0.

@@ -9,10 +9,12 @@ use crate::kernels::{
     CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels,
 };
 use crate::picture::{self, ModePictures, Scene, VibrationPictures};
+use crate::response::{Response, Vibration};
 use crate::second_order::{self, ModeCurvature, OutputCurvature, SecondOrder};
 use crate::shapes::{self, ShapeSensitivity};
 use crate::summary::{self, BUDGET, Summary};
-use crate::{Equilibrium, Error, Excitation, Output};
+use crate::sweep::{Line, Range};
+use crate::{Equilibrium, Error, Excitation, Input, Output};
 
 impl<M: Kernels> Study<M> {
     /// How far outputs, frequencies and damping ratios change with more coordinates of beams
@@ -24,16 +26,62 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`].
     pub fn convergence<N: Kernels>(&self, refined: [N; 2]) -> Result<Convergence, Error> {
-        let state = self.settings.equilibrium(&self.mechanism)?;
-        let refined = refined.map(|mechanism| Study {
-            settings: self.settings.of(mechanism.description(), state),
-            mechanism,
-        });
-        let [one, two] = &refined;
+        let [one, two] = &self.refined(refined)?;
         Ok(convergence::convergence(
             self.solution()?,
             [one.solution()?, two.solution()?],
         ))
+    }
+
+    /// Like [`Study::convergence`], with what is found along an input between `low` and `high`: critical values, where
+    /// frequencies meet `lines`, onsets of flutter, and the highest peaks of vibration ([`convergence::along`]).
+    ///
+    /// # Errors
+    /// As [`Study::modes`], [`Study::campbell`] and [`Study::peaks`].
+    pub fn convergence_along<N: CurvatureKernels>(
+        &self,
+        refined: [N; 2],
+        range: Range<M>,
+        lines: &[Line],
+    ) -> Result<Convergence, Error>
+    where
+        M: CurvatureKernels,
+    {
+        let refined = self.refined(refined)?;
+        let [one, two] = &refined;
+        let convergence =
+            convergence::convergence(self.solution()?, [one.solution()?, two.solution()?]);
+        let range = range.any();
+        let declared = self.answers_along(range, lines)?;
+        let [one, two] = [
+            one.answers_along(range, lines)?,
+            two.answers_along(range, lines)?,
+        ];
+        Ok(convergence.with(&declared, [&one, &two]))
+    }
+
+    fn answers_along(&self, range: Range, lines: &[Line]) -> Result<Vec<(Response, f64)>, Error>
+    where
+        M: CurvatureKernels,
+    {
+        let input = Input::new(range.input.index());
+        let (low, high) = (range.low, range.high);
+        let found = self.campbell(input, &[low, high], lines)?;
+        let vibrations = Vibration::all(self.description());
+        let peaks = match vibrations.is_empty() {
+            true => Vec::new(),
+            false => self.peaks_of(&vibrations, input, low, high)?,
+        };
+        Ok(convergence::along(&found, &peaks, range))
+    }
+
+    /// Studies of mechanisms with more coordinates, next to the equilibrium of this one.
+    fn refined<N: Kernels>(&self, refined: [N; 2]) -> Result<[Study<N>; 2], Error> {
+        let state = self.settings.equilibrium(&self.mechanism)?;
+        Ok(refined.map(|mechanism| Study {
+            settings: self.settings.of(mechanism.description(), state),
+            mechanism,
+        }))
     }
 
     fn solution(&self) -> Result<Solved<'_>, Error> {

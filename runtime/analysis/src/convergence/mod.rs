@@ -3,9 +3,12 @@
 mod answer;
 
 use crate::algebra::Vector;
+use crate::campbell::Campbell;
 use crate::kernels::Kernels;
+use crate::peaks::{Peak, PeakQuantity, Peaks};
 use crate::response::Response;
 use crate::sensitivity::Quantity;
+use crate::sweep::{Event, EventTolerance, Range};
 use crate::{Behaviour, Description, Equilibrium, Mode, Modes, Output, Shared};
 use eigentol_results::relevance::{largest, unless_rounding};
 
@@ -15,7 +18,7 @@ use eigentol_results::relevance::{largest, unless_rounding};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Convergence {
-    /// Frequencies and damping ratios of the modes that oscillate, then outputs.
+    /// Frequencies and damping ratios of the modes that oscillate, then outputs, then what is found along an input.
     pub changes: Vec<Change>,
     /// The inputs they belong to, SI.
     pub inputs: Vector,
@@ -57,7 +60,79 @@ impl Change {
     }
 }
 
+/// What is found along an input, with the modes numbered as at the low end: the first critical value, where each mode
+/// first meets each line and first starts or ceases to grow, and the highest peak of each vibration.
+#[must_use]
+pub fn along(found: &Campbell, peaks: &[Peaks], range: Range) -> Vec<(Response, f64)> {
+    let mut answers: Vec<(Response, f64)> = Vec::new();
+    let crossings = found.crossings.iter().chain(&found.not_excited);
+    for event in (found.critical.iter())
+        .chain(crossings)
+        .chain(&found.flutter_onsets)
+    {
+        let EventTolerance { event, value, .. } = event;
+        let answer = match *event {
+            Event::Critical => Response::Critical(range),
+            Event::Crossing {
+                mode, condition, ..
+            } => Response::Crossing {
+                mode,
+                condition,
+                range,
+            },
+        };
+        if answers.iter().all(|(other, _)| *other != answer) {
+            answers.push((answer, *value));
+        }
+    }
+    for found in peaks {
+        let highest = |a: &&Peak, b: &&Peak| a.height.value.total_cmp(&b.height.value);
+        let Some(peak) = found.peaks.iter().max_by(highest) else {
+            continue;
+        };
+        for (quantity, value) in [
+            (PeakQuantity::Place, peak.place.value),
+            (PeakQuantity::Height, peak.height.value),
+        ] {
+            let vibration = found.vibration;
+            let answer = Response::Peak {
+                vibration,
+                range,
+                quantity,
+            };
+            answers.push((answer, value));
+        }
+    }
+    answers
+}
+
 impl Convergence {
+    /// Adds the changes of answers that [`along`] an input are found with the declared coordinates and with more. What
+    /// modes do is compared in the order in which it is found.
+    #[must_use]
+    pub fn with(mut self, declared: &[(Response, f64)], refined: [&[(Response, f64)]; 2]) -> Self {
+        let unnumbered = |answer: Response| match answer {
+            Response::Crossing {
+                condition, range, ..
+            } => Response::Crossing {
+                mode: 0,
+                condition,
+                range,
+            },
+            _ => answer,
+        };
+        let alike = |all: &[(Response, f64)], answer| -> Vec<f64> {
+            let alike = all.iter().filter(|(other, _)| unnumbered(*other) == answer);
+            alike.map(|(_, value)| *value).collect()
+        };
+        for (k, (answer, value)) in declared.iter().enumerate() {
+            let place = alike(&declared[..k], unnumbered(*answer)).len();
+            let others = refined.map(|all| alike(all, unnumbered(*answer)).get(place).copied());
+            self.changes.push(change(*answer, *value, others));
+        }
+        self
+    }
+
     /// The changes of the first modes that oscillate alone, as many as these, and of the outputs.
     #[must_use]
     pub fn of_first(mut self, modes: usize) -> Self {
