@@ -1206,6 +1206,9 @@ class Convergence(_Result):
         """What one and two more coordinates add, relative to the larger of the two values compared, shape (k, 2); NaN
         where the answer no longer exists.
         """
+    @property
+    def without_peaks(self) -> str | None:
+        """Why peaks along an input are not compared: a text, or None."""
 
 @final
 class Equilibrium(_Result):
@@ -2380,9 +2383,16 @@ class Study:
         """How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
         measure) as `response` takes them.
         """
-    def converge(self, modes: int | None = None) -> Convergence:
+    def converge(
+        self,
+        modes: int | None = None,
+        along: tuple[Any, ...] | None = None,
+        orders: Sequence[float] = ...,
+    ) -> Convergence:
         """How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
-        one and with two more coordinates of each component of the beams. Raises InvalidValue where there is no beam.
+        one and with two more coordinates of each component of the beams. `along`, the tuple of an input and two values
+        of it, SI or texts with units, adds the first critical value between them, onsets of flutter, where frequencies meet
+        `orders`, and the highest peaks. Raises InvalidValue where there is no beam.
         """
     def bode(self, input: str, values: ArrayLike, unit: str | None = None) -> Bode:
         """Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,

@@ -93,9 +93,9 @@ impl Answer {
         Ok(())
     }
 
-    /// Notes what beams are too coarse for.
-    pub(crate) fn advise(&self) {
-        advice::on_beams(self.last_mode);
+    /// What beams are too coarse for.
+    pub(crate) fn advice(&self) -> Option<String> {
+        advice::on_beams(self.last_mode)
     }
 
     /// Adds a result whose text is shown only on request, because another result already includes it.

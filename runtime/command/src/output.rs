@@ -8,6 +8,7 @@ use eigentol_tables::Table;
 
 use crate::answer::{Answer, Form};
 use crate::destination::{Destination, is_same};
+use crate::diagnostics;
 use crate::failure::Failure;
 use crate::rows::Rows;
 
@@ -146,7 +147,9 @@ impl Output {
     pub(crate) fn write(&self, answer: &Answer) -> Result<(), Failure> {
         let content = answer.written(self.result.as_deref(), self.table.as_deref())?;
         self.place.write_bytes(&content)?;
-        answer.advise();
+        if let Some(advice) = answer.advice() {
+            diagnostics::note(&advice);
+        }
         Ok(())
     }
 }

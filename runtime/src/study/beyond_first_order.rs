@@ -8,6 +8,7 @@ use crate::forced;
 use crate::kernels::{
     CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels,
 };
+use crate::peaks::Peaks;
 use crate::picture::{self, ModePictures, Scene, VibrationPictures};
 use crate::response::{Response, Vibration};
 use crate::second_order::{self, ModeCurvature, OutputCurvature, SecondOrder};
@@ -34,10 +35,10 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Like [`Study::convergence`], with what is found along an input between `low` and `high`: critical values, where
-    /// frequencies meet `lines`, onsets of flutter, and the highest peaks of vibration ([`convergence::along`]).
+    /// frequencies meet `lines`, onsets of flutter, and the highest peaks of vibration ([`convergence::first_events`], [`convergence::highest_peaks`]).
     ///
     /// # Errors
-    /// As [`Study::modes`], [`Study::campbell`] and [`Study::peaks`].
+    /// As [`Study::modes`] and [`Study::campbell`]; that of [`Study::peaks`] is part of the result.
     pub fn convergence_along<N: CurvatureKernels>(
         &self,
         refined: [N; 2],
@@ -52,27 +53,46 @@ impl<M: Kernels> Study<M> {
         let convergence =
             convergence::convergence(self.solution()?, [one.solution()?, two.solution()?]);
         let range = range.any();
-        let declared = self.answers_along(range, lines)?;
-        let [one, two] = [
-            one.answers_along(range, lines)?,
-            two.answers_along(range, lines)?,
+        let mut answers = [
+            self.events_along(range, lines)?,
+            one.events_along(range, lines)?,
+            two.events_along(range, lines)?,
         ];
-        Ok(convergence.with(&declared, [&one, &two]))
+        let peaks = || -> Result<[Vec<Peaks>; 3], Error> {
+            let [one, two] = [one.all_peaks(range)?, two.all_peaks(range)?];
+            Ok([self.all_peaks(range)?, one, two])
+        };
+        let peaks = peaks();
+        for (answers, peaks) in answers.iter_mut().zip(peaks.iter().flatten()) {
+            answers.extend(convergence::highest_peaks(peaks, range));
+        }
+        let [declared, one, two] = &answers;
+        let mut convergence = convergence.with(declared, [one, two]);
+        convergence.without_peaks = peaks.err();
+        Ok(convergence)
     }
 
-    fn answers_along(&self, range: Range, lines: &[Line]) -> Result<Vec<(Response, f64)>, Error>
+    fn events_along(&self, range: Range, lines: &[Line]) -> Result<Vec<(Response, f64)>, Error>
     where
         M: CurvatureKernels,
     {
         let input = Input::new(range.input.index());
-        let (low, high) = (range.low, range.high);
-        let found = self.campbell(input, &[low, high], lines)?;
+        let found = self.campbell(input, &[range.low, range.high], lines)?;
+        Ok(convergence::first_events(&found, range))
+    }
+
+    fn all_peaks(&self, range: Range) -> Result<Vec<Peaks>, Error>
+    where
+        M: CurvatureKernels,
+    {
         let vibrations = Vibration::all(self.description());
-        let peaks = match vibrations.is_empty() {
-            true => Vec::new(),
-            false => self.peaks_of(&vibrations, input, low, high)?,
-        };
-        Ok(convergence::along(&found, &peaks, range))
+        match vibrations.is_empty() {
+            true => Ok(Vec::new()),
+            false => {
+                let input = Input::new(range.input.index());
+                self.peaks_of(&vibrations, input, range.low, range.high)
+            }
+        }
     }
 
     /// Studies of mechanisms with more coordinates, next to the equilibrium of this one.

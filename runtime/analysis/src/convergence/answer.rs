@@ -42,6 +42,9 @@ impl Answer for Convergence {
         for verdict in [self.of_modes(), self.of_others()].into_iter().flatten() {
             said.note(verdict);
         }
+        if let Some(error) = &self.without_peaks {
+            said.note(format!("Peaks are not compared: {error}"));
+        }
         said
     }
 }

@@ -9,7 +9,7 @@ use crate::peaks::{Peak, PeakQuantity, Peaks};
 use crate::response::Response;
 use crate::sensitivity::Quantity;
 use crate::sweep::{Event, EventTolerance, Range};
-use crate::{Behaviour, Description, Equilibrium, Mode, Modes, Output, Shared};
+use crate::{Behaviour, Description, Equilibrium, Error, Mode, Modes, Output, Shared};
 use eigentol_results::relevance::{largest, unless_rounding};
 
 /// Outputs, frequencies and damping ratios with the declared coordinates of flexible bodies, and their changes with
@@ -20,6 +20,8 @@ use eigentol_results::relevance::{largest, unless_rounding};
 pub struct Convergence {
     /// Frequencies and damping ratios of the modes that oscillate, then outputs, then what is found along an input.
     pub changes: Vec<Change>,
+    /// Why peaks along an input are not compared, if they were asked for.
+    pub without_peaks: Option<Error>,
     /// The inputs they belong to, SI.
     pub inputs: Vector,
     /// The mechanism with the declared coordinates.
@@ -60,17 +62,18 @@ impl Change {
     }
 }
 
-/// What is found along an input, with the modes numbered as at the low end: the first critical value, where each mode
-/// first meets each line and first starts or ceases to grow, and the highest peak of each vibration.
+/// The first critical value along an input, and where each mode first meets each line and first starts or ceases to
+/// grow, with modes numbered as at the low end.
 #[must_use]
-pub fn along(found: &Campbell, peaks: &[Peaks], range: Range) -> Vec<(Response, f64)> {
+pub fn first_events(found: &Campbell, range: Range) -> Vec<(Response, f64)> {
     let mut answers: Vec<(Response, f64)> = Vec::new();
-    let crossings = found.crossings.iter().chain(&found.not_excited);
-    for event in (found.critical.iter())
-        .chain(crossings)
-        .chain(&found.flutter_onsets)
-    {
-        let EventTolerance { event, value, .. } = event;
+    let lists = [
+        &found.critical,
+        &found.crossings,
+        &found.not_excited,
+        &found.flutter_onsets,
+    ];
+    for EventTolerance { event, value, .. } in lists.into_iter().flatten() {
         let answer = match *event {
             Event::Critical => Response::Critical(range),
             Event::Crossing {
@@ -85,16 +88,26 @@ pub fn along(found: &Campbell, peaks: &[Peaks], range: Range) -> Vec<(Response, 
             answers.push((answer, *value));
         }
     }
-    for found in peaks {
+    answers
+}
+
+/// Place and height of the highest peak of each vibration along an input.
+#[must_use]
+pub fn highest_peaks(found: &[Peaks], range: Range) -> Vec<(Response, f64)> {
+    let mut answers = Vec::new();
+    for Peaks {
+        vibration, peaks, ..
+    } in found
+    {
         let highest = |a: &&Peak, b: &&Peak| a.height.value.total_cmp(&b.height.value);
-        let Some(peak) = found.peaks.iter().max_by(highest) else {
+        let Some(peak) = peaks.iter().max_by(highest) else {
             continue;
         };
         for (quantity, value) in [
             (PeakQuantity::Place, peak.place.value),
             (PeakQuantity::Height, peak.height.value),
         ] {
-            let vibration = found.vibration;
+            let vibration = *vibration;
             let answer = Response::Peak {
                 vibration,
                 range,
@@ -107,7 +120,7 @@ pub fn along(found: &Campbell, peaks: &[Peaks], range: Range) -> Vec<(Response, 
 }
 
 impl Convergence {
-    /// Adds the changes of answers that [`along`] an input are found with the declared coordinates and with more. What
+    /// Adds the changes of answers that are found along an input with the declared coordinates and with more. What
     /// modes do is compared in the order in which it is found.
     #[must_use]
     pub fn with(mut self, declared: &[(Response, f64)], refined: [&[(Response, f64)]; 2]) -> Self {
@@ -181,6 +194,7 @@ pub fn convergence(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Convergenc
     changes.extend(of_outputs(declared, refined));
     Convergence {
         changes,
+        without_peaks: None,
         inputs: declared.state.inputs.clone(),
         description: declared.state.description.clone(),
     }

@@ -85,10 +85,10 @@ impl Campbell {
         match rows {
             Some(rows) => {
                 rows.finish()?;
-                advice::on_beams(modes);
                 let searched = found.searched.iter();
                 let searched = searched.flat_map(|x| x.sentences(d, input.any()));
-                for sentence in found.left_out().into_iter().chain(searched) {
+                let notes = found.left_out().into_iter().chain(searched);
+                for sentence in notes.chain(advice::on_beams(modes)) {
                     diagnostics::note(&sentence);
                 }
             }
