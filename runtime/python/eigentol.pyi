@@ -329,6 +329,11 @@ class Event(_Result):
         apply.
         """
     @property
+    def mode_kind(self) -> str | None:
+        """What the mode does there to bodies that spin: "lateral", "torsional", "axial", "mixed" or "blade"; None where
+        nothing spins.
+        """
+    @property
     def order(self) -> float | None:
         """Multiple of the input that a frequency meets in a crossing."""
     @property
@@ -1135,7 +1140,10 @@ class Campbell(_Result):
         """
     @property
     def crossings(self) -> list[Event]:
-        """Where a frequency meets a line, with spreads."""
+        """Where the frequency of a mode that something excites there meets a line, with spreads."""
+    @property
+    def not_excited(self) -> list[Event]:
+        """The other crossings: modes of shafts that no unbalance excites."""
     @property
     def critical(self) -> list[Event]:
         """Where the stable equilibrium loses its stiffness, with spreads."""
@@ -1148,6 +1156,11 @@ class Campbell(_Result):
     @property
     def whirl_senses(self) -> list[list[str | None]]:
         """The direction of each whirl, in words, a list for each value; None where it does not apply."""
+    @property
+    def kinds(self) -> list[list[str | None]]:
+        """The kind of each motion, "lateral", "torsional", "axial", "mixed" or "blade", a list for each value; None where
+        nothing spins.
+        """
     @property
     def clustered(self) -> Flags:
         """Whether each motion is nearly equal to another, so that its spreads mean nothing, shape (k, motions)."""
@@ -1193,6 +1206,9 @@ class Convergence(_Result):
         """What one and two more coordinates add, relative to the larger of the two values compared, shape (k, 2); NaN
         where the answer no longer exists.
         """
+    @property
+    def without_peaks(self) -> str | None:
+        """Why peaks along an input are not compared: a text, or None."""
 
 @final
 class Equilibrium(_Result):
@@ -2367,9 +2383,16 @@ class Study:
         """How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
         measure) as `response` takes them.
         """
-    def converge(self, modes: int | None = None) -> Convergence:
+    def converge(
+        self,
+        modes: int | None = None,
+        along: tuple[Any, ...] | None = None,
+        orders: Sequence[float] = ...,
+    ) -> Convergence:
         """How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
-        one and with two more coordinates of each component of the beams. Raises InvalidValue where there is no beam.
+        one and with two more coordinates of each component of the beams. `along`, the tuple of an input and two values
+        of it, SI or texts with units, adds the first critical value between them, onsets of flutter, where frequencies meet
+        `orders`, and the highest peaks. Raises InvalidValue where there is no beam.
         """
     def bode(self, input: str, values: ArrayLike, unit: str | None = None) -> Bode:
         """Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,
@@ -2407,6 +2430,8 @@ class Study:
         """Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; NaN where it
         does not apply.
         """
+    def kinds(self) -> list[str | None]:
+        """Kind of each mode, "lateral", "torsional", "axial", "mixed" or "blade"; None where nothing that spins moves."""
     def mode_curvature(self, mode: int) -> ModeCurvature:
         """First and second derivatives of one mode, counted from 0."""
     def output_curvature(self, output: str) -> OutputCurvature:

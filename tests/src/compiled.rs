@@ -153,7 +153,7 @@ impl Kernels for Compiled {
     fn whirl(&self, [q, u, b]: At, real: &[f64], imaginary: &[f64]) -> Vec<f64> {
         // As in the runtime: there is no such kernel where nothing rotates.
         if self.program.kernel("whirl").is_none() {
-            return vec![0.0; 2];
+            return vec![0.0; 7];
         }
         let [whirl] = self.evaluate("whirl", &[q, u, b, real, imaginary]);
         whirl

@@ -255,18 +255,19 @@ int32_t double_pendulum_residual_gradient(const double *q,
                                           double *by_design);
 
 /**
- * The sense in which the vibration `Re((real + i imaginary) e^(i w t))` circles, `w > 0`: of the two numbers the first
- * is positive where it runs with the spin, negative where it runs against it, at most as large as the second.
+ * How the vibration `Re((real + i imaginary) e^(i w t))`, `w > 0`, moves the bodies that spin: `moment`, `lateral`,
+ * `torsional`, `axial`, `eccentric`, `moving`, `still`. `moment` is positive where the vibration runs with the
+ * spin, negative where it runs against it, at most as large as `lateral`.
  *
  * Reads `q[2]`, `u[1]`, `b[2]`, `real[2]`, `imaginary[2]`.
- * Writes `moment_and_size[2]`.
+ * Writes `sums[7]`.
  */
 int32_t double_pendulum_whirl(const double *q,
                               const double *u,
                               const double *b,
                               const double *real,
                               const double *imaginary,
-                              double *moment_and_size);
+                              double *sums);
 
 /**
  * The declared outputs, SI.

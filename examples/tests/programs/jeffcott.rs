@@ -135,7 +135,7 @@ fn every_mode_solves_the_equations_written_by_hand() {
             near("damping", damping, -mode.s.re / mode.s.norm(), 1e-12);
             // Frequencies rise with forward whirl and fall with backward whirl.
             let forward = number % 2 == 0;
-            let whirl = mode.whirl.map(Whirl::sense);
+            let whirl = mode.whirl.and_then(Whirl::sense);
             if speed == 0.0 {
                 assert!(matches!(whirl, None | Some(Sense::Planar)), "{whirl:?}");
             } else {

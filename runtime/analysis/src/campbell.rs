@@ -1,4 +1,4 @@
-//! Campbell diagrams: every mode over an input, with damping, whirl and spread, and the crossings with engine orders.
+//! Campbell diagrams: every mode over an input, with damping, kind, whirl and spread, and the crossings with engine orders.
 
 mod answer;
 
@@ -33,7 +33,7 @@ pub struct CampbellMode {
     pub frequency: Option<Spread>,
     /// Damping ratio and its spread; `None` in the same cases.
     pub damping_ratio: Option<Spread>,
-    /// Whirl direction; `None` if not applicable.
+    /// Kind and whirl; `None` if not applicable.
     pub whirl: Option<Whirl>,
     /// Whether its eigenvalue is nearly equal to another: its spreads are then not meaningful.
     pub clustered: bool,
@@ -67,7 +67,12 @@ pub struct Campbell {
     pub orders: Vec<Line>,
     /// Crossings of frequencies with lines, line by line: input value, sensitivity and spread. The number of the mode
     /// is its label.
+    ///
+    /// Only those of modes that something excites there ([`EventTolerance::is_excited`]).
     pub crossings: Vec<EventTolerance>,
+    /// The other crossings, in the same order: an unbalance excites neither torsion nor motion along an axis, nor whirl
+    /// against the spin in isotropic bearings.
+    pub not_excited: Vec<EventTolerance>,
     /// Values at which stiffness vanishes ([`Sweep::critical`](crate::sweep::Sweep)).
     pub critical: Vec<EventTolerance>,
     /// Values at which an oscillation starts or stops growing; none for undamped modes.
@@ -85,6 +90,26 @@ pub struct Campbell {
 }
 
 impl Campbell {
+    /// The diagram with all crossings, also of modes that nothing excites there.
+    #[must_use]
+    pub fn with_all_crossings(mut self) -> Self {
+        self.crossings.append(&mut self.not_excited);
+        self
+    }
+
+    /// Says that crossings are left out of the list.
+    #[must_use]
+    pub fn left_out(&self) -> Option<String> {
+        let count = match self.not_excited.len() {
+            0 => return None,
+            1 => "1 crossing is".to_owned(),
+            count => format!("{count} crossings are"),
+        };
+        Some(format!(
+            "{count} left out, of modes that no unbalance excites: `campbell --all-crossings` lists all"
+        ))
+    }
+
     /// Labels of the modes that occur, in ascending order.
     #[must_use]
     pub fn labels(&self) -> Vec<usize> {
@@ -212,6 +237,7 @@ pub fn campbell_each(
         unreached,
         orders: orders.to_vec(),
         crossings: Vec::new(),
+        not_excited: Vec::new(),
         flutter_onsets: Vec::new(),
         searched: None,
         sigma_level: tolerances.sigma_level(),
@@ -251,6 +277,9 @@ pub fn campbell_each(
         _ => None,
     };
     diagram.crossings.sort_by_key(order);
+    diagram.not_excited = (diagram.crossings)
+        .extract_if(.., |event| !event.is_excited())
+        .collect();
     Ok(diagram)
 }
 

@@ -11,12 +11,15 @@ use eigentol_compiler::base::nearest::nearest;
 use eigentol_tables::{Table, csv, json, parquet};
 use serde::Serialize;
 
+use crate::advice;
 use crate::failure::Failure;
 
 /// The results of a question; the one that answers it comes first.
 pub(crate) struct Answer {
     form: Form,
     results: Vec<Written>,
+    /// The last mode that a result rests on, if the machine has beams.
+    last_mode: usize,
 }
 
 /// The format in which results are written.
@@ -49,6 +52,7 @@ impl Answer {
         Self {
             form,
             results: Vec::new(),
+            last_mode: 0,
         }
     }
 
@@ -77,6 +81,9 @@ impl Answer {
             Form::Csv | Form::Parquet => (String::new(), result.tables()),
             Form::Json => (json::to_string(result)?, Vec::new()),
         };
+        if advice::has_beams() && kind != "convergence" {
+            self.last_mode = self.last_mode.max(advice::last_mode(&result.tables()));
+        }
         self.results.push(Written {
             kind,
             text,
@@ -84,6 +91,11 @@ impl Answer {
             aside: false,
         });
         Ok(())
+    }
+
+    /// What beams are too coarse for.
+    pub(crate) fn advice(&self) -> Option<String> {
+        advice::on_beams(self.last_mode)
     }
 
     /// Adds a result whose text is shown only on request, because another result already includes it.

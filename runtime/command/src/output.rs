@@ -8,6 +8,7 @@ use eigentol_tables::Table;
 
 use crate::answer::{Answer, Form};
 use crate::destination::{Destination, is_same};
+use crate::diagnostics;
 use crate::failure::Failure;
 use crate::rows::Rows;
 
@@ -145,6 +146,10 @@ impl Output {
 
     pub(crate) fn write(&self, answer: &Answer) -> Result<(), Failure> {
         let content = answer.written(self.result.as_deref(), self.table.as_deref())?;
-        self.place.write_bytes(&content)
+        self.place.write_bytes(&content)?;
+        if let Some(advice) = answer.advice() {
+            diagnostics::note(&advice);
+        }
+        Ok(())
     }
 }

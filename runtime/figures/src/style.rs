@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use eigentol::modes::Sense;
+use eigentol::modes::Character;
 use eigentol::{InputInfo, Kernels, Study};
 
 use crate::caption::{design, number};
@@ -136,13 +136,11 @@ impl Style {
             .unwrap_or_else(|| format!("mode {}", label + 1))
     }
 
-    /// The name of a mode with its whirl sense.
-    pub(crate) fn whirling(&self, label: usize, sense: Option<Sense>) -> String {
+    /// The name of a mode with its kind or whirl sense.
+    pub(crate) fn whirling(&self, label: usize, character: Option<Character>) -> String {
         let name = self.mode(label);
-        match sense {
-            Some(Sense::Forward) => format!("{name}, forward"),
-            Some(Sense::Backward) => format!("{name}, backward"),
-            Some(Sense::Planar) => format!("{name}, planar"),
+        match character {
+            Some(character) => format!("{name}, {character}"),
             None => name,
         }
     }

@@ -74,7 +74,13 @@ attributes! {
         /// Whirl of the mode there: minor over major axis of the orbit, positive along the rotation; None where it does not
         /// apply.
         whirl: Option<f64> = match self.0.event {
-            eigentol::sweep::Event::Crossing { whirl, .. } => whirl.map(|x| x.ratio),
+            eigentol::sweep::Event::Crossing { whirl, .. } => whirl.and_then(|x| x.ratio),
+            _ => None,
+        };
+        /// What the mode does there to bodies that spin: "lateral", "torsional", "axial", "mixed" or "blade"; None where
+        /// nothing spins.
+        mode_kind: Option<String> = match self.0.event {
+            eigentol::sweep::Event::Crossing { whirl, .. } => whirl.map(|x| x.kind.to_string()),
             _ => None,
         };
         /// Multiple of the input that a frequency meets in a crossing.

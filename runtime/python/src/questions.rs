@@ -1,7 +1,7 @@
 //! The analyses of a study.
 
 use eigentol::response::{Response, Vibration};
-use eigentol::sweep::Line;
+use eigentol::sweep::{Line, Range};
 use eigentol::{Coordinate, Input};
 use eigentol_interpreter::Interpreted;
 use pyo3::exceptions::PyTypeError;
@@ -12,7 +12,7 @@ use crate::arrays::{Array1, optional};
 use crate::errors::invalid;
 use crate::events::{Event, events};
 use crate::hints;
-use crate::response::wanted;
+use crate::response::{range, wanted};
 use crate::results::{
     Assembly, Bode, Branches, Campbell, Convergence, Equilibrium, EquilibriumShift, EventCurvature,
     ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes, OutputCurvature,
@@ -242,9 +242,17 @@ impl Study {
     }
 
     /// How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
-    /// one and with two more coordinates of each component of the beams. Raises InvalidValue where there is no beam.
-    #[pyo3(signature = (modes=None))]
-    fn converge(&self, py: Python<'_>, modes: Option<usize>) -> PyResult<Convergence> {
+    /// one and with two more coordinates of each component of the beams. `along`, the tuple of an input and two values
+    /// of it, SI or texts with units, adds the first critical value between them, onsets of flutter, where frequencies meet `orders`, and the
+    /// highest peaks. Raises InvalidValue where there is no beam.
+    #[pyo3(signature = (modes=None, along=None, orders=Vec::new()))]
+    fn converge(
+        &self,
+        py: Python<'_>,
+        modes: Option<usize>,
+        along: Option<Bound<'_, PyTuple>>,
+        orders: Vec<f64>,
+    ) -> PyResult<Convergence> {
         let mechanism = self.mechanism(py);
         let text = mechanism.get().text();
         let refined = |more| {
@@ -252,7 +260,17 @@ impl Study {
                 .map_err(|error| invalid(py, error.to_string()))
         };
         let refined = [refined(1)?, refined(2)?];
-        let answer = self.ask(py, |study| study.convergence(refined))?;
+        let answer = match along {
+            None => self.ask(py, |study| study.convergence(refined))?,
+            Some(along) => {
+                let Range {
+                    input, low, high, ..
+                } = range(&self.inner, &along, 0)?;
+                let range = Range::new(Input::new(input.index()), low, high);
+                let lines: Vec<Line> = orders.into_iter().map(Line::from).collect();
+                self.ask_stoppably(py, |study| study.convergence_along(refined, range, &lines))?
+            }
+        };
         Ok(Convergence(answer.of_first(modes.unwrap_or(usize::MAX))))
     }
 
@@ -348,8 +366,15 @@ impl Study {
             py,
             answer
                 .into_iter()
-                .map(|whirl| whirl.map(|whirl| whirl.ratio)),
+                .map(|whirl| whirl.and_then(|whirl| whirl.ratio)),
         ))
+    }
+
+    /// Kind of each mode, "lateral", "torsional", "axial", "mixed" or "blade"; None where nothing that spins moves.
+    fn kinds(&self, py: Python<'_>) -> PyResult<Vec<Option<String>>> {
+        let answer = self.ask(py, |study| study.whirls())?;
+        let kind = |whirl: Option<eigentol::modes::Whirl>| Some(whirl?.kind.to_string());
+        Ok(answer.into_iter().map(kind).collect())
     }
 
     /// First and second derivatives of one mode, counted from 0.

@@ -176,7 +176,7 @@ pub(crate) fn measure(py: Python<'_>, name: &str) -> PyResult<Measure> {
 }
 
 /// The range of the input whose name is item `first` of the given tuple.
-fn range(
+pub(crate) fn range(
     study: &eigentol::Study<Interpreted>,
     given: &Bound<'_, PyTuple>,
     first: usize,

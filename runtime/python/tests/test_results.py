@@ -296,10 +296,11 @@ ELSEWHERE = {
         "searched": "searched",
         "critical": "critical",
         "crossings": "crossings",
+        "not_excited": "not_excited",
         "flutter_onsets": "flutter_onsets",
     },
     "Branches": {"branches": "branches"},
-    "Convergence": {"changes.answer": "names", "changes.value": "values", "changes.relative": "changes"},
+    "Convergence": {"changes.answer": "names", "changes.value": "values", "changes.relative": "changes", "without_peaks": "without_peaks"},
     "Branch": {
         "points.equilibrium": "equilibria",
         "points.tangent": "tangents",
@@ -380,6 +381,8 @@ def test_an_event_says_what_it_is(results):
     diagram = results["Campbell"]
     for event in diagram.crossings:
         assert (event.kind, event.order) == ("crossing", 1.0) and event.mode is not None
+        assert event.mode_kind == "blade" and event.whirl is None
+    assert all(set(kinds) <= {"blade", None} for kinds in diagram.kinds) and diagram.not_excited == []
 
 
 TWO = """
@@ -484,5 +487,6 @@ def test_beams_with_more_coordinates(results, study):
     found = results["Convergence"]
     assert found.names == [f"frequency {k}" for k in range(1, 6)]
     assert found.changes.shape == (5, 2) and abs(found.changes[0]).max() < 1e-6
+    assert found.without_peaks is None
     with pytest.raises(eigentol.InvalidValue, match="has no beam"):
         study.converge()

@@ -75,7 +75,11 @@ impl Content {
         let study = &report.study;
         let setup = Setup::of(study)?;
         let equilibrium = answer(study.equilibrium())?;
-        let modes = answer(study.modes())?;
+        let modes = match study.whirls() {
+            Ok(whirls) => study.modes().map(|modes| modes.with_whirls(whirls)),
+            Err(error) => Err(error),
+        };
+        let modes = answer(modes)?;
         let outputs = match &modes {
             Ok(_) => answer(study.output_tolerances())?,
             Err(error) => Err(error.clone()),

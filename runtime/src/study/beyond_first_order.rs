@@ -8,11 +8,14 @@ use crate::forced;
 use crate::kernels::{
     CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels,
 };
+use crate::peaks::Peaks;
 use crate::picture::{self, ModePictures, Scene, VibrationPictures};
+use crate::response::{Response, Vibration};
 use crate::second_order::{self, ModeCurvature, OutputCurvature, SecondOrder};
 use crate::shapes::{self, ShapeSensitivity};
 use crate::summary::{self, BUDGET, Summary};
-use crate::{Equilibrium, Error, Excitation, Output};
+use crate::sweep::{Line, Range};
+use crate::{Equilibrium, Error, Excitation, Input, Output};
 
 impl<M: Kernels> Study<M> {
     /// How far outputs, frequencies and damping ratios change with more coordinates of beams
@@ -24,16 +27,81 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`].
     pub fn convergence<N: Kernels>(&self, refined: [N; 2]) -> Result<Convergence, Error> {
-        let state = self.settings.equilibrium(&self.mechanism)?;
-        let refined = refined.map(|mechanism| Study {
-            settings: self.settings.of(mechanism.description(), state),
-            mechanism,
-        });
-        let [one, two] = &refined;
+        let [one, two] = &self.refined(refined)?;
         Ok(convergence::convergence(
             self.solution()?,
             [one.solution()?, two.solution()?],
         ))
+    }
+
+    /// Like [`Study::convergence`], with what is found along an input between `low` and `high`: critical values, where
+    /// frequencies meet `lines`, onsets of flutter, and the highest peaks of vibration ([`convergence::first_events`], [`convergence::highest_peaks`]).
+    ///
+    /// # Errors
+    /// As [`Study::modes`] and [`Study::campbell`]; that of [`Study::peaks`] is part of the result.
+    pub fn convergence_along<N: CurvatureKernels>(
+        &self,
+        refined: [N; 2],
+        range: Range<M>,
+        lines: &[Line],
+    ) -> Result<Convergence, Error>
+    where
+        M: CurvatureKernels,
+    {
+        let refined = self.refined(refined)?;
+        let [one, two] = &refined;
+        let convergence =
+            convergence::convergence(self.solution()?, [one.solution()?, two.solution()?]);
+        let range = range.any();
+        let mut answers = [
+            self.events_along(range, lines)?,
+            one.events_along(range, lines)?,
+            two.events_along(range, lines)?,
+        ];
+        let peaks = || -> Result<[Vec<Peaks>; 3], Error> {
+            let [one, two] = [one.all_peaks(range)?, two.all_peaks(range)?];
+            Ok([self.all_peaks(range)?, one, two])
+        };
+        let peaks = peaks();
+        for (answers, peaks) in answers.iter_mut().zip(peaks.iter().flatten()) {
+            answers.extend(convergence::highest_peaks(peaks, range));
+        }
+        let [declared, one, two] = &answers;
+        let mut convergence = convergence.with(declared, [one, two]);
+        convergence.without_peaks = peaks.err();
+        Ok(convergence)
+    }
+
+    fn events_along(&self, range: Range, lines: &[Line]) -> Result<Vec<(Response, f64)>, Error>
+    where
+        M: CurvatureKernels,
+    {
+        let input = Input::new(range.input.index());
+        let found = self.campbell(input, &[range.low, range.high], lines)?;
+        Ok(convergence::first_events(&found, range))
+    }
+
+    fn all_peaks(&self, range: Range) -> Result<Vec<Peaks>, Error>
+    where
+        M: CurvatureKernels,
+    {
+        let vibrations = Vibration::all(self.description());
+        match vibrations.is_empty() {
+            true => Ok(Vec::new()),
+            false => {
+                let input = Input::new(range.input.index());
+                self.peaks_of(&vibrations, input, range.low, range.high)
+            }
+        }
+    }
+
+    /// Studies of mechanisms with more coordinates, next to the equilibrium of this one.
+    fn refined<N: Kernels>(&self, refined: [N; 2]) -> Result<[Study<N>; 2], Error> {
+        let state = self.settings.equilibrium(&self.mechanism)?;
+        Ok(refined.map(|mechanism| Study {
+            settings: self.settings.of(mechanism.description(), state),
+            mechanism,
+        }))
     }
 
     fn solution(&self) -> Result<Solved<'_>, Error> {

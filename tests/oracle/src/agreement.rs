@@ -225,7 +225,7 @@ fn arrays(kernels: &dyn Kernels, case: &Case) -> Vec<Array> {
     }
 
     let whirl = kernels.whirl(at, &case.mode.0, &case.weight);
-    add("whirl", "moment and size", &[2], Some(0), whirl);
+    add("whirl", "sums", &[7], Some(0), whirl);
 
     for (kernel, gradient) in [
         ("mode_gradient", kernels.mode_gradient(at, mode.0, mode.1)),

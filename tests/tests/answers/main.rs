@@ -2,6 +2,7 @@
 
 mod events;
 mod hard_inputs;
+mod kinds;
 pub mod outputs;
 mod reference_values;
 mod scale;

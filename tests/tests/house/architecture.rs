@@ -58,7 +58,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-results",
             "eigentol-statistics",
         ],
-        16_100,
+        16_300,
     ),
     (
         "runtime/tolerance",
@@ -81,7 +81,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        20_700,
+        20_900,
     ),
     (
         "runtime/uncertainty",
@@ -204,8 +204,8 @@ const CRATE_ROOMS: [(&str, &[&str]); 8] = [
             "peaks",
             "response",
             "quadratic",
-            "convergence",
             "campbell",
+            "convergence",
             "picture",
             "motion",
         ],

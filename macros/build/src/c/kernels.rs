@@ -195,10 +195,11 @@ pub(super) fn kernels(compilation: &Compilation) -> Vec<Function> {
     if has("whirl") {
         functions.push(function(
             "whirl",
-            "The sense in which the vibration `Re((real + i imaginary) e^(i w t))` circles, `w > 0`: of the two numbers the first\n\
-             is positive where it runs with the spin, negative where it runs against it, at most as large as the second.",
+            "How the vibration `Re((real + i imaginary) e^(i w t))`, `w > 0`, moves the bodies that spin: `moment`, `lateral`,\n\
+             `torsional`, `axial`, `eccentric`, `moving`, `still`. `moment` is positive where the vibration runs with the\n\
+             spin, negative where it runs against it, at most as large as `lateral`.",
             [&[], &[Array("real", N), Array("imaginary", N)]],
-            &[answer("moment_and_size", &[Exactly(2)], Slice("&result"))],
+            &[answer("sums", &[Exactly(7)], Slice("&result"))],
         ));
     }
     functions.extend([

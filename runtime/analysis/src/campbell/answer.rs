@@ -7,7 +7,7 @@ use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
 
 use super::{Campbell, CampbellMode, CampbellPoint};
 use crate::along::{not_reached, varied};
-use crate::modes::{Family, Sense, undamped};
+use crate::modes::{Character, Family, Sense, Whirl, undamped};
 use crate::sweep::{EventTolerance, event_columns, unresolved};
 use crate::tolerance::{Spread, spread_of};
 use crate::{Description, Error, Input};
@@ -69,6 +69,9 @@ impl Answer for Campbell {
         not_reached(&mut said, self.unreached);
         said.data(mode_table(d, self.input, &self.points));
         self.events(&mut said);
+        if let Some(sentence) = self.left_out() {
+            said.note(sentence);
+        }
         unresolved(&mut said, d, self.input, self.searched.as_ref());
         self.by_mode(&mut said);
         self.by_point(&mut said);
@@ -138,8 +141,11 @@ fn mode_table(d: &Description, input: Input, points: &[CampbellPoint]) -> Table 
     });
     table.number("Re s", "1/s", &|row| Some(row.mode()?.s.re));
     table.number("Im s", "1/s", &|row| Some(row.mode()?.s.im));
-    table.words("whirl", &|row| Some(row.mode()?.whirl?.sense().to_string()));
-    table.number("whirl ratio", "", &|row| Some(row.mode()?.whirl?.ratio));
+    table.words("kind", &|row| Some(row.mode()?.whirl?.kind.to_string()));
+    table.words("whirl", &|row| {
+        Some(row.mode()?.whirl?.sense()?.to_string())
+    });
+    table.number("whirl ratio", "", &|row| row.mode()?.whirl?.ratio);
     table.words("motion", &|row| {
         Some(row.mode()?.behaviour.word().to_owned())
     });
@@ -176,18 +182,21 @@ impl Motion<'_> {
         damped.min_by(|(.., a), (.., b)| a.mean.total_cmp(&b.mean))
     }
 
-    /// The senses in which it whirls, in order; planar only if it never circles, as at rest all do.
-    fn senses(&self) -> String {
+    /// Its kinds and the senses in which it whirls, in order; planar only if it never circles.
+    fn kinds(&self) -> String {
         let all = self.points.iter().filter_map(|(_, mode)| mode.whirl);
-        let mut said: Vec<Sense> = Vec::new();
-        for sense in all.map(|whirl| whirl.sense()) {
-            match said.last() {
-                Some(last) if *last == sense || sense == Sense::Planar => {}
-                Some(Sense::Planar) => said = vec![sense],
-                _ => said.push(sense),
+        let mut said: Vec<Character> = Vec::new();
+        for next in all.map(Whirl::character) {
+            match said.last_mut() {
+                Some(last) if last.kind == next.kind && next.sense == Some(Sense::Planar) => {}
+                Some(last) if last.kind == next.kind && last.sense == Some(Sense::Planar) => {
+                    *last = next;
+                }
+                Some(last) if *last == next => {}
+                _ => said.push(next),
             }
         }
-        let words: Vec<String> = said.iter().map(Sense::to_string).collect();
+        let words: Vec<String> = said.iter().map(Character::to_string).collect();
         match words.is_empty() {
             true => "-".to_owned(),
             false => words.join(", then "),
@@ -258,7 +267,7 @@ impl Campbell {
             });
             table.cells(&at, &|row| formatted(row.least_damped().map(|pair| pair.0)));
         }
-        table.cells("whirl", &Motion::senses);
+        table.cells("kind", &Motion::kinds);
         table.cells("motion", &Motion::behaviours);
         said.text(table.finish().1);
     }
@@ -300,7 +309,7 @@ impl Campbell {
         }
         if count < all {
             said.note(format!(
-                "{count} of {all} points are shown: {EVERYTHING}, with sigma, damping and whirl."
+                "{count} of {all} points are shown: {EVERYTHING}, with sigma, damping and kind."
             ));
         }
     }

@@ -39,8 +39,11 @@ impl Answer for Convergence {
             table.number(name, "", &|row| row.relative[k]).digits(short);
         }
         said.columns(table);
-        for verdict in [self.of_modes(), self.of_outputs()].into_iter().flatten() {
+        for verdict in [self.of_modes(), self.of_others()].into_iter().flatten() {
             said.note(verdict);
+        }
+        if let Some(error) = &self.without_peaks {
+            said.note(format!("Peaks are not compared: {error}"));
         }
         said
     }
@@ -65,8 +68,8 @@ impl Convergence {
         verdict(&modes, named)
     }
 
-    /// Which outputs are known well, and how far the others change.
-    fn of_outputs(&self) -> Option<String> {
+    /// Which outputs, events and peaks are known well, and how far the others change.
+    fn of_others(&self) -> Option<String> {
         let outputs = self.changes.iter().filter(|change| change.mode().is_none());
         let outputs: Vec<(String, f64)> = outputs
             .map(|output| {
@@ -78,7 +81,7 @@ impl Convergence {
             .collect();
         verdict(&outputs, |outputs| {
             let texts: Vec<&str> = outputs.iter().map(String::as_str).collect();
-            names(&texts, "outputs")
+            names(&texts, "answers")
         })
     }
 }
@@ -120,6 +123,6 @@ fn less_than(change: f64) -> String {
 fn share(change: f64) -> String {
     match change.is_finite() {
         true => format!("{} %", short(100.0 * change)),
-        false => "so much that it no longer oscillates".to_owned(),
+        false => "so much that it no longer exists".to_owned(),
     }
 }

@@ -3,10 +3,13 @@
 mod answer;
 
 use crate::algebra::Vector;
+use crate::campbell::Campbell;
 use crate::kernels::Kernels;
+use crate::peaks::{Peak, PeakQuantity, Peaks};
 use crate::response::Response;
 use crate::sensitivity::Quantity;
-use crate::{Behaviour, Description, Equilibrium, Mode, Modes, Output, Shared};
+use crate::sweep::{Event, EventTolerance, Range};
+use crate::{Behaviour, Description, Equilibrium, Error, Mode, Modes, Output, Shared};
 use eigentol_results::relevance::{largest, unless_rounding};
 
 /// Outputs, frequencies and damping ratios with the declared coordinates of flexible bodies, and their changes with
@@ -15,8 +18,10 @@ use eigentol_results::relevance::{largest, unless_rounding};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Convergence {
-    /// Frequencies and damping ratios of the modes that oscillate, then outputs.
+    /// Frequencies and damping ratios of the modes that oscillate, then outputs, then what is found along an input.
     pub changes: Vec<Change>,
+    /// Why peaks along an input are not compared, if they were asked for.
+    pub without_peaks: Option<Error>,
     /// The inputs they belong to, SI.
     pub inputs: Vector,
     /// The mechanism with the declared coordinates.
@@ -57,7 +62,90 @@ impl Change {
     }
 }
 
+/// The first critical value along an input, and where each mode first meets each line and first starts or ceases to
+/// grow, with modes numbered as at the low end.
+#[must_use]
+pub fn first_events(found: &Campbell, range: Range) -> Vec<(Response, f64)> {
+    let mut answers: Vec<(Response, f64)> = Vec::new();
+    let lists = [
+        &found.critical,
+        &found.crossings,
+        &found.not_excited,
+        &found.flutter_onsets,
+    ];
+    for EventTolerance { event, value, .. } in lists.into_iter().flatten() {
+        let answer = match *event {
+            Event::Critical => Response::Critical(range),
+            Event::Crossing {
+                mode, condition, ..
+            } => Response::Crossing {
+                mode,
+                condition,
+                range,
+            },
+        };
+        if answers.iter().all(|(other, _)| *other != answer) {
+            answers.push((answer, *value));
+        }
+    }
+    answers
+}
+
+/// Place and height of the highest peak of each vibration along an input.
+#[must_use]
+pub fn highest_peaks(found: &[Peaks], range: Range) -> Vec<(Response, f64)> {
+    let mut answers = Vec::new();
+    for Peaks {
+        vibration, peaks, ..
+    } in found
+    {
+        let highest = |a: &&Peak, b: &&Peak| a.height.value.total_cmp(&b.height.value);
+        let Some(peak) = peaks.iter().max_by(highest) else {
+            continue;
+        };
+        for (quantity, value) in [
+            (PeakQuantity::Place, peak.place.value),
+            (PeakQuantity::Height, peak.height.value),
+        ] {
+            let vibration = *vibration;
+            let answer = Response::Peak {
+                vibration,
+                range,
+                quantity,
+            };
+            answers.push((answer, value));
+        }
+    }
+    answers
+}
+
 impl Convergence {
+    /// Adds the changes of answers that are found along an input with the declared coordinates and with more. What
+    /// modes do is compared in the order in which it is found.
+    #[must_use]
+    pub fn with(mut self, declared: &[(Response, f64)], refined: [&[(Response, f64)]; 2]) -> Self {
+        let unnumbered = |answer: Response| match answer {
+            Response::Crossing {
+                condition, range, ..
+            } => Response::Crossing {
+                mode: 0,
+                condition,
+                range,
+            },
+            _ => answer,
+        };
+        let alike = |all: &[(Response, f64)], answer| -> Vec<f64> {
+            let alike = all.iter().filter(|(other, _)| unnumbered(*other) == answer);
+            alike.map(|(_, value)| *value).collect()
+        };
+        for (k, (answer, value)) in declared.iter().enumerate() {
+            let place = alike(&declared[..k], unnumbered(*answer)).len();
+            let others = refined.map(|all| alike(all, unnumbered(*answer)).get(place).copied());
+            self.changes.push(change(*answer, *value, others));
+        }
+        self
+    }
+
     /// The changes of the first modes that oscillate alone, as many as these, and of the outputs.
     #[must_use]
     pub fn of_first(mut self, modes: usize) -> Self {
@@ -106,6 +194,7 @@ pub fn convergence(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Convergenc
     changes.extend(of_outputs(declared, refined));
     Convergence {
         changes,
+        without_peaks: None,
         inputs: declared.state.inputs.clone(),
         description: declared.state.description.clone(),
     }

@@ -24,7 +24,7 @@ pub enum Event {
         condition: Condition,
         /// Its eigenvalue at the event, 1/s.
         s: Complex,
-        /// Its whirl direction at the event; `None` where whirl is not applicable.
+        /// Its kind and whirl at the event; `None` where no kind is applicable.
         whirl: Option<Whirl>,
     },
 }
@@ -58,6 +58,20 @@ pub struct EventTolerance {
 }
 
 impl EventTolerance {
+    /// Whether anything can excite the mode of a crossing there ([`Whirl::is_excited_at`]); true of other events.
+    #[must_use]
+    pub fn is_excited(&self) -> bool {
+        match self.event {
+            Event::Crossing {
+                s,
+                whirl: Some(whirl),
+                condition: Condition::Line(_),
+                ..
+            } => whirl.is_excited_at(s.im),
+            _ => true,
+        }
+    }
+
     /// The event with another number for the mode of a crossing.
     pub(crate) fn with_mode(mut self, number: usize) -> Self {
         if let Event::Crossing { mode, .. } = &mut self.event {

@@ -7,6 +7,7 @@ use eigentol::campbell::CampbellPoint;
 use eigentol::campbell::campbell_table;
 use eigentol_figures as figures;
 
+use crate::advice;
 use crate::diagnostics;
 use crate::failure::Failure;
 use crate::output::Output;
@@ -27,6 +28,9 @@ pub(crate) struct Campbell {
     points: Points,
     #[command(flatten)]
     orders: Orders,
+    /// List all crossings, also of modes that no unbalance excites
+    #[arg(long)]
+    all_crossings: bool,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]
@@ -72,6 +76,9 @@ impl Campbell {
         drop(bar);
         let mut found = campbell;
         found.points = points;
+        if self.all_crossings {
+            found = found.with_all_crossings();
+        }
         let modes = found.labels().last().map_or(0, |last| last + 1);
         let style = self.picture.style(&question, modes)?;
         self.picture.draw(|| figures::campbell(&found, &style))?;
@@ -79,7 +86,9 @@ impl Campbell {
             Some(rows) => {
                 rows.finish()?;
                 let searched = found.searched.iter();
-                for sentence in searched.flat_map(|x| x.sentences(d, input.any())) {
+                let searched = searched.flat_map(|x| x.sentences(d, input.any()));
+                let notes = found.left_out().into_iter().chain(searched);
+                for sentence in notes.chain(advice::on_beams(modes)) {
                     diagnostics::note(&sentence);
                 }
             }

@@ -3,8 +3,7 @@
 use clap::Args;
 use eigentol_figures::mode_shapes;
 
-use crate::diagnostics;
-use crate::failure::{Failure, plural};
+use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
 use crate::point::Point;
@@ -28,20 +27,11 @@ impl Modes {
         let question = self.point.question()?;
         let modes = question.study.modes()?;
         let mut answer = self.output.answer();
-        answer.add(&modes)?;
+        answer.add(&modes.with_whirls(question.study.whirls()?))?;
         answer.add(&question.study.equilibrium()?)?;
         let style = self.picture.style(&question, modes.modes.len())?;
         self.picture.draw(|| mode_shapes(&modes, &style))?;
         self.output.write(&answer)?;
-        if let Some(good) = question.study.mechanism().good_modes()
-            && good < modes.frequencies().iter().flatten().count()
-        {
-            let modes = plural(good, "mode", "modes");
-            diagnostics::note(&format!(
-                "m modes of a plane of bending take 1.5 m + 2 coordinates: by this rule the beams have enough for \
-                 {good} {modes}; `eigentol converge` tells how far each mode changes with more"
-            ));
-        }
         Ok(Verdict::of(&question.study)?)
     }
 }

@@ -109,6 +109,47 @@ fn more_modes_than_beams_have_coordinates_for_are_noted() {
     );
 }
 
+/// A column with two coordinates: its buckling load is 2.4859 `E I / l^2`, and `pi^2 / 4` with more.
+#[test]
+fn loads_along_an_input_are_compared_and_noted() {
+    let text = "mechanism Column { input push: N;
+        body column: beam(length: 1 m, along: z, up: x, bending_y: 2, stiffness_y: 1 N*m^2, mass_per_length: 1 kg/m);
+        joint clamp: fixed from ground to column;
+        point end: column at tip;
+        force down: load(at: end, force: [0, 0, -push]); }";
+    let file = file(&folder("buckling"), "column.mechanism", text);
+    let sweep = ["--sweep", "push=0..4N"];
+    let found = answer(&[["converge", &file].as_slice(), &sweep].concat());
+    assert!(found.contains("critical push [N]"), "{found}");
+    assert!(
+        found.contains("`critical push` changes by 0.746 %"),
+        "{found}"
+    );
+    for command in ["campbell", "sweep"] {
+        let noted = run(&[[command, &file].as_slice(), &sweep, &["--points", "3"]].concat());
+        assert!(noted.err.contains("enough for 0 modes"), "{}", noted.err);
+    }
+    let refined = text.replace("bending_y: 2", "bending_y: 8");
+    let file = crate::program::file(&folder("buckling"), "refined.mechanism", &refined);
+    let table = [
+        "--result",
+        "campbell",
+        "--table",
+        "critical states",
+        "--csv",
+    ];
+    let noted = run(&[["campbell", &file].as_slice(), &sweep, &table].concat());
+    let load = std::f64::consts::PI.powi(2) / 4.0;
+    let row = noted.out.lines().nth(1).expect("a load");
+    let found: f64 = row
+        .split(',')
+        .next()
+        .expect("a number")
+        .parse()
+        .expect("a number");
+    assert!((found / load - 1.0).abs() < 1e-6, "{row}");
+}
+
 #[test]
 fn a_mechanism_without_beams_has_no_coordinates_to_add() {
     let found = run(&pendulum("converge", &[]));

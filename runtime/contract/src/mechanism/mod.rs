@@ -381,23 +381,30 @@ pub trait Mechanism: Clone + Sync + Sized {
         gradient_slopes::<Self, T>(&self.residual_gradient(&q, &u, &b, &along(w, dw)))
     }
 
-    /// Whirl of the vibration `q* + Re((real + i imaginary) e^{i w t})`, `w > 0`: whether it circles in the direction
-    /// in which the bodies spin.
+    /// How the vibration `q* + Re((real + i imaginary) e^{i w t})`, `w > 0`, moves the bodies that spin.
     ///
-    /// Returns `[moment, size]`, `-size <= moment <= size` up to rounding. `moment / size` is one if every orbit is a
-    /// circle in the direction of the spin (forward whirl), minus one if every orbit is a circle against it (backward
-    /// whirl), and zero on straight lines. Both are zero if nothing rotates, or if nothing that rotates moves
-    /// transverse to its axis. They are exactly zero for a mechanism in which no massive body is driven to rotate.
+    /// Returns `[moment, lateral, torsional, axial, eccentric, moving, still]`. All are zero if nothing rotates, and
+    /// exactly so for a mechanism in which no massive body is driven to rotate.
     ///
     /// They are sums over the bodies, with `omega` the angular velocity in the state of rest, `r` and `s` the
-    /// displacements of the centre of mass along `real` and `imaginary`, and `m` the mass:
+    /// displacements along `real` and `imaginary` of the point of the body on its axis of rotation, `theta` its small
+    /// rotation, `m` the mass, `a` the arm from the axis to the centre of mass and `J` the moment of inertia about
+    /// `omega` through it:
     ///
     /// - `moment = -sum |omega| omega . m (r x s)`,
-    /// - `size = sum m (|omega x r|^2 + |omega x s|^2) / 2`,
+    /// - `lateral = sum m (|omega x r|^2 + |omega x s|^2) / 2`,
+    /// - `torsional = sum (J + m a^2) (omega . theta)^2 / 2` along `real` and `imaginary`,
+    /// - `axial = sum m ((omega . r)^2 + (omega . s)^2) / 2`,
+    /// - `eccentric = |sum e a|^2 / (sum e sum e (a^2 + J / m))`, between 0 and 1, `e` the share of a body in the three
+    ///   sums above: near one if what moves is a body beside its axis, such as a blade,
+    /// - `moving = sum e / |omega|^2`, and `still` that sum over the bodies that do not rotate,
     ///
-    /// plus the same sums for the small rotations, with `integral |rho|^2 dm` about the centre of mass in place of `m`:
-    /// kg m^2 rad^2/s^2 for displacements in metres and radians. A joint beyond a drive is seen from the rotating side:
-    /// coordinates of a rotating shaft give the direction of an orbit relative to the shaft.
+    /// plus in `moment`, `lateral` and `still` the same sums for the small rotations, with `integral |rho|^2 dm` about
+    /// the centre of mass in place of `m`: kg m^2 rad^2/s^2 for displacements in metres and radians.
+    ///
+    /// `moment / lateral` is one if every orbit is a circle in the direction of the spin (forward whirl), minus one if
+    /// every orbit is a circle against it (backward whirl), and zero on straight lines. A joint beyond a drive is seen
+    /// from the rotating side: coordinates of a rotating shaft give the direction of an orbit relative to the shaft.
     ///
     /// Only the values are meaningful, not derivatives: `|omega|` is a root, whose derivative fails at zero speed.
     fn whirl<T: Real>(
@@ -407,7 +414,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         _b: &Self::Design<T>,
         _real: &Self::Coordinates<T>,
         _imaginary: &Self::Coordinates<T>,
-    ) -> [T; 2] {
+    ) -> [T; 7] {
         zeros()
     }
 

@@ -1,7 +1,7 @@
 //! A common view of results along an input.
 
 use eigentol::branches::SpecialKind;
-use eigentol::modes::{Sense, Whirl};
+use eigentol::modes::{Character, Whirl};
 use eigentol::sweep::Sweep;
 use eigentol::{Campbell, Complex, Description, Equilibrium, Error, Input, InputInfo, Unit};
 
@@ -21,7 +21,7 @@ pub(crate) struct Sample {
     pub(crate) label: usize,
     pub(crate) s: Complex,
     pub(crate) oscillates: bool,
-    pub(crate) sense: Option<Sense>,
+    pub(crate) character: Option<Character>,
 }
 
 /// All modes at one value of the input, in its unit; empty if the point failed.
@@ -33,16 +33,17 @@ pub(crate) struct Station {
 
 pub(crate) mod sealed {
     use super::{
-        Campbell, Complex, Description, Equilibrium, Error, Input, Sense, SpecialKind, Sweep, Whirl,
+        Campbell, Character, Complex, Description, Equilibrium, Error, Input, SpecialKind, Sweep,
+        Whirl,
     };
 
-    type ModeAt = (usize, Complex, Option<f64>, Option<Sense>);
+    type ModeAt = (usize, Complex, Option<f64>, Option<Character>);
 
     pub trait Along {
         fn description(&self) -> &Description;
         fn input(&self) -> Input;
         fn inputs(&self) -> &[f64];
-        /// Values, SI, with their equilibria and with the labels, eigenvalues, frequencies and whirl senses of their
+        /// Values, SI, with their equilibria and with the labels, eigenvalues, frequencies and kinds of their
         /// modes.
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)>;
         /// Values, SI, at which stiffness is lost, with the equilibrium if it changes without a jump.
@@ -97,8 +98,8 @@ pub(crate) mod sealed {
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)> {
             let each = self.points.iter().map(|point| {
                 let modes = point.modes.iter().flatten().map(|mode| {
-                    let sense = mode.whirl.map(Whirl::sense);
-                    (mode.label, mode.s, mode.behaviour.frequency(), sense)
+                    let kind = mode.whirl.map(Whirl::character);
+                    (mode.label, mode.s, mode.behaviour.frequency(), kind)
                 });
                 (point.value, point.equilibrium.as_ref(), modes.collect())
             });
@@ -133,12 +134,13 @@ impl<'a> Course<'a> {
         };
         let (mut stations, mut equilibria) = (Vec::new(), Vec::new());
         for (value, equilibrium, modes) in result.points() {
-            let sample = |(label, s, frequency, sense): (usize, Complex, Option<f64>, _)| Sample {
-                label,
-                s,
-                oscillates: frequency.is_some(),
-                sense,
-            };
+            let sample =
+                |(label, s, frequency, character): (usize, Complex, Option<f64>, _)| Sample {
+                    label,
+                    s,
+                    oscillates: frequency.is_some(),
+                    character,
+                };
             stations.push(Station {
                 value: to_unit(value),
                 modes: modes.into_iter().map(sample).collect(),

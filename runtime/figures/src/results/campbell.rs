@@ -97,6 +97,7 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
         caption.push(words(result.sigma_level, times));
     }
     caption.extend(lines);
+    caption.extend(result.left_out());
     let title = style.titled(format!("{}: Campbell diagram", result.description.name));
     Ok(Figure::new(title, caption, vec![panel]))
 }
@@ -108,14 +109,14 @@ pub(super) fn oscillation(
     style: &Style,
     height: impl Fn(&super::tracks::TrackPoint) -> f64,
 ) -> Curve {
-    let sense = match track.motion {
-        Motion::Oscillation(sense) => sense,
+    let character = match track.motion {
+        Motion::Oscillation(character) => character,
         Motion::Real => None,
     };
     Curve {
-        label: style.whirling(track.label, sense),
+        label: style.whirling(track.label, character),
         colour: Colour::Series(track.label),
-        stroke: match sense {
+        stroke: match character.and_then(|x| x.sense) {
             Some(Sense::Backward) => Stroke::Dashed,
             Some(Sense::Planar) => Stroke::DashDotted,
             Some(Sense::Forward) => Stroke::Solid,

@@ -29,7 +29,7 @@ fn look(event: &Event) -> (&'static str, Shape) {
             condition: Condition::Line(_),
             whirl,
             ..
-        } => match whirl.map(Whirl::sense) {
+        } => match whirl.and_then(Whirl::sense) {
             Some(Sense::Forward) => ("crossing, forward whirl", Shape::Ring),
             Some(Sense::Backward) => ("crossing, backward whirl", Shape::Triangle),
             _ => ("crossing", Shape::Square),
@@ -85,7 +85,7 @@ fn line(index: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> Str
             whirl,
             ..
         } => {
-            let name = style.whirling(mode, whirl.map(Whirl::sense));
+            let name = style.whirling(mode, whirl.map(Whirl::character));
             let order = match line.ratio == 0.0 {
                 true => format!("{} rad/s", number(line.offset)),
                 false => format!("{} x", number(line.ratio)),

@@ -1,11 +1,11 @@
-//! Eigenvalues along an input as lines: one for each motion and sense of whirl, joined where two of them meet.
+//! Eigenvalues along an input as lines: one for each motion, kind and sense of whirl, joined where two of them meet.
 //!
 //! No sweep point lies exactly where a pair of conjugate eigenvalues becomes two real ones, or where an undamped
 //! frequency vanishes. Near such a point `s = m +- sqrt(D)` with smooth `m` and `D`; interpolating both linearly from
 //! the neighbouring points lets the lines meet as they truly do.
 
 use eigentol::Complex;
-use eigentol::modes::Sense;
+use eigentol::modes::{Character, Sense};
 
 use super::along::{Sample, Station};
 use crate::figure::Point;
@@ -23,8 +23,8 @@ pub(crate) struct TrackPoint {
 /// What a line shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Motion {
-    /// An oscillation, with its sense of whirl if it whirls.
-    Oscillation(Option<Sense>),
+    /// An oscillation, with its kind and sense of whirl if something spins.
+    Oscillation(Option<Character>),
     /// A real eigenvalue.
     Real,
 }
@@ -65,10 +65,12 @@ pub(crate) fn tracks(stations: &[Station], critical: &[f64]) -> Vec<Track> {
 
 fn order(motion: Motion) -> usize {
     match motion {
-        Motion::Oscillation(None) => 0,
-        Motion::Oscillation(Some(Sense::Forward)) => 1,
-        Motion::Oscillation(Some(Sense::Backward)) => 2,
-        Motion::Oscillation(Some(Sense::Planar)) => 3,
+        Motion::Oscillation(character) => match character.and_then(|x| x.sense) {
+            None => 0,
+            Some(Sense::Forward) => 1,
+            Some(Sense::Backward) => 2,
+            Some(Sense::Planar) => 3,
+        },
         Motion::Real => 4,
     }
 }
@@ -232,10 +234,10 @@ fn state(station: &Station, sample: &Sample) -> TrackPoint {
     }
 }
 
-/// A step takes the whirl sense at its end or, if nothing whirls there, at its beginning.
+/// A step takes the kind and sense at its end or, if nothing spins there, at its beginning.
 fn motion(from: &Sample, to: &Sample) -> Motion {
     match to.oscillates {
-        true => Motion::Oscillation(to.sense.or(from.sense)),
+        true => Motion::Oscillation(to.character.or(from.character)),
         false => Motion::Real,
     }
 }
@@ -275,7 +277,7 @@ mod tests {
             label,
             s: Complex::new(re, im),
             oscillates: im != 0.0,
-            sense: None,
+            character: None,
         }
     }
 

@@ -28,5 +28,7 @@ attributes! {
         /// where the answer no longer exists.
         changes: PyResult<Array2<'py>> =
             rows(py, 2, self.each(|row| row.relative.map(or_nan).to_vec()));
+        /// Why peaks along an input are not compared: a text, or None.
+        without_peaks: Option<String> = Some(self.0.without_peaks.as_ref()?.to_string());
     }
 }

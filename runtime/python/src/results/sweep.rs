@@ -148,11 +148,13 @@ attributes! {
         /// Whirl, shape (k, motions): minor over major axis of the orbit, positive along the rotation; NaN where it does
         /// not apply.
         whirls: PyResult<Array2<'py>> = {
-            let ratio = |mode: &CampbellMode| mode.whirl.map(|x| x.ratio);
+            let ratio = |mode: &CampbellMode| mode.whirl?.ratio;
             self.by_label(py, f64::NAN, |mode| Some(or_nan(ratio(mode))))
         };
-        /// Where a frequency meets a line, with spreads.
+        /// Where the frequency of a mode that something excites there meets a line, with spreads.
         crossings: Vec<Event> = events(&self.0.crossings);
+        /// The other crossings: modes of shafts that no unbalance excites.
+        not_excited: Vec<Event> = events(&self.0.not_excited);
         /// Where the stable equilibrium loses its stiffness, with spreads.
         critical: Vec<Event> = events(&self.0.critical);
         /// Where an oscillation begins or ceases to grow, with spreads.
@@ -163,7 +165,11 @@ attributes! {
         };
         /// The direction of each whirl, in words, a list for each value; None where it does not apply.
         whirl_senses: Vec<Vec<Option<String>>> =
-            self.words(&|mode| mode.whirl.map(|whirl| whirl.sense().to_string()));
+            self.words(&|mode| Some(mode.whirl?.sense()?.to_string()));
+        /// The kind of each motion, "lateral", "torsional", "axial", "mixed" or "blade", a list for each value; None where
+        /// nothing spins.
+        kinds: Vec<Vec<Option<String>>> =
+            self.words(&|mode| Some(mode.whirl?.kind.to_string()));
         /// Whether each motion is nearly equal to another, so that its spreads mean nothing, shape (k, motions).
         clustered: PyResult<Array2<'py, bool>> =
             self.by_label(py, false, |mode| Some(mode.clustered));

@@ -257,8 +257,8 @@ pub trait Kernels: Sync {
     }
 
     /// [`Mechanism::whirl`](eigentol_contract::Mechanism::whirl).
-    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2] {
-        let mut whirl = [0.0; 2];
+    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 7] {
+        let mut whirl = [0.0; 7];
         let arguments = &[q, u, b, real, imaginary];
         self.evaluate(Kernel::Whirl, arguments, &mut [&mut whirl]);
         whirl

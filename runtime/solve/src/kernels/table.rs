@@ -94,8 +94,8 @@ kernels! {
             [Coordinates, Inputs, Design, Coordinates, Coordinates, Coordinates, Coordinates] -> GRADIENT;
         /// Gradient of `w^T g`; then `w`.
         ResidualGradient: "residual_gradient", [Coordinates, Inputs, Design, Coordinates] -> GRADIENT;
-        /// Whirl of a vibration, moment and size; then its real and imaginary part.
-        Whirl: "whirl", [Coordinates, Inputs, Design, Coordinates, Coordinates] -> &[[Fixed(2), ONE]];
+        /// Whirl of a vibration, seven sums; then its real and imaginary part.
+        Whirl: "whirl", [Coordinates, Inputs, Design, Coordinates, Coordinates] -> &[[Fixed(7), ONE]];
         /// The declared outputs.
         Outputs: "outputs", [Coordinates, Inputs, Design] -> &[[Outputs, ONE]];
         /// Derivatives of the outputs by unknowns, inputs and design variables.

@@ -27,6 +27,7 @@ impl Answer for Modes {
         let shapes = Shapes::of(self);
         let mut table = Columns::new("modes", &self.modes);
         eigenvalues(&mut table, self.family);
+        self.kinds(&mut table);
         shapes.columns(&mut table);
         components(&mut table, &self.description);
         said.columns(table);
@@ -37,6 +38,28 @@ impl Answer for Modes {
             );
         }
         said
+    }
+}
+
+impl Modes {
+    /// Adds what the modes do to bodies that spin, if that is known.
+    fn kinds<'a>(&'a self, table: &mut Columns<'a, Mode>) {
+        if self.whirls.is_empty() {
+            return;
+        }
+        let whirl = |mode: &Mode| {
+            let place = self
+                .modes
+                .iter()
+                .position(|other| std::ptr::eq(other, mode))?;
+            *self.whirls.get(place)?
+        };
+        table.words("kind", &|mode| Some(whirl(mode)?.kind.to_string()));
+        table.words("whirl", &|mode| Some(whirl(mode)?.sense()?.to_string()));
+        table.number("whirl ratio", "", &|mode| whirl(mode)?.ratio);
+        table.cells("kind", &|mode| {
+            whirl(mode).map_or_else(|| "-".to_owned(), |whirl| whirl.to_string())
+        });
     }
 }
 

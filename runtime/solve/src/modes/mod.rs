@@ -33,7 +33,7 @@ pub use mode::{Behaviour, Mode};
 pub use pencil::{pencil_slope_times, pencil_times, transposed};
 #[doc(hidden)]
 pub use undamped::undamped;
-pub use whirl::{Sense, Whirl, Whirls, whirls};
+pub use whirl::{Character, Kind, Sense, Whirl, Whirls, whirls};
 
 use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
 use crate::constraints::{Structure, Tangent};
@@ -82,6 +82,9 @@ pub struct Modes {
     pub family: Family,
     /// `Chat` is non-zero here and was neglected: these are the modes of `Mhat` and `Khat` alone.
     pub damping_ignored: bool,
+    /// What each does to bodies that spin, in the order of the modes; empty unless asked for
+    /// ([`Self::with_whirls`]).
+    pub whirls: Vec<Option<Whirl>>,
     /// The inputs they belong to, SI; empty for the modes of given matrices.
     pub inputs: Vector,
     /// The mechanism they belong to.
@@ -109,6 +112,16 @@ impl Modes {
     fn columns(&self, of: fn(&Mode) -> &[Complex]) -> Matrix<Complex> {
         let rows = self.modes.first().map_or(0, |mode| of(mode).len());
         Matrix::from_fn(rows, self.modes.len(), |i, r| of(&self.modes[r])[i])
+    }
+
+    /// The modes with their kinds ([`whirls`]), if anything that spins moves in one.
+    #[must_use]
+    pub fn with_whirls(&self, whirls: Whirls) -> Self {
+        let mut modes = self.clone();
+        if whirls.iter().any(Option::is_some) {
+            modes.whirls = whirls.0;
+        }
+        modes
     }
 
     /// Reassigns these modes to the mechanism with deviating inputs, all deviations zero.
@@ -293,6 +306,7 @@ impl Modes {
             modes: Vec::new(),
             family,
             damping_ignored: false,
+            whirls: Vec::new(),
             inputs: Vector::default(),
             description: description.clone(),
         }

@@ -1,4 +1,4 @@
-//! Whirl: whether a vibration circles in the direction in which the bodies spin.
+//! Kinds of modes: how a vibration moves the bodies that spin, and whether it circles in the direction of their spin.
 
 use core::fmt;
 use std::ops::Deref;
@@ -22,31 +22,132 @@ pub enum Sense {
     Planar,
 }
 
-/// How a mode whirls.
+/// What a mode does to the shafts of a machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Kind {
+    /// It bends or tilts them, or moves them across their axes.
+    Lateral,
+    /// It twists them.
+    Torsional,
+    /// It moves them along their axes.
+    Axial,
+    /// None of these alone.
+    Mixed,
+    /// It moves bodies that turn about an axis beside them.
+    Blade,
+}
+
+/// The kind of a mode, with its sense of whirl if it has one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Character {
+    /// The kind.
+    pub kind: Kind,
+    /// The sense of whirl of a mode that is lateral, at least in part.
+    pub sense: Option<Sense>,
+}
+
+/// The smallest share of a kind in the kinetic energy of a mode that has only this kind.
+const ONE_KIND: f64 = 0.9;
+/// Shares of energy below this do not count: of the spinning bodies in a mode of what does not spin, and of the motion
+/// with the spin in a mode that an unbalance can excite. It is that of one hundredth in the amplitude.
+const NO_SHARE: f64 = 1e-4;
+/// How close a frequency is to the spin, relative to it, where an unbalance acts at that frequency.
+const SYNCHRONOUS: f64 = 1e-6;
+
+/// How a mode moves the bodies that spin.
+///
+/// Energies are those of the centres of mass and of the small rotations of the bodies, weighted with mass, second moment
+/// and the square of the spin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Whirl {
+    /// Its kind.
+    pub kind: Kind,
     /// From 1 (every orbit a circle traversed with the spin) through 0 (straight lines) to -1 (circles against the
-    /// spin).
+    /// spin); `None` if the mode is neither lateral nor, to a tenth of its energy, in part.
     ///
-    /// The orbits are those of the centres of mass and of the small rotations of the bodies, weighted with mass, second
-    /// moment and the square of the spin. They are seen by an observer who moves with the coordinates: in the rotating
-    /// frame if the coordinates are declared behind the drive.
-    pub ratio: f64,
+    /// The orbits are those of points on the axes of spin. They are seen by an observer who moves with the coordinates:
+    /// in the rotating frame if the coordinates are declared behind the drive.
+    pub ratio: Option<f64>,
+    /// Share of energy in motion across the axes that circles with the spin: what a force that turns with the shaft
+    /// drives.
+    pub with_spin: f64,
+    /// Spin of the bodies that move, root mean square, rad/s.
+    pub spin: f64,
 }
 
 impl Whirl {
-    /// The direction; ratios within 1e-6 of zero are planar.
-    #[must_use]
-    pub fn sense(self) -> Sense {
-        if self.ratio > 1e-6 {
-            Sense::Forward
-        } else if self.ratio < -1e-6 {
-            Sense::Backward
-        } else {
-            Sense::Planar
+    /// From the seven sums of the kernel; `None` if nothing that spins moves.
+    fn new(
+        [moment, lateral, torsional, axial, eccentric, moving, still]: [f64; 7],
+    ) -> Option<Self> {
+        let all = lateral + torsional + axial;
+        if !(all.is_finite() && moving > NO_SHARE * (moving + still)) {
+            return None;
         }
+        let [lateral, torsional, axial] = [lateral, torsional, axial].map(|part| part / all);
+        let kind = match eccentric {
+            0.5.. => Kind::Blade,
+            _ if lateral >= ONE_KIND => Kind::Lateral,
+            _ if torsional >= ONE_KIND => Kind::Torsional,
+            _ if axial >= ONE_KIND => Kind::Axial,
+            _ => Kind::Mixed,
+        };
+        let circles = kind != Kind::Blade && lateral >= 1.0 - ONE_KIND;
+        let with_spin = 0.5 * (lateral + moment / all);
+        Some(Self {
+            kind,
+            ratio: circles.then(|| (moment / all / lateral).clamp(-1.0, 1.0)),
+            with_spin: with_spin.clamp(0.0, 1.0),
+            spin: (all / moving).sqrt(),
+        })
+    }
+
+    /// The direction; ratios within 1e-6 of zero are planar. `None` where there is no ratio.
+    #[must_use]
+    pub fn sense(self) -> Option<Sense> {
+        Some(match self.ratio? {
+            ratio if ratio > 1e-6 => Sense::Forward,
+            ratio if ratio < -1e-6 => Sense::Backward,
+            _ => Sense::Planar,
+        })
+    }
+
+    /// Its kind with its sense.
+    #[must_use]
+    pub fn character(self) -> Character {
+        Character {
+            kind: self.kind,
+            sense: self.sense(),
+        }
+    }
+
+    /// Whether anything can excite the mode where its frequency (rad/s) meets a multiple of the speed.
+    ///
+    /// At the frequency of the spin a shaft is excited by its unbalance, a force that turns with it. This drives what
+    /// moves across the axis with the spin, but neither torsion nor motion along the axis nor a circle against the
+    /// spin. At other multiples, and on blades, any force may act.
+    #[must_use]
+    pub fn is_excited_at(self, frequency: f64) -> bool {
+        let synchronous = (frequency - self.spin).abs() <= SYNCHRONOUS * self.spin;
+        !synchronous || self.kind == Kind::Blade || self.with_spin >= NO_SHARE
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Lateral => "lateral",
+            Self::Torsional => "torsional",
+            Self::Axial => "axial",
+            Self::Mixed => "mixed",
+            Self::Blade => "blade",
+        })
     }
 }
 
@@ -60,15 +161,26 @@ impl fmt::Display for Sense {
     }
 }
 
-impl fmt::Display for Whirl {
+/// `forward` of a lateral mode, `mixed forward`, or a kind without a sense: `torsional`.
+impl fmt::Display for Character {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ({:+.2})", self.sense(), self.ratio)
+        match (self.kind, self.sense) {
+            (Kind::Lateral, Some(sense)) => sense.fmt(f),
+            (kind, Some(sense)) => write!(f, "{kind} {sense}"),
+            (kind, None) => kind.fmt(f),
+        }
     }
 }
 
-/// The whirl of each mode, in the order of the modes. Dereferences to its list.
+impl fmt::Display for Whirl {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.character().fmt(f)
+    }
+}
+
+/// The kind and whirl of each mode, in the order of the modes. Dereferences to its list.
 ///
-/// `None` for a mode that does not oscillate, or that moves nothing transverse to a spin axis.
+/// `None` for a mode that does not oscillate, or that moves nothing that spins.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(transparent))]
@@ -103,12 +215,14 @@ impl Answer for Whirls {
         let rows: Vec<_> = self.iter().copied().enumerate().collect();
         let mut table = Columns::new("whirls", &rows);
         table.whole("mode", &|row| Some(row.0 + 1)).shown();
-        let sense = |row: &(usize, Option<Whirl>)| Some(row.1?.sense().to_string());
-        table.words("sense", &sense).shown();
         table
-            .number("ratio", "", &|row| Some(row.1?.ratio))
-            .digits(rough);
-        let mut said = Findings::titled("Whirl of each mode".to_owned());
+            .words("kind", &|row| Some(row.1?.kind.to_string()))
+            .shown();
+        table
+            .words("sense", &|row| Some(row.1?.sense()?.to_string()))
+            .shown();
+        table.number("ratio", "", &|row| row.1?.ratio).digits(rough);
+        let mut said = Findings::titled("Kind and whirl of each mode".to_owned());
         said.columns(table);
         said
     }
@@ -116,17 +230,13 @@ impl Answer for Whirls {
 
 displayed!(Whirls);
 
-/// The whirl of each mode.
+/// The kind and whirl of each mode.
 pub fn whirls(mechanism: &dyn Kernels, at: &Equilibrium, modes: &Modes) -> Whirls {
     let whirl = |mode: &Mode| {
         mode.frequency()?;
         let real = mode.shape.map(|value| value.re);
         let imaginary = mode.shape.map(|value| value.im);
-        let [moment, size] =
-            mechanism.whirl(&at.coordinates, &at.inputs, &at.design, &real, &imaginary);
-        (size > 0.0 && moment.is_finite() && size.is_finite()).then(|| Whirl {
-            ratio: (moment / size).clamp(-1.0, 1.0),
-        })
+        Whirl::new(mechanism.whirl(&at.coordinates, &at.inputs, &at.design, &real, &imaginary))
     };
     Whirls(modes.modes.iter().map(whirl).collect())
 }

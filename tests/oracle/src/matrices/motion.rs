@@ -154,6 +154,11 @@ impl Oracle<'_> {
             .collect()
     }
 
+    /// `Bdot_D u + Bdot_R qdot_R`: accelerations where the coordinates themselves have none.
+    pub(crate) fn rest_acceleration<D: Scalar>(&self, state: &State<D>) -> Vec<D> {
+        self.bodies(state).bias
+    }
+
     fn bodies<D: Scalar>(&self, state: &State<D>) -> Bodies<D> {
         let rows = 6 * self.model.bodies.len();
         let design = &state.design;

@@ -109,7 +109,7 @@ fn oil_whirl_goes_forward_at_half_the_speed() {
     let [(mode, whirl)] = growing[..] else {
         panic!("{modes:?}")
     };
-    assert_eq!(whirl.expect("it circles").sense(), Sense::Forward);
+    assert_eq!(whirl.expect("it circles").sense(), Some(Sense::Forward));
     let share = mode.s.im.abs() / speed;
     assert!((0.45..0.52).contains(&share), "{share}");
 }

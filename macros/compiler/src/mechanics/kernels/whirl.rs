@@ -1,25 +1,35 @@
-//! Whether a vibration whirls in the direction in which the bodies spin.
+//! How a vibration moves the bodies that spin: across their axes, in which direction, about them, or along them.
 //!
 //! In the vibration `q* + Re((x + i y) e^{i w t})`, `w > 0`, a quantity that moves by `r` along `x` and by `s` along
 //! `y` follows the ellipse `r cos(w t) - s sin(w t)`, counterclockwise about `-r x s`. With `omega` the angular
-//! velocity of a body in the steady state, `r` and `s` the displacements of its centre of mass and `m` its mass, summed
-//! over the bodies and over slices of the beams, whose material may spin about its own axis:
+//! velocity of a body in the steady state, `m` its mass, `a` the arm from its axis to its centre of mass (in the steady
+//! state this is accelerated by `-|omega|^2 a`), and `r` and `s` the displacements of the point of the body on the axis,
+//! `theta` its small rotation, summed over the bodies and over slices of the beams, whose material may spin about its
+//! own axis:
 //!
 //! - `moment = -sum |omega| omega . m (r x s)`,
-//! - `size = sum m (|omega x r|^2 + |omega x s|^2) / 2`.
+//! - `lateral = sum m (|omega x r|^2 + |omega x s|^2) / 2`,
+//! - `axial = sum m ((omega . r)^2 + (omega . s)^2) / 2`,
+//! - `torsional = sum (J + m a^2) (omega . theta)^2 / 2` along `x` and `y`, `J` the moment of inertia about `omega`.
 //!
-//! Small rotations contribute in the same way, with the trace of the second moment about the centre of mass in place of
-//! `m`. For one body, `moment / size` is one on a circle in the sense of the spin, minus one on a circle against it,
-//! and zero on a line.
+//! Small rotations contribute to the first two in the same way, with the trace of the second moment about the centre of
+//! mass in place of `m`. For one body, `moment / lateral` is one on a circle in the sense of the spin, minus one on a
+//! circle against it, and zero on a line.
+//!
+//! With `e` the share of a body in the last three sums, `eccentric = |sum e a|^2 / (sum e sum e (a^2 + J / m))` is near
+//! one if what moves is a body that hangs beside its axis, such as a blade, and zero if it is a shaft. `moving` is
+//! `sum e / |omega|^2`, and `still` the sum that corresponds to it over the bodies that do not spin.
 //!
 //! # The sense of whirl is a kernel
 //!
 //! It depends on displacements and spins of bodies, which only the compiler knows: it emits `whirl` where a massive
 //! body is driven to turn (`mechanics/kernels/whirl.rs`).
 
-use crate::algebra::{Array, Direction, ExprId, Function, Graph, Vector3, derivatives_along};
+use crate::algebra::{
+    Array, Direction, ExprId, Function, Graph, Matrix3, Vector3, derivatives_along,
+};
 use crate::mechanics::kernel_name::KernelName;
-use crate::mechanics::motion::{BeamMotion, in_common_frame_at_zero};
+use crate::mechanics::motion::{BeamMotion, FrameMotion, in_common_frame_at_zero};
 use crate::mechanics::setup::{Context, MassDistribution, SymbolList, Values, at_rest};
 use crate::model::mechanism::Body;
 
@@ -28,7 +38,7 @@ use super::parameters::parameter;
 /// The function that computes the direction in which a vibration whirls.
 pub(crate) fn whirl(g: &mut Graph, context: &Context) -> Option<Function> {
     let symbols = context.symbols;
-    let moment_and_size = moment_and_size(g, context)?;
+    let sums = sums(g, context)?;
     Some(Function {
         name: KernelName::Whirl.name(),
         parameters: vec![
@@ -39,42 +49,105 @@ pub(crate) fn whirl(g: &mut Graph, context: &Context) -> Option<Function> {
             parameter("imaginary", &symbols.imaginary),
         ],
         results: vec![Array {
-            name: "moment_and_size",
-            shape: vec![2],
-            values: moment_and_size.to_vec(),
+            name: "sums",
+            shape: vec![SUMS.len()],
+            values: sums.to_vec(),
         }],
     })
 }
 
-/// `moment` and `size`; `None` if no massive body turns in the state of rest.
-fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
+/// The sums, in order.
+const SUMS: [&str; 7] = [
+    "moment",
+    "lateral",
+    "torsional",
+    "axial",
+    "eccentric",
+    "moving",
+    "still",
+];
+
+/// Added to a divisor that is zero where nothing spins, and then divides zero.
+const TINY: f64 = 1e-300;
+
+/// The sums; `None` if no massive body turns in the state of rest.
+fn sums(g: &mut Graph, context: &Context) -> Option<[ExprId; 7]> {
     let zero = g.zero();
+    let tiny = g.constant(TINY);
     let kinematics = in_common_frame_at_zero(g, context);
     let symbols = context.symbols;
-    let bodies = kinematics.bodies.iter();
-    let bodies = bodies.map(|body| [body.frame.velocity, body.frame.angular_velocity]);
-    let mut vectors: Vec<[Vector3; 2]> = bodies.collect();
-    let slices: Vec<Slice> = (0..context.mechanism.beams.len())
-        .flat_map(|k| slices(g, context, k, &kinematics.beams[k]))
+    let bodies = context.mechanism.bodies.iter().zip(&kinematics.bodies);
+    let mut pieces: Vec<Piece> = bodies
+        .filter(|(body, _)| !body.parts.is_empty())
+        .map(|(body, motion)| Piece::of_body(g, context.values, body, &motion.frame))
         .collect();
-    vectors.extend(slices.iter().map(|slice| slice.motion));
-    let vectors: Vec<ExprId> = vectors.iter().flatten().flat_map(|pair| pair.0).collect();
-    let spins = by_body(&at_rest(g, symbols, &vectors));
+    for (k, motion) in kinematics.beams.iter().enumerate() {
+        pieces.extend(slices(g, context, k, motion));
+    }
+    let vectors: Vec<ExprId> = (pieces.iter())
+        .flat_map(|piece| piece.motion)
+        .flat_map(|vector| vector.0)
+        .collect();
+    let accelerations: Vec<ExprId> = pieces.iter().flat_map(|x| x.acceleration.0).collect();
+    let spins = pairs(&at_rest(g, symbols, &vectors));
+    let accelerations = at_rest(g, symbols, &accelerations);
     let mut moved = |name, along: &SymbolList| {
         let rates = symbols.velocity.with(&along.values).collect();
-        by_body(&derivatives_along(
+        pairs(&derivatives_along(
             g,
             &vectors,
             &Direction::new(name, rates),
         ))
     };
-    let real = moved("_real", &symbols.real);
-    let imaginary = moved("_imaginary", &symbols.imaginary);
+    let moved = [
+        moved("_real", &symbols.real),
+        moved("_imaginary", &symbols.imaginary),
+    ];
 
-    let (mut moment, mut size) = (zero, zero);
-    let mut add = |g: &mut Graph, omega: Vector3, shares: [(ExprId, [Vector3; 2]); 2]| {
-        let speed = omega.norm(g);
-        for (weight, [r, s]) in shares {
+    let [
+        mut moment,
+        mut lateral,
+        mut torsional,
+        mut axial,
+        mut moving,
+        mut still,
+    ] = [zero; 6];
+    let (mut place, mut gyration, mut spinning) = (Vector3::zero(g), zero, false);
+    for (index, piece) in pieces.iter().enumerate() {
+        let omega = spins[index][1].add(g, piece.spin);
+        let [real, imaginary] = moved.each_ref().map(|all| all[index]);
+        let trace = piece.second_moment(g, None);
+        if omega.is_zero(g) {
+            for [r, theta] in [real, imaginary] {
+                let squares = [(piece.mass, r), (trace, theta)];
+                let shares = squares.map(|(weight, moved)| {
+                    let square = moved.dot(g, moved);
+                    g.mul(weight, square)
+                });
+                still = g.sum([still, shares[0], shares[1]]);
+            }
+            continue;
+        }
+        spinning = true;
+        let (speed, square) = (omega.norm(g), omega.dot(g, omega));
+        let divisor = g.add(square, tiny);
+        let one = g.constant(1.0);
+        let inverse = g.div(one, divisor);
+        let inward = Vector3([0, 1, 2].map(|k| accelerations[3 * index + k]));
+        let arm = inward.scale(g, inverse).neg(g);
+        let reach = arm.dot(g, arm);
+        let about_center = piece.second_moment(g, Some(omega));
+        let polar = g.mul(about_center, inverse);
+        let offset = g.mul(piece.mass, reach);
+        let about_axis = g.add(polar, offset);
+        // The point of the body on the axis.
+        let on_axis = [real, imaginary].map(|[r, theta]| {
+            let swing = theta.cross(g, arm);
+            r.sub(g, swing)
+        });
+        let turns = [real[1], imaginary[1]];
+        let mut across = zero;
+        for (weight, [r, s]) in [(piece.mass, on_axis), (trace, turns)] {
             let area = s.cross(g, r);
             let along = omega.dot(g, area);
             let weighted = g.mul(weight, speed);
@@ -86,61 +159,134 @@ fn moment_and_size(g: &mut Graph, context: &Context) -> Option<[ExprId; 2]> {
             });
             let sum = g.sum(squares);
             let share = g.mul(weight, sum);
-            size = g.add(size, share);
+            across = g.add(across, share);
         }
-    };
-    for (index, body) in context.mechanism.bodies.iter().enumerate() {
-        let [_, omega] = spins[index];
-        if body.parts.is_empty() || omega.is_zero(g) {
-            continue;
-        }
-        let central = Central::of_body(g, context.values, body);
-        let frame = &kinematics.bodies[index].frame;
-        let center = frame.orientation.express(g, central.center);
-        let mut of_center = |[velocity, turning]: [Vector3; 2]| {
-            let about_origin = turning.cross(g, center);
-            velocity.add(g, about_origin)
-        };
-        let centers = [of_center(real[index]), of_center(imaginary[index])];
-        let turns = [real[index][1], imaginary[index][1]];
-        let shares = [(central.mass, centers), (central.second_moment, turns)];
-        add(g, omega, shares);
+        let [along, about] = [(piece.mass, on_axis), (about_axis, turns)].map(|(weight, moved)| {
+            let squares = moved.map(|moved| {
+                let along = omega.dot(g, moved);
+                g.mul(along, along)
+            });
+            let sum = g.sum(squares);
+            g.mul(weight, sum)
+        });
+        lateral = g.add(lateral, across);
+        axial = g.add(axial, along);
+        torsional = g.add(torsional, about);
+        let share = g.sum([across, along, about]);
+        let energy = g.mul(share, inverse);
+        moving = g.add(moving, energy);
+        let centroid = arm.scale(g, share);
+        place = place.add(g, centroid);
+        let mass = g.add(piece.mass, tiny);
+        let square = g.div(about_axis, mass);
+        let spread = g.mul(share, square);
+        gyration = g.add(gyration, spread);
     }
-    let first = context.mechanism.bodies.len();
-    for (index, slice) in (first..).zip(&slices) {
-        let spin = slice.axis.scale(g, slice.spin);
-        let omega = spins[index][1].add(g, spin);
-        if omega.is_zero(g) {
-            continue;
-        }
-        let [places, turns] = [0, 1].map(|k| [real[index][k], imaginary[index][k]]);
-        add(
-            g,
-            omega,
-            [(slice.mass, places), (slice.second_moment, turns)],
-        );
+    if !spinning {
+        return None;
     }
-    let size = g.scale(0.5, size);
-    (!g.is(size, 0.0)).then(|| {
-        g.set_name(moment, || "moment".to_owned());
-        g.set_name(size, || "size".to_owned());
-        [moment, size]
-    })
+    let all = g.sum([lateral, axial, torsional]);
+    let [square, spread] = [place.dot(g, place), g.mul(all, gyration)];
+    let divisor = g.add(spread, tiny);
+    let eccentric = g.div(square, divisor);
+    let [lateral, torsional, axial, moving, still] =
+        [lateral, torsional, axial, moving, still].map(|sum| g.scale(0.5, sum));
+    let sums = [moment, lateral, torsional, axial, eccentric, moving, still];
+    for (sum, name) in sums.into_iter().zip(SUMS) {
+        g.set_name(sum, || name.to_owned());
+    }
+    Some(sums)
 }
 
-/// The mass of a beam that a place of its quadrature stands for.
-struct Slice {
+/// A body, or the mass of a beam that a place of its quadrature stands for.
+struct Piece {
     mass: ExprId,
-    /// `integral |rho|^2 dm` about the axis of the beam.
-    second_moment: ExprId,
-    /// Velocity and angular velocity of the section.
+    /// The second moment about the centre of mass, `isotropic 1 + sum weight (a b^T)`, in the piece's axes.
+    isotropic: ExprId,
+    moments: Vec<(ExprId, Vector3, Vector3)>,
+    /// The piece's axes; the common ones if there are none.
+    axes: Option<Matrix3>,
+    /// Velocity of its centre of mass and angular velocity.
     motion: [Vector3; 2],
-    /// The axis of the beam there, about which its material spins.
-    axis: Vector3,
-    spin: ExprId,
+    /// Acceleration of its centre of mass.
+    acceleration: Vector3,
+    /// Angular velocity of its material in addition.
+    spin: Vector3,
 }
 
-fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) -> Vec<Slice> {
+impl Piece {
+    /// `integral |rho|^2 dm`, or `integral |omega x rho|^2 dm`.
+    fn second_moment(&self, g: &mut Graph, omega: Option<Vector3>) -> ExprId {
+        let omega = omega.map(|omega| match self.axes {
+            Some(axes) => Vector3(axes.0.map(|axis| axis.dot(g, omega))),
+            None => omega,
+        });
+        let mut sum = match omega {
+            None => g.scale(3.0, self.isotropic),
+            Some(omega) => {
+                let square = omega.dot(g, omega);
+                let both = g.scale(2.0, self.isotropic);
+                g.mul(both, square)
+            }
+        };
+        for &(weight, a, b) in &self.moments {
+            let [a, b] = [a, b].map(|arm| omega.map_or(arm, |omega| omega.cross(g, arm)));
+            let product = a.dot(g, b);
+            let term = g.mul(weight, product);
+            sum = g.add(sum, term);
+        }
+        sum
+    }
+
+    /// The combined distributions of a body, about their common centre of mass.
+    fn of_body(g: &mut Graph, values: &Values, body: &Body, frame: &FrameMotion) -> Self {
+        let distributions = MassDistribution::of_body(g, values, body);
+        let mass = g.sum(distributions.iter().map(|x| x.mass));
+        let isotropic = g.sum(distributions.iter().map(|x| x.isotropic));
+        let (mut center, mut centers) = (Vector3::zero(g), Vec::new());
+        let mut moments = Vec::new();
+        // `c = sum f_k d_k / m`; about it the second moment has `second_kj - f_k f_j / m`.
+        for MassDistribution {
+            mass: own, arms, ..
+        } in &distributions
+        {
+            let mut own_center = Vector3::zero(g);
+            for arm in arms {
+                let share = ratio(g, arm.first, *own);
+                let part = arm.direction.scale(g, share);
+                own_center = own_center.add(g, part);
+                for (&second, other) in arm.second.iter().zip(arms) {
+                    let about_center = g.mul(share, other.first);
+                    let rest = g.sub(second, about_center);
+                    moments.push((rest, arm.direction, other.direction));
+                }
+            }
+            let share = ratio(g, *own, mass);
+            let part = own_center.scale(g, share);
+            center = center.add(g, part);
+            centers.push((*own, own_center));
+        }
+        for (own, own_center) in centers {
+            let away = own_center.sub(g, center);
+            if !away.is_zero(g) {
+                moments.push((own, away, away));
+            }
+        }
+        let (arm, curving) = frame.carry(g, center);
+        let about_origin = frame.angular_velocity.cross(g, arm);
+        Self {
+            mass,
+            isotropic,
+            moments,
+            axes: Some(frame.orientation.axes),
+            motion: [frame.velocity.add(g, about_origin), frame.angular_velocity],
+            acceleration: frame.acceleration.add(g, curving),
+            spin: Vector3::zero(g),
+        }
+    }
+}
+
+fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) -> Vec<Piece> {
     let beam = &context.mechanism.beams[beam];
     let values = context.values;
     let length = values.scalar(g, &beam.length);
@@ -152,104 +298,45 @@ fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) ->
         .map(|(k, ((fraction, weight, section), moving))| {
             let share = g.scale(*weight, length);
             let mass = values.scalar(g, &section.mass);
-            let inertia = section
-                .inertia
-                .each_ref()
-                .map(|inertia| values.scalar(g, inertia));
-            let polar = g.sum(inertia);
-            let mut velocity = moving.frame.velocity;
+            let frame = &moving.frame;
+            let (mut velocity, mut acceleration) = (frame.velocity, frame.acceleration);
             for (direction, reach) in motion.directions.iter().zip(rule.integrals_to(*fraction)) {
                 let reach = g.scale(reach, length);
                 let increment = direction.rate.scale(g, reach);
                 velocity = velocity.add(g, increment);
+                let increment = direction.second_rate.scale(g, reach);
+                acceleration = acceleration.add(g, increment);
             }
             for (_, offset) in motion.offsets.iter().filter(|(x, _)| *x == k) {
                 velocity = velocity.add(g, offset.rate);
+                acceleration = acceleration.add(g, offset.second_rate);
             }
-            Slice {
+            let [axis, second, third] = frame.orientation.axes.0;
+            // The distance from the second axis lies along the third.
+            let across = section.inertia.iter().zip([third, second]);
+            let moments = across.map(|(inertia, along)| {
+                let inertia = values.scalar(g, inertia);
+                (g.mul(inertia, share), along, along)
+            });
+            Piece {
+                moments: moments.collect(),
                 mass: g.mul(mass, share),
-                second_moment: g.mul(polar, share),
-                motion: [velocity, moving.frame.angular_velocity],
-                axis: moving.frame.orientation.axes.0[0],
-                spin,
+                isotropic: g.zero(),
+                axes: None,
+                motion: [velocity, frame.angular_velocity],
+                acceleration,
+                spin: axis.scale(g, spin),
             }
         })
         .collect()
 }
 
-/// Velocity and angular velocity of each body, or the corresponding displacements.
-fn by_body(components: &[ExprId]) -> Vec<[Vector3; 2]> {
+/// Velocity and angular velocity of each piece, or the corresponding displacements.
+fn pairs(components: &[ExprId]) -> Vec<[Vector3; 2]> {
     components
         .chunks_exact(6)
         .map(|c| [Vector3([c[0], c[1], c[2]]), Vector3([c[3], c[4], c[5]])])
         .collect()
-}
-
-/// Mass properties about the centre of mass.
-struct Central {
-    mass: ExprId,
-    /// From the body's origin, in the body frame.
-    center: Vector3,
-    /// `integral |rho - center|^2 dm`.
-    second_moment: ExprId,
-}
-
-impl Central {
-    /// The combined pieces of a body: `k = sum (k_i + m_i |c_i - c|^2)`.
-    fn of_body(g: &mut Graph, values: &Values, body: &Body) -> Self {
-        let pieces: Vec<Self> = MassDistribution::of_body(g, values, body)
-            .iter()
-            .map(|piece| Self::of_piece(g, piece))
-            .collect();
-        let mass = g.sum(pieces.iter().map(|piece| piece.mass));
-        let mut center = Vector3::zero(g);
-        for piece in &pieces {
-            let share = ratio(g, piece.mass, mass);
-            let part = piece.center.scale(g, share);
-            center = center.add(g, part);
-        }
-        let mut second_moment = g.zero();
-        for piece in &pieces {
-            let away = piece.center.sub(g, center);
-            let square = away.dot(g, away);
-            let moved = g.mul(piece.mass, square);
-            let sum = g.add(piece.second_moment, moved);
-            second_moment = g.add(second_moment, sum);
-        }
-        Self {
-            mass,
-            center,
-            second_moment,
-        }
-    }
-
-    /// `c = sum f_k d_k / m`, `k = 3 isotropic + sum (second_kj - f_k f_j / m) d_k . d_j`.
-    fn of_piece(g: &mut Graph, piece: &MassDistribution) -> Self {
-        let MassDistribution {
-            mass,
-            isotropic,
-            arms,
-        } = piece;
-        let mut center = Vector3::zero(g);
-        let mut second_moment = g.scale(3.0, *isotropic);
-        for arm in arms {
-            let share = ratio(g, arm.first, *mass);
-            let part = arm.direction.scale(g, share);
-            center = center.add(g, part);
-            for (&second, other) in arm.second.iter().zip(arms) {
-                let about_center = g.mul(share, other.first);
-                let rest = g.sub(second, about_center);
-                let product = arm.direction.dot(g, other.direction);
-                let term = g.mul(rest, product);
-                second_moment = g.add(second_moment, term);
-            }
-        }
-        Self {
-            mass: *mass,
-            center,
-            second_moment,
-        }
-    }
 }
 
 /// `a / b`, or exactly one if both are the same node: usually one piece is the whole body, and its arm leads to its

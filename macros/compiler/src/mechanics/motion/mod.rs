@@ -15,7 +15,8 @@ mod wrench;
 
 pub(super) use beam::BeamMotion;
 pub(super) use bend::{bend, bend_powers};
-pub(super) use frame::{FrameMotion, second_rate};
+pub(crate) use frame::FrameMotion;
+pub(super) use frame::second_rate;
 pub(super) use kinematics::{BodyMotion, Kinematics, PointMotion};
 pub(super) use recursions::{for_inertia, in_common_frame, in_common_frame_at_zero};
 pub(super) use step_axis::StepAxis;

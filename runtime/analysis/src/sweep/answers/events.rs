@@ -7,7 +7,7 @@ use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
 
 use crate::along::{name_of, place, together, value_of, varied};
-use crate::modes::undamped;
+use crate::modes::{Whirl, undamped};
 use crate::sweep::{Change, Condition, Event, EventTolerance, Line, Searched};
 use crate::tolerance::Spread;
 use crate::{Description, Input};
@@ -60,9 +60,9 @@ impl EventTolerance {
             return "critical".to_owned();
         };
         let name = name_of(&self.description, self.input);
-        let sense = self.sense();
-        let sense = sense.map_or_else(String::new, |sense| format!(" ({sense})"));
-        format!("{}{sense}", meeting(mode, condition, self.change, name))
+        let kind = self.whirl();
+        let kind = kind.map_or_else(String::new, |whirl| format!(" ({whirl})"));
+        format!("{}{kind}", meeting(mode, condition, self.change, name))
     }
 
     fn meeting(&self) -> Option<(usize, Condition)> {
@@ -74,9 +74,9 @@ impl EventTolerance {
         }
     }
 
-    fn sense(&self) -> Option<String> {
+    fn whirl(&self) -> Option<Whirl> {
         match self.event {
-            Event::Crossing { whirl, .. } => whirl.map(|whirl| whirl.sense().to_string()),
+            Event::Crossing { whirl, .. } => whirl,
             Event::Critical => None,
         }
     }
@@ -236,7 +236,8 @@ pub(crate) fn event_columns<'a>(
     table.cells("what happens", &|row| row.what_happens());
     varied(&mut table, d, one.input, number, &|x| x.value);
     meetings(&mut table, &|x| x.meeting());
-    table.words("whirl", &|row| row.sense());
+    table.words("kind", &|row| Some(row.whirl()?.kind.to_string()));
+    table.words("whirl", &|row| Some(row.whirl()?.sense()?.to_string()));
     if let Some(info) = d.inputs.get(one.input.index()) {
         table.measured("sigma", &info.unit, &|row| Some(spread(row)?.sigma));
         let band = table.measured("band", &info.unit, &|row| Some(spread(row)?.band));
