@@ -4,13 +4,20 @@ use std::sync::OnceLock;
 
 use eigentol::kernels::PictureKernels as _;
 use eigentol::{Error, Role};
+use eigentol_compiler::Compilation;
 use eigentol_interpreter::Interpreted;
 
 /// Beams without `stretch` of the machine that the command is about, if its loops could hold them at both ends.
 static INEXTENSIBLE: OnceLock<Vec<String>> = OnceLock::new();
 
+/// Where `check` says that it has no equilibrium.
+static UNBALANCED: OnceLock<String> = OnceLock::new();
+
 /// Remembers the machine.
-pub(crate) fn remember(machine: &Interpreted) {
+pub(crate) fn remember(machine: &Interpreted, compilation: &Compilation) {
+    if let Some(unbalanced) = &compilation.functions.free.unbalanced {
+        let _ = UNBALANCED.set(unbalanced.clone());
+    }
     let d = eigentol::kernels::Kernels::description(machine);
     let unknowns = || d.coordinates.iter();
     let stretches = |beam: &str| {
@@ -27,6 +34,14 @@ pub(crate) fn remember(machine: &Interpreted) {
     let closed = unknowns().any(|x| x.role == Role::PositionReaction);
     let inextensible = beams.filter(|beam| closed && !stretches(beam)).collect();
     let _ = INEXTENSIBLE.set(inextensible);
+}
+
+/// A failure of that machine in words.
+pub(crate) fn message(error: &Error) -> String {
+    match (error, UNBALANCED.get()) {
+        (Error::NoEquilibrium { .. }, Some(why)) => format!("no equilibrium found: {why}"),
+        _ => error.to_string(),
+    }
 }
 
 /// Advice on a failure of that machine.

@@ -24,6 +24,7 @@ impl Converge {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
+        question.note_unset();
         let refined = |more| Interpreted::refined(&question.text, more);
         let convergence = (question.study).convergence([refined(1)?, refined(2)?])?;
         let mut answer = self.output.answer();

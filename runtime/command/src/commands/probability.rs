@@ -5,7 +5,7 @@ use eigentol::requirement::{Probabilities, Requirement};
 
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::point::{Point, Question, exact, samples, whole};
+use crate::point::{Point, exact, samples, whole};
 use crate::progress;
 use crate::requirements::{HELP, parsed, require_keys, requirements};
 use crate::study_file::Require;
@@ -55,7 +55,8 @@ pub(crate) struct Probability {
 impl Probability {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        let Question { study, file, .. } = self.point.question()?;
+        let question = self.point.question()?;
+        let file = &question.file;
         let required = match self.require.is_empty() {
             true => &file.require,
             false => &self.require,
@@ -66,15 +67,19 @@ impl Probability {
             return Err(Failure::usage("nothing is required", help));
         }
         let bar = progress::bar("designs", None);
-        let study = progress::watched(study, &bar)
+        let study = progress::watched(question.study.clone(), &bar)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let wanted = requirements(&study, required)?;
         let mut responses = wanted.iter().filter_map(Requirement::response);
-        let usual = responses
-            .any(|response| !response.of_state())
-            .then_some(SEARCHES);
-        let count = samples(self.samples.or(file.samples).or(usual), &file)?;
+        let usual = match responses.any(|response| !response.of_state()) {
+            true => Some(SEARCHES),
+            false => {
+                question.note_unset();
+                None
+            }
+        };
+        let count = samples(self.samples.or(file.samples).or(usual), file)?;
         let study = study.samples(count);
         let outcome = study.probability(&wanted);
         drop(bar);

@@ -56,6 +56,7 @@ impl Sample {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
+        question.note_unset();
         let file = &question.file;
         let samples = samples(self.samples, file)?;
         let shown = self.output.wants_table("samples");

@@ -263,7 +263,7 @@ fn sweeps_that_make_no_sense() {
         refused(
             &[&["campbell", PENDULUM], &sweep[..], &[points]].concat(),
             2,
-            &["do not make a sweep"],
+            &["no sweep"],
         );
     }
 }

@@ -189,7 +189,7 @@ fn peaks_name_their_vibration() {
     );
 }
 
-/// Vibrations in which nothing settles are said to be so, and are no success.
+/// Vibrations in which no machine stays are said to be so, and are no success.
 #[test]
 fn unstable_vibrations() {
     let folder = folder("unstable");
@@ -210,7 +210,7 @@ fn unstable_vibrations() {
     assert_eq!(some.code, 0, "{}", some.err);
     assert!(
         some.out.contains(
-            "6 of 9 points are unstable, the first at speed = 4.00000 rad/s: nothing settles"
+            "6 of 9 points are unstable, the first at speed = 4.00000 rad/s: no machine stays there"
         ),
         "{}",
         some.out
