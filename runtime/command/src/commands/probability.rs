@@ -1,7 +1,7 @@
 //! How probable it is that requirements are failed.
 
 use clap::Args;
-use eigentol::requirement::{Probabilities, Requirement};
+use eigentol::requirement::{Probabilities, Requirement, affordable_samples};
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -42,7 +42,7 @@ pub(crate) struct Probability {
     /// A requirement: `frequency 1 >= 20 Hz`; may be given several times, in place of those of a study file
     #[arg(long, value_name = "REQUIREMENT", value_parser = parsed)]
     require: Vec<Require>,
-    /// Samples, where only samples can tell [default: 3000; 600 if each takes a search along an input]
+    /// Samples, where only samples can tell [default: 3000; down to 600 if each is dear, as one that takes a search along an input]
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
     /// Seed of the samples [default: 0]
@@ -76,7 +76,7 @@ impl Probability {
             true => Some(SEARCHES),
             false => {
                 question.note_unset();
-                None
+                study.modes().ok().map(|modes| affordable_samples(&modes))
             }
         };
         let count = samples(self.samples.or(file.samples).or(usual), file)?;

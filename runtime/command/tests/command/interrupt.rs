@@ -212,7 +212,7 @@ fn an_allocation_is_checked_by_the_samples_that_are_done() {
 }
 
 /// The file of a chain of bars that hangs from a turning axis.
-fn chain(folder: &Path, bars: usize) -> String {
+pub(crate) fn chain(folder: &Path, bars: usize) -> String {
     let mut chain = String::from(
         "pub mechanism Chain {\n input omega: rad/s;\n design l = 1 m +/- 1%;\n gravity 9.81 m/s^2 along -z;\n body b0: massless;\n\
          joint spin: revolute(z) from ground to b0, driven at omega;\n output reach = q1;\n",
