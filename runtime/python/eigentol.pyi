@@ -974,7 +974,7 @@ class Bode(_Result):
         """Values of the input, SI, shape (k,)."""
     @property
     def stable(self) -> Flags:
-        """Whether the equilibrium at each value is stable and no mode grows; elsewhere nothing settles in the vibration."""
+        """Whether the equilibrium at each value is stable and no mode grows; elsewhere no machine stays in the vibration."""
     @property
     def harmonics(self) -> list[list[str]]:
         """Names of the excitations that act together in each harmonic."""
@@ -1627,7 +1627,7 @@ class Peaks(_Result):
         """Their total derivatives by design variables, shape (k, design), per SI unit."""
     @property
     def stable(self) -> Flags:
-        """Whether the equilibrium at each peak is stable and no mode grows; elsewhere nothing settles in the vibration."""
+        """Whether the equilibrium at each peak is stable and no mode grows; elsewhere no machine stays in the vibration."""
     @property
     def frequencies(self) -> Real:
         """Frequencies at the peaks, rad/s, shape (k,)."""

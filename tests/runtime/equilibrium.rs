@@ -7,7 +7,7 @@ use crate::common::models::{Follower, Plate, Slipping, Spring, Supercritical};
 use crate::common::pendulum::{Pendulum, W};
 use eigentol::equilibrium::{Search, equilibrium, find_equilibria};
 use eigentol::modes::modes;
-use eigentol::{Behaviour, Error, Policy, Stability};
+use eigentol::{Behaviour, Error, Policy, Stability, Watch};
 
 const BAR: [f64; 2] = [3.0, 1.0];
 const BARS: [f64; 4] = [1.0, 1.0, 3.0, 3.0];
@@ -119,7 +119,7 @@ fn double_pendulum_matches_reference() {
 #[test]
 fn every_branch_is_found() {
     let search = Search::new([-3.2], [3.2]).starts(40).seed(1);
-    let found = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search).unwrap();
+    let found = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
     let mut angles: Vec<_> = found.iter().map(|state| state.coordinates[0]).collect();
     angles.sort_by(f64::total_cmp);
     assert_eq!(
@@ -130,7 +130,7 @@ fn every_branch_is_found() {
         2
     );
     assert_eq!(found.len(), 4, "{angles:?}");
-    let again = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search).unwrap();
+    let again = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
     assert_eq!(found, again);
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use proc_macro2::{LexError, Span, TokenStream};
 
 use crate::base::diagnostics::Diagnostics;
-use crate::syntax::nesting::{NAME_PARTS, TOO_LARGE, too_deep};
+use crate::syntax::nesting::{NAME_PARTS, TOO_LARGE, brackets};
 
 /// One mistake in a declaration.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,26 +84,39 @@ impl std::error::Error for Mistakes {}
 /// If the text contains a sign that has no meaning in a declaration, an unpaired bracket or quote, or brackets in
 /// brackets beyond any use.
 pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
-    if let Some((line, column)) = too_deep(text.trim_start_matches(BYTE_ORDER_MARK)) {
-        return Err(Mistakes(vec![Mistake {
+    let readable = text.trim_start_matches(BYTE_ORDER_MARK);
+    let at = |(line, column): (usize, usize), message: String, help: String| {
+        Mistakes(vec![Mistake {
             line: line + 1,
             column: column + 1,
             end_line: line + 1,
             end_column: column + 2,
-            message: TOO_LARGE.to_owned(),
-            help: Some(NAME_PARTS.to_owned()),
-        }]));
+            message,
+            help: Some(help),
+        }])
+    };
+    let brackets = brackets(readable);
+    if let Some(place) = brackets.too_deep {
+        return Err(at(place, TOO_LARGE.to_owned(), NAME_PARTS.to_owned()));
     }
     text.parse().map_err(|error: LexError| {
-        let span = error.span();
-        let start = span.start();
-        let mut lines = text.trim_start_matches(BYTE_ORDER_MARK).lines();
-        let line = lines.nth(start.line.saturating_sub(1));
-        let sign = line.and_then(|line| line.chars().nth(start.column));
-        let (message, help) = unreadable(sign);
-        Mistakes(vec![mistake((span, span), message, Some(help))])
+        let start = error.span().start();
+        let place = (start.line.saturating_sub(1), start.column);
+        let line = readable.lines().nth(place.0);
+        let sign = line.and_then(|line| line.chars().nth(place.1));
+        let sign = sign.unwrap_or(' ');
+        let instead = SIGNS.iter().find(|(signs, _)| signs.contains(sign));
+        match (instead, brackets.unpaired) {
+            (None, Some((place, message))) => at(place, message, PAIRS.to_owned()),
+            (instead, _) => {
+                let help = instead.map_or(PAIRS.to_owned(), |(_, x)| format!("write `{x}`"));
+                at(place, format!("`{sign}` has no meaning here"), help)
+            }
+        }
     })
 }
+
+const PAIRS: &str = "brackets and quotes come in pairs";
 
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
@@ -118,24 +131,6 @@ const SIGNS: [(&str, &str); 8] = [
     ("³", "^3"),
     ("⁻¹", "^-1"),
 ];
-
-/// The problem with a text that cannot be split into tokens from this sign on, and how to fix it.
-fn unreadable(sign: Option<char>) -> (String, String) {
-    let pairs = "brackets and quotes come in pairs".to_owned();
-    let Some(sign) = sign else {
-        return ("this text ends too early".to_owned(), pairs);
-    };
-    let instead = SIGNS.iter().find(|(signs, _)| signs.contains(sign));
-    match (sign, instead) {
-        (_, Some((_, instead))) => (
-            format!("`{sign}` has no meaning here"),
-            format!("write `{instead}`"),
-        ),
-        ('(' | '[' | '{', _) => (format!("this `{sign}` is never closed"), pairs),
-        (')' | ']' | '}', _) => (format!("this `{sign}` closes nothing"), pairs),
-        _ => (format!("`{sign}` has no meaning here"), pairs),
-    }
-}
 
 impl From<Diagnostics> for Mistakes {
     fn from(diagnostics: Diagnostics) -> Self {

@@ -23,6 +23,9 @@ pub struct Mistake {
     pub reason: Reason,
 }
 
+/// Most links and joints of a robot: the time grows with the square, and the equations of so many bodies are out of reach.
+pub(crate) const MOST: usize = 10_000;
+
 /// The problem with a file.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -91,6 +94,9 @@ pub enum Reason {
     /// The file contains no link.
     #[error("the robot has no link")]
     NoLink,
+    /// More links and joints than any declaration can have.
+    #[error("the robot has {0} links and joints, and at most {MOST} can be converted")]
+    TooLarge(usize),
     /// A link has two parents.
     #[error("the link `{link}` is the child of both `{first}` and `{second}`")]
     TwoParents {
@@ -173,6 +179,7 @@ impl Reason {
             Reason::Twice { .. } => "rename one of them".to_owned(),
             Reason::Unknown { what, near, .. } => did_you_mean(near.as_deref())
                 .unwrap_or_else(|| format!("declare the {what}, or name another")),
+            Reason::TooLarge(_) => "convert its limbs one by one".to_owned(),
             Reason::NoLink => "a robot needs a link and a joint that moves it".to_owned(),
             Reason::TwoParents { .. } => {
                 "a URDF file has no loops: remove one of the joints, and close the loop in the declaration by a `joint`".to_owned()

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use eigentol_compiler::base::nearest::nearest;
 use roxmltree::{Document, Node};
 
-use crate::error::{ImportError, Mistake, Reason};
+use crate::error::{ImportError, MOST, Mistake, Reason};
 use crate::geometry::{Inertial, Matrix, Pose, Vector, norm};
 use crate::robot::{Joint, JointKind, Link, Mimic, Robot, SourcePosition};
 
@@ -50,6 +50,10 @@ pub(crate) fn read(text: &str) -> Result<Robot, ImportError> {
     };
     if let Some(node) = root.children().find(is_macro) {
         return Err(only(reader.place(node), Reason::Template));
+    }
+    let elements = root.children().filter(Node::is_element).count();
+    if elements > MOST {
+        return Err(only(at, Reason::TooLarge(elements)));
     }
     let links = reader.links(root);
     if links.is_empty() && reader.mistakes.is_empty() {

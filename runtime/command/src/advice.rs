@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use eigentol::kernels::PictureKernels as _;
 use eigentol::{Error, Role};
+use eigentol_compiler::Compilation;
 use eigentol_interpreter::Interpreted;
 use eigentol_tables::{Column, Table, Values};
 
@@ -13,9 +14,15 @@ static INEXTENSIBLE: OnceLock<Vec<String>> = OnceLock::new();
 /// How many of the first modes of that machine have coordinates enough by the rule, if it has beams.
 static GOOD: OnceLock<Option<usize>> = OnceLock::new();
 
+/// Where `check` says that it has no equilibrium.
+static UNBALANCED: OnceLock<String> = OnceLock::new();
+
 /// Remembers the machine.
-pub(crate) fn remember(machine: &Interpreted) {
+pub(crate) fn remember(machine: &Interpreted, compilation: &Compilation) {
     let _ = GOOD.set(machine.good_modes());
+    if let Some(unbalanced) = &compilation.functions.free.unbalanced {
+        let _ = UNBALANCED.set(unbalanced.clone());
+    }
     let d = eigentol::kernels::Kernels::description(machine);
     let unknowns = || d.coordinates.iter();
     let stretches = |beam: &str| {
@@ -79,6 +86,14 @@ pub(crate) fn on_beams(last: usize) -> Option<String> {
 /// Whether the machine has beams, so that answers rest on the number of their coordinates.
 pub(crate) fn has_beams() -> bool {
     matches!(GOOD.get(), Some(Some(_)))
+}
+
+/// A failure of that machine in words.
+pub(crate) fn message(error: &Error) -> String {
+    match (error, UNBALANCED.get()) {
+        (Error::NoEquilibrium { .. }, Some(why)) => format!("no equilibrium found: {why}"),
+        _ => error.to_string(),
+    }
 }
 
 /// Advice on a failure of that machine.

@@ -159,7 +159,18 @@ fn named<'a, T>(
     })
 }
 
-/// The item with exactly this name, or the only one whose name begins with these words.
+/// What headings call some results, apart from the machine and the operating point.
+const HEADINGS: [(&str, &str); 7] = [
+    ("natural modes", "modes"),
+    ("equilibrium,", "equilibrium"),
+    ("what tolerances do to the frequencies", "summary"),
+    ("first order spread of the outputs", "output tolerances"),
+    ("sensitivities of the frequencies", "sensitivities"),
+    ("shift of the equilibrium", "equilibrium shift"),
+    ("outputs", "output sensitivities"),
+];
+
+/// The item with exactly this name or its heading, or the only one whose name begins with these words.
 ///
 /// Case is ignored, and `_`, `-` and spaces are equivalent: the library's `first_order` matches
 /// `first-order tolerances`.
@@ -168,6 +179,14 @@ fn meant<'a, T>(name: &str, all: &'a [T], name_of: impl Fn(&'a T) -> &'a str) ->
     let name = plain(name);
     if let Some(exact) = all.iter().find(|x| plain(name_of(x)) == name) {
         return Some(exact);
+    }
+    let heading = name.rsplit(": ").next().unwrap_or(&name);
+    let called = |kind: &str| {
+        let is_headed = |(words, x): &(&str, &str)| *x == kind && heading.starts_with(words);
+        HEADINGS.iter().any(is_headed)
+    };
+    if let Some(headed) = all.iter().find(|x| called(&plain(name_of(x)))) {
+        return Some(headed);
     }
     let begins = |item: &&'a T| plain(name_of(item)).starts_with(&format!("{name} "));
     let mut candidates = all.iter().filter(begins);
@@ -192,6 +211,11 @@ mod tests {
             ("First Order", Some(all[0])),
             ("output_tolerances", Some(all[2])),
             ("SUMMARY", Some(all[1])),
+            (
+                "Rotor at speed = 3 rpm: first-order spread of the outputs",
+                Some(all[2]),
+            ),
+            ("what tolerances do", None),
             ("output", None),
             ("first_ord", None),
             ("", None),

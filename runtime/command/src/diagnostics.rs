@@ -11,6 +11,9 @@ use crate::declaration::Declaration;
 use crate::failure::Failure;
 use crate::mistake::Mistake;
 
+/// Most mistakes that are drawn.
+pub(crate) const MOST_SHOWN: usize = 50;
+
 /// Writes a failure to standard error.
 pub(crate) fn say(failure: &Failure, color: Color) {
     let renderer = renderer(color);
@@ -21,7 +24,7 @@ pub(crate) fn say(failure: &Failure, color: Color) {
         mistakes,
     } = failure
     {
-        for mistake in mistakes {
+        for mistake in mistakes.iter().take(MOST_SHOWN) {
             text += &drawn(Level::ERROR, name, source, mistake, &renderer);
             text += "\n\n";
         }

@@ -15,6 +15,7 @@ pub(crate) const INTERRUPTED: u8 = 130;
 static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 static STOPPABLE: AtomicBool = AtomicBool::new(false);
 static ANSWERS: AtomicBool = AtomicBool::new(false);
+static PRINTS: AtomicBool = AtomicBool::new(false);
 
 /// Time in which stopped work may begin to write what it has.
 const GRACE: Duration = Duration::from_millis(700);
@@ -45,7 +46,7 @@ fn interrupted() {
 }
 
 fn end() {
-    let written = match answers() {
+    let written = match answers() || PRINTS.load(Ordering::Relaxed) {
         true => "before the answer was complete",
         false => "nothing was written",
     };
@@ -56,6 +57,11 @@ fn end() {
 /// From now on the answer is written.
 pub(crate) fn answer() {
     ANSWERS.store(true, Ordering::Relaxed);
+}
+
+/// Rows of the answer have been printed; more may follow.
+pub(crate) fn prints() {
+    PRINTS.store(true, Ordering::Relaxed);
 }
 
 /// Whether the answer is being written.

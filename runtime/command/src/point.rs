@@ -16,9 +16,11 @@ use eigentol_interpreter::{Interpreted, design_tolerance, tolerance, value};
 
 use crate::advice;
 use crate::declaration::Declaration;
+use crate::diagnostics;
 use crate::ends::with_unit_of;
 use crate::failure::Failure;
-use crate::study_file::{StudyFile, Written};
+use crate::progress;
+use crate::study_file::{Correlation, StudyFile, Written};
 
 /// What is studied, and at which values.
 #[derive(Args, Debug)]
@@ -47,6 +49,9 @@ pub(crate) struct Point {
     /// Bounds of the starts of a search for equilibria: `x=-1..1m`; without them, angles start anywhere
     #[arg(long, value_name = "NAME=FROM..TO", value_parser = pair)]
     between: Vec<(String, String)>,
+    /// Least number of random starts of that search [default: 32; more follow as long as they find more, within seconds]
+    #[arg(long, value_name = "COUNT", value_parser = whole)]
+    starts: Option<usize>,
     /// Take this equilibrium, as numbered by `eigentol equilibria`, whatever its stability
     #[arg(long, value_name = "NUMBER", value_parser = whole)]
     equilibrium: Option<usize>,
@@ -68,17 +73,36 @@ pub(crate) struct Question {
     pub(crate) set: Vec<String>,
     /// Where starts of a search for equilibria lie.
     between: Vec<(Coordinate<Interpreted>, f64, f64)>,
+    /// Least number of random starts.
+    starts: Option<usize>,
 }
 
 impl Question {
     /// Where to search for equilibria.
     pub(crate) fn search(&self) -> Result<Search, Failure> {
-        Ok(self.study.search(&self.between)?)
+        let search = self.study.search(&self.between)?;
+        let starts = self.starts.unwrap_or(search.starts);
+        Ok(search.starts(starts))
+    }
+
+    /// Says which inputs an answer at one state takes as zero, because nothing gives their value.
+    pub(crate) fn note_unset(&self) {
+        for info in self.study.description().inputs.iter() {
+            let name = &*info.name;
+            let given = self.set.iter().any(|set| set == name) || self.file.set.contains_key(name);
+            if !given {
+                let unit = &info.unit.symbol;
+                let note = format!("`{name}` was not given: 0 {unit}");
+                diagnostics::note(&note.trim_end());
+            }
+        }
     }
 
     /// The same question of the equilibrium with this number.
     fn of_equilibrium(mut self, number: usize) -> Result<Self, Failure> {
-        let equilibria = self.study.equilibria(&self.search()?)?;
+        let bar = progress::bar("starts", None);
+        let study = progress::watched(self.study.clone(), &bar);
+        let equilibria = study.equilibria(&self.search()?)?;
         let Some(state) = number.checked_sub(1).and_then(|k| equilibria.get(k)) else {
             let message = format!(
                 "there is no equilibrium {number}: the search finds {}",
@@ -149,7 +173,7 @@ impl Point {
         let declaration = Declaration::read(path)?;
         let compilation = declaration.compiled()?;
         let machine = Interpreted::new(&compilation);
-        advice::remember(&machine);
+        advice::remember(&machine, &compilation);
         let mut study = Study::new(machine);
         if let Some(level) = self.sigma_level.or(file.sigma_level) {
             study = study.sigma_level(positive_level(level)?);
@@ -172,7 +196,9 @@ impl Point {
         for (name, text) in given.chain(options) {
             study = tolerate(study, &compilation, name, text)?;
         }
-        study = correlate(study, &file.correlation)?;
+        if let Some(Correlation::Pairs(pairs)) = &file.correlation {
+            study = correlate(study, pairs)?;
+        }
         if self.stay || file.stay {
             study = study.stay();
         }
@@ -183,6 +209,7 @@ impl Point {
             .map(|(name, text)| bounds(&study, name, text));
         let question = Question {
             between: between.collect::<Result<_, _>>()?,
+            starts: self.starts,
             study,
             text: declaration.text,
             set: self.set.iter().map(|(name, _)| name.clone()).collect(),

@@ -1,7 +1,8 @@
 //! What standard error shows of long work: a bar of its steps, or how long it has taken; hidden if that is not a terminal.
 
 use std::ops::Deref;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -20,8 +21,29 @@ const TICK: Duration = Duration::from_millis(200);
 /// Number of bars in sight.
 static BARS: AtomicUsize = AtomicUsize::new(0);
 
-/// A bar that leaves with its end.
-pub(crate) struct Bar(ProgressBar);
+/// A bar that leaves with its end, or once all its steps are done: what then follows has none.
+pub(crate) struct Bar(ProgressBar, Arc<AtomicBool>);
+
+impl Bar {
+    /// Takes it out of sight.
+    pub(crate) fn leave(&self) {
+        leave(&self.0, &self.1);
+    }
+}
+
+fn leave(bar: &ProgressBar, left: &AtomicBool) {
+    if !left.swap(true, Ordering::Relaxed) {
+        bar.finish_and_clear();
+        BARS.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+fn advance(bar: &ProgressBar, left: &AtomicBool, steps: usize) {
+    bar.inc(steps as u64);
+    if bar.length().is_some_and(|all| bar.position() >= all) {
+        leave(bar, left);
+    }
+}
 
 impl Deref for Bar {
     type Target = ProgressBar;
@@ -33,8 +55,7 @@ impl Deref for Bar {
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
-        BARS.fetch_sub(1, Ordering::Relaxed);
+        self.leave();
     }
 }
 
@@ -48,7 +69,7 @@ pub(crate) fn bar(what: &'static str, steps: Option<u64>) -> Bar {
         None => (ProgressBar::no_length(), "{pos} {msg}  {elapsed}"),
     };
     BARS.fetch_add(1, Ordering::Relaxed);
-    Bar(started(bar.with_message(what), template))
+    Bar(started(bar.with_message(what), template), Arc::default())
 }
 
 fn started(bar: ProgressBar, template: &str) -> ProgressBar {
@@ -63,9 +84,9 @@ fn started(bar: ProgressBar, template: &str) -> ProgressBar {
 
 /// A study that shows its steps on a bar, and that Ctrl-C ends with the work done so far.
 pub(crate) fn watched(study: Study<Interpreted>, bar: &Bar) -> Study<Interpreted> {
-    let bar = bar.0.clone();
+    let (bar, left) = (bar.0.clone(), Arc::clone(&bar.1));
     study
-        .progress(move |steps| bar.inc(steps as u64))
+        .progress(move |steps| advance(&bar, &left, steps))
         .stop(interrupt::stop())
 }
 

@@ -51,7 +51,7 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
         require.stable = true;
         return Ok(require);
     }
-    let limits = [">=", "<=", " outside ", " within ", " away from "];
+    let limits = [">=", "<=", ">", "<", " outside ", " within ", " away from "];
     let split = limits.into_iter().find_map(|word| {
         let (what, limit) = text.split_once(word)?;
         Some((what, word.trim(), limit.trim()))
@@ -60,8 +60,8 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
     let written = |text: &str| Written::Text(text.trim().to_owned());
     let ends = || limit.split_once("..").ok_or_else(refused);
     match word {
-        ">=" => require.at_least = Some(written(limit)),
-        "<=" => require.at_most = Some(written(limit)),
+        ">=" | ">" => require.at_least = Some(written(limit)),
+        "<=" | "<" => require.at_most = Some(written(limit)),
         "away from" => require.away_from = Some(limit.to_owned()),
         _ => {
             let (low, high) = ends()?;

@@ -94,6 +94,9 @@ impl<'a, T> Rows<'a, T> {
             File::Csv(file) => file.write(&table),
             File::Parquet(file) => file.write(&table),
         };
+        if self.place.path().is_none() {
+            interrupt::prints();
+        }
         self.waiting.clear();
         self.written = Instant::now();
         written.map_err(|error| failure(self.place, error))

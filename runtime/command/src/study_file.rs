@@ -40,8 +40,7 @@ pub(crate) struct StudyFile {
     #[serde(default)]
     pub(crate) tolerance: BTreeMap<String, String>,
     /// Correlations of pairs of names.
-    #[serde(default)]
-    pub(crate) correlation: Vec<(String, String, f64)>,
+    pub(crate) correlation: Option<Correlation>,
     pub(crate) sigma_level: Option<f64>,
     /// A range, as for `--sweep`.
     pub(crate) sweep: Option<String>,
@@ -60,6 +59,16 @@ pub(crate) struct StudyFile {
     /// The tolerances and nominal values that `allocate` may choose.
     #[serde(default)]
     pub(crate) choose: Vec<Choose>,
+}
+
+/// Names of pairs, each with its correlation.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a list of pairs, each with its correlation: `correlation = [[\"l\", \"k\", 0.5]]`"
+)]
+pub(crate) enum Correlation {
+    Pairs(Vec<(String, String, f64)>),
 }
 
 /// A value as written: text with its unit, or a number without one.

@@ -5,7 +5,7 @@ use eigentol::{Input, Study};
 use eigentol_interpreter::{Interpreted, value};
 
 use crate::ends::with_unit_of;
-use crate::failure::Failure;
+use crate::failure::{Failure, plural};
 use crate::point::{Question, input, whole};
 
 /// Default number of points of a sweep.
@@ -130,7 +130,10 @@ impl Points {
         if count < 2 {
             let help = "a range has two ends: `--points 2` is the least";
             return Err(Failure::usage(
-                format!("{count} points do not make a sweep"),
+                format!(
+                    "{count} {} no sweep",
+                    plural(count, "point makes", "points make")
+                ),
                 help,
             ));
         }

@@ -54,7 +54,8 @@ impl<M: Kernels> Study<M> {
         let start = self.settings.assembled_start(&self.mechanism)?;
         let held = self.settings.held_in(Some(search), &start);
         let search = held.as_ref().unwrap_or(search);
-        equilibrium::find_equilibria(&self.mechanism, u, b, &start, search)
+        let watch = self.settings.watch();
+        equilibrium::find_equilibria(&self.mechanism, u, b, &start, search, watch)
     }
 
     /// Where to search for equilibria about the start values ([`Search::within`]).

@@ -529,38 +529,40 @@ fn lists_equal_counting() {
         };
         let damping = [0.0, 0.001, 0.05][case % 3];
         // Stiffness and damping, at speed 0 and per unit of speed.
-        let [k0, k1, c0, c1] = match case % 5 {
+        let parts = match case % 5 {
             0 => [
-                matrix(2.0, 0.0, 9.0),
-                matrix(0.5, 0.0, 0.0),
-                matrix(0.1, 0.0, 0.2),
-                matrix(0.1, 0.0, 0.0),
+                (2.0, 0.0, 9.0),
+                (0.5, 0.0, 0.0),
+                (0.1, 0.0, 0.2),
+                (0.1, 0.0, 0.0),
             ],
             1 => [
-                matrix(2.0, 1.0, 9.0),
-                matrix(0.4, 2.0, 0.0),
-                matrix(0.0, 0.0, damping),
-                matrix(0.0, 0.0, 0.0),
+                (2.0, 1.0, 9.0),
+                (0.4, 2.0, 0.0),
+                (0.0, 0.0, damping),
+                (0.0, 0.0, 0.0),
             ],
             2 => [
-                matrix(2.0, 0.0, -9.0),
-                matrix(0.0, 0.0, 0.0),
-                matrix(0.0, 0.0, 0.0),
-                matrix(0.0, 6.0, 0.0),
+                (2.0, 0.0, -9.0),
+                (0.0, 0.0, 0.0),
+                (0.0, 0.0, 0.0),
+                (0.0, 6.0, 0.0),
             ],
             3 => [
-                matrix(0.02, 0.0, 8.0),
-                matrix(0.1, 0.1, 0.0),
-                matrix(0.0, 0.0, damping),
-                matrix(0.0, 0.0, 0.0),
+                (0.02, 0.0, 8.0),
+                (0.1, 0.1, 0.0),
+                (0.0, 0.0, damping),
+                (0.0, 0.0, 0.0),
             ],
             _ => [
-                matrix(3.0, 1.0, 9.0),
-                matrix(2.0, 0.0, 0.0),
-                matrix(0.0, 0.0, damping),
-                matrix(0.0, 0.0, 0.0),
+                (3.0, 1.0, 9.0),
+                (2.0, 0.0, 0.0),
+                (0.0, 0.0, damping),
+                (0.0, 0.0, 0.0),
             ],
         };
+        let [k0, k1, c0, c1] =
+            parts.map(|(symmetric, skew, diagonal)| matrix(symmetric, skew, diagonal));
         let mut text = String::from("mechanism Pencil { input speed: rad/s;\n");
         for i in 0..n {
             text += &format!(

@@ -506,7 +506,10 @@ fn loads_along_free_directions() {
                 force brake: load(at: tail, force: [{push}, 0, 0]); }}"
         )
     };
-    let notes = |text: &str| compiled(text).expect("it balances").functions.free.notes;
+    let notes = |text: &str| {
+        let free = compiled(text).expect("it balances").functions.free;
+        [free.notes, Vec::from_iter(free.unbalanced)].concat()
+    };
     let free =
         "free: `travel`; nothing depends on where it stands, so its place is that of the start";
     assert_eq!(notes(&carriage("p", "-p")), [free]);

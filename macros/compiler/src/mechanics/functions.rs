@@ -53,6 +53,8 @@ pub struct FreeDirections {
     pub count: usize,
     /// What can be said about them.
     pub notes: Vec<String>,
+    /// Where there is no equilibrium, because nothing balances the loads along them.
+    pub unbalanced: Option<String>,
 }
 
 /// An unknown of the steady motion.

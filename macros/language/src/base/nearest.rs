@@ -1,5 +1,56 @@
 //! Suggests the nearest known name for a misspelt one.
 
+/// What has no word here, and what is written instead: a linear answer needs smooth forces.
+const ABSENT: [(&[&str], &str); 8] = [
+    (
+        &["friction", "coulomb", "stiction", "dry_friction"],
+        "dry friction has no linear law: what sticks is held by a `spring` or a joint, what slides has a `damper` of the same loss",
+    ),
+    (
+        &["contact", "impact", "stop", "end_stop", "backlash", "gap"],
+        "forces are smooth: declare the state in contact, with a `spring_damper` or a constraint, and in a file of its own the state without",
+    ),
+    (
+        &["max", "min", "clamp", "if", "piecewise"],
+        "forces are smooth: write the side that acts at the equilibrium, or `(x + sqrt(x^2 + d^2)) / 2` with a small `d` for the greater of `x` and 0",
+    ),
+    (
+        &["abs", "fabs"],
+        "forces are smooth: write `x` or `-x`, whichever holds at the equilibrium, or `sqrt(x^2 + d^2)` with a small `d`",
+    ),
+    (
+        &["sign", "sgn", "signum", "step", "heaviside", "tanh"],
+        "forces are smooth: `x / sqrt(x^2 + d^2)` goes from -1 to 1 within a few `d`",
+    ),
+    (&["pow", "power"], "a power is written `x^2`"),
+    (
+        &["controller", "control", "pid", "pd", "feedback", "servo"],
+        "feedback is a force: `generalized(on: y, value: -kp * y - kd * rate(y))`",
+    ),
+    (
+        &["mesh", "stl"],
+        "no file is read: take mass, center and inertia from CAD, `rigid(mass: 2 kg, inertia: [3, 4, 5] kg*m^2, center: [0, 0, 1] m)`",
+    ),
+];
+
+/// The advice on an unknown word: what to write instead, or the known word that is probably meant.
+pub fn advice<'a>(
+    name: &str,
+    known: impl IntoIterator<Item = &'a str> + Clone,
+    synonyms: &[(&str, &str)],
+) -> Option<String> {
+    let is_named = |words: &[&str]| words.iter().any(|word| word.eq_ignore_ascii_case(name));
+    match ABSENT.iter().find(|(words, _)| is_named(words)) {
+        Some((_, instead)) => Some((*instead).to_string()),
+        None => suggestion(name, known, synonyms).map(meant),
+    }
+}
+
+/// The question whether a known word is meant.
+pub fn meant(near: &str) -> String {
+    format!("did you mean `{near}`?")
+}
+
 /// The probable meaning of `name`: the known word for another tool's `name`, otherwise the nearest known word.
 pub fn suggestion<'a>(
     name: &str,

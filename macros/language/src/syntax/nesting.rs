@@ -19,20 +19,51 @@ pub(super) fn too_large(at: Extent) -> Diagnostic {
 #[cfg(feature = "locations")]
 const DEEPEST_TEXT: u32 = 2 * DEEPEST;
 
-/// The line and character, from 0, of the first bracket of a text that is nested too deeply for the lexer and the
-/// parser, which descend into brackets on the stack. Comments and strings do not count.
+/// What is wrong with the brackets of a text, at a line and a character, from 0. Comments and strings do not count.
 #[cfg(feature = "locations")]
-pub(crate) fn too_deep(text: &str) -> Option<(usize, usize)> {
-    let (mut depth, mut line, mut column) = (0, 0, 0);
+#[derive(Default)]
+pub(crate) struct Brackets {
+    /// The first that is nested too deeply for the lexer and the parser, which descend into brackets on the stack.
+    pub(crate) too_deep: Option<(usize, usize)>,
+    /// The first without a partner, which the lexer notices only where the text around it ends, or a comment or string
+    /// without an end.
+    pub(crate) unpaired: Option<((usize, usize), String)>,
+}
+
+#[cfg(feature = "locations")]
+pub(crate) fn brackets(text: &str) -> Brackets {
+    let mut found = Brackets::default();
+    let (mut open, mut line, mut column) = (Vec::new(), 0, 0);
     let mut rest = text;
     while let Some(sign) = rest.chars().next() {
-        let length = passed_over(rest).unwrap_or(sign.len_utf8());
+        let passed = passed_over(rest);
+        let length = passed.unwrap_or(sign.len_utf8());
+        let here = (line, column);
         match sign {
-            '(' | '[' | '{' if depth == DEEPEST_TEXT => return Some((line, column)),
-            '(' | '[' | '{' => depth += 1,
-            ')' | ']' | '}' => depth = depth.saturating_sub(1),
+            _ if length > rest.len() => {
+                let start = if sign == '"' { "\"" } else { "/*" };
+                found.lacks(here, start, "is never closed");
+            }
+            '(' | '[' | '{' => {
+                if open.len() == DEEPEST_TEXT as usize {
+                    found.too_deep.get_or_insert(here);
+                }
+                open.push((here, sign));
+            }
+            ')' | ']' | '}' => {
+                let partner =
+                    |opening: char| matches!((opening, sign), ('(', ')') | ('[', ']') | ('{', '}'));
+                match open.pop() {
+                    Some((_, opening)) if partner(opening) => {}
+                    Some((at, opening)) if open.iter().any(|x| partner(x.1)) => {
+                        found.lacks(at, opening, "is never closed");
+                    }
+                    _ => found.lacks(here, sign, "closes nothing"),
+                }
+            }
             _ => {}
         }
+        let length = length.min(rest.len());
         for passed in rest[..length].chars() {
             (line, column) = match passed {
                 '\n' => (line + 1, 0),
@@ -41,16 +72,27 @@ pub(crate) fn too_deep(text: &str) -> Option<(usize, usize)> {
         }
         rest = &rest[length..];
     }
-    None
+    if let Some((at, opening)) = open.pop() {
+        found.lacks(at, opening, "is never closed");
+    }
+    found
 }
 
-/// The length of the comment or string at the start of a text, up to the end of the text if it is not closed.
+#[cfg(feature = "locations")]
+impl Brackets {
+    fn lacks(&mut self, at: (usize, usize), sign: impl std::fmt::Display, what: &str) {
+        self.unpaired
+            .get_or_insert_with(|| (at, format!("this `{sign}` {what}")));
+    }
+}
+
+/// The length of the comment or string at the start of a text; more than that of the text if it is not closed.
 #[cfg(feature = "locations")]
 fn passed_over(text: &str) -> Option<usize> {
-    let up_to = |position: Option<usize>| Some(position.unwrap_or(text.len()));
     if text.starts_with("//") {
-        return up_to(text.find('\n'));
+        return Some(text.find('\n').unwrap_or(text.len()));
     }
+    let up_to = |position: Option<usize>| Some(position.unwrap_or(text.len() + 1));
     if let Some(comment) = text.strip_prefix("/*") {
         return up_to(comment.find("*/").map(|at| at + 4));
     }
@@ -66,7 +108,28 @@ fn passed_over(text: &str) -> Option<usize> {
 
 #[cfg(all(test, feature = "locations"))]
 mod tests {
-    use super::{DEEPEST_TEXT, too_deep};
+    use super::{DEEPEST_TEXT, brackets};
+
+    fn too_deep(text: &str) -> Option<(usize, usize)> {
+        brackets(text).too_deep
+    }
+
+    #[test]
+    fn what_has_no_partner_is_found_where_it_stands() {
+        for (text, expected) in [
+            ("{ (a) [b] }", None),
+            ("{ disk(a;\n}", Some(((0, 6), "this `(` is never closed"))),
+            ("{ disk(a));\n}", Some(((0, 9), "this `)` closes nothing"))),
+            ("{ a;", Some(((0, 0), "this `{` is never closed"))),
+            ("{ }\n /* a }", Some(((1, 1), "this `/*` is never closed"))),
+            ("{ \"a }", Some(((0, 2), "this `\"` is never closed"))),
+            ("{ ([a) }", Some(((0, 3), "this `[` is never closed"))),
+            ("// ( \n", None),
+        ] {
+            let expected = expected.map(|(at, what)| (at, what.to_owned()));
+            assert_eq!(brackets(text).unpaired, expected, "{text}");
+        }
+    }
 
     #[test]
     fn only_brackets_of_the_language_count() {

@@ -11,6 +11,7 @@ mod unit;
 mod value;
 mod words;
 
+pub(crate) use self::words::GRADE;
 #[cfg(test)]
 pub(crate) use self::words::INSIDE;
 
@@ -95,7 +96,7 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
     if !tokens.is_empty() {
         let error = tokens.expected::<()>("nothing after the mechanism");
         diagnostics.extend(error.err().map(|diagnostic| {
-            diagnostic.with_help("declare every mechanism in a `mechanism!` of its own")
+            diagnostic.with_help("declare every mechanism in a file or a `mechanism!` of its own")
         }));
     }
     let (items, unread) = items(&mut content, diagnostics);

@@ -101,6 +101,8 @@ pub fn branches_each(
     let curve = Curve::new(mechanism, u, b, settings)?.watched(watch);
     let none = Search::at(start);
     let search_or_none = search.unwrap_or(&none);
+    // Its steps are points of branches.
+    let stop = Watch::default().stop(watch.stop);
     let mut states = Vec::new();
     let mut refused = None;
     for value in [settings.low, settings.high] {
@@ -108,7 +110,7 @@ pub fn branches_each(
             break;
         }
         let inputs = curve.inputs_at(value);
-        match find_equilibria(mechanism, &inputs, b, start, search_or_none) {
+        match find_equilibria(mechanism, &inputs, b, start, search_or_none, stop) {
             Ok(equilibria) => states.extend(equilibria),
             Err(error) => _ = refused.get_or_insert(error),
         }

@@ -114,7 +114,7 @@ fn verdict<T: Clone>(all: &[(T, f64)], name: impl Fn(&[T]) -> String) -> Option<
 /// The next power of ten.
 fn less_than(change: f64) -> String {
     match change {
-        0.0 => "by nothing but rounding".to_owned(),
+        0.0 => "only by rounding".to_owned(),
         _ => format!("by less than 1e{}", change.log10().floor() + 1.0),
     }
 }

@@ -86,7 +86,7 @@ impl ForcedResponse {
                 continue;
             };
             said.note(format!(
-                "Were only the amounts known and not the phases, {name} would stay below {}, in 95 % of cases below {}.",
+                "With unknown phases, {name} is at most {}, in 95 % of cases below {}.",
                 with_unit(number_in(sum.greatest(), &info.unit), &info.unit),
                 with_unit(number_in(upper, &info.unit), &info.unit)
             ));

@@ -1,6 +1,6 @@
 //! The excitations at one state: what they exert, at which frequencies, and how the outputs see a vibration.
 
-use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix};
+use crate::algebra::{Matrix, Vector, all_finite};
 use crate::kernels::{Curvature, CurvatureKernels, Kernel, Kernels, Sizes};
 use crate::sensitivity::Direction;
 use crate::{Complex, Equilibrium};
@@ -67,10 +67,12 @@ impl Forces {
         amplitude(&cosine[excitation], &sine[excitation], turn)
     }
 
-    pub(super) fn finite(&self) -> bool {
-        let forces = &self.0;
-        let parts = [&forces.cosine, &forces.sine];
-        all_finite(&forces.frequency) && parts.into_iter().all(all_finite_matrix)
+    /// What of an excitation is not finite.
+    pub(super) fn infinite(&self, excitation: usize) -> Option<f64> {
+        let forces = [&self.0.cosine, &self.0.sine];
+        let parts = forces.into_iter().flat_map(|part| part[excitation].iter());
+        let mut all = parts.chain([&self.0.frequency[excitation]]).copied();
+        all.find(|x| !x.is_finite())
     }
 
     /// Whether what all excitations add to an output directly is finite.

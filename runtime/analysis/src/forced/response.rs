@@ -95,7 +95,7 @@ impl Harmonic {
 ///
 /// # Errors
 /// [`Error::NoExcitation`], [`Error::NoFrequency`] for an excitation that stands still, [`Error::Resonance`] if an
-/// excitation drives a mode without damping at its natural frequency, [`Error::OutsideDomain`] if a force is not finite,
+/// excitation drives a mode without damping at its natural frequency, [`Error::Unphysical`] if a force is not finite,
 /// [`Error::SingularConfiguration`], [`Error::ClosesHereOnly`] if redundant constraints contradict each other while they
 /// are shaken.
 pub fn response(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<ForcedResponse, Error> {
@@ -131,12 +131,21 @@ impl<'a> Solved<'a> {
             });
         }
         let forces = Forces::of(mechanism, at);
-        if !forces.finite() {
-            return Err(Error::OutsideDomain {
-                mechanism: at.description.name.clone(),
-                what: "the force of an excitation",
-                coordinates: at.coordinates.to_vec(),
-            });
+        for (k, info) in infos.iter().enumerate() {
+            let frequency = forces.frequency(k).abs();
+            // At zero, the amplitude that belongs to a velocity is infinite too.
+            if frequency == 0.0 {
+                return Err(Error::NoFrequency {
+                    excitation: info.name.clone(),
+                });
+            }
+            if let Some(value) = forces.infinite(k) {
+                return Err(Error::Unphysical {
+                    quantity: format!("the force of `{}` at {frequency} rad/s", info.name).into(),
+                    requirement: "finite".into(),
+                    value,
+                });
+            }
         }
         closes(at, &forces)?;
         let mut seen = Seen::of(mechanism, at);
@@ -144,11 +153,6 @@ impl<'a> Solved<'a> {
         let mut vibrations: Vec<Vibration> = Vec::new();
         for first in (0..infos.len()).filter(|&k| infos[k].with == k) {
             let frequency = forces.frequency(first).abs();
-            if frequency == 0.0 {
-                return Err(Error::NoFrequency {
-                    excitation: infos[first].name.clone(),
-                });
-            }
             let same = |vibration: &&Vibration| vibration.harmonic.frequency == frequency;
             let stiffness = match vibrations.iter().find(same) {
                 Some(vibration) => vibration.stiffness.clone(),

@@ -38,7 +38,8 @@ impl Check {
                     "  steady: the value of `{name}` selects one of a family of steady motions\n"
                 ))?;
             }
-            for note in &compilation.functions.free.notes {
+            let free = &compilation.functions.free;
+            for note in free.notes.iter().chain(&free.unbalanced) {
                 print(&format!("  {note}\n"))?;
             }
         }

@@ -32,6 +32,7 @@ impl Converge {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
+        question.note_unset();
         let refined = |more| Interpreted::refined(&question.text, more);
         let refined = [refined(1)?, refined(2)?];
         let range = self.sweep.range_alone(&question)?;

@@ -4,8 +4,10 @@ use clap::Args;
 use eigentol::equilibrium::Equilibria as AllEquilibria;
 
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::output::Output;
 use crate::point::Point;
+use crate::progress;
 use crate::verdict::Verdict;
 
 /// Distinct equilibria at one operating point, numbered, from random starts (`--between`)
@@ -21,10 +23,17 @@ impl Equilibria {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
-        let states: AllEquilibria = question.study.equilibria(&question.search()?)?;
+        question.note_unset();
+        let bar = progress::bar("starts", None);
+        let study = progress::watched(question.study.clone(), &bar);
+        let states: AllEquilibria = study.equilibria(&question.search()?)?;
+        drop(bar);
         let mut answer = self.output.answer();
         answer.add(&states)?;
         self.output.write(&answer)?;
+        if interrupt::stopped() {
+            return Ok(Verdict::Stopped(format!("after {} starts", states.starts)));
+        }
         Ok(match states.iter().any(|state| state.stability.holds()) {
             true => Verdict::Yes,
             false => Verdict::No("no stable equilibrium was found".to_owned()),

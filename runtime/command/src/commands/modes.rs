@@ -25,6 +25,7 @@ impl Modes {
         self.output.check()?;
         self.picture.check(&self.output)?;
         let question = self.point.question()?;
+        question.note_unset();
         let modes = question.study.modes()?;
         let mut answer = self.output.answer();
         answer.add(&modes.with_whirls(question.study.whirls()?))?;

@@ -1,11 +1,11 @@
 //! How probable it is that requirements are failed.
 
 use clap::Args;
-use eigentol::requirement::{Probabilities, Requirement};
+use eigentol::requirement::{Probabilities, Requirement, affordable_samples};
 
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::point::{Point, Question, exact, samples, whole};
+use crate::point::{Point, exact, samples, whole};
 use crate::progress;
 use crate::requirements::{HELP, parsed, require_keys, requirements};
 use crate::study_file::Require;
@@ -42,7 +42,7 @@ pub(crate) struct Probability {
     /// A requirement: `frequency 1 >= 20 Hz`; may be given several times, in place of those of a study file
     #[arg(long, value_name = "REQUIREMENT", value_parser = parsed)]
     require: Vec<Require>,
-    /// Samples, where only samples can tell [default: 3000; 600 if each takes a search along an input]
+    /// Samples, where only samples can tell [default: 3000; down to 600 if each is dear, as one that takes a search along an input]
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
     /// Seed of the samples [default: 0]
@@ -55,7 +55,8 @@ pub(crate) struct Probability {
 impl Probability {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        let Question { study, file, .. } = self.point.question()?;
+        let question = self.point.question()?;
+        let file = &question.file;
         let required = match self.require.is_empty() {
             true => &file.require,
             false => &self.require,
@@ -66,15 +67,19 @@ impl Probability {
             return Err(Failure::usage("nothing is required", help));
         }
         let bar = progress::bar("designs", None);
-        let study = progress::watched(study, &bar)
+        let study = progress::watched(question.study.clone(), &bar)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let wanted = requirements(&study, required)?;
         let mut responses = wanted.iter().filter_map(Requirement::response);
-        let usual = responses
-            .any(|response| !response.of_state())
-            .then_some(SEARCHES);
-        let count = samples(self.samples.or(file.samples).or(usual), &file)?;
+        let usual = match responses.any(|response| !response.of_state()) {
+            true => Some(SEARCHES),
+            false => {
+                question.note_unset();
+                study.modes().ok().map(|modes| affordable_samples(&modes))
+            }
+        };
+        let count = samples(self.samples.or(file.samples).or(usual), file)?;
         let study = study.samples(count);
         let outcome = study.probability(&wanted);
         drop(bar);

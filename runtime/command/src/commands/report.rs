@@ -57,6 +57,7 @@ impl Report {
         let values = match &range {
             Some(range) => self.points.values(range, &question, true)?,
             None => {
+                question.note_unset();
                 self.points.refuse_without_sweep()?;
                 Vec::new()
             }

@@ -188,6 +188,7 @@ impl Response {
     }
 
     fn at_point(&self, question: &Question, wanted: &[Vibration]) -> Result<Verdict, Failure> {
+        question.note_unset();
         let study = &question.study;
         let orbit = self.orbit.as_ref().map(|text| named_orbit(study, text));
         let orbit = orbit.transpose()?;

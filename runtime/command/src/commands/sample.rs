@@ -56,6 +56,7 @@ impl Sample {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
+        question.note_unset();
         let file = &question.file;
         let samples = samples(self.samples, file)?;
         let shown = self.output.wants_table("samples");
@@ -89,7 +90,7 @@ impl Sample {
             self.write_samples(&run, &mut part)?;
         } else {
             run.complete(&mut part, u64::MAX, |_| Ok(()))?;
-            bar.finish_and_clear();
+            bar.leave();
             if self.shard.is_some() || self.partial {
                 self.output.write_text(&parts::text(&part)?)?;
             } else {
@@ -123,7 +124,7 @@ impl Sample {
             let mut samples = part.take_samples().into_iter();
             samples.try_for_each(|one| rows.add(one))
         })?;
-        run.bar.finish_and_clear();
+        run.bar.leave();
         rows.finish()
     }
 }

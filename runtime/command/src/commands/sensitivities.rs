@@ -22,6 +22,7 @@ impl Sensitivities {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
+        question.note_unset();
         let has_outputs = !question.study.description().outputs.is_empty();
         let kinds = [
             eigentol::Sensitivities::KIND,

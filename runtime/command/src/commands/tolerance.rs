@@ -30,6 +30,7 @@ impl Tolerance {
         self.output.check()?;
         self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
+        question.note_unset();
         let bar = progress::bar("samples", None);
         question.study = progress::watched(question.study, &bar);
         let study = &question.study;

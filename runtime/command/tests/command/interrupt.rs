@@ -1,9 +1,10 @@
 //! Ctrl-C or a request to terminate during a run: finished work is kept.
 
 use std::fs;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use eigentol_tables::csv;
 
@@ -210,22 +211,140 @@ fn an_allocation_is_checked_by_the_samples_that_are_done() {
     );
 }
 
+/// The file of a chain of bars that hangs from a turning axis.
+pub(crate) fn chain(folder: &Path, bars: usize) -> String {
+    let mut chain = String::from(
+        "pub mechanism Chain {\n input omega: rad/s;\n design l = 1 m +/- 1%;\n gravity 9.81 m/s^2 along -z;\n body b0: massless;\n\
+         joint spin: revolute(z) from ground to b0, driven at omega;\n output reach = q1;\n",
+    );
+    for k in 1..=bars {
+        let place = if k == 1 { "" } else { " at [0, 0, -l]" };
+        chain += &format!(
+            " body b{k}: rod(mass: 1 kg, length: l, along: -z);\n joint q{k}: revolute(y) from b{} to b{k}{place};\n",
+            k - 1
+        );
+    }
+    file(folder, &format!("chain_{bars}.mechanism"), &(chain + "}\n"))
+}
+
+/// Subcommands that are done at once, whatever they are about.
+const AT_ONCE: [&str; 6] = ["merge", "new", "import", "schema", "completions", "help"];
+
+/// Whatever it is busy with, a subcommand ends soon after it is asked to: within a second where nothing else runs.
+#[test]
+fn every_subcommand_ends_soon() {
+    let folder = folder("all_ended");
+    let (long, short) = (chain(&folder, 500), chain(&folder, 48));
+    let ask = |question: &str, words: &str| -> Vec<String> {
+        let words = words.split(' ').map(|word| word.replace('~', " "));
+        [question.to_owned()].into_iter().chain(words).collect()
+    };
+    let declaration = fs::canonicalize(examples().join(PENDULUM)).unwrap();
+    let study = format!(
+        "mechanism = {declaration:?}\nset.omega = \"5 rad/s\"\nstart.theta = \"60 deg\"\nsamples = 2000000000\n\
+         [[require]]\nmode = 1\nat_least = \"3.9 rad/s\"\nfailure = 0.01\n\
+         [[choose]]\ntolerance = \"l\"\nleast = \"1 mm\"\nmost = \"300 mm\"\ncost = {{ fixed = 0, factor = 1.0, power = 1 }}\n"
+    );
+    let study = file(&folder, "study.toml", &study);
+    let report = folder.join("report.html").display().to_string();
+    let rotor = file(
+        &folder,
+        "rotor.mechanism",
+        "mechanism Rotor {
+            input speed: rpm; design k = 1 MN/m +/- 1%;
+            body base: massless; body seat: massless; body disk: disk(mass: 20 kg, radius: 20 cm, axis: z);
+            joint side: prismatic(x) from ground to base; joint up: prismatic(y) from base to seat;
+            joint spin: revolute(z) from seat to disk, driven at speed;
+            force kx: spring(on: side, stiffness: k); force ky: spring(on: up, stiffness: 1.1 * k);
+            force c: damper(on: side, damping: 200 N*s/m);
+            unbalance u: on disk, amount: 20 g*mm;
+            output shake = side; }",
+    );
+    let pendulum = format!("{PENDULUM} --start theta=60deg");
+    let mut all = vec![
+        ask("equilibria", &format!("{short} --starts 1e9")),
+        ask("tolerance", &long),
+        ask("sensitivities", &long),
+        ask("modes", &long),
+        ask("check", &long),
+        ask("expand", &long),
+        ask("converge", &long),
+        ask(
+            "campbell",
+            &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv"),
+        ),
+        ask(
+            "sweep",
+            &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv"),
+        ),
+        ask("branches", &format!("{short} --sweep omega=0..60rad/s")),
+        ask("sample", &format!("{pendulum} --samples 2000000000")),
+        ask(
+            "report",
+            &format!("{pendulum} --set omega=5rad/s --samples 2000000000 -o {report}"),
+        ),
+        ask("allocate", &format!("--study {study}")),
+        ask(
+            "probability",
+            &format!(
+                "{pendulum} --set omega=5rad/s --tol l=one~of~[1,1.1]~m --samples 2000000000 --require frequency~1~>=~3.9~rad/s"
+            ),
+        ),
+    ];
+    let figure = format!("--figure {}", folder.join("bode.svg").display());
+    for detail in ["--bands", &figure, ""] {
+        let words = format!("{rotor} --sweep speed=0..6000rpm --points 1e5 {detail}");
+        all.push(ask("response", words.trim()));
+    }
+    all.push(ask(
+        "response",
+        &format!("{long} --sweep omega=1..6rad/s --peaks"),
+    ));
+    let named = |name: &&str| all.iter().any(|words| words[0] == **name);
+    let help = answer(&["--help"]);
+    let commands = help
+        .lines()
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let commands = commands.filter_map(|line| line.split_whitespace().next());
+    for name in commands.filter(|word| word.chars().all(|c| c.is_ascii_lowercase())) {
+        assert!(
+            named(&name) || AT_ONCE.contains(&name),
+            "{name} is not tried"
+        );
+    }
+    let start = |words: &Vec<String>| {
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let mut command = command(&words);
+        let run = command
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::spawn(move || {
+            listens(&run);
+            sleep(Duration::from_secs(3));
+            interrupt(&run);
+            let asked = Instant::now();
+            let output = run.wait_with_output().unwrap();
+            (output, asked.elapsed())
+        })
+    };
+    let running: Vec<_> = all.iter().map(start).collect();
+    for (words, run) in all.iter().zip(running) {
+        let (output, time) = run.join().unwrap();
+        let err = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(130), "{words:?}: {err}");
+        println!("{time:?}: {}", words[0]);
+        // All of them share the processors here.
+        assert!(time < Duration::from_secs(20), "{time:?}: {words:?}");
+    }
+}
+
 /// Each bar in series has a pitchfork, and each pitchfork has branches.
 #[test]
 fn branches_are_kept_as_far_as_they_came() {
     let folder = folder("half of the branches");
-    let mut chain = String::from(
-        "pub mechanism Chain {\n input omega: rad/s;\n gravity 9.81 m/s^2 along -z;\n body b0: massless;\n\
-         joint spin: revolute(z) from ground to b0, driven at omega;\n",
-    );
-    for k in 1..=32 {
-        let place = if k == 1 { "" } else { " at [0, 0, -1 m]" };
-        chain += &format!(
-            " body b{k}: rod(mass: 1 kg, length: 1 m, along: -z);\n joint q{k}: revolute(y) from b{} to b{k}{place};\n",
-            k - 1
-        );
-    }
-    let chain = file(&folder, "chain.mechanism", &(chain + "}\n"));
+    let chain = chain(&folder, 32);
     let path = folder.join("rows.csv");
     let name = path.display().to_string();
     let arguments = [

@@ -263,8 +263,100 @@ fn sweeps_that_make_no_sense() {
         refused(
             &[&["campbell", PENDULUM], &sweep[..], &[points]].concat(),
             2,
-            &["do not make a sweep"],
+            &["no sweep"],
         );
+    }
+}
+
+/// What no input gives is said, and what `check` knows of an equilibrium is not forgotten.
+#[test]
+fn inputs_that_nothing_gives() {
+    let folder = folder("not_given");
+    let loaded = file(
+        &folder,
+        "loaded.mechanism",
+        "mechanism Loaded { input pull: N; body b: point(mass: 1 kg); joint q: prismatic(x) from ground to b;
+            force k: generalized(on: q, value: pull - 3 N); }",
+    );
+    let why = "the loads along `q` balance for some values of the inputs only";
+    let checked = run(&["check", &loaded]);
+    assert!(checked.out.contains(why), "{}", checked.out);
+    refused(
+        &["modes", &loaded],
+        1,
+        &["`pull` was not given: 0 N", "no equilibrium found", why],
+    );
+    let given = run(&["modes", &loaded, "--set", "pull=3N"]);
+    assert!(!given.err.contains("not given"), "{}", given.err);
+    let shaken = file(
+        &folder,
+        "shaken.mechanism",
+        "mechanism Shaken { input speed: rpm; body b: point(mass: 1 kg); body table: massless;
+            body disk: disk(mass: 1 kg, radius: 10 cm, axis: z);
+            joint spin: revolute(z) from ground to disk, driven at speed;
+            joint base: prismatic(x) from ground to table, shaken(velocity: 1 mm/s, order: 1 of spin);
+            joint q: prismatic(x) from table to b; force k: spring(on: q, stiffness: 1 N/m); output x = q; }",
+    );
+    refused(
+        &["response", &shaken],
+        1,
+        &["`speed` was not given: 0 rpm", "excitation `base`"],
+    );
+}
+
+/// Brackets and comments are marked where they begin, numbers and robots have an end.
+#[test]
+fn what_never_ends() {
+    for (text, message) in [
+        (
+            "mechanism A { body b: rod(mass: 3 kg;\n }",
+            "this `(` is never closed\n --> standard input:1:26",
+        ),
+        (
+            "mechanism A {\n /* b }",
+            "this `/*` is never closed\n --> standard input:2:2",
+        ),
+        (
+            &format!("mechanism A {{ let a = 3{} }}", "0".repeat(100_000)),
+            "this number has 100001 characters; 400 are the most",
+        ),
+    ] {
+        let Run { code, err, .. } = run_with_input(&["check", "-"], text);
+        assert!(code == 3 && err.contains(message), "{message}: {err}");
+    }
+    let folder = folder("many_mistakes");
+    let many: String = (0..60).map(|k| format!("let a{k} = b{k};\n")).collect();
+    let many = file(
+        &folder,
+        "many.mechanism",
+        &format!("mechanism A {{\n{many}}}"),
+    );
+    refused(&["check", &many], 3, &["mistakes; these are the first 50"]);
+    let links: String = (0..20_000)
+        .map(|k| format!("<link name=\"l{k}\"/>"))
+        .collect();
+    let robot = file(
+        &folder,
+        "many.urdf",
+        &format!("<robot name=\"r\">{links}</robot>"),
+    );
+    refused(&["import", &robot], 3, &["20000 links and joints"]);
+}
+
+/// The heading under which a result is printed names it too.
+#[test]
+fn results_by_their_headings() {
+    for question in ["modes", "sensitivities", "tolerance"] {
+        let text = run(&pendulum(question, &[])).out;
+        let headings = text
+            .lines()
+            .filter(|line| line.starts_with("RotatingPendulum at"));
+        let headings: Vec<&str> = headings.collect();
+        assert!(headings.len() > 1, "{text}");
+        for heading in headings {
+            let found = run(&pendulum(question, &["--result", heading]));
+            assert!(found.out.starts_with(heading), "{heading}: {}", found.err);
+        }
     }
 }
 
@@ -293,6 +385,12 @@ fn study_files_with_mistakes() {
             "samples = \"many\"",
             3,
             &["not a valid study file", "expected usize"],
+        ),
+        (
+            "correlation",
+            "correlation = [[\"l\", \"m\"]]",
+            3,
+            &["`correlation = [[\"l\", \"k\", 0.5]]`"],
         ),
         ("none", "", 2, &["no mechanism is given"]),
         (

@@ -206,22 +206,24 @@ fn a_study_file_says_how_much_is_allowed() {
     assert_eq!(found.code, 0, "{}", found.err);
 }
 
+/// The file of a declaration in a folder of its own.
+fn declared(folder_name: &str, text: &str) -> String {
+    file(&folder(folder_name), "declared.mechanism", text)
+}
+
 /// What is failed by some designs is met by the others: the two sum to one, whatever finds them.
 #[test]
 fn a_requirement_and_its_opposite_sum_to_one() {
-    let folder = folder("opposites");
-    let small = file(
-        &folder,
-        "small.mechanism",
+    let small = declared(
+        "small",
         "mechanism T {
             design m = 7.75 kg +/- 1.5 kg lognormal; design k = 46500 N/m +/- 7800 N/m uniform;
             design c = 17.8 N*s/m +2.1 -1.0 N*s/m truncated normal;
             body b: point(mass: m); joint q: prismatic(x) from ground to b;
             force s: spring(on: q, stiffness: k); force d: damper(on: q, damping: c); }",
     );
-    let middle = file(
-        &folder,
-        "middle.mechanism",
+    let middle = declared(
+        "middle",
         "mechanism T {
             design m = 3.2687 kg +/- 0.45452 kg triangular; design k = 77715.5 N/m +10067.9 -9176.8 N/m uniform;
             body b: point(mass: m); joint q: prismatic(x) from ground to b; force ks: spring(on: q, stiffness: k); }",
@@ -266,10 +268,8 @@ fn a_requirement_and_its_opposite_sum_to_one() {
 /// The flutter of a mode that has none is not searched in thousands of designs: the one that flutters is named.
 #[test]
 fn the_mode_that_flutters_is_named() {
-    let folder = folder("flutters");
-    let band = file(
-        &folder,
-        "band.mechanism",
+    let band = declared(
+        "flutters",
         "mechanism Band {
             input p: 1; design b = 0.5 +/- 0.05; design c = 0.01 N*s/m +/- 0.002 N*s/m;
             body u: point(mass: 1 kg); body w: point(mass: 1 kg);
@@ -292,9 +292,8 @@ fn the_mode_that_flutters_is_named() {
 /// coin's centre is `r cos(lean)`.
 #[test]
 fn outputs_of_a_held_family_have_a_spread() {
-    let coin = file(
-        &folder("held_coin"),
-        "coin.mechanism",
+    let coin = declared(
+        "held_coin",
         "mechanism Coin {
             design r = 50 cm +/- 1%; gravity 9.81 m/s^2 along -z;
             body base: massless; body mast: massless; body fork: massless;

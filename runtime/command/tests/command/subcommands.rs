@@ -1,5 +1,6 @@
 //! The answers of each subcommand.
 
+use crate::interrupt::chain;
 use crate::program::{PENDULUM, answer, file, folder, pendulum, run, run_with_input};
 
 #[test]
@@ -581,4 +582,30 @@ fn help_about_study_files_lists_their_keys() {
     ] {
         assert!(help.contains(key), "{key}");
     }
+}
+
+/// A search that ends before everything seems to be found says so, and from how many places; more can be asked for.
+#[test]
+fn equilibria_that_are_missing_are_announced() {
+    let file = chain(&folder("many_equilibria"), 8);
+    let search = |more: &[&str]| {
+        let asked = ["equilibria", &file, "--set", "omega=3rad/s"];
+        let found = run(&[&asked[..], more].concat()).out;
+        let note = found.lines().last().unwrap_or_default();
+        let starts = note.strip_prefix("  From ").and_then(|x| x.split_once(' '));
+        let (starts, rest) = starts.unwrap_or_else(|| panic!("{note}"));
+        assert_eq!(
+            rest,
+            "starts; more equilibria are to be expected from more starts."
+        );
+        starts.parse::<usize>().unwrap()
+    };
+    let usual = search(&[]);
+    assert!(usual > 33, "{usual}");
+    assert_eq!(search(&["--starts", "1000"]), usual + 1000 - 32);
+    let few = run(&pendulum("equilibria", &[])).out;
+    assert!(
+        few.contains("4 equilibria") && !few.contains("starts"),
+        "{few}"
+    );
 }

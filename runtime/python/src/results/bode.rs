@@ -116,7 +116,7 @@ attributes! {
     Bode(self, py) {
         /// Values of the input, SI, shape (k,).
         values: Array1<'py> = vector(py, self.0.points.iter().map(|point| point.value));
-        /// Whether the equilibrium at each value is stable and no mode grows; elsewhere nothing settles in the vibration.
+        /// Whether the equilibrium at each value is stable and no mode grows; elsewhere no machine stays in the vibration.
         stable: Array1<'py, bool> = vector(py, self.0.points.iter().map(|point| point.stable));
         /// Names of the excitations that act together in each harmonic.
         harmonics: Vec<Vec<&str>> = names::harmonics(&self.0.description);

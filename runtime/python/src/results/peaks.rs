@@ -55,7 +55,7 @@ attributes! {
         place_sigmas: Array1<'py> = self.sigmas(py, PLACE);
         /// Their total derivatives by design variables, shape (k, design), per SI unit.
         places_by_design: PyResult<Array2<'py>> = self.slopes(py, PLACE);
-        /// Whether the equilibrium at each peak is stable and no mode grows; elsewhere nothing settles in the vibration.
+        /// Whether the equilibrium at each peak is stable and no mode grows; elsewhere no machine stays in the vibration.
         stable: Array1<'py, bool> = vector(py, self.0.peaks.iter().map(|peak| peak.stable));
         /// Frequencies at the peaks, rad/s, shape (k,).
         frequencies: Array1<'py> = self.values(py, FREQUENCY);

@@ -178,7 +178,7 @@ fn tolerances(spread: &Spreads, style: &Style) -> Vec<Line> {
 pub(super) fn stable_samples(monte_carlo: &MonteCarlo) -> Line {
     let (stable, all) = (monte_carlo.counts.stable, monte_carlo.samples);
     if stable == all {
-        return (Some(true), format!("All of {all} samples are stable."));
+        return (Some(true), format!("All {all} samples are stable."));
     }
     let others = Outcome::ALL.into_iter().filter(|x| *x != Outcome::Stable);
     let others = others.filter_map(|outcome| match monte_carlo.counts.of(outcome) {

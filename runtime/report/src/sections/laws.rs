@@ -36,7 +36,7 @@ pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) 
         }
     });
     html.paragraph(&format!(
-        "Law, mean and {sigma_level} standard deviations. Drawn is the density: the line stands at the value that was set, the shade is as wide as the band."
+        "Law, mean and {sigma_level} standard deviations. Each plot shows the density; the line marks the set value, the shade the band."
     ));
     if varying.len() > MOST {
         let more = varying.len() - MOST;

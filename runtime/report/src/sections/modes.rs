@@ -67,7 +67,7 @@ fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), E
         html.data("scene", &json);
     });
     html.paragraph(&format!(
-        "In a mode the farthest place moves by {:.0} % of the size of the mechanism, in truth by as little as the disturbance. Grey: the equilibrium.",
+        "Shapes are scaled so that the largest displacement is {:.0} % of the size of the mechanism. Grey: the equilibrium.",
         100.0 * AMPLITUDE
     ));
     html.paragraph(&upwards(&pictures.scene));

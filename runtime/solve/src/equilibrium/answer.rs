@@ -84,6 +84,12 @@ impl Answer for Equilibria {
         }
         table.cells("state", &|row| row.1.stability_word());
         said.columns(table);
+        if self.more_expected {
+            said.note(format!(
+                "From {} starts; more equilibria are to be expected from more starts.",
+                self.starts
+            ));
+        }
         said
     }
 }

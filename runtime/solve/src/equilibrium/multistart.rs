@@ -11,7 +11,7 @@ use crate::constraints::Structure;
 use crate::free::Held;
 use crate::kernels::Kernels;
 use crate::setters;
-use crate::{Coordinate, Description, Equilibrium, Error, Role, Shared, Stability};
+use crate::{Coordinate, Description, Equilibrium, Error, Role, Shared, Stability, Watch};
 
 /// Where to start a search for several equilibria.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +41,12 @@ pub struct Search {
 pub struct Equilibria {
     /// The equilibria.
     pub states: Vec<Equilibrium>,
+    /// Number of places from which they were searched.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub starts: usize,
+    /// Whether the finds suggest that further equilibria exist.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub more_expected: bool,
     /// The inputs they belong to, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
@@ -136,14 +142,27 @@ impl Search {
 }
 
 /// Maximum number of starts beyond those requested.
-const MOST_STARTS: usize = 2000;
+const MOST_STARTS: f64 = 2000.0;
+
+/// Limit on the additions and multiplications of one iteration for each further start: some three seconds in all.
+const BUDGET: f64 = 2.7e8;
+
+/// Number of further starts that are worth their time: a chain of 32 bars has some 2^32 equilibria.
+fn affordable(description: &Description) -> usize {
+    let n = description.coordinates.len() as f64;
+    let kernel = description.kernel("residual_and_stiffness");
+    let kernel = kernel.map_or(0.0, |kernel| kernel.operations as f64);
+    // The elimination and the eigenvalues that say whether the equilibrium is stable.
+    (BUDGET / (kernel + 30.0 * n.powi(3))).min(MOST_STARTS) as usize
+}
 
 /// Finds distinct equilibria from random starts in a box and from `start`, in the order of discovery.
 ///
 /// After [`Search::starts`] the search continues until less than half a further equilibrium is expected. After meeting
 /// `w` equilibria `n` times in all, one expects `w (w + 1) / (n - w - 2)` others, unless some are much harder to meet
-/// (Boender and Rinnooy Kan 1987). The search ends after 2000 further starts at the latest. With [`Search::starts`] set
-/// to zero there are no random starts.
+/// (Boender and Rinnooy Kan 1987). The search ends after 2000 further starts at the latest, and of many coordinates after
+/// fewer; [`Equilibria::more_expected`] says so. With [`Search::starts`] set to zero there are no random starts.
+/// A step of `watch` is a start; a search that is stopped returns what it has found.
 ///
 /// States that differ by full turns of an angle count as one if a full turn leaves forces and stiffnesses unchanged,
 /// but not if a spring or a screw counts the turns. An empty list means that no start led to an equilibrium;
@@ -157,6 +176,7 @@ pub fn find_equilibria(
     b: &[f64],
     start: &[f64],
     search: &Search,
+    watch: Watch<'_>,
 ) -> Result<Equilibria, Error> {
     let point = OperatingPoint::new(mechanism, u, b)?.held_by(&search.held);
     point.check_start(start)?;
@@ -165,12 +185,10 @@ pub fn find_equilibria(
     let mut random = RandomNumbers::new(search.seed, 0);
     let mut distinct: Vec<Equilibrium> = Vec::new();
     let mut from = Vector::from(start);
-    let (mut isolated, mut met) = (0, 0);
-    for done in 0.. {
-        let further = search.starts > 0 && done <= search.starts + MOST_STARTS;
-        if done > search.starts && !(further && more_expected(isolated, met)) {
-            break;
-        }
+    let (mut isolated, mut met, mut starts) = (0, 0, 0);
+    let most = search.starts + affordable(&point.description);
+    let more = |isolated, met| search.starts > 0 && more_expected(isolated, met);
+    while (starts <= search.starts || starts <= most && more(isolated, met)) && !watch.stopped() {
         for policy in [Policy::Stable, Policy::Nearest] {
             let Ok(SolvedState { state, .. }) = solve(&point, &from, policy) else {
                 continue;
@@ -185,9 +203,13 @@ pub fn find_equilibria(
         from = Vector::from_fn(start.len(), |i| {
             search.lower[i] + random.fraction() * (search.upper[i] - search.lower[i])
         });
+        starts += 1;
+        watch.advance(1);
     }
     Ok(Equilibria {
         states: distinct,
+        starts,
+        more_expected: more(isolated, met),
         inputs: u.into(),
         description: point.description.clone(),
     })

@@ -147,14 +147,14 @@ impl Bode {
         counts.max().unwrap_or(0)
     }
 
-    /// Where the vibration exists but nothing settles in it.
+    /// Where the vibration exists but no machine stays there.
     fn unstable(&self, said: &mut Findings) {
         let solved = self.points.iter().filter(|point| point.vibration.is_ok());
         let mut unstable = solved.filter(|point| !point.stable);
         if let Some(first) = unstable.next() {
             let (d, all) = (&self.description, self.points.len());
             said.note(format!(
-                "{} of {all} points are unstable, the first at {}: nothing settles in the vibration there.",
+                "{} of {all} points are unstable, the first at {}: no machine stays there.",
                 unstable.count() + 1,
                 place(d, self.input, first.value)
             ));

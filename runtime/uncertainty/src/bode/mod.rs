@@ -40,7 +40,7 @@ pub struct Bode {
 pub struct BodePoint {
     /// The value, SI.
     pub value: f64,
-    /// Whether the equilibrium is stable and no mode grows. Elsewhere nothing settles in this vibration.
+    /// Whether the equilibrium is stable and no mode grows. Elsewhere no machine stays in this vibration.
     pub stable: bool,
     /// The vibration with its derivatives, or why there is none.
     pub vibration: Result<ForcedSensitivities, Error>,

@@ -11,6 +11,8 @@ use crate::{Description, Error, Shared};
 
 /// Number of samples that one thread solves as a unit.
 const CHUNK: u64 = 64;
+/// Number of chunks in memory at once.
+const TOGETHER: usize = 4096;
 
 /// Numbers of samples that met a requirement, failed it, or could not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -160,14 +162,21 @@ pub(crate) fn chances_of(
     };
     let pieces = (range.end - range.start).div_ceil(CHUNK) as usize;
     let size = (state.coordinates.len(), variables);
-    let pieces: Vec<Result<Piece, Error>> = pool::run(sampling.threads, size, pieces, room, work)?;
     let mut sum = Piece::new(requirements.wanted().len());
-    for piece in pieces {
-        let piece = piece?;
-        sum.counts.merge(&piece.counts);
-        sum.all.merge(&piece.all);
-        for (total, other) in sum.each.iter_mut().zip(&piece.each) {
-            total.merge(other);
+    for done in (0..pieces).step_by(TOGETHER) {
+        if done > 0 && watch.stopped() {
+            break;
+        }
+        let (threads, number) = (sampling.threads, TOGETHER.min(pieces - done));
+        let work = |room: &mut Workspace, index: usize| work(room, done + index);
+        let part: Vec<Result<Piece, Error>> = pool::run(threads, size, number, room, work)?;
+        for piece in part {
+            let piece = piece?;
+            sum.counts.merge(&piece.counts);
+            sum.all.merge(&piece.all);
+            for (total, other) in sum.each.iter_mut().zip(&piece.each) {
+                total.merge(other);
+            }
         }
     }
     Ok(Chances {

@@ -9,7 +9,8 @@ use super::kinds::Requirement;
 use super::reliability::{Reliability, judge_requirements, reliability_of};
 use super::requirements::Requirements;
 use crate::algebra::Vector;
-use crate::judge::{Judged, Judgement, TRUSTED_PROBABILITY_ERROR};
+use crate::judge::{BUDGET, Judged, Judgement, TRUSTED_PROBABILITY_ERROR, operations};
+use crate::modes::Modes;
 use crate::tolerance::Sampling;
 use crate::{Description, Error, Shared};
 
@@ -104,6 +105,13 @@ pub struct Probabilities {
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
+}
+
+/// How many plain samples are worth their time, some seconds: 3000, of machines with many coordinates at least 600.
+#[must_use]
+pub fn affordable_samples(modes: &Modes) -> usize {
+    let affordable = 100.0 * BUDGET / operations(modes, false);
+    affordable.clamp(600.0, 3000.0) as usize
 }
 
 /// Where each evaluation takes a search along an input, a few starts must do.

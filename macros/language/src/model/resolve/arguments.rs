@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use super::resolver::Resolver;
-use crate::base::nearest::suggestion;
+use crate::base::nearest::{advice, meant, suggestion};
 use crate::syntax::ast::{NamedCall, Value};
 
 /// A shape or a law with the arguments that it takes.
@@ -186,10 +186,8 @@ impl Resolver<'_> {
         let found = known.iter().find(|signature| signature.word == word);
         if found.is_none() {
             let words: Vec<&str> = known.iter().map(|signature| signature.word).collect();
-            let help = match suggestion(&word, words.iter().copied(), synonyms) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("known are {}", words.join(", ")),
-            };
+            let help = advice(&word, words.iter().copied(), synonyms)
+                .unwrap_or_else(|| format!("known are {}", words.join(", ")));
             let message = format!("unknown {kind} `{word}`");
             self.diagnostics.error_with_help(&call.word, message, help);
         }
@@ -240,7 +238,7 @@ impl Resolver<'_> {
                     let near = suggestion(&name, signature.names(), &SYNONYMS);
                     let help = match (refused, near) {
                         (Some((_, reason)), _) => (*reason).to_string(),
-                        (None, Some(near)) => format!("did you mean `{near}`?"),
+                        (None, Some(near)) => self::meant(near),
                         (None, None) => format!("write `{}`", signature.example),
                     };
                     match refused {

@@ -17,6 +17,7 @@ use crate::model::rules::physical::{Demand, Requirement};
 use crate::syntax::ast::{
     self, Ast, Force, ItemKind, Joint, JointClause, NamedCall, Shake, Unbalance, Value,
 };
+use crate::syntax::parse::GRADE;
 
 const UNBALANCE: &[Signature<()>] = &[Signature::new(
     "unbalance",
@@ -31,6 +32,7 @@ const UNBALANCE: &[Signature<()>] = &[Signature::new(
         "mass",
         "an unbalance is a mass times its distance from the axis: `amount: 20 g*mm`",
     ),
+    ("grade", GRADE),
     ("phase", "the phase of an unbalance is its `angle`"),
     ("order", "an unbalance turns with its body"),
     ("frequency", "an unbalance turns with its body"),

@@ -132,7 +132,7 @@ pub(super) const LAWS: &[Row] = &[
 ];
 
 /// Names of the laws in other tools.
-const SYNONYMS: [(&str, &str); 26] = [
+const SYNONYMS: [(&str, &str); 25] = [
     ("shaker", "harmonic"),
     ("excitation", "harmonic"),
     ("sine", "harmonic"),
@@ -142,7 +142,6 @@ const SYNONYMS: [(&str, &str); 26] = [
     ("rotary_spring", "spring"),
     ("dashpot", "damper"),
     ("damping", "damper"),
-    ("friction", "damper"),
     ("strut", "spring_damper"),
     ("shock", "spring_damper"),
     ("tsda", "spring_damper"),

@@ -10,7 +10,7 @@ use super::scope::Meaning;
 use super::typed::{Quantity, Typed, ValueContext};
 use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::base::dimension::Dimension;
-use crate::base::nearest::suggestion;
+use crate::base::nearest::{advice, meant};
 use crate::model::expression::{Expr, Function};
 use crate::model::simplify;
 use crate::syntax::ast::Value;
@@ -116,11 +116,10 @@ impl Resolver<'_> {
         let Some(&(name, parameters, needs)) = known else {
             let words = SIGNATURES.iter().map(|(known, ..)| *known);
             let is_curve = |meaning| matches!(meaning, Meaning::Curve(_));
-            let near =
-                suggestion(&name, words, &SYNONYMS).or_else(|| self.scope.nearest(&name, is_curve));
             let help = match ABOUT_MODES.contains(&name.as_str()) {
                 true => Some(MODES.to_string()),
-                false => near.map(|near| format!("did you mean `{near}`?")),
+                false => advice(&name, words, &SYNONYMS)
+                    .or_else(|| self.scope.nearest(&name, is_curve).map(meant)),
             };
             self.report(function, format!("unknown function `{name}`"), help);
             return None;

@@ -87,7 +87,7 @@ fn has_no_value(tokens: &Tokens, name: &Ident, unit: &str) -> Parsed<()> {
 
 fn design(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let name = declared_name(tokens)?;
-    tokens.expect_sign('=', "`=`")?;
+    equals(tokens, &name)?;
     Ok(ItemKind::Design(Design {
         name,
         nominal: nominal(tokens)?,
@@ -95,9 +95,20 @@ fn design(tokens: &mut Tokens) -> Parsed<ItemKind> {
     }))
 }
 
+/// Reads the sign between a name and its value, which says its unit.
+fn equals(tokens: &mut Tokens, name: &Ident) -> Parsed<()> {
+    let is_declared = tokens.peek_sign(':');
+    match tokens.expect_sign('=', "`=`") {
+        Err(error) if is_declared => Err(Box::new(error.with_help(format!(
+            "write `{name} = ...`: the unit is that of the value"
+        )))),
+        read => read.map(drop),
+    }
+}
+
 fn named(tokens: &mut Tokens) -> Parsed<Named> {
     let name = declared_name(tokens)?;
-    tokens.expect_sign('=', "`=`")?;
+    equals(tokens, &name)?;
     let value = value(tokens)?;
     Ok(Named { name, value })
 }

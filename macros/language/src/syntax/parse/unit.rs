@@ -1,7 +1,7 @@
 //! Units: `rad/s`, `kg*m^2`, `N/(m*s)`, `1/s`. After a number the unit takes precedence: it continues as long as unit
 //! names follow.
 
-use proc_macro2::{Delimiter, Span};
+use proc_macro2::{Delimiter, Ident, Span};
 
 use super::super::ast::{Unit, UnitFactor};
 use super::super::print;
@@ -82,7 +82,12 @@ fn ends(tokens: &Tokens, unit: &Unit) -> Parsed<()> {
     if is_coordinate || units::find(&name.to_string()).is_none() {
         return Ok(());
     }
-    let diagnostic = Diagnostic::new(&name, "units are multiplied by `*`")
+    missing_sign(unit, &name)
+}
+
+/// The mistake of a unit beside a unit.
+pub(super) fn missing_sign<T>(unit: &Unit, name: &Ident) -> Parsed<T> {
+    let diagnostic = Diagnostic::new(name, "units are multiplied by `*`")
         .with_help(format!("write `{}*{name}`", print::unit(unit)));
     Err(Box::new(diagnostic))
 }

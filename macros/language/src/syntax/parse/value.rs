@@ -6,13 +6,17 @@ use syn::ext::IdentExt as _;
 use super::super::ast::{Binary, Operator, Value, ValueKind};
 use super::super::nesting::{self, DEEPEST};
 use super::super::tokens::{Parsed, Tokens};
-use super::unit;
-use super::words::KEYWORDS;
+use super::unit::{self, missing_sign};
+use super::words::{GRADE, KEYWORDS};
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
 /// Maximum height of the resulting tree, to which a long sum adds one level per term.
 const HIGHEST: u16 = 256;
+
+/// Most characters of a number; the least 64-bit number has some 330 without an exponent, and reading takes time that
+/// grows with the square.
+const LONGEST: usize = 400;
 
 /// Reads a value.
 pub(super) fn value(tokens: &mut Tokens) -> Parsed<Value> {
@@ -94,11 +98,17 @@ fn power(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
 fn component(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     let mut value = primary(tokens, depth)?;
     while let Some(point) = tokens.sign('.') {
-        if matches!(value.kind, ValueKind::Number(_, None)) {
-            return digits_missing(point);
+        match (&value.kind, tokens.peek_ident()) {
+            (ValueKind::Number(_, None), _) => return digits_missing(point),
+            (ValueKind::Number(_, Some(unit)), Some(name)) => return missing_sign(unit, &name),
+            _ => {}
         }
         let Some(axis) = tokens.ident() else {
-            return tokens.expected("a component: `x`, `y` or `z`");
+            let error = tokens.expected("a component: `x`, `y` or `z`");
+            return match tokens.literal() {
+                Some(_) => error.map_err(|error| Box::new(error.with_help(GRADE))),
+                None => error,
+            };
         };
         let extent = value.extent.to(&axis);
         value = built(ValueKind::Component(Box::new(value), axis), extent)?;
@@ -140,7 +150,11 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
         {
             return digits_missing(point);
         }
-        return tokens.expected("a value");
+        let error = tokens.expected("a value");
+        return match tokens.peek_sign('*') {
+            true => error.map_err(|error| Box::new(error.with_help("a power is written `x^2`"))),
+            false => error,
+        };
     }
     let name = tokens.name("a value")?;
     if let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) {
@@ -154,9 +168,16 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
 /// Reads the unit after a number, and returns the number with it.
 pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
     let span = literal.span();
+    let length = literal.to_string().len();
+    if length > LONGEST {
+        let message = format!("this number has {length} characters; {LONGEST} are the most");
+        let help = "seventeen digits and an exponent are all that is kept: `1.25e-3`";
+        return Err(Box::new(Diagnostic::new(span, message).with_help(help)));
+    }
     let (digits, suffix) = digits_and_suffix(literal).ok_or_else(|| {
         let message = format!("expected a number, found `{literal}`");
-        Box::new(Diagnostic::new(span, message))
+        let help = "names stand without quotes, and no other file is read";
+        Box::new(Diagnostic::new(span, message).with_help(help))
     })?;
     // A string of digits can overflow to infinity, but never fails or becomes NaN.
     let value = digits.parse::<f64>().unwrap_or(f64::INFINITY);

@@ -1,6 +1,6 @@
 //! The words that start items, and replacements for others.
 
-use crate::base::nearest::suggestion;
+use crate::base::nearest::{advice, suggestion};
 
 /// The words that start an item.
 pub(super) const KEYWORDS: [&str; 14] = [
@@ -24,7 +24,7 @@ pub(super) const KEYWORDS: [&str; 14] = [
 const ALSO_NAMES: [&str; 2] = ["unbalance", "material"];
 
 /// Names of items in other tools and languages.
-const SYNONYMS: [(&str, &str); 28] = [
+const SYNONYMS: [(&str, &str); 27] = [
     ("imbalance", "unbalance"),
     ("eccentricity", "unbalance"),
     ("table", "curve"),
@@ -46,7 +46,6 @@ const SYNONYMS: [(&str, &str); 28] = [
     ("loop", "constraint"),
     ("closure", "constraint"),
     ("equality", "constraint"),
-    ("contact", "constraint"),
     ("element", "force"),
     ("result", "output"),
     ("all", "every"),
@@ -110,18 +109,17 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
 /// The replacement for an unknown word at the start of an item.
 pub(super) fn instead_of(unknown: &str) -> String {
     let inside = INSIDE.iter().find(|(_, words)| words.contains(&unknown));
-    let known = KEYWORDS.into_iter().chain(ALSO_NAMES);
-    match (inside, suggestion(unknown, known, &SYNONYMS)) {
-        (Some((keyword, _)), _) => {
-            format!("a `{unknown}` is a {keyword}: write `{keyword} NAME: {unknown} ...;`")
-        }
-        (None, Some(known)) => format!("did you mean `{known}`?"),
-        (None, None) => format!(
-            "an item starts with one of {}, {}",
-            KEYWORDS.join(", "),
-            ALSO_NAMES.join(", ")
-        ),
+    if let Some((keyword, _)) = inside {
+        return format!("a `{unknown}` is a {keyword}: write `{keyword} NAME: {unknown} ...;`");
     }
+    let known = KEYWORDS.into_iter().chain(ALSO_NAMES);
+    advice(unknown, known, &SYNONYMS).unwrap_or_else(|| {
+        let words = KEYWORDS.join(", ");
+        format!(
+            "an item starts with one of {words}, {}",
+            ALSO_NAMES.join(", ")
+        )
+    })
 }
 
 /// The words that start a law of a tolerance; `truncated normal` is two words.
@@ -161,3 +159,6 @@ pub(super) const COMMENT: &str = "a comment begins with `//`";
 
 /// Help for `3,5`.
 pub(super) const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";
+
+/// Help for `G6.3`.
+pub(crate) const GRADE: &str = "a grade of balancing is eccentricity times speed (ISO 21940-11): G6.3 at 3000 rpm is `eccentricity: 6.3 mm/s / (3000 rpm)`";

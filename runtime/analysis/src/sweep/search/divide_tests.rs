@@ -115,6 +115,27 @@ fn search(
     (events, all, states)
 }
 
+fn rises(event: &FoundEvent, expected: &Option<bool>) -> bool {
+    event.1 == *expected
+}
+
+/// Without a doubt, the events are those expected, each so many times and as near.
+fn agree<T: std::fmt::Debug>(
+    (events, all): (&[FoundEvent], &Division),
+    expected: &[(T, f64)],
+    (number, error): (usize, f64),
+    is: impl Fn(&FoundEvent, &T) -> bool,
+    what: &str,
+) {
+    assert_eq!(all.doubts, [], "{what} {events:?}");
+    let both = format!("{what}\n{events:?}\n{expected:?}");
+    assert_eq!(events.len(), number * expected.len(), "{both}");
+    for (kind, u) in expected {
+        let near = |event: &&FoundEvent| is(event, kind) && (event.2 - u).abs() <= error;
+        assert!(events.iter().filter(near).count() >= number, "{both}");
+    }
+}
+
 fn general() -> Wanted {
     Wanted {
         lines: Vec::new(),
@@ -190,19 +211,9 @@ fn onsets_and_ends_of_random_oscillators() {
         let mut last = 0;
         for steps in [16, 11] {
             let (events, all, states) = search(roots, &general(), [0.0, 1.0], steps);
-            assert_eq!(all.doubts, [], "{case} {machines:?}");
-            assert_eq!(
-                events.len(),
-                expected.len(),
-                "{case} {steps} {machines:?}\n{events:?}\n{expected:?}"
-            );
-            for (kind, u) in &expected {
-                let matches = |event: &&FoundEvent| event.0 == *kind && (event.2 - u).abs() <= 1e-9;
-                assert!(
-                    events.iter().any(|event| matches(&event)),
-                    "{case} {events:?} {expected:?}"
-                );
-            }
+            let is = |event: &FoundEvent, kind: &Kind| event.0 == *kind;
+            let what = format!("{case} {steps} {machines:?}");
+            agree((&events, &all), &expected, (1, 1e-9), is, &what);
             last = states;
         }
         most = most.max(last);
@@ -285,20 +296,8 @@ fn bands_in_which_two_modes_merge() {
         let mut last = 0;
         for steps in [16, 13] {
             let (events, all, states) = search(roots, &general(), [0.0, 1.0], steps);
-            assert_eq!(all.doubts, [], "{case} {pairs:?} {events:?}");
-            assert_eq!(
-                events.len(),
-                expected.len(),
-                "{case} {steps} {pairs:?}\n{events:?}\n{expected:?}"
-            );
-            for (passage, u) in &expected {
-                let matches =
-                    |event: &&FoundEvent| event.1 == *passage && (event.2 - u).abs() <= 1e-8;
-                assert!(
-                    events.iter().any(|event| matches(&event)),
-                    "{case} {events:?} {expected:?}"
-                );
-            }
+            let what = format!("{case} {steps} {pairs:?}");
+            agree((&events, &all), &expected, (1, 1e-8), rises, &what);
             last = states;
         }
         most = most.max(last);
@@ -366,22 +365,9 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
         expected.retain(|event| event.1 <= 1.0);
         for steps in [16, 7] {
             let (events, all, states) = search(roots, &wanted, [0.0, 1.0], steps);
-            assert_eq!(all.doubts, [], "{case}");
             let number = if twice { 2 } else { 1 };
-            assert_eq!(
-                events.len(),
-                number * expected.len(),
-                "{case} {events:?} {expected:?}"
-            );
-            for (passage, u) in &expected {
-                let matches =
-                    |event: &&FoundEvent| event.1 == *passage && (event.2 - u).abs() <= 1e-6;
-                assert_eq!(
-                    events.iter().filter(matches).count(),
-                    number,
-                    "{case} {events:?} {expected:?}"
-                );
-            }
+            let what = format!("{case} {steps}");
+            agree((&events, &all), &expected, (number, 1e-6), rises, &what);
             most = most.max(states);
         }
     }
@@ -412,27 +398,17 @@ fn bands_beside_a_third_mode() {
             [1.9, 2.1],
         ][case % 5];
         let inside = |event: &&(Option<bool>, f64)| event.1 > ends[0] && event.1 < ends[1];
-        let expected: Vec<_> = expected.iter().filter(inside).collect();
+        let expected: Vec<_> = expected.iter().filter(inside).copied().collect();
         for steps in [1, 2, 3, 5, 10, 11, 16] {
             let wanted = Wanted {
                 critical: slope.abs() < 2.0,
                 ..general()
             };
             let (events, all, states) = search(roots, &wanted, ends, steps);
-            let events: Vec<_> = events
-                .iter()
-                .filter(|event| event.0 == Kind::Growth)
-                .collect();
-            assert_eq!(all.doubts, [], "{c} {slope} {ends:?} {steps}");
-            assert_eq!(
-                events.len(),
-                expected.len(),
-                "{c} {slope} {ends:?} {steps} {events:?}"
-            );
-            for (event, (rises, u)) in events.iter().zip(&expected) {
-                assert_eq!(event.1, *rises);
-                assert!((event.2 - u).abs() < 1e-7, "{c} {slope} {event:?} {u}");
-            }
+            let of_growth = events.into_iter().filter(|event| event.0 == Kind::Growth);
+            let events: Vec<_> = of_growth.collect();
+            let what = format!("{c} {slope} {ends:?} {steps}");
+            agree((&events, &all), &expected, (1, 1e-7), rises, &what);
             most = most.max(states);
         }
     }
@@ -487,16 +463,14 @@ fn critical_speeds_of_rotors() {
         };
         for steps in [1, 4, 13] {
             let (events, all, _) = search(roots, &wanted, [0.0, 5.0], steps);
-            assert_eq!(all.doubts, [], "{disks:?}");
-            assert_eq!(
-                events.len(),
-                expected.len(),
-                "{disks:?} {events:?} {expected:?}"
+            let is = |event: &FoundEvent, kind: &Kind| event.0 == *kind;
+            agree(
+                (&events, &all),
+                &expected,
+                (1, 1e-8),
+                is,
+                &format!("{disks:?}"),
             );
-            for (event, (kind, at)) in events.iter().zip(&expected) {
-                assert_eq!(event.0, *kind, "{disks:?}");
-                assert!((event.2 - at).abs() < 1e-8, "{event:?} {at}");
-            }
         }
     }
 }

@@ -50,6 +50,7 @@ pub(crate) fn free_directions(
     let mut free = FreeDirections {
         count: usize::MAX,
         notes: Vec::new(),
+        unbalanced: None,
     };
     let mut first = None;
     for design in (1..=if alike { 1 } else { DESIGNS }).rev() {
@@ -90,7 +91,7 @@ pub(crate) fn free_directions(
         let text = |along: &Vec<f64>| described(context, &fields, along).text;
         let texts: Vec<String> = elsewhere.iter().map(text).collect();
         if !texts.is_empty() {
-            free.notes.push(format!(
+            free.unbalanced = Some(format!(
                 "the loads along {} balance at the nominal design only; there is no equilibrium beside it",
                 listed(&texts)
             ));
@@ -111,7 +112,7 @@ pub(crate) fn free_directions(
     if !chosen.is_empty() {
         let text = |along: &Vec<f64>| described(context, &fields, along).text;
         let texts: Vec<String> = chosen.iter().map(text).collect();
-        free.notes.push(format!(
+        free.unbalanced = Some(format!(
             "the loads along {} balance for some values of the inputs only; there is no equilibrium for others",
             listed(&texts)
         ));
