@@ -8,11 +8,8 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::color::Color;
 use crate::declaration::Declaration;
-use crate::failure::Failure;
+use crate::failure::{Failure, MOST_SHOWN};
 use crate::mistake::Mistake;
-
-/// Most mistakes that are drawn.
-pub(crate) const MOST_SHOWN: usize = 50;
 
 /// Writes a failure to standard error.
 pub(crate) fn say(failure: &Failure, color: Color) {

@@ -9,7 +9,6 @@ use eigentol_interpreter::{Mistakes, RefineError};
 use thiserror::Error as ThisError;
 
 use crate::advice;
-use crate::diagnostics::MOST_SHOWN;
 use crate::mistake::Mistake;
 use crate::nearby::nearby;
 
@@ -159,6 +158,9 @@ impl From<eigentol_report::Error> for Failure {
         }
     }
 }
+
+/// Most mistakes that are drawn.
+pub(crate) const MOST_SHOWN: usize = 50;
 
 fn counted(mistakes: usize) -> String {
     match mistakes {

@@ -58,7 +58,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-results",
             "eigentol-statistics",
         ],
-        16_100,
+        16_150,
     ),
     (
         "runtime/tolerance",
@@ -94,7 +94,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        10_000,
+        10_050,
     ),
     (
         "runtime",

@@ -266,6 +266,8 @@ fn sweeps_that_make_no_sense() {
             &["no sweep"],
         );
     }
+    let many = [&["campbell", PENDULUM], &sweep[..], &["1e12", "--csv"]].concat();
+    refused(&many, 2, &["1000000000000 points", "divide the range"]);
 }
 
 /// What no input gives is said, and what `check` knows of an equilibrium is not forgotten.
