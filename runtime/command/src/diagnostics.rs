@@ -8,8 +8,11 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::color::Color;
 use crate::declaration::Declaration;
-use crate::failure::{Failure, MOST_SHOWN};
+use crate::failure::Failure;
 use crate::mistake::Mistake;
+
+/// Most mistakes that are drawn.
+const MOST: usize = 50;
 
 /// Writes a failure to standard error.
 pub(crate) fn say(failure: &Failure, color: Color) {
@@ -21,9 +24,12 @@ pub(crate) fn say(failure: &Failure, color: Color) {
         mistakes,
     } = failure
     {
-        for mistake in mistakes.iter().take(MOST_SHOWN) {
+        for mistake in mistakes.iter().take(MOST) {
             text += &drawn(Level::ERROR, name, source, mistake, &renderer);
             text += "\n\n";
+        }
+        if mistakes.len() > MOST {
+            text += &format!("These are the first {MOST} mistakes.\n\n");
         }
     }
     text += &title(&failure.to_string(), failure.help().as_deref(), &renderer);

@@ -111,7 +111,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
         3_100,
     ),
     ("macros/symbolic", &[], 3_800),
-    ("macros/language", &["eigentol-symbolic"], 17_400),
+    ("macros/language", &["eigentol-symbolic"], 17_500),
     (
         "macros/compiler",
         &["eigentol-language", "eigentol-symbolic"],
