@@ -95,8 +95,8 @@ pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
             help: Some(help),
         }])
     };
-    let brackets = brackets(readable);
-    if let Some(place) = brackets.too_deep {
+    let (too_deep, unpaired) = brackets(readable);
+    if let Some(place) = too_deep {
         return Err(at(place, TOO_LARGE.to_owned(), NAME_PARTS.to_owned()));
     }
     text.parse().map_err(|error: LexError| {
@@ -106,7 +106,7 @@ pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
         let sign = line.and_then(|line| line.chars().nth(place.1));
         let sign = sign.unwrap_or(' ');
         let instead = SIGNS.iter().find(|(signs, _)| signs.contains(sign));
-        match (instead, brackets.unpaired) {
+        match (instead, unpaired) {
             (None, Some((place, message))) => at(place, message, PAIRS.to_owned()),
             (instead, _) => {
                 let help = instead.map_or(PAIRS.to_owned(), |(_, x)| format!("write `{x}`"));

@@ -15,14 +15,12 @@ static INEXTENSIBLE: OnceLock<Vec<String>> = OnceLock::new();
 static GOOD: OnceLock<Option<usize>> = OnceLock::new();
 
 /// Where `check` says that it has no equilibrium.
-static UNBALANCED: OnceLock<String> = OnceLock::new();
+static UNBALANCED: OnceLock<Option<String>> = OnceLock::new();
 
 /// Remembers the machine.
 pub(crate) fn remember(machine: &Interpreted, compilation: &Compilation) {
     let _ = GOOD.set(machine.good_modes());
-    if let Some(unbalanced) = &compilation.functions.free.unbalanced {
-        let _ = UNBALANCED.set(unbalanced.clone());
-    }
+    let _ = UNBALANCED.set(compilation.functions.free.unbalanced.clone());
     let d = eigentol::kernels::Kernels::description(machine);
     let unknowns = || d.coordinates.iter();
     let stretches = |beam: &str| {
@@ -91,7 +89,7 @@ pub(crate) fn has_beams() -> bool {
 /// A failure of that machine in words.
 pub(crate) fn message(error: &Error) -> String {
     match (error, UNBALANCED.get()) {
-        (Error::NoEquilibrium { .. }, Some(why)) => format!("no equilibrium found: {why}"),
+        (Error::NoEquilibrium { .. }, Some(Some(why))) => format!("no equilibrium found: {why}"),
         _ => error.to_string(),
     }
 }

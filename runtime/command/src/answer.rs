@@ -177,16 +177,12 @@ const HEADINGS: [(&str, &str); 7] = [
 fn meant<'a, T>(name: &str, all: &'a [T], name_of: impl Fn(&'a T) -> &'a str) -> Option<&'a T> {
     let plain = |text: &str| text.to_lowercase().replace(['-', '_'], " ");
     let name = plain(name);
-    if let Some(exact) = all.iter().find(|x| plain(name_of(x)) == name) {
-        return Some(exact);
-    }
     let heading = name.rsplit(": ").next().unwrap_or(&name);
-    let called = |kind: &str| {
-        let is_headed = |(words, x): &(&str, &str)| *x == kind && heading.starts_with(words);
-        HEADINGS.iter().any(is_headed)
-    };
-    if let Some(headed) = all.iter().find(|x| called(&plain(name_of(x)))) {
-        return Some(headed);
+    let headed = HEADINGS.iter().find(|x| heading.starts_with(x.0));
+    let exact = |wanted: &str| all.iter().find(|x| plain(name_of(x)) == wanted);
+    let found = exact(&name).or_else(|| exact(headed?.1));
+    if found.is_some() {
+        return found;
     }
     let begins = |item: &&'a T| plain(name_of(item)).starts_with(&format!("{name} "));
     let mut candidates = all.iter().filter(begins);

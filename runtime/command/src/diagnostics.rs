@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::mistake::Mistake;
 
 /// Most mistakes that are drawn.
-pub(crate) const MOST_SHOWN: usize = 50;
+const MOST: usize = 50;
 
 /// Writes a failure to standard error.
 pub(crate) fn say(failure: &Failure, color: Color) {
@@ -24,9 +24,12 @@ pub(crate) fn say(failure: &Failure, color: Color) {
         mistakes,
     } = failure
     {
-        for mistake in mistakes.iter().take(MOST_SHOWN) {
+        for mistake in mistakes.iter().take(MOST) {
             text += &drawn(Level::ERROR, name, source, mistake, &renderer);
             text += "\n\n";
+        }
+        if mistakes.len() > MOST {
+            text += &format!("These are the first {MOST} mistakes.\n\n");
         }
     }
     text += &title(&failure.to_string(), failure.help().as_deref(), &renderer);

@@ -9,7 +9,6 @@ use eigentol_interpreter::{Mistakes, RefineError};
 use thiserror::Error as ThisError;
 
 use crate::advice;
-use crate::diagnostics::MOST_SHOWN;
 use crate::mistake::Mistake;
 use crate::nearby::nearby;
 
@@ -22,7 +21,7 @@ pub(crate) enum Failure {
     #[error("cannot write to standard output: {0}")]
     Print(io::Error),
     /// Drawn in the source text.
-    #[error("`{name}` has {}", counted(.mistakes.len()))]
+    #[error("`{name}` has {} {}", .mistakes.len(), plural(.mistakes.len(), "mistake", "mistakes"))]
     Declaration {
         name: String,
         text: String,
@@ -157,14 +156,6 @@ impl From<eigentol_report::Error> for Failure {
             eigentol_report::Error::Study(error) => Self::Analysis(error),
             other => Self::Report(other),
         }
-    }
-}
-
-fn counted(mistakes: usize) -> String {
-    match mistakes {
-        1 => "1 mistake".to_owned(),
-        2..=MOST_SHOWN => format!("{mistakes} mistakes"),
-        _ => format!("{mistakes} mistakes; these are the first {MOST_SHOWN}"),
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
-use eigentol::equilibrium::Search;
+use eigentol::equilibrium::{Equilibria, Search};
 use eigentol::judge;
 use eigentol::{
     Coordinate, CoordinateInfo, Description, DesignVariable, Input, Law, Matrix, Parameter, Role,
@@ -88,21 +88,23 @@ impl Question {
     /// Says which inputs an answer at one state takes as zero, because nothing gives their value.
     pub(crate) fn note_unset(&self) {
         for info in self.study.description().inputs.iter() {
-            let name = &*info.name;
-            let given = self.set.iter().any(|set| set == name) || self.file.set.contains_key(name);
-            if !given {
-                let unit = &info.unit.symbol;
-                let note = format!("`{name}` was not given: 0 {unit}");
-                diagnostics::note(&note.trim_end());
+            let (name, unit) = (&*info.name, &info.unit.symbol);
+            if !self.set.iter().any(|set| set == name) && !self.file.set.contains_key(name) {
+                diagnostics::note(&format!("`{name}` was not given: 0 {unit}"));
             }
         }
     }
 
-    /// The same question of the equilibrium with this number.
-    fn of_equilibrium(mut self, number: usize) -> Result<Self, Failure> {
+    /// The equilibria of a search.
+    pub(crate) fn equilibria(&self) -> Result<Equilibria, Failure> {
         let bar = progress::bar("starts", None);
         let study = progress::watched(self.study.clone(), &bar);
-        let equilibria = study.equilibria(&self.search()?)?;
+        Ok(study.equilibria(&self.search()?)?)
+    }
+
+    /// The same question of the equilibrium with this number.
+    fn of_equilibrium(mut self, number: usize) -> Result<Self, Failure> {
+        let equilibria = self.equilibria()?;
         let Some(state) = number.checked_sub(1).and_then(|k| equilibria.get(k)) else {
             let message = format!(
                 "there is no equilibrium {number}: the search finds {}",
@@ -154,7 +156,7 @@ impl Question {
     /// The number of samples of an answer that is not about samples: fewer than usual where each is costly.
     pub(crate) fn few_samples(&self, option: Option<usize>) -> Result<usize, Failure> {
         let modes = self.study.modes();
-        let usual = modes.map_or(3000, |modes| judge::affordable(&modes));
+        let usual = modes.map_or(3000, |modes| judge::affordable(&modes, 5.0));
         samples(option.or(self.file.samples).or(Some(usual)), &self.file)
     }
 }

@@ -1,8 +1,7 @@
 //! What standard error shows of long work: a bar of its steps, or how long it has taken; hidden if that is not a terminal.
 
 use std::ops::Deref;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -21,29 +20,8 @@ const TICK: Duration = Duration::from_millis(200);
 /// Number of bars in sight.
 static BARS: AtomicUsize = AtomicUsize::new(0);
 
-/// A bar that leaves with its end, or once all its steps are done: what then follows has none.
-pub(crate) struct Bar(ProgressBar, Arc<AtomicBool>);
-
-impl Bar {
-    /// Takes it out of sight.
-    pub(crate) fn leave(&self) {
-        leave(&self.0, &self.1);
-    }
-}
-
-fn leave(bar: &ProgressBar, left: &AtomicBool) {
-    if !left.swap(true, Ordering::Relaxed) {
-        bar.finish_and_clear();
-        BARS.fetch_sub(1, Ordering::Relaxed);
-    }
-}
-
-fn advance(bar: &ProgressBar, left: &AtomicBool, steps: usize) {
-    bar.inc(steps as u64);
-    if bar.length().is_some_and(|all| bar.position() >= all) {
-        leave(bar, left);
-    }
-}
+/// A bar that leaves with its end.
+pub(crate) struct Bar(ProgressBar);
 
 impl Deref for Bar {
     type Target = ProgressBar;
@@ -55,9 +33,13 @@ impl Deref for Bar {
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.leave();
+        self.0.finish_and_clear();
+        BARS.fetch_sub(1, Ordering::Relaxed);
     }
 }
+
+/// What is shown of an unknown number of steps.
+const COUNTER: &str = "{pos} {msg}  {elapsed}";
 
 /// A bar with this number of steps, or a step counter if the number is unknown.
 pub(crate) fn bar(what: &'static str, steps: Option<u64>) -> Bar {
@@ -66,27 +48,36 @@ pub(crate) fn bar(what: &'static str, steps: Option<u64>) -> Bar {
             ProgressBar::new(steps),
             "{msg} {bar:40} {percent:>3} %  {elapsed}, {eta} left",
         ),
-        None => (ProgressBar::no_length(), "{pos} {msg}  {elapsed}"),
+        None => (ProgressBar::no_length(), COUNTER),
     };
     BARS.fetch_add(1, Ordering::Relaxed);
-    Bar(started(bar.with_message(what), template), Arc::default())
+    Bar(started(bar.with_message(what), template))
 }
 
 fn started(bar: ProgressBar, template: &str) -> ProgressBar {
-    let bar = match ProgressStyle::with_template(template) {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    };
+    restyle(&bar, template);
     bar.tick();
     bar.enable_steady_tick(TICK);
     bar
 }
 
+fn restyle(bar: &ProgressBar, template: &str) {
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+}
+
 /// A study that shows its steps on a bar, and that Ctrl-C ends with the work done so far.
 pub(crate) fn watched(study: Study<Interpreted>, bar: &Bar) -> Study<Interpreted> {
-    let (bar, left) = (bar.0.clone(), Arc::clone(&bar.1));
+    let bar = bar.0.clone();
     study
-        .progress(move |steps| advance(&bar, &left, steps))
+        .progress(move |steps| {
+            bar.inc(steps as u64);
+            // What follows the last step takes its time too.
+            if bar.length() == Some(bar.position()) {
+                restyle(&bar, COUNTER);
+            }
+        })
         .stop(interrupt::stop())
 }
 

@@ -137,10 +137,11 @@ impl Points {
                 help,
             ));
         }
-        if held && count > MOST_POINTS {
+        let most = if held { MOST_POINTS } else { MOST_ROWS };
+        if count > most {
             let message = format!("{count} points are more than one answer can hold");
             let help = format!(
-                "`--points {MOST_POINTS}` is the most: divide the range, or write the rows of `campbell` and `sweep` as CSV"
+                "`--points {most}` is the most: divide the range, or write the rows of `campbell` and `sweep` as CSV"
             );
             return Err(Failure::usage(message, help));
         }
@@ -152,6 +153,8 @@ impl Points {
 
 /// Most values of an input in one answer that is held at once: some kilobytes each.
 const MOST_POINTS: usize = 100_000;
+/// Most values whose rows are written as they come; only the values themselves are held.
+const MOST_ROWS: usize = 100_000_000;
 
 impl Orders {
     /// The orders, without repetitions, from the command line or else the study file. Where the range has negative

@@ -176,7 +176,7 @@ impl Study {
         let converted = match numbers(values, input) {
             Ok(values) => values.into_iter().map(|value| value * scale).collect(),
             Err(_) if values.is_instance_of::<PyString>() => {
-                let message = format!("`{input}`: a list of values is expected, such as numpy.linspace(0, 600, 61), not {values}");
+                let message = format!("`{input}`: a list of values is expected, not {values}");
                 return Err(invalid(py, message));
             }
             Err(error) => {

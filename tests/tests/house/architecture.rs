@@ -58,7 +58,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-results",
             "eigentol-statistics",
         ],
-        16_300,
+        16_400,
     ),
     (
         "runtime/tolerance",
@@ -94,7 +94,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        10_000,
+        10_050,
     ),
     (
         "runtime",
@@ -111,7 +111,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
         3_100,
     ),
     ("macros/symbolic", &[], 3_800),
-    ("macros/language", &["eigentol-symbolic"], 17_400),
+    ("macros/language", &["eigentol-symbolic"], 17_500),
     (
         "macros/compiler",
         &["eigentol-language", "eigentol-symbolic"],
@@ -147,7 +147,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        5_000,
+        5_150,
     ),
     (
         "runtime/python",

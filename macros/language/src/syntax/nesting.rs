@@ -19,49 +19,39 @@ pub(super) fn too_large(at: Extent) -> Diagnostic {
 #[cfg(feature = "locations")]
 const DEEPEST_TEXT: u32 = 2 * DEEPEST;
 
-/// What is wrong with the brackets of a text, at a line and a character, from 0. Comments and strings do not count.
+/// What is wrong with the brackets of a text, at a line and a character, from 0: the first that is nested too deeply
+/// for the lexer and the parser, which descend into brackets on the stack; and the first without a partner, which the
+/// lexer notices only where the text around it ends, or a comment or string without an end. Comments and strings do
+/// not count.
 #[cfg(feature = "locations")]
-#[derive(Default)]
-pub(crate) struct Brackets {
-    /// The first that is nested too deeply for the lexer and the parser, which descend into brackets on the stack.
-    pub(crate) too_deep: Option<(usize, usize)>,
-    /// The first without a partner, which the lexer notices only where the text around it ends, or a comment or string
-    /// without an end.
-    pub(crate) unpaired: Option<((usize, usize), String)>,
-}
-
-#[cfg(feature = "locations")]
-pub(crate) fn brackets(text: &str) -> Brackets {
-    let mut found = Brackets::default();
-    let (mut open, mut line, mut column) = (Vec::new(), 0, 0);
+pub(crate) fn brackets(text: &str) -> (Option<Place>, Option<(Place, String)>) {
+    let (mut too_deep, mut unpaired) = (None, None);
+    let mut lacks = |at, sign: &str, what| {
+        unpaired.get_or_insert_with(|| (at, format!("this `{sign}` {what}")));
+    };
+    let (mut open, mut line, mut column) = (Vec::<(Place, &str)>::new(), 0, 0);
     let mut rest = text;
     while let Some(sign) = rest.chars().next() {
-        let passed = passed_over(rest);
-        let length = passed.unwrap_or(sign.len_utf8());
-        let here = (line, column);
-        match sign {
-            _ if length > rest.len() => {
-                let start = if sign == '"' { "\"" } else { "/*" };
-                found.lacks(here, start, "is never closed");
+        let length = passed_over(rest).unwrap_or(sign.len_utf8());
+        let (here, text) = ((line, column), &rest[..sign.len_utf8()]);
+        if length > rest.len() {
+            let start = if sign == '"' { text } else { "/*" };
+            lacks(here, start, NEVER_CLOSED);
+        } else if "([{".contains(sign) {
+            if open.len() == DEEPEST_TEXT as usize {
+                too_deep.get_or_insert(here);
             }
-            '(' | '[' | '{' => {
-                if open.len() == DEEPEST_TEXT as usize {
-                    found.too_deep.get_or_insert(here);
+            open.push((here, text));
+        } else if ")]}".contains(sign) {
+            let partner =
+                |opening: &str| ["()", "[]", "{}"].contains(&&*format!("{opening}{sign}"));
+            match open.pop() {
+                Some((_, opening)) if partner(opening) => {}
+                Some((at, opening)) if open.iter().any(|x| partner(x.1)) => {
+                    lacks(at, opening, NEVER_CLOSED);
                 }
-                open.push((here, sign));
+                _ => lacks(here, text, "closes nothing"),
             }
-            ')' | ']' | '}' => {
-                let partner =
-                    |opening: char| matches!((opening, sign), ('(', ')') | ('[', ']') | ('{', '}'));
-                match open.pop() {
-                    Some((_, opening)) if partner(opening) => {}
-                    Some((at, opening)) if open.iter().any(|x| partner(x.1)) => {
-                        found.lacks(at, opening, "is never closed");
-                    }
-                    _ => found.lacks(here, sign, "closes nothing"),
-                }
-            }
-            _ => {}
         }
         let length = length.min(rest.len());
         for passed in rest[..length].chars() {
@@ -73,18 +63,17 @@ pub(crate) fn brackets(text: &str) -> Brackets {
         rest = &rest[length..];
     }
     if let Some((at, opening)) = open.pop() {
-        found.lacks(at, opening, "is never closed");
+        lacks(at, opening, NEVER_CLOSED);
     }
-    found
+    (too_deep, unpaired)
 }
 
+/// A line and a character.
 #[cfg(feature = "locations")]
-impl Brackets {
-    fn lacks(&mut self, at: (usize, usize), sign: impl std::fmt::Display, what: &str) {
-        self.unpaired
-            .get_or_insert_with(|| (at, format!("this `{sign}` {what}")));
-    }
-}
+type Place = (usize, usize);
+
+#[cfg(feature = "locations")]
+const NEVER_CLOSED: &str = "is never closed";
 
 /// The length of the comment or string at the start of a text; more than that of the text if it is not closed.
 #[cfg(feature = "locations")]
@@ -111,7 +100,7 @@ mod tests {
     use super::{DEEPEST_TEXT, brackets};
 
     fn too_deep(text: &str) -> Option<(usize, usize)> {
-        brackets(text).too_deep
+        brackets(text).0
     }
 
     #[test]
@@ -127,7 +116,7 @@ mod tests {
             ("// ( \n", None),
         ] {
             let expected = expected.map(|(at, what)| (at, what.to_owned()));
-            assert_eq!(brackets(text).unpaired, expected, "{text}");
+            assert_eq!(brackets(text).1, expected, "{text}");
         }
     }
 

@@ -1,13 +1,11 @@
 //! All equilibria at one operating point.
 
 use clap::Args;
-use eigentol::equilibrium::Equilibria as AllEquilibria;
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::Output;
 use crate::point::Point;
-use crate::progress;
 use crate::verdict::Verdict;
 
 /// Distinct equilibria at one operating point, numbered, from random starts (`--between`)
@@ -24,10 +22,7 @@ impl Equilibria {
         self.output.check()?;
         let question = self.point.question()?;
         question.note_unset();
-        let bar = progress::bar("starts", None);
-        let study = progress::watched(question.study.clone(), &bar);
-        let states: AllEquilibria = study.equilibria(&question.search()?)?;
-        drop(bar);
+        let states = question.equilibria()?;
         let mut answer = self.output.answer();
         answer.add(&states)?;
         self.output.write(&answer)?;

@@ -1,7 +1,8 @@
 //! How probable it is that requirements are failed.
 
 use clap::Args;
-use eigentol::requirement::{Probabilities, Requirement, affordable_samples};
+use eigentol::judge;
+use eigentol::requirement::{Probabilities, Requirement};
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -76,7 +77,7 @@ impl Probability {
             true => Some(SEARCHES),
             false => {
                 question.note_unset();
-                study.modes().ok().map(|modes| affordable_samples(&modes))
+                study.modes().ok().map(|modes| judge::affordable(&modes, 100.0).max(SEARCHES))
             }
         };
         let count = samples(self.samples.or(file.samples).or(usual), file)?;

@@ -90,7 +90,7 @@ impl Sample {
             self.write_samples(&run, &mut part)?;
         } else {
             run.complete(&mut part, u64::MAX, |_| Ok(()))?;
-            bar.leave();
+            bar.finish_and_clear();
             if self.shard.is_some() || self.partial {
                 self.output.write_text(&parts::text(&part)?)?;
             } else {
@@ -124,7 +124,7 @@ impl Sample {
             let mut samples = part.take_samples().into_iter();
             samples.try_for_each(|one| rows.add(one))
         })?;
-        run.bar.leave();
+        run.bar.finish_and_clear();
         rows.finish()
     }
 }

@@ -397,6 +397,7 @@ fn long_work_shows_how_far_it_is() {
             pendulum("sample", &["--samples", "20000", "-o", &file]),
             "samples",
         ),
+        (pendulum("equilibria", &["-o", &file]), "starts"),
         (swept("campbell", &rows), "values"),
         (swept("sweep", &rows), "values"),
         (swept("branches", &speeds), "points of branches"),

@@ -266,6 +266,8 @@ fn sweeps_that_make_no_sense() {
             &["no sweep"],
         );
     }
+    let many = [&["campbell", PENDULUM], &sweep[..], &["1e12", "--csv"]].concat();
+    refused(&many, 2, &["1000000000000 points", "divide the range"]);
 }
 
 /// What no input gives is said, and what `check` knows of an equilibrium is not forgotten.
@@ -331,7 +333,11 @@ fn what_never_ends() {
         "many.mechanism",
         &format!("mechanism A {{\n{many}}}"),
     );
-    refused(&["check", &many], 3, &["mistakes; these are the first 50"]);
+    refused(
+        &["check", &many],
+        3,
+        &["These are the first 50 mistakes.", "61 mistakes"],
+    );
     let links: String = (0..20_000)
         .map(|k| format!("<link name=\"l{k}\"/>"))
         .collect();

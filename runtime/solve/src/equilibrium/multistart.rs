@@ -151,7 +151,7 @@ const BUDGET: f64 = 2.7e8;
 fn affordable(description: &Description) -> usize {
     let n = description.coordinates.len() as f64;
     let kernel = description.kernel("residual_and_stiffness");
-    let kernel = kernel.map_or(0.0, |kernel| kernel.operations as f64);
+    let kernel = kernel.map_or(0, |kernel| kernel.operations) as f64;
     // The elimination and the eigenvalues that say whether the equilibrium is stable.
     (BUDGET / (kernel + 30.0 * n.powi(3))).min(MOST_STARTS) as usize
 }

@@ -14,15 +14,12 @@ const STEPS: f64 = 4.0;
 /// Time of a vectorised operation relative to a scalar one.
 const SIDE_BY_SIDE: f64 = 0.25;
 
-/// Number of samples whose results are not rough.
-const ENOUGH: usize = 200;
-/// Operations spent on samples that nobody counted: about a second.
-const UNCOUNTED: f64 = 7e8;
-
-/// A number of samples with modes like these that takes about a second: 3000, or fewer, but at least 200.
-pub fn affordable(modes: &Modes) -> usize {
-    let most = UNCOUNTED / operations(modes, together(modes));
-    (most as usize).clamp(ENOUGH, 3000)
+/// How many plain samples are worth their time, some hundredths of a second for each of `budgets`: 3000, or fewer of
+/// machines with many coordinates, but at least 200.
+#[must_use]
+pub fn affordable(modes: &Modes, budgets: f64) -> usize {
+    let most = budgets * BUDGET / operations(modes, false);
+    most.clamp(200.0, 3000.0) as usize
 }
 
 /// Whether samples may be solved in vectorised blocks.

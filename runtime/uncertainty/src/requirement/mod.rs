@@ -30,7 +30,7 @@ pub use design_point::DesignPoint;
 pub use eigentol_statistics::reliability::sampling::{Estimate, Interval, SampledProbability};
 pub use eigentol_statistics::reliability::{FormSensitivity, FormSettings};
 pub use kinds::Requirement;
-pub use probability::{EstimatedBy, FailureProbability, Probabilities, affordable_samples};
+pub use probability::{EstimatedBy, FailureProbability, Probabilities};
 pub use rare::RareFailure;
 pub use reliability::{LimitReliability, Reliability, SystemFailure};
 pub use requirements::Requirements;

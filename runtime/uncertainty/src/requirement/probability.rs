@@ -107,13 +107,6 @@ pub struct Probabilities {
     pub description: Shared<Description>,
 }
 
-/// How many plain samples are worth their time, some seconds: 3000, of machines with many coordinates at least 600.
-#[must_use]
-pub fn affordable_samples(modes: &Modes) -> usize {
-    let affordable = 100.0 * BUDGET / operations(modes, false);
-    affordable.clamp(600.0, 3000.0) as usize
-}
-
 /// Where each evaluation takes a search along an input, a few starts must do.
 fn of_searches() -> FormSettings {
     FormSettings {

@@ -11,7 +11,7 @@ use crate::model::mechanism::Motion;
 const INERTIA: &str = "the inertia of";
 const UNBALANCE: &str = "; an eccentric centre or a skew axis of a symmetric body is an `unbalance`; what has unequal moments of inertia across the axis makes the equations of vibration periodic (theory of Floquet), which is not supported";
 const SPINNING: &str = "; a round beam that turns about its axis is held by what does not turn, and is `spinning at` its speed";
-const BEYOND: &str = "; what stands beyond a joint that coasts turns with it: joints that should not turn come before it";
+const BEYOND: &str = "; joints that should not turn come before one that coasts";
 const GRAVITY: &str = "gravity is not parallel to its axis";
 
 /// Why there is no steady state.
@@ -72,10 +72,8 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(
                     ),
                     causes => {
                         let inertia = causes.iter().any(|cause| cause.starts_with(INERTIA));
-                        let beyond = match coordinate.motion {
-                            Motion::Coasting => BEYOND,
-                            _ => "",
-                        };
+                        let coasts = coordinate.motion == Motion::Coasting;
+                        let beyond = if coasts { BEYOND } else { "" };
                         let of_bodies = if inertia { UNBALANCE } else { "" };
                         let has_beams = inertia && !context.mechanism.beams.is_empty();
                         let of_beams = if has_beams { SPINNING } else { "" };

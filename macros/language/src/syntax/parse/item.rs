@@ -17,6 +17,7 @@ use super::unit;
 use super::value::{value, value_before};
 use super::words::{COMMENT, instead_of};
 use crate::base::diagnostics::Diagnostic;
+use crate::base::span::Extent;
 
 /// Reads an item up to its semicolon.
 pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
@@ -96,14 +97,12 @@ fn design(tokens: &mut Tokens) -> Parsed<ItemKind> {
 }
 
 /// Reads the sign between a name and its value, which says its unit.
-fn equals(tokens: &mut Tokens, name: &Ident) -> Parsed<()> {
-    let is_declared = tokens.peek_sign(':');
-    match tokens.expect_sign('=', "`=`") {
-        Err(error) if is_declared => Err(Box::new(error.with_help(format!(
-            "write `{name} = ...`: the unit is that of the value"
-        )))),
-        read => read.map(drop),
-    }
+fn equals(tokens: &mut Tokens, name: &Ident) -> Parsed<Extent> {
+    let read = tokens.expect_sign('=', "`=`");
+    read.map_err(|error| match tokens.peek_sign(':') {
+        true => Box::new(error.with_help(format!("write `{name} = ...`: its unit is that of the value"))),
+        false => error,
+    })
 }
 
 fn named(tokens: &mut Tokens) -> Parsed<Named> {

@@ -171,12 +171,11 @@ pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
     let length = literal.to_string().len();
     if length > LONGEST {
         let message = format!("this number has {length} characters; {LONGEST} are the most");
-        let help = "seventeen digits and an exponent are all that is kept: `1.25e-3`";
-        return Err(Box::new(Diagnostic::new(span, message).with_help(help)));
+        return Err(Box::new(Diagnostic::new(span, message)));
     }
     let (digits, suffix) = digits_and_suffix(literal).ok_or_else(|| {
         let message = format!("expected a number, found `{literal}`");
-        let help = "names stand without quotes, and no other file is read";
+        let help = "nothing stands in quotes";
         Box::new(Diagnostic::new(span, message).with_help(help))
     })?;
     // A string of digits can overflow to infinity, but never fails or becomes NaN.
