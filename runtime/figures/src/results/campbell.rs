@@ -72,16 +72,22 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     }
     let top = style
         .top()
-        .unwrap_or(if highest > 0.0 { 1.05 * highest } else { 1.0 });
+        .unwrap_or_else(|| match (1.05 * highest, reached(&panel, result, scale)) {
+            (all, Some(reached)) if reached < all => reached,
+            (all, _) if all > 0.0 => all,
+            _ => 1.0,
+        });
     let bottom = style.bottom().min(0.99 * top);
     panel.y.range = [bottom, top];
     let times = bands(&mut panel, result, (style, top - bottom), scale, |x| {
         x.frequency.as_ref()
     });
     let seen = |point: &Point| (bottom..=top).contains(&point[1]);
+    let all = panel.curves.len();
     panel
         .curves
         .retain(|curve| curve.pieces.iter().flatten().any(seen));
+    let beyond = all - panel.curves.len();
     orders(&mut panel, result, scale);
     panel.marks.extend(style.marks());
     ends.write(&mut panel, style);
@@ -98,8 +104,27 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     }
     caption.extend(lines);
     caption.extend(result.left_out());
+    if beyond > 0 && style.top().is_none() {
+        let lines = if beyond == 1 { "line lies" } else { "lines lie" };
+        caption.push(format!("{beyond} more {lines} above the diagram"));
+    }
     let title = style.titled(format!("{}: Campbell diagram", result.description.name));
     Ok(Figure::new(title, caption, vec![panel]))
+}
+
+/// Somewhat above the excitation lines and the lowest frequency: no frequency higher up meets a line.
+fn reached(panel: &Panel, result: &Campbell, scale: f64) -> Option<f64> {
+    let unit = input_unit(&result.description, result.input);
+    let ends = panel.x.range.map(|end| unit.to_si(end));
+    let lines = result.orders.iter();
+    let heights = lines.flat_map(|line| ends.map(|end| scale * (line.ratio * end + line.offset)));
+    let lines = heights.reduce(f64::max)?;
+    let greatest = |curve: &Curve| {
+        let points = curve.pieces.iter().flatten();
+        points.fold(0.0, |most: f64, point| most.max(point[1]))
+    };
+    let lowest = panel.curves.iter().map(greatest).reduce(f64::min)?;
+    Some((1.2 * lines).max(1.2 * lowest))
 }
 
 /// Draws a motion in the colour of its mode; backward whirl is dashed, and if nothing whirls every mode has its own
