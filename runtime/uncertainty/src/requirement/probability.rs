@@ -9,8 +9,7 @@ use super::kinds::Requirement;
 use super::reliability::{Reliability, judge_requirements, reliability_of};
 use super::requirements::Requirements;
 use crate::algebra::Vector;
-use crate::judge::{BUDGET, Judged, Judgement, TRUSTED_PROBABILITY_ERROR, operations};
-use crate::modes::Modes;
+use crate::judge::{Judged, Judgement, TRUSTED_PROBABILITY_ERROR};
 use crate::tolerance::Sampling;
 use crate::{Description, Error, Shared};
 

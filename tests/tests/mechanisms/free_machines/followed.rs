@@ -336,3 +336,102 @@ fn two_rods_under_thrust() {
         assert_eq!(stability, expected, "{thrust}");
     }
 }
+
+/// A row of rods in weight that its thrust balances, whatever the input.
+fn launcher(random: &mut RandomNumbers, damped: bool) -> (String, f64) {
+    let mut number = |low: f64, high: f64| low * f64::powf(high / low, random.fraction());
+    let rods = number(2.0, 5.0) as usize;
+    let each: Vec<[f64; 3]> = (0..rods)
+        .map(|_| [number(0.1, 10.0), number(0.3, 3.0), number(0.3, 3.0)])
+        .collect();
+    let whole: f64 = each.iter().map(|rod| rod[0]).sum();
+    let mut text = format!("input thrust: N; gravity thrust / ({whole} kg) along -x;");
+    for (k, [mass, length, stiffness]) in each.iter().enumerate() {
+        text += &format!("body b{k}: rod(mass: {mass} kg, length: {length} m, along: x);");
+        let Some(last) = k.checked_sub(1) else {
+            text += "joint flight: planar(px: x, pz: z, pitch: -y) from ground to b0;";
+            continue;
+        };
+        let at = each[last][1];
+        text += &format!(
+            "joint h{k}: revolute(-y) from b{last} to b{k} at [{at} m, 0, 0];
+             force s{k}: spring(on: h{k}, stiffness: {stiffness} N*m/rad);"
+        );
+        if damped {
+            let damping = number(1e-3, 0.1);
+            text += &format!("force d{k}: damper(on: h{k}, damping: {damping} N*m*s/rad);");
+        }
+    }
+    text += "point nozzle: b0; force engine: follower(at: nozzle, force: [thrust, 0, 0]);";
+    let softest = each[1..]
+        .iter()
+        .fold(f64::INFINITY, |least, rod| least.min(rod[2]));
+    (
+        format!("mechanism Launcher {{ {text} }}"),
+        number(3.0, 30.0) * softest,
+    )
+}
+
+/// Along a thrust that turns with a free machine, what a list says is what the eigenvalues of the whole system of first
+/// order say at two thousand thrusts: motions that grow, with oscillation and without.
+#[test]
+fn events_along_a_thrust_are_those_of_counting() {
+    const VALUES: usize = 2000;
+    let mut random = RandomNumbers::new(8, 0);
+    let mut changes = 0;
+    for k in 0..12 {
+        let (text, most) = launcher(&mut random, k % 3 == 0);
+        let study = study(&text);
+        let input = eigentol::Input::new(0);
+        let linear = |thrust: f64| {
+            let at = study.clone().input(input, thrust).equilibrium();
+            at.unwrap_or_else(|error| panic!("{error}\n{text}")).linear
+        };
+        let [still, pushed] = [0.0, most].map(linear);
+        let n = still.mass.row_count();
+        let matrix = |matrix: &Matrix| DMatrix::from_fn(n, n, |i, j| matrix[i][j]);
+        let factors = matrix(&still.mass).lu();
+        let solved = |m: &Matrix| factors.solve(&matrix(m)).expect("masses");
+        let [c, k0, k1] = [&still.damping, &still.stiffness, &pushed.stiffness].map(solved);
+        let count = |share: f64| {
+            let k = &k0 + (&k1 - &k0) * share;
+            let whole = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+                (true, true) => 0.0,
+                (true, false) => f64::from(u8::from(i + n == j)),
+                (false, true) => -k[(i - n, j)],
+                (false, false) => -c[(i - n, j - n)],
+            });
+            let mut all: Vec<Complex> = whole.complex_eigenvalues().iter().copied().collect();
+            all.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+            // Six zeros: two that drift, and a turn that accelerates one of them.
+            let grows = all[6..].iter().filter(|s| s.re > 1e-6 * s.norm());
+            let (turning, straight) =
+                grows.partition::<Vec<_>, _>(|s| s.im.abs() > 1e-6 * s.norm());
+            [turning.len() / 2, straight.len()]
+        };
+        let share = |j: usize| (j as f64 + 0.5) / VALUES as f64;
+        let counts: Vec<_> = (0..VALUES).map(|j| count(share(j))).collect();
+        let expected = counts
+            .windows(2)
+            .enumerate()
+            .filter(|(_, two)| two[0] != two[1]);
+        let expected: Vec<f64> = expected.map(|(j, _)| most * share(j)).collect();
+        let values: Vec<f64> = (0..=20).map(|j| most * f64::from(j) / 20.0).collect();
+        let sweep = study.sweep(input, &values).expect("a sweep");
+        let critical = sweep.critical.iter().map(|state| state.value);
+        let flutter = sweep.flutter_onsets.iter().map(|onset| onset.value);
+        let found: Vec<f64> = critical.chain(flutter).collect();
+        let close = |a: f64, b: f64| (a - b).abs() < 2.5 * most / VALUES as f64;
+        let whole = format!("{expected:?} {found:?}\n{text}");
+        assert!(
+            expected.iter().all(|a| found.iter().any(|b| close(*a, *b))),
+            "{whole}"
+        );
+        assert!(
+            found.iter().all(|a| expected.iter().any(|b| close(*a, *b))),
+            "{whole}"
+        );
+        changes += expected.len();
+    }
+    assert!(changes > 10, "{changes}");
+}
