@@ -196,8 +196,8 @@ struct Half {
     frequency: (f64, Vector),
 }
 
-/// Share of the length of its features to which a zero is found.
-const EXACT: f64 = 1e-11;
+/// Share of the length of its features below which a step of Newton's method leaves nothing but rounding.
+const EXACT: f64 = 1e-8;
 /// Most steps of a search for a zero.
 const STEPS: usize = 80;
 
@@ -253,7 +253,7 @@ impl Search<'_> {
     ) -> Result<P, Error> {
         let [mut low, mut high] = ends.map(|end| end.point.value);
         let positive = at_ends[0] > 0.0;
-        let mut last = high - low;
+        let (mut last, mut newton_led) = (high - low, false);
         let mut value = low + (high - low) * at_ends[0] / (at_ends[0] - at_ends[1]);
         let mut from = ends[0].point.equilibrium.coordinates.clone();
         for left in (0..STEPS).rev() {
@@ -263,14 +263,17 @@ impl Search<'_> {
             } else {
                 high = value;
             }
-            let enough = f64::max(4.0 * f64::EPSILON * value.abs(), EXACT * length.abs());
+            let enough = 4.0 * f64::EPSILON * value.abs();
             let newton = value - f / df;
-            let found = f == 0.0 || (f / df).abs() <= enough || (high - low).abs() <= enough;
+            let exact = newton_led && last.abs() <= EXACT * length.abs();
+            let narrow = (f / df).abs().min((high - low).abs()) <= enough;
+            let found = f == 0.0 || exact || narrow;
             if found || left == 0 {
                 return Ok(state);
             }
             let between = (newton - low) * (high - newton) > 0.0;
-            let next = match between && (newton - value).abs() <= 0.5 * last.abs() {
+            newton_led = between && (newton - value).abs() <= 0.5 * last.abs();
+            let next = match newton_led {
                 true => newton,
                 false => 0.5 * (low + high),
             };

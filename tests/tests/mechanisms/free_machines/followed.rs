@@ -391,8 +391,9 @@ fn events_along_a_thrust_are_those_of_counting() {
         let n = still.mass.row_count();
         let matrix = |matrix: &Matrix| DMatrix::from_fn(n, n, |i, j| matrix[i][j]);
         let factors = matrix(&still.mass).lu();
-        let solved = |m: &Matrix| factors.solve(&matrix(m)).expect("masses");
-        let [c, k0, k1] = [&still.damping, &still.stiffness, &pushed.stiffness].map(solved);
+        let solved = |m: &Matrix| -> DMatrix<f64> { factors.solve(&matrix(m)).expect("masses") };
+        let [c, k0, k1]: [DMatrix<f64>; 3] =
+            [&still.damping, &still.stiffness, &pushed.stiffness].map(solved);
         let count = |share: f64| {
             let k = &k0 + (&k1 - &k0) * share;
             let whole = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
@@ -405,8 +406,8 @@ fn events_along_a_thrust_are_those_of_counting() {
             all.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
             // Six zeros: two that drift, and a turn that accelerates one of them.
             let grows = all[6..].iter().filter(|s| s.re > 1e-6 * s.norm());
-            let (turning, straight) =
-                grows.partition::<Vec<_>, _>(|s| s.im.abs() > 1e-6 * s.norm());
+            let (turning, straight): (Vec<&Complex>, Vec<&Complex>) =
+                grows.partition(|s| s.im.abs() > 1e-6 * s.norm());
             [turning.len() / 2, straight.len()]
         };
         let share = |j: usize| (j as f64 + 0.5) / VALUES as f64;
