@@ -108,7 +108,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tolerance",
             "eigentol-uncertainty",
         ],
-        3_100,
+        3_200,
     ),
     ("macros/symbolic", &[], 3_800),
     ("macros/language", &["eigentol-symbolic"], 17_400),
