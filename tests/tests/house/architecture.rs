@@ -147,7 +147,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        5_000,
+        5_100,
     ),
     (
         "runtime/python",
