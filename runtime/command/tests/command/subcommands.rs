@@ -276,7 +276,7 @@ fn campbell() {
     let text = answer(&[&["campbell"], &weave[..]].concat());
     for part in [
         "end of flutter of mode 3 (mixed forward)",
-        "forward, then backward  flutter, then damped",
+        "mixed forward, then mixed backward  flutter, then damped",
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
