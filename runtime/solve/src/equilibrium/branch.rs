@@ -118,8 +118,7 @@ impl<'a> Branch<'a> {
             let mass = self.nominal.linear.mass[i][i];
             missed += mass * (start - step[i] - q).powi(2);
             apart += mass * (start - q).powi(2);
-            let small = SMALL_MOTION * point.description.large(i);
-            rounding += mass * (ROUNDING * (q.abs() + small)).powi(2);
+            rounding += mass * (ROUNDING * (q.abs() + SMALL_MOTION)).powi(2);
         }
         missed <= MISSED * MISSED * apart + rounding
     }

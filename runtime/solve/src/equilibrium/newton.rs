@@ -2,7 +2,9 @@
 //! residual.
 
 use super::acceptance::{Candidate, UnjudgedResult, last_step};
-use super::convergence::{Progress, ResidualMonitor, TOLERANCE, escapes, relative_residual};
+use super::convergence::{
+    Progress, ResidualMonitor, TOLERANCE, horizon, largest_of, relative_residual,
+};
 use super::descent::DEPARTURE;
 use super::operating_point::{Failure, OperatingPoint};
 use super::scaling::units;
@@ -26,11 +28,13 @@ pub(super) fn damped_newton<S>(
 where
     S: SearchSpace,
 {
+    let motions = point.motions();
     let mut base: Base<S> = S::base(point, start)?;
     let weight = S::weights(point, &base.q)?;
     let units = &units(point, &base.q)?;
     let mut radius = FIRST_RADIUS;
     let mut watch = ResidualMonitor::new(&base.q);
+    let escaped = horizon(&start[..motions]);
     let mut trial = Trial::blank(point.size());
     for iterations in 0..MAX_ITERATIONS {
         let at = (&base.residual[..], &base.stiffness);
@@ -77,12 +81,12 @@ where
             radius *= 2.0;
         }
         S::arrive(point, &mut trial, &mut base)?;
-        if escapes(point, start, &base.q) {
+        if largest_of(&base.q[..motions]) > escaped {
             break;
         }
     }
     let relative = relative_residual(point, &base.q, &base.residual, &base.stiffness);
-    let reason = if escapes(point, start, &base.q) {
+    let reason = if largest_of(&base.q[..motions]) > escaped {
         NotFound::Escape
     } else {
         NotFound::IterationLimit
