@@ -273,9 +273,11 @@ impl<'a> System<'a> {
             let (step, gap) = shortest_step(gaps, &slopes.collect::<Vec<_>>())?;
             if arrived {
                 // The step from a solution is what rounding makes of it.
+                let largest = size(&values);
                 let rounding = |k: usize| {
                     let step = if k < first { 0.0 } else { size(&step) };
-                    4.0 * units[k] * step.max(f64::EPSILON * values[k].abs())
+                    let value = if values[k] == 0.0 { 0.0 } else { largest };
+                    4.0 * units[k] * step.max(f64::EPSILON * value)
                 };
                 let rounding = (0..values.len()).map(rounding).collect();
                 let values = values.iter().zip(units).map(|(value, unit)| value * unit);
