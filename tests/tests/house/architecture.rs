@@ -58,7 +58,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-results",
             "eigentol-statistics",
         ],
-        16_400,
+        16_550,
     ),
     (
         "runtime/tolerance",
@@ -115,7 +115,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     (
         "macros/compiler",
         &["eigentol-language", "eigentol-symbolic"],
-        15_950,
+        16_110,
     ),
     ("macros", &["eigentol-compiler"], 14),
     ("macros/build", &["eigentol-compiler"], 1_100),

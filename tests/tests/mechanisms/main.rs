@@ -7,6 +7,7 @@ mod machines;
 mod pictures;
 mod reduced;
 mod robots;
+mod scales;
 mod special_cases;
 mod turning_planes;
 mod wheels;

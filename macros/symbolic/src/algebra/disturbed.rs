@@ -45,6 +45,12 @@ impl Disturbed {
         Self([value; LANES]).disturbed(rounding, seed)
     }
 
+    /// The value in another unit, a power of two.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self(self.0.map(|lane| lane * factor))
+    }
+
     /// Whether it is exactly zero, disturbed or not.
     pub fn is_zero(&self) -> bool {
         self.0.iter().all(|lane| *lane == 0.0)

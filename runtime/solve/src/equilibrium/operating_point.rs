@@ -167,9 +167,24 @@ impl<'a> OperatingPoint<'a> {
         self.description.coordinates.len()
     }
 
-    /// Number of free directions.
+    /// Number of free directions; none if it is known that there are none.
     pub(crate) fn free(&self) -> usize {
-        self.description.free_directions
+        match self.place.is_some_and(FreeDirections::is_empty) {
+            true => 0,
+            false => self.description.free_directions,
+        }
+    }
+
+    /// This point without its free directions if there are none at `q`: by the stiffness there, something resists.
+    pub(super) fn resisted(&self, q: &[f64]) -> Option<Self> {
+        const NONE: &FreeDirections = &FreeDirections::none();
+        let claimed = self.place.is_none() && self.free() > 0;
+        let stiffness = claimed.then(|| self.linear(q).ok())??.stiffness;
+        let resisted = FreeDirections::of(&stiffness, self.free()).is_empty();
+        resisted.then(|| Self {
+            place: Some(NONE),
+            ..self.clone()
+        })
     }
 
     /// Number of coordinates and speeds, which come first, before the reactions.

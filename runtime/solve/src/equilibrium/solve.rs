@@ -35,7 +35,35 @@ pub fn solve(
 
 /// Like [`solve`], but overwrites a state of the same mechanism at these inputs and design variables, and returns
 /// [`SolvedState::modes`].
+///
+/// That directions are free is a claim of the compiler, with a margin for rounding. Where something resists in them
+/// after all, they are solved for like others.
 pub fn solve_into(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    policy: Policy,
+    state: &mut Equilibrium,
+) -> Result<Vec<Mode>, Failure> {
+    let solved = solve_as_claimed(point, start, policy, state);
+    let end = match &solved {
+        Ok(_) => &state.coordinates[..],
+        Err(Failure::NotFound { coordinates, .. }) => coordinates,
+        Err(_) => return solved,
+    };
+    let Some(resisted) = point.resisted(end) else {
+        return solved;
+    };
+    let mut other = point.blank_state();
+    match solve_as_claimed(&resisted, start, policy, &mut other) {
+        Ok(modes) => {
+            *state = other;
+            Ok(modes)
+        }
+        Err(_) => solved,
+    }
+}
+
+fn solve_as_claimed(
     point: &OperatingPoint<'_>,
     start: &[f64],
     policy: Policy,
@@ -240,7 +268,8 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
     let candidate = nearest(point, start).ok()?;
     let is_there = |unknown: usize| {
         let (asked, coordinate) = (start[unknown], candidate.coordinates[unknown]);
-        (asked - coordinate).abs() <= NAMED * (asked.abs() + SMALL_MOTION)
+        (asked - coordinate).abs()
+            <= NAMED * (asked.abs() + SMALL_MOTION)
     };
     if !point.named().all(is_there) {
         return None;

@@ -80,6 +80,17 @@ fn unheld(motions: &[Vector], held: &[Held]) -> Vec<Vector> {
 }
 
 impl FreeDirections {
+    /// No directions.
+    pub(crate) const fn none() -> Self {
+        Self {
+            motions: Vec::new(),
+            balances: Vec::new(),
+            rows: Vec::new(),
+            columns: Vec::new(),
+            held: Vec::new(),
+        }
+    }
+
     /// The directions at an equilibrium with this stiffness, which has `count` of them. None where the stiffness has
     /// fewer, which is the case away from equilibria.
     #[doc(hidden)]

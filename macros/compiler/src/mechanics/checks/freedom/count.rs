@@ -3,6 +3,7 @@
 use crate::algebra::{Disturbed, NullSpace, times};
 use crate::mechanics::setup::RandomState;
 
+use super::fields::Field;
 use super::state::{Friction, Linearised, System};
 use super::symmetry::{Combinations, symmetries, unresisted_wholes};
 
@@ -208,11 +209,30 @@ fn dimension(
     };
     let sizes: Vec<f64> = generic.iter().map(|row| size(row)).collect();
     let rows = rates(system, resting, combinations);
-    let scaled = rows.iter().zip(&sizes).filter(|(_, size)| **size > 0.0);
-    let scaled: Vec<Vec<f64>> = scaled
-        .map(|(row, size)| row.iter().map(|x| x.value() / size).collect())
-        .collect();
+    let scaled = |(coordinate, size): (usize, &f64)| {
+        let rates = rows[coordinate].iter().zip(combinations);
+        let scaled = rates.map(|(rate, combination)| {
+            // The centre of a turn may be far from the axis that it is given by.
+            let terms = greatest_term(resting, coordinate, combination);
+            let clear = rate.value().abs() > NOTHING * terms;
+            if clear { rate.value() / size } else { 0.0 }
+        });
+        scaled.collect()
+    };
+    let moved = sizes.iter().enumerate().filter(|(_, size)| **size > 0.0);
+    let scaled: Vec<Vec<f64>> = moved.map(scaled).collect();
     dimension.min(clear_pivots(scaled).len())
+}
+
+/// The largest share of one candidate in the rate of a coordinate.
+fn greatest_term(state: &Linearised, coordinate: usize, combination: &[Disturbed]) -> f64 {
+    let term = |(field, share): (&Field, &Disturbed)| {
+        let mut rates = field.coordinates.iter().zip(&field.rates);
+        let rate = rates.find(|(k, _)| **k == coordinate);
+        rate.map_or(0.0, |(_, rate)| (rate.value() * share.value()).abs())
+    };
+    let terms = state.fields.iter().zip(combination).map(term);
+    terms.fold(0.0, f64::max)
 }
 
 /// Whether coordinates fail to describe some motion of space that they describe elsewhere.

@@ -13,6 +13,8 @@ use crate::mechanics::motion::{Kinematics, StepAxis, in_common_frame_at_zero};
 use crate::mechanics::setup::{Context, by_symbol};
 use crate::model::mechanism::{ConstraintLaw, Frame};
 
+use super::units::Units;
+
 /// Number of independent motions of space: three rotations, three translations.
 pub(super) const RIGID: usize = 6;
 
@@ -23,6 +25,8 @@ type Twist<T> = [T; RIGID];
 pub(super) struct Fields {
     /// Number of free coordinates.
     pub(super) free: usize,
+    /// Rates of coordinates are in these.
+    pub(super) units: Units,
     pub(super) carriers: Vec<Carrier>,
 }
 
@@ -52,7 +56,7 @@ impl Carrier {
 }
 
 impl Fields {
-    pub(super) fn new(g: &mut Graph, context: &Context) -> Self {
+    pub(super) fn new(g: &mut Graph, context: &Context, units: Units) -> Self {
         let topology = context.topology;
         let kinematics = in_common_frame_at_zero(g, context);
         let mut paths: Vec<Vec<(usize, StepAxis, BodyId)>> =
@@ -81,6 +85,7 @@ impl Fields {
         }
         Self {
             free: topology.free.len(),
+            units,
             carriers,
         }
     }
@@ -111,10 +116,30 @@ impl Fields {
         let mut fields: Vec<Field> = (0..self.free).map(Field::unit).collect();
         for carrier in &self.carriers {
             let n = carrier.coordinates.len();
-            let twists: Vec<&[Disturbed]> = next(n * RIGID).chunks_exact(RIGID).collect();
-            let slopes: Vec<&[Disturbed]> = next(n * n * RIGID).chunks_exact(RIGID).collect();
-            let places: Vec<&[Disturbed]> = next(3 + 3 * n).chunks(3).collect();
-            let offsets: Vec<&[Disturbed]> = next(3 * carrier.offsets.len()).chunks(3).collect();
+            let unit = |k: usize| self.units.unknowns[carrier.coordinates[k]];
+            // Nothing, or the derivatives by one coordinate after the other.
+            let by = |k: usize| k.checked_sub(1).map_or(1.0, unit);
+            let length = 1.0 / self.units.length;
+            let twist = |values: &[Disturbed], unit: f64| -> Vec<Disturbed> {
+                let components = values.iter().enumerate();
+                let unit = |k: usize| if k < 3 { unit } else { unit * length };
+                components.map(|(k, x)| x.scaled(unit(k))).collect()
+            };
+            let arms = |values: &[Disturbed]| -> Vec<Vec<Disturbed>> {
+                let arms = values.chunks(3).enumerate();
+                let arm = |(k, arm): (usize, &[Disturbed])| {
+                    arm.iter().map(|x| x.scaled(by(k) * length)).collect()
+                };
+                arms.map(arm).collect()
+            };
+            let twists = next(n * RIGID).chunks_exact(RIGID).enumerate();
+            let twists: Vec<_> = twists.map(|(k, x)| twist(x, unit(k))).collect();
+            let slopes = next(n * n * RIGID).chunks_exact(RIGID).enumerate();
+            let slopes: Vec<_> = slopes
+                .map(|(k, x)| twist(x, unit(k / n) * unit(k % n)))
+                .collect();
+            let places = arms(next(3 + 3 * n));
+            let offsets = arms(next(3 * carrier.offsets.len()));
             let inverse = Inverse::new(&twists, operations);
             for component in 0..carrier.len() {
                 let wanted = match component.checked_sub(RIGID) {
@@ -149,7 +174,7 @@ impl Fields {
 
 /// The twist of a candidate, and its derivatives by the coordinates: a rotation at the end of these arms, or a
 /// translation.
-fn wanted(component: usize, arms: &[&[Disturbed]]) -> Vec<Twist<Disturbed>> {
+fn wanted(component: usize, arms: &[Vec<Disturbed>]) -> Vec<Twist<Disturbed>> {
     let zero = Disturbed::exact(0.0);
     let mut twists = vec![[zero; RIGID]; arms.len()];
     twists[0][component] = Disturbed::exact(1.0);
@@ -263,16 +288,16 @@ impl Field {
 
 /// The least-squares inverse of the twists: `(J^T J)^-1 J^T`.
 struct Inverse<'a> {
-    twists: &'a [&'a [Disturbed]],
+    twists: &'a [Vec<Disturbed>],
     /// `J^T J = L D L^T`: `L` below the diagonal, and `D` on it.
     factors: Vec<Vec<Disturbed>>,
 }
 
 impl<'a> Inverse<'a> {
-    fn new(twists: &'a [&'a [Disturbed]], operations: usize) -> Option<Self> {
+    fn new(twists: &'a [Vec<Disturbed>], operations: usize) -> Option<Self> {
         let n = twists.len();
         let mut factors: Vec<Vec<Disturbed>> = (0..n)
-            .map(|i| (0..n).map(|j| product(twists[i], twists[j])).collect())
+            .map(|i| (0..n).map(|j| product(&twists[i], &twists[j])).collect())
             .collect();
         for k in 0..n {
             let (above, below) = factors.split_at_mut(k + 1);
@@ -315,10 +340,10 @@ fn product(a: &[Disturbed], b: &[Disturbed]) -> Disturbed {
 }
 
 /// `sum_k rates_k twists_k`.
-fn combined(twists: &[&[Disturbed]], rates: &[Disturbed]) -> Twist<Disturbed> {
+fn combined(twists: &[Vec<Disturbed>], rates: &[Disturbed]) -> Twist<Disturbed> {
     let mut sum = [Disturbed::exact(0.0); RIGID];
     for (twist, &rate) in twists.iter().zip(rates) {
-        for (sum, &component) in sum.iter_mut().zip(*twist) {
+        for (sum, &component) in sum.iter_mut().zip(twist) {
             *sum = *sum + rate * component;
         }
     }

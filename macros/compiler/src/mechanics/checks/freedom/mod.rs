@@ -15,6 +15,7 @@ mod fields;
 mod loads;
 mod state;
 mod symmetry;
+mod units;
 mod words;
 
 use crate::algebra::Graph;
@@ -28,6 +29,7 @@ use count::{Proof, at_random, count};
 use fields::Fields;
 use loads::{causes, mistakes, unbalanced, works};
 use state::{Friction, System};
+use units::Units;
 use words::{described, note};
 
 /// The nominal design.
@@ -43,7 +45,8 @@ pub(crate) fn free_directions(
     equations: &Equations,
     jacobians: &Jacobians,
 ) -> Result<FreeDirections, Diagnostics> {
-    let fields = Fields::new(g, context);
+    let units = Units::new(g, context, jacobians);
+    let fields = Fields::new(g, context, units);
     let system = System::new(g, context, equations, jacobians, &fields);
     // Without anything that a design could change, one says all.
     let alike = context.symbols.b.ids.is_empty() && context.symbols.u.ids.is_empty();

@@ -20,7 +20,7 @@ pub(super) struct System<'a> {
     roots: Vec<ExprId>,
 }
 
-/// The equations linearised at one state.
+/// The equations linearised at one state, in the machine's own units.
 pub(super) struct Linearised {
     /// `stiffness[j][i]`: derivative of equation `i` by unknown `j`.
     pub(super) stiffness: Vec<Vec<Disturbed>>,
@@ -90,14 +90,23 @@ impl<'a> System<'a> {
         self.linearised(&values, evaluator.operations())
     }
 
-    /// Values of other expressions at a random state, and the number of operations behind them.
+    /// Values of parts of the equations at a random state, and the number of operations behind them.
     pub(super) fn values(&self, roots: &[ExprId], state: RandomState) -> (Vec<Disturbed>, usize) {
         let consistent = self.place(state);
         let evaluator = Evaluator::new(self.g, roots);
         let values = evaluator.at(state.motion, |symbol| {
             self.found(&consistent, state, symbol)
         });
-        (values, evaluator.operations())
+        (self.in_units(&values), evaluator.operations())
+    }
+
+    /// What the equations do over the units of their unknowns, relative to the unit of energy.
+    fn in_units(&self, equations: &[Disturbed]) -> Vec<Disturbed> {
+        let units = &self.fields.units;
+        let pairs = equations.iter().zip(&units.unknowns);
+        pairs
+            .map(|(x, unit)| x.scaled(unit / units.energy))
+            .collect()
     }
 
     /// Linearises where all coordinates are zero; `None` unless this is an equilibrium with some speeds and reactions.
@@ -185,8 +194,16 @@ impl<'a> System<'a> {
                 iterated_values.rounding[k],
                 u64::from(symbol.0),
             ),
-            _ => Disturbed::exact(state.value(self.context, symbol)),
+            _ => Disturbed::exact(self.value(state, symbol)),
         }
+    }
+
+    /// The random value of a symbol, that of an unknown in its unit.
+    fn value(&self, state: RandomState, symbol: SymbolId) -> f64 {
+        let unknowns = &self.context.symbols.q.ids;
+        let place = unknowns.iter().position(|unknown| *unknown == symbol);
+        let unit = place.map_or(1.0, |k| self.fields.units.unknowns[k]);
+        unit * state.value(self.context, symbol)
     }
 
     fn linearised(&self, values: &[Disturbed], operations: usize) -> Option<Linearised> {
@@ -196,9 +213,14 @@ impl<'a> System<'a> {
         let n = self.size();
         let (stiffness, values) = values.split_at(n * n);
         let (residual, values) = values.split_at(n);
+        let units = &self.fields.units;
+        let column = |(j, column): (usize, &[Disturbed])| {
+            let column = self.in_units(column).into_iter();
+            column.map(|x| x.scaled(units.unknowns[j])).collect()
+        };
         Some(Linearised {
-            stiffness: stiffness.chunks(n.max(1)).map(<[_]>::to_vec).collect(),
-            residual: residual.to_vec(),
+            stiffness: stiffness.chunks(n.max(1)).enumerate().map(column).collect(),
+            residual: self.in_units(residual),
             fields: self.fields.at(values, operations),
             operations,
         })
@@ -223,7 +245,8 @@ impl<'a> System<'a> {
     }
 
     /// Solves equations for some unknowns, `values[first..]`, by Newton's method with the shortest steps. `roots` holds
-    /// the equations, then their derivatives by one of these unknowns after the other.
+    /// the equations, then their derivatives by one of these unknowns after the other. Starts and steps are in the
+    /// machine's own units.
     fn minimum_norm_newton(
         &self,
         state: RandomState,
@@ -232,29 +255,39 @@ impl<'a> System<'a> {
         first: usize,
     ) -> Option<IteratedValues> {
         let unknowns = &self.context.symbols.q.ids[..values.len()];
+        let units = &self.fields.units.unknowns;
         let count = roots.len() / (1 + values.len() - first);
         let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let (mut least, mut stalled, mut arrived) = (f64::INFINITY, 0, false);
+        let mut largest = LARGEST_STEP;
         while stalled < PATIENCE {
             let entries = evaluate(self.g, roots, |symbol| {
                 match unknowns.iter().position(|unknown| *unknown == symbol) {
-                    Some(k) => values[k],
-                    None => state.value(self.context, symbol),
+                    Some(k) => values[k] * units[k],
+                    None => self.value(state, symbol),
                 }
             });
             let (gaps, slopes) = entries.split_at(count);
-            let (step, gap) = shortest_step(gaps, slopes)?;
+            let slopes = slopes.iter().enumerate();
+            let slopes = slopes.map(|(k, slope)| slope * units[first + k / count]);
+            let (step, gap) = shortest_step(gaps, &slopes.collect::<Vec<_>>())?;
             if arrived {
                 // The step from a solution is what rounding makes of it.
+                let largest = size(&values);
                 let rounding = |k: usize| {
                     let step = if k < first { 0.0 } else { size(&step) };
-                    4.0 * step.max(f64::EPSILON * values[k].abs())
+                    let value = if values[k] == 0.0 { 0.0 } else { largest };
+                    4.0 * units[k] * step.max(f64::EPSILON * value)
                 };
                 let rounding = (0..values.len()).map(rounding).collect();
-                return Some(IteratedValues { values, rounding });
+                let values = values.iter().zip(units).map(|(value, unit)| value * unit);
+                return Some(IteratedValues {
+                    values: values.collect(),
+                    rounding,
+                });
             }
             let coordinates = self.fields.free.saturating_sub(first).min(step.len());
-            let share = (LARGEST_STEP / size(&step[..coordinates])).min(1.0);
+            let share = (largest / size(&step[..coordinates])).min(1.0);
             for (value, step) in values[first..].iter_mut().zip(&step) {
                 *value += share * step;
             }
@@ -262,6 +295,11 @@ impl<'a> System<'a> {
             if arrived && gap > 1e-9 * size(&values) {
                 return None;
             }
+            largest = if gap < least {
+                2.0 * largest
+            } else {
+                LARGEST_STEP
+            };
             stalled = if gap < 0.9 * least { 0 } else { stalled + 1 };
             least = least.min(gap);
         }
@@ -271,11 +309,11 @@ impl<'a> System<'a> {
 
 /// The last place from which equilibria are sought.
 const LAST: u64 = 6;
-/// How far from zero they are, in rad or m.
+/// How far from zero they are, in units of the coordinates.
 const SPREAD: f64 = 0.5;
 /// Steps that may pass without progress.
 const PATIENCE: usize = 8;
-/// Largest step of a coordinate, in rad or m.
+/// Largest step of a coordinate, in its unit, at first and after a step that did not help; it doubles with others.
 const LARGEST_STEP: f64 = 0.5;
 
 /// The `x` with `slopes^T x = -gaps`, where `slopes` holds the derivatives of all gaps by one unknown after the other:

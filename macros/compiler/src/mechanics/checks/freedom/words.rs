@@ -25,10 +25,17 @@ pub(super) fn note(system: &System, count: &Count, state: &Linearised) -> String
             let all = reduced(&unresisted.rates);
             let moved = |rates: &Vec<f64>| rates.iter().filter(|x| x.abs() > NOTHING).count();
             match all.iter().all(|rates| moved(rates) <= FEW) {
-                true => all.iter().map(|x| together(system.context, x)).collect(),
+                true => all
+                    .iter()
+                    .map(|x| together(system.context, system.fields, x))
+                    .collect(),
                 false => wholes
                     .map(|whole| described(system.context, system.fields, &whole).text)
-                    .chain(others.iter().map(|x| together(system.context, x)))
+                    .chain(
+                        others
+                            .iter()
+                            .map(|x| together(system.context, system.fields, x)),
+                    )
                     .collect(),
             }
         }
@@ -180,7 +187,7 @@ pub(super) fn described(context: &Context, fields: &Fields, combination: &[f64])
     let carried: Vec<_> = carried.filter(|(_, x)| moved(x)).collect();
     let Some((carrier, twist)) = carried.first() else {
         return Direction {
-            text: together(context, &coordinates),
+            text: together(context, fields, &coordinates),
             span: span_of(context, &coordinates),
         };
     };
@@ -227,7 +234,7 @@ pub(super) fn described(context: &Context, fields: &Fields, combination: &[f64])
         (false, _, Some(axis)) => format!("translation of {names} along {axis}"),
         (false, ..) => format!("translation of {names}"),
     };
-    let text = match together(context, &coordinates) {
+    let text = match together(context, fields, &coordinates) {
         none if none.is_empty() => motion,
         coordinates => format!("{coordinates} with {motion}"),
     };
@@ -241,7 +248,7 @@ pub(super) fn described(context: &Context, fields: &Fields, combination: &[f64])
 }
 
 /// Coordinates that change in fixed ratios.
-fn together(context: &Context, rates: &[f64]) -> String {
+fn together(context: &Context, fields: &Fields, rates: &[f64]) -> String {
     let present: Vec<usize> = (0..rates.len())
         .filter(|&k| rates[k].abs() > NOTHING)
         .collect();
@@ -256,7 +263,8 @@ fn together(context: &Context, rates: &[f64]) -> String {
             format!("`{}` and {} other coordinates", names[0], others.len())
         }
         [first, ..] => {
-            let shares = present.iter().map(|&k| short(rates[k] / rates[*first]));
+            let rate = |k: usize| rates[k] * fields.units.unknowns[k];
+            let shares = present.iter().map(|&k| short(rate(k) / rate(*first)));
             let shares: Vec<String> = shares.collect();
             format!("`{} = {}`", names.join(" : "), shares.join(" : "))
         }
