@@ -18,7 +18,7 @@ fn lowest_pair(speed: f64) -> [(f64, f64); 2] {
     let whirls = study.whirls().expect("whirls");
     let mut pairs = (0..2).map(|k| {
         let whirl = whirls[k].expect("it spins");
-        (modes.modes[k].s.im.abs(), whirl.ratio)
+        (modes.modes[k].s.im.abs(), whirl.ratio.expect("a sense"))
     });
     [pairs.next().expect("a mode"), pairs.next().expect("a mode")]
 }
