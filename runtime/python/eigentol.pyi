@@ -2391,8 +2391,8 @@ class Study:
     ) -> Convergence:
         """How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
         one and with two more coordinates of each component of the beams. `along`, the tuple of an input and two values
-        of it, SI or texts with units, adds the first critical value between them, onsets of flutter, where frequencies meet
-        `orders`, and the highest peaks. Raises InvalidValue where there is no beam.
+        of it, SI or texts with units, adds the first critical value between them, onsets of flutter, where frequencies meet `orders`, and the
+        highest peaks. Raises InvalidValue where there is no beam.
         """
     def bode(self, input: str, values: ArrayLike, unit: str | None = None) -> Bode:
         """Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,

@@ -696,7 +696,7 @@ fn the_lines_in_short_have_the_numbers_of_the_results() {
     assert!(
         lines
             .iter()
-            .any(|line| line.starts_with("good\">All of 300 samples are stable.")),
+            .any(|line| line.starts_with("good\">All 300 samples are stable.")),
         "{brief}"
     );
     assert!(lines[0].starts_with("good\">The equilibrium is stable"));

@@ -32,7 +32,6 @@ impl Converge {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
-        question.note_unset();
         let refined = |more| Interpreted::refined(&question.text, more);
         let refined = [refined(1)?, refined(2)?];
         let range = self.sweep.range_alone(&question)?;
@@ -40,7 +39,10 @@ impl Converge {
         let bar = progress::bar("states", None);
         let study = progress::watched(question.study.clone(), &bar);
         let convergence = match range {
-            None => study.convergence(refined)?,
+            None => {
+                question.note_unset();
+                study.convergence(refined)?
+            }
             Some(range) => {
                 let lines: Vec<Line> = orders.into_iter().map(Line::from).collect();
                 let range = sweep::Range::new(range.input, range.low, range.high);
