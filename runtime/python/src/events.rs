@@ -77,8 +77,8 @@ attributes! {
             eigentol::sweep::Event::Crossing { whirl, .. } => whirl.and_then(|x| x.ratio),
             _ => None,
         };
-        /// What the mode does there to bodies that spin: "lateral", "torsional", "axial", "mixed" or "blade"; None where
-        /// nothing spins.
+        /// What the mode does there to bodies that spin: "lateral", "torsional", "axial" or "mixed"; None where
+        /// no shaft spins.
         mode_kind: Option<String> = match self.0.event {
             eigentol::sweep::Event::Crossing { whirl, .. } => whirl.map(|x| x.kind.to_string()),
             _ => None,

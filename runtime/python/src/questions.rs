@@ -374,7 +374,7 @@ impl Study {
         ))
     }
 
-    /// Kind of each mode, "lateral", "torsional", "axial", "mixed" or "blade"; None where nothing that spins moves.
+    /// Kind of each mode, "lateral", "torsional", "axial" or "mixed"; None where no shaft moves.
     fn kinds(&self, py: Python<'_>) -> PyResult<Vec<Option<String>>> {
         let answer = self.ask(py, |study| study.whirls())?;
         let kind = |whirl: Option<eigentol::modes::Whirl>| Some(whirl?.kind.to_string());

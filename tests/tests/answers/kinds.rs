@@ -201,7 +201,7 @@ fn masses_beside_an_axis_mix_bending_and_torsion() {
     assert!(counts.iter().all(|count| *count > 5), "{counts:?}");
 }
 
-/// Blades hinged or clamped beside a hub that turns have no sense of whirl, whatever their Coriolis forces.
+/// Blades hinged or clamped beside a hub that turns are no shafts, whatever their Coriolis forces.
 #[test]
 fn a_single_blade_does_not_whirl() {
     let mut state = 3;
@@ -232,11 +232,7 @@ fn a_single_blade_does_not_whirl() {
         );
         for speed in [10.0, 300.0] {
             let (_, whirls) = found(&study(&text, speed));
-            for whirl in whirls {
-                let whirl = whirl.expect("it turns");
-                assert_eq!((whirl.kind, whirl.ratio), (Kind::Blade, None), "{text}");
-                assert!(whirl.is_excited_at(speed));
-            }
+            assert!(whirls.iter().all(Option::is_none), "{text}");
         }
     }
 }

@@ -166,8 +166,8 @@ attributes! {
         /// The direction of each whirl, in words, a list for each value; None where it does not apply.
         whirl_senses: Vec<Vec<Option<String>>> =
             self.words(&|mode| Some(mode.whirl?.sense()?.to_string()));
-        /// The kind of each motion, "lateral", "torsional", "axial", "mixed" or "blade", a list for each value; None where
-        /// nothing spins.
+        /// The kind of each motion, "lateral", "torsional", "axial" or "mixed", a list for each value; None where
+        /// no shaft spins.
         kinds: Vec<Vec<Option<String>>> =
             self.words(&|mode| Some(mode.whirl?.kind.to_string()));
         /// Whether each motion is nearly equal to another, so that its spreads mean nothing, shape (k, motions).

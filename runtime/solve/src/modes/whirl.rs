@@ -35,8 +35,6 @@ pub enum Kind {
     Axial,
     /// None of these alone.
     Mixed,
-    /// It moves bodies that turn about an axis beside them.
-    Blade,
 }
 
 /// The kind of a mode, with its sense of whirl if it has one.
@@ -82,23 +80,24 @@ pub struct Whirl {
 }
 
 impl Whirl {
-    /// From the seven sums of the kernel; `None` if nothing that spins moves.
+    /// From the seven sums of the kernel; `None` if no shaft moves.
     fn new(
         [moment, lateral, torsional, axial, eccentric, moving, still]: [f64; 7],
     ) -> Option<Self> {
         let all = lateral + torsional + axial;
-        if !(all.is_finite() && moving > NO_SHARE * (moving + still)) {
+        // What turns about an axis beside it is no shaft.
+        let shaft = moving > NO_SHARE * (moving + still) && eccentric < 0.5;
+        if !(all.is_finite() && shaft) {
             return None;
         }
         let [lateral, torsional, axial] = [lateral, torsional, axial].map(|part| part / all);
-        let kind = match eccentric {
-            0.5.. => Kind::Blade,
-            _ if lateral >= ONE_KIND => Kind::Lateral,
-            _ if torsional >= ONE_KIND => Kind::Torsional,
-            _ if axial >= ONE_KIND => Kind::Axial,
-            _ => Kind::Mixed,
+        let kind = match () {
+            () if lateral >= ONE_KIND => Kind::Lateral,
+            () if torsional >= ONE_KIND => Kind::Torsional,
+            () if axial >= ONE_KIND => Kind::Axial,
+            () => Kind::Mixed,
         };
-        let circles = kind != Kind::Blade && lateral >= 1.0 - ONE_KIND;
+        let circles = lateral >= 1.0 - ONE_KIND;
         let with_spin = 0.5 * (lateral + moment / all);
         Some(Self {
             kind,
@@ -131,11 +130,11 @@ impl Whirl {
     ///
     /// At the frequency of the spin a shaft is excited by its unbalance, a force that turns with it. This drives what
     /// moves across the axis with the spin, but neither torsion nor motion along the axis nor a circle against the
-    /// spin. At other multiples, and on blades, any force may act.
+    /// spin. At other multiples any force may act.
     #[must_use]
     pub fn is_excited_at(self, frequency: f64) -> bool {
         let synchronous = (frequency - self.spin).abs() <= SYNCHRONOUS * self.spin;
-        !synchronous || self.kind == Kind::Blade || self.with_spin >= NO_SHARE
+        !synchronous || self.with_spin >= NO_SHARE
     }
 }
 
@@ -146,7 +145,6 @@ impl fmt::Display for Kind {
             Self::Torsional => "torsional",
             Self::Axial => "axial",
             Self::Mixed => "mixed",
-            Self::Blade => "blade",
         })
     }
 }
@@ -180,7 +178,8 @@ impl fmt::Display for Whirl {
 
 /// The kind and whirl of each mode, in the order of the modes. Dereferences to its list.
 ///
-/// `None` for a mode that does not oscillate, or that moves nothing that spins.
+/// `None` for a mode that does not oscillate, or that moves no shaft: nothing that spins, or what turns about an axis beside
+/// it, as a blade or a pendulum does.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(transparent))]
