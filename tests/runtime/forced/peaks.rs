@@ -246,3 +246,45 @@ fn peaks_follow_the_design() {
         }
     }
 }
+
+/// A mass on a floor that is shaken with the same acceleration at every frequency: its place sees the floor directly, as
+/// `a / w^2 (k + i c w) / (k - w^2 + i c w)`.
+#[test]
+fn a_peak_of_what_the_floor_moves_directly() {
+    let text = "mechanism Shaken { input w: rad/s;
+        body floor: massless; body m: point(mass: 1 kg);
+        joint base: prismatic(x) from ground to floor, shaken(acceleration: 1 m/s^2, frequency: w);
+        joint slide: prismatic(x) from floor to m;
+        force s: spring(on: slide, stiffness: 100 N/m); force d: damper(on: slide, damping: 2 N*s/m);
+        point p: m; output place = position(p).x; }";
+    let model = Interpreted::from_text(text).unwrap();
+    let range = Range::new(Input::new(0), 3.0, 30.0).steps(1);
+    let found = one(peaks(
+        &model,
+        (&[3.0], &[]),
+        &[0.0],
+        Policy::Stable,
+        (range, &[vibration(0)]),
+        None,
+        Watch::default(),
+    ));
+    let square = |w: f64| {
+        let v = w * w;
+        (1e4 + 4.0 * v) / ((100.0 - v).powi(2) + 4.0 * v) / (v * v)
+    };
+    let slope = |w: f64| square(w + 1e-5) - square(w - 1e-5);
+    let (mut low, mut high) = (9.0, 11.0);
+    for _ in 0..60 {
+        let middle: f64 = 0.5 * (low + high);
+        if slope(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    assert_eq!(found.peaks.len(), 1);
+    let peak = &found.peaks[0];
+    let place = peak.place.value;
+    assert!((place - low).abs() < 1e-6, "{place} {low}");
+    assert!((peak.height.value / square(place).sqrt() - 1.0).abs() < 1e-12);
+}

@@ -225,7 +225,10 @@ impl Moved<'_> {
         let of_frequency = self.ds * solved.seen.slope(output, s, z);
         let of_output = dot_complex(&self.along.seen.row(output, s), z);
         let of_motion = dot_complex(&solved.seen.row(output, s), dz);
-        Some(of_frequency + of_output + of_motion)
+        let forces = &self.along.forces;
+        let direct = harmonic.shares.iter();
+        let direct = direct.map(|share| forces.direct(share.excitation, share.turn())[output]);
+        Some(of_frequency + of_output + of_motion + direct.sum::<Complex>())
     }
 }
 
