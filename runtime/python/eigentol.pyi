@@ -330,8 +330,8 @@ class Event(_Result):
         """
     @property
     def mode_kind(self) -> str | None:
-        """What the mode does there to bodies that spin: "lateral", "torsional", "axial", "mixed" or "blade"; None where
-        nothing spins.
+        """What the mode does there to bodies that spin: "lateral", "torsional", "axial" or "mixed"; None where
+        no shaft spins.
         """
     @property
     def order(self) -> float | None:
@@ -1158,8 +1158,8 @@ class Campbell(_Result):
         """The direction of each whirl, in words, a list for each value; None where it does not apply."""
     @property
     def kinds(self) -> list[list[str | None]]:
-        """The kind of each motion, "lateral", "torsional", "axial", "mixed" or "blade", a list for each value; None where
-        nothing spins.
+        """The kind of each motion, "lateral", "torsional", "axial" or "mixed", a list for each value; None where
+        no shaft spins.
         """
     @property
     def clustered(self) -> Flags:
@@ -2431,7 +2431,7 @@ class Study:
         does not apply.
         """
     def kinds(self) -> list[str | None]:
-        """Kind of each mode, "lateral", "torsional", "axial", "mixed" or "blade"; None where nothing that spins moves."""
+        """Kind of each mode, "lateral", "torsional", "axial" or "mixed"; None where no shaft moves."""
     def mode_curvature(self, mode: int) -> ModeCurvature:
         """First and second derivatives of one mode, counted from 0."""
     def output_curvature(self, output: str) -> OutputCurvature:

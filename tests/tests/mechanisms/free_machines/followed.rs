@@ -373,10 +373,10 @@ fn launcher(random: &mut RandomNumbers, damped: bool) -> (String, f64) {
 }
 
 /// Along a thrust that turns with a free machine, what a list says is what the eigenvalues of the whole system of first
-/// order say at two thousand thrusts: motions that grow, with oscillation and without.
+/// order say at hundreds of thrusts: motions that grow, with oscillation and without.
 #[test]
 fn events_along_a_thrust_are_those_of_counting() {
-    const VALUES: usize = 2000;
+    const VALUES: usize = 600;
     let mut random = RandomNumbers::new(8, 0);
     let mut changes = 0;
     for k in 0..12 {
@@ -434,5 +434,5 @@ fn events_along_a_thrust_are_those_of_counting() {
         );
         changes += expected.len();
     }
-    assert!(changes > 10, "{changes}");
+    assert!(changes > 8, "{changes}");
 }
