@@ -119,7 +119,8 @@ fn double_pendulum_matches_reference() {
 #[test]
 fn every_branch_is_found() {
     let search = Search::new([-3.2], [3.2]).starts(40).seed(1);
-    let found = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
+    let found =
+        find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
     let mut angles: Vec<_> = found.iter().map(|state| state.coordinates[0]).collect();
     angles.sort_by(f64::total_cmp);
     assert_eq!(
@@ -130,7 +131,8 @@ fn every_branch_is_found() {
         2
     );
     assert_eq!(found.len(), 4, "{angles:?}");
-    let again = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
+    let again =
+        find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
     assert_eq!(found, again);
 }
 

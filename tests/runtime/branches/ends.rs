@@ -141,7 +141,15 @@ fn no_equilibrium_of_a_random_field_is_missed() {
         }
         for _ in 0..4 {
             let value = 1.9 * random();
-            let there = find_equilibria(&field, &[value], &b, &[0.0; 2], &search, eigentol::Watch::default()).unwrap();
+            let there = find_equilibria(
+                &field,
+                &[value],
+                &b,
+                &[0.0; 2],
+                &search,
+                eigentol::Watch::default(),
+            )
+            .unwrap();
             let crossed = |state: &Equilibrium| {
                 found.branches.iter().any(|branch| {
                     branch.points.windows(2).any(|pair| {

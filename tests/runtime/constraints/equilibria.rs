@@ -318,8 +318,15 @@ fn several_starts_find_both_ends() {
     let search = Search::new([-2.0, -2.0, -1e6], [2.0, 2.0, 1e6])
         .starts(20)
         .seed(3);
-    let found = find_equilibria(&bordered(Point), &[6.0], &[2.0, 0.7], &[0.1; 3], &search, eigentol::Watch::default())
-        .expect("valid values");
+    let found = find_equilibria(
+        &bordered(Point),
+        &[6.0],
+        &[2.0, 0.7],
+        &[0.1; 3],
+        &search,
+        eigentol::Watch::default(),
+    )
+    .expect("valid values");
     // Two stable ones outside, plus the bottom and the top.
     assert_eq!(
         found.len(),

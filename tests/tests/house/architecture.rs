@@ -47,7 +47,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     (
         "runtime/numerics",
         &["eigentol-contract", "eigentol-statistics"],
-        7_600,
+        7_620,
     ),
     ("runtime/results", &["eigentol-contract"], 1_150),
     (
@@ -81,7 +81,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        20_900,
+        21_000,
     ),
     (
         "runtime/uncertainty",

@@ -116,7 +116,7 @@ fn row(random: &mut RandomNumbers, of: Scale) -> String {
     let mut text = String::new();
     let mut number = |middle| near(random, middle);
     for k in 0..3 {
-        let _ = write!(
+        let _ = writeln!(
             text,
             "body b{k}: rigid(mass: {}, inertia: [1, 1, 1] * {});
              joint g{k}: planar(u{k}: x, v{k}: y, t{k}: z) from ground to b{k} at [{k}, 0, 0] * {};
@@ -132,7 +132,7 @@ fn row(random: &mut RandomNumbers, of: Scale) -> String {
     for (from, to) in [(0, 1), (1, 2)] {
         let _ = write!(
             text,
-            "force e{to}: bushing(from: r{from}, to: l{to}, stiffness: [1, 0.7, 0] * {}, turning_stiffness: [0, 0, 1] * {});\n",
+            "force e{to}: bushing(from: r{from}, to: l{to}, stiffness: [1, 0.7, 0] * {}, turning_stiffness: [0, 0, 1] * {});",
             of.stiffness(number(1000.0)),
             of.turning(number(30.0)),
         );

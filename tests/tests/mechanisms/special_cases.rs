@@ -403,7 +403,10 @@ fn a_body_of_two_pieces_whirls_as_one() {
         found.expect("it turns")
     };
     let values = whirl(&halves);
-    assert!(values.concat()[..2].iter().all(|x| x.abs() > 0.1), "{values:?}");
+    assert!(
+        values.concat()[..2].iter().all(|x| x.abs() > 0.1),
+        "{values:?}"
+    );
     assert_equal(&values, &whirl(&whole));
 }
 

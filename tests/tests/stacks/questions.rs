@@ -9,7 +9,7 @@ use eigentol::kernels::{BatchKernels, CurvatureKernels, PictureKernels};
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
 use eigentol::sensitivity::Quantity;
-use eigentol::{Error, Excitation, Input, Output, Study};
+use eigentol::{Error, Excitation, Input, Output, Study, sweep};
 
 /// Where the interesting ranges of a machine lie.
 #[derive(Clone, Copy)]
@@ -99,6 +99,12 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels +
         ("convergence", |s, _| {
             let again = || s.mechanism().clone();
             answered(s.convergence([again(), again()]));
+        }),
+        ("convergence_along", |s, range| {
+            let again = || s.mechanism().clone();
+            let [low, high] = range.crossings;
+            let range = sweep::Range::new(input(), low, high);
+            answered(s.convergence_along([again(), again()], range, &[]));
         }),
         ("mode_curvature", |s, _| answered(s.mode_curvature(mode(s)))),
         ("output_curvature", |s, _| {

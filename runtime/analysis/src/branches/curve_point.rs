@@ -68,7 +68,8 @@ impl Curve<'_> {
         let tangent = CurvePosition { q, p }.unit().ok_or(singular)?;
         let vertical = tangent.p.abs() <= VERTICAL;
         let constraints = self.structure.constraints();
-        let turned = turned(&judged.state, before)?;
+        let oriented = self.structure.holonomic() && judged.state.free.held.is_empty();
+        let turned = oriented && turned(&judged.state, before)?;
         let signs = Signs {
             falling: match before {
                 Some(before) if vertical => before.signs.falling,
@@ -78,7 +79,7 @@ impl Curve<'_> {
             // Each constraint flips the sign: its multiplier adds a negative eigenvalue.
             crossed: factors.negative_determinant()
                 ^ (constraints % 2 == 1)
-                ^ self.flips(&judged.state.free)
+                ^ (oriented && self.flips(&judged.state.free))
                 ^ turned,
             turned,
             negative: if vertical {

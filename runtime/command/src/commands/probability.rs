@@ -77,7 +77,10 @@ impl Probability {
             true => Some(SEARCHES),
             false => {
                 question.note_unset();
-                study.modes().ok().map(|modes| judge::affordable(&modes, 100.0).max(SEARCHES))
+                study
+                    .modes()
+                    .ok()
+                    .map(|modes| judge::affordable(&modes, 100.0).max(SEARCHES))
             }
         };
         let count = samples(self.samples.or(file.samples).or(usual), file)?;

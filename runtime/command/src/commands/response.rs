@@ -102,7 +102,12 @@ impl Response {
         question.study = progress::watched(question.study, &bar);
         let (study, input) = (&question.study, range.input);
         let bode = match self.bands {
-            true => study.bode_bands(input, &values, &wanted, self.checked.unwrap_or(CHECKED.min(number / 12)))?,
+            true => study.bode_bands(
+                input,
+                &values,
+                &wanted,
+                self.checked.unwrap_or(CHECKED.min(number / 12)),
+            )?,
             false => study.bode(input, &values)?,
         };
         drop(bar);

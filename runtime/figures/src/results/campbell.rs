@@ -70,13 +70,14 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     if panel.is_empty() {
         return Err(Error::nothing("no mode oscillates at any of the values"));
     }
-    let top = style
-        .top()
-        .unwrap_or_else(|| match (1.05 * highest, reached(&panel, result, scale)) {
-            (all, Some(reached)) if reached < all => reached,
-            (all, _) if all > 0.0 => all,
-            _ => 1.0,
-        });
+    let top =
+        style
+            .top()
+            .unwrap_or_else(|| match (1.05 * highest, reached(&panel, result, scale)) {
+                (all, Some(reached)) if reached < all => reached,
+                (all, _) if all > 0.0 => all,
+                _ => 1.0,
+            });
     let bottom = style.bottom().min(0.99 * top);
     panel.y.range = [bottom, top];
     let times = bands(&mut panel, result, (style, top - bottom), scale, |x| {
@@ -105,7 +106,11 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     caption.extend(lines);
     caption.extend(result.left_out());
     if beyond > 0 && style.top().is_none() {
-        let lines = if beyond == 1 { "line lies" } else { "lines lie" };
+        let lines = if beyond == 1 {
+            "line lies"
+        } else {
+            "lines lie"
+        };
         caption.push(format!("{beyond} more {lines} above the diagram"));
     }
     let title = style.titled(format!("{}: Campbell diagram", result.description.name));

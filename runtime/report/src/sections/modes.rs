@@ -31,7 +31,15 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             "Damping and gyroscopic forces are not zero here and are ignored: undamped modes.",
         );
     }
-    let columns = ["mode", "frequency", "damping ratio", "Re s", "kind", "whirl", "motion"];
+    let columns = [
+        "mode",
+        "frequency",
+        "damping ratio",
+        "Re s",
+        "kind",
+        "whirl",
+        "motion",
+    ];
     for listing in modes.tables() {
         table(html, "Natural modes", &listing, &columns)?;
     }

@@ -268,8 +268,7 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
     let candidate = nearest(point, start).ok()?;
     let is_there = |unknown: usize| {
         let (asked, coordinate) = (start[unknown], candidate.coordinates[unknown]);
-        (asked - coordinate).abs()
-            <= NAMED * (asked.abs() + SMALL_MOTION)
+        (asked - coordinate).abs() <= NAMED * (asked.abs() + SMALL_MOTION)
     };
     if !point.named().all(is_there) {
         return None;

@@ -100,7 +100,9 @@ fn design(tokens: &mut Tokens) -> Parsed<ItemKind> {
 fn equals(tokens: &mut Tokens, name: &Ident) -> Parsed<Extent> {
     let read = tokens.expect_sign('=', "`=`");
     read.map_err(|error| match tokens.peek_sign(':') {
-        true => Box::new(error.with_help(format!("write `{name} = ...`: its unit is that of the value"))),
+        true => Box::new(error.with_help(format!(
+            "write `{name} = ...`: its unit is that of the value"
+        ))),
         false => error,
     })
 }
