@@ -11,7 +11,7 @@ use eigentol::{Description, Error, Input, Study};
 use crate::answer::answer;
 
 /// Number of designs solved anew to check each band.
-const CHECKED: usize = 16;
+const CHECKED: usize = 8;
 
 /// The vibration of every output under every harmonic.
 pub(crate) struct Forced {

@@ -93,26 +93,40 @@ impl<'a> Along<'a> {
         from: &[f64],
         which: usize,
     ) -> Result<ResponsePoint, Error> {
-        let (equilibrium, _) = self.equilibrium(value, from, false)?;
-        let lines = Lines::new(self.mechanism, &equilibrium, self.input.index())?;
-        Ok(ResponsePoint {
-            value,
-            lines: vec![lines.line(self.wanted[which], &[])?],
-            poles: Vec::new(),
-            equilibrium,
-        })
+        let changing = |_: &Lines<'_>, _| Ok(());
+        Ok(self.solved(value, from, which, changing)?.0)
     }
 
     /// The same, and how it changes.
     pub(super) fn curve(&self, value: f64, from: &[f64], which: usize) -> Result<Curve, Error> {
-        let point = self.vibration(value, from, which)?;
-        let input = self.input.index();
-        let lines = Lines::new(self.mechanism, &point.equilibrium, input)?;
+        let changing = |lines: &Lines<'_>, wanted| lines.curving(wanted);
+        let (point, curving) = self.solved(value, from, which, changing)?;
         Ok(Curve {
-            curving: lines.curving(self.wanted[which])?,
-            input,
             point,
+            curving,
+            input: self.input.index(),
         })
+    }
+
+    fn solved<T>(
+        &self,
+        value: f64,
+        from: &[f64],
+        which: usize,
+        changing: impl Fn(&Lines<'_>, Wanted) -> Result<T, Error>,
+    ) -> Result<(ResponsePoint, T), Error> {
+        let (equilibrium, _) = self.equilibrium(value, from, false)?;
+        let lines = Lines::new(self.mechanism, &equilibrium, self.input.index())?;
+        let wanted = self.wanted[which];
+        let line = lines.line(wanted, &[])?;
+        let changes = changing(&lines, wanted)?;
+        let point = ResponsePoint {
+            value,
+            lines: vec![line],
+            poles: Vec::new(),
+            equilibrium,
+        };
+        Ok((point, changes))
     }
 
     /// The error for a vibration whose amplitude is infinite next to a state.
