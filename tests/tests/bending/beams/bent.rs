@@ -53,7 +53,7 @@ fn bent_by_weight_and_spun() {
         "../../../truth/flexible/F14_bent_equilibrium.json"
     ));
     let bars = Bars {
-        values: &[1e-9, 1e-9, 1e-8],
+        values: &[4e-11, 3e-10, 1e-8],
         first: &[1e-8, 1e-8],
         second: &[],
     };
@@ -138,8 +138,8 @@ fn a_blade_bent_in_space() {
             "derivatives": derivatives,
         });
         let bars = Bars {
-            values: &[1e-8, 1e-8, 1e-8, 1e-8],
-            first: &[1e-6, 1e-6, 1e-5, 1e-5],
+            values: &[5e-10, 6e-9, 1e-9, 8e-10, 4e-6, 1e-5],
+            first: &[6e-7, 1e-6, 2e-6, 2e-6, 5e-5, 2e-2],
             second: &[],
         };
         let what = format!("{}", case["parameters"]);

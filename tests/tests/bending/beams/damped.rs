@@ -1,6 +1,6 @@
 //! Material that lags behind its strain: forced vibration, and shafts that spin in bearings.
 
-use eigentol::{Complex, Output, Study, forced::Measure};
+use eigentol::{Complex, Input, Output, Study, forced::Measure};
 use eigentol_interpreter::Interpreted;
 
 use crate::beams::compared::{design, numbers, parameter, study, truth};
@@ -134,6 +134,25 @@ fn a_shaft_with_internal_damping() {
         .iter()
         .map(|value| value.name.to_string())
         .collect();
+    let tolerances = study
+        .clone()
+        .flutter_onset_tolerances(Input::new(0), 0.0, 1000.0)
+        .expect("onsets");
+    let [onset] = &tolerances[..] else {
+        panic!("{tolerances:?}")
+    };
+    let [speed, _] = numbers(&file["onset_speed_and_whirl"])[..] else {
+        panic!("a speed")
+    };
+    assert!((onset.value / speed - 1.0).abs() < 7e-11, "{onset:?}");
+    let spread = onset.spread.as_ref().expect("a derivative");
+    for (name, own) in names.iter().zip(&spread.by_design) {
+        let expected = numbers(&file["onset_derivatives"][name.as_str()]["first"])[0];
+        assert!(
+            (own / expected - 1.0).abs() < 5e-10,
+            "{name}: {own} {expected}"
+        );
+    }
     let listed = numbers(&file["eigenvalues_re_im_twice"]);
     for (k, pair) in listed.chunks_exact(2).enumerate() {
         let expected = Complex::new(pair[0], pair[1].abs());

@@ -40,9 +40,9 @@ fn uniform_beams_of_every_hub_and_speed() {
             let values: &[f64] = match gamma * (1.0 + delta).sqrt() {
                 // ten polynomials resolve the boundary layer at the root less and less
                 tension if tension > 20.0 => &[5e-3, 5e-3, 5e-3],
-                tension if tension > 12.0 => &[1e-4, 1e-4, 1e-4],
-                tension if tension > 6.0 => &[1e-6, 1e-6, 1e-5, 1e-4],
-                _ => &[1e-9, 1e-9, 1e-7, 1e-4],
+                tension if tension > 12.0 => &[9e-6, 2e-5, 7e-6],
+                tension if tension > 6.0 => &[3e-8, 7e-8, 8e-7, 1e-4],
+                _ => &[9e-12, 3e-11, 1e-7, 1e-4],
             };
             let bars = Bars {
                 values,
@@ -68,9 +68,9 @@ fn derivatives_of_uniform_beams() {
         let text = rotating(&design(case, &PARAMETERS), motion, "");
         let study = study(&text, Some(parameter(case, "Omega")));
         let bars = Bars {
-            values: &[1e-9, 1e-9, 1e-7],
-            first: &[1e-9, 1e-9],
-            second: &[1e-7, 1e-7],
+            values: &[1e-12, 1e-12, 6e-8],
+            first: &[1e-12, 2e-11],
+            second: &[1e-11, 2e-10],
         };
         compare(motion, &study, case, &numbers(&case["frequencies"]), &bars);
     }
@@ -94,9 +94,9 @@ fn a_heavy_tip() {
         let text = rotating(&design(case, &all), motion, &carried);
         let study = study(&text, Some(parameter(case, "Omega")));
         let bars = Bars {
-            values: &[1e-9, 1e-9, 1e-8],
-            first: &[1e-9, 1e-8],
-            second: &[1e-7, 1e-6],
+            values: &[1e-12, 2e-12, 6e-9],
+            first: &[1e-12, 6e-11],
+            second: &[2e-11, 2e-9],
         };
         compare(motion, &study, case, &numbers(&case["frequencies"]), &bars);
     }

@@ -29,9 +29,9 @@ fn pretwisted_beams_at_rest_and_spinning() {
         );
         let study = study(&text, Some(parameter(case, "Omega")));
         let bars = Bars {
-            values: &[1e-10, 2e-9],
-            first: &[1e-8, 1e-7],
-            second: &[1e-6],
+            values: &[3e-11, 2e-9, 2e-5, 6e-4],
+            first: &[1e-8, 1e-7, 4e-4, 4e-2],
+            second: &[1e-7, 1e-6, 3e-3, 3e-2],
         };
         let what = format!("{}", case["parameters"]);
         compare(&what, &study, case, &numbers(&case["frequencies"]), &bars);
