@@ -61,7 +61,7 @@ impl Forced {
     }
 }
 
-/// The peaks of all vibrations; one by one if some have none because they are infinite.
+/// The peaks of all vibrations.
 fn peaks<M: SummaryKernels>(
     study: &Study<M>,
     wanted: &[Vibration],
@@ -71,10 +71,7 @@ fn peaks<M: SummaryKernels>(
     let each = wanted.iter().copied();
     match study.peaks_of(wanted, input, first, last) {
         Ok(peaks) => each.zip(peaks.into_iter().map(Ok)).collect(),
-        Err(Error::Stopped) => each.map(|x| (x, Err(Error::Stopped))).collect(),
-        Err(_) => each
-            .map(|x| (x, study.peaks(x, input, first, last)))
-            .collect(),
+        Err(error) => each.map(|x| (x, Err(error.clone()))).collect(),
     }
 }
 

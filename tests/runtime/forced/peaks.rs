@@ -93,7 +93,7 @@ fn an_undamped_mode_has_no_highest_amplitude() {
     let design = [12.0, 1.9e6, 0.0, 4e-5];
     let from = (&[0.0][..], &design[..]);
     let model = Derived(Jeffcott);
-    let error = peaks(
+    let found = one(peaks(
         &model,
         from,
         &[0.0; 2],
@@ -101,11 +101,21 @@ fn an_undamped_mode_has_no_highest_amplitude() {
         (range, &[vibration(0)]),
         None,
         Watch::default(),
-    );
+    ));
+    let [gap] = &found.gaps[..] else {
+        panic!("{found}")
+    };
+    assert!(found.peaks.is_empty());
     assert!(
-        matches!(error, Err(Error::Resonance { mode: Some(_), .. })),
-        "{error:?}"
+        matches!(gap.reason, Error::Resonance { mode: Some(_), .. }),
+        "{found}"
     );
+    let critical = (design[1] / design[0]).sqrt();
+    assert!(
+        gap.from <= critical && critical <= gap.to,
+        "{critical} {gap:?}"
+    );
+    assert!(gap.to - gap.from < 1e-3, "{gap:?}");
 }
 
 /// Seven masses in a row between walls, with a force on the first; one spring and one mass differ, so that two pairs of

@@ -217,10 +217,11 @@ impl Peaks {
                 None => given(value),
             });
             let name = name_of(d, input);
-            said.note(format!(
-                "Not searched, {name} from {from} to {to}: {}.",
-                gap.reason
-            ));
+            let place = match from == to {
+                true => format!("at {name} = {from}"),
+                false => format!("for {name} from {from} to {to}"),
+            };
+            said.note(format!("No vibration {place}: {}.", gap.reason));
         }
     }
 }

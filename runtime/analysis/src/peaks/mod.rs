@@ -137,10 +137,10 @@ impl Moving {
 /// frequency, until no peak can hide.
 ///
 /// # Errors
-/// [`Error::UnknownHandle`], [`Error::Setting`], [`Error::NoExcitation`], [`Error::Resonance`] if an undamped mode is
-/// driven at its natural frequency within the range: the peak there is infinite. [`Error::WrongLength`] for tolerances
-/// of another mechanism, [`Error::Stopped`], and the reason why there is no vibration in the whole range. A stretch without
-/// one is a gap.
+/// [`Error::UnknownHandle`], [`Error::Setting`], [`Error::NoExcitation`], [`Error::WrongLength`] for tolerances of another
+/// mechanism, [`Error::Stopped`], and the reason why there is no vibration in the whole range. A stretch without one is a
+/// gap, such as where an undamped mode is driven at its natural frequency ([`Error::Resonance`]): the peak there is
+/// infinite.
 pub fn peaks(
     mechanism: &dyn CurvatureKernels,
     (u, b): (&[f64], &[f64]),

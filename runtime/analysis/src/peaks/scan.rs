@@ -68,7 +68,7 @@ impl End {
     fn new(along: &Along<'_>, value: f64, from: &[f64]) -> Result<Self, Error> {
         match along.state(value, from) {
             Ok(state) => Ok(Self::Found(state.into())),
-            Err(error @ (Error::Resonance { .. } | Error::Stopped)) => Err(error),
+            Err(Error::Stopped) => Err(Error::Stopped),
             Err(error) => Ok(Self::Missing(value, error)),
         }
     }
@@ -129,8 +129,11 @@ impl Scan {
                 }
                 if left == 0 {
                     let moving = |k: &usize| !still(before.heard(*k), state.heard(*k));
+                    let from = before.value;
                     if let Some(k) = (0..state.lines.len()).find(moving) {
-                        return Err(along.resonance(k, state));
+                        let reason = along.resonance(k, state);
+                        self.gap(from, state.value, &reason);
+                        self.after_gap.push(self.states.len());
                     }
                     self.begin(&mut b);
                     return Ok(b);
