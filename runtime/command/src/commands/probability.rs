@@ -5,6 +5,7 @@ use eigentol::judge;
 use eigentol::requirement::{Probabilities, Requirement};
 
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::output::Output;
 use crate::point::{Point, exact, samples, whole};
 use crate::progress;
@@ -97,6 +98,10 @@ impl Probability {
             answer.add_aside(chances)?;
         }
         self.output.write(&answer)?;
+        if interrupt::stopped() {
+            let reason = "the probabilities are those of the samples that were drawn";
+            return Ok(Verdict::Stopped(reason.to_owned()));
+        }
         Ok(verdict(required, &probabilities))
     }
 }
