@@ -175,14 +175,18 @@ fn turned(state: &Equilibrium, before: Option<&CurvePoint>) -> Result<bool, Cont
 }
 
 /// The cosine between two spaces in the metric of the mass, negative if their bases have opposite orientations; `None` if
-/// they move no mass.
+/// they move no mass, or differ in dimension.
 fn cosine(mass: &Matrix, a: &[Vector], b: &[Vector]) -> Option<f64> {
+    // Away from equilibria a state has no free directions.
+    if a.len() != b.len() {
+        return None;
+    }
     let moved = [a, b].map(|basis| moved(mass, basis));
     let product = |a: &[Vector], b: &[Vector]| Some(Lu::of(gram(a, b))?.determinant());
     let sizes = product(a, &moved[0])? * product(b, &moved[1])?;
     // Spaces at a right angle have a product that is not regular.
     let across = product(a, &moved[1]).unwrap_or(0.0);
-    (a.len() == b.len() && sizes > 0.0).then(|| across / sizes.sqrt())
+    (sizes > 0.0).then(|| across / sizes.sqrt())
 }
 
 fn moved(mass: &Matrix, basis: &[Vector]) -> Vec<Vector> {
@@ -241,4 +245,23 @@ fn negative(linear: &Linear, description: &Description) -> Option<usize> {
 pub(crate) fn symmetric_to_rounding(linear: &Linear, description: &Description) -> bool {
     Structure::of(description).holonomic()
         && (description.symmetric_stiffness || asymmetry(&linear.stiffness) <= 1e-11)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orientations_in_the_metric_of_the_mass() {
+        let mass = Matrix::from([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 5.0]]);
+        let basis = |rows: &[[f64; 3]]| rows.iter().map(|x| Vector::from(&x[..])).collect();
+        let plane: Vec<Vector> = basis(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        let swapped: Vec<Vector> = basis(&[[0.0, 3.0, 0.0], [1.0, 0.0, 0.0]]);
+        let across: Vec<Vector> = basis(&[[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
+        assert_eq!(cosine(&mass, &plane, &swapped), Some(-1.0));
+        assert_eq!(cosine(&mass, &plane, &across), Some(0.0));
+        assert_eq!(cosine(&mass, &plane, &plane[..1]), None);
+        assert_eq!(cosine(&mass, &plane[..1], &plane), None);
+        assert_eq!(cosine(&mass, &plane, &[]), None);
+    }
 }

@@ -18,7 +18,7 @@ use crate::requirements::{named_orbit, named_vibration};
 use crate::sweep::{Points, Range, Sweep, range, unswept};
 use crate::verdict::Verdict;
 
-/// Number of designs solved anew for each band, unless it is given.
+/// Most designs solved anew for each band, unless their number is given.
 const CHECKED: usize = 64;
 
 /// Vibration under the declared excitations: amplitudes and phases, their derivatives and their bands under tolerances
@@ -106,7 +106,7 @@ impl Response {
                 input,
                 &values,
                 &wanted,
-                self.checked.unwrap_or(CHECKED.min(number / 12)),
+                self.checked.unwrap_or((number / 12).clamp(8, CHECKED)),
             )?,
             false => study.bode(input, &values)?,
         };

@@ -436,3 +436,20 @@ fn events_along_a_thrust_are_those_of_counting() {
     }
     assert!(changes > 8, "{changes}");
 }
+
+/// A uniform free beam under a thrust that follows its end flutters at `109.69 EI / L^2` (Beal 1965), whatever the range.
+#[test]
+fn a_flexible_missile_flutters() {
+    let text = "mechanism Missile { input thrust: N; gravity thrust / (1 kg) along -x;
+        body hull: beam(length: 1 m, along: x, up: z, mass_per_length: 1 kg/m, stiffness_y: 1 N*m^2, bending_y: 9);
+        joint flight: planar(px: x, pz: z, pitch: -y) from ground to hull;
+        point nozzle: hull at root; force engine: follower(at: nozzle, force: [thrust, 0, 0]); }";
+    for range in [[0.0, 130.0], [10.0, 120.0]] {
+        let sweep = study(text).sweep(eigentol::Input::new(0), &range);
+        let sweep = sweep.expect("a sweep");
+        let onsets: Vec<f64> = sweep.flutter_onsets.iter().map(|x| x.value).collect();
+        assert!(sweep.critical.is_empty(), "{range:?}");
+        assert_eq!(onsets.len(), 1, "{onsets:?}");
+        assert!((onsets[0] - 109.69).abs() < 5e-3, "{onsets:?}");
+    }
+}
