@@ -40,10 +40,7 @@ pub(crate) fn compare<M: Mechanism>(
         1e3 * along
     )?;
     let in_paper = format!(" (in the paper {paper})");
-    for (how, study, paper) in [
-        ("one by one", one_by_one, &*in_paper),
-        ("in vectors", vectors, ""),
-    ] {
+    for (how, study, paper) in [("one by one", one_by_one, &*in_paper), ("in vectors", vectors, "")] {
         let sampled = time(|| {
             for &speed in speeds {
                 black_box(study.clone().input(input, speed).monte_carlo()).ok();

@@ -86,19 +86,14 @@ pub const TILTING: usize = 2;
 /// The backward whirl of the tilting disk stays away from the speed.
 #[must_use]
 pub fn resonance() -> Requirement {
-    let tilting = Response::Mode {
-        mode: TILTING,
-        quantity: Quantity::Frequency,
-    };
+    let tilting = Response::Mode { mode: TILTING, quantity: Quantity::Frequency };
     Requirement::away(tilting, JeffcottRotor::speed.any(), 0.1)
 }
 
 /// Writes the Campbell diagram with its events, what tolerances do at the running speed, and the risks there.
 pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (study, speed) = (study(), JeffcottRotor::speed);
-    let speeds: Vec<_> = (0..=60)
-        .map(|k| InDeclaredUnit(100.0 * f64::from(k)))
-        .collect();
+    let speeds: Vec<_> = (0..=60).map(|k| InDeclaredUnit(100.0 * f64::from(k))).collect();
     writeln!(out, "{}", study.campbell(speed, &speeds, &[1.0, 2.0])?)?;
     for limit in study.flutter_onset_tolerances(speed, speeds[0], speeds[60])? {
         writeln!(out, "{limit}")?;

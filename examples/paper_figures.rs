@@ -68,18 +68,15 @@ fn along<M: Mechanism>(
     // Standard deviations in the upper panel, means in the lower.
     let spreads = |(mode, levels): (usize, usize)| {
         let levels = found.iter().take(levels);
-        let spreads = levels.fold(Spreads::new(speed.any(), mode), |item, level| {
-            item.under(&level.0, &level.1, &level.2)
-        });
+        let spreads =
+            levels.fold(Spreads::new(speed.any(), mode), |item, level| item.under(&level.0, &level.1, &level.2));
         spreads.figure(&style)
     };
     let [mut first, mut second] = [spreads(wanted[0])?, spreads(wanted[1])?];
     let mut means = spreads((wanted[0].0, LEVELS.len()))?;
     means.title = format!("{}: mean frequencies", study.description().name);
     means.panels.remove(0);
-    means
-        .caption
-        .retain(|line| !line.starts_with("First order"));
+    means.caption.retain(|line| !line.starts_with("First order"));
     if wanted[0].0 != wanted[1].0 {
         means.panels.extend(second.panels.get(1).cloned());
     }

@@ -79,10 +79,7 @@ pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (equal, independent, speeds) = (equal(), independent(), speeds());
     let speed = RotatingDoublePendulum::omega;
     writeln!(out, "{}", equal.campbell(speed, &speeds, &[1.0])?)?;
-    writeln!(
-        out,
-        "In the paper the resonance is at 1.895 rad/s and the critical speed at 2.679 rad/s.\n"
-    )?;
+    writeln!(out, "In the paper the resonance is at 1.895 rad/s and the critical speed at 2.679 rad/s.\n")?;
     for value in [1.5, 2.65, 5.0] {
         writeln!(out, "{}", equal.clone().input(speed, value).summary()?)?;
         let independent = independent.clone().input(IndependentBars::omega, value);

@@ -45,10 +45,7 @@ pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (study, speeds) = (study(), speeds());
     let speed = RotatingPendulum::omega;
     writeln!(out, "{}", study.campbell(speed, &speeds, &[1.0])?)?;
-    writeln!(
-        out,
-        "In the paper the resonance is at 2.712 rad/s and the critical speed at 3.835 rad/s.\n"
-    )?;
+    writeln!(out, "In the paper the resonance is at 2.712 rad/s and the critical speed at 3.835 rad/s.\n")?;
     for value in [2.0, 3.8, 5.0] {
         writeln!(out, "{}", study.clone().input(speed, value).summary()?)?;
     }

@@ -102,10 +102,7 @@ pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     for limit in along.flutter_onsets.iter().chain(&along.critical) {
         writeln!(out, "{limit}")?;
     }
-    writeln!(
-        out,
-        "Published: above 4.2924 m/s the weave decays, above 6.0243 m/s the bicycle capsizes, slowly."
-    )?;
+    writeln!(out, "Published: above 4.2924 m/s the weave decays, above 6.0243 m/s the bicycle capsizes, slowly.")?;
     Ok(())
 }
 

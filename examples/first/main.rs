@@ -27,10 +27,7 @@ const SAMPLES: usize = 3000;
 
 /// Writes the frequency at three speeds, its spread by exact derivatives and by samples, and how long both take.
 pub fn run(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
-    let study = Study::new(RotatingPendulum)
-        .start(RotatingPendulum::theta, 1.0)
-        .samples(SAMPLES)
-        .threads(1);
+    let study = Study::new(RotatingPendulum).start(RotatingPendulum::theta, 1.0).samples(SAMPLES).threads(1);
     // Below 3.835 rad/s the bar hangs; above, it swings out.
     for speed in [2.0, 5.0, 8.0] {
         let study = study.clone().input(RotatingPendulum::omega, speed);

@@ -73,9 +73,7 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let spreads = study.output_tolerances()?;
     let own = |output: eigentol::Output<BentBoom>| {
         let spread = spreads.spreads[output.index()].as_ref();
-        spread
-            .map(|spread| (spread.mean, spread.sigma))
-            .ok_or("it varies")
+        spread.map(|spread| (spread.mean, spread.sigma)).ok_or("it varies")
     };
     let ((reach, _), (height, sigma)) = (own(BentBoom::reach)?, own(BentBoom::height)?);
     let [linear_reach, linear_height, linear_frequency] = linear();

@@ -53,19 +53,11 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let first = study.first_order()?;
     let beat = first.modes[0].frequency().ok_or("the head whirls")?;
     let (margin, sigma) = (beat.mean / RPM, beat.sigma / RPM);
-    writeln!(
-        out,
-        "CENTRIFUGE: the critical speed is {margin:.0} rpm above {WORKING} rpm, sigma {sigma:.0} rpm."
-    )?;
+    writeln!(out, "CENTRIFUGE: the critical speed is {margin:.0} rpm above {WORKING} rpm, sigma {sigma:.0} rpm.")?;
     let spreads = study.output_tolerances()?;
-    let spread = spreads.spreads[Centrifuge::run_out.index()]
-        .as_ref()
-        .ok_or("the run-out varies")?;
+    let spread = spreads.spreads[Centrifuge::run_out.index()].as_ref().ok_or("the run-out varies")?;
     let (mean, sigma) = (1e3 * spread.mean, 1e3 * spread.sigma);
-    writeln!(
-        out,
-        "There the head runs out by {mean:.3} mm, sigma {sigma:.3} mm."
-    )?;
+    writeln!(out, "There the head runs out by {mean:.3} mm, sigma {sigma:.3} mm.")?;
     let most = (ALLOWED - spread.mean) / spread.sigma;
     let part = 100.0 * spread.variance_shares[Centrifuge::overfill.index()];
     writeln!(

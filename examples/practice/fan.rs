@@ -79,10 +79,7 @@ pub fn velocity() -> Vibration {
 /// The probability that a fan of a balance grade, m/s, shakes more than admissible.
 pub fn too_loud(grade: f64) -> Result<f64, Box<dyn Error>> {
     let limit = Requirement::at_most(Response::Vibration(velocity()), ADMISSIBLE);
-    let found = study()
-        .design(Fan::grade, grade)
-        .samples(4000)
-        .chances(&[limit])?;
+    let found = study().design(Fan::grade, grade).samples(4000).chances(&[limit])?;
     Ok(found.all.failure())
 }
 
@@ -91,10 +88,7 @@ pub fn too_loud(grade: f64) -> Result<f64, Box<dyn Error>> {
 pub fn coarsest() -> Result<f64, Box<dyn Error>> {
     let spread = study().vibration_spread(&[velocity()])?;
     let spread = spread.spreads[0].as_ref().ok_or("the fan vibrates")?;
-    let upper = spread
-        .quantiles
-        .iter()
-        .find(|quantile| quantile.probability > 0.97);
+    let upper = spread.quantiles.iter().find(|quantile| quantile.probability > 0.97);
     let upper = upper.ok_or("there are quantiles")?.value;
     Ok(6.3e-3 * ADMISSIBLE / upper)
 }

@@ -64,12 +64,8 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         -1e3 * rigid_height,
     )?;
     let spreads = study().output_tolerances()?;
-    let spread = spreads.spreads[FlexibleArm::height.index()]
-        .as_ref()
-        .ok_or("the height varies")?;
-    let share = |variable: eigentol::DesignVariable<FlexibleArm>| {
-        100.0 * spread.variance_shares[variable.index()]
-    };
+    let spread = spreads.spreads[FlexibleArm::height.index()].as_ref().ok_or("the height varies")?;
+    let share = |variable: eigentol::DesignVariable<FlexibleArm>| 100.0 * spread.variance_shares[variable.index()];
     writeln!(
         out,
         "Its height scatters with a sigma of {:.2} mm, {:.0} % of the variance from the gears, {:.0} % from the link.",
@@ -77,10 +73,6 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         share(FlexibleArm::shoulder_gear) + share(FlexibleArm::elbow_gear),
         share(FlexibleArm::inner) + share(FlexibleArm::modulus)
     )?;
-    writeln!(
-        out,
-        "A model with joint springs only is too stiff by a factor of {:.1}.\n",
-        height / rigid_height
-    )?;
+    writeln!(out, "A model with joint springs only is too stiff by a factor of {:.1}.\n", height / rigid_height)?;
     Ok(())
 }

@@ -74,9 +74,7 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     )?;
     let at = meeting()?;
     let spread = at.spread?;
-    let share = |variable: eigentol::DesignVariable<FlexibleBlade>| {
-        100.0 * spread.variance_shares[variable.index()]
-    };
+    let share = |variable: eigentol::DesignVariable<FlexibleBlade>| 100.0 * spread.variance_shares[variable.index()];
     writeln!(
         out,
         "It meets twice the speed at {:.0} rpm, sigma {:.1}: {:.1} sigma from the working speed.",

@@ -57,27 +57,14 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (speed, lift) = (FlyBallGovernor::speed, FlyBallGovernor::lift.index());
     let begins = Study::new(FlyBallGovernor).critical_tolerance(speed, 100.0 * RPM, 300.0 * RPM)?;
     let (rise, sigma) = (begins.value / RPM, begins.spread?.sigma / RPM);
-    writeln!(
-        out,
-        "FLY-BALL GOVERNOR: the sleeve rises from {rise:.2} rpm, sigma {sigma:.2} rpm."
-    )?;
+    writeln!(out, "FLY-BALL GOVERNOR: the sleeve rises from {rise:.2} rpm, sigma {sigma:.2} rpm.")?;
     let study = study();
     let spreads = study.output_tolerances()?.spreads;
     let spread = spreads[lift].as_ref().ok_or("the lift varies")?;
     let slopes = study.outputs()?.by_input;
     let slope = slopes[lift].as_ref().ok_or("the lift has a slope")?[0];
-    let (at, sigma, scatter) = (
-        1e3 * spread.mean,
-        1e3 * spread.sigma,
-        spread.sigma / slope / RPM,
-    );
-    writeln!(
-        out,
-        "At {HELD} rpm it stands {at:.1} mm up, sigma {sigma:.2} mm:"
-    )?;
-    writeln!(
-        out,
-        "a valve set to that place holds the engine within {scatter:.2} rpm (sigma).\n"
-    )?;
+    let (at, sigma, scatter) = (1e3 * spread.mean, 1e3 * spread.sigma, spread.sigma / slope / RPM);
+    writeln!(out, "At {HELD} rpm it stands {at:.1} mm up, sigma {sigma:.2} mm:")?;
+    writeln!(out, "a valve set to that place holds the engine within {scatter:.2} rpm (sigma).\n")?;
     Ok(())
 }

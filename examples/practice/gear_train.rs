@@ -54,11 +54,7 @@ pub fn cheapest() -> Result<Allocation, eigentol::Error> {
     };
     let (motor, load) = (GearTrain::motor_shaft, GearTrain::load_shaft);
     let chosen = [(motor, 2e-5), (load, 2e-5), (GearTrain::drum, 9e-3)];
-    let choices = Choices {
-        half_widths: chosen.map(half_width).into(),
-        nominals: vec![],
-        failure: vec![1e-3],
-    };
+    let choices = Choices { half_widths: chosen.map(half_width).into(), nominals: vec![], failure: vec![1e-3] };
     let (mode, quantity) = (0, Quantity::Frequency);
     let clear = Requirement::at_least(Response::Mode { mode, quantity }, RIPPLE * TAU);
     study().allocation(&[clear], &choices)

@@ -64,17 +64,8 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         1e6 * work.sigma
     )?;
     let share = |k: usize| 100.0 * work.variance_shares[k];
-    let (skew, bearing) = (
-        share(GrindingSpindle::skew.index()),
-        share(GrindingSpindle::bending.index()),
-    );
-    writeln!(
-        out,
-        "Clamping makes {skew:.1} % of the variance, the bearing {bearing:.1} %."
-    )?;
-    writeln!(
-        out,
-        "A stiffer bearing changes nothing: clamp against a ground shoulder, or dress at speed.\n"
-    )?;
+    let (skew, bearing) = (share(GrindingSpindle::skew.index()), share(GrindingSpindle::bending.index()));
+    writeln!(out, "Clamping makes {skew:.1} % of the variance, the bearing {bearing:.1} %.")?;
+    writeln!(out, "A stiffer bearing changes nothing: clamp against a ground shoulder, or dress at speed.\n")?;
     Ok(())
 }

@@ -62,11 +62,7 @@ pub const QUESTIONS: [Question; 13] = [
         answer: slider_crank_press::answer,
         report: |path| save(&slider_crank_press::study(), path),
     },
-    Question {
-        name: "centrifuge",
-        answer: centrifuge::answer,
-        report: |path| save(&centrifuge::study(), path),
-    },
+    Question { name: "centrifuge", answer: centrifuge::answer, report: |path| save(&centrifuge::study(), path) },
     Question {
         name: "grinding_spindle",
         answer: grinding_spindle::answer,
@@ -77,11 +73,7 @@ pub const QUESTIONS: [Question; 13] = [
         answer: turntable_arm::answer,
         report: |path| save(&turntable_arm::study(turntable_arm::WORKING), path),
     },
-    Question {
-        name: "gear_train",
-        answer: gear_train::answer,
-        report: |path| save(&gear_train::study(), path),
-    },
+    Question { name: "gear_train", answer: gear_train::answer, report: |path| save(&gear_train::study(), path) },
     Question {
         name: "turbine_blade",
         answer: turbine_blade::answer,
@@ -92,21 +84,13 @@ pub const QUESTIONS: [Question; 13] = [
         answer: rotor_bearings::answer,
         report: |path| save(&rotor_bearings::study(), path),
     },
-    Question {
-        name: "fan",
-        answer: fan::answer,
-        report: |path| save(&fan::study(), path),
-    },
+    Question { name: "fan", answer: fan::answer, report: |path| save(&fan::study(), path) },
     Question {
         name: "flexible_blade",
         answer: flexible_blade::answer,
         report: |path| save(&flexible_blade::study(), path),
     },
-    Question {
-        name: "flexible_arm",
-        answer: flexible_arm::answer,
-        report: |path| save(&flexible_arm::study(), path),
-    },
+    Question { name: "flexible_arm", answer: flexible_arm::answer, report: |path| save(&flexible_arm::study(), path) },
     Question {
         name: "bent_boom",
         answer: bent_boom::answer,

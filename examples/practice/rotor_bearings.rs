@@ -63,14 +63,8 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let limit = limits.first().ok_or("stable at all these speeds")?;
     let spread = limit.spread.as_ref().map_err(Clone::clone)?;
     let (speed, sigma) = (limit.value / RPM, spread.sigma / RPM);
-    writeln!(
-        out,
-        "ROTOR BEARINGS: stable up to {speed:.0} rpm, sigma {sigma:.0} rpm."
-    )?;
+    writeln!(out, "ROTOR BEARINGS: stable up to {speed:.0} rpm, sigma {sigma:.0} rpm.")?;
     let film = 100.0 * (spread.variance_shares[4] + spread.variance_shares[5]);
-    writeln!(
-        out,
-        "{film:.1} % of the variance is in the film: measure that before tightening anything else.\n"
-    )?;
+    writeln!(out, "{film:.1} % of the variance is in the film: measure that before tightening anything else.\n")?;
     Ok(())
 }

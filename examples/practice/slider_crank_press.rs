@@ -53,9 +53,7 @@ pub fn study() -> Study<SliderCrankPress> {
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let study = study();
     let spreads = study.output_tolerances()?;
-    let blow = spreads.spreads[SliderCrankPress::blow.index()]
-        .as_ref()
-        .ok_or("the blow varies")?;
+    let blow = spreads.spreads[SliderCrankPress::blow.index()].as_ref().ok_or("the blow varies")?;
     let worst = 3.0 * blow.sigma / blow.mean;
     writeln!(
         out,
@@ -65,13 +63,7 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     )?;
     let lengths: f64 = blow.variance_shares[..3].iter().sum();
     let (lengths, material) = (100.0 * lengths, 100.0 * blow.variance_shares[3]);
-    writeln!(
-        out,
-        "The material makes {material:.0} % of the variance, all lengths together {lengths:.0} %."
-    )?;
-    writeln!(
-        out,
-        "Tighter lengths are money lost: sort the blanks by thickness and hardness.\n"
-    )?;
+    writeln!(out, "The material makes {material:.0} % of the variance, all lengths together {lengths:.0} %.")?;
+    writeln!(out, "Tighter lengths are money lost: sort the blanks by thickness and hardness.\n")?;
     Ok(())
 }

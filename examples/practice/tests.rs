@@ -4,9 +4,8 @@ use std::f64::consts::PI;
 use eigentol::Study;
 
 use super::{
-    QUESTIONS, Question, RPM, bent_boom, centrifuge, fan, flexible_arm, flexible_blade,
-    fly_ball_governor, gear_train, grinding_spindle, helicopter_blade, slider_crank_press,
-    turbine_blade, turntable_arm,
+    QUESTIONS, Question, RPM, bent_boom, centrifuge, fan, flexible_arm, flexible_blade, fly_ball_governor, gear_train,
+    grinding_spindle, helicopter_blade, slider_crank_press, turbine_blade, turntable_arm,
 };
 
 const G: f64 = 9.81;
@@ -25,14 +24,8 @@ fn every_question_has_an_answer() {
         println!("{text}");
         assert!((2..=4).contains(&text.trim().lines().count()), "{text}");
         assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
-        let title = name
-            .replace('_', " ")
-            .to_uppercase()
-            .replace("FLY BALL", "FLY-BALL");
-        assert!(
-            text.starts_with(&title.replace("SLIDER CRANK", "SLIDER-CRANK")),
-            "{text}"
-        );
+        let title = name.replace('_', " ").to_uppercase().replace("FLY BALL", "FLY-BALL");
+        assert!(text.starts_with(&title.replace("SLIDER CRANK", "SLIDER-CRANK")), "{text}");
     }
 }
 
@@ -60,9 +53,8 @@ fn a_governor_stands_at_the_height_of_porter() {
     let height = (1.0 + 8.0) * G / (speed * speed);
     close(outputs.values[0], height, 1e-9);
     close(outputs.values[1], 2.0 * (0.2 - height), 1e-9);
-    let begins = Study::new(FlyBallGovernor)
-        .critical_tolerance(FlyBallGovernor::speed, 100.0 * RPM, 300.0 * RPM)
-        .unwrap();
+    let begins =
+        Study::new(FlyBallGovernor).critical_tolerance(FlyBallGovernor::speed, 100.0 * RPM, 300.0 * RPM).unwrap();
     let expected = (9.0 * G / 0.2_f64).sqrt();
     close(begins.value, expected, 1e-9);
     // d ln Omega = (d ln (1 + M / m) - d ln l) / 2, where M / m accounts for 8 of the 9 in 1 + M / m.
@@ -76,9 +68,7 @@ fn a_governor_stands_at_the_height_of_porter() {
 fn a_press_strikes_as_virtual_work_says() {
     use slider_crank_press::{TORQUE, study};
     let outputs = study().outputs().unwrap();
-    let [angle, blow, on_pin] = outputs.values[..] else {
-        panic!("three outputs")
-    };
+    let [angle, blow, on_pin] = outputs.values[..] else { panic!("three outputs") };
     let (r, l) = (0.06, 0.3);
     let across = r * angle.sin();
     let along = (l * l - across * across).sqrt();
@@ -160,10 +150,7 @@ fn an_arm_is_where_its_energy_is_least() {
 fn drive(motor_shaft: f64, load_shaft: f64, drum: f64) -> f64 {
     let stiffness = |diameter: f64, length: f64| 80e9 * PI * diameter.powi(4) / 32.0 / length;
     // Everything referred to the large wheel: the angle at the motor is four times as large.
-    let (k1, k2) = (
-        16.0 * stiffness(motor_shaft, 0.4),
-        stiffness(load_shaft, 0.6),
-    );
+    let (k1, k2) = (16.0 * stiffness(motor_shaft, 0.4), stiffness(load_shaft, 0.6));
     let wheel = 0.06 + 16.0 * 2e-3;
     // wheel drum x^2 - (k2 wheel + (k1 + k2) drum) x + k1 k2 = 0
     let (a, b, c) = (wheel * drum, k2 * wheel + (k1 + k2) * drum, k1 * k2);
@@ -232,11 +219,7 @@ fn an_untapered_blade_flaps_as_published() {
         .design(FlexibleBlade::tip_thickness, thickness)
         .design(FlexibleBlade::setting, 0.0)
         .design(FlexibleBlade::washout, 0.0);
-    for (speed, published, error) in [
-        (1.0, 3.6817, 2e-5),
-        (3.0, 4.7973, 1e-4),
-        (6.0, 7.3604, 5e-4),
-    ] {
+    for (speed, published, error) in [(1.0, 3.6817, 2e-5), (3.0, 4.7973, 1e-4), (6.0, 7.3604, 5e-4)] {
         let modes = uniform.clone().input(FlexibleBlade::speed, speed / scale);
         let first = modes.modes().unwrap().frequencies()[0].unwrap();
         close(first * scale, published, error);
@@ -257,11 +240,7 @@ fn an_arm_is_as_soft_as_its_parts_together() {
         .design(FlexibleArm::payload, payload);
     let [height, lowest] = of(&light).unwrap();
     close(-height, payload * G * (gears + link), 1e-3);
-    close(
-        2.0 * PI * lowest,
-        (payload * (gears + link)).sqrt().recip(),
-        1e-3,
-    );
+    close(2.0 * PI * lowest, (payload * (gears + link)).sqrt().recip(), 1e-3);
 }
 
 /// Euler's elastica, `EI theta'' = P cos(theta)`, integrated from the tip whose slope gives that of the clamp.
@@ -295,10 +274,7 @@ fn a_boom_without_weight_is_an_elastica() {
         }
     }
     let [_, _, x, z] = root(low);
-    let outputs = study(WORKING)
-        .design(BentBoom::density, 1e-6)
-        .outputs()
-        .unwrap();
+    let outputs = study(WORKING).design(BentBoom::density, 1e-6).outputs().unwrap();
     close(outputs.values[0], -x, 1e-6);
     close(outputs.values[1], -z, 1e-5);
     close(outputs.values[2].abs(), 8e-3 * ratio * -x, 1e-6);

@@ -47,9 +47,12 @@ pub fn study() -> Study<TurbineBlade> {
 
 /// The rotor speed at which the flap frequency meets three times that speed, for a pitch angle in degrees.
 pub fn meeting(pitch: f64) -> Result<EventTolerance, Box<dyn Error>> {
-    let found = study()
-        .input(TurbineBlade::pitch, pitch.to_radians())
-        .crossing_tolerances(TurbineBlade::rotor, 5.0 * RPM, 40.0 * RPM, 3.0)?;
+    let found = study().input(TurbineBlade::pitch, pitch.to_radians()).crossing_tolerances(
+        TurbineBlade::rotor,
+        5.0 * RPM,
+        40.0 * RPM,
+        3.0,
+    )?;
     Ok(found.into_iter().next().ok_or("no crossing")?)
 }
 
@@ -66,9 +69,6 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
             "pitched by {pitch} deg it meets 3P at {speed:.2} rpm, sigma {sigma:.2} rpm: {away:.1} sigma above the rated speed."
         )?;
     }
-    writeln!(
-        out,
-        "Pitching does not help; the margin is a matter of the root's stiffness.\n"
-    )?;
+    writeln!(out, "Pitching does not help; the margin is a matter of the root's stiffness.\n")?;
     Ok(())
 }

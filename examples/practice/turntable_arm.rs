@@ -51,9 +51,7 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let still = study(0.0).output_tolerances()?.values[0];
     let working = study(WORKING);
     let spreads = working.output_tolerances()?;
-    let spread = spreads.spreads[TurntableArm::height.index()]
-        .as_ref()
-        .ok_or("the height varies")?;
+    let spread = spreads.spreads[TurntableArm::height.index()].as_ref().ok_or("the height varies")?;
     let moved = 1e3 * (spread.mean - still);
     writeln!(
         out,
@@ -63,14 +61,9 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let names = working.description().design.iter().map(|info| &*info.name);
     let mut causes: Vec<_> = spread.variance_shares.iter().zip(names).collect();
     causes.sort_by(|a, b| b.0.total_cmp(a.0));
-    let first: Vec<String> = (causes.iter().take(3))
-        .map(|(share, name)| format!("{name} {:.0} %", 100.0 * **share))
-        .collect();
-    writeln!(
-        out,
-        "The scatter comes from {}: weigh the tool and calibrate the shoulder.",
-        first.join(", ")
-    )?;
+    let first: Vec<String> =
+        (causes.iter().take(3)).map(|(share, name)| format!("{name} {:.0} %", 100.0 * **share)).collect();
+    writeln!(out, "The scatter comes from {}: weigh the tool and calibrate the shoulder.", first.join(", "))?;
     let lowest = working.modes()?.frequencies()[0].ok_or("the arm swings")?;
     writeln!(
         out,

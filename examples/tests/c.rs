@@ -32,12 +32,7 @@ fn library() -> PathBuf {
     let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.lock");
     fs::copy(lock, folder().join("Cargo.lock")).unwrap();
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c");
-    done(
-        Command::new(env!("CARGO"))
-            .args(["build", "--release", "--target-dir"])
-            .arg(&target)
-            .current_dir(folder()),
-    );
+    done(Command::new(env!("CARGO")).args(["build", "--release", "--target-dir"]).arg(&target).current_dir(folder()));
     target.join("release/libdouble_pendulum.a")
 }
 
@@ -54,9 +49,7 @@ fn numbers(output: &Output) -> BTreeMap<String, f64> {
 
 /// Computes the same numbers from Rust.
 fn expected() -> BTreeMap<String, f64> {
-    let study = Study::new(Pendulum)
-        .input(Pendulum::omega, 5.0)
-        .start(Pendulum::theta1, 60f64.to_radians());
+    let study = Study::new(Pendulum).input(Pendulum::omega, 5.0).start(Pendulum::theta1, 60f64.to_radians());
     let at = study.equilibrium().unwrap().coordinates;
     let mut numbers = vec![
         ("theta1".to_owned(), at[0]),
@@ -84,22 +77,12 @@ fn the_program_in_c_finds_what_rust_finds() {
     let committed = fs::read_to_string(folder().join(HEADER)).unwrap();
     let library = library();
     let current = fs::read_to_string(folder().join(HEADER)).unwrap();
-    assert_eq!(
-        committed, current,
-        "the build script has written {HEADER} anew: commit it"
-    );
+    assert_eq!(committed, current, "the build script has written {HEADER} anew: commit it");
 
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("double_pendulum");
     done(
         Command::new("cc")
-            .args([
-                "-std=c99",
-                "-pedantic",
-                "-Wall",
-                "-Wextra",
-                "-Werror",
-                "-O1",
-            ])
+            .args(["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1"])
             .args(["-Iinclude", "main.c"])
             .arg(library)
             .args(["-lm", "-o"])
@@ -110,10 +93,6 @@ fn the_program_in_c_finds_what_rust_finds() {
     assert!(found.keys().eq(expected.keys()), "{found:?}");
     for (name, number) in &expected {
         let error = (found[name] - number).abs();
-        assert!(
-            error <= 1e-12 * number.abs(),
-            "{name}: {} in C, {number} in Rust",
-            found[name]
-        );
+        assert!(error <= 1e-12 * number.abs(), "{name}: {} in C, {number} in Rust", found[name]);
     }
 }

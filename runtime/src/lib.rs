@@ -77,12 +77,11 @@ extern crate self as eigentol;
 #[doc(inline)]
 pub use eigentol_contract::scalar;
 pub use eigentol_contract::{
-    Any, Array, BeamInfo, BodyInfo, Coordinate, CoordinateInfo, DampingKind, Description,
-    DesignInfo, DesignVariable, Dual, ElementInfo, Excitation, ExcitationInfo, Forcing, ForcingOf,
-    Gradient, GradientOf, Input, InputInfo, JointInfo, KernelInfo, Law, Linear, LinearPartials,
-    LinkInfo, List, Mechanism, Output, OutputInfo, OutputMotionOf, PartialsOf, PictureInfo,
-    PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts, Role, Shared, SolidInfo, SolidKind,
-    Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
+    Any, Array, BeamInfo, BodyInfo, Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo, DesignVariable,
+    Dual, ElementInfo, Excitation, ExcitationInfo, Forcing, ForcingOf, Gradient, GradientOf, Input, InputInfo,
+    JointInfo, KernelInfo, Law, Linear, LinearPartials, LinkInfo, List, Mechanism, Output, OutputInfo, OutputMotionOf,
+    PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts, Role, Shared, SolidInfo,
+    SolidKind, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
 };
 pub use eigentol_macros::mechanism;
 
@@ -92,14 +91,14 @@ mod study;
 #[cfg(feature = "analysis")]
 #[doc(inline)]
 pub use eigentol_analysis::{
-    branches, campbell, campbell::Campbell, clusters, convergence, convergence::Convergence,
-    forced, motion, peaks, picture, response, second_order, shapes, sweep,
+    branches, campbell, campbell::Campbell, clusters, convergence, convergence::Convergence, forced, motion, peaks,
+    picture, response, second_order, shapes, sweep,
 };
 #[cfg(feature = "std")]
 #[doc(inline)]
 pub use eigentol_solve::{
-    Behaviour, Equilibrium, Family, Mode, Modes, Policy, Quantity, Sensitivities, Stability, Watch,
-    equilibrium, error, error::Error, kernels, kernels::Kernels, modes, sensitivity,
+    Behaviour, Equilibrium, Family, Mode, Modes, Policy, Quantity, Sensitivities, Stability, Watch, equilibrium, error,
+    error::Error, kernels, kernels::Kernels, modes, sensitivity,
 };
 #[cfg(feature = "std")]
 pub mod results {

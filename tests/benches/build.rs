@@ -49,10 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         visits += &visit;
     }
     let visitor = "/// Shows every chain to the visitor, shortest first.\npub(crate) fn visit_all";
-    write!(
-        items,
-        "{visitor}(visitor: &mut impl Visitor) {{ {visits} }}"
-    )?;
+    write!(items, "{visitor}(visitor: &mut impl Visitor) {{ {visits} }}")?;
     write!(
         items,
         "/// Shows every chain that is timed in vectors.\n\
@@ -74,10 +71,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         items += &text;
         write!(visits, "visitor.visit({name}, {bytes});")?;
     }
-    write!(
-        items,
-        "{visitor}(visitor: &mut impl Visitor) {{ {visits} }}"
-    )?;
+    write!(items, "{visitor}(visitor: &mut impl Visitor) {{ {visits} }}")?;
     fs::write(folder.join("growing.rs"), items)?;
     Ok(())
 }
@@ -88,15 +82,9 @@ fn compiled(name: &str, bars: usize) -> Result<Compilation, Box<dyn Error>> {
         false => 0,
     };
     let declaration = chain::declaration(name, bars).parse()?;
-    let compilation = compile(
-        declaration,
-        Limits {
-            explicit_partials,
-            partial_operations: usize::MAX,
-            motion_linear: 0,
-        },
-    )
-    .map_err(|mistakes| format!("{name}: {mistakes:?}"))?;
+    let compilation =
+        compile(declaration, Limits { explicit_partials, partial_operations: usize::MAX, motion_linear: 0 })
+            .map_err(|mistakes| format!("{name}: {mistakes:?}"))?;
     Ok(compilation)
 }
 
@@ -104,20 +92,13 @@ fn compiled(name: &str, bars: usize) -> Result<Compilation, Box<dyn Error>> {
 fn growing(name: &str, bars: usize) -> Result<String, Box<dyn Error>> {
     let mut compilation = compiled(name, bars)?;
     let functions = &mut compilation.functions;
-    functions
-        .functions
-        .retain(|function| GROWING.contains(&function.name));
+    functions.functions.retain(|function| GROWING.contains(&function.name));
     let mut kernels = Vec::new();
     for function in &functions.functions {
-        kernels.extend(regrouped(
-            &mut functions.graph,
-            std::slice::from_ref(function),
-        ));
+        kernels.extend(regrouped(&mut functions.graph, std::slice::from_ref(function)));
     }
     compilation.program = lower(&functions.graph, &kernels);
     let text = compilation.emit_text();
-    let (before, after) = text
-        .split_once(":: eigentol :: Mechanism for")
-        .ok_or("no contract in the emitted items")?;
+    let (before, after) = text.split_once(":: eigentol :: Mechanism for").ok_or("no contract in the emitted items")?;
     Ok(format!("{before} Kernels for {after}"))
 }

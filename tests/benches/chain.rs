@@ -2,8 +2,7 @@
 
 /// `bars` uniform bars in series on a spinning shaft; design variables are the lengths, then the masses.
 pub(crate) fn declaration(name: &str, bars: usize) -> String {
-    let mut text =
-        format!("/// Bars in series.\npub(crate) mechanism {name} {{ input omega: rad/s;");
+    let mut text = format!("/// Bars in series.\npub(crate) mechanism {name} {{ input omega: rad/s;");
     for k in 1..=bars {
         text += &format!("design l{k} = 1 m +/- 1%;");
     }
@@ -18,8 +17,7 @@ pub(crate) fn declaration(name: &str, bars: usize) -> String {
     text += "joint q1: revolute(y) from shaft to bar1;";
     for k in 2..=bars {
         let before = k - 1;
-        text +=
-            &format!("joint q{k}: revolute(y) from bar{before} to bar{k} at [0, 0, -l{before}];");
+        text += &format!("joint q{k}: revolute(y) from bar{before} to bar{k} at [0, 0, -l{before}];");
     }
     text + "}"
 }

@@ -10,13 +10,7 @@ use eigentol_compiler::mechanics::Limits;
 use proc_macro2::{TokenStream, TokenTree};
 
 /// Folders and files that declare mechanisms.
-const SOURCES: [&str; 5] = [
-    "src/smallest.rs",
-    "../src/corpus",
-    "../src/loops",
-    "../src/machines",
-    "../src/wheels",
-];
+const SOURCES: [&str; 5] = ["src/smallest.rs", "../src/corpus", "../src/loops", "../src/machines", "../src/wheels"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut text = String::new();
@@ -24,9 +18,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("cargo::rerun-if-changed={source}");
         for file in files(Path::new(source))? {
             for (k, declaration) in declarations(&file)?.into_iter().enumerate() {
-                let items = compile(declaration, Limits::default())
-                    .map_err(|mistakes| mistakes.to_string())?
-                    .emit_text();
+                let items =
+                    compile(declaration, Limits::default()).map_err(|mistakes| mistakes.to_string())?.emit_text();
                 let folder = source.rsplit('/').next().unwrap_or_default();
                 let name = file.file_stem().unwrap_or_default().to_string_lossy();
                 let module = format!("{}_{name}_{k}", folder.trim_end_matches(".rs"));
@@ -58,16 +51,15 @@ fn files(source: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
 
 /// The contents of the braces after `mechanism!` and `machine!`.
 fn declarations(file: &Path) -> Result<Vec<TokenStream>, Box<dyn Error>> {
-    let tokens: TokenStream = fs::read_to_string(file)?
-        .parse()
-        .map_err(|error| format!("{}: {error}", file.display()))?;
+    let tokens: TokenStream =
+        fs::read_to_string(file)?.parse().map_err(|error| format!("{}: {error}", file.display()))?;
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
     let found = tokens.windows(3).filter_map(|three| match three {
-        [
-            TokenTree::Ident(name),
-            TokenTree::Punct(_),
-            TokenTree::Group(group),
-        ] if name == "mechanism" || name == "machine" => Some(group.stream()),
+        [TokenTree::Ident(name), TokenTree::Punct(_), TokenTree::Group(group)]
+            if name == "mechanism" || name == "machine" =>
+        {
+            Some(group.stream())
+        }
         _ => None,
     });
     Ok(found.collect())

@@ -36,10 +36,7 @@ mechanism! {
     }
 }
 
-const FREQUENCY: Response = Response::Mode {
-    mode: 0,
-    quantity: Quantity::Frequency,
-};
+const FREQUENCY: Response = Response::Mode { mode: 0, quantity: Quantity::Frequency };
 const SLOPES: [f64; 3] = [1.0, -2.0, 1.0];
 const COSTS: [f64; 3] = [1.0e-3, 4.0e-3, 2.5e-3];
 
@@ -48,10 +45,7 @@ fn gap() -> Response {
 }
 
 fn stack() -> Study<Stack> {
-    Study::new(Stack)
-        .tolerance(Stack::a, 0.3e-3)
-        .tolerance(Stack::b, 0.15e-3)
-        .tolerance(Stack::c, 0.6e-3)
+    Study::new(Stack).tolerance(Stack::a, 0.3e-3).tolerance(Stack::b, 0.15e-3).tolerance(Stack::c, 0.6e-3)
 }
 
 fn choices<'a>(power: f64, limits: (f64, f64), failure: Vec<f64>) -> Choices<'a> {
@@ -61,24 +55,17 @@ fn choices<'a>(power: f64, limits: (f64, f64), failure: Vec<f64>) -> Choices<'a>
         limits,
         cost: Cost::reciprocal(0.5, factor * 1e-3_f64.powf(power - 1.0), power),
     });
-    Choices {
-        half_widths: half_widths.collect(),
-        nominals: Vec::new(),
-        failure,
-    }
+    Choices { half_widths: half_widths.collect(), nominals: Vec::new(), failure }
 }
 
 fn cost_of(power: f64, half_widths: &[f64]) -> f64 {
     let each = COSTS.iter().zip(half_widths);
-    each.map(|(factor, t)| 0.5 + factor * 1e-3_f64.powf(power - 1.0) / t.powf(power))
-        .sum()
+    each.map(|(factor, t)| 0.5 + factor * 1e-3_f64.powf(power - 1.0) / t.powf(power)).sum()
 }
 
 /// Lagrange: `T_i = scale (c_i / s_i^2)^(1 / (k + 2))`, and the standard deviation uses up the margin.
 fn closed_form(power: f64, sigma: f64) -> Vec<f64> {
-    let shape: Vec<f64> = (0..3)
-        .map(|i| (COSTS[i] / (SLOPES[i] * SLOPES[i])).powf(1.0 / (power + 2.0)))
-        .collect();
+    let shape: Vec<f64> = (0..3).map(|i| (COSTS[i] / (SLOPES[i] * SLOPES[i])).powf(1.0 / (power + 2.0))).collect();
     let parts = shape.iter().zip(SLOPES);
     let square: f64 = parts.map(|(t, s)| (s * t / 3.0).powi(2)).sum();
     shape.iter().map(|t| t * sigma / square.sqrt()).collect()
@@ -93,11 +80,7 @@ fn a_linear_limit_has_a_closed_form() {
     let wanted = [Requirement::at_most(gap(), 41e-3)];
     for power in [0.5, 1.0, 2.0] {
         for failure in [0.1, 1e-3, 1e-9] {
-            let allocation = allocate(
-                &stack(),
-                &wanted,
-                &choices(power, (1e-6, 0.1), vec![failure]),
-            );
+            let allocation = allocate(&stack(), &wanted, &choices(power, (1e-6, 0.1), vec![failure]));
             let beta = -normal::quantile(failure);
             let exact = closed_form(power, 1e-3 / beta);
             for (t, exact) in allocation.half_widths.iter().zip(&exact) {
@@ -117,11 +100,7 @@ fn a_linear_limit_has_a_closed_form() {
 /// A band has two limits: each gets half the probability, and the closed form holds for each.
 #[test]
 fn a_band_shares_its_probability() {
-    let wanted = [Requirement::Within {
-        response: gap(),
-        low: 39e-3,
-        high: 41e-3,
-    }];
+    let wanted = [Requirement::Within { response: gap(), low: 39e-3, high: 41e-3 }];
     let allocation = allocate(&stack(), &wanted, &choices(1.0, (1e-6, 0.1), vec![0.01]));
     let exact = closed_form(1.0, 1e-3 / -normal::quantile(0.005));
     for (t, exact) in allocation.half_widths.iter().zip(&exact) {
@@ -133,10 +112,8 @@ fn a_band_shares_its_probability() {
 #[test]
 fn each_requirement_has_its_own_chance() {
     let study = stack().tolerance(Stack::d, 0.1e-3);
-    let wanted = [
-        Requirement::at_most(gap(), 41e-3),
-        Requirement::at_most(Response::Output(Stack::third.any()), 10.5e-3),
-    ];
+    let wanted =
+        [Requirement::at_most(gap(), 41e-3), Requirement::at_most(Response::Output(Stack::third.any()), 10.5e-3)];
     for failure in [[1e-3, 0.1], [0.02, 1e-6]] {
         let mut choices = choices(1.0, (1e-6, 0.1), failure.to_vec());
         choices.half_widths.push(HalfWidth {
@@ -160,20 +137,10 @@ fn each_requirement_has_its_own_chance() {
 /// A movable nominal value is placed in the middle of the band, where tolerances can be widest.
 #[test]
 fn nominal_values_move_to_the_middle() {
-    let wanted = [Requirement::Within {
-        response: gap(),
-        low: 39.5e-3,
-        high: 42.5e-3,
-    }];
+    let wanted = [Requirement::Within { response: gap(), low: 39.5e-3, high: 42.5e-3 }];
     let mut choices = choices(1.0, (1e-6, 0.1), vec![0.01]);
-    choices.nominals.push(Nominal {
-        variable: 3,
-        limits: (5e-3, 15e-3),
-    });
-    choices.nominals.push(Nominal {
-        variable: 2,
-        limits: (25e-3, 35e-3),
-    });
+    choices.nominals.push(Nominal { variable: 3, limits: (5e-3, 15e-3) });
+    choices.nominals.push(Nominal { variable: 2, limits: (25e-3, 35e-3) });
     let allocation = allocate(&stack(), &wanted, &choices);
     close(allocation.nominal[2], 31e-3, 1e-6);
     let exact = closed_form(1.0, 1.5e-3 / -normal::quantile(0.005));
@@ -215,13 +182,7 @@ fn senseless_costs_are_refused() {
         let mut choices = choices(1.0, (1e-6, 0.1), vec![1e-3]);
         choices.half_widths[1].cost = Cost::reciprocal(fixed, factor, power);
         let refused = stack().allocation(&wanted, &choices);
-        let expected = matches!(
-            refused,
-            Err(Error::Setting {
-                setting: "cost",
-                ..
-            })
-        );
+        let expected = matches!(refused, Err(Error::Setting { setting: "cost", .. }));
         assert!(expected, "{fixed} {factor} {power}: {refused:?}");
     }
 }
@@ -257,26 +218,14 @@ fn a_curved_limit_with_uniform_variables() {
     let length = |t: f64| (costs[0] / t, -costs[0] / (t * t));
     let choices = Choices {
         half_widths: vec![
-            HalfWidth {
-                variable: 1,
-                limits: (1e-3, 0.5),
-                cost: Cost::function(length),
-            },
-            HalfWidth {
-                variable: 2,
-                limits: (1e-2, 1.0),
-                cost: Cost::reciprocal(0.0, costs[1], 1.0),
-            },
+            HalfWidth { variable: 1, limits: (1e-3, 0.5), cost: Cost::function(length) },
+            HalfWidth { variable: 2, limits: (1e-2, 1.0), cost: Cost::reciprocal(0.0, costs[1], 1.0) },
         ],
         nominals: Vec::new(),
         failure: vec![0.01],
     };
     let found = study.allocation(&wanted, &choices).unwrap();
-    close(
-        found.reliability.beta_of(0).unwrap(),
-        -normal::quantile(0.01),
-        1e-6,
-    );
+    close(found.reliability.beta_of(0).unwrap(), -normal::quantile(0.01), 1e-6);
     let at = &found.reliability.limits[0].design_points.as_ref().unwrap()[0];
     assert!(at.verified);
     let ratio = |k: usize, cost: f64| {
@@ -288,24 +237,13 @@ fn a_curved_limit_with_uniform_variables() {
     // The same tolerances restated: a half-width of three standard deviations is 3^(1/2) times the hard limit about the
     // mean.
     let hard = found.half_widths[1] / 3.0_f64.sqrt();
-    let anew = (study.clone())
-        .limits(Pendulum::l, 0.01 - hard, 0.01 + hard)
-        .tolerance(Pendulum::omega, found.half_widths[2]);
-    close(
-        anew.reliability(&wanted).unwrap().beta_of(0).unwrap(),
-        -normal::quantile(0.01),
-        1e-6,
-    );
+    let anew =
+        (study.clone()).limits(Pendulum::l, 0.01 - hard, 0.01 + hard).tolerance(Pendulum::omega, found.half_widths[2]);
+    close(anew.reliability(&wanted).unwrap().beta_of(0).unwrap(), -normal::quantile(0.01), 1e-6);
     let interval = found.chances.all.clopper_pearson(0.9999).unwrap();
-    assert!(
-        interval.lower < 0.012 && interval.upper > 0.008,
-        "{interval:?}"
-    );
+    assert!(interval.lower < 0.012 && interval.upper > 0.008, "{interval:?}");
     let text = found.to_string();
-    assert!(
-        text.starts_with("Pendulum at omega = 5 rad/s: allocation, cost"),
-        "{text}"
-    );
+    assert!(text.starts_with("Pendulum at omega = 5 rad/s: allocation, cost"), "{text}");
 }
 
 #[test]
@@ -314,18 +252,8 @@ fn what_cannot_be_met_says_how_near_it_comes() {
     let tight = choices(1.0, (1e-3, 0.1), vec![1e-3]);
     let sigma = 6.0_f64.sqrt() * 1e-3 / 3.0;
     match stack().allocation(&wanted, &tight) {
-        Err(Error::Infeasible {
-            half_widths,
-            requirement: 0,
-            probability,
-            wanted,
-            ..
-        }) => {
-            assert!(
-                half_widths[..3]
-                    .iter()
-                    .all(|t| (t / 1e-3 - 1.0).abs() < 1e-6)
-            );
+        Err(Error::Infeasible { half_widths, requirement: 0, probability, wanted, .. }) => {
+            assert!(half_widths[..3].iter().all(|t| (t / 1e-3 - 1.0).abs() < 1e-6));
             close(probability, normal::cdf(-1e-3 / sigma), 1e-6);
             assert_eq!(wanted, 1e-3);
         }
@@ -352,41 +280,17 @@ fn what_makes_no_sense_is_refused() {
         }
     };
     assert_eq!(refused(&|all| all.half_widths.clear()), "allocation");
-    assert_eq!(
-        refused(&|all| all.half_widths[1].variable = 0),
-        "allocation"
-    );
-    assert_eq!(
-        refused(&|all| all.half_widths[1].variable = 7),
-        "design variable"
-    );
-    assert_eq!(
-        refused(&|all| all.half_widths[1].variable = 3),
-        "half-width"
-    );
-    assert_eq!(
-        refused(&|all| all.half_widths[1].limits = (0.0, 1.0)),
-        "half-width"
-    );
-    assert_eq!(
-        refused(&|all| all.half_widths[1].limits = (2.0, 1.0)),
-        "half-width"
-    );
+    assert_eq!(refused(&|all| all.half_widths[1].variable = 0), "allocation");
+    assert_eq!(refused(&|all| all.half_widths[1].variable = 7), "design variable");
+    assert_eq!(refused(&|all| all.half_widths[1].variable = 3), "half-width");
+    assert_eq!(refused(&|all| all.half_widths[1].limits = (0.0, 1.0)), "half-width");
+    assert_eq!(refused(&|all| all.half_widths[1].limits = (2.0, 1.0)), "half-width");
     assert_eq!(refused(&|all| all.failure[0] = 1.0), "failure");
     assert_eq!(refused(&|all| all.failure[0] = f64::NAN), "failure");
+    assert_eq!(refused(&|all| all.failure.push(0.1)), "allowed probabilities of failure");
+    assert_eq!(refused(&|all| all.half_widths[0].cost = Cost::function(|_| (f64::NAN, 0.0))), "cost");
     assert_eq!(
-        refused(&|all| all.failure.push(0.1)),
-        "allowed probabilities of failure"
-    );
-    assert_eq!(
-        refused(&|all| all.half_widths[0].cost = Cost::function(|_| (f64::NAN, 0.0))),
-        "cost"
-    );
-    assert_eq!(
-        refused(&|all| all.nominals.push(Nominal {
-            variable: 2,
-            limits: (1.0, f64::INFINITY)
-        })),
+        refused(&|all| all.nominals.push(Nominal { variable: 2, limits: (1.0, f64::INFINITY) })),
         "nominal value"
     );
 }

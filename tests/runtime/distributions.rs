@@ -25,10 +25,7 @@ const SPEED: f64 = 5.0;
 const SAMPLES: usize = 20_000;
 
 fn study() -> Study<Pendulum> {
-    Study::new(Pendulum)
-        .input(Pendulum::omega, SPEED)
-        .start(Pendulum::theta, 1.0)
-        .samples(SAMPLES)
+    Study::new(Pendulum).input(Pendulum::omega, SPEED).start(Pendulum::theta, 1.0).samples(SAMPLES)
 }
 
 fn frequency(length: f64) -> f64 {
@@ -66,9 +63,7 @@ fn lengths() -> Vec<Distribution> {
 fn monte_carlo_has_the_exact_moments() {
     for (seed, length) in lengths().into_iter().enumerate() {
         let (mean, sigma) = exact(&length);
-        let study = study()
-            .distribution(LENGTH, length.clone())
-            .seed(seed as u64);
+        let study = study().distribution(LENGTH, length.clone()).seed(seed as u64);
         for study in [study.clone(), study.vectors(None)] {
             let run = study.monte_carlo().unwrap();
             let mode = run.modes[0].as_ref().unwrap();
@@ -76,10 +71,7 @@ fn monte_carlo_has_the_exact_moments() {
             assert_eq!(run.counts.stable, SAMPLES);
             assert!((mode.mean - mean).abs() < 4.0 * error, "{length:?}");
             // An upper bound on the standard error of a standard deviation for excess kurtosis below 6.
-            assert!(
-                (mode.sigma.unwrap() - sigma).abs() < 4.0 * 1.42 * error,
-                "{length:?}"
-            );
+            assert!((mode.sigma.unwrap() - sigma).abs() < 4.0 * 1.42 * error, "{length:?}");
         }
     }
 }
@@ -112,9 +104,7 @@ fn correlation_of(run: &MonteCarlo) -> f64 {
     let number = all.len() as f64;
     let mean = [0, 1].map(|k| all.iter().map(|sample| sample.design[k]).sum::<f64>() / number);
     let moment = |i: usize, j: usize| {
-        let each = all
-            .iter()
-            .map(|s| (s.design[i] - mean[i]) * (s.design[j] - mean[j]));
+        let each = all.iter().map(|s| (s.design[i] - mean[i]) * (s.design[j] - mean[j]));
         each.sum::<f64>() / number
     };
     moment(0, 1) / (moment(0, 0) * moment(1, 1)).sqrt()
@@ -136,10 +126,7 @@ fn values_have_the_correlation_that_was_asked_for() {
 #[test]
 fn first_order_counts_the_mean_and_the_law() {
     let study = study().limits(LENGTH, -0.01, 0.03);
-    let slope = study.sensitivities().unwrap().modes[0]
-        .frequency()
-        .unwrap()
-        .by_design[1];
+    let slope = study.sensitivities().unwrap().modes[0].frequency().unwrap().by_design[1];
     for (law, sigma) in [
         (Law::Normal, 0.02 / 3.0),
         (Law::Uniform, 0.02 / 3.0_f64.sqrt()),
@@ -147,13 +134,7 @@ fn first_order_counts_the_mean_and_the_law() {
         (Law::Lognormal, 0.02 / 3.0),
         (Law::Weibull, 0.02 / 3.0),
         (Law::TruncatedNormal, 0.02 / 3.0 * 0.986_578_392_558_108_6),
-        (
-            Law::Beta {
-                alpha: 2.0,
-                beta: 2.0,
-            },
-            0.02 / 5.0_f64.sqrt(),
-        ),
+        (Law::Beta { alpha: 2.0, beta: 2.0 }, 0.02 / 5.0_f64.sqrt()),
     ] {
         let study = study.clone().law(LENGTH, law);
         let first = study.first_order().unwrap();
@@ -199,20 +180,11 @@ fn one_of_some_values_between_limits() {
     close(found.shifts()[1], 0.02 / 8.0, 1e-12);
     let variance = (1e-4 + 9e-4) / 8.0 - (0.02_f64 / 8.0).powi(2);
     close(found.sigmas()[1], variance.sqrt(), 1e-12);
-    let twice = study
-        .clone()
-        .limits(LENGTH, -0.02, 0.06)
-        .tolerances()
-        .unwrap();
+    let twice = study.clone().limits(LENGTH, -0.02, 0.06).tolerances().unwrap();
     close(twice.sigmas()[1], 2.0 * variance.sqrt(), 1e-12);
     let outside = vec![(0.0, 1.0), (1.5, 1.0)];
     let refused = study.law(LENGTH, Law::OneOf(outside.into())).tolerances();
-    assert!(
-        refused
-            .unwrap_err()
-            .to_string()
-            .contains("1.5 is not between 0")
-    );
+    assert!(refused.unwrap_err().to_string().contains("1.5 is not between 0"));
 }
 
 #[test]
@@ -223,44 +195,26 @@ fn what_makes_no_sense_is_refused() {
     };
     assert_eq!(refused(study().limits(LENGTH, 0.02, 0.01)), "tolerance");
     assert_eq!(refused(study().limits(LENGTH, f64::NAN, 0.01)), "tolerance");
-    assert_eq!(
-        refused(study().limits(LENGTH, -0.01, f64::INFINITY)),
-        "tolerance"
-    );
-    let shape = Law::Beta {
-        alpha: -1.0,
-        beta: 2.0,
-    };
-    assert_eq!(
-        refused(study().tolerance(LENGTH, 0.01).law(LENGTH, shape)),
-        "shape of a beta distribution"
-    );
-    let negative = study()
-        .limits(LENGTH, -3.0, -2.0)
-        .law(LENGTH, Law::Lognormal);
+    assert_eq!(refused(study().limits(LENGTH, -0.01, f64::INFINITY)), "tolerance");
+    let shape = Law::Beta { alpha: -1.0, beta: 2.0 };
+    assert_eq!(refused(study().tolerance(LENGTH, 0.01).law(LENGTH, shape)), "shape of a beta distribution");
+    let negative = study().limits(LENGTH, -3.0, -2.0).law(LENGTH, Law::Lognormal);
     assert_eq!(refused(negative), "mean of a lognormal variable");
     let uniform = Distribution::uniform(0.9, 1.1).unwrap();
-    let correlated = study()
-        .distribution(LENGTH, uniform)
-        .tolerance(MASS, 0.1)
-        .correlation([[1.0, 0.999], [0.999, 1.0]]);
+    let correlated =
+        study().distribution(LENGTH, uniform).tolerance(MASS, 0.1).correlation([[1.0, 0.999], [0.999, 1.0]]);
     assert_eq!(refused(correlated), "correlation matrix");
 }
 
 #[test]
 fn impossible_bodies_are_counted() {
-    let study = study()
-        .distribution(LENGTH, Distribution::uniform(-0.5, 1.5).unwrap())
-        .keep_samples(true);
+    let study = study().distribution(LENGTH, Distribution::uniform(-0.5, 1.5).unwrap()).keep_samples(true);
     for study in [study.clone(), study.vectors(None)] {
         let run = study.monte_carlo().unwrap();
         let share = run.counts.unphysical as f64 / SAMPLES as f64;
         assert!((share - 0.25).abs() < 0.01, "{share}");
         for sample in run.all.unwrap() {
-            assert_eq!(
-                sample.outcome == Outcome::Unphysical,
-                sample.design[1] <= 0.0
-            );
+            assert_eq!(sample.outcome == Outcome::Unphysical, sample.design[1] <= 0.0);
         }
         assert_eq!(run.counts.total(), SAMPLES);
     }
@@ -269,10 +223,7 @@ fn impossible_bodies_are_counted() {
 /// A fluctuating speed with a varying length: first order is exact in the derivatives of the closed form for both.
 #[test]
 fn a_speed_that_wanders() {
-    let exact = Study::new(Pendulum)
-        .input(Pendulum::omega, SPEED)
-        .start(Pendulum::theta, 1.0)
-        .tolerance(LENGTH, 0.03);
+    let exact = Study::new(Pendulum).input(Pendulum::omega, SPEED).start(Pendulum::theta, 1.0).tolerance(LENGTH, 0.03);
     let study = exact.clone().tolerance(Pendulum::omega, 0.3);
     assert_eq!(study.tolerances().unwrap().sigmas(), [0.0, 0.01, 0.3 / 3.0]);
     let slopes = study.sensitivities().unwrap();
@@ -283,11 +234,7 @@ fn a_speed_that_wanders() {
     };
     let (with, without) = (spread(&study), spread(&exact));
     close(with.sigma, without.sigma.hypot(0.1 * by_speed), 1e-14);
-    close(
-        with.variance_shares[2],
-        (0.1 * by_speed / with.sigma).powi(2),
-        1e-12,
-    );
+    close(with.variance_shares[2], (0.1 * by_speed / with.sigma).powi(2), 1e-12);
 
     let run = study.clone().samples(SAMPLES).monte_carlo().unwrap();
     let mode = run.modes[0].as_ref().unwrap();
@@ -295,29 +242,18 @@ fn a_speed_that_wanders() {
     assert!(run.side_by_side && run.counts.stable == SAMPLES);
 
     close(
-        study.second_order().unwrap().modes[0]
-            .as_ref()
-            .unwrap()
-            .frequency
-            .moments
-            .first_order_sigma,
+        study.second_order().unwrap().modes[0].as_ref().unwrap().frequency.moments.first_order_sigma,
         with.sigma,
         1e-13,
     );
     assert!(study.summary().is_ok() && study.clusters().unwrap().is_empty());
-    let swept = study
-        .first_order_sweep(Pendulum::omega, &[4.5, SPEED])
-        .unwrap();
+    let swept = study.first_order_sweep(Pendulum::omega, &[4.5, SPEED]).unwrap();
     let last = swept[1].as_ref().unwrap().modes[0].frequency().unwrap();
     close(last.sigma, with.sigma, 1e-12);
     // The mechanism becomes critical at the same speed, so the set value is lower by the deviation.
     let critical = study.critical_tolerance(Pendulum::omega, 0.0, 6.0).unwrap();
     let plain = exact.critical_tolerance(Pendulum::omega, 0.0, 6.0).unwrap();
-    close(
-        critical.sigma().unwrap(),
-        plain.sigma().unwrap().hypot(0.1),
-        1e-12,
-    );
+    close(critical.sigma().unwrap(), plain.sigma().unwrap().hypot(0.1), 1e-12);
     assert!(study.campbell(Pendulum::omega, &[4.0, 5.0], &[1.0]).is_ok());
 }
 
@@ -361,28 +297,18 @@ mod declared {
         let classes = [0.98, 1.0, 1.03].map(frequency);
         let weights = [0.125, 0.75, 0.125];
         let of = |value: &dyn Fn(f64) -> f64| -> f64 {
-            classes
-                .iter()
-                .zip(weights)
-                .map(|(class, weight)| weight * value(*class))
-                .sum()
+            classes.iter().zip(weights).map(|(class, weight)| weight * value(*class)).sum()
         };
         let mean = of(&|x| x);
         let variance = of(&|x| (x - mean).powi(2));
         let mode = run.modes[0].as_ref().unwrap();
-        assert!(
-            (mode.mean - mean).abs() < 4.0 * (variance / 4000.0).sqrt(),
-            "{mode:?}"
-        );
+        assert!((mode.mean - mean).abs() < 4.0 * (variance / 4000.0).sqrt(), "{mode:?}");
         close(mode.sigma.unwrap(), variance.sqrt(), 0.05);
         close(mode.min, classes[0].min(classes[2]), 1e-12);
         close(mode.max, classes[0].max(classes[2]), 1e-12);
         for (length, weight) in [0.98, 1.0, 1.03].into_iter().zip(weights) {
             let all = run.all.as_ref().unwrap();
-            let count = all
-                .iter()
-                .filter(|x| (x.design[0] - length).abs() < 1e-15)
-                .count();
+            let count = all.iter().filter(|x| (x.design[0] - length).abs() < 1e-15).count();
             let expected = 4000.0 * weight;
             assert!((count as f64 - expected).abs() < 4.0 * (expected * (1.0 - weight)).sqrt());
         }
@@ -391,20 +317,14 @@ mod declared {
     /// A study uses the declared tolerances: the tolerance of the speed follows it.
     #[test]
     fn tolerances_of_the_language() {
-        let study = Study::new(Declared)
-            .input(Declared::omega, SPEED)
-            .start(Declared::theta, 1.0);
+        let study = Study::new(Declared).input(Declared::omega, SPEED).start(Declared::theta, 1.0);
         let tolerances = study.tolerances().unwrap();
         let uniform = |half_width: f64| half_width / 3.0_f64.sqrt();
         close(tolerances.sigmas()[2], uniform(0.02 * SPEED), 1e-14);
         close(tolerances.sigmas()[1], 0.015 / 6.0_f64.sqrt(), 1e-12);
         close(tolerances.shifts()[1], 5e-3, 1e-12);
         let faster = study.clone().input(Declared::omega, 2.0 * SPEED);
-        close(
-            faster.tolerances().unwrap().sigmas()[2],
-            uniform(0.04 * SPEED),
-            1e-14,
-        );
+        close(faster.tolerances().unwrap().sigmas()[2], uniform(0.04 * SPEED), 1e-14);
         let run = study.samples(500).monte_carlo().unwrap();
         assert_eq!(run.counts.stable, 500);
     }

@@ -34,49 +34,17 @@ fn functions_have_the_derivatives_of_the_tables() {
         ("cos", m.cos(), [cosine, -sine, -cosine]),
         ("tan", m.tan(), [tangent, square, 2.0 * tangent * square]),
         ("sqrt", m.sqrt(), [root, 0.5 / root, -0.25 / (x * root)]),
-        (
-            "asin",
-            m.asin(),
-            [x.asin(), rest.powf(-0.5), x * rest.powf(-1.5)],
-        ),
-        (
-            "acos",
-            m.acos(),
-            [x.acos(), -rest.powf(-0.5), -x * rest.powf(-1.5)],
-        ),
-        (
-            "atan2",
-            m.atan2(one),
-            [x.atan(), 1.0 / near, -2.0 * x / (near * near)],
-        ),
-        (
-            "atan2 of the other",
-            one.atan2(m),
-            [1.0_f64.atan2(x), -1.0 / near, 2.0 * x / (near * near)],
-        ),
+        ("asin", m.asin(), [x.asin(), rest.powf(-0.5), x * rest.powf(-1.5)]),
+        ("acos", m.acos(), [x.acos(), -rest.powf(-0.5), -x * rest.powf(-1.5)]),
+        ("atan2", m.atan2(one), [x.atan(), 1.0 / near, -2.0 * x / (near * near)]),
+        ("atan2 of the other", one.atan2(m), [1.0_f64.atan2(x), -1.0 / near, 2.0 * x / (near * near)]),
         ("exp", m.exp(), [x.exp(); 3]),
         ("ln", m.ln(), [x.ln(), 1.0 / x, -1.0 / (x * x)]),
         ("third power", m.powi(3), [x * x * x, 3.0 * x * x, 6.0 * x]),
-        (
-            "reciprocal",
-            m.powi(-1),
-            [1.0 / x, -1.0 / (x * x), 2.0 / (x * x * x)],
-        ),
-        (
-            "power",
-            m.powf(Second::constant(2.5)),
-            [x.powf(2.5), 2.5 * x.powf(1.5), 3.75 * root],
-        ),
-        (
-            "exponent",
-            Second::constant(2.0).powf(m),
-            [0, 1, 2].map(|k| 2.0_f64.powf(x) * 2.0_f64.ln().powi(k)),
-        ),
-        (
-            "quotient",
-            m / (one + m),
-            [x / (1.0 + x), (1.0 + x).powi(-2), -2.0 * (1.0 + x).powi(-3)],
-        ),
+        ("reciprocal", m.powi(-1), [1.0 / x, -1.0 / (x * x), 2.0 / (x * x * x)]),
+        ("power", m.powf(Second::constant(2.5)), [x.powf(2.5), 2.5 * x.powf(1.5), 3.75 * root]),
+        ("exponent", Second::constant(2.0).powf(m), [0, 1, 2].map(|k| 2.0_f64.powf(x) * 2.0_f64.ln().powi(k))),
+        ("quotient", m / (one + m), [x / (1.0 + x), (1.0 + x).powi(-2), -2.0 * (1.0 + x).powi(-3)]),
         ("product", -(m * m - one), [1.0 - x * x, -2.0 * x, -2.0]),
     ] {
         assert_derivatives(what, found, expected);
@@ -84,11 +52,7 @@ fn functions_have_the_derivatives_of_the_tables() {
     let both = Second::sin_cos_all([m, m + m]);
     assert_derivatives("first sine", both[0].0, [sine, cosine, -sine]);
     let (sine, cosine) = (2.0 * x).sin_cos();
-    assert_derivatives(
-        "second cosine",
-        both[1].1,
-        [cosine, -2.0 * sine, -4.0 * cosine],
-    );
+    assert_derivatives("second cosine", both[1].1, [cosine, -2.0 * sine, -4.0 * cosine]);
 }
 
 #[test]

@@ -22,10 +22,7 @@ fn pendulum_follows_its_closed_form() {
         let state = equilibrium(&Pendulum, &[omega], &BAR, &[1.047], Policy::Stable).unwrap();
         assert_eq!(state.stability, Stability::Stable);
         let expected = if omega * omega > W { angle(omega) } else { 0.0 };
-        assert!(
-            (state.coordinates[0] - expected).abs() < 1e-12,
-            "{omega}: {state}"
-        );
+        assert!((state.coordinates[0] - expected).abs() < 1e-12, "{omega}: {state}");
         assert!(state.relative_residual < 1e-12);
         assert!(state.iterations < 20, "{omega}: {state}");
     }
@@ -57,10 +54,7 @@ fn stable_states_everywhere_near_the_critical_speed() {
         let state = equilibrium(&Pendulum, &[omega], &BAR, &[0.3], Policy::Stable).unwrap();
         assert!(state.stability.holds(), "{offset}: {state}");
         let expected = if omega * omega > W { angle(omega) } else { 0.0 };
-        assert!(
-            (state.coordinates[0] - expected).abs() < 2e-5,
-            "{offset}: {state} {expected}"
-        );
+        assert!((state.coordinates[0] - expected).abs() < 2e-5, "{offset}: {state} {expected}");
     }
 }
 
@@ -72,24 +66,12 @@ fn far_starts_end_in_stable_states() {
             assert_eq!(state.stability, Stability::Stable, "{start} {omega}");
         }
     }
-    for start in [
-        [1e6, -1e6],
-        [3.0, 3.0],
-        [std::f64::consts::PI, 0.0],
-        [-2.0, 2.0],
-    ] {
+    for start in [[1e6, -1e6], [3.0, 3.0], [std::f64::consts::PI, 0.0], [-2.0, 2.0]] {
         let state = equilibrium(&DOUBLE, &[3.0], &BARS, &start, Policy::Stable).unwrap();
         assert_eq!(state.stability, Stability::Stable, "{start:?}");
     }
     // A cubic spring from far away: Newton's method contracts only by a factor 2/3.
-    let far = equilibrium(
-        &Derived(Spring),
-        &[1.0],
-        &[1.0, 1.0, 2.0],
-        &[1e8],
-        Policy::Stable,
-    )
-    .unwrap();
+    let far = equilibrium(&Derived(Spring), &[1.0], &[1.0, 1.0, 2.0], &[1e8], Policy::Stable).unwrap();
     close(far.coordinates[0], 1.0, 1e-14);
 }
 
@@ -107,10 +89,7 @@ fn double_pendulum_matches_reference() {
             let state = equilibrium(&DOUBLE, &[omega], &BARS, &start, Policy::Stable).unwrap();
             assert_eq!(state.stability, Stability::Stable);
             for (actual, expected) in state.coordinates.iter().zip(expected) {
-                assert!(
-                    (actual - expected).abs() < 1e-12,
-                    "{omega} {start:?}: {state}"
-                );
+                assert!((actual - expected).abs() < 1e-12, "{omega} {start:?}: {state}");
             }
         }
     }
@@ -119,20 +98,12 @@ fn double_pendulum_matches_reference() {
 #[test]
 fn every_branch_is_found() {
     let search = Search::new([-3.2], [3.2]).starts(40).seed(1);
-    let found =
-        find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
+    let found = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
     let mut angles: Vec<_> = found.iter().map(|state| state.coordinates[0]).collect();
     angles.sort_by(f64::total_cmp);
-    assert_eq!(
-        found
-            .iter()
-            .filter(|state| state.stability == Stability::Stable)
-            .count(),
-        2
-    );
+    assert_eq!(found.iter().filter(|state| state.stability == Stability::Stable).count(), 2);
     assert_eq!(found.len(), 4, "{angles:?}");
-    let again =
-        find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
+    let again = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search, Watch::default()).unwrap();
     assert_eq!(found, again);
 }
 
@@ -141,45 +112,18 @@ fn linear_divergence_is_a_result() {
     // Far above both critical speeds the plate's stiffness is negative in both directions; gyroscopic forces may hold
     // it.
     let design = [0.5, 40.0, 60.0, 0.0];
-    let state = equilibrium(
-        &Derived(Plate),
-        &[20.0],
-        &design,
-        &[0.1, 0.0],
-        Policy::Stable,
-    )
-    .unwrap();
+    let state = equilibrium(&Derived(Plate), &[20.0], &design, &[0.1, 0.0], Policy::Stable).unwrap();
     close(state.coordinates[0], 4.0 / (40.0 - 200.0), 1e-14);
     // In the stationary frame it is a mass on rotating springs: stable again above both critical speeds.
     let held = Stability::GyroscopicallyStabilised { negative: 2 };
     assert_eq!(state.stability, held);
-    let one = equilibrium(
-        &Derived(Plate),
-        &[10.0],
-        &design,
-        &[0.1, 0.0],
-        Policy::Stable,
-    )
-    .unwrap();
+    let one = equilibrium(&Derived(Plate), &[10.0], &design, &[0.1, 0.0], Policy::Stable).unwrap();
     assert_eq!(one.stability, Stability::Divergent { negative: 1 });
     let damped = [0.5, 40.0, 60.0, 0.3];
-    let low = equilibrium(
-        &Derived(Plate),
-        &[4.0],
-        &damped,
-        &[0.0, 0.0],
-        Policy::Stable,
-    )
-    .unwrap();
+    let low = equilibrium(&Derived(Plate), &[4.0], &damped, &[0.0, 0.0], Policy::Stable).unwrap();
     close(low.coordinates[0], 0.125, 1e-14);
     assert_eq!(low.stability, Stability::Stable);
-    let fed = equilibrium(
-        &Derived(Plate),
-        &[4.0],
-        &[0.5, 40.0, 60.0, -0.3],
-        &[0.0; 2],
-        Policy::Stable,
-    );
+    let fed = equilibrium(&Derived(Plate), &[4.0], &[0.5, 40.0, 60.0, -0.3], &[0.0; 2], Policy::Stable);
     assert_eq!(fed.unwrap().stability, Stability::Flutter { growing: 2 });
 }
 
@@ -187,15 +131,11 @@ fn linear_divergence_is_a_result() {
 fn no_stiffness_and_no_equilibrium() {
     let spring = Derived(Spring);
     let pushed = equilibrium(&spring, &[0.0], &[1.0, 0.0, 1.0], &[0.0], Policy::Stable);
-    assert!(
-        matches!(pushed, Err(Error::NoEquilibrium { .. })),
-        "{pushed:?}"
-    );
+    assert!(matches!(pushed, Err(Error::NoEquilibrium { .. })), "{pushed:?}");
     let free = equilibrium(&spring, &[0.0], &[1.0, 0.0, 0.0], &[7.0], Policy::Stable).unwrap();
     assert_eq!(free.stability, Stability::Neutral { zero: 1 });
     assert_eq!(free.coordinates, [7.0]);
-    let divergent =
-        equilibrium(&spring, &[-2.0], &[1.0, 0.0, 1.0], &[0.0], Policy::Stable).unwrap();
+    let divergent = equilibrium(&spring, &[-2.0], &[1.0, 0.0, 1.0], &[0.0], Policy::Stable).unwrap();
     close(divergent.coordinates[0], -0.5, 1e-14);
     assert_eq!(divergent.stability, Stability::Divergent { negative: 1 });
 }
@@ -223,16 +163,12 @@ fn a_follower_load_leads_to_flutter_then_to_divergence() {
         close(mode.frequency().unwrap(), root(1.0, sign), 1e-14);
         assert!(matches!(mode.behaviour, Behaviour::Oscillating(_)));
     }
-    assert!(matches!(
-        eigentol::modes::undamped_modes(&at(1.0)),
-        Err(Error::NonsymmetricStiffness { .. })
-    ));
+    assert!(matches!(eigentol::modes::undamped_modes(&at(1.0)), Err(Error::NonsymmetricStiffness { .. })));
 }
 
 #[test]
 fn wrong_values_are_named() {
-    let solve =
-        |u: f64, b: [f64; 2], q: f64| equilibrium(&Pendulum, &[u], &b, &[q], Policy::Stable);
+    let solve = |u: f64, b: [f64; 2], q: f64| equilibrium(&Pendulum, &[u], &b, &[q], Policy::Stable);
     for bad in [f64::NAN, f64::INFINITY] {
         for (result, place) in [
             (solve(bad, BAR, 0.0), "omega"),
@@ -240,33 +176,20 @@ fn wrong_values_are_named() {
             (solve(1.0, [3.0, bad], 0.0), "l"),
             (solve(1.0, BAR, bad), "theta"),
         ] {
-            let Err(Error::NotFinite { name, .. }) = result else {
-                panic!("{result:?}")
-            };
+            let Err(Error::NotFinite { name, .. }) = result else { panic!("{result:?}") };
             assert_eq!(name, place);
         }
     }
     for (design, what) in [([-3.0, 1.0], "mass of bar"), ([3.0, 0.0], "length of bar")] {
         let result = solve(1.0, design, 0.0);
-        let Err(Error::Unphysical { quantity, .. }) = result else {
-            panic!("{result:?}")
-        };
+        let Err(Error::Unphysical { quantity, .. }) = result else { panic!("{result:?}") };
         assert_eq!(quantity, what);
     }
-    let massless = equilibrium(
-        &Derived(Spring),
-        &[1.0],
-        &[0.0, 0.0, 1.0],
-        &[0.0],
-        Policy::Stable,
-    );
+    let massless = equilibrium(&Derived(Spring), &[1.0], &[0.0, 0.0, 1.0], &[0.0], Policy::Stable);
     let coordinate = "x".into();
     assert_eq!(massless, Err(Error::SingularMass { coordinate }));
     let overflow = equilibrium(&Pendulum, &[1e200], &BAR, &[1.0], Policy::Stable);
-    assert!(
-        matches!(overflow, Err(Error::OutsideDomain { .. })),
-        "{overflow:?}"
-    );
+    assert!(matches!(overflow, Err(Error::OutsideDomain { .. })), "{overflow:?}");
 }
 
 /// One negative direction beside a free one: no theorem makes that unstable, and it is not.
@@ -274,13 +197,7 @@ fn wrong_values_are_named() {
 fn a_free_direction_can_hold_one_without_stiffness() {
     let b = [1.0, 10.0, 0.2];
     for start in [2.0 / 15.0, 0.14] {
-        let found = equilibrium(
-            &Derived(Slipping),
-            &[5.0],
-            &b,
-            &[start, 0.3],
-            Policy::Stable,
-        );
+        let found = equilibrium(&Derived(Slipping), &[5.0], &b, &[start, 0.3], Policy::Stable);
         let state = found.unwrap();
         assert!((state.coordinates[0] - 2.0 / 15.0).abs() < 1e-13);
         assert_eq!(state.stability, Stability::Neutral { zero: 1 });
@@ -291,17 +208,8 @@ fn a_free_direction_can_hold_one_without_stiffness() {
 
 #[test]
 fn what_gyroscopic_forces_hold_was_not_left() {
-    let found = equilibrium(
-        &Derived(Supercritical),
-        &[3.0],
-        &[0.0],
-        &[0.0; 2],
-        Policy::Stable,
-    );
+    let found = equilibrium(&Derived(Supercritical), &[3.0], &[0.0], &[0.0; 2], Policy::Stable);
     let state = found.unwrap();
-    assert_eq!(
-        state.stability,
-        Stability::GyroscopicallyStabilised { negative: 2 }
-    );
+    assert_eq!(state.stability, Stability::GyroscopicallyStabilised { negative: 2 });
     assert!(!state.left_unstable_region);
 }

@@ -14,12 +14,7 @@ fn numbers(n: usize, seed: usize) -> Vector {
 }
 
 fn list(gradient: &Gradient) -> Vec<f64> {
-    [
-        &gradient.coordinates[..],
-        &gradient.inputs,
-        &gradient.design,
-    ]
-    .concat()
+    [&gradient.coordinates[..], &gradient.inputs, &gradient.design].concat()
 }
 
 fn moved(values: &[f64], h: f64, along: &[f64]) -> Vector {
@@ -44,18 +39,12 @@ fn check(machine: &dyn CurvatureKernels) {
     let [left, acceleration, velocity, position] = &vectors;
     let form = |x: &Linear| -> f64 {
         let entry = |i: usize, j: usize| {
-            x.mass[i][j] * acceleration[j]
-                + x.damping[i][j] * velocity[j]
-                + x.stiffness[i][j] * position[j]
+            x.mass[i][j] * acceleration[j] + x.damping[i][j] * velocity[j] + x.stiffness[i][j] * position[j]
         };
         (0..n * n).map(|k| left[k / n] * entry(k / n, k % n)).sum()
     };
     let partials = kernels.linear_partials(q, u, b);
-    let expected = [
-        &partials.by_coordinate[..],
-        &partials.by_input,
-        &partials.by_design,
-    ];
+    let expected = [&partials.by_coordinate[..], &partials.by_input, &partials.by_design];
     let expected = expected.concat().iter().map(form).collect::<Vec<f64>>();
     let found = list(&value(0.0));
     let scale = found.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -77,10 +66,7 @@ fn check(machine: &dyn CurvatureKernels) {
     let (plus, minus) = (list(&value(step)), list(&value(-step)));
     for ((exact, plus), minus) in slope.iter().zip(plus).zip(minus) {
         let difference = (plus - minus) / (2.0 * step);
-        assert!(
-            (exact - difference).abs() < 1e-7 * scale,
-            "{exact} {difference}"
-        );
+        assert!((exact - difference).abs() < 1e-7 * scale, "{exact} {difference}");
     }
 }
 

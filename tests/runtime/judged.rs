@@ -69,18 +69,11 @@ fn normal(z: f64) -> f64 {
 fn agrees(count: usize, chance: f64) {
     let n = SAMPLES as f64;
     let sigma = (n * chance * (1.0 - chance)).sqrt();
-    assert!(
-        (count as f64 - n * chance).abs() < 5.0 * sigma + 0.5,
-        "{count} {}",
-        n * chance
-    );
+    assert!((count as f64 - n * chance).abs() < 5.0 * sigma + 0.5, "{count} {}", n * chance);
 }
 
 /// Eigenvalues of `s^2 + s C + K` by a library's QR method on the companion matrix.
-fn by_qr(
-    [[cxx, cxy], [cyx, cyy]]: [[f64; 2]; 2],
-    [[kxx, kxy], [kyx, kyy]]: [[f64; 2]; 2],
-) -> Vec<Complex> {
+fn by_qr([[cxx, cxy], [cyx, cyy]]: [[f64; 2]; 2], [[kxx, kxy], [kyx, kyy]]: [[f64; 2]; 2]) -> Vec<Complex> {
     #[rustfmt::skip]
     let companion = Matrix4::new(
         0.0, 0.0, 1.0, 0.0,
@@ -118,13 +111,9 @@ fn same(complexes: &[Option<Complex>], wanted: &[Complex], tolerance: f64) {
         let both = [Some(*s), (s.im > 0.0).then(|| s.conj())];
         for s in both.into_iter().flatten() {
             let distance = |other: &Complex| (s - other).norm();
-            let nearest =
-                (0..left.len()).min_by(|&a, &b| distance(&left[a]).total_cmp(&distance(&left[b])));
+            let nearest = (0..left.len()).min_by(|&a, &b| distance(&left[a]).total_cmp(&distance(&left[b])));
             let nearest = left.remove(nearest.expect("no more eigenvalues than there are"));
-            assert!(
-                distance(&nearest) < tolerance,
-                "{s} {nearest} of {wanted:?}, {complexes:?}"
-            );
+            assert!(distance(&nearest) < tolerance, "{s} {nearest} of {wanted:?}, {complexes:?}");
         }
     }
 }
@@ -133,41 +122,23 @@ fn same(complexes: &[Option<Complex>], wanted: &[Complex], tolerance: f64) {
 /// root where `(Im lambda)^2 > c^2 Re lambda`.
 #[test]
 fn a_seal_flutters_beyond_its_limit() {
-    for (nominal, sigma) in [
-        (8.0, 4.0),
-        (8.0, 0.9),
-        (10.0, 1.0),
-        (11.1, 0.1),
-        (14.0, 2.0),
-    ] {
-        let study = Study::new(Seal)
-            .design(Seal::across, nominal)
-            .tolerance(Seal::across, sigma);
+    for (nominal, sigma) in [(8.0, 4.0), (8.0, 0.9), (10.0, 1.0), (11.1, 0.1), (14.0, 2.0)] {
+        let study = Study::new(Seal).design(Seal::across, nominal).tolerance(Seal::across, sigma);
         let run = sampled(study);
         let limit = (10.0_f64.powi(2) + 0.5_f64.powi(2) * 100.0).sqrt();
         let mut stable = 0;
         for sample in run.all.as_ref().expect("samples were asked for") {
             let q = sample.design[2];
             stable += usize::from(q.abs() < limit);
-            let expected = if q.abs() < limit {
-                Outcome::Stable
-            } else {
-                Outcome::Flutter
-            };
+            let expected = if q.abs() < limit { Outcome::Stable } else { Outcome::Flutter };
             assert_eq!(sample.outcome, expected, "{nominal} {sigma}: {q}");
             let exact = of_seal(0.5, [110.0, 90.0], q);
             assert_eq!(sample.eigenvalues.iter().flatten().count(), 2);
             // Near a double eigenvalue a rounding error acts through its square root.
             same(&sample.eigenvalues, &exact, 1e-6);
         }
-        assert_eq!(
-            (run.counts.stable, run.counts.flutter),
-            (stable, SAMPLES - stable)
-        );
-        agrees(
-            stable,
-            normal((limit - nominal) / sigma) - normal((-limit - nominal) / sigma),
-        );
+        assert_eq!((run.counts.stable, run.counts.flutter), (stable, SAMPLES - stable));
+        agrees(stable, normal((limit - nominal) / sigma) - normal((-limit - nominal) / sigma));
     }
 }
 
@@ -177,12 +148,8 @@ fn a_seal_gives_way_in_one_direction_or_in_two() {
     let mut growing = [0; 2];
     for (nominal, sigma, damping) in [(30.0, 40.0, 0.5), (3.0, 2.0, 9.0), (-2.0, 3.0, 1.0)] {
         let stiff = [Seal::kx, Seal::ky];
-        let study = Study::new(Seal)
-            .design(Seal::damping, damping)
-            .design(Seal::across, 0.5);
-        let study = stiff.into_iter().fold(study, |study, k| {
-            study.design(k, nominal).tolerance(k, sigma)
-        });
+        let study = Study::new(Seal).design(Seal::damping, damping).design(Seal::across, 0.5);
+        let study = stiff.into_iter().fold(study, |study, k| study.design(k, nominal).tolerance(k, sigma));
         let run = sampled(study);
         for sample in run.all.as_ref().expect("samples were asked for") {
             let [kx, ky] = [sample.design[0], sample.design[1]];
@@ -233,21 +200,11 @@ fn a_turntable_holds_its_block_by_springs_or_by_turning() {
                 _ => Outcome::Divergent,
             };
             assert_eq!(sample.outcome, expected, "{omega} {damping}: {a} {b}");
-            let exact = by_qr(
-                [[damping, -2.0 * omega], [2.0 * omega, damping]],
-                [[a, 0.0], [0.0, b]],
-            );
+            let exact = by_qr([[damping, -2.0 * omega], [2.0 * omega, damping]], [[a, 0.0], [0.0, b]]);
             same(&sample.eigenvalues, &exact, 1e-6);
         }
-        let (x, y) = (
-            normal((110.0 - square) / sigma),
-            normal((90.0 - square) / sigma),
-        );
-        let turning = if damping == 0.0 {
-            (1.0 - x) * (1.0 - y)
-        } else {
-            0.0
-        };
+        let (x, y) = (normal((110.0 - square) / sigma), normal((90.0 - square) / sigma));
+        let turning = if damping == 0.0 { (1.0 - x) * (1.0 - y) } else { 0.0 };
         agrees(run.counts.stable, x * y + turning);
         agrees(run.counts.divergent, x * (1.0 - y) + y * (1.0 - x));
     }
@@ -285,11 +242,9 @@ fn modes_that_change_places_keep_their_names() {
 /// The modes by which a seal is judged, in ascending order of size, are those it returns.
 #[test]
 fn a_study_answers_with_the_modes_it_was_judged_by() {
-    for (stiff, across, damping) in [
-        ([110.0, 90.0], 8.0, 0.5),
-        ([400.0, 90.0], 30.0, 60.0),
-        ([90.0, 400.0], 200.0, 3.0),
-    ] {
+    for (stiff, across, damping) in
+        [([110.0, 90.0], 8.0, 0.5), ([400.0, 90.0], 30.0, 60.0), ([90.0, 400.0], 200.0, 3.0)]
+    {
         let study = Study::new(Seal)
             .design(Seal::kx, stiff[0])
             .design(Seal::ky, stiff[1])

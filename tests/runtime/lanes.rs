@@ -2,8 +2,8 @@
 
 use crate::common::pendulum::Pendulum as ByHand;
 use eigentol::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Gradient,
-    Kernels, Linear, LinearPartials, RestParts,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Gradient, Kernels, Linear,
+    LinearPartials, RestParts,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Matrix, mechanism};
@@ -50,9 +50,7 @@ mechanism! {
 fn numbers() -> impl FnMut() -> f64 {
     let mut state = 11_u64;
     move || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
@@ -83,16 +81,8 @@ fn same_list(batches: &[Batch], state: usize, alone: &[f64]) {
 
 fn same_linear(batch: &Linear<Batch>, state: usize, alone: &Linear) {
     same_list(batch.mass.as_flattened(), state, alone.mass.as_flattened());
-    same_list(
-        batch.damping.as_flattened(),
-        state,
-        alone.damping.as_flattened(),
-    );
-    same_list(
-        batch.stiffness.as_flattened(),
-        state,
-        alone.stiffness.as_flattened(),
-    );
+    same_list(batch.damping.as_flattened(), state, alone.damping.as_flattened());
+    same_list(batch.stiffness.as_flattened(), state, alone.stiffness.as_flattened());
 }
 
 fn same_gradient(batch: &Gradient<Batch>, state: usize, alone: &Gradient) {
@@ -110,11 +100,7 @@ fn room(linear: &mut Linear<Batch>) -> BatchLinear<'_> {
 }
 
 fn gradient_room(gradient: &mut Gradient<Batch>) -> BatchGradient<'_> {
-    BatchGradient {
-        coordinates: &mut gradient.coordinates,
-        inputs: &mut gradient.inputs,
-        design: &mut gradient.design,
-    }
+    BatchGradient { coordinates: &mut gradient.coordinates, inputs: &mut gradient.inputs, design: &mut gradient.design }
 }
 
 /// Partial derivatives as lists of matrices.
@@ -126,27 +112,14 @@ fn write_partials(
     residual: &mut (Matrix<Batch>, Matrix<Batch>),
 ) {
     let size = at.q.len() * at.q.len();
-    let mut flat = [at.q.len(), at.u.len(), at.b.len()]
-        .map(|count| [(); 3].map(|()| vec![Batch::default(); count * size]));
+    let mut flat =
+        [at.q.len(), at.u.len(), at.b.len()].map(|count| [(); 3].map(|()| vec![Batch::default(); count * size]));
     let [by_coordinate, by_input, by_design] =
-        flat.each_mut()
-            .map(|[mass, damping, stiffness]| BatchLinear {
-                mass,
-                damping,
-                stiffness,
-            });
-    let mut partials = BatchPartials {
-        by_coordinate,
-        by_input,
-        by_design,
-    };
+        flat.each_mut().map(|[mass, damping, stiffness]| BatchLinear { mass, damping, stiffness });
+    let mut partials = BatchPartials { by_coordinate, by_input, by_design };
     let by = [residual.0.as_flattened_mut(), residual.1.as_flattened_mut()];
     m.partials_batch(set, at, &mut partials, by);
-    let lists = [
-        &mut matrices.by_coordinate,
-        &mut matrices.by_input,
-        &mut matrices.by_design,
-    ];
+    let lists = [&mut matrices.by_coordinate, &mut matrices.by_input, &mut matrices.by_design];
     for (list, [mass, damping, stiffness]) in lists.into_iter().zip(&flat) {
         for (k, change) in list.iter_mut().enumerate() {
             let own = k * size..(k + 1) * size;
@@ -170,17 +143,11 @@ fn check(m: &dyn BatchKernels, q: &[Batch], u: &[Batch], b: &[Batch]) {
         let mut newton = (vec![Batch::default(); n], Matrix::zeros(n, n));
         let (mut linear, mut both) = (Linear::zeros(n), (RestParts::zeros(n), Linear::zeros(n)));
         let mut matrices = LinearPartials::zeros(sizes);
-        let mut partials = (
-            Matrix::zeros(n, sizes.inputs),
-            Matrix::zeros(n, sizes.design),
-        );
+        let mut partials = (Matrix::zeros(n, sizes.inputs), Matrix::zeros(n, sizes.design));
         let (mut mode, mut residual) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
         m.residual_and_stiffness_batch(set, at, &mut newton.0, newton.1.as_flattened_mut());
         m.linear_batch(set, at, &mut room(&mut linear));
-        let mut parts = BatchParts {
-            inertia: &mut both.0.inertia,
-            applied: &mut both.0.applied,
-        };
+        let mut parts = BatchParts { inertia: &mut both.0.inertia, applied: &mut both.0.applied };
         m.parts_and_linear_batch(set, at, &mut parts, &mut room(&mut both.1));
         write_partials(m, set, at, &mut matrices, &mut partials);
         m.mode_gradient_batch(set, at, &phi, &lambda, &mut gradient_room(&mut mode));
@@ -209,24 +176,13 @@ fn check(m: &dyn BatchKernels, q: &[Batch], u: &[Batch], b: &[Batch]) {
                 (&matrices.by_design, &alone.by_design),
             ] {
                 assert_eq!(batch.len(), alone.len());
-                batch
-                    .iter()
-                    .zip(alone)
-                    .for_each(|(batch, alone)| same_linear(batch, state, alone));
+                batch.iter().zip(alone).for_each(|(batch, alone)| same_linear(batch, state, alone));
             }
             let at_once = (matrices_at_once.to_lists(), at_once);
             let one_by_one = (alone, (by_input, by_design));
             assert!(format!("{at_once:?}") == format!("{one_by_one:?}"));
-            same_gradient(
-                &mode,
-                state,
-                &kernels.mode_gradient(&q, &u, &b, &phi, lambda),
-            );
-            same_gradient(
-                &residual,
-                state,
-                &kernels.residual_gradient(&q, &u, &b, &phi),
-            );
+            same_gradient(&mode, state, &kernels.mode_gradient(&q, &u, &b, &phi, lambda));
+            same_gradient(&residual, state, &kernels.residual_gradient(&q, &u, &b, &phi));
         }
     }
 }
@@ -247,18 +203,7 @@ fn random_states() {
 /// Angles at the end of the reduction range, beyond it, and non-finite: alone and beside ordinary ones.
 #[test]
 fn states_at_the_edges() {
-    let odd = [
-        0.0,
-        -0.0,
-        1e5,
-        -1e5,
-        1.0e5_f64.next_up(),
-        1e300,
-        f64::INFINITY,
-        f64::NAN,
-        f64::MIN_POSITIVE,
-        1e-310,
-    ];
+    let odd = [0.0, -0.0, 1e5, -1e5, 1.0e5_f64.next_up(), 1e300, f64::INFINITY, f64::NAN, f64::MIN_POSITIVE, 1e-310];
     for &value in &odd {
         for place in 0..WIDTH {
             let odd = |state| if state == place { value } else { 0.3 };
@@ -266,12 +211,7 @@ fn states_at_the_edges() {
             check(&Double, &q, &[Batch::all(2.0)], &[Batch::all(1.0); 4]);
             check(&Everything, &q, &[Batch::all(2.0)], &[Batch::all(1.0); 4]);
         }
-        check(
-            &Double,
-            &[Batch::all(value); 2],
-            &[Batch::all(2.0)],
-            &[Batch::all(value); 4],
-        );
+        check(&Double, &[Batch::all(value); 2], &[Batch::all(2.0)], &[Batch::all(value); 4]);
     }
 }
 

@@ -8,9 +8,7 @@ use crate::common::pendulum::Pendulum;
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{Kernels, Linear};
 use eigentol::modes::{clusters, match_modes, modes, undamped_modes};
-use eigentol::{
-    Behaviour, DampingKind, Description, Error, Family, Matrix, Mode, Modes, Policy, Shared, Vector,
-};
+use eigentol::{Behaviour, DampingKind, Description, Error, Family, Matrix, Mode, Modes, Policy, Shared, Vector};
 use proptest::prelude::*;
 
 static ANY: Shared<Description> = Shared::Static(&Description {
@@ -30,11 +28,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
 
 fn pencil(stiffness: impl Into<Matrix>, mass: impl Into<Matrix>) -> Linear {
     let (stiffness, mass) = (stiffness.into(), mass.into());
-    Linear {
-        damping: Matrix::zeros(mass.row_count(), mass.row_count()),
-        mass,
-        stiffness,
-    }
+    Linear { damping: Matrix::zeros(mass.row_count(), mass.row_count()), mass, stiffness }
 }
 
 fn modes_of(linear: &Linear, description: &Shared<Description>) -> Result<Modes, Error> {
@@ -48,9 +42,7 @@ fn real(mode: &Mode) -> Vector {
 
 fn form(x: &[f64], matrix: &Matrix, y: &[f64]) -> f64 {
     let n = x.len();
-    (0..n)
-        .map(|i| (0..n).map(|j| x[i] * matrix[i][j] * y[j]).sum::<f64>())
-        .sum()
+    (0..n).map(|i| (0..n).map(|j| x[i] * matrix[i][j] * y[j]).sum::<f64>()).sum()
 }
 
 fn diagonal(n: usize, value: impl Fn(usize) -> f64) -> Matrix {
@@ -83,15 +75,8 @@ fn check(n: usize, stiffness: &[f64], mass: &[f64], duplicate: bool) {
     for (r, mode) in modes.modes.iter().enumerate() {
         assert!(mode.residual < 1e-11, "residual {:e}", mode.residual);
         let shape = real(mode);
-        let lead = shape
-            .iter()
-            .copied()
-            .max_by(|a, b| a.abs().total_cmp(&b.abs()))
-            .unwrap();
-        assert!(
-            lead > 0.0 || shape.iter().any(|x| (x + lead).abs() < 1e-8),
-            "{shape:?}"
-        );
+        let lead = shape.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap();
+        assert!(lead > 0.0 || shape.iter().any(|x| (x + lead).abs() < 1e-8), "{shape:?}");
         for (s, other) in modes.modes.iter().enumerate() {
             let expected = if r == s { 1.0 } else { 0.0 };
             let product = form(&shape, &m, &real(other));
@@ -164,29 +149,13 @@ fn frequencies_match_references() {
         (8.0, 7.785_672_713_990_423),
     ] {
         let state = equilibrium(&Pendulum, &[omega], &[3.0, 1.0], &[1.0], Policy::Stable).unwrap();
-        close(
-            modes(&state).unwrap().modes[0].frequency().unwrap(),
-            expected,
-            1e-13,
-        );
+        close(modes(&state).unwrap().modes[0].frequency().unwrap(), expected, 1e-13);
     }
     // From 50-digit arithmetic (mpmath), two uniform bars in series.
     for (omega, design, expected) in [
-        (
-            2.5,
-            [1.0, 1.0, 3.0, 3.0],
-            [0.965_925_006_756_158_8, 6.739_954_664_634_111],
-        ),
-        (
-            3.5,
-            [1.0, 1.0, 3.0, 3.0],
-            [2.817_961_821_063_948, 9.284_467_432_029_244],
-        ),
-        (
-            5.0,
-            [0.8, 1.1, 2.5, 3.7],
-            [4.761_994_922_557_966, 14.298_968_212_106_408],
-        ),
+        (2.5, [1.0, 1.0, 3.0, 3.0], [0.965_925_006_756_158_8, 6.739_954_664_634_111]),
+        (3.5, [1.0, 1.0, 3.0, 3.0], [2.817_961_821_063_948, 9.284_467_432_029_244]),
+        (5.0, [0.8, 1.1, 2.5, 3.7], [4.761_994_922_557_966, 14.298_968_212_106_408]),
     ] {
         let state = equilibrium(&DOUBLE, &[omega], &design, &[1.0, 1.0], Policy::Stable).unwrap();
         let found = modes(&state).unwrap();
@@ -199,39 +168,20 @@ fn frequencies_match_references() {
 
 #[test]
 fn gyroscopic_terms_are_named_as_ignored() {
-    let state = equilibrium(
-        &Derived(Plate),
-        &[4.0],
-        &[0.5, 40.0, 60.0, 0.0],
-        &[0.1, 0.0],
-        Policy::Stable,
-    )
-    .unwrap();
+    let state = equilibrium(&Derived(Plate), &[4.0], &[0.5, 40.0, 60.0, 0.0], &[0.1, 0.0], Policy::Stable).unwrap();
     let found = undamped_modes(&state).unwrap();
     assert!(found.damping_ignored);
     close(found.modes[0].lambda, 64.0, 1e-14);
     close(found.modes[1].lambda, 104.0, 1e-14);
     assert!(found.to_string().contains("ignored"));
-    let still = equilibrium(
-        &Derived(Plate),
-        &[0.0],
-        &[0.5, 40.0, 60.0, 0.0],
-        &[0.1, 0.0],
-        Policy::Stable,
-    );
+    let still = equilibrium(&Derived(Plate), &[0.0], &[0.5, 40.0, 60.0, 0.0], &[0.1, 0.0], Policy::Stable);
     assert!(!undamped_modes(&still.unwrap()).unwrap().damping_ignored);
 }
 
 #[test]
 fn divergence_and_freedom_are_classes() {
     let at = |k: f64, force: f64| {
-        let state = equilibrium(
-            &Derived(Spring),
-            &[k],
-            &[4.0, 0.0, force],
-            &[0.0],
-            Policy::Nearest,
-        );
+        let state = equilibrium(&Derived(Spring), &[k], &[4.0, 0.0, force], &[0.0], Policy::Nearest);
         modes(&state.unwrap()).unwrap().modes.remove(0)
     };
     assert_eq!(at(-16.0, 1.0).behaviour, Behaviour::Divergent(2.0));
@@ -247,11 +197,8 @@ fn matching_follows_shapes_and_is_a_permutation() {
         let stiffness = diagonal(3, |i| [a, b, c][i]);
         modes_of(&pencil(stiffness, mass.clone()), &ANY).unwrap()
     };
-    let order = match_modes(
-        &diagonal(1.0, 2.0, 3.0),
-        &diagonal(5.0, 4.0, 3.0),
-        &pencil(Matrix::zeros(3, 3), mass.clone()),
-    );
+    let order =
+        match_modes(&diagonal(1.0, 2.0, 3.0), &diagonal(5.0, 4.0, 3.0), &pencil(Matrix::zeros(3, 3), mass.clone()));
     assert_eq!(order, [Some(2), Some(1), Some(0)]);
     let near = diagonal(1.0, 1.0 + 1e-9, 3.0);
     assert_eq!(clusters(&near, 1e-6), [true, true, false]);
@@ -264,10 +211,7 @@ fn singular_mass_names_its_coordinate() {
     let coordinate = "y".into();
     assert_eq!(result, Err(Error::SingularMass { coordinate }));
     let nan = pencil([[f64::NAN, 0.0], [0.0, 1.0]], [[1.0, 0.0], [0.0, 1.0]]);
-    assert!(matches!(
-        modes_of(&nan, &ANY),
-        Err(Error::ModesNotFound { .. })
-    ));
+    assert!(matches!(modes_of(&nan, &ANY), Err(Error::ModesNotFound { .. })));
 }
 
 /// The symmetric part of a skew `Chat` is zero except for rounding: its eigenpairs can only be judged relative to
@@ -279,27 +223,9 @@ fn a_matrix_of_rounding_errors_has_modes() {
     stiffness[2][4] = -noise;
     stiffness[4][2] = -noise;
     let upper = [
-        [
-            1.9187994587294266,
-            0.7440131129819394,
-            -7.638034203205087e-7,
-            0.09375712284500543,
-            3.1215194881275135e-9,
-        ],
-        [
-            0.0,
-            0.36089343390111894,
-            -1.7297349814103477e-9,
-            0.049280050306295106,
-            -2.1347471029188987e-8,
-        ],
-        [
-            0.0,
-            0.0,
-            0.010052758516844843,
-            -3.9834955515877086e-10,
-            -0.00042152151664017135,
-        ],
+        [1.9187994587294266, 0.7440131129819394, -7.638034203205087e-7, 0.09375712284500543, 3.1215194881275135e-9],
+        [0.0, 0.36089343390111894, -1.7297349814103477e-9, 0.049280050306295106, -2.1347471029188987e-8],
+        [0.0, 0.0, 0.010052758516844843, -3.9834955515877086e-10, -0.00042152151664017135],
         [0.0, 0.0, 0.0, 0.009666666666667063, 4.0093340298414425e-10],
         [0.0, 0.0, 0.0, 0.0, 0.0006966666666666667],
     ];

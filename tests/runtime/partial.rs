@@ -53,10 +53,7 @@ mod heavier {
 }
 
 fn bar() -> Study<Bar> {
-    Study::new(Bar)
-        .input(Bar::omega, 3.0)
-        .samples(SAMPLES as usize)
-        .seed(7)
+    Study::new(Bar).input(Bar::omega, 3.0).samples(SAMPLES as usize).seed(7)
 }
 
 /// Some of the samples diverge, and none is solved in vectors.
@@ -76,10 +73,7 @@ fn ranges(mut cuts: Vec<u64>, order: &[u64]) -> Vec<Range<u64>> {
     all
 }
 
-fn merged<M: BatchKernels>(
-    study: &Study<M>,
-    parts: impl IntoIterator<Item = Range<u64>>,
-) -> PartialMonteCarlo {
+fn merged<M: BatchKernels>(study: &Study<M>, parts: impl IntoIterator<Item = Range<u64>>) -> PartialMonteCarlo {
     let mut all = study.samples_between(0..0).unwrap();
     for (k, range) in parts.into_iter().enumerate() {
         let sampling = study.sampling().range(Some(range)).threads(1 + k % 3);
@@ -151,22 +145,11 @@ fn a_run_that_is_stopped_can_be_resumed() {
             let watched = sampling.clone().progress(Some(&progress)).stop(Some(&stop));
             let mut part = study.sample_modes(&watched).unwrap();
             let result = part.result();
-            let done: u64 = part
-                .ranges()
-                .iter()
-                .map(|range| range.end - range.start)
-                .sum();
-            assert!(
-                (4001..20_000).contains(&result.samples),
-                "{}",
-                result.samples
-            );
+            let done: u64 = part.ranges().iter().map(|range| range.end - range.start).sum();
+            assert!((4001..20_000).contains(&result.samples), "{}", result.samples);
             assert_eq!(result.samples as u64, done);
             assert_eq!(result.samples, seen.load(Ordering::Relaxed));
-            assert_eq!(
-                (result.planned, result.counts.total()),
-                (20_000, result.samples)
-            );
+            assert_eq!((result.planned, result.counts.total()), (20_000, result.samples));
             assert_eq!(result.all.as_ref().map(Vec::len), Some(result.samples));
             assert!(result.to_string().contains("20000 samples were asked for"));
             assert!(
@@ -191,35 +174,21 @@ fn a_result_says_how_its_samples_were_drawn() {
     let whole = study.monte_carlo().unwrap();
     assert_eq!(whole.drawn(), "3000 samples, seed 7, stream 3");
     assert_eq!(whole.ranges, [0..3000]);
-    assert!(
-        whole
-            .to_string()
-            .contains(": Monte Carlo with re-solved equilibria, 3000 samples, seed 7, stream 3: ")
-    );
+    assert!(whole.to_string().contains(": Monte Carlo with re-solved equilibria, 3000 samples, seed 7, stream 3: "));
     let mut part = study.samples_between(100..300).unwrap();
-    part.merge(study.samples_between(1000..1001).unwrap())
-        .unwrap();
+    part.merge(study.samples_between(1000..1001).unwrap()).unwrap();
     let text = serde_json::to_string(&part).expect("numbers and lists");
     let read: PartialMonteCarlo = serde_json::from_str(&text).expect("what was written");
     let result = read.result();
-    assert_eq!(
-        result.drawn(),
-        "201 samples, seed 7, stream 3, numbers 100 to 299 and 1000"
-    );
+    assert_eq!(result.drawn(), "201 samples, seed 7, stream 3, numbers 100 to 299 and 1000");
     let again = bar().seed(result.seed).stream(result.stream);
     assert!(merged(&again, result.ranges.clone()).result() == result);
-    assert_eq!(
-        bar().seed(u64::MAX).samples(2).monte_carlo().unwrap().seed,
-        u64::MAX
-    );
+    assert_eq!(bar().seed(u64::MAX).samples(2).monte_carlo().unwrap().seed, u64::MAX);
     // A file without this information is not ours.
     for fact in ["seed", "stream"] {
         let without = text.replacen(&format!("[\"{fact}\","), "[\"other\",", 1);
         assert_ne!(without, text);
-        assert!(
-            serde_json::from_str::<PartialMonteCarlo>(&without).is_err(),
-            "{fact}"
-        );
+        assert!(serde_json::from_str::<PartialMonteCarlo>(&without).is_err(), "{fact}");
     }
 }
 
@@ -227,34 +196,19 @@ fn a_result_says_how_its_samples_were_drawn() {
 fn gaps_and_overlaps_are_named() {
     let study = bar();
     let mut all = study.samples_between(100..300).unwrap();
-    all.merge(study.samples_between(1000..1001).unwrap())
-        .unwrap();
+    all.merge(study.samples_between(1000..1001).unwrap()).unwrap();
     assert_eq!(all.missing(), [0..100, 300..1000, 1001..3000]);
     assert_eq!(
         all.check_complete().unwrap_err().to_string(),
         "samples are missing: 0 to below 100, 300 to below 1000, 1001 to below 3000"
     );
     let before = all.clone();
-    let refused = all
-        .merge(study.samples_between(250..2000).unwrap())
-        .unwrap_err();
-    assert_eq!(
-        refused,
-        Error::SamplesOverlap {
-            start: 250,
-            end: 300
-        }
-    );
+    let refused = all.merge(study.samples_between(250..2000).unwrap()).unwrap_err();
+    assert_eq!(refused, Error::SamplesOverlap { start: 250, end: 300 });
     assert!(all == before);
     for range in [2000..3001, Range { start: 9, end: 8 }] {
         let refused = study.samples_between(range);
-        assert!(matches!(
-            refused,
-            Err(Error::Setting {
-                setting: "range",
-                ..
-            })
-        ));
+        assert!(matches!(refused, Err(Error::Setting { setting: "range", .. })));
     }
 }
 
@@ -274,10 +228,7 @@ fn parts_of_other_runs_are_refused() {
         ("design variable `m`", bar().design(Bar::m, 2.9)),
         ("tolerance of `l`", bar().tolerance(Bar::l, 0.02)),
         ("tolerance of `l`", bar().sigma_level(2.0)),
-        (
-            "equilibrium",
-            bar().input(Bar::omega, 5.0).start(theta, -1.0),
-        ),
+        ("equilibrium", bar().input(Bar::omega, 5.0).start(theta, -1.0)),
     ] {
         let mut own = own.clone();
         if what == "equilibrium" {
@@ -286,18 +237,12 @@ fn parts_of_other_runs_are_refused() {
         }
         let before = own.clone();
         let refused = own.merge(part(&other)).unwrap_err();
-        assert!(
-            matches!(&refused, Error::OtherRun { what: found, .. } if found == what),
-            "{refused}"
-        );
+        assert!(matches!(&refused, Error::OtherRun { what: found, .. } if found == what), "{refused}");
         assert!(own == before);
         let mut done = before.clone();
         assert!(other.resume_samples(&mut done, &other.sampling()).is_err() && done == before);
     }
-    let heavier = Study::new(heavier::Bar)
-        .input(heavier::Bar::omega, 3.0)
-        .samples(SAMPLES as usize)
-        .seed(7);
+    let heavier = Study::new(heavier::Bar).input(heavier::Bar::omega, 3.0).samples(SAMPLES as usize).seed(7);
     let refused = own.clone().merge(heavier.samples_between(0..10).unwrap());
     assert!(matches!(refused, Err(Error::OtherRun { what, .. }) if what == "kernels"));
     let refused = own.clone().merge(plate().samples_between(0..10).unwrap());

@@ -48,10 +48,7 @@ mechanism! {
 }
 
 pub(crate) const SPEED: f64 = 5.0;
-const FREQUENCY: Response = Response::Mode {
-    mode: 0,
-    quantity: Quantity::Frequency,
-};
+const FREQUENCY: Response = Response::Mode { mode: 0, quantity: Quantity::Frequency };
 
 fn frequency(length: f64) -> f64 {
     let natural = 1.5 * GRAVITY / length;
@@ -59,17 +56,11 @@ fn frequency(length: f64) -> f64 {
 }
 
 fn bar() -> Study<Bar> {
-    Study::new(Bar)
-        .input(Bar::omega, SPEED)
-        .start(Bar::theta, 1.0)
+    Study::new(Bar).input(Bar::omega, SPEED).start(Bar::theta, 1.0)
 }
 
 /// Puts a question about the responses of a study.
-fn ask<R>(
-    study: &Study<Bar>,
-    wanted: Vec<Response>,
-    question: impl FnOnce(&Responses<'_>) -> R,
-) -> R {
+fn ask<R>(study: &Study<Bar>, wanted: Vec<Response>, question: impl FnOnce(&Responses<'_>) -> R) -> R {
     let state = study.equilibrium().unwrap();
     let modes = study.modes().unwrap();
     let responses = Responses::new(&Bar, &state, &modes, wanted).unwrap();
@@ -86,10 +77,7 @@ fn ask_sum<R>(wanted: Vec<Response>, question: impl FnOnce(&Responses<'_>) -> R)
 }
 
 fn outputs() -> Vec<Response> {
-    vec![
-        Response::Output(Sum::sum.any()),
-        Response::Output(Sum::product.any()),
-    ]
+    vec![Response::Output(Sum::sum.any()), Response::Output(Sum::product.any())]
 }
 
 fn varied(length: Distribution) -> Tolerances {
@@ -116,12 +104,7 @@ impl Exact {
             all.sum::<f64>() / f64::from(number)
         };
         let sigma = power(2).sqrt();
-        Self {
-            mean,
-            sigma,
-            skewness: power(3) / sigma.powi(3),
-            length: length.clone(),
-        }
+        Self { mean, sigma, skewness: power(3) / sigma.powi(3), length: length.clone() }
     }
 
     /// The frequency increases with the length.
@@ -131,10 +114,7 @@ impl Exact {
 }
 
 fn lengths() -> [Distribution; 2] {
-    [
-        Distribution::normal(1.01, 0.02).unwrap(),
-        Distribution::uniform(0.94, 1.06).unwrap(),
-    ]
+    [Distribution::normal(1.01, 0.02).unwrap(), Distribution::uniform(0.94, 1.06).unwrap()]
 }
 
 fn spread(all: &Propagation, response: usize) -> &ResponseSpread {

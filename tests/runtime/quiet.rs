@@ -10,27 +10,18 @@ const OMEGA: Input<Pendulum> = Input::new(0);
 const MASS: DesignVariable<Pendulum> = DesignVariable::new(0);
 
 /// About twelve standard deviations away.
-const FAR: Requirement = Requirement::Outside {
-    response: FREQUENCY,
-    low: 3.55,
-    high: 5.0,
-};
+const FAR: Requirement = Requirement::Outside { response: FREQUENCY, low: 3.55, high: 5.0 };
 
 /// Hangs at zero, where the angle depends on nothing, and the frequency does not depend on the mass.
 fn hanging() -> Study<Pendulum> {
-    Study::new(Pendulum)
-        .input(OMEGA, 2.0)
-        .relative_tolerance(MASS, 0.01)
+    Study::new(Pendulum).input(OMEGA, 2.0).relative_tolerance(MASS, 0.01)
 }
 
 fn assert_quiet(text: &str) {
     for line in text.lines() {
         assert!(line.chars().count() <= 150 || line.ends_with('.'), "{line}");
     }
-    let tiny = |word: &str| {
-        word.split_once("e-")
-            .is_some_and(|(_, power)| power.len() > 2)
-    };
+    let tiny = |word: &str| word.split_once("e-").is_some_and(|(_, power)| power.len() > 2);
     let words = text.split_whitespace();
     let texts: Vec<&str> = words.filter(|word| tiny(word)).collect();
     assert!(texts.is_empty(), "{texts:?} in\n{text}");
@@ -41,26 +32,12 @@ fn what_has_no_influence_is_named_and_not_listed() {
     let study = hanging();
     let slopes = study.sensitivities().unwrap().to_string();
     assert!(!slopes.contains("/ m ["), "{slopes}");
-    assert!(
-        slopes.contains("below 0.1 % of the strongest: m"),
-        "{slopes}"
-    );
+    assert!(slopes.contains("below 0.1 % of the strongest: m"), "{slopes}");
     let shift = study.equilibrium_shift().unwrap().to_string();
-    assert!(
-        shift.contains("All derivatives zero: theta [rad]"),
-        "{shift}"
-    );
+    assert!(shift.contains("All derivatives zero: theta [rad]"), "{shift}");
     let spread = study.first_order().unwrap().to_string();
-    assert!(
-        spread.contains("share of l") && !spread.contains("share of m"),
-        "{spread}"
-    );
-    for text in [
-        slopes,
-        shift,
-        spread,
-        study.equilibrium().unwrap().to_string(),
-    ] {
+    assert!(spread.contains("share of l") && !spread.contains("share of m"), "{spread}");
+    for text in [slopes, shift, spread, study.equilibrium().unwrap().to_string()] {
         assert_quiet(&text);
     }
 }
@@ -109,9 +86,7 @@ fn a_chance_too_small_to_tell_is_a_bound() {
 
 #[test]
 fn long_diagrams_show_some_points_and_say_how_many() {
-    let values: Vec<InDeclaredUnit> = (0..60)
-        .map(|k| InDeclaredUnit(f64::from(k) * 0.1))
-        .collect();
+    let values: Vec<InDeclaredUnit> = (0..60).map(|k| InDeclaredUnit(f64::from(k) * 0.1)).collect();
     let study = hanging().start(Coordinate::new(0), 0.5);
     let campbell = study.campbell(OMEGA, &values, &[1.0]).unwrap();
     assert_eq!(campbell.points.len(), 60);
@@ -123,15 +98,9 @@ fn long_diagrams_show_some_points_and_say_how_many() {
     }
     // Both ends are included.
     let text = sweep.to_string();
-    assert!(
-        text.contains("\n  5.9 ") && text.contains("\n  0 "),
-        "{text}"
-    );
+    assert!(text.contains("\n  5.9 ") && text.contains("\n  0 "), "{text}");
     // The critical speed comes first, with its standard deviation and its main source.
     let first = campbell.to_string();
     let second_row = first.lines().nth(2).unwrap();
-    assert!(
-        second_row.contains("critical") && second_row.contains("l 100.0 %"),
-        "{first}"
-    );
+    assert!(second_row.contains("critical") && second_row.contains("l 100.0 %"), "{first}");
 }

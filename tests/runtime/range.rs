@@ -14,10 +14,7 @@ fn look(text: &str) -> Option<&str> {
         return Some(&text[at..at + 12]);
     }
     // An error may report that something is NaN, as `value`.
-    let at = text
-        .match_indices("NaN")
-        .find(|(at, _)| !text[..*at].ends_with("value: "))?
-        .0;
+    let at = text.match_indices("NaN").find(|(at, _)| !text[..*at].ends_with("value: "))?.0;
     Some(&text[at.saturating_sub(200)..at + 3])
 }
 
@@ -35,33 +32,18 @@ fn ask<M: Mechanism>(name: &str, study: &Study<M>) {
             ("sensitivities", format!("{:?}", study.sensitivities())),
             ("curvature", format!("{:?}", study.mode_curvature(0))),
             ("summary", format!("{summary:?}")),
-            (
-                "summary",
-                summary.map_or(String::new(), |found| found.to_string()),
-            ),
+            ("summary", summary.map_or(String::new(), |found| found.to_string())),
             ("samples", format!("{:?}", study.monte_carlo())),
         ];
         if let Some(&u) = study.input_values().first() {
             let values = [0.5 * u, 0.8 * u, 0.9 * u, u, 1.1 * u, 1.3 * u, 1.5 * u];
-            let line = Line {
-                ratio: 1.0,
-                offset: 0.0,
-            };
+            let line = Line { ratio: 1.0, offset: 0.0 };
             let diagram = study.campbell(Input::new(0), &values, &[line]);
             answers.extend([
-                (
-                    "sweep",
-                    format!("{:?}", study.sweep(Input::new(0), &values)),
-                ),
-                (
-                    "slopes",
-                    format!("{:?}", study.first_order_sweep(Input::new(0), &values)),
-                ),
+                ("sweep", format!("{:?}", study.sweep(Input::new(0), &values))),
+                ("slopes", format!("{:?}", study.first_order_sweep(Input::new(0), &values))),
                 ("campbell", format!("{diagram:?}")),
-                (
-                    "campbell",
-                    diagram.map_or(String::new(), |diagram| diagram.to_string()),
-                ),
+                ("campbell", diagram.map_or(String::new(), |diagram| diagram.to_string())),
             ]);
         }
         for (what, answer) in answers {
@@ -87,61 +69,23 @@ fn none_has_a_nan(exponents: &[i32]) {
         for x in [10.0_f64.powi(exponent), 10.0_f64.powi(-exponent)] {
             let spring = Study::new(Derived(Spring)).input(Input::new(0), 1.0);
             let spring = spring.relative_tolerance(wide(0), 0.01);
-            ask(
-                &format!("stiffness {x:e}"),
-                &spring.clone().input(Input::new(0), x),
-            );
+            ask(&format!("stiffness {x:e}"), &spring.clone().input(Input::new(0), x));
             ask(&format!("mass {x:e}"), &spring.clone().design(wide(0), x));
-            ask(
-                &format!("both {x:e}"),
-                &spring.clone().design(wide(0), x).input(Input::new(0), x),
-            );
+            ask(&format!("both {x:e}"), &spring.clone().design(wide(0), x).input(Input::new(0), x));
             let bent = spring.design(wide(1), 1.0);
             ask(&format!("force {x:e}"), &bent.clone().design(wide(2), x));
-            ask(
-                &format!("tolerance {x:e}"),
-                &bent.tolerance(wide(2), x).tolerance(wide(0), x),
-            );
-            let pendulum = Study::new(Pendulum)
-                .input(Input::new(0), 3.0)
-                .relative_tolerance(wide(0), 0.01);
-            ask(
-                &format!("speed {x:e}"),
-                &pendulum.clone().input(Input::new(0), x),
-            );
-            ask(
-                &format!("length {x:e}"),
-                &pendulum.clone().design(wide(1), x),
-            );
+            ask(&format!("tolerance {x:e}"), &bent.tolerance(wide(2), x).tolerance(wide(0), x));
+            let pendulum = Study::new(Pendulum).input(Input::new(0), 3.0).relative_tolerance(wide(0), 0.01);
+            ask(&format!("speed {x:e}"), &pendulum.clone().input(Input::new(0), x));
+            ask(&format!("length {x:e}"), &pendulum.clone().design(wide(1), x));
             ask(&format!("heavy {x:e}"), &pendulum.design(wide(0), x));
             let plate = Study::new(Derived(Plate)).input(Input::new(0), 3.0);
-            ask(
-                &format!("plate {x:e}"),
-                &plate
-                    .clone()
-                    .design(wide(1), x)
-                    .relative_tolerance(wide(1), 0.01),
-            );
-            ask(
-                &format!("damped {x:e}"),
-                &plate
-                    .clone()
-                    .design(wide(3), x)
-                    .relative_tolerance(wide(3), 0.01),
-            );
+            ask(&format!("plate {x:e}"), &plate.clone().design(wide(1), x).relative_tolerance(wide(1), 0.01));
+            ask(&format!("damped {x:e}"), &plate.clone().design(wide(3), x).relative_tolerance(wide(3), 0.01));
             ask(&format!("fast {x:e}"), &plate.input(Input::new(0), x));
             let pair = Study::new(Derived(Pair));
-            ask(
-                &format!("pair {x:e}"),
-                &pair
-                    .clone()
-                    .design(wide(0), x)
-                    .relative_tolerance(wide(0), 0.01),
-            );
-            ask(
-                &format!("coupled {x:e}"),
-                &pair.clone().tolerance(wide(2), x),
-            );
+            ask(&format!("pair {x:e}"), &pair.clone().design(wide(0), x).relative_tolerance(wide(0), 0.01));
+            ask(&format!("coupled {x:e}"), &pair.clone().tolerance(wide(2), x));
         }
     }
 }
@@ -150,9 +94,7 @@ fn none_has_a_nan(exponents: &[i32]) {
 fn an_eigenvalue_whose_square_overflows_is_named() {
     let plate = Study::new(Derived(Plate)).input(Input::new(0), 3.0);
     let found = plate.design(DesignVariable::new(3), 1e200).modes();
-    let Err(Error::EigenvalueRange { mode, size }) = found else {
-        panic!("{found:?}")
-    };
+    let Err(Error::EigenvalueRange { mode, size }) = found else { panic!("{found:?}") };
     // c / m; for the other mode the eigenvalue is approximately -k / c.
     assert!(mode >= 1 && (size / 2e200 - 1.0).abs() < 1e-12, "{size}");
 }
@@ -171,16 +113,10 @@ fn a_band_around_something_infinite_is_refused() {
         (1.0, -0.1),
     ] {
         for speed in [0.0, 5.0] {
-            let wanted = Requirement::Away {
-                response: FREQUENCY,
-                input: Input::new(0),
-                order,
-                fraction,
-            };
+            let wanted = Requirement::Away { response: FREQUENCY, input: Input::new(0), order, fraction };
             let study = study.clone().input(Input::new(0), speed);
             let found = study.second_order_failure(wanted);
-            let in_range =
-                speed == 0.0 && order.is_finite() && fraction > 0.0 && fraction.is_finite();
+            let in_range = speed == 0.0 && order.is_finite() && fraction > 0.0 && fraction.is_finite();
             match found {
                 Err(Error::Setting { setting, .. }) => assert_eq!(setting, "requirement"),
                 Ok(margin) => {

@@ -38,15 +38,10 @@ mechanism! {
 }
 
 const SPEED: f64 = 5.0;
-const FREQUENCY: Response = Response::Mode {
-    mode: 0,
-    quantity: Quantity::Frequency,
-};
+const FREQUENCY: Response = Response::Mode { mode: 0, quantity: Quantity::Frequency };
 
 fn pendulum() -> Study<Pendulum> {
-    Study::new(Pendulum)
-        .input(Pendulum::omega, SPEED)
-        .start(Pendulum::theta, 1.0)
+    Study::new(Pendulum).input(Pendulum::omega, SPEED).start(Pendulum::theta, 1.0)
 }
 
 /// The length at which the bar has the given frequency.
@@ -60,34 +55,22 @@ fn gap() -> Response {
 
 /// Sigmas 0.1, 0.05 and 0.2 mm; the slopes of the gap are 1, -2 and 1.
 fn stack() -> Study<Stack> {
-    Study::new(Stack)
-        .tolerance(Stack::a, 0.3e-3)
-        .tolerance(Stack::b, 0.15e-3)
-        .tolerance(Stack::c, 0.6e-3)
+    Study::new(Stack).tolerance(Stack::a, 0.3e-3).tolerance(Stack::b, 0.15e-3).tolerance(Stack::c, 0.6e-3)
 }
 
 #[test]
 fn a_linear_limit_is_exact() {
-    let correlation = [
-        [1.0, 0.5, 0.0, 0.0],
-        [0.5, 1.0, -0.3, 0.0],
-        [0.0, -0.3, 1.0, 0.0],
-        [0.0, 0.0, 0.0, 1.0],
-    ];
+    let correlation = [[1.0, 0.5, 0.0, 0.0], [0.5, 1.0, -0.3, 0.0], [0.0, -0.3, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
     let parts = [0.1e-3, -0.1e-3, 0.2e-3, 0.0];
     for study in [stack(), stack().correlation(correlation)] {
         let with = |i: usize, j: usize| match study.tolerances().unwrap().correlation() {
             Some(matrix) => matrix[i][j],
             None => f64::from(u8::from(i == j)),
         };
-        let covariances: Vec<f64> = (0..4)
-            .map(|i| (0..4).map(|j| with(i, j) * parts[j]).sum())
-            .collect();
+        let covariances: Vec<f64> = (0..4).map(|i| (0..4).map(|j| with(i, j) * parts[j]).sum()).collect();
         let variance: f64 = parts.iter().zip(&covariances).map(|(a, b)| a * b).sum();
         let sigma = variance.sqrt();
-        let found = study
-            .reliability(&[Requirement::at_most(gap(), 41e-3)])
-            .unwrap();
+        let found = study.reliability(&[Requirement::at_most(gap(), 41e-3)]).unwrap();
         assert!(found.verified());
         let limit = &found.limits[0];
         assert_eq!(limit.limit, Requirement::at_most(gap(), 41e-3));
@@ -111,15 +94,9 @@ fn a_linear_limit_is_exact() {
             let by_sigma = slopes[k] * covariances[k] / sigma;
             let by_half_width = -beta / sigma * by_sigma / 3.0;
             assert!((at.by_half_width[k].beta - by_half_width).abs() < 1e-8 * beta / sigma);
-            close(
-                at.by_half_width[k].probability,
-                -normal::density(beta) * at.by_half_width[k].beta,
-                1e-9,
-            );
+            close(at.by_half_width[k].probability, -normal::density(beta) * at.by_half_width[k].beta, 1e-9);
         }
-        let samples = study
-            .samples(20_000)
-            .chances(&[Requirement::at_most(gap(), 40.5e-3)]);
+        let samples = study.samples(20_000).chances(&[Requirement::at_most(gap(), 40.5e-3)]);
         let interval = samples.unwrap().all.clopper_pearson(0.9999).unwrap();
         let exact = normal::cdf(-0.5 * beta);
         assert!(interval.lower < exact && exact < interval.upper);
@@ -130,25 +107,15 @@ fn a_linear_limit_is_exact() {
 #[test]
 fn a_series_system() {
     let other = Response::Output(Stack::other.any());
-    let wanted = [
-        Requirement::Within {
-            response: gap(),
-            low: 39.5e-3,
-            high: 40.5e-3,
-        },
-        Requirement::at_most(other, 70.2e-3),
-    ];
+    let wanted =
+        [Requirement::Within { response: gap(), low: 39.5e-3, high: 40.5e-3 }, Requirement::at_most(other, 70.2e-3)];
     let found = stack().reliability(&wanted).unwrap();
     assert_eq!(found.limits.len(), 3);
     let sigma = 0.06_f64.sqrt() * 1e-3;
     for limit in &found.limits[..2] {
         close(limit.beta().unwrap(), 0.5e-3 / sigma, 1e-10);
     }
-    close(
-        found.beta_of(0).unwrap(),
-        -normal::quantile(2.0 * normal::cdf(-0.5e-3 / sigma)),
-        1e-9,
-    );
+    close(found.beta_of(0).unwrap(), -normal::quantile(2.0 * normal::cdf(-0.5e-3 / sigma)), 1e-9);
     let beta = 0.2e-3 / (0.0125_f64.sqrt() * 1e-3);
     close(found.beta_of(1).unwrap(), beta, 1e-10);
     // gap and other have covariance 0.1^2 - 2 0.05^2 (in mm^2); integrated over the gap.
@@ -203,11 +170,7 @@ fn the_pendulum_in_a_band() {
         Distribution::lognormal(1.0, 0.02).unwrap(),
     ] {
         let (low, high) = (3.98, 4.09);
-        let band = Requirement::Within {
-            response: FREQUENCY,
-            low,
-            high,
-        };
+        let band = Requirement::Within { response: FREQUENCY, low, high };
         let exact_low = below(&values, length(low, SPEED));
         let exact_high = 1.0 - below(&values, length(high, SPEED));
         // A varying mass has no effect.
@@ -224,11 +187,7 @@ fn the_pendulum_in_a_band() {
                 assert!(at.by_nominal[0].beta.abs() < 1e-9);
                 assert!(at.by_half_width[0].beta.abs() < 1e-9);
             }
-            close(
-                found.system.unwrap().probability.value,
-                exact_low + exact_high,
-                1e-6,
-            );
+            close(found.system.unwrap().probability.value, exact_low + exact_high, 1e-6);
             let run = study.samples(20_000).seed(3).chances(&[band]).unwrap();
             let interval = run.all.clopper_pearson(0.9999).unwrap();
             let exact = exact_low + exact_high;
@@ -243,11 +202,7 @@ fn a_forbidden_band() {
     let values = Distribution::normal(1.0, 0.01).unwrap();
     let frequency = study.modes().unwrap().frequencies()[0].unwrap();
     for (low, high) in [(4.1, 5.0), (2.0, 3.97)] {
-        let forbidden = Requirement::Outside {
-            response: FREQUENCY,
-            low,
-            high,
-        };
+        let forbidden = Requirement::Outside { response: FREQUENCY, low, high };
         let at = [low, high].map(|end| length(end.min(4.999), SPEED));
         let exact = below(&values, at[1]) - below(&values, at[0]);
         let found = study.reliability(&[forbidden]).unwrap();
@@ -258,26 +213,15 @@ fn a_forbidden_band() {
         assert!(interval.lower < exact && exact < interval.upper);
     }
     // The middle of all designs fails.
-    let inside = Requirement::Outside {
-        response: FREQUENCY,
-        low: 4.0,
-        high: 6.0,
-    };
+    let inside = Requirement::Outside { response: FREQUENCY, low: 4.0, high: 6.0 };
     let found = study.reliability(&[inside]).unwrap();
-    close(
-        found.limits[0].probability().unwrap(),
-        1.0 - below(&values, length(4.0, SPEED)),
-        1e-8,
-    );
+    close(found.limits[0].probability().unwrap(), 1.0 - below(&values, length(4.0, SPEED)), 1e-8);
 }
 
 /// A fluctuating speed and a length, both normal: the exact probability is an integral over the speed.
 #[test]
 fn small_probabilities_of_a_curved_limit() {
-    let study = pendulum()
-        .tolerance(Pendulum::l, 0.03)
-        .tolerance(Pendulum::omega, 0.15)
-        .tolerance(Pendulum::m, 0.5);
+    let study = pendulum().tolerance(Pendulum::l, 0.03).tolerance(Pendulum::omega, 0.15).tolerance(Pendulum::m, 0.5);
     let low = 3.6;
     let lengths = Distribution::normal(1.0, 0.01).unwrap();
     let steps = 4000;
@@ -296,10 +240,7 @@ fn small_probabilities_of_a_curved_limit() {
     assert!(at.verified && at.importance[0].abs() < 1e-12);
     let second = at.second_order.unwrap();
     assert!((second / exact - 1.0).abs() < 0.05, "{second}, not {exact}");
-    assert!(
-        (second / exact - 1.0).abs() < (at.probability() / exact - 1.0).abs(),
-        "second order is nearer than first"
-    );
+    assert!((second / exact - 1.0).abs() < (at.probability() / exact - 1.0).abs(), "second order is nearer than first");
     let most = study.sampling().samples(1_000_000);
     let rare = study.rare_failure(&wanted, &most, 0.02).unwrap();
     let probability = rare.failure.probability;
@@ -310,9 +251,7 @@ fn small_probabilities_of_a_curved_limit() {
     let one = study.rare_failure(&wanted, &most.clone().threads(1), 0.02);
     assert_eq!(one.unwrap().failure, rare.failure);
     // No sample is omitted or drawn twice, even when threads have separate pieces.
-    let rare = study
-        .rare_failure(&wanted, &most.samples(1000), 0.0)
-        .unwrap();
+    let rare = study.rare_failure(&wanted, &most.samples(1000), 0.0).unwrap();
     assert_eq!((rare.failure.samples, rare.counts.total()), (1000, 1000));
 }
 
@@ -326,9 +265,7 @@ fn derivatives_are_those_of_differences() {
             .law(Pendulum::l, law.clone())
             .tolerance(Pendulum::omega, 0.15 * wide[0])
             .correlation([[1.0, 0.0, 0.0], [0.0, 1.0, 0.4], [0.0, 0.4, 1.0]]);
-        let found = study
-            .reliability(&[Requirement::at_least(FREQUENCY, edge)])
-            .unwrap();
+        let found = study.reliability(&[Requirement::at_least(FREQUENCY, edge)]).unwrap();
         let half_widths = study.tolerances().unwrap().half_widths().to_vec();
         let all = found.limits[0].design_points.clone().unwrap();
         (all[0].clone(), half_widths)
@@ -364,9 +301,7 @@ fn derivatives_are_those_of_differences() {
 #[test]
 fn derivatives_are_those_of_samples() {
     let wanted = [Requirement::at_least(FREQUENCY, 3.9)];
-    let study = pendulum()
-        .tolerance(Pendulum::l, 0.03)
-        .tolerance(Pendulum::omega, 0.15);
+    let study = pendulum().tolerance(Pendulum::l, 0.03).tolerance(Pendulum::omega, 0.15);
     let found = study.reliability(&wanted).unwrap();
     let at = &found.limits[0].design_points.as_ref().unwrap()[0];
     let all = study.sampling().samples(40_000);
@@ -383,42 +318,23 @@ fn derivatives_are_those_of_samples() {
 #[test]
 fn what_makes_no_sense_is_refused() {
     let study = pendulum().tolerance(Pendulum::l, 0.03);
-    let setting = |study: &Study<Pendulum>, wanted: &[Requirement]| match (
-        study.reliability(wanted),
-        study.chances(wanted),
-    ) {
-        (Err(Error::Setting { setting, .. }), other) => (setting, other.is_ok()),
-        other => panic!("{other:?}"),
-    };
-    let band = |low, high| Requirement::Within {
-        response: FREQUENCY,
-        low,
-        high,
-    };
+    let setting =
+        |study: &Study<Pendulum>, wanted: &[Requirement]| match (study.reliability(wanted), study.chances(wanted)) {
+            (Err(Error::Setting { setting, .. }), other) => (setting, other.is_ok()),
+            other => panic!("{other:?}"),
+        };
+    let band = |low, high| Requirement::Within { response: FREQUENCY, low, high };
     let good = band(4.0, 4.1);
     assert_eq!(setting(&study, &[]), ("requirements", false));
-    for wrong in [
-        band(4.1, 4.0),
-        band(f64::NAN, 4.0),
-        band(f64::NEG_INFINITY, f64::INFINITY),
-    ] {
+    for wrong in [band(4.1, 4.0), band(f64::NAN, 4.0), band(f64::NEG_INFINITY, f64::INFINITY)] {
         assert_eq!(setting(&study, &[good, wrong]), ("requirement", false));
     }
-    assert_eq!(
-        setting(&study, &[Requirement::Stable]),
-        ("requirements", true)
-    );
+    assert_eq!(setting(&study, &[Requirement::Stable]), ("requirements", true));
     assert_eq!(setting(&pendulum(), &[good]), ("tolerances", true));
     let measured = Distribution::empirical(&[0.98, 1.0, 1.01]).unwrap();
-    assert_eq!(
-        setting(&distributed(measured), &[good]),
-        ("distribution", true)
-    );
+    assert_eq!(setting(&distributed(measured), &[good]), ("distribution", true));
     assert!(study.clone().samples(0).chances(&[good]).is_err());
-    let mode = Response::Mode {
-        mode: 3,
-        quantity: Quantity::Frequency,
-    };
+    let mode = Response::Mode { mode: 3, quantity: Quantity::Frequency };
     assert!(matches!(
         study.reliability(&[Requirement::at_least(mode, 1.0)]),
         Err(Error::NoSuchMode { mode: 3, count: 1 })
@@ -431,17 +347,11 @@ fn a_limit_out_of_reach() {
     let study = distributed(Distribution::uniform(0.99, 1.01).unwrap());
     let wanted = [Requirement::at_least(FREQUENCY, 3.0)];
     let found = study.reliability(&wanted).unwrap();
-    assert!(matches!(
-        found.limits[0].design_points,
-        Err(Error::NoReliability(_))
-    ));
+    assert!(matches!(found.limits[0].design_points, Err(Error::NoReliability(_))));
     assert!(found.system.is_none() && !found.verified() && found.beta_of(0).is_none());
     assert!(matches!(
         study.rare_failure(&wanted, &study.sampling(), 0.05),
-        Err(Error::Setting {
-            setting: "design points",
-            ..
-        })
+        Err(Error::Setting { setting: "design points", .. })
     ));
     let run = study.samples(500).chances(&wanted).unwrap();
     assert_eq!((run.all.met, run.all.failed, run.all.untold), (500, 0, 0));
@@ -458,29 +368,16 @@ fn samples_without_a_value_are_counted() {
     let run = study.clone().samples(300).chances(&with_stable).unwrap();
     assert_eq!((run.all.failed, run.each[0].untold), (300, 300));
     let found = study.reliability(&with_stable).unwrap();
-    assert!(matches!(
-        found.limits[0].design_points,
-        Err(Error::NoReliability(_))
-    ));
+    assert!(matches!(found.limits[0].design_points, Err(Error::NoReliability(_))));
     assert_eq!(found.left_out, [1]);
 }
 
 #[test]
 fn reports_name_what_they_are_about() {
-    let wanted = [
-        Requirement::Within {
-            response: gap(),
-            low: 39.5e-3,
-            high: 40.5e-3,
-        },
-        Requirement::Stable,
-    ];
+    let wanted = [Requirement::Within { response: gap(), low: 39.5e-3, high: 40.5e-3 }, Requirement::Stable];
     let study = stack().samples(100);
     let text = study.chances(&wanted).unwrap().to_string();
-    assert!(
-        text.starts_with("Stack: requirements, 100 samples\n"),
-        "{text}"
-    );
+    assert!(text.starts_with("Stack: requirements, 100 samples\n"), "{text}");
     let text = study.reliability(&wanted).unwrap().to_string();
     assert!(text.contains("gap at least 0.0395 m"), "{text}");
     assert!(text.contains("a [mm]"), "{text}");

@@ -6,8 +6,8 @@ use eigentol::kernels::Linear;
 use eigentol::modes::{modes, modes_of};
 use eigentol::summary::Doubt;
 use eigentol::{
-    Behaviour, Coordinate, DampingKind, Description, DesignVariable, Family, Input, Matrix, Policy,
-    Real, Shared, Stability, Study, Vector, mechanism,
+    Behaviour, Coordinate, DampingKind, Description, DesignVariable, Family, Input, Matrix, Policy, Real, Shared,
+    Stability, Study, Vector, mechanism,
 };
 use eigentol_interpreter::Interpreted;
 
@@ -115,11 +115,7 @@ impl Model for Chain {
 
     const DESCRIPTION: Description = Description {
         name: Shared::Static("Chain"),
-        coordinates: Shared::Static(&[
-            coordinate("x", METRE),
-            coordinate("y", METRE),
-            coordinate("z", METRE),
-        ]),
+        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE), coordinate("z", METRE)]),
         inputs: Shared::Static(&[]),
         design: Shared::Static(&[
             design("k1", STIFFNESS, 1.0, 0.0),
@@ -136,14 +132,7 @@ impl Model for Chain {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 3],
-        _: &[T; 3],
-        _: &[T; 3],
-        _: &[T; 0],
-        _: &[T; 3],
-    ) -> [T; 3] {
+    fn inertia<T: Real>(&self, a: &[T; 3], _: &[T; 3], _: &[T; 3], _: &[T; 0], _: &[T; 3]) -> [T; 3] {
         [a[0], T::constant(2.0) * a[1], T::constant(3.0) * a[2]]
     }
 
@@ -166,9 +155,7 @@ fn exact_lambda(omega: f64) -> f64 {
 
 fn bar(omega: f64, start: f64) -> Study<Interpreted> {
     let study = Study::new(Interpreted::from_text(BAR).unwrap());
-    study
-        .input(Input::new(0), omega)
-        .start(Coordinate::new(0), start)
+    study.input(Input::new(0), omega).start(Coordinate::new(0), start)
 }
 
 #[test]
@@ -186,10 +173,7 @@ fn at_its_critical_speed_a_pendulum_is_neutral() {
             let summary = study.summary().unwrap();
             assert_eq!(summary.first.distance_to_critical, 0.0);
             let doubts = &summary.trust[0].doubts;
-            assert!(
-                doubts.contains(&Doubt::NearCritical { distance: 0.0 }),
-                "{doubts:?}"
-            );
+            assert!(doubts.contains(&Doubt::NearCritical { distance: 0.0 }), "{doubts:?}");
             for text in [summary.to_string(), summary.first.to_string()] {
                 assert!(text.contains("zero within rounding"), "{text}");
                 assert!(!text.contains("not stable"), "{text}");
@@ -203,34 +187,22 @@ fn at_its_critical_speed_a_pendulum_is_neutral() {
 fn a_stiffness_that_is_rounding_of_the_design_is_zero() {
     let judged = |values: [f64; 3]| {
         let handles = [Cancelling::a, Cancelling::b, Cancelling::c];
-        let study = handles.into_iter().zip(values).fold(
-            Study::new(Cancelling).policy(Policy::Nearest),
-            |study, (handle, value)| study.design(handle, value),
-        );
+        let study = handles
+            .into_iter()
+            .zip(values)
+            .fold(Study::new(Cancelling).policy(Policy::Nearest), |study, (handle, value)| study.design(handle, value));
         let modes = study.modes().expect("modes");
         let stability = study.equilibrium().expect("a state").stability;
         (stability, modes.modes[0].behaviour)
     };
-    for values in [
-        [0.1, 0.2, 0.3],
-        [0.7, 0.1, 0.8],
-        [1.1, 2.2, 3.3],
-        [4.35, 0.1, 4.45],
-    ] {
+    for values in [[0.1, 0.2, 0.3], [0.7, 0.1, 0.8], [1.1, 2.2, 3.3], [4.35, 0.1, 4.45]] {
         let [a, b, c] = values;
         assert_ne!(a + b - c, 0.0);
         let found = judged(values);
-        assert_eq!(
-            found,
-            (Stability::Neutral { zero: 1 }, Behaviour::Neutral),
-            "{values:?}"
-        );
+        assert_eq!(found, (Stability::Neutral { zero: 1 }, Behaviour::Neutral), "{values:?}");
     }
     assert_eq!(judged([0.1, 0.2, 0.3 - 1e-12]).0, Stability::Stable);
-    assert_eq!(
-        judged([0.1, 0.2, 0.3 + 1e-12]).0,
-        Stability::Divergent { negative: 1 }
-    );
+    assert_eq!(judged([0.1, 0.2, 0.3 + 1e-12]).0, Stability::Divergent { negative: 1 });
 }
 
 /// Compared with the sign of the exact stiffness: no sign is wrong, and few are undecided.
@@ -245,15 +217,9 @@ fn beside_its_critical_speed_a_pendulum_is_stable_or_not() {
             let exact = exact_lambda(omega);
             let expected = match exact > 0.0 {
                 true => (Stability::Stable, Behaviour::Oscillating(exact.sqrt())),
-                false => (
-                    Stability::Divergent { negative: 1 },
-                    Behaviour::Divergent((-exact).sqrt()),
-                ),
+                false => (Stability::Divergent { negative: 1 }, Behaviour::Divergent((-exact).sqrt())),
             };
-            assert!(
-                (mode.lambda - exact).abs() < at.rounding.max(1e-15 * W),
-                "{distance}"
-            );
+            assert!((mode.lambda - exact).abs() < at.rounding.max(1e-15 * W), "{distance}");
             assert_eq!(at.stability, expected.0, "{distance}");
             let same = core::mem::discriminant(&mode.behaviour);
             assert_eq!(same, core::mem::discriminant(&expected.1));
@@ -264,9 +230,7 @@ fn beside_its_critical_speed_a_pendulum_is_stable_or_not() {
 /// A located critical state is neutral, whatever the last digits of its speed.
 #[test]
 fn a_critical_state_that_was_located_is_neutral() {
-    let found = bar(0.0, 0.0)
-        .critical_state(Input::new(0), 3.0, 5.0)
-        .unwrap();
+    let found = bar(0.0, 0.0).critical_state(Input::new(0), 3.0, 5.0).unwrap();
     close(found.value, W.sqrt(), 1e-12);
     let at = &found.equilibrium;
     assert_eq!(at.stability, Stability::Neutral { zero: 1 });
@@ -289,22 +253,10 @@ fn a_soft_mode_beside_a_stiff_one_is_as_good_as_alone() {
     let (one, two, stiff) = (1.0, 2.0, 1e15);
     let reduced = |a: f64, b: f64| (1.0 / a + 1.0 / b) * stiff;
     for (springs, soft, high) in [
-        (
-            [one, two, stiff],
-            pair((1.0, one), (5.0, two)),
-            reduced(2.0, 3.0),
-        ),
-        (
-            [one, stiff, two],
-            pair((3.0, one), (3.0, two)),
-            reduced(1.0, 2.0),
-        ),
+        ([one, two, stiff], pair((1.0, one), (5.0, two)), reduced(2.0, 3.0)),
+        ([one, stiff, two], pair((3.0, one), (3.0, two)), reduced(1.0, 2.0)),
         ([stiff, one, two], pair((2.0, one), (3.0, two)), stiff),
-        (
-            [-one, two, stiff],
-            pair((1.0, -one), (5.0, two)),
-            reduced(2.0, 3.0),
-        ),
+        ([-one, two, stiff], pair((1.0, -one), (5.0, two)), reduced(2.0, 3.0)),
     ] {
         let study = Study::new(Row)
             .input(Row::soft, springs[0])
@@ -319,30 +271,16 @@ fn a_soft_mode_beside_a_stiff_one_is_as_good_as_alone() {
         assert_eq!(study.equilibrium().unwrap().stability, expected);
         let found = study.modes().unwrap();
         for (mode, lambda) in found.modes.iter().zip([soft[0], soft[1], high]) {
-            close(
-                mode.lambda,
-                lambda,
-                3e-14 + 2e-15 * f64::from(lambda == high),
-            );
-            assert!(
-                (mode.s.norm() - lambda.abs().sqrt()).abs() <= mode.error + 1e-15 * mode.s.norm()
-            );
+            close(mode.lambda, lambda, 3e-14 + 2e-15 * f64::from(lambda == high));
+            assert!((mode.s.norm() - lambda.abs().sqrt()).abs() <= mode.error + 1e-15 * mode.s.norm());
             match lambda > 0.0 {
-                true => assert!(
-                    matches!(mode.behaviour, Behaviour::Oscillating(_)),
-                    "{found}"
-                ),
+                true => assert!(matches!(mode.behaviour, Behaviour::Oscillating(_)), "{found}"),
                 false => assert!(matches!(mode.behaviour, Behaviour::Divergent(_)), "{found}"),
             }
         }
         let general = study.family(Family::General).modes().unwrap();
         assert_eq!(general.stable(), stable);
-        assert!(
-            general
-                .modes
-                .iter()
-                .all(|mode| mode.behaviour != Behaviour::Neutral)
-        );
+        assert!(general.modes.iter().all(|mode| mode.behaviour != Behaviour::Neutral));
     }
 }
 
@@ -361,14 +299,8 @@ fn an_oscillation_that_keeps_its_amplitude_neither_grows_nor_decays() {
             assert_eq!(trust.doubts, [Doubt::NearInstability { distance: 0.0 }]);
         }
         for text in [summary.to_string(), summary.first.to_string()] {
-            assert!(
-                text.contains("neither grows nor decays within rounding"),
-                "{text}"
-            );
-            assert!(
-                !text.contains("vibration grows") && !text.contains("begins to grow"),
-                "{text}"
-            );
+            assert!(text.contains("neither grows nor decays within rounding"), "{text}");
+            assert!(!text.contains("vibration grows") && !text.contains("begins to grow"), "{text}");
         }
     }
 }
@@ -380,54 +312,26 @@ fn damping_and_constraints_do_not_hide_a_critical_state() {
     for start in [0.0, 0.5] {
         for places in -2..=2 {
             let speed = after(W.sqrt(), places);
-            let damped = Study::new(DampedBar)
-                .input(DampedBar::omega, speed)
-                .start(DampedBar::theta, start);
-            assert_eq!(
-                damped.equilibrium().unwrap().stability,
-                Stability::Neutral { zero: 1 }
-            );
+            let damped = Study::new(DampedBar).input(DampedBar::omega, speed).start(DampedBar::theta, start);
+            assert_eq!(damped.equilibrium().unwrap().stability, Stability::Neutral { zero: 1 });
             let found = damped.modes().unwrap();
             // s = 0 and s = -c / J.
             let [neutral, decaying] = [0, 1].map(|r| found.modes[r].behaviour);
             assert_eq!(neutral, Behaviour::Neutral, "{found}");
-            let Behaviour::Decaying(rate) = decaying else {
-                panic!("{found}")
-            };
+            let Behaviour::Decaying(rate) = decaying else { panic!("{found}") };
             close(rate, 0.5, 1e-7);
-            let geared = Study::new(GearedBars)
-                .input(GearedBars::omega, speed)
-                .start(GearedBars::a, start);
-            assert_eq!(
-                geared.equilibrium().unwrap().stability,
-                Stability::Neutral { zero: 1 }
-            );
+            let geared = Study::new(GearedBars).input(GearedBars::omega, speed).start(GearedBars::a, start);
+            assert_eq!(geared.equilibrium().unwrap().stability, Stability::Neutral { zero: 1 });
             for family in [Family::Undamped, Family::General] {
                 let found = geared.clone().family(family).modes().unwrap();
-                assert!(
-                    found
-                        .modes
-                        .iter()
-                        .all(|mode| mode.behaviour == Behaviour::Neutral),
-                    "{found}"
-                );
+                assert!(found.modes.iter().all(|mode| mode.behaviour == Behaviour::Neutral), "{found}");
             }
         }
     }
-    for (speed, stable) in [
-        (W.sqrt() * (1.0 - 1e-12), true),
-        (W.sqrt() * (1.0 + 1e-12), false),
-    ] {
-        let damped = Study::new(DampedBar)
-            .input(DampedBar::omega, speed)
-            .policy(Policy::Nearest);
-        let geared = Study::new(GearedBars)
-            .input(GearedBars::omega, speed)
-            .policy(Policy::Nearest);
-        for judged in [
-            damped.equilibrium().unwrap().stability,
-            geared.equilibrium().unwrap().stability,
-        ] {
+    for (speed, stable) in [(W.sqrt() * (1.0 - 1e-12), true), (W.sqrt() * (1.0 + 1e-12), false)] {
+        let damped = Study::new(DampedBar).input(DampedBar::omega, speed).policy(Policy::Nearest);
+        let geared = Study::new(GearedBars).input(GearedBars::omega, speed).policy(Policy::Nearest);
+        for judged in [damped.equilibrium().unwrap().stability, geared.equilibrium().unwrap().stability] {
             let expected = match stable {
                 true => Stability::Stable,
                 false => Stability::Divergent { negative: 1 },
@@ -441,27 +345,17 @@ fn damping_and_constraints_do_not_hide_a_critical_state() {
 #[test]
 fn a_stiffness_that_is_singular_but_nowhere_small_is_neutral() {
     let study = Study::new(TwoBars);
-    let critical = study
-        .critical_state(TwoBars::omega, 2.0, 3.0)
-        .unwrap()
-        .value;
+    let critical = study.critical_state(TwoBars::omega, 2.0, 3.0).unwrap().value;
     close(critical, 2.6801, 2e-5);
     for (distance, expected) in [
         (0.0, Stability::Neutral { zero: 1 }),
         (-1e-12, Stability::Stable),
         (1e-12, Stability::Divergent { negative: 1 }),
     ] {
-        let at = study
-            .clone()
-            .input(TwoBars::omega, critical * (1.0 + distance))
-            .policy(Policy::Nearest);
+        let at = study.clone().input(TwoBars::omega, critical * (1.0 + distance)).policy(Policy::Nearest);
         assert_eq!(at.equilibrium().unwrap().stability, expected);
         let found = at.modes().unwrap();
-        let neutral = found
-            .modes
-            .iter()
-            .filter(|mode| mode.behaviour == Behaviour::Neutral)
-            .count();
+        let neutral = found.modes.iter().filter(|mode| mode.behaviour == Behaviour::Neutral).count();
         assert_eq!(neutral, usize::from(distance == 0.0), "{found}");
         assert_eq!(found.stable(), distance <= 0.0);
     }
@@ -479,30 +373,21 @@ fn what_the_elements_cannot_hold_is_neutral() {
             (-1e-12, Stability::Divergent { negative: 1 }),
         ] {
             let g = share * (k1 + k2);
-            let study = [k1, k2, g].into_iter().enumerate().fold(
-                Study::new(Derived(Chain)).policy(Policy::Nearest),
-                |study, (k, value)| study.design(DesignVariable::new(k), value),
-            );
-            assert_eq!(
-                study.equilibrium().unwrap().stability,
-                expected,
-                "{i} {share}"
-            );
+            let study = [k1, k2, g]
+                .into_iter()
+                .enumerate()
+                .fold(Study::new(Derived(Chain)).policy(Policy::Nearest), |study, (k, value)| {
+                    study.design(DesignVariable::new(k), value)
+                });
+            assert_eq!(study.equilibrium().unwrap().stability, expected, "{i} {share}");
             for family in [Family::Undamped, Family::General] {
                 let found = study.clone().family(family).modes().unwrap();
-                let neutral = found
-                    .modes
-                    .iter()
-                    .filter(|mode| mode.behaviour == Behaviour::Neutral)
-                    .count();
+                let neutral = found.modes.iter().filter(|mode| mode.behaviour == Behaviour::Neutral).count();
                 assert_eq!(neutral > 0, share == 0.0, "{i} {share} {found}");
                 assert_eq!(found.stable(), share >= 0.0);
             }
             let lambda = study.family(Family::Undamped).modes().unwrap().modes[0].lambda;
-            assert!(
-                (lambda - g / 6.0).abs() < 1e-3 * g.abs() + 1e-15 * (k1 + k2),
-                "{lambda} {g}"
-            );
+            assert!((lambda - g / 6.0).abs() < 1e-3 * g.abs() + 1e-15 * (k1 + k2), "{lambda} {g}");
         }
     }
 }
@@ -526,9 +411,7 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
         kernels: Shared::Static(&[]),
     }));
     let mut next = |count: u64| {
-        *seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (*seed >> 33) % count
     };
     let mut t = Matrix::from_fn(n, n, |i, j| f64::from(u8::from(i == j)));
@@ -547,22 +430,12 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
         1 => -(next(1 << 10) as f64),
         _ => 2.0_f64.powi(next(31) as i32),
     });
-    let product = |weight: &[f64]| {
-        Matrix::from_fn(n, n, |i, j| {
-            (0..n).map(|k| weight[k] * t[k][i] * t[k][j]).sum::<f64>()
-        })
-    };
+    let product =
+        |weight: &[f64]| Matrix::from_fn(n, n, |i, j| (0..n).map(|k| weight[k] * t[k][i] * t[k][j]).sum::<f64>());
     let (mass, stiffness) = (product(&vec![1.0; n]), product(&d));
-    let exact = stiffness
-        .as_flattened()
-        .iter()
-        .all(|value| value.abs() < 2.0_f64.powi(52));
+    let exact = stiffness.as_flattened().iter().all(|value| value.abs() < 2.0_f64.powi(52));
     assert!(exact);
-    let linear = Linear {
-        mass,
-        damping: Matrix::zeros(n, n),
-        stiffness,
-    };
+    let linear = Linear { mass, damping: Matrix::zeros(n, n), stiffness };
     let modes = modes_of(&linear, Family::Undamped, &description).unwrap();
     d.sort_by(f64::total_cmp);
     let mut counts = [0; 2];
@@ -572,10 +445,7 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
             Behaviour::Neutral => mode.error * mode.error,
             _ => mode.error * mode.s.norm(),
         };
-        assert!(
-            (mode.lambda - exact).abs() <= error,
-            "{modes} {exact} {error:e}"
-        );
+        assert!((mode.lambda - exact).abs() <= error, "{modes} {exact} {error:e}");
         match mode.behaviour {
             Behaviour::Oscillating(_) => assert!(exact > 0.0),
             Behaviour::Divergent(_) => assert!(exact < 0.0),

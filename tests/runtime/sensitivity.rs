@@ -1,8 +1,6 @@
 //! Total derivatives: closed forms, references, three methods against each other, critical states.
 
-use crate::common::branching::{
-    Exchange, Imperfect, Lopsided, LopsidedSnap, NearlyTwo, Quintic, Snap,
-};
+use crate::common::branching::{Exchange, Imperfect, Lopsided, LopsidedSnap, NearlyTwo, Quintic, Snap};
 use crate::common::chain::{Bars, DOUBLE};
 use crate::common::close;
 use crate::common::derived::Derived;
@@ -15,9 +13,8 @@ use eigentol::modes::{modes, undamped_modes};
 use eigentol::motion::accelerations;
 use eigentol::second_order::mode_curvature;
 use eigentol::sensitivity::{
-    ModeSensitivity, equilibrium_shift, output_sensitivities, sensitivities,
-    sensitivities_by_finite_difference, sensitivities_explicit,
-    sensitivities_with_frozen_equilibrium,
+    ModeSensitivity, equilibrium_shift, output_sensitivities, sensitivities, sensitivities_by_finite_difference,
+    sensitivities_explicit, sensitivities_with_frozen_equilibrium,
 };
 use eigentol::shapes::shape_sensitivity;
 use eigentol::sweep::{Range, critical_state, crossings};
@@ -27,30 +24,19 @@ use eigentol::{DampingKind, Error, Family, Input, Policy, Vector};
 const BAR: [f64; 2] = [3.0, 1.0];
 
 /// Solves, differentiates by every method, checks that they agree, and returns `domega/du` and `domega/db` by mode.
-fn all_ways(
-    mechanism: &dyn DirectionalKernels,
-    u: &[f64],
-    b: &[f64],
-    start: &[f64],
-) -> Vec<(Vector, Vector)> {
+fn all_ways(mechanism: &dyn DirectionalKernels, u: &[f64], b: &[f64], start: &[f64]) -> Vec<(Vector, Vector)> {
     let state = equilibrium(mechanism, u, b, start, Policy::Stable).unwrap();
     let undamped_modes = undamped_modes(&state).unwrap();
     let adjoint = sensitivities(mechanism, &state, &undamped_modes).unwrap();
     let explicit = sensitivities_explicit(mechanism, &state, &undamped_modes).unwrap();
-    let numeric =
-        sensitivities_by_finite_difference(mechanism, &state, &undamped_modes, 5e-6).unwrap();
+    let numeric = sensitivities_by_finite_difference(mechanism, &state, &undamped_modes, 5e-6).unwrap();
     for (r, exact) in adjoint.modes.iter().enumerate() {
         let scale = undamped_modes.modes[r].lambda.abs();
-        let rows = [&explicit.modes[r], &numeric.modes[r]]
-            .into_iter()
-            .zip([1e-11, 1e-6]);
+        let rows = [&explicit.modes[r], &numeric.modes[r]].into_iter().zip([1e-11, 1e-6]);
         for (other, tolerance) in rows {
             let pairs = exact.lambda.by_input.iter().zip(&other.lambda.by_input);
             for (a, b) in pairs.chain(exact.lambda.by_design.iter().zip(&other.lambda.by_design)) {
-                assert!(
-                    (a - b).abs() <= tolerance * (a.abs() + scale + 1.0),
-                    "{r}: {a} {b}"
-                );
+                assert!((a - b).abs() <= tolerance * (a.abs() + scale + 1.0), "{r}: {a} {b}");
             }
         }
     }
@@ -71,10 +57,7 @@ fn pendulum_above_and_below_its_critical_speed() {
         } else {
             let square = omega * omega;
             let own = (square - W * W / square).sqrt();
-            (
-                W * W / (square * own),
-                (omega + W * W / (square * omega)) / own,
-            )
+            (W * W / (square * own), (omega + W * W / (square * omega)) / own)
         };
         close(by_design[1], expected_l, 1e-11);
         close(by_input[0], expected_u, 1e-11);
@@ -105,11 +88,7 @@ fn every_source_of_gradients_follows_the_equilibrium() {
     let expected = all_ways(&DOUBLE, &[3.2], &BARS, &[1.0; 2]);
     for damping in [DampingKind::Zero, DampingKind::General] {
         for from in [Source::Partials, Source::ResidualPartials, Source::Reverse] {
-            let machine = Priced {
-                machine: &DOUBLE,
-                from,
-                damping,
-            };
+            let machine = Priced { machine: &DOUBLE, from, damping };
             let at = equilibrium(&machine, &[3.2], &BARS, &[1.0; 2], Policy::Stable).unwrap();
             let rates = sensitivities(&machine, &at, &modes(&at).unwrap()).unwrap();
             for (mode, (by_input, by_design)) in rates.modes.iter().zip(&expected) {
@@ -128,18 +107,8 @@ fn chains_match_references() {
     // From 50-digit arithmetic (mpmath): d omega / d (lengths, masses), including the equilibrium shift.
     let double = all_ways(&DOUBLE, &[3.2], &BARS, &[1.0; 2]);
     let expected = [
-        [
-            1.588_094_273_217_023_7,
-            1.136_740_249_680_494_1,
-            -0.081_963_130_653_487_3,
-            0.055_380_493_684_788_715,
-        ],
-        [
-            1.215_665_649_693_897_8,
-            -0.237_222_531_740_692_85,
-            -0.751_485_162_446_697_6,
-            0.507_760_244_896_417_3,
-        ],
+        [1.588_094_273_217_023_7, 1.136_740_249_680_494_1, -0.081_963_130_653_487_3, 0.055_380_493_684_788_715],
+        [1.215_665_649_693_897_8, -0.237_222_531_740_692_85, -0.751_485_162_446_697_6, 0.507_760_244_896_417_3],
     ];
     for ((_, actual), expected) in double.iter().zip(expected) {
         for (actual, expected) in actual.iter().zip(expected) {
@@ -165,23 +134,12 @@ fn chains_match_references() {
 
 #[test]
 fn plate_matches_closed_form() {
-    let rates = all_ways(
-        &Derived(Plate),
-        &[4.0],
-        &[0.5, 40.0, 60.0, 0.0],
-        &[0.1, 0.02],
-    );
+    let rates = all_ways(&Derived(Plate), &[4.0], &[0.5, 40.0, 60.0, 0.0], &[0.1, 0.02]);
     close(rates[0].1[0], -10.0, 1e-12);
     close(rates[0].1[1], 0.125, 1e-12);
     close(rates[0].0[0], -0.5, 1e-12);
     close(rates[1].1[2], 0.098_058_067_569_092_02, 1e-12);
-    let state = equilibrium(
-        &Derived(Plate),
-        &[4.0],
-        &[0.5, 40.0, 60.0, 0.0],
-        &[0.0; 2],
-        Policy::Stable,
-    );
+    let state = equilibrium(&Derived(Plate), &[4.0], &[0.5, 40.0, 60.0, 0.0], &[0.0; 2], Policy::Stable);
     let shift = equilibrium_shift(&Derived(Plate), &state.unwrap()).unwrap();
     close(shift.by_design[0][0], 0.0625, 1e-13);
     close(shift.by_design[0][1], -0.000_781_25, 1e-12);
@@ -196,16 +154,8 @@ fn outputs_move_with_the_equilibrium() {
     // r = L sin q with cos q = W / (L Omega^2): dr/dL = sin q + cos^2 q / sin q.
     let (sin, cos) = state.coordinates[0].sin_cos();
     close(tip.values[0], sin, 1e-14);
-    close(
-        tip.by_design[0].as_ref().unwrap()[1],
-        sin + cos * cos / sin,
-        1e-12,
-    );
-    close(
-        tip.by_input[0].as_ref().unwrap()[0],
-        2.0 * cos * cos / (omega * sin),
-        1e-12,
-    );
+    close(tip.by_design[0].as_ref().unwrap()[1], sin + cos * cos / sin, 1e-12);
+    close(tip.by_input[0].as_ref().unwrap()[0], 2.0 * cos * cos / (omega * sin), 1e-12);
 }
 
 #[test]
@@ -216,11 +166,7 @@ fn critical_speed_and_crossing_move_with_the_length() {
     close(rates[1], -0.5 * W.sqrt(), 1e-10);
     assert!(rates[0].abs() < 1e-10);
     let met = crossings(&Pendulum, &[0.0], &BAR, &[1.0], Policy::Stable, range, 1.0).unwrap();
-    close(
-        crossing_sensitivity(&Pendulum, &met[0]).unwrap()[1],
-        -0.5 * (0.5 * W).sqrt(),
-        1e-10,
-    );
+    close(crossing_sensitivity(&Pendulum, &met[0]).unwrap()[1], -0.5 * (0.5 * W).sqrt(), 1e-10);
 
     let bars = BARS;
     let value = |b: &[f64; 4]| critical_state(&DOUBLE, &[0.0], b, &[1.0; 2], range).unwrap();
@@ -244,13 +190,7 @@ fn limit_point_moves_with_the_force() {
 }
 
 /// Critical sensitivities against closed forms, and against differences of critical values found again.
-fn moves(
-    machine: &dyn DirectionalKernels,
-    b: &[f64],
-    start: &[f64],
-    (low, high): (f64, f64),
-    expected: &[f64],
-) {
+fn moves(machine: &dyn DirectionalKernels, b: &[f64], start: &[f64], (low, high): (f64, f64), expected: &[f64]) {
     let range = Range::new(Input::new(0), low, high).steps(20);
     let at = |b: &[f64]| critical_state(machine, &[0.0], b, start, range).unwrap();
     let rates = critical_sensitivity(machine, &at(b)).unwrap();
@@ -275,30 +215,12 @@ fn critical_values_move_as_their_closed_forms_do() {
     moves(&Derived(Snap), &[1.3], &[2.0], (-1.0, 2.0), &[root]);
     // 2 (a/3)^(3/2) with a = 1 - k/2.
     let root = ((1.0 - 0.1) / 3.0f64).sqrt();
-    moves(
-        &Derived(LopsidedSnap),
-        &[0.2],
-        &[2.0, 1.0],
-        (-1.0, 2.0),
-        &[-0.5 * root],
-    );
+    moves(&Derived(LopsidedSnap), &[0.2], &[2.0, 1.0], (-1.0, 2.0), &[-0.5 * root]);
     let (d, e, s) = (0.1, -0.2, 0.7);
-    moves(
-        &Derived(Exchange),
-        &[d, e, s],
-        &[d],
-        (-1.0, 1.0),
-        &[1.0 + 1.0 / s, -1.0 / s, -(d - e) / (s * s)],
-    );
+    moves(&Derived(Exchange), &[d, e, s], &[d], (-1.0, 1.0), &[1.0 + 1.0 / s, -1.0 / s, -(d - e) / (s * s)]);
     moves(&Derived(Quintic), &[1.2], &[0.0], (0.0, 2.0), &[1.0]);
     // The determinant of the non-symmetric mechanism is negative from k (3 - 8^(1/2)).
-    moves(
-        &Derived(Lopsided),
-        &[1.1],
-        &[0.0; 2],
-        (0.01, 1.0),
-        &[3.0 - 8f64.sqrt()],
-    );
+    moves(&Derived(Lopsided), &[1.1], &[0.0; 2], (0.01, 1.0), &[3.0 - 8f64.sqrt()]);
 }
 
 #[test]
@@ -307,49 +229,23 @@ fn what_destroys_a_bifurcation_has_no_derivative() {
     let perfect = [0.0, 0.1];
     let critical = critical_state(&Derived(Imperfect), &[0.0], &perfect, &[0.0], range).unwrap();
     close(critical.value, 0.1, 1e-13);
-    assert!(matches!(
-        critical_sensitivity(&Derived(Imperfect), &critical),
-        Err(Error::NoSensitivity { .. })
-    ));
+    assert!(matches!(critical_sensitivity(&Derived(Imperfect), &critical), Err(Error::NoSensitivity { .. })));
     let range = Range::new(Input::new(0), -1.0, 1.9).steps(20);
     let both = critical_state(&Derived(NearlyTwo), &[0.0], &[0.0], &[0.0; 2], range).unwrap();
-    assert!(matches!(
-        critical_sensitivity(&Derived(NearlyTwo), &both),
-        Err(Error::ClusteredMode { .. })
-    ));
+    assert!(matches!(critical_sensitivity(&Derived(NearlyTwo), &both), Err(Error::ClusteredMode { .. })));
 }
 
 #[test]
 fn a_critical_state_has_no_ordinary_shift() {
-    let state = equilibrium(
-        &Derived(Spring),
-        &[0.0],
-        &[1.0, 0.0, 0.0],
-        &[0.0],
-        Policy::Stable,
-    )
-    .unwrap();
-    assert_eq!(
-        equilibrium_shift(&Derived(Spring), &state),
-        Err(Error::CriticalState)
-    );
+    let state = equilibrium(&Derived(Spring), &[0.0], &[1.0, 0.0, 0.0], &[0.0], Policy::Stable).unwrap();
+    assert_eq!(equilibrium_shift(&Derived(Spring), &state), Err(Error::CriticalState));
     let found = modes(&state).unwrap();
-    assert_eq!(
-        sensitivities(&Derived(Spring), &state, &found),
-        Err(Error::CriticalState)
-    );
+    assert_eq!(sensitivities(&Derived(Spring), &state, &found), Err(Error::CriticalState));
 }
 
 #[test]
 fn clustered_modes_are_flagged() {
-    let state = equilibrium(
-        &Derived(Plate),
-        &[1.0],
-        &[0.5, 40.0, 40.0, 0.0],
-        &[0.0; 2],
-        Policy::Stable,
-    )
-    .unwrap();
+    let state = equilibrium(&Derived(Plate), &[1.0], &[0.5, 40.0, 40.0, 0.0], &[0.0; 2], Policy::Stable).unwrap();
     let undamped_modes = undamped_modes(&state).unwrap();
     let rates = sensitivities(&Derived(Plate), &state, &undamped_modes).unwrap();
     assert!(rates.modes.iter().all(|mode| mode.clustered));
@@ -405,17 +301,10 @@ fn second_derivatives_of_lambda_of_a_damped_oscillator() {
         let scale = expected[0][0];
         for (row, expected) in curvature.lambda.by_design.iter().zip(expected) {
             for (value, expected) in row.iter().zip(expected) {
-                assert!(
-                    (value - expected).abs() < 1e-11 * scale,
-                    "{value} {expected}"
-                );
+                assert!((value - expected).abs() < 1e-11 * scale, "{value} {expected}");
             }
         }
         // lambda is an even function of the speed.
-        assert!(
-            curvature.lambda.by_input_and_design[0]
-                .iter()
-                .all(|value| value.abs() < 1e-9)
-        );
+        assert!(curvature.lambda.by_input_and_design[0].iter().all(|value| value.abs() < 1e-9));
     }
 }

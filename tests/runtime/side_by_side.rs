@@ -65,12 +65,7 @@ fn nominal(m: &dyn Kernels) -> Vector {
     description.design.iter().map(|info| info.nominal).collect()
 }
 
-fn compare(
-    m: &dyn BatchKernels,
-    omega: f64,
-    start: &[f64],
-    tolerances: &Tolerances,
-) -> (Counts, bool) {
+fn compare(m: &dyn BatchKernels, omega: f64, start: &[f64], tolerances: &Tolerances) -> (Counts, bool) {
     compare_at(m, (omega, &nominal(m)), start, tolerances)
 }
 
@@ -85,22 +80,14 @@ fn compare_at(
     let state = equilibrium(m, &[omega], b, start, Policy::Stable).expect("an equilibrium");
     let found = modes(&state).expect("modes");
     let run = |vectors, threads| -> MonteCarlo {
-        let sampling = Sampling::default()
-            .samples(1003)
-            .seed(42)
-            .threads(threads)
-            .vectors(vectors)
-            .keep_samples(true);
+        let sampling = Sampling::default().samples(1003).seed(42).threads(threads).vectors(vectors).keep_samples(true);
         monte_carlo(m, &state, &found, tolerances, &sampling).expect("a run")
     };
     let alone = run(None, 1);
     let first = run(Some(Instructions::SCALAR), 1);
     for set in Instructions::available() {
         for threads in [1, 2] {
-            assert!(
-                run(Some(set), threads) == first,
-                "{set:?}, {threads} threads"
-            );
+            assert!(run(Some(set), threads) == first, "{set:?}, {threads} threads");
         }
     }
     // The result reports which it was, and so does the text unless it was one by one.
@@ -112,9 +99,7 @@ fn compare_at(
     assert_eq!(first.counts.total(), 1003);
     assert_eq!(first.left_nominal_branch, alone.left_nominal_branch);
     let near = |a: f64, b: f64, scale: f64| assert!((a - b).abs() <= 1e-11 * scale, "{a} {b}");
-    let (Some(own), Some(other)) = (&first.all, &alone.all) else {
-        panic!("samples were asked for")
-    };
+    let (Some(own), Some(other)) = (&first.all, &alone.all) else { panic!("samples were asked for") };
     let branch = Branch::of(m, &state);
     let stable = other.iter().filter(|x| x.outcome == Outcome::Stable);
     let left = stable.filter(|stable| {
@@ -150,10 +135,7 @@ fn compare_at(
             }
         }
     }
-    for (own, other) in [
-        (&first.modes, &alone.modes),
-        (&first.damping_ratios, &alone.damping_ratios),
-    ] {
+    for (own, other) in [(&first.modes, &alone.modes), (&first.damping_ratios, &alone.damping_ratios)] {
         assert_eq!(own.len(), other.len());
         for (own, other) in own.iter().zip(other.iter()) {
             let (Some(own), Some(other)) = (own, other) else {
@@ -161,18 +143,10 @@ fn compare_at(
                 continue;
             };
             assert_eq!(own.count, other.count);
-            for (a, b) in [
-                (own.mean, other.mean),
-                (own.min, other.min),
-                (own.max, other.max),
-            ] {
+            for (a, b) in [(own.mean, other.mean), (own.min, other.min), (own.max, other.max)] {
                 near(a, b, b.abs() + 0.1);
             }
-            near(
-                own.sigma.expect("several"),
-                other.sigma.expect("several"),
-                other.mean.abs() + 0.1,
-            );
+            near(own.sigma.expect("several"), other.sigma.expect("several"), other.mean.abs() + 0.1);
         }
     }
     (first.counts, first.modes != alone.modes)
@@ -280,8 +254,7 @@ fn damped_modes() {
 fn modes_that_stop_oscillating() {
     let mut oscillating = 0;
     for c in [1.0, 20.0, 36.0, 38.0, 40.0, 80.0] {
-        let tolerances =
-            Tolerances::new([0.03, 0.01, 0.01, 0.05 * c, 1.0], 3.0, None).expect("valid");
+        let tolerances = Tolerances::new([0.03, 0.01, 0.01, 0.05 * c, 1.0], 3.0, None).expect("valid");
         let m = &Damped;
         let mut b = nominal(m);
         b[3] = c;
@@ -307,13 +280,7 @@ fn gyroscopic_modes() {
 fn forces_without_a_potential() {
     let mut unstable = 0;
     for omega in [0.0, 150.0, 300.0, 450.0, 520.0, 540.0, 560.0, 700.0] {
-        let state = equilibrium(
-            &Rotor,
-            &[omega],
-            &nominal(&Rotor),
-            &[0.0; 2],
-            Policy::Nearest,
-        );
+        let state = equilibrium(&Rotor, &[omega], &nominal(&Rotor), &[0.0; 2], Policy::Nearest);
         let stable = state.expect("an equilibrium").stability == Stability::Stable;
         if !stable {
             unstable += 1;
@@ -340,8 +307,7 @@ fn samples_that_fail_are_what_they_are_alone() {
         [0.0, 0.1, 0.9, 1.0, 0.0],
         [-0.3, 0.0, 0.0, 0.0, 1.0],
     ];
-    let wide =
-        Tolerances::new([0.6, 0.4, 0.2, 0.2, 390.0], 3.0, Some(correlation.into())).expect("valid");
+    let wide = Tolerances::new([0.6, 0.4, 0.2, 0.2, 390.0], 3.0, Some(correlation.into())).expect("valid");
     let (counts, _) = compare(&Triple, 6.0, &[1.0, 0.1, 0.0], &wide);
     assert!(counts.stable > 900, "{counts:?}");
 }

@@ -22,10 +22,7 @@ fn study() -> Study<Pendulum> {
 
 #[test]
 fn what_was_set_can_be_read() {
-    let study = study()
-        .input(OMEGA, 3.0)
-        .design(LENGTH, 2.0)
-        .start(THETA, 0.5);
+    let study = study().input(OMEGA, 3.0).design(LENGTH, 2.0).start(THETA, 0.5);
     assert_eq!(study.input_values(), &[3.0]);
     assert_eq!(study.design_values()[LENGTH.index()], 2.0);
     assert_eq!(study.start_values(), &[0.5]);
@@ -43,10 +40,7 @@ fn a_relative_tolerance_follows_its_variable() {
         assert!(matches!(refused, Err(Error::Setting { .. })), "{fraction}");
     }
     let unknown = study().relative_tolerance(DesignVariable::new(2), 0.1);
-    assert!(matches!(
-        unknown.tolerances(),
-        Err(Error::UnknownHandle { .. })
-    ));
+    assert!(matches!(unknown.tolerances(), Err(Error::UnknownHandle { .. })));
 }
 
 #[test]
@@ -76,10 +70,7 @@ fn sigma_counts_correlation() {
 /// `omega_c^2 = 3 g / (2 l)`, and so `domega_c/dl = -omega_c / (2 l)`.
 #[test]
 fn the_critical_speed_has_a_spread() {
-    let study = study()
-        .tolerance(MASS, 0.0)
-        .relative_tolerance(LENGTH, 0.03)
-        .sigma_level(2.0);
+    let study = study().tolerance(MASS, 0.0).relative_tolerance(LENGTH, 0.03).sigma_level(2.0);
     let found = study.critical_tolerance(OMEGA, 0.0, 6.0).unwrap();
     let (speed, l) = (found.value, study.design_values()[LENGTH.index()]);
     assert_eq!(found.event, Event::Critical);
@@ -101,18 +92,8 @@ fn the_critical_speed_has_a_spread() {
 fn a_resonance_has_a_spread() {
     let study = study().relative_tolerance(LENGTH, 0.03);
     let found = study.crossing_tolerances(OMEGA, 0.5, 3.5, 1.0).unwrap();
-    let [crossing] = found.as_slice() else {
-        panic!("{found:?}")
-    };
-    let Event::Crossing {
-        mode,
-        condition,
-        s,
-        whirl,
-    } = crossing.event
-    else {
-        panic!("{crossing:?}")
-    };
+    let [crossing] = found.as_slice() else { panic!("{found:?}") };
+    let Event::Crossing { mode, condition, s, whirl } = crossing.event else { panic!("{crossing:?}") };
     assert_eq!(mode, 0);
     assert_eq!(condition, Condition::Line(1.0.into()));
     close(s.im, crossing.value, 1e-12);
@@ -139,9 +120,7 @@ fn streams_are_independent_and_the_same_on_any_number_of_threads() {
     }
     let lengths = |run: &eigentol::MonteCarlo| -> Vec<f64> {
         let all = run.all.as_deref().unwrap();
-        all.iter()
-            .map(|sample| sample.design[LENGTH.index()])
-            .collect()
+        all.iter().map(|sample| sample.design[LENGTH.index()]).collect()
     };
     let (a, b) = (lengths(&first), lengths(&last));
     assert!(a.iter().zip(&b).all(|(a, b)| a != b));

@@ -128,13 +128,7 @@ fn near(a: f64, b: f64, scale: f64) {
 
 /// Sweeps with every instruction set, compares with values solved one by one, and returns that sweep and the number of
 /// states that rounding shows to be solved in vectors.
-fn compare<M>(
-    m: &dyn BatchKernels,
-    u: &[f64],
-    start: &[f64],
-    input: Input<M>,
-    values: &[f64],
-) -> (Sweep, usize) {
+fn compare<M>(m: &dyn BatchKernels, u: &[f64], start: &[f64], input: Input<M>, values: &[f64]) -> (Sweep, usize) {
     let input = input.any();
     let b = nominal(m);
     let following = |vectors| Following::from(Policy::Stable).vectors(vectors);
@@ -168,11 +162,7 @@ fn compare<M>(
             for j in 0..n {
                 near(state.linear.mass[i][j], expected.linear.mass[i][j], 1.0);
                 let size = expected.linear.stiffness[i][i].abs();
-                near(
-                    state.linear.stiffness[i][j],
-                    expected.linear.stiffness[i][j],
-                    size,
-                );
+                near(state.linear.stiffness[i][j], expected.linear.stiffness[i][j], size);
             }
         }
         assert_eq!(state.inputs, expected.inputs);
@@ -220,8 +210,7 @@ fn derivatives(
             all.push(slopes.clone());
             ControlFlow::Continue(())
         };
-        sensitivity_sweep(m, (u, b), start, following, (input, values), each)
-            .expect("an input of the mechanism");
+        sensitivity_sweep(m, (u, b), start, following, (input, values), each).expect("an input of the mechanism");
         all
     };
     let first = run(Instructions::SCALAR);
@@ -261,9 +250,7 @@ fn derivatives(
 }
 
 fn steps(low: f64, high: f64, count: usize) -> Vec<f64> {
-    (0..count)
-        .map(|k| low + (high - low) * k as f64 / (count - 1) as f64)
-        .collect()
+    (0..count).map(|k| low + (high - low) * k as f64 / (count - 1) as f64).collect()
 }
 
 #[test]
@@ -272,13 +259,7 @@ fn neighbouring_values_are_solved_side_by_side() {
         let values = steps(4.5, 8.0, count);
         let (_, together) = compare(&Single, &[0.0], &[1.0], Single::omega, &values);
         let (_, also) = compare(&Double, &[0.0, 0.0], &[1.0, 0.1], Double::omega, &values);
-        let (_, three) = compare(
-            &Triple,
-            &[0.0, 0.5],
-            &[1.0, 0.1, 0.0],
-            Triple::omega,
-            &values,
-        );
+        let (_, three) = compare(&Triple, &[0.0, 0.5], &[1.0, 0.1, 0.0], Triple::omega, &values);
         if count == 60 {
             let least = together.min(also).min(three);
             assert!(least >= 30, "{together} {also} {three}");
@@ -342,32 +323,15 @@ fn other_policies_and_families_go_one_by_one() {
     let values = steps(4.5, 8.0, 40);
     let design = nominal(&Double);
     let run = |policy, family, vectors| {
-        let following = Following::default()
-            .policy(policy)
-            .family(family)
-            .vectors(vectors);
-        let found = sweep(
-            &Double,
-            &[0.0, 0.0],
-            &design,
-            &[1.0, 0.1],
-            following,
-            Double::omega.any(),
-            &values,
-        );
+        let following = Following::default().policy(policy).family(family).vectors(vectors);
+        let found = sweep(&Double, &[0.0, 0.0], &design, &[1.0, 0.1], following, Double::omega.any(), &values);
         format!("{found:?}")
     };
     let best = Some(Instructions::best());
-    for (policy, family) in [
-        (Policy::Nearest, None),
-        (Policy::Stable, Some(Family::General)),
-    ] {
+    for (policy, family) in [(Policy::Nearest, None), (Policy::Stable, Some(Family::General))] {
         assert_eq!(run(policy, family, best), run(policy, family, None));
     }
-    assert_ne!(
-        run(Policy::Stable, None, best),
-        run(Policy::Stable, None, None)
-    );
+    assert_ne!(run(Policy::Stable, None, best), run(Policy::Stable, None, None));
 }
 
 /// Solves one value after another, and compares every state, its modes and their derivatives with those computed from
@@ -418,17 +382,15 @@ fn from_nothing(
                 near(a.im, b.im, 1e4);
             }
         }
-        let mut derived: Vec<_> = (modes.modes.iter())
-            .map(|mode| format!("{:?}", discriminant(&mode.behaviour)))
-            .collect();
+        let mut derived: Vec<_> =
+            (modes.modes.iter()).map(|mode| format!("{:?}", discriminant(&mode.behaviour))).collect();
         derived.sort();
         changes += usize::from(solved > 0 && derived != kinds);
         kinds = derived;
         solved += 1;
         ControlFlow::Continue(())
     };
-    sensitivity_sweep(m, (u, &b), start, following, (input, values), each)
-        .expect("an input of the mechanism");
+    sensitivity_sweep(m, (u, &b), start, following, (input, values), each).expect("an input of the mechanism");
     (solved, changes)
 }
 
@@ -482,9 +444,7 @@ fn spreads_along_a_sweep_are_those_of_each_value() {
         .relative_tolerance(Double::l1, 0.03)
         .relative_tolerance(Double::m2, 0.02);
     let values = steps(4.5, 8.0, 40);
-    let along = study
-        .first_order_sweep(Double::omega, &values)
-        .expect("an input of the mechanism");
+    let along = study.first_order_sweep(Double::omega, &values).expect("an input of the mechanism");
     assert_eq!(along.len(), values.len());
     for (found, &value) in along.iter().zip(&values) {
         let alone = study.clone().input(Double::omega, value).first_order();
@@ -512,23 +472,10 @@ fn derivatives_along_a_sweep_are_what_differences_show() {
     let design = nominal(&Double);
     let squares = |design: &[f64]| -> Vec<[f64; 2]> {
         let following = Following::from(Policy::Stable).vectors(None);
-        let found = sweep(
-            &Double,
-            &[0.0, 3.0],
-            design,
-            &start,
-            following,
-            Double::omega.any(),
-            &values,
-        );
+        let found = sweep(&Double, &[0.0, 3.0], design, &start, following, Double::omega.any(), &values);
         let found = found.expect("an input of the mechanism");
-        let modes = found
-            .points
-            .iter()
-            .map(|point| point.modes.as_ref().expect("modes"));
-        modes
-            .map(|modes| [0, 1].map(|r| modes.modes[r].lambda))
-            .collect()
+        let modes = found.points.iter().map(|point| point.modes.as_ref().expect("modes"));
+        modes.map(|modes| [0, 1].map(|r| modes.modes[r].lambda)).collect()
     };
     let mut slopes = Vec::new();
     let each = |_: &SweepPoint, sensitivities: &Result<Sensitivities, Error>| {
@@ -537,15 +484,8 @@ fn derivatives_along_a_sweep_are_what_differences_show() {
         ControlFlow::Continue(())
     };
     let along = (Double::omega.any(), &values[..]);
-    sensitivity_sweep(
-        &Double,
-        (&[0.0, 3.0], &design),
-        &start,
-        Policy::Stable,
-        along,
-        each,
-    )
-    .expect("an input of the mechanism");
+    sensitivity_sweep(&Double, (&[0.0, 3.0], &design), &start, Policy::Stable, along, each)
+        .expect("an input of the mechanism");
     for j in 0..4 {
         let at = |step: f64| {
             let mut moved = design.clone();
@@ -559,10 +499,7 @@ fn derivatives_along_a_sweep_are_what_differences_show() {
                 let expected = (above[point][r] - below[point][r]) / (2.0 * step);
                 let scale = slopes[r].iter().fold(1.0, |most: f64, x| most.max(x.abs()));
                 let error = (slopes[r][j] - expected).abs();
-                assert!(
-                    error <= 1e-7 * scale,
-                    "{point} {r} {j}: {error:e} of {scale:e}"
-                );
+                assert!(error <= 1e-7 * scale, "{point} {r} {j}: {error:e} of {scale:e}");
             }
         }
     }
@@ -582,11 +519,7 @@ fn a_bar_along_its_speeds_is_the_closed_form() {
         near(state.coordinates[0].cos(), w / (u * u), 0.0);
         near(modes.modes[0].lambda, u * u - (w / u).powi(2), 0.0);
         let mode = &slopes.modes[0];
-        near(
-            mode.lambda.by_input[0],
-            2.0 * u + 2.0 * w * w / u.powi(3),
-            0.0,
-        );
+        near(mode.lambda.by_input[0], 2.0 * u + 2.0 * w * w / u.powi(3), 0.0);
         near(mode.lambda.by_design[0], 0.0, 1.0);
         near(mode.lambda.by_design[1], 2.0 * w * w / (l * u * u), 0.0);
         let by_length = mode.frequency().map(|slopes| slopes.by_design[1]);
@@ -597,7 +530,6 @@ fn a_bar_along_its_speeds_is_the_closed_form() {
     };
     let b = nominal(&Single);
     let along = (Single::omega.any(), &values[..]);
-    sensitivity_sweep(&Single, (&[0.0], &b), &[1.0], Policy::Stable, along, each)
-        .expect("an input of the mechanism");
+    sensitivity_sweep(&Single, (&[0.0], &b), &[1.0], Policy::Stable, along, each).expect("an input of the mechanism");
     assert_eq!(seen, values.len());
 }

@@ -9,9 +9,7 @@ use crate::common::pendulum::Pendulum;
 use crate::common::{FREQUENCY, close};
 use eigentol::requirement::{Requirement, SecondOrderFailure};
 use eigentol::tolerance::{Spread, Tolerances, output_tolerances};
-use eigentol::{
-    Complex, Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Policy, Quantity, Study,
-};
+use eigentol::{Complex, Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Policy, Quantity, Study};
 
 type Double = Study<Derived<Bars<2>>>;
 
@@ -20,18 +18,11 @@ const THETA: Coordinate<Pendulum> = Coordinate::new(0);
 const LENGTH: DesignVariable<Pendulum> = DesignVariable::new(1);
 
 fn pendulum(omega: f64, tolerance: f64) -> Study<Pendulum> {
-    Study::new(Pendulum)
-        .input(OMEGA, omega)
-        .start(THETA, 1.0)
-        .tolerance(LENGTH, tolerance)
+    Study::new(Pendulum).input(OMEGA, omega).start(THETA, 1.0).tolerance(LENGTH, tolerance)
 }
 
 fn sampled(omega: f64, tolerance: f64, samples: usize) -> MonteCarlo {
-    pendulum(omega, tolerance)
-        .samples(samples)
-        .seed(20)
-        .monte_carlo()
-        .unwrap()
+    pendulum(omega, tolerance).samples(samples).seed(20).monte_carlo().unwrap()
 }
 
 /// `lambda = 3 g / (2 l)` of a hanging bar, with the opposite sign for one that stands on its hinge: its growth is the
@@ -53,10 +44,7 @@ fn undamped_modes_have_the_spreads_of_a_root() {
     };
     let still = |spread: Spread| {
         assert_eq!((spread.mean, spread.sigma, spread.band), (0.0, 0.0, 0.0));
-        assert_eq!(
-            (spread.by_design, spread.variance_shares),
-            ([0.0; 2].into(), [0.0; 2].into())
-        );
+        assert_eq!((spread.by_design, spread.variance_shares), ([0.0; 2].into(), [0.0; 2].into()));
     };
     // Derivatives of the eigenvalue itself: along the imaginary axis, along the real one.
     for (start, unit) in [(0.1, Complex::new(0.0, 1.0)), (3.1, Complex::new(1.0, 0.0))] {
@@ -70,10 +58,7 @@ fn undamped_modes_have_the_spreads_of_a_root() {
             close(natural.unwrap(), slope.im, 1e-15);
             assert_eq!((damping, growth), (Some(0.0), Some(0.0)));
         } else {
-            assert_eq!(
-                [omega, natural, damping, growth],
-                [None, None, None, Some(slope.re)]
-            );
+            assert_eq!([omega, natural, damping, growth], [None, None, None, Some(slope.re)]);
         }
     }
     let hanging = &study(0.1).first_order().unwrap().modes[0];
@@ -83,27 +68,15 @@ fn undamped_modes_have_the_spreads_of_a_root() {
     still(hanging.growth().unwrap());
     let standing = &study(3.1).first_order().unwrap().modes[0];
     same(standing.growth().unwrap());
-    let others = [
-        standing.frequency(),
-        standing.natural_frequency(),
-        standing.damping_ratio(),
-    ];
+    let others = [standing.frequency(), standing.natural_frequency(), standing.damping_ratio()];
     assert_eq!(others, [None, None, None]);
 }
 
 #[test]
 fn first_order_matches_closed_form_and_warns_near_the_critical_speed() {
     let far = pendulum(3.0, 0.03).first_order().unwrap();
-    close(
-        far.modes[0].frequency().unwrap().sigma,
-        0.030_776_707_242_026_677,
-        1e-11,
-    );
-    close(
-        far.modes[0].frequency().unwrap().band,
-        3.0 * 0.030_776_707_242_026_677,
-        1e-11,
-    );
+    close(far.modes[0].frequency().unwrap().sigma, 0.030_776_707_242_026_677, 1e-11);
+    close(far.modes[0].frequency().unwrap().band, 3.0 * 0.030_776_707_242_026_677, 1e-11);
     close(far.modes[0].variance_shares()[1], 1.0, 1e-12);
     assert!(far.trusted());
     let near = pendulum(3.836, 0.03).first_order().unwrap();
@@ -111,14 +84,7 @@ fn first_order_matches_closed_form_and_warns_near_the_critical_speed() {
     assert!(!near.trusted());
     assert!(near.to_string().contains("Not to be trusted"));
     close(
-        pendulum(3.0, 0.03)
-            .sigma_level(2.0)
-            .first_order()
-            .unwrap()
-            .modes[0]
-            .frequency()
-            .unwrap()
-            .sigma,
+        pendulum(3.0, 0.03).sigma_level(2.0).first_order().unwrap().modes[0].frequency().unwrap().sigma,
         0.046_165_060_863_040_02,
         1e-11,
     );
@@ -128,9 +94,7 @@ fn first_order_matches_closed_form_and_warns_near_the_critical_speed() {
 fn plate_sigma_matches_reference() {
     // Independent m, kx, ky and an exact speed: 0.06046 also contains Omega's share (-0.5 * 0.04/3), which is
     // subtracted here.
-    let study = Study::new(Derived(Plate))
-        .input(Input::new(0), 4.0)
-        .family(Family::Undamped);
+    let study = Study::new(Derived(Plate)).input(Input::new(0), 4.0).family(Family::Undamped);
     let spread = study.first_order().unwrap();
     let expected = (0.060_461_190_490_723_515_f64.powi(2) - (0.5 * 0.04_f64 / 3.0).powi(2)).sqrt();
     close(spread.modes[0].frequency().unwrap().sigma, expected, 1e-12);
@@ -151,9 +115,7 @@ fn near_modes_are_not_trusted() {
 
 #[test]
 fn correlation_changes_the_spread() {
-    let base = Double::new(DOUBLE)
-        .input(Input::new(0), 3.0)
-        .start(Coordinate::new(0), 1.0);
+    let base = Double::new(DOUBLE).input(Input::new(0), 3.0).start(Coordinate::new(0), 1.0);
     let independent = base.first_order().unwrap();
     let mut matrix = [[0.0; 4]; 4];
     (0..4).for_each(|j| matrix[j][j] = 1.0);
@@ -162,36 +124,14 @@ fn correlation_changes_the_spread() {
     let together = base.clone().correlation(matrix).first_order().unwrap();
     let rates = base.sensitivities().unwrap();
     let slopes = rates.modes[0].frequency().unwrap().by_design;
-    close(
-        together.modes[0].frequency().unwrap().sigma,
-        (slopes[0] + slopes[1]).abs() * 0.01,
-        1e-12,
-    );
-    close(
-        independent.modes[0].frequency().unwrap().sigma,
-        slopes[0].hypot(slopes[1]) * 0.01,
-        1e-12,
-    );
+    close(together.modes[0].frequency().unwrap().sigma, (slopes[0] + slopes[1]).abs() * 0.01, 1e-12);
+    close(independent.modes[0].frequency().unwrap().sigma, slopes[0].hypot(slopes[1]) * 0.01, 1e-12);
     // Monte Carlo sees the same coupling.
-    let run = base
-        .clone()
-        .correlation(matrix)
-        .samples(4000)
-        .keep_samples(true)
-        .monte_carlo()
-        .unwrap();
-    assert!(
-        run.all
-            .unwrap()
-            .iter()
-            .all(|s| (s.design[0] - s.design[1]).abs() < 1e-12)
-    );
+    let run = base.clone().correlation(matrix).samples(4000).keep_samples(true).monte_carlo().unwrap();
+    assert!(run.all.unwrap().iter().all(|s| (s.design[0] - s.design[1]).abs() < 1e-12));
     matrix[0][1] = 1.5;
     matrix[1][0] = 1.5;
-    assert!(matches!(
-        base.correlation(matrix).first_order(),
-        Err(Error::Setting { .. })
-    ));
+    assert!(matches!(base.correlation(matrix).first_order(), Err(Error::Setting { .. })));
 }
 
 /// Requires mean and standard deviation to agree within four standard errors.
@@ -199,18 +139,11 @@ fn agrees(run: &MonteCarlo, mean: f64, sigma: f64) {
     let mode = run.modes[0].as_ref().unwrap();
     assert_eq!(run.counts.stable, run.samples);
     let error = (mode.mean - mean).abs() / mode.standard_error.unwrap();
-    assert!(
-        error < 4.0,
-        "mean {} is {error} standard errors from {mean}",
-        mode.mean
-    );
+    assert!(error < 4.0, "mean {} is {error} standard errors from {mean}", mode.mean);
     // Standard error of a standard deviation, for moderate kurtosis.
     let deviation = mode.sigma.unwrap();
     let error = (deviation - sigma).abs() * (2.0 * run.samples as f64).sqrt() / sigma;
-    assert!(
-        error < 4.0,
-        "sigma {deviation} is {error} standard errors from {sigma}"
-    );
+    assert!(error < 4.0, "sigma {deviation} is {error} standard errors from {sigma}");
 }
 
 #[test]
@@ -254,17 +187,13 @@ fn no_sample_is_dropped() {
     let count = run.modes[0].as_ref().unwrap().count as usize;
     assert_eq!(count, run.counts.stable);
     // A stiffness about zero: half of the samples diverge. The force fixes the equilibrium.
-    let study = Study::new(Derived(Plate))
-        .input(Input::new(0), 8.5)
-        .tolerance(DesignVariable::new(1), 12.0);
+    let study = Study::new(Derived(Plate)).input(Input::new(0), 8.5).tolerance(DesignVariable::new(1), 12.0);
     let plate = study.samples(2000).monte_carlo().unwrap();
     assert_eq!(plate.counts.total(), 2000);
     assert!(plate.counts.divergent > 100, "{}", plate.counts);
     assert!(plate.counts.stable > 100, "{}", plate.counts);
     // A potential without a lower bound: beyond some force there is no equilibrium at all.
-    let study = Study::new(Derived(Spring))
-        .input(Input::new(0), 1.9)
-        .design(DesignVariable::new(1), -1.0);
+    let study = Study::new(Derived(Spring)).input(Input::new(0), 1.9).design(DesignVariable::new(1), -1.0);
     let fold = study
         .start(Coordinate::new(0), 0.3)
         .tolerance(DesignVariable::new(2), 0.3)
@@ -296,29 +225,11 @@ fn progress_adds_up() {
 
 #[test]
 fn settings_are_checked() {
-    assert!(matches!(
-        Tolerances::new([-1.0], 3.0, None),
-        Err(Error::Setting { .. })
-    ));
-    assert!(matches!(
-        Tolerances::new([f64::NAN], 3.0, None),
-        Err(Error::Setting { .. })
-    ));
-    assert!(matches!(
-        Tolerances::new([1.0], 0.0, None),
-        Err(Error::Setting { .. })
-    ));
-    let foreign = pendulum(3.0, 0.03)
-        .design(DesignVariable::new(9), 1.0)
-        .equilibrium();
-    assert!(matches!(
-        foreign,
-        Err(Error::UnknownHandle {
-            index: 9,
-            count: 2,
-            ..
-        })
-    ));
+    assert!(matches!(Tolerances::new([-1.0], 3.0, None), Err(Error::Setting { .. })));
+    assert!(matches!(Tolerances::new([f64::NAN], 3.0, None), Err(Error::Setting { .. })));
+    assert!(matches!(Tolerances::new([1.0], 0.0, None), Err(Error::Setting { .. })));
+    let foreign = pendulum(3.0, 0.03).design(DesignVariable::new(9), 1.0).equilibrium();
+    assert!(matches!(foreign, Err(Error::UnknownHandle { index: 9, count: 2, .. })));
     let empty = pendulum(3.0, 0.03).samples(0).monte_carlo().unwrap();
     assert_eq!((empty.counts.total(), empty.modes[0].clone()), (0, None));
 }
@@ -329,11 +240,7 @@ fn outputs_have_tolerances() {
     let spread = study.output_tolerances().unwrap();
     let outputs = study.outputs().unwrap();
     let slope = outputs.by_design[0].as_ref().unwrap()[1];
-    close(
-        spread.spreads[0].as_ref().unwrap().sigma,
-        0.01 * slope.abs(),
-        1e-12,
-    );
+    close(spread.spreads[0].as_ref().unwrap().sigma, 0.01 * slope.abs(), 1e-12);
     let direct = output_tolerances(&outputs, &study.tolerances().unwrap()).unwrap();
     assert_eq!(spread, direct);
 }
@@ -351,25 +258,12 @@ fn every_result_prints() {
         study.monte_carlo().unwrap().to_string(),
         study.critical_state(OMEGA, 1.0, 5.0).unwrap().to_string(),
         study.crossings(OMEGA, 1.0, 5.0, 1.0).unwrap()[0].to_string(),
-        study
-            .sweep(OMEGA, &[1.0, f64::NAN, 5.0])
-            .unwrap()
-            .to_string(),
-        study
-            .campbell(OMEGA, &[1.0, 3.0], &[1.0])
-            .unwrap()
-            .to_string(),
+        study.sweep(OMEGA, &[1.0, f64::NAN, 5.0]).unwrap().to_string(),
+        study.campbell(OMEGA, &[1.0, 3.0], &[1.0]).unwrap().to_string(),
         study.second_order().unwrap().to_string(),
+        study.second_order_failure(Requirement::away(FREQUENCY, OMEGA.any(), 0.1)).unwrap().to_string(),
         study
-            .second_order_failure(Requirement::away(FREQUENCY, OMEGA.any(), 0.1))
-            .unwrap()
-            .to_string(),
-        study
-            .second_order_failure(Requirement::Outside {
-                response: FREQUENCY,
-                low: 900.0,
-                high: 1000.0,
-            })
+            .second_order_failure(Requirement::Outside { response: FREQUENCY, low: 900.0, high: 1000.0 })
             .unwrap()
             .to_string(),
         study.branches(OMEGA, 1.0, 5.0).unwrap().to_string(),
@@ -398,11 +292,7 @@ fn every_result_prints() {
 /// `x* = -e / (omega^2 - 1)` approximately; an energy descent would run to the stable equilibria far outside.
 #[test]
 fn samples_stay_where_gyroscopic_forces_hold_them() {
-    let study = Study::new(Derived(Supercritical))
-        .input(Input::new(0), 3.0)
-        .samples(200)
-        .threads(1)
-        .keep_samples(true);
+    let study = Study::new(Derived(Supercritical)).input(Input::new(0), 3.0).samples(200).threads(1).keep_samples(true);
     let result = study.monte_carlo().unwrap();
     assert_eq!((result.counts.stable, result.left_nominal_branch), (200, 0));
     for sample in result.all.unwrap() {
@@ -414,28 +304,17 @@ fn samples_stay_where_gyroscopic_forces_hold_them() {
 fn a_report_says_what_first_order_leaves_out() {
     let equal = Study::new(Derived(Pair)).tolerance(DesignVariable::new(2), 0.0);
     let text = equal.first_order().unwrap().to_string();
-    assert!(
-        text.contains("mode 2: it has nearly equal neighbours"),
-        "{text}"
-    );
+    assert!(text.contains("mode 2: it has nearly equal neighbours"), "{text}");
     assert!(!text.contains("inf standard deviations"), "{text}");
 
     let damping = DesignVariable::new(3);
-    let plate = Study::new(Derived(Plate))
-        .input(Input::new(0), 1.0)
-        .tolerance(damping, 0.01);
+    let plate = Study::new(Derived(Plate)).input(Input::new(0), 1.0).tolerance(damping, 0.01);
     let said = |study: &Study<Derived<Plate>>, words: &str| {
         let first = study.first_order().unwrap().to_string();
         let summary = study.summary().unwrap().to_string();
-        assert!(
-            first.contains(words) && summary.contains(words),
-            "{first}{summary}"
-        );
+        assert!(first.contains(words) && summary.contains(words), "{first}{summary}");
     };
-    said(
-        &plate,
-        "the vibration neither grows nor decays within rounding",
-    );
+    said(&plate, "the vibration neither grows nor decays within rounding");
     let fed = plate.design(damping, -0.01);
     said(&fed, "the vibration grows");
     // Whether or not its growth varies.
@@ -450,9 +329,7 @@ fn a_report_says_what_first_order_leaves_out() {
 #[test]
 fn a_margin_moves_with_speed_and_design() {
     let study = |speed: f64, length: f64| {
-        pendulum(speed, 0.03)
-            .design(DesignVariable::new(1), length)
-            .tolerance(DesignVariable::new(1), 0.03)
+        pendulum(speed, 0.03).design(DesignVariable::new(1), length).tolerance(DesignVariable::new(1), 0.03)
     };
     let wanted = Requirement::away(FREQUENCY, OMEGA.any(), 0.2);
     let margin = study(5.0, 1.0).second_order_failure(wanted).unwrap();
@@ -465,15 +342,9 @@ fn a_margin_moves_with_speed_and_design() {
     let by_length = (first_order(5.0, 1.0 + step) - first_order(5.0, 1.0 - step)) / (2.0 * step);
     let found = margin.by_input.as_ref().unwrap()[0];
     assert!(by_speed.abs() > 0.1 && by_length.abs() > 0.1);
-    assert!(
-        (found - by_speed).abs() < 1e-4 * by_speed.abs(),
-        "{found} {by_speed}"
-    );
+    assert!((found - by_speed).abs() < 1e-4 * by_speed.abs(), "{found} {by_speed}");
     let found = margin.margin.derivatives.unwrap().by_design[1];
-    assert!(
-        (found - by_length).abs() < 1e-4 * by_length.abs(),
-        "{found} {by_length}"
-    );
+    assert!((found - by_length).abs() < 1e-4 * by_length.abs(), "{found} {by_length}");
 }
 
 /// The standard error matches the scatter of the means of independent runs; for a single run it is its own standard
@@ -486,29 +357,16 @@ fn means_scatter_by_their_standard_error() {
     for stream in 0..runs {
         let run = study.clone().stream(stream).monte_carlo().unwrap();
         let mode = run.modes[0].as_ref().unwrap();
-        let values: Vec<f64> = run
-            .all
-            .unwrap()
-            .iter()
-            .map(|sample| sample.frequencies[0].unwrap())
-            .collect();
+        let values: Vec<f64> = run.all.unwrap().iter().map(|sample| sample.frequencies[0].unwrap()).collect();
         let mean = values.iter().sum::<f64>() / 50.0;
         let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-        close(
-            mode.standard_error.unwrap(),
-            (squares / 49.0 / 50.0).sqrt(),
-            1e-12,
-        );
+        close(mode.standard_error.unwrap(), (squares / 49.0 / 50.0).sqrt(), 1e-12);
         means.push(mode.mean);
         errors += mode.standard_error.unwrap().powi(2);
     }
     let count = runs as f64;
     let centre = means.iter().sum::<f64>() / count;
-    let scatter: f64 = means
-        .iter()
-        .map(|mean| (mean - centre).powi(2))
-        .sum::<f64>()
-        / (count - 1.0);
+    let scatter: f64 = means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / (count - 1.0);
     // Four standard errors of a variance.
     close(scatter / (errors / count), 1.0, 4.0 * (2.0 / count).sqrt());
 }
@@ -521,24 +379,14 @@ fn a_band_about_a_negative_speed_moves_the_other_way() {
     let margin = |speed: f64| length(speed).second_order_failure(wanted).unwrap();
     let (forward, backward) = (margin(5.0), margin(-5.0));
     let by_speed = |margin: &SecondOrderFailure| margin.by_input.as_ref().unwrap()[0];
-    close(
-        backward.margin.first_order,
-        forward.margin.first_order,
-        1e-12,
-    );
+    close(backward.margin.first_order, forward.margin.first_order, 1e-12);
     assert!(by_speed(&forward).abs() > 0.1);
     close(by_speed(&backward), -by_speed(&forward), 1e-10);
     let step = 1e-4;
-    let difference =
-        margin(-5.0 + step).margin.first_order - margin(-5.0 - step).margin.first_order;
+    let difference = margin(-5.0 + step).margin.first_order - margin(-5.0 - step).margin.first_order;
     close(by_speed(&backward), difference / (2.0 * step), 1e-4);
     // So does an order with the opposite sign.
-    let against = Requirement::Away {
-        response: FREQUENCY,
-        input: OMEGA.any(),
-        order: -1.0,
-        fraction: 0.2,
-    };
+    let against = Requirement::Away { response: FREQUENCY, input: OMEGA.any(), order: -1.0, fraction: 0.2 };
     let found = length(5.0).second_order_failure(against).unwrap();
     close(by_speed(&found), by_speed(&forward), 1e-12);
 }
@@ -548,18 +396,11 @@ fn a_band_about_a_negative_speed_moves_the_other_way() {
 #[test]
 fn a_damped_mode_loses_its_stiffness_where_its_spring_does() {
     let sigma = 0.1;
-    let study = (0..4).fold(Study::new(Derived(Plate)), |study, k| {
-        study.tolerance(DesignVariable::new(k), 0.0)
-    });
-    let study = study
-        .sigma_level(1.0)
-        .tolerance(DesignVariable::new(1), sigma)
-        .tolerance(DesignVariable::new(2), sigma);
+    let study = (0..4).fold(Study::new(Derived(Plate)), |study, k| study.tolerance(DesignVariable::new(k), 0.0));
+    let study =
+        study.sigma_level(1.0).tolerance(DesignVariable::new(1), sigma).tolerance(DesignVariable::new(2), sigma);
     for damping in [0.0, 0.5, 3.0] {
-        let study = study
-            .clone()
-            .design(DesignVariable::new(3), damping)
-            .family(Family::General);
+        let study = study.clone().design(DesignVariable::new(3), damping).family(Family::General);
         let first = study.first_order().unwrap();
         for (mode, k) in first.modes.iter().zip([40.0, 60.0]) {
             close(mode.distance_to_critical, k / sigma, 1e-9);

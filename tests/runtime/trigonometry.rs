@@ -27,10 +27,7 @@ fn stored_values_to_one_unit_in_the_last_place() {
     for [x, sine, sine_rest, cosine, cosine_rest] in exact() {
         let (s, c) = Real::sin_cos(x);
         let errors = [units(s, sine, sine_rest), units(c, cosine, cosine_rest)];
-        assert!(
-            errors.iter().all(|&error| error <= 1.0),
-            "{x:e}: {errors:?}"
-        );
+        assert!(errors.iter().all(|&error| error <= 1.0), "{x:e}: {errors:?}");
     }
 }
 
@@ -45,26 +42,12 @@ fn a_wrong_last_digit_is_seen() {
 /// In vectors: the same bits as one by one, whatever the neighbouring lanes, and the correct sign of zero.
 #[test]
 fn several_angles_at_once() {
-    let angles = [
-        0.3,
-        -0.0,
-        2e5,
-        -1.2e4,
-        f64::NAN,
-        7.0,
-        f64::INFINITY,
-        1.0,
-        0.0,
-    ];
+    let angles = [0.3, -0.0, 2e5, -1.2e4, f64::NAN, 7.0, f64::INFINITY, 1.0, 0.0];
     let bits = |(s, c): (f64, f64)| [s.to_bits(), c.to_bits()];
     let alone = angles.map(|x| bits(Real::sin_cos(x)));
     let comparable = |k: usize| angles[k].is_finite();
     for (k, pair) in Real::sin_cos_all(angles).into_iter().enumerate() {
-        assert!(
-            !comparable(k) || bits(pair) == alone[k],
-            "{}: {pair:?}",
-            angles[k]
-        );
+        assert!(!comparable(k) || bits(pair) == alone[k], "{}: {pair:?}", angles[k]);
         assert!(comparable(k) || (pair.0.is_nan() && pair.1.is_nan()));
     }
     let [(even, _)] = Real::sin_cos_all([-0.0_f64]);
@@ -80,9 +63,7 @@ fn several_angles_at_once() {
 fn agrees_with_the_standard_library_everywhere() {
     let mut state = 1_u64;
     let mut uniform = || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
     for k in 0..300_000 {
@@ -90,17 +71,10 @@ fn agrees_with_the_standard_library_everywhere() {
         let x = size * (2.0 * uniform() - 1.0);
         // Every second one is close to a multiple of pi/2.
         let quarter = core::f64::consts::FRAC_PI_2;
-        let x = if k % 2 == 0 {
-            x
-        } else {
-            (x / quarter).round() * quarter
-        };
+        let x = if k % 2 == 0 { x } else { (x / quarter).round() * quarter };
         let (s, c) = Real::sin_cos(x);
         let (sine, cosine) = f64::sin_cos(x);
-        assert!(
-            units(s, sine, 0.0) <= 1.0 && units(c, cosine, 0.0) <= 1.0,
-            "{x:e}"
-        );
+        assert!(units(s, sine, 0.0) <= 1.0 && units(c, cosine, 0.0) <= 1.0, "{x:e}");
         assert_eq!((Real::sin(x), Real::cos(x)), (s, c));
         assert_eq!(Real::sin_cos(-x), (-s, c));
     }

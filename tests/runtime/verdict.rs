@@ -58,19 +58,13 @@ const W: f64 = 1.5 * 9.81;
 const TOLERANCES: [f64; 8] = [0.01, 0.02, 0.03, 0.06, 0.12, 0.15, 0.20, 0.25];
 
 fn bar(speed: f64) -> Study<Bar> {
-    Study::new(Bar)
-        .input(Bar::omega, speed)
-        .start(Bar::theta, 1.0)
+    Study::new(Bar).input(Bar::omega, speed).start(Bar::theta, 1.0)
 }
 
 /// The frequency, hanging, or swung out where that is stable.
 fn frequency(speed: f64, length: f64) -> f64 {
     let (w, square) = (W / length, speed * speed);
-    let lambda = if w > square {
-        w - square
-    } else {
-        square - w * w / square
-    };
+    let lambda = if w > square { w - square } else { square - w * w / square };
     lambda.sqrt()
 }
 
@@ -85,18 +79,12 @@ fn over_lengths(sigma: f64, of: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     const STEP: f64 = 1e-3;
     let places = (-6_500..=6_500).map(|k| (f64::from(k) + 0.5) * STEP);
     let weight = |z: f64| (-0.5 * z * z).exp() * STEP / std::f64::consts::TAU.sqrt();
-    places
-        .filter(|z| 1.0 + sigma * z > 0.0)
-        .map(|z| (of(1.0 + sigma * z), weight(z)))
-        .collect()
+    places.filter(|z| 1.0 + sigma * z > 0.0).map(|z| (of(1.0 + sigma * z), weight(z))).collect()
 }
 
 fn exact_sigma(all: &[(f64, f64)]) -> f64 {
     let mean: f64 = all.iter().map(|(value, weight)| value * weight).sum();
-    let variance: f64 = all
-        .iter()
-        .map(|(value, weight)| (value - mean).powi(2) * weight)
-        .sum();
+    let variance: f64 = all.iter().map(|(value, weight)| (value - mean).powi(2) * weight).sum();
     variance.sqrt()
 }
 
@@ -117,14 +105,8 @@ fn judged(summary: &Summary, mode: usize, exact: f64, known: f64, at: &str) {
     let check = check.unwrap_or_else(|| panic!("{}", says()));
     let first_order_error = check.first_order_error.unwrap();
     let uncertain = 5.0 * first_order_error.standard_error + known;
-    assert!(
-        (first_order_error.value - first).abs() <= uncertain,
-        "{}",
-        says()
-    );
-    assert!(
-        (check.sigma.value / exact - 1.0).abs() <= 5.0 * check.sigma.standard_error / exact + known
-    );
+    assert!((first_order_error.value - first).abs() <= uncertain, "{}", says());
+    assert!((check.sigma.value / exact - 1.0).abs() <= 5.0 * check.sigma.standard_error / exact + known);
     let second = summary.second.modes[mode].as_ref().unwrap();
     let second = second.frequency.moments.sigma / exact - 1.0;
     match trust.advice {
@@ -143,9 +125,7 @@ fn verdicts_on_a_bar_are_right() {
 #[ignore = "ten seconds"]
 fn verdicts_on_a_bar_are_right_at_every_speed_and_tolerance() {
     let speeds = (10..=30).map(|k| 0.05 * f64::from(k));
-    let speeds = speeds
-        .filter(|ratio| *ratio != 1.0)
-        .chain([0.98, 0.995, 1.005, 1.02]);
+    let speeds = speeds.filter(|ratio| *ratio != 1.0).chain([0.98, 0.995, 1.005, 1.02]);
     verdicts_on_a_bar(speeds, &TOLERANCES);
 }
 
@@ -175,10 +155,7 @@ fn beyond_the_critical_speed_wide_tolerances_are_found_out() {
         assert!(exact < -0.05, "{exact}");
         assert!((error.value - exact).abs() < 4.0 * error.standard_error);
         let doubts = &summary.trust[0].doubts;
-        assert!(
-            matches!(doubts[..], [.., Doubt::Inaccurate { .. }]),
-            "{doubts:?}"
-        );
+        assert!(matches!(doubts[..], [.., Doubt::Inaccurate { .. }]), "{doubts:?}");
         // Second order has an error of the same size there.
         assert_eq!(summary.trust[0].advice, Advice::Sampling);
     }
@@ -234,11 +211,7 @@ fn samples_at_the_critical_speed_have_the_exact_distribution() {
 #[test]
 #[ignore = "minutes without optimisation"]
 fn samples_near_the_critical_speed_have_the_exact_distribution() {
-    let exact = [
-        (0.03, [0.1745, 0.2242]),
-        (0.06, [0.2440, 0.2858]),
-        (0.12, [0.3382, 0.3657]),
-    ];
+    let exact = [(0.03, [0.1745, 0.2242]), (0.06, [0.2440, 0.2858]), (0.12, [0.3382, 0.3657])];
     for ratio in [0.995, 1.0, 1.005] {
         samples_have_the_exact_distribution(ratio, 8, &exact);
     }
@@ -248,11 +221,7 @@ fn samples_near_the_critical_speed_have_the_exact_distribution() {
 /// the critical speed and at 1.005 times it.
 fn samples_have_the_exact_distribution(ratio: f64, streams: u64, all: &[(f64, [f64; 2])]) {
     for &(tolerance, exact) in all {
-        let speed = if ratio == 1.0 {
-            3.836
-        } else {
-            ratio * W.sqrt()
-        };
+        let speed = if ratio == 1.0 { 3.836 } else { ratio * W.sqrt() };
         let mut all = distribution(speed, tolerance / 3.0);
         let sigma = exact_sigma(&all);
         match ratio {
@@ -275,11 +244,7 @@ fn samples_have_the_exact_distribution(ratio: f64, streams: u64, all: &[(f64, [f
         found.sort_by(f64::total_cmp);
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         for p in [0.1, 0.25, 0.5, 0.75, 0.9, 0.99] {
-            close(
-                found[(p * found.len() as f64) as usize],
-                quantile(&all, p),
-                1e-2,
-            );
+            close(found[(p * found.len() as f64) as usize], quantile(&all, p), 1e-2);
         }
     }
 }
@@ -294,10 +259,7 @@ fn the_chance_of_the_other_branch_is_that_of_the_critical_length() {
         let beyond = 0.5 * libm_erfc(critical.abs() / 2.0_f64.sqrt());
         let chance = summary.sampled().unwrap().other_branch.unwrap();
         let error = 4.0 * (beyond * (1.0 - beyond) / chance.samples as f64).sqrt();
-        assert!(
-            (chance.value() - beyond).abs() < error,
-            "{ratio} {beyond} {chance:?}"
-        );
+        assert!((chance.value() - beyond).abs() < error, "{ratio} {beyond} {chance:?}");
         assert!(chance.lower <= chance.value() && chance.value() <= chance.upper);
         assert!(summary.to_string().contains("Stable on another branch"));
     }
@@ -322,13 +284,7 @@ fn uniform_lengths_are_judged_as_well() {
             .map(|k| 1.0 + half_width * ((f64::from(k) + 0.5) / 100_000.0 - 1.0))
             .map(|length| (frequency(speed, length), 5e-6))
             .collect();
-        judged(
-            &summary,
-            0,
-            exact_sigma(&all),
-            1e-4,
-            &format!("{ratio} {half_width}"),
-        );
+        judged(&summary, 0, exact_sigma(&all), 1e-4, &format!("{ratio} {half_width}"));
     }
 }
 
@@ -340,15 +296,9 @@ fn what_is_too_dear_to_sample_keeps_the_distances() {
     assert!(matches!(by_distance.sampling, Sampling::TooDear { .. }));
     assert!(by_distance.trusted(), "{by_distance}");
     let text = by_distance.to_string();
-    assert!(
-        text.contains("Not checked by samples: sampling needs about"),
-        "{text}"
-    );
+    assert!(text.contains("Not checked by samples: sampling needs about"), "{text}");
     assert!(text.contains("operations; the limit is 0"), "{text}");
-    let exact = bar(1.1 * W.sqrt())
-        .tolerance(Bar::l, 0.0)
-        .summary()
-        .unwrap();
+    let exact = bar(1.1 * W.sqrt()).tolerance(Bar::l, 0.0).summary().unwrap();
     assert_eq!(exact.sampling, Sampling::NotNeeded);
     assert!(exact.trusted());
 }
@@ -358,8 +308,7 @@ fn what_is_too_dear_to_sample_keeps_the_distances() {
 #[test]
 fn verdicts_on_a_loop_are_right() {
     let ratio = |damping: f64, l: f64| 0.5 * damping / (3.0 * 3.5 * 9.81 * l.powi(3)).sqrt();
-    let frequency =
-        |damping: f64, l: f64| (3.5 * 9.81 / (3.0 * l) * (1.0 - ratio(damping, l).powi(2))).sqrt();
+    let frequency = |damping: f64, l: f64| (3.5 * 9.81 / (3.0 * l) * (1.0 - ratio(damping, l).powi(2))).sqrt();
     // For `f(1) + f' x + f'' x^2 / 2`.
     let second_order = |of: &dyn Fn(f64) -> f64, sigma: f64| {
         let h = 1e-4;
@@ -367,9 +316,8 @@ fn verdicts_on_a_loop_are_right() {
         let curvature = (of(1.0 + h) - 2.0 * of(1.0) + of(1.0 - h)) / (h * h);
         (slope * sigma).hypot(curvature * sigma * sigma / 2.0_f64.sqrt())
     };
-    for (damping, tolerance) in [0.0, 2.0, 5.0]
-        .into_iter()
-        .flat_map(|damping| [0.01, 0.03, 0.12, 0.2].map(|tolerance| (damping, tolerance)))
+    for (damping, tolerance) in
+        [0.0, 2.0, 5.0].into_iter().flat_map(|damping| [0.01, 0.03, 0.12, 0.2].map(|tolerance| (damping, tolerance)))
     {
         let study = Study::new(Swing)
             .design(Swing::c, damping)
@@ -381,13 +329,7 @@ fn verdicts_on_a_loop_are_right() {
         let vibration = |l| frequency(damping, l);
         let decay = |l| ratio(damping, l);
         if damping == 0.0 {
-            judged(
-                &summary,
-                0,
-                exact_sigma(&over_lengths(sigma, vibration)),
-                1e-4,
-                &at,
-            );
+            judged(&summary, 0, exact_sigma(&over_lengths(sigma, vibration)), 1e-4, &at);
             continue;
         }
         let (first, trust) = (&summary.first.modes[0], &summary.trust[0]);
@@ -404,8 +346,7 @@ fn verdicts_on_a_loop_are_right() {
             let check = trust.check(quantity).unwrap();
             let first_order_error = check.first_order_error.unwrap();
             assert!(
-                (first_order_error.value - off).abs()
-                    <= 5.0 * first_order_error.standard_error + 1e-4,
+                (first_order_error.value - off).abs() <= 5.0 * first_order_error.standard_error + 1e-4,
                 "{at}: {off}\n{summary}"
             );
             // The remainder of each sample after second order is of third order.
@@ -413,32 +354,19 @@ fn verdicts_on_a_loop_are_right() {
             let off = second_order(of, sigma) / exact - 1.0;
             let second_order_error = check.second_order_error.unwrap();
             if damping < 3.0 && tolerance > 0.1 {
-                assert!(
-                    second_order_error.standard_error < 0.6 * rest,
-                    "{at}\n{summary}"
-                );
+                assert!(second_order_error.standard_error < 0.6 * rest, "{at}\n{summary}");
             }
             assert!(
-                (second_order_error.value - off).abs()
-                    <= 5.0 * second_order_error.standard_error + 1e-4,
+                (second_order_error.value - off).abs() <= 5.0 * second_order_error.standard_error + 1e-4,
                 "{at}: {off}\n{summary}"
             );
             let off = check.sigma.value - exact;
-            assert!(
-                off.abs() <= 5.0 * check.sigma.standard_error,
-                "{at}\n{summary}"
-            );
+            assert!(off.abs() <= 5.0 * check.sigma.standard_error, "{at}\n{summary}");
             let mean: f64 = all.iter().map(|(value, weight)| value * weight).sum();
             let scatter = exact / (check.count as f64).sqrt();
-            assert!(
-                (check.mean - mean).abs() <= 5.0 * scatter,
-                "{at}\n{summary}"
-            );
+            assert!((check.mean - mean).abs() <= 5.0 * scatter, "{at}\n{summary}");
         }
-        assert!(
-            !trust.trusted() || worst <= 0.05,
-            "{at}: {worst}\n{summary}"
-        );
+        assert!(!trust.trusted() || worst <= 0.05, "{at}: {worst}\n{summary}");
         assert!(trust.trusted() || worst >= 0.01, "{at}: {worst}\n{summary}");
     }
 }
@@ -458,24 +386,11 @@ fn verdicts_do_not_depend_on_threads_or_seeds() {
 fn outcomes_have_chances_that_add_up() {
     let summary = bar(3.8).tolerance(Bar::l, 0.03).summary().unwrap();
     let sampled = summary.sampled().unwrap();
-    assert_eq!(
-        sampled.chance(Outcome::Stable).unwrap().count,
-        sampled.samples
-    );
-    let all: usize = sampled
-        .outcomes
-        .iter()
-        .map(|(_, chance)| chance.count)
-        .sum();
+    assert_eq!(sampled.chance(Outcome::Stable).unwrap().count, sampled.samples);
+    let all: usize = sampled.outcomes.iter().map(|(_, chance)| chance.count).sum();
     assert_eq!(all, sampled.samples);
     let doubts = &summary.trust[0].doubts;
-    assert!(
-        matches!(
-            doubts[..],
-            [Doubt::NearCritical { .. }, Doubt::Inaccurate { .. }]
-        ),
-        "{doubts:?}"
-    );
+    assert!(matches!(doubts[..], [Doubt::NearCritical { .. }, Doubt::Inaccurate { .. }]), "{doubts:?}");
 }
 
 /// A seal with damping of either sign: the frequencies of fluttering samples are excluded.
@@ -489,17 +404,11 @@ fn unstable_samples_have_no_part_in_checks() {
         .tolerance(Rotor::mass, 0.01)
         .summary()
         .expect("a summary");
-    let Sampling::Done(sampled) = &summary.sampling else {
-        panic!("a rotor is cheap to sample")
-    };
+    let Sampling::Done(sampled) = &summary.sampling else { panic!("a rotor is cheap to sample") };
     let of = |outcome| sampled.chance(outcome).expect("an outcome").count;
     let (stable, flutter) = (of(Outcome::Stable), of(Outcome::Flutter));
     assert!(flutter > sampled.samples / 10 && stable + flutter == sampled.samples);
-    let checks: Vec<_> = summary
-        .trust
-        .iter()
-        .flat_map(|trust| &trust.checks)
-        .collect();
+    let checks: Vec<_> = summary.trust.iter().flat_map(|trust| &trust.checks).collect();
     assert!(!checks.is_empty());
     for check in checks {
         assert_eq!((check.samples, check.count), (sampled.samples, stable));

@@ -24,17 +24,12 @@ mechanism! {
     }
 }
 
-const FREQUENCY: Response = Response::Mode {
-    mode: 0,
-    quantity: Quantity::Frequency,
-};
+const FREQUENCY: Response = Response::Mode { mode: 0, quantity: Quantity::Frequency };
 
 const ANGLE: Response = Response::Output(Pendulum::angle.any());
 
 fn pendulum() -> Study<Pendulum> {
-    Study::new(Pendulum)
-        .input(Pendulum::omega, 5.0)
-        .start(Pendulum::theta, 1.0)
+    Study::new(Pendulum).input(Pendulum::omega, 5.0).start(Pendulum::theta, 1.0)
 }
 
 /// Speeds through the pitchfork at 3.8360 rad/s.
@@ -44,10 +39,7 @@ fn speeds() -> Vec<f64> {
 
 /// A study that is stopped after the given number of steps, and its step count.
 fn stopped_after(study: Study<Pendulum>, steps: usize) -> (Study<Pendulum>, Arc<AtomicUsize>) {
-    let (flag, done) = (
-        Arc::new(AtomicBool::new(steps == 0)),
-        Arc::new(AtomicUsize::new(0)),
-    );
+    let (flag, done) = (Arc::new(AtomicBool::new(steps == 0)), Arc::new(AtomicUsize::new(0)));
     let (own, count) = (Arc::clone(&flag), Arc::clone(&done));
     let progress = move |more| {
         if count.fetch_add(more, Ordering::Relaxed) + more >= steps {
@@ -66,17 +58,9 @@ fn questions_about_responses_stop() {
         ("worst_case", |s| s.worst_case(&[ANGLE]).map(drop)),
         ("controlled", |s| s.controlled(&[ANGLE]).map(drop)),
         ("influence", |s| s.influence(&[ANGLE]).map(drop)),
-        ("reliability", |s| {
-            s.reliability(&[Requirement::at_least(ANGLE, 0.9)])
-                .map(drop)
-        }),
+        ("reliability", |s| s.reliability(&[Requirement::at_least(ANGLE, 0.9)]).map(drop)),
         ("rare_failure", |s| {
-            s.rare_failure(
-                &[Requirement::at_least(ANGLE, 0.9)],
-                &s.sampling().samples(1_000_000),
-                0.05,
-            )
-            .map(drop)
+            s.rare_failure(&[Requirement::at_least(ANGLE, 0.9)], &s.sampling().samples(1_000_000), 0.05).map(drop)
         }),
     ];
     for (name, question) in questions {
@@ -95,10 +79,7 @@ fn questions_about_responses_stop() {
     let sampling = study.sampling().samples(3000).threads(1);
     let part = study.sample_responses(&[ANGLE], &sampling).unwrap();
     let ranges = part.ranges();
-    let count = ranges
-        .iter()
-        .map(|range| range.end - range.start)
-        .sum::<u64>();
+    let count = ranges.iter().map(|range| range.end - range.start).sum::<u64>();
     assert!((500..3000).contains(&count) && count as usize == done.load(Ordering::Relaxed));
     let (study, _) = stopped_after(pendulum(), 10);
     let mut seen = 0;
@@ -152,12 +133,8 @@ fn whoever_looks_on_may_break_off() {
         }
     };
     let study = pendulum();
-    let swept = study
-        .sweep_each(Pendulum::omega, &speeds(), |_| enough())
-        .unwrap();
-    let drawn = study
-        .campbell_each(Pendulum::omega, &speeds(), &[1.0], |_| enough())
-        .unwrap();
+    let swept = study.sweep_each(Pendulum::omega, &speeds(), |_| enough()).unwrap();
+    let drawn = study.campbell_each(Pendulum::omega, &speeds(), &[1.0], |_| enough()).unwrap();
     assert_eq!(seen, 14);
     let missing = speeds().len() - 7;
     assert_eq!((swept.unreached, drawn.unreached), (missing, missing));
@@ -166,9 +143,7 @@ fn whoever_looks_on_may_break_off() {
 #[test]
 fn sweeps_and_diagrams_stop_with_what_is_done() {
     let (study, done) = stopped_after(pendulum(), 10);
-    let whole = pendulum()
-        .campbell(Pendulum::omega, &speeds(), &[1.0])
-        .unwrap();
+    let whole = pendulum().campbell(Pendulum::omega, &speeds(), &[1.0]).unwrap();
     let part = study.campbell(Pendulum::omega, &speeds(), &[1.0]).unwrap();
     assert_eq!(part.points, whole.points[..10]);
     assert_eq!(done.load(Ordering::Relaxed), 10);
@@ -200,10 +175,7 @@ fn branches_stop_with_what_is_done() {
     let branch = &part.branches[0];
     assert!(branch.ends.contains(&BranchEnd::Stopped));
     let points = branch.points.len();
-    assert!(
-        points >= 5 && points < whole.branches[0].points.len(),
-        "{points}"
-    );
+    assert!(points >= 5 && points < whole.branches[0].points.len(), "{points}");
     assert!(done.load(Ordering::Relaxed) < points);
     let text = part.to_string();
     assert!(text.contains("stopped: there may be more"), "{text}");
@@ -215,10 +187,7 @@ fn samples_stop_with_what_is_done() {
     let (study, done) = stopped_after(pendulum().samples(100_000).threads(1), 1);
     let part = study.monte_carlo().unwrap();
     assert!((1..100_000).contains(&part.samples));
-    assert_eq!(
-        (part.planned, done.load(Ordering::Relaxed)),
-        (100_000, part.samples)
-    );
+    assert_eq!((part.planned, done.load(Ordering::Relaxed)), (100_000, part.samples));
 }
 
 /// A partial verdict is no verdict.
@@ -277,16 +246,7 @@ fn ranges_that_are_none_of_the_samples_are_refused() {
     for (first, end) in [(0, 1001), (7, 7), (5, 4)] {
         let sampling = study.sampling().range(Some(first..end));
         let refused = study.chances_by(&wanted(), &sampling);
-        assert!(
-            matches!(
-                refused,
-                Err(Error::Setting {
-                    setting: "range",
-                    ..
-                })
-            ),
-            "{first}..{end}"
-        );
+        assert!(matches!(refused, Err(Error::Setting { setting: "range", .. })), "{first}..{end}");
     }
 }
 
@@ -302,16 +262,9 @@ fn chances_stop_with_what_is_done() {
 }
 
 fn choices() -> Choices<'static> {
-    let widths = HalfWidth {
-        variable: Pendulum::l.index(),
-        limits: (1e-3, 0.3),
-        cost: Cost::reciprocal(0.0, 1.0, 1.0),
-    };
-    Choices {
-        half_widths: vec![widths],
-        nominals: Vec::new(),
-        failure: vec![0.01],
-    }
+    let widths =
+        HalfWidth { variable: Pendulum::l.index(), limits: (1e-3, 0.3), cost: Cost::reciprocal(0.0, 1.0, 1.0) };
+    Choices { half_widths: vec![widths], nominals: Vec::new(), failure: vec![0.01] }
 }
 
 /// The start is returned if it is already reliable enough; otherwise there is no result yet.
@@ -325,10 +278,7 @@ fn allocations_stop_with_the_best_so_far() {
     assert!(part.stopped && part.cost >= whole.cost && part.evaluations < whole.evaluations);
     assert_eq!(part.chances.all.samples(), 64);
     let text = part.to_string();
-    for sentence in [
-        "Stopped: there may be cheaper",
-        "Not complete: 3000 samples",
-    ] {
+    for sentence in ["Stopped: there may be cheaper", "Not complete: 3000 samples"] {
         assert!(text.contains(sentence), "{text}");
     }
     let (study, _) = stopped_after(pendulum(), 0);

@@ -29,23 +29,13 @@ impl Compiled {
     /// # Errors
     /// The compiler's messages, if it refuses the declaration.
     pub fn new(model: &Model) -> Result<Self, Diagnostics> {
-        let tokens: TokenStream = declaration(model)
-            .parse()
-            .expect("the declaration has tokens");
+        let tokens: TokenStream = declaration(model).parse().expect("the declaration has tokens");
         let (inputs, design) = (model.inputs.len(), model.design.len());
-        Ok(Self {
-            program: compile(tokens, EVERYTHING)?.program,
-            inputs,
-            design,
-        })
+        Ok(Self { program: compile(tokens, EVERYTHING)?.program, inputs, design })
     }
 
     /// One vector per returned array.
-    fn evaluate<const ARRAYS: usize>(
-        &self,
-        kernel: &str,
-        arguments: &[&[f64]],
-    ) -> [Vec<f64>; ARRAYS] {
+    fn evaluate<const ARRAYS: usize>(&self, kernel: &str, arguments: &[&[f64]]) -> [Vec<f64>; ARRAYS] {
         let results = self.program.evaluate(kernel, arguments);
         arrays(kernel, results.expect("a kernel of the contract"))
     }
@@ -66,32 +56,20 @@ impl Compiled {
 /// Converts to a fixed number of arrays.
 fn arrays<const ARRAYS: usize>(kernel: &str, arrays: Vec<Vec<f64>>) -> [Vec<f64>; ARRAYS] {
     let count = arrays.len();
-    arrays
-        .try_into()
-        .unwrap_or_else(|_| panic!("{kernel} returns {ARRAYS} arrays, not {count}"))
+    arrays.try_into().unwrap_or_else(|_| panic!("{kernel} returns {ARRAYS} arrays, not {count}"))
 }
 
 fn linear([mass, damping, stiffness]: [Vec<f64>; 3]) -> Linear<f64> {
-    Linear {
-        mass,
-        damping,
-        stiffness,
-    }
+    Linear { mass, damping, stiffness }
 }
 
 /// Splits three arrays into the matrices of `count` derivatives; the index of differentiation is the outermost.
 fn derivatives(count: usize, n: usize, arrays: [Vec<f64>; 3]) -> Vec<Linear<f64>> {
     for array in &arrays {
-        assert_eq!(
-            array.len(),
-            count * n * n,
-            "one n x n matrix per derivative"
-        );
+        assert_eq!(array.len(), count * n * n, "one n x n matrix per derivative");
     }
     let slice = |array: &Vec<f64>, k: usize| array[k * n * n..(k + 1) * n * n].to_vec();
-    (0..count)
-        .map(|k| linear(arrays.each_ref().map(|array| slice(array, k))))
-        .collect()
+    (0..count).map(|k| linear(arrays.each_ref().map(|array| slice(array, k)))).collect()
 }
 
 impl Kernels for Compiled {
@@ -171,25 +149,13 @@ impl Kernels for Compiled {
         self.along("mode_gradient", &[q, u, b, phi, &lambda], &direction)
     }
 
-    fn pencil_gradient_along(
-        &self,
-        at: At,
-        pencil: Pencil,
-        along: At,
-        pencil_along: Pencil,
-    ) -> Gradient {
+    fn pencil_gradient_along(&self, at: At, pencil: Pencil, along: At, pencil_along: Pencil) -> Gradient {
         let [arguments, direction] =
             [(at, pencil), (along, pencil_along)].map(|(at, pencil)| [&at[..], &pencil].concat());
         self.along("pencil_gradient", &arguments, &direction)
     }
 
-    fn residual_gradient_along(
-        &self,
-        [q, u, b]: At,
-        w: &[f64],
-        [dq, du, db]: At,
-        dw: &[f64],
-    ) -> Gradient {
+    fn residual_gradient_along(&self, [q, u, b]: At, w: &[f64], [dq, du, db]: At, dw: &[f64]) -> Gradient {
         self.along("residual_gradient", &[q, u, b, w], &[dq, du, db, dw])
     }
 }

@@ -15,15 +15,9 @@ thread_local! {
 /// The number of operations and function calls that a kernel takes in dual numbers. The interpreter evaluates sine and
 /// cosine of an angle separately, so generated code does slightly fewer.
 pub fn operations_along(kernel: &Kernel) -> usize {
-    let start = Dual {
-        value: Counted(0.7),
-        slope: Counted(0.3),
-    };
-    let arguments: Vec<Vec<Dual<Counted>>> = kernel
-        .parameters
-        .iter()
-        .map(|parameter| vec![start; parameter.entries.len()])
-        .collect();
+    let start = Dual { value: Counted(0.7), slope: Counted(0.3) };
+    let arguments: Vec<Vec<Dual<Counted>>> =
+        kernel.parameters.iter().map(|parameter| vec![start; parameter.entries.len()]).collect();
     let slices: Vec<&[Dual<Counted>]> = arguments.iter().map(Vec::as_slice).collect();
     OPERATIONS.set(0);
     interpret(kernel, &slices);

@@ -9,9 +9,7 @@ use eigentol::sensitivity::Slopes;
 
 use crate::tables;
 
-pub use eigentol_rederived::{
-    ComplexDerived, Derived, GeneralMode, Machine, State, UndampedMode, Vibration,
-};
+pub use eigentol_rederived::{ComplexDerived, Derived, GeneralMode, Machine, State, UndampedMode, Vibration};
 
 /// One operating point of a machine: inputs in SI, and where to look for the equilibrium.
 #[derive(Clone, Debug)]
@@ -36,10 +34,7 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         policy: Policy::Stable,
     };
     // Held by its spin in a position that an energy descent would leave.
-    let nearest = |inputs: &[f64]| Operation {
-        policy: Policy::Nearest,
-        ..point(inputs, &[0.0; 2])
-    };
+    let nearest = |inputs: &[f64]| Operation { policy: Policy::Nearest, ..point(inputs, &[0.0; 2]) };
     let rpm = 2.0 * std::f64::consts::PI / 60.0;
     match name {
         "rotating_pendulum" => vec![point(&[2.0], &[0.0]), point(&[5.0], &[0.9])],
@@ -49,9 +44,7 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         "chain_of_eight" => vec![point(&[2.5], &[0.9, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1])],
         "governor" => vec![point(&[110.0 * rpm, 0.09], &[0.4])],
         "turntable_slider" => vec![point(&[4.0], &[0.25, 0.3])],
-        "rotor" => [600.0, 1500.0]
-            .map(|speed| point(&[speed * rpm], &[0.0; 2]))
-            .to_vec(),
+        "rotor" => [600.0, 1500.0].map(|speed| point(&[speed * rpm], &[0.0; 2])).to_vec(),
         "gimbal" => vec![point(&[3000.0 * rpm], &[0.0; 2])],
         "carousel" => vec![point(&[9.0 * rpm], &[0.4, 0.0])],
         "rotor_blade" => vec![point(&[30.0], &[0.05, 0.0])],
@@ -60,9 +53,9 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         "bucket_chain" => vec![point(&[5.0], &[0.1; 14])],
         "flap_lag_blade" => vec![point(&[20.0], &[0.0; 2])],
         "bearing_rotor" => vec![point(&[3000.0 * rpm], &[0.0; 5])],
-        "steady_top" => [(25.0, 0.0), (12.0, 1000.0)]
-            .map(|(precession, spin)| point(&[precession, spin * rpm], &[0.6]))
-            .to_vec(),
+        "steady_top" => {
+            [(25.0, 0.0), (12.0, 1000.0)].map(|(precession, spin)| point(&[precession, spin * rpm], &[0.6])).to_vec()
+        }
         "screw_press" => vec![point(&[], &[0.0; 9])],
         "jeffcott_rotor" => vec![point(&[50.0], &[0.0; 2]), point(&[300.0], &[0.0; 2])],
         "overhung_rotor" => vec![point(&[200.0], &[0.0; 2])],
@@ -70,9 +63,7 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         "sliding_pair" => vec![point(&[], &[0.0; 2])],
         "spherical_pendulum" => vec![point(&[1.0], &[0.0; 2]), nearest(&[5.0])],
         "ziegler_column" => vec![point(&[100.0], &[0.0; 2])],
-        "film_rotor" => [3000.0, 9000.0]
-            .map(|speed| point(&[speed * rpm], &[0.0; 2]))
-            .to_vec(),
+        "film_rotor" => [3000.0, 9000.0].map(|speed| point(&[speed * rpm], &[0.0; 2])).to_vec(),
         "balanced_fan" => vec![point(&[150.0, 90.0], &[0.0; 4])],
         "shaken_turntable" => vec![point(&[6.0, 40.0], &[0.5])],
         "hinged_tip_blade" => [0.0, 25.0].map(|speed| point(&[speed], &[0.0; 4])).to_vec(),
@@ -107,40 +98,21 @@ pub fn ordered<T: Copy>(all: &SecondDerivatives<T>) -> Vec<Vec<T>> {
 pub trait Comparison {
     /// Called for each machine at each of its operating points, with nominal design variables. `state` is the same
     /// equilibrium as `at`.
-    fn compare(
-        &mut self,
-        what: &str,
-        machine: &dyn CurvatureKernels,
-        at: &Equilibrium,
-        state: &State,
-    );
+    fn compare(&mut self, what: &str, machine: &dyn CurvatureKernels, at: &Equilibrium, state: &State);
 }
 
-fn compare(
-    comparison: &mut impl Comparison,
-    name: &str,
-    declaration: &str,
-    machine: &dyn CurvatureKernels,
-) {
+fn compare(comparison: &mut impl Comparison, name: &str, declaration: &str, machine: &dyn CurvatureKernels) {
     let resolved = Machine::new(declaration);
     let design = &machine.description().design;
     let b: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
     assert_eq!(resolved.nominal(), b, "{name}");
     for operation in operating_points(name) {
-        let Operation {
-            inputs: u,
-            start,
-            policy,
-        } = operation;
+        let Operation { inputs: u, start, policy } = operation;
         let what = format!("{name} at {u:?}");
-        let at = equilibrium(machine, &u, &b, &start, policy)
-            .unwrap_or_else(|error| panic!("{what}: {error}"));
+        let at = equilibrium(machine, &u, &b, &start, policy).unwrap_or_else(|error| panic!("{what}: {error}"));
         let state = resolved.at(&u, &b, &at.coordinates);
         for (one, other) in at.coordinates.iter().zip(&state.coordinates) {
-            assert!(
-                (one - other).abs() <= 1e-9 * (1.0 + one.abs()),
-                "{what}: {one}, {other}"
-            );
+            assert!((one - other).abs() <= 1e-9 * (1.0 + one.abs()), "{what}: {one}, {other}");
         }
         comparison.compare(&what, machine, &at, &state);
     }
@@ -149,11 +121,6 @@ fn compare(
 /// Compares every machine of the corpus and every machine with a closed form at all its operating points.
 pub fn every_machine(comparison: &mut impl Comparison) {
     for machine in tables::open() {
-        compare(
-            comparison,
-            machine.name,
-            machine.declaration,
-            &*machine.curvature,
-        );
+        compare(comparison, machine.name, machine.declaration, &*machine.curvature);
     }
 }

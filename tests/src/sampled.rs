@@ -41,10 +41,7 @@ pub fn compare<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> [Compared; 
     // Half-widths of 0.3 standard deviations.
     let wide = study.clone().sigma_level(0.3);
     let wide = wide.samples(study.sampling().samples / 4);
-    [
-        compare_one(study, name),
-        compare_one(&wide, &format!("{name}, wide")),
-    ]
+    [compare_one(study, name), compare_one(&wide, &format!("{name}, wide"))]
 }
 
 fn compare_one<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> Compared {
@@ -80,16 +77,10 @@ fn compare_one<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> Compared {
 /// Standard deviations of every quantity of the first mode, in vectors and one by one.
 fn responses<M: Mechanism + Copy>(study: &Study<M>, what: &str) {
     let quantities = Quantity::ALL.map(|quantity| Response::Mode { mode: 0, quantity });
-    let (at, modes) = (
-        &study.equilibrium().expect("a nominal state"),
-        &study.modes().expect("a nominal state"),
-    );
+    let (at, modes) = (&study.equilibrium().expect("a nominal state"), &study.modes().expect("a nominal state"));
     let (machine, wanted) = (study.mechanism(), quantities.to_vec());
     let tolerances = study.tolerances().expect("tolerances");
-    let sampling = Sampling::default()
-        .points(Points::Sobol)
-        .samples(64)
-        .threads(1);
+    let sampling = Sampling::default().points(Points::Sobol).samples(64).threads(1);
     let run = |responses: Result<Responses<'_>, Error>| {
         let samples = sampled(&responses?, &tolerances, &sampling)?;
         samples.propagation()
@@ -117,11 +108,7 @@ fn near(a: f64, b: f64, scale: f64, what: &str) {
 fn same(sample: &Sample, alone: &Sample, what: &str) {
     assert_eq!(sample.design, alone.design, "{what}");
     assert_eq!(sample.outcome, alone.outcome, "{what}");
-    assert_eq!(
-        sample.coordinates.is_some(),
-        alone.coordinates.is_some(),
-        "{what}"
-    );
+    assert_eq!(sample.coordinates.is_some(), alone.coordinates.is_some(), "{what}");
     if let (Some(a), Some(b)) = (&sample.coordinates, &alone.coordinates) {
         let size = b.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
         for (a, b) in a.iter().zip(b) {
@@ -136,18 +123,10 @@ fn same(sample: &Sample, alone: &Sample, what: &str) {
             near(a.im, b.im, b.norm(), what);
         }
     }
-    for (own, alone) in [
-        (&sample.frequencies, &alone.frequencies),
-        (&sample.damping_ratios, &alone.damping_ratios),
-    ] {
+    for (own, alone) in [(&sample.frequencies, &alone.frequencies), (&sample.damping_ratios, &alone.damping_ratios)] {
         for (a, b) in own.iter().zip(alone) {
             assert_eq!(a.is_some(), b.is_some(), "{what}");
-            near(
-                a.unwrap_or(0.0),
-                b.unwrap_or(0.0),
-                b.unwrap_or(0.0).abs().max(1.0),
-                what,
-            );
+            near(a.unwrap_or(0.0), b.unwrap_or(0.0), b.unwrap_or(0.0).abs().max(1.0), what);
         }
     }
 }

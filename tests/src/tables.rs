@@ -28,12 +28,7 @@ pub struct Machine {
 struct Machines(Vec<Machine>);
 
 impl Visitor for Machines {
-    fn visit<M: Mechanism + Copy + 'static>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
+    fn visit<M: Mechanism + Copy + 'static>(&mut self, name: &'static str, declaration: &'static str, machine: M) {
         self.0.push(Machine {
             name,
             declaration,

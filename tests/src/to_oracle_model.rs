@@ -10,25 +10,17 @@ use eigentol_compiler::model::expression::{Expr as Written, Function, Matrix, Ve
 use eigentol_compiler::model::mechanism as declared;
 
 use eigentol_oracle::model::{
-    Amount, Beam, Body, Coordinate, Curve, Drive, Expr, Flexure, Force, ForceLaw, Frame, Input,
-    Joint, Model, Motion, ORIGIN, Part, Placement, Point, Prebend, Section, Shape, Step, Unit,
-    Value, Values, Word,
+    Amount, Beam, Body, Coordinate, Curve, Drive, Expr, Flexure, Force, ForceLaw, Frame, Input, Joint, Model, Motion,
+    ORIGIN, Part, Placement, Point, Prebend, Section, Shape, Step, Unit, Value, Values, Word,
 };
 
 /// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives, which
 /// are the inputs of that model.
 pub fn to_oracle_model(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) -> (Model, Vec<f64>) {
     let evaluation = Evaluation::new(&mechanism.constants, u, b);
-    let fixing = Fixing {
-        mechanism,
-        evaluation,
-    };
+    let fixing = Fixing { mechanism, evaluation };
     let mut speeds = Vec::new();
-    let mut joints: Vec<Joint> = mechanism
-        .joints
-        .iter()
-        .map(|joint| fixing.joint(joint, &mut speeds))
-        .collect();
+    let mut joints: Vec<Joint> = mechanism.joints.iter().map(|joint| fixing.joint(joint, &mut speeds)).collect();
     let bodies = mechanism.bodies.iter().map(|body| fixing.body(body));
     let mut bodies: Vec<Body> = bodies.collect();
     let mut sections = Vec::new();
@@ -46,30 +38,17 @@ pub fn to_oracle_model(mechanism: &declared::Mechanism, u: &[f64], b: &[f64]) ->
             declared::ForceLaw::Distributed { .. } => {
                 fixing.distribute(force, &sections, &mut points, &mut forces);
             }
-            law => forces.push(Force {
-                name: force.name.to_string(),
-                law: fixing.law(law),
-            }),
+            law => forces.push(Force { name: force.name.to_string(), law: fixing.law(law) }),
         }
     }
-    let inputs = (0..speeds.len())
-        .map(|k| Input {
-            name: format!("speed{k}"),
-            unit: Unit::RadianPerSecond,
-        })
-        .collect();
+    let inputs = (0..speeds.len()).map(|k| Input { name: format!("speed{k}"), unit: Unit::RadianPerSecond }).collect();
     let model = Model {
         name: mechanism.name.to_string(),
         inputs,
         design: Vec::new(),
         gravity: fixing.vector(&mechanism.gravity),
         bodies,
-        beams: mechanism
-            .beams
-            .iter()
-            .zip(spins)
-            .map(|(beam, spin)| fixing.beam(beam, spin))
-            .collect(),
+        beams: mechanism.beams.iter().zip(spins).map(|(beam, spin)| fixing.beam(beam, spin)).collect(),
         joints,
         points,
         forces,
@@ -120,10 +99,7 @@ impl Fixing<'_> {
             shape: self.shape(&part.shape),
             placement: self.placement(&part.placement),
         };
-        Body {
-            name: body.name.to_string(),
-            parts: body.parts.iter().map(part).collect(),
-        }
+        Body { name: body.name.to_string(), parts: body.parts.iter().map(part).collect() }
     }
 
     fn shape(&self, shape: &declared::Shape) -> Shape {
@@ -132,53 +108,21 @@ impl Fixing<'_> {
         let n = |vector: &Vector| self.numbers(vector);
         let w = |vector: &Vector| self.vector(vector);
         match shape {
-            declared::Shape::Point { mass, center } => Shape::Point {
-                mass: v(mass),
-                center: w(center),
-            },
-            declared::Shape::Rod {
-                mass,
-                length,
-                along,
-                center,
-            } => Shape::Rod {
-                mass: amount(mass),
-                length: v(length),
-                along: n(along),
-                center: Some(w(center)),
-            },
-            declared::Shape::Disk {
-                mass,
-                radius,
-                axis,
-                center,
-            } => Shape::Disk {
-                mass: amount(mass),
-                radius: v(radius),
-                axis: n(axis),
-                center: w(center),
-            },
-            declared::Shape::Cylinder {
-                mass,
-                radius,
-                length,
-                axis,
-                center,
-            } => Shape::Cylinder {
+            declared::Shape::Point { mass, center } => Shape::Point { mass: v(mass), center: w(center) },
+            declared::Shape::Rod { mass, length, along, center } => {
+                Shape::Rod { mass: amount(mass), length: v(length), along: n(along), center: Some(w(center)) }
+            }
+            declared::Shape::Disk { mass, radius, axis, center } => {
+                Shape::Disk { mass: amount(mass), radius: v(radius), axis: n(axis), center: w(center) }
+            }
+            declared::Shape::Cylinder { mass, radius, length, axis, center } => Shape::Cylinder {
                 mass: amount(mass),
                 radius: v(radius),
                 length: v(length),
                 axis: n(axis),
                 center: w(center),
             },
-            declared::Shape::Tube {
-                mass,
-                inner,
-                outer,
-                length,
-                axis,
-                center,
-            } => Shape::Tube {
+            declared::Shape::Tube { mass, inner, outer, length, axis, center } => Shape::Tube {
                 mass: amount(mass),
                 inner: v(inner),
                 outer: v(outer),
@@ -186,26 +130,13 @@ impl Fixing<'_> {
                 axis: n(axis),
                 center: w(center),
             },
-            declared::Shape::Cuboid { mass, size, center } => Shape::Cuboid {
-                mass: amount(mass),
-                size: w(size),
-                center: w(center),
-            },
-            declared::Shape::Sphere {
-                mass,
-                radius,
-                center,
-            } => Shape::Sphere {
-                mass: amount(mass),
-                radius: v(radius),
-                center: w(center),
-            },
-            declared::Shape::Rigid {
-                mass,
-                center,
-                inertia,
-                about,
-            } => Shape::Rigid {
+            declared::Shape::Cuboid { mass, size, center } => {
+                Shape::Cuboid { mass: amount(mass), size: w(size), center: w(center) }
+            }
+            declared::Shape::Sphere { mass, radius, center } => {
+                Shape::Sphere { mass: amount(mass), radius: v(radius), center: w(center) }
+            }
+            declared::Shape::Rigid { mass, center, inertia, about } => Shape::Rigid {
                 mass: v(mass),
                 center: w(center),
                 inertia: inertia.each_ref().map(v),
@@ -222,18 +153,12 @@ impl Fixing<'_> {
                 let motion = match &step.motion {
                     declared::StepMotion::Turn => Motion::Turn,
                     declared::StepMotion::Slide => Motion::Slide,
-                    declared::StepMotion::Screw { lead } => Motion::Screw {
-                        lead: self.value(lead),
-                    },
+                    declared::StepMotion::Screw { lead } => Motion::Screw { lead: self.value(lead) },
                 };
                 let coordinate = &self.mechanism.coordinates[step.coordinate.index()];
-                let mut fixed =
-                    Step::new(motion, self.numbers(&step.axis)).named(&coordinate.name.to_string());
+                let mut fixed = Step::new(motion, self.numbers(&step.axis)).named(&coordinate.name.to_string());
                 if let declared::Motion::Driven(speed) = &coordinate.motion {
-                    fixed.drive = Some(Drive {
-                        input: speeds.len(),
-                        factor: 1.0,
-                    });
+                    fixed.drive = Some(Drive { input: speeds.len(), factor: 1.0 });
                     speeds.push(self.number(speed));
                 }
                 fixed
@@ -251,22 +176,12 @@ impl Fixing<'_> {
                 place: self.mechanism.beams[beam.index()].stations[station].place,
             }),
             // The keyword only affects how a model is spelled; its motion is in the steps.
-            ..Joint::new(
-                &joint.name.to_string(),
-                Word::Free,
-                steps,
-                frame(joint.from),
-                frame(joint.to),
-            )
+            ..Joint::new(&joint.name.to_string(), Word::Free, steps, frame(joint.from), frame(joint.to))
         }
     }
 
     fn point(&self, point: &declared::Point) -> Point {
-        Point {
-            name: point.name.to_string(),
-            frame: frame(point.frame),
-            placement: self.placement(&point.placement),
-        }
+        Point { name: point.name.to_string(), frame: frame(point.frame), placement: self.placement(&point.placement) }
     }
 
     /// The coordinates of a beam, as steps of the joint to its first station.
@@ -326,19 +241,11 @@ impl Fixing<'_> {
 
     fn prebend(&self, beam: &declared::Beam) -> Prebend {
         let tip = beam.stations.last().map(|station| &station.section);
-        let [root, [y, z]] =
-            [&beam.root, tip.expect("every beam has one at its tip")].map(|section| {
-                section
-                    .prebend
-                    .each_ref()
-                    .map(|prebend| self.number(prebend))
-            });
+        let [root, [y, z]] = [&beam.root, tip.expect("every beam has one at its tip")]
+            .map(|section| section.prebend.each_ref().map(|prebend| self.number(prebend)));
         let angle = |[y, z]: [f64; 2]| Value::Number(y.hypot(z));
         let is_straight = y == 0.0 && z == 0.0;
-        Prebend {
-            about: if is_straight { [1.0, 0.0] } else { [y, z] },
-            angles: [angle(root), angle([y, z])],
-        }
+        Prebend { about: if is_straight { [1.0, 0.0] } else { [y, z] }, angles: [angle(root), angle([y, z])] }
     }
 
     /// The rotation from the root to a place of an unloaded beam, without its twist.
@@ -370,29 +277,14 @@ impl Fixing<'_> {
         for (place, weight, section) in &beam.sections {
             let carrier = bodies.len();
             sections.push(carrier);
-            let flexure = Flexure {
-                beam: index,
-                place: *place,
-            };
+            let flexure = Flexure { beam: index, place: *place };
             joints.push(Joint {
                 flexure: Some(flexure),
-                ..Joint::new(
-                    "section",
-                    Word::Fixed,
-                    Vec::new(),
-                    Frame::Body(beam.body.index()),
-                    Frame::Body(carrier),
-                )
+                ..Joint::new("section", Word::Fixed, Vec::new(), Frame::Body(beam.body.index()), Frame::Body(carrier))
             });
             if turns {
-                bodies.push(Body {
-                    name: "section".to_owned(),
-                    parts: Vec::new(),
-                });
-                spin = spin.or(Some(Coordinate {
-                    joint: joints.len(),
-                    step: 0,
-                }));
+                bodies.push(Body { name: "section".to_owned(), parts: Vec::new() });
+                spin = spin.or(Some(Coordinate { joint: joints.len(), step: 0 }));
                 let step = Step::new(Motion::Turn, axis).driven(speeds.len(), 1.0);
                 speeds.push(self.number(&beam.spin));
                 joints.push(Joint::new(
@@ -408,18 +300,10 @@ impl Fixing<'_> {
         (sections, spin)
     }
 
-    fn slice(
-        &self,
-        beam: &declared::Beam,
-        (value, weight): (f64, f64),
-        section: &declared::Section,
-    ) -> Body {
+    fn slice(&self, beam: &declared::Beam, (value, weight): (f64, f64), section: &declared::Section) -> Body {
         let axes = beam.axes.each_ref().map(|axis| self.numbers(axis));
         let length = self.number(&beam.length);
-        let [second, third] = section
-            .inertia
-            .each_ref()
-            .map(|inertia| self.number(inertia));
+        let [second, third] = section.inertia.each_ref().map(|inertia| self.number(inertia));
         let about = [second + third, second, third];
         let inertia = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| {
             let terms = axes.iter().zip(about).map(|(e, x)| x * e[i] * e[j]);
@@ -434,20 +318,10 @@ impl Fixing<'_> {
         };
         let placement = Placement {
             offset: ORIGIN,
-            rotations: vec![
-                self.curved(beam, value),
-                (axes[0], self.value(&section.twist)),
-            ],
+            rotations: vec![self.curved(beam, value), (axes[0], self.value(&section.twist))],
         };
-        let part = Part {
-            hole: false,
-            shape,
-            placement,
-        };
-        Body {
-            name: "slice".to_owned(),
-            parts: vec![part],
-        }
+        let part = Part { hole: false, shape, placement };
+        Body { name: "slice".to_owned(), parts: vec![part] }
     }
 
     /// Adds forces per length as a sum of forces at the points of quadrature.
@@ -458,13 +332,7 @@ impl Fixing<'_> {
         points: &mut Vec<Point>,
         forces: &mut Vec<Force>,
     ) {
-        let declared::ForceLaw::Distributed {
-            on,
-            force: fixed,
-            follower,
-            damping,
-        } = &force.law
-        else {
+        let declared::ForceLaw::Distributed { on, force: fixed, follower, damping } = &force.law else {
             return;
         };
         let beams = self.mechanism.beams.iter().zip(sections);
@@ -486,20 +354,13 @@ impl Fixing<'_> {
                     damping: Value::Number(share * self.number(damping)),
                     turning_damping: Value::Number(0.0),
                 };
-                let laws = [
-                    load(self.numbers(fixed), false),
-                    load(following, true),
-                    drag,
-                ];
+                let laws = [load(self.numbers(fixed), false), load(following, true), drag];
                 let name = || force.name.to_string();
                 forces.extend(laws.map(|law| Force { name: name(), law }));
                 points.push(Point {
                     name: name(),
                     frame: Frame::Body(body),
-                    placement: Placement {
-                        offset: ORIGIN,
-                        rotations: vec![self.curved(beam, *place)],
-                    },
+                    placement: Placement { offset: ORIGIN, rotations: vec![self.curved(beam, *place)] },
                 });
             }
         }
@@ -525,82 +386,42 @@ impl Fixing<'_> {
         let w = |vector: &Vector| self.vector(vector);
         let rows = |matrix: &Matrix| matrix.each_ref().map(|row| self.vector(row));
         match law {
-            declared::ForceLaw::CoordinateSpring {
-                coordinate,
-                stiffness,
-                rest,
-            } => ForceLaw::Spring {
-                coordinate: self.coordinate(*coordinate),
-                stiffness: v(stiffness),
-                rest: v(rest),
-            },
-            declared::ForceLaw::CoordinateDamper {
-                coordinate,
-                damping,
-            } => ForceLaw::Damper {
-                coordinate: self.coordinate(*coordinate),
-                damping: v(damping),
-            },
-            declared::ForceLaw::SpringDamper {
-                from,
-                to,
-                stiffness,
-                damping,
-                length,
-            } => ForceLaw::SpringDamper {
+            declared::ForceLaw::CoordinateSpring { coordinate, stiffness, rest } => {
+                ForceLaw::Spring { coordinate: self.coordinate(*coordinate), stiffness: v(stiffness), rest: v(rest) }
+            }
+            declared::ForceLaw::CoordinateDamper { coordinate, damping } => {
+                ForceLaw::Damper { coordinate: self.coordinate(*coordinate), damping: v(damping) }
+            }
+            declared::ForceLaw::SpringDamper { from, to, stiffness, damping, length } => ForceLaw::SpringDamper {
                 from: point(from),
                 to: point(to),
                 stiffness: v(stiffness),
                 damping: v(damping),
                 length: v(length),
             },
-            declared::ForceLaw::Tension { from, to, tension } => ForceLaw::Tension {
-                from: point(from),
-                to: point(to),
-                tension: self.expression(tension),
-            },
-            declared::ForceLaw::Generalized { coordinate, value } => ForceLaw::Generalized {
-                coordinate: self.coordinate(*coordinate),
-                value: self.expression(value),
-            },
-            declared::ForceLaw::Potential { energy } => ForceLaw::Potential {
-                energy: self.expression(energy),
-            },
-            declared::ForceLaw::Bushing {
-                from,
-                to,
-                stiffness,
-                damping,
-                turning_stiffness,
-                turning_damping,
-            } => ForceLaw::Bushing {
-                from: point(from),
-                to: point(to),
-                stiffness: rows(stiffness),
-                damping: rows(damping),
-                turning_stiffness: rows(turning_stiffness),
-                turning_damping: rows(turning_damping),
-            },
-            declared::ForceLaw::Load {
-                point: at,
-                force,
-                moment,
-                following,
-            } => ForceLaw::Load {
-                point: point(at),
-                force: w(force),
-                moment: w(moment),
-                following: *following,
-            },
-            declared::ForceLaw::Drag {
-                point: at,
-                damping,
-                turning_damping,
-            } => ForceLaw::Drag {
-                point: point(at),
-                damping: v(damping),
-                turning_damping: v(turning_damping),
-            },
+            declared::ForceLaw::Tension { from, to, tension } => {
+                ForceLaw::Tension { from: point(from), to: point(to), tension: self.expression(tension) }
+            }
+            declared::ForceLaw::Generalized { coordinate, value } => {
+                ForceLaw::Generalized { coordinate: self.coordinate(*coordinate), value: self.expression(value) }
+            }
+            declared::ForceLaw::Potential { energy } => ForceLaw::Potential { energy: self.expression(energy) },
+            declared::ForceLaw::Bushing { from, to, stiffness, damping, turning_stiffness, turning_damping } => {
+                ForceLaw::Bushing {
+                    from: point(from),
+                    to: point(to),
+                    stiffness: rows(stiffness),
+                    damping: rows(damping),
+                    turning_stiffness: rows(turning_stiffness),
+                    turning_damping: rows(turning_damping),
+                }
+            }
+            declared::ForceLaw::Load { point: at, force, moment, following } => {
+                ForceLaw::Load { point: point(at), force: w(force), moment: w(moment), following: *following }
+            }
+            declared::ForceLaw::Drag { point: at, damping, turning_damping } => {
+                ForceLaw::Drag { point: point(at), damping: v(damping), turning_damping: v(turning_damping) }
+            }
             declared::ForceLaw::Distributed { .. } => unreachable!("it is many laws"),
         }
     }
@@ -617,9 +438,7 @@ impl Fixing<'_> {
             Written::Add(a, b) => Expr::Sum(vec![part(a), part(b)]),
             Written::Subtract(a, b) => part(a).minus(part(b)),
             Written::Multiply(a, b) => Expr::Product(vec![part(a), part(b)]),
-            Written::Divide(a, b) => {
-                Expr::Product(vec![part(a), Expr::Power(Box::new(part(b)), -1)])
-            }
+            Written::Divide(a, b) => Expr::Product(vec![part(a), Expr::Power(Box::new(part(b)), -1)]),
             Written::PowerInteger(a, n) => Expr::Power(Box::new(part(a)), *n),
             Written::Call(Function::Sin, a) => Expr::Sine(Box::new(part(a))),
             Written::Call(Function::Cos, a) => Expr::Cosine(Box::new(part(a))),

@@ -1,9 +1,6 @@
 //! Small machines are solved without heap allocation except for the lists in the results, so a Monte Carlo thread
 //! hardly ever waits for the allocator.
-#![allow(
-    unsafe_code,
-    reason = "counting allocations takes an allocator, and implementing one is unsafe"
-)]
+#![allow(unsafe_code, reason = "counting allocations takes an allocator, and implementing one is unsafe")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -20,10 +17,7 @@ use eigentol::sensitivity::{
     sensitivities_with_frozen_equilibrium,
 };
 use eigentol::tolerance::{Tolerances, first_order, output_tolerances};
-use eigentol::{
-    Array, Equilibrium, Error, Family, Matrix, Mechanism, Modes, Policy, Sensitivities, Study,
-    Vector,
-};
+use eigentol::{Array, Equilibrium, Error, Family, Matrix, Mechanism, Modes, Policy, Sensitivities, Study, Vector};
 use eigentol_tests::corpus::governor::Governor;
 use eigentol_tests::corpus::hoist::Hoist;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
@@ -76,12 +70,7 @@ fn allocations_are_seen() {
 }
 
 /// Calls every kernel of the generated code once.
-fn generated<M: Mechanism>(
-    machine: &M,
-    q: &M::Coordinates<f64>,
-    u: &M::Inputs<f64>,
-    b: &M::Design<f64>,
-) {
+fn generated<M: Mechanism>(machine: &M, q: &M::Coordinates<f64>, u: &M::Inputs<f64>, b: &M::Design<f64>) {
     black_box(machine.residual(q, u, b));
     black_box(machine.residual_parts(q, u, b));
     black_box(machine.motion_residual(q, q, q, u, b));
@@ -118,13 +107,7 @@ struct Buffers {
 
 impl Buffers {
     fn new(sizes: Sizes) -> Self {
-        let Sizes {
-            coordinates,
-            inputs,
-            design,
-            outputs,
-            excitations: _,
-        } = sizes;
+        let Sizes { coordinates, inputs, design, outputs, excitations: _ } = sizes;
         let columns = [coordinates, inputs, design];
         Self {
             numbers: Vector::zeros(coordinates),
@@ -132,10 +115,7 @@ impl Buffers {
             parts: RestParts::zeros(coordinates),
             matrix: Matrix::zeros(coordinates, coordinates),
             linear: Linear::zeros(coordinates),
-            residual_partials: (
-                Matrix::zeros(coordinates, inputs),
-                Matrix::zeros(coordinates, design),
-            ),
+            residual_partials: (Matrix::zeros(coordinates, inputs), Matrix::zeros(coordinates, design)),
             linear_partials: PartialMatrices::zeros(sizes),
             output_partials: columns.map(|columns| Matrix::zeros(outputs, columns)),
             gradient: Gradient::zeros(sizes),
@@ -208,11 +188,7 @@ fn questions(machine: &dyn EveryKernel, u: &[f64], b: &[f64], start: &[f64]) {
     let description = machine.description();
     let name = &description.name;
     let mut buffers = Buffers::new(machine.sizes());
-    assert_eq!(
-        allocations(|| buffers.fill(machine, start, u, b)),
-        0,
-        "kernels of {name}"
-    );
+    assert_eq!(allocations(|| buffers.fill(machine, start, u, b)), 0, "kernels of {name}");
     for policy in [Policy::Stable, Policy::Nearest] {
         let solve = || equilibrium(machine, u, b, start, policy);
         assert_eq!(allocations(solve), 0, "equilibrium of {name}, {policy:?}");
@@ -230,17 +206,10 @@ fn questions(machine: &dyn EveryKernel, u: &[f64], b: &[f64], start: &[f64]) {
     let used = allocations(|| modes(&at));
     assert!(lists.contains(&used), "modes of {name}: {used}");
     // One list; for several general modes also their places and the sizes of their shapes.
-    assert!(
-        allocations(|| match_modes(&found, &found, &at.linear)) <= 5,
-        "matching of {name}"
-    );
+    assert!(allocations(|| match_modes(&found, &found, &at.linear)) <= 5, "matching of {name}");
 
     // Lists by mode, and of partial derivatives by coordinates, inputs and design if these are computed.
-    let ways: [Derivatives; 3] = [
-        sensitivities,
-        sensitivities_explicit,
-        sensitivities_with_frozen_equilibrium,
-    ];
+    let ways: [Derivatives; 3] = [sensitivities, sensitivities_explicit, sensitivities_with_frozen_equilibrium];
     for way in ways {
         let derivatives = || way(machine, &at, &found).expect("derivatives");
         assert!(allocations(derivatives) <= 4, "derivatives of {name}");

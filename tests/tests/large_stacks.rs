@@ -16,24 +16,11 @@ use ask::{BARS, THREAD, ask, everything, few, interpreted};
 use bars::Bars;
 
 /// Questions that take many seconds for 64 unknowns with 64 variables.
-const SLOW: [&str; 5] = [
-    "second_order",
-    "summary",
-    "summary_within",
-    "flutter_onsets",
-    "flutter_onset_tolerances",
-];
+const SLOW: [&str; 5] = ["second_order", "summary", "summary_within", "flutter_onsets", "flutter_onset_tolerances"];
 /// Questions that search along an input or between limits, some seconds each.
 const SEARCHES: [&str; 3] = ["worst_case", "crossings", "crossing_tolerances"];
 /// Thousands of states: put only to the bicycle. They call the same code as other questions.
-const LONG: [&str; 6] = [
-    "propagate",
-    "controlled",
-    "influence",
-    "reliability",
-    "rare_failure",
-    "allocation",
-];
+const LONG: [&str; 6] = ["propagate", "controlled", "influence", "reliability", "rare_failure", "allocation"];
 
 /// Whether a question takes less than a second.
 fn quick(name: &str) -> bool {
@@ -64,9 +51,7 @@ fn bars_interpreted() {
 #[ignore = "a minute without optimisation"]
 fn bars_and_searches() {
     ask_bars(Bars, |name| SEARCHES.contains(&name));
-    ask_bars(interpreted(bars::DECLARATION), |name| {
-        SEARCHES.contains(&name)
-    });
+    ask_bars(interpreted(bars::DECLARATION), |name| SEARCHES.contains(&name));
 }
 
 #[test]

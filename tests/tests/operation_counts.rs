@@ -59,10 +59,7 @@ fn compiled(model: &Model, explicit_partials: usize) -> Functions {
 
 fn compilation(model: &Model, explicit_partials: usize) -> Compilation {
     let tokens = declaration(model).parse().expect("tokens");
-    let limits = Limits {
-        explicit_partials,
-        ..Limits::default()
-    };
+    let limits = Limits { explicit_partials, ..Limits::default() };
     compile(tokens, limits).unwrap_or_else(|mistakes| panic!("{mistakes:?}"))
 }
 
@@ -71,10 +68,8 @@ fn results(functions: &Functions, kernel: &str, wanted: &[&str]) -> Vec<ExprId> 
     let function = functions.functions.iter().find(|f| f.name == kernel);
     let function = function.unwrap_or_else(|| panic!("no kernel {kernel}"));
     let results = function.results.iter();
-    let values: Vec<_> = results
-        .filter(|array| wanted.contains(&array.name))
-        .flat_map(|array| array.values.clone())
-        .collect();
+    let values: Vec<_> =
+        results.filter(|array| wanted.contains(&array.name)).flat_map(|array| array.values.clone()).collect();
     assert!(!values.is_empty(), "{kernel}: {wanted:?}");
     values
 }
@@ -90,12 +85,7 @@ fn nodes(functions: &Functions, roots: &[ExprId]) -> usize {
 /// Cost before regrouping, which can only reduce it.
 fn together(functions: &Functions, names: &[&str]) -> Cost {
     let wanted = |function: &&Function| names.contains(&function.name);
-    let roots: Vec<_> = functions
-        .functions
-        .iter()
-        .filter(wanted)
-        .flat_map(Function::roots)
-        .collect();
+    let roots: Vec<_> = functions.functions.iter().filter(wanted).flat_map(Function::roots).collect();
     assert!(!roots.is_empty(), "{names:?}");
     cost(&functions.graph, &roots)
 }
@@ -117,17 +107,12 @@ fn chain_counts(bars: usize) -> (usize, usize, Option<usize>) {
 
 /// Partial derivatives of mass and stiffness by coordinates and design variables.
 fn partials_without_inputs(functions: &Functions) -> Vec<ExprId> {
-    let kernel = functions
-        .functions
-        .iter()
-        .find(|f| f.name == "linear_partials");
+    let kernel = functions.functions.iter().find(|f| f.name == "linear_partials");
     let kernel = kernel.expect("partials are written out");
     // three matrices by coordinates, by inputs, by design variables
     let [by_coordinate, _, by_design] = [0, 1, 2].map(|k| &kernel.results[3 * k..3 * k + 3]);
     let both = by_coordinate.iter().chain(by_design);
-    both.filter(|array| array.name != "damping")
-        .flat_map(|array| array.values.clone())
-        .collect()
+    both.filter(|array| array.name != "damping").flat_map(|array| array.values.clone()).collect()
 }
 
 #[test]
@@ -180,14 +165,7 @@ fn an_arm_costs_less_than_in_casadi() {
 
 #[test]
 fn residual_and_adjoint_grow_linearly() {
-    for name in [
-        "residual",
-        "motion_residual",
-        "mode_gradient",
-        "residual_gradient",
-        "pencil_gradient",
-        "whirl",
-    ] {
+    for name in ["residual", "motion_residual", "mode_gradient", "residual_gradient", "pencil_gradient", "whirl"] {
         let [four, eight, sixteen, thirty_two] =
             [4, 8, 16, 32].map(|bars| together(&functions(bars), &[name]).operations);
         assert_eq!(sixteen - eight, 2 * (eight - four), "{name}");
@@ -222,28 +200,14 @@ fn matrices_grow_with_the_square() {
     for name in ["motion", "linear"] {
         let counts = [4, 8, 16, 32].map(|bars| together(&functions(bars), &[name]).operations);
         // Quadratic in the number of bars: second differences over doublings grow by exactly four.
-        let steps: Vec<i64> = counts
-            .windows(2)
-            .map(|pair| pair[1] as i64 - pair[0] as i64)
-            .collect();
-        let [first, second, third] = steps[..] else {
-            unreachable!("four counts")
-        };
-        assert_eq!(
-            third - 2 * second,
-            4 * (second - 2 * first),
-            "{name}: {counts:?}"
-        );
+        let steps: Vec<i64> = counts.windows(2).map(|pair| pair[1] as i64 - pair[0] as i64).collect();
+        let [first, second, third] = steps[..] else { unreachable!("four counts") };
+        assert_eq!(third - 2 * second, 4 * (second - 2 * first), "{name}: {counts:?}");
     }
 }
 
 /// Kernels that the runtime differentiates along a direction.
-const DIFFERENTIATED: [&str; 4] = [
-    "linear",
-    "mode_gradient",
-    "pencil_gradient",
-    "residual_gradient",
-];
+const DIFFERENTIATED: [&str; 4] = ["linear", "mode_gradient", "pencil_gradient", "residual_gradient"];
 
 #[test]
 fn counts_are_known() {
@@ -253,19 +217,12 @@ fn counts_are_known() {
         let compilation = compilation(&chain(&ones, &ones), usize::MAX);
         table.push_str(&format!("{bars} bars\n"));
         for function in &compilation.program.kernels {
-            let Cost {
-                operations,
-                functions,
-                negations,
-            } = function.cost;
+            let Cost { operations, functions, negations } = function.cost;
             let along = match DIFFERENTIATED.contains(&function.name) {
                 true => format!("{:>7} along", operations_along(function)),
                 false => String::new(),
             };
-            table.push_str(&format!(
-                "  {:<26}{operations:>7} +{functions:>4} +{negations:>4}{along}\n",
-                function.name
-            ));
+            table.push_str(&format!("  {:<26}{operations:>7} +{functions:>4} +{negations:>4}{along}\n", function.name));
         }
     }
     insta::assert_snapshot!(table);
@@ -283,10 +240,7 @@ fn beam(planes: &str) -> Compilation {
             joint clamp: fixed from hub to blade;
         }}"
     );
-    let limits = Limits {
-        explicit_partials: 0,
-        ..Limits::default()
-    };
+    let limits = Limits { explicit_partials: 0, ..Limits::default() };
     let tokens = text.parse().expect("tokens");
     compile(tokens, limits).unwrap_or_else(|mistakes| panic!("{mistakes:?}"))
 }
@@ -296,8 +250,7 @@ fn beam(planes: &str) -> Compilation {
 #[test]
 fn beams_cost_less_than_a_derivation_by_hand() {
     let planar = "stiffness_y: EIy, bending_y: 4";
-    let spatial =
-        "stiffness_y: EIy, stiffness_z: EIz, torsion_stiffness: GJ, torsion: 2, bending: 4";
+    let spatial = "stiffness_y: EIy, stiffness_z: EIz, torsion_stiffness: GJ, torsion: 2, bending: 4";
     let rotary = format!("{spatial}, inertia_y: 1e-3 * rhoA * L^2, inertia_z: 2e-3 * rhoA * L^2");
     let counts = [planar, spatial, &rotary].map(|planes| {
         let program = beam(planes).program;
@@ -307,9 +260,7 @@ fn beams_cost_less_than_a_derivation_by_hand() {
         })
     });
     for ([linear, gradient], [most, most_of_gradient]) in
-        counts
-            .into_iter()
-            .zip([[800, 1_070], [9_600, 4_700], [11_800, 6_900]])
+        counts.into_iter().zip([[800, 1_070], [9_600, 4_700], [11_800, 6_900]])
     {
         assert!(linear <= most && gradient <= most_of_gradient, "{counts:?}");
     }

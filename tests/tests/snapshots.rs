@@ -14,14 +14,8 @@ use insta::assert_snapshot;
 const READABLE: [&str; 3] = ["residual", "linear", "violation"];
 
 /// Machines whose generated code is kept in full.
-const GENERATED: [&str; 6] = [
-    "rotating_pendulum",
-    "rotating_double_pendulum",
-    "turntable_slider",
-    "geared_coasting",
-    "fits",
-    "conical",
-];
+const GENERATED: [&str; 6] =
+    ["rotating_pendulum", "rotating_double_pendulum", "turntable_slider", "geared_coasting", "fits", "conical"];
 
 /// A pendulum that goes round with a declared speed.
 const CONICAL: &str = "mechanism Conical {
@@ -60,11 +54,7 @@ fn stages() {
     for (machine, declaration) in machines() {
         let mut compilation = compiled(declaration);
         let kernels = compilation.program.kernels.into_iter();
-        compilation.program = Program {
-            kernels: kernels
-                .filter(|kernel| READABLE.contains(&kernel.name))
-                .collect(),
-        };
+        compilation.program = Program { kernels: kernels.filter(|kernel| READABLE.contains(&kernel.name)).collect() };
         for (stage, text) in compilation.dumps() {
             assert_snapshot!(format!("{machine}__{stage}"), text);
         }
@@ -75,8 +65,8 @@ fn stages() {
 fn generated_code() {
     for (machine, declaration) in machines() {
         if GENERATED.contains(&machine) {
-            let code = expand_pretty(declaration.parse().expect("tokens"))
-                .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            let code =
+                expand_pretty(declaration.parse().expect("tokens")).unwrap_or_else(|mistakes| panic!("{mistakes}"));
             assert_snapshot!(format!("{machine}__generated"), code);
         }
     }
@@ -93,12 +83,9 @@ fn the_same_declaration_gives_the_same_tokens() {
 /// Long function bodies are split into blocks, so that no chain of `let`s is long enough to overflow rustc's stack.
 #[test]
 fn no_block_nests_many_statements() {
-    let long = declarations()
-        .into_iter()
-        .find(|(machine, _)| *machine == "chain_of_eight");
+    let long = declarations().into_iter().find(|(machine, _)| *machine == "chain_of_eight");
     let (_, declaration) = long.expect("the chain of eight is in the corpus");
-    let code = expand_pretty(declaration.parse().expect("tokens"))
-        .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let code = expand_pretty(declaration.parse().expect("tokens")).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let mut longest = 0;
     let mut statements = 0;
     for line in code.lines() {
@@ -109,8 +96,5 @@ fn no_block_nests_many_statements() {
         longest = longest.max(statements);
     }
     assert!(longest <= 256, "{longest} nested statements");
-    assert!(
-        code.lines().count() > 10_000,
-        "the chain of eight has long bodies"
-    );
+    assert!(code.lines().count() > 10_000, "the chain of eight has long bodies");
 }

@@ -19,13 +19,8 @@ use questions::{Question, Range, along_an_input, at_one_state, of_chance, of_vib
 /// Stack size of the main thread on Windows, KiB.
 const WINDOWS: usize = 1024;
 
-const BICYCLE: Range = Range {
-    sweep: [5.0, 5.1, 5.2],
-    branches: [4.5, 5.5],
-    critical: [5.0, 7.0],
-    crossings: [4.0, 5.0],
-    order: 1.0,
-};
+const BICYCLE: Range =
+    Range { sweep: [5.0, 5.1, 5.2], branches: [4.5, 5.5], critical: [5.0, 7.0], crossings: [4.0, 5.0], order: 1.0 };
 
 #[test]
 fn bicycle_compiled() {
@@ -83,33 +78,18 @@ fn a_long_chain_vibrates() {
     let chain = chain.trim_end().trim_end_matches('}');
     let study = few(interpreted(&format!("{chain}{shaken}"))).samples(8);
     let frequency = study.find_input("f").expect("declared");
-    let range = Range {
-        sweep: [1.0, 1.5, 2.0],
-        crossings: [1.0, 4.0],
-        ..BARS
-    };
-    ask(
-        &study.input(frequency, 1.0),
-        &range,
-        WINDOWS,
-        &of_vibration(),
-    );
+    let range = Range { sweep: [1.0, 1.5, 2.0], crossings: [1.0, 4.0], ..BARS };
+    ask(&study.input(frequency, 1.0), &range, WINDOWS, &of_vibration());
 }
 
 /// Every question in the sources of `Study` is put here, name by name.
 #[test]
 fn every_question_is_asked() {
     let names = |questions: Vec<Question<Interpreted>>| -> BTreeSet<String> {
-        questions
-            .iter()
-            .map(|(name, _)| (*name).to_owned())
-            .collect()
+        questions.iter().map(|(name, _)| (*name).to_owned()).collect()
     };
     for (files, asked) in [
-        (
-            &["at_point", "beyond_first_order"][..],
-            names(at_one_state()),
-        ),
+        (&["at_point", "beyond_first_order"][..], names(at_one_state())),
         (&["over_input", "events"], names(along_an_input())),
         (&["forced"], names(of_vibration())),
         (&["propagation", "requirements"], names(of_chance())),
@@ -119,9 +99,8 @@ fn every_question_is_asked() {
         let sources: Result<String, _> = files.iter().map(read).collect();
         let source = sources.expect("sources");
         let methods = source.split("\n    pub fn ").skip(1);
-        let declared: BTreeSet<String> = methods
-            .filter_map(|method| method.split(['(', '<']).next().map(str::to_owned))
-            .collect();
+        let declared: BTreeSet<String> =
+            methods.filter_map(|method| method.split(['(', '<']).next().map(str::to_owned)).collect();
         assert_eq!(asked, declared, "{files:?}");
     }
 }

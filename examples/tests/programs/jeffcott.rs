@@ -16,13 +16,9 @@ use super::{near, printed, shows};
 const RPM: f64 = PI / 30.0;
 
 /// Nominal design, in the order of the declaration.
-const DESIGN: [f64; 10] = [
-    206e9, 0.030, 0.260, 0.320, 80e-6, 0.250, 0.030, 150e3, 250e3, 80.0,
-];
+const DESIGN: [f64; 10] = [206e9, 0.030, 0.260, 0.320, 80e-6, 0.250, 0.030, 150e3, 250e3, 80.0];
 
-const HALF_WIDTHS: [f64; 10] = [
-    4.12e9, 1e-4, 1e-3, 1e-3, 24e-6, 2e-4, 2e-4, 30e3, 50e3, 24.0,
-];
+const HALF_WIDTHS: [f64; 10] = [4.12e9, 1e-4, 1e-3, 1e-3, 24e-6, 2e-4, 2e-4, 30e3, 50e3, 24.0];
 
 /// Physical parameters of the design: mass, moments of inertia across and along the axis, stiffness of the shaft.
 struct Rotor {
@@ -139,11 +135,7 @@ fn every_mode_solves_the_equations_written_by_hand() {
             if speed == 0.0 {
                 assert!(matches!(whirl, None | Some(Sense::Planar)), "{whirl:?}");
             } else {
-                let expected = if forward {
-                    Sense::Forward
-                } else {
-                    Sense::Backward
-                };
+                let expected = if forward { Sense::Forward } else { Sense::Backward };
                 assert_eq!(whirl, Some(expected), "mode {number} at {speed}");
                 assert!(number < 3 || (mode.s.im > before[mode.label]) == forward);
             }
@@ -159,17 +151,12 @@ fn every_event_and_its_derivatives_are_those_of_the_equations_written_by_hand() 
     let study = jeffcott_rotor::study();
     let diagram = study.campbell(JeffcottRotor::speed, &speeds, &[1.0, 2.0]);
     let diagram = diagram.unwrap();
-    assert_eq!(
-        (diagram.crossings.len(), diagram.flutter_onsets.len()),
-        (6, 1)
-    );
+    assert_eq!((diagram.crossings.len(), diagram.flutter_onsets.len()), (6, 1));
     assert!(diagram.critical.is_empty());
     for event in diagram.crossings.iter().chain(&diagram.flutter_onsets) {
         let speed = event.value;
         shows(&text, &[&format!("{:.2}", speed / RPM)]);
-        let Event::Crossing { condition, s, .. } = event.event else {
-            panic!("{event}")
-        };
+        let Event::Crossing { condition, s, .. } = event.event else { panic!("{event}") };
         // The unknowns are the speed and the quantity the event leaves free: the growth or the frequency.
         let solved = |design: [f64; 10]| {
             let open = match condition {
@@ -227,9 +214,7 @@ fn the_plain_rotor_has_the_closed_forms_of_jeffcott() {
     let natural = (stiffness / rotor.mass).sqrt();
     let onset = natural * (1.0 + external / internal);
     let (low, high) = (0.0, 6000.0 * RPM);
-    let found = study
-        .flutter_onset_tolerances(Plain::speed, low, high)
-        .unwrap();
+    let found = study.flutter_onset_tolerances(Plain::speed, low, high).unwrap();
     assert_eq!(found.len(), 1);
     near("onset", found[0].value, onset, 1e-9);
     let slopes = found[0].spread.as_ref().unwrap().by_design.clone();
@@ -259,16 +244,8 @@ fn the_plain_rotor_has_the_closed_forms_of_jeffcott() {
     let turning = 12.0 * bending / span;
     let mut expected: Vec<Complex> = Vec::new();
     for [m, c, k] in [
-        [
-            Complex::from(rotor.mass),
-            Complex::from(external + internal),
-            stiffness - i * speed * internal,
-        ],
-        [
-            Complex::from(rotor.across),
-            lag * turning - i * speed * rotor.along,
-            turning * (1.0 - i * speed * lag),
-        ],
+        [Complex::from(rotor.mass), Complex::from(external + internal), stiffness - i * speed * internal],
+        [Complex::from(rotor.across), lag * turning - i * speed * rotor.along, turning * (1.0 - i * speed * lag)],
     ] {
         let root = (c * c - 4.0 * m * k).sqrt();
         for s in [(-c + root) / (2.0 * m), (-c - root) / (2.0 * m)] {
@@ -276,15 +253,8 @@ fn the_plain_rotor_has_the_closed_forms_of_jeffcott() {
         }
     }
     expected.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
-    let mut modes: Vec<Complex> = study
-        .clone()
-        .input(Plain::speed, speed)
-        .modes()
-        .unwrap()
-        .modes
-        .iter()
-        .map(|mode| mode.s)
-        .collect();
+    let mut modes: Vec<Complex> =
+        study.clone().input(Plain::speed, speed).modes().unwrap().modes.iter().map(|mode| mode.s).collect();
     modes.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
     assert_eq!(modes.len(), 4);
     for (mode, expected) in modes.iter().zip(&expected) {
@@ -295,27 +265,20 @@ fn the_plain_rotor_has_the_closed_forms_of_jeffcott() {
 
 #[test]
 fn monte_carlo_confirms_the_risks() {
-    let study = jeffcott_rotor::study()
-        .seed(4)
-        .samples(20_000)
-        .keep_samples(true);
+    let study = jeffcott_rotor::study().seed(4).samples(20_000).keep_samples(true);
     let run = study.monte_carlo().unwrap();
     let samples = 20_000_f64;
     let confirmed = |hits: usize, expected: f64| {
         let share = hits as f64 / samples;
         let error = (share * (1.0 - share) / samples).sqrt();
-        assert!(
-            hits > 100 && (share - expected).abs() < 4.0 * error,
-            "{share} {expected}"
-        );
+        assert!(hits > 100 && (share - expected).abs() < 4.0 * error, "{share} {expected}");
     };
 
     let speed = 3000.0 * RPM;
     let all = run.all.as_ref().unwrap();
     for mode in 0..4 {
-        let inside = |sample: &&Sample| {
-            sample.frequencies[mode].is_some_and(|frequency| (frequency / speed - 1.0).abs() <= 0.1)
-        };
+        let inside =
+            |sample: &&Sample| sample.frequencies[mode].is_some_and(|frequency| (frequency / speed - 1.0).abs() <= 0.1);
         let hits = all.iter().filter(inside).count();
         if mode == jeffcott_rotor::TILTING {
             let found = study.second_order_failure(jeffcott_rotor::resonance());
@@ -329,17 +292,9 @@ fn monte_carlo_confirms_the_risks() {
 
     // Only some samples oscillate in every mode stably; mean and sigma of the frequencies count these.
     for (spread, sampled) in study.second_order().unwrap().modes.iter().zip(&run.modes) {
-        let (spread, sampled) = (
-            &spread.as_ref().unwrap().frequency,
-            sampled.as_ref().unwrap(),
-        );
+        let (spread, sampled) = (&spread.as_ref().unwrap().frequency, sampled.as_ref().unwrap());
         let sigma = sampled.sigma.unwrap();
-        near(
-            "sigma",
-            sigma,
-            spread.moments.sigma,
-            4.0 / (2.0 * samples).sqrt(),
-        );
+        near("sigma", sigma, spread.moments.sigma, 4.0 / (2.0 * samples).sqrt());
         let shift = sampled.mean - spread.moments.mean;
         assert!(shift.abs() < 4.0 * sigma / samples.sqrt(), "{shift}");
     }

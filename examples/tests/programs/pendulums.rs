@@ -14,10 +14,7 @@ fn the_programs_print_the_speeds_and_ratios_of_the_paper_beside_their_own() {
     shows(&single, &["2.71247", "3.83601", "2.712", "3.835", "1179"]);
     let double = printed(rotating_double_pendulum::run);
     shows(&double, &["1.89513", "2.68011", "1.895", "2.679", "1414"]);
-    shows(
-        &double,
-        &["IndependentBars", "share of m2", "one by one", "in vectors"],
-    );
+    shows(&double, &["IndependentBars", "share of m2", "one by one", "in vectors"]);
 }
 
 /// At 5 rad/s the frequency follows from the closed form, with its slope by the length.
@@ -35,9 +32,7 @@ fn the_first_page_prints_frequency_and_spread() {
 fn the_bar_follows_its_closed_form() {
     let study = rotating_pendulum::study().samples(400).seed(5);
     let speeds = rotating_pendulum::speeds();
-    let first = study
-        .first_order_sweep(RotatingPendulum::omega, &speeds)
-        .unwrap();
+    let first = study.first_order_sweep(RotatingPendulum::omega, &speeds).unwrap();
     for (&speed, first) in speeds.iter().zip(first) {
         let study = study.clone().input(RotatingPendulum::omega, speed);
         let square = speed * speed;
@@ -61,12 +56,7 @@ fn the_bar_follows_its_closed_form() {
         if first.distance_to_critical > 20.0 {
             let sampled = run.modes[0].as_ref().unwrap();
             assert!((sampled.mean - frequency).abs() < 5.0 * sigma / 400f64.sqrt());
-            near(
-                "sampled sigma",
-                sampled.sigma.unwrap(),
-                sigma,
-                5.0 / 800f64.sqrt(),
-            );
+            near("sampled sigma", sampled.sigma.unwrap(), sigma, 5.0 / 800f64.sqrt());
         }
     }
     let near_critical = study.input(RotatingPendulum::omega, 3.8).first_order();
@@ -84,20 +74,13 @@ fn four_dimensions_share_the_variance_as_two_equal_bars_say() {
         let spreads = bars.first_order().unwrap().modes;
         for ((one, four), spread) in one.iter().zip(&four).zip(&spreads) {
             let one = &one.frequency().unwrap().by_design;
-            let [l1, l2, m1, m2] = four.frequency().unwrap().by_design[..] else {
-                panic!("four dimensions")
-            };
+            let [l1, l2, m1, m2] = four.frequency().unwrap().by_design[..] else { panic!("four dimensions") };
             near("by both lengths", l1 + l2, one[1], 1e-9);
             assert!((m1 + m2).abs() < 1e-9 * m1.abs(), "{m1} {m2}");
             // Three standard deviations are 3 % of 1 m and of 3 kg.
             let parts = [l1, l2, 3.0 * m1, 3.0 * m2].map(|part| (0.01 * part).powi(2));
             let variance: f64 = parts.iter().sum();
-            near(
-                "sigma",
-                spread.frequency().unwrap().sigma,
-                variance.sqrt(),
-                1e-9,
-            );
+            near("sigma", spread.frequency().unwrap().sigma, variance.sqrt(), 1e-9);
             for (share, part) in spread.variance_shares().iter().zip(parts) {
                 near("share", *share, part / variance, 1e-9);
             }

@@ -11,9 +11,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Error {
     /// Cargo has not set the output folder.
-    #[error(
-        "the environment variable OUT_DIR is not set; call this from a build script, which cargo runs with it"
-    )]
+    #[error("the environment variable OUT_DIR is not set; call this from a build script, which cargo runs with it")]
     NoDirectory,
     /// A path that does not name a file.
     #[error("`{}` is not the path of a file; give that of a declaration, for example `rotor.mechanism`", .0.display())]

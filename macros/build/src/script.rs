@@ -38,10 +38,7 @@ pub fn compile_for_c(path: impl AsRef<Path>, header: impl AsRef<Path>) {
 /// # Errors
 /// All mistakes of the declaration, or the file that cannot be read or written.
 #[cfg(feature = "c")]
-pub fn try_compile_for_c(
-    path: impl AsRef<Path>,
-    header: impl AsRef<Path>,
-) -> Result<PathBuf, Error> {
+pub fn try_compile_for_c(path: impl AsRef<Path>, header: impl AsRef<Path>) -> Result<PathBuf, Error> {
     rerun_if_changed(path.as_ref());
     rerun_if_changed(header.as_ref());
     let source = Source::read(path.as_ref())?;
@@ -51,10 +48,7 @@ pub fn try_compile_for_c(
     // cbindgen reads only files.
     let functions = source.output("c.rs");
     write(&functions, &interface.items)?;
-    write(
-        header.as_ref(),
-        &interface.header(&source.path, &functions)?,
-    )?;
+    write(header.as_ref(), &interface.header(&source.path, &functions)?)?;
     let code = source.output("rs");
     let items = source.compilation.emit_text();
     write(&code, &format!("{items}\n{}", interface.module()))?;
@@ -66,12 +60,7 @@ pub fn try_compile_for_c(
 fn unspeakable(source: Source) -> Error {
     let name = source.compilation.mechanism.name;
     let start = name.span().start();
-    Error::Name {
-        path: source.path,
-        line: start.line,
-        column: start.column + 1,
-        name: name.to_string(),
-    }
+    Error::Name { path: source.path, line: start.line, column: start.column + 1, name: name.to_string() }
 }
 
 fn rerun_if_changed(path: &Path) {

@@ -31,11 +31,7 @@ impl Source {
             Err(source) => return Err(Error::Read { path, source }),
         };
         match compile_text(&text, Limits::default()) {
-            Ok(compilation) => Ok(Self {
-                path,
-                compilation,
-                directory,
-            }),
+            Ok(compilation) => Ok(Self { path, compilation, directory }),
             Err(mistakes) => Err(Error::Mistakes { path, mistakes }),
         }
     }
@@ -54,8 +50,5 @@ pub(crate) fn write(path: &Path, text: &str) -> Result<(), Error> {
     }
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folder.and_then(|()| fs::write(path, text));
-    written.map_err(|source| Error::Write {
-        path: path.to_owned(),
-        source,
-    })
+    written.map_err(|source| Error::Write { path: path.to_owned(), source })
 }

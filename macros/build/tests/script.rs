@@ -59,9 +59,7 @@ fn run(folder: &Path, variables: &[(&str, &str)]) -> Output {
 /// The lines addressed to cargo.
 fn said(output: &Output) -> Vec<String> {
     let text = String::from_utf8(output.stdout.clone()).unwrap();
-    let lines = text
-        .lines()
-        .filter_map(|line| Some(&line[line.find("cargo::")?..]));
+    let lines = text.lines().filter_map(|line| Some(&line[line.find("cargo::")?..]));
     lines.map(str::to_owned).collect()
 }
 
@@ -72,10 +70,7 @@ fn code_is_left_where_cargo_wants_it() {
     let folder = folder("code", RIGHT);
     let output = run(&folder, &HERE);
     assert!(output.status.success(), "{output:?}");
-    assert_eq!(
-        said(&output),
-        ["cargo::rerun-if-changed=pendulum.mechanism"]
-    );
+    assert_eq!(said(&output), ["cargo::rerun-if-changed=pendulum.mechanism"]);
     let code = fs::read_to_string(folder.join("out/pendulum.rs")).unwrap();
     assert!(code.contains("pub struct Pendulum"), "{code}");
     assert!(!code.contains("unsafe"), "{code}");
@@ -107,14 +102,8 @@ fn text_that_is_no_tokens_has_a_place_too() {
     let output = run(&folder, &HERE);
     assert_eq!(output.status.code(), Some(1));
     let said = said(&output);
-    assert!(
-        said[1].starts_with("cargo::error=pendulum.mechanism:"),
-        "{said:?}"
-    );
-    assert_eq!(
-        said[2],
-        "cargo::error=help: brackets and quotes come in pairs"
-    );
+    assert!(said[1].starts_with("cargo::error=pendulum.mechanism:"), "{said:?}");
+    assert_eq!(said[2], "cargo::error=help: brackets and quotes come in pairs");
 }
 
 /// The error for a declaration, given environment variables.
@@ -126,28 +115,13 @@ fn refused(name: &str, variables: &[(&str, &str)]) -> String {
 
 #[test]
 fn files_that_are_not_there_are_named() {
-    let missing = refused(
-        "missing",
-        &[("DECLARATION", "rotor.mechanism"), ("OUT_DIR", "out")],
-    );
+    let missing = refused("missing", &[("DECLARATION", "rotor.mechanism"), ("OUT_DIR", "out")]);
     let start = "cargo::error=cannot read rotor.mechanism: ";
     assert!(missing.starts_with(start), "{missing}");
-    assert!(
-        missing.ends_with("relative to the folder of Cargo.toml"),
-        "{missing}"
-    );
+    assert!(missing.ends_with("relative to the folder of Cargo.toml"), "{missing}");
     let no_file = refused("no_file", &[("DECLARATION", ".."), ("OUT_DIR", "out")]);
-    assert!(
-        no_file.contains("`..` is not the path of a file"),
-        "{no_file}"
-    );
-    let unwritable = refused(
-        "unwritable",
-        &[
-            ("DECLARATION", "pendulum.mechanism"),
-            ("OUT_DIR", "pendulum.mechanism"),
-        ],
-    );
+    assert!(no_file.contains("`..` is not the path of a file"), "{no_file}");
+    let unwritable = refused("unwritable", &[("DECLARATION", "pendulum.mechanism"), ("OUT_DIR", "pendulum.mechanism")]);
     let start = "cargo::error=cannot write pendulum.mechanism/pendulum.rs: ";
     assert!(unwritable.starts_with(start), "{unwritable}");
 }
@@ -179,19 +153,13 @@ mod for_c {
         let header = folder.join("include/pendulum.h");
         let text = fs::read_to_string(&header).unwrap();
         assert!(text.contains("#ifndef PENDULUM_H"), "{text}");
-        assert!(
-            text.contains("int32_t pendulum_residual(const double *q,"),
-            "{text}"
-        );
+        assert!(text.contains("int32_t pendulum_residual(const double *q,"), "{text}");
         assert!(text.contains("#define PENDULUM_DESIGN_l 0"), "{text}");
         // a correct file is left untouched, so that code that includes it is not rebuilt
         let written = fs::metadata(&header).unwrap().modified().unwrap();
         let output = run(&folder, &WITH_HEADER);
         assert_eq!(fs::metadata(&header).unwrap().modified().unwrap(), written);
-        assert_eq!(
-            said(&output)[1],
-            "cargo::rerun-if-changed=include/pendulum.h"
-        );
+        assert_eq!(said(&output)[1], "cargo::rerun-if-changed=include/pendulum.h");
         // a different file is corrected
         fs::write(&header, "old").unwrap();
         assert!(run(&folder, &WITH_HEADER).status.success());
@@ -205,33 +173,17 @@ mod for_c {
         fs::write(folder.join("include/pendulum.h"), "old").unwrap();
         let output = run(&folder, &WITH_HEADER);
         assert_eq!(output.status.code(), Some(1));
-        assert!(
-            said(&output)[2].contains("pendulum.mechanism:2:18: unknown unit"),
-            "{output:?}"
-        );
-        assert_eq!(
-            fs::read_to_string(folder.join("include/pendulum.h")).unwrap(),
-            "old"
-        );
+        assert!(said(&output)[2].contains("pendulum.mechanism:2:18: unknown unit"), "{output:?}");
+        assert_eq!(fs::read_to_string(folder.join("include/pendulum.h")).unwrap(), "old");
     }
 
     #[test]
     fn a_header_that_cannot_be_written_is_named() {
         let folder = folder("nowhere", RIGHT);
-        let output = run(
-            &folder,
-            &[
-                HERE[0],
-                HERE[1],
-                ("HEADER", "pendulum.mechanism/pendulum.h"),
-            ],
-        );
+        let output = run(&folder, &[HERE[0], HERE[1], ("HEADER", "pendulum.mechanism/pendulum.h")]);
         assert_eq!(output.status.code(), Some(1));
         let last = said(&output).pop().unwrap();
-        assert!(
-            last.starts_with("cargo::error=cannot write pendulum.mechanism/pendulum.h: "),
-            "{last}"
-        );
+        assert!(last.starts_with("cargo::error=cannot write pendulum.mechanism/pendulum.h: "), "{last}");
     }
 
     #[test]
@@ -241,13 +193,9 @@ mod for_c {
             let output = run(&folder, &WITH_HEADER);
             assert_eq!(output.status.code(), Some(1));
             let said = said(&output);
-            let expected =
-                format!("cargo::error=pendulum.mechanism:2:15: `{name}` cannot be spelt in C");
+            let expected = format!("cargo::error=pendulum.mechanism:2:15: `{name}` cannot be spelt in C");
             assert_eq!(said[2], expected);
-            assert!(
-                said[3].starts_with("cargo::error=help: a name for C begins"),
-                "{said:?}"
-            );
+            assert!(said[3].starts_with("cargo::error=help: a name for C begins"), "{said:?}");
             // without C functions the name is valid
             assert!(run(&folder, &HERE).status.success());
         }

@@ -39,10 +39,7 @@ pub fn expand(declaration: TokenStream) -> TokenStream {
 
 /// [`expand`] with a custom lexer for the generated text, which is well-formed and long. Inside a macro, rustc's own
 /// lexer is the fastest: `proc_macro2` lexes everything twice there, to reject tokens that would upset rustc.
-pub fn expand_with<E: Debug>(
-    declaration: TokenStream,
-    lexer: impl Fn(&str) -> Result<TokenStream, E>,
-) -> TokenStream {
+pub fn expand_with<E: Debug>(declaration: TokenStream, lexer: impl Fn(&str) -> Result<TokenStream, E>) -> TokenStream {
     match compile(declaration, Limits::default()) {
         Ok(compilation) => compilation.emit_with(lexer),
         Err(mistakes) => mistakes.into_compile_errors(),

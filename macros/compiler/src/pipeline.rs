@@ -40,29 +40,16 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
 
 /// [`compile`] with this many `more` coordinates of every component of a beam than declared; one that has none stays
 /// rigid.
-pub fn compile_refined(
-    declaration: TokenStream,
-    limits: Limits,
-    more: usize,
-) -> Result<Compilation, Diagnostics> {
+pub fn compile_refined(declaration: TokenStream, limits: Limits, more: usize) -> Result<Compilation, Diagnostics> {
     let (ast, mut mechanism, mut topology) = accepted(declaration, more)?;
     let mut functions = derive(&mut mechanism, &mut topology, limits)?;
     let kernels = regrouped_kernels(&mut functions);
     let program = lower(&functions.graph, &kernels);
-    Ok(Compilation {
-        ast,
-        mechanism,
-        topology,
-        functions,
-        program,
-    })
+    Ok(Compilation { ast, mechanism, topology, functions, program })
 }
 
 /// The stages that look for mistakes. Each continues with whatever the previous stage could make sense of.
-fn accepted(
-    declaration: TokenStream,
-    more: usize,
-) -> Result<(Ast, Mechanism, Topology), Diagnostics> {
+fn accepted(declaration: TokenStream, more: usize) -> Result<(Ast, Mechanism, Topology), Diagnostics> {
     let mut mistakes = Diagnostics::new();
     let Some(ast) = parse_what_can_be_read(declaration, &mut mistakes) else {
         return Err(mistakes);
@@ -86,18 +73,16 @@ fn accepted(
 }
 
 /// Kernels whose residuals a solver compares with each other, so all of them must return exactly the same number.
-const OF_ONE_RESIDUAL: [KernelName; 3] = [
-    KernelName::Residual,
-    KernelName::ResidualParts,
-    KernelName::ResidualAndStiffness,
-];
+const OF_ONE_RESIDUAL: [KernelName; 3] =
+    [KernelName::Residual, KernelName::ResidualParts, KernelName::ResidualAndStiffness];
 
 /// The kernels, regrouped where that saves operations.
 fn regrouped_kernels(functions: &mut Functions) -> Vec<Function> {
-    let (alike, others): (Vec<Function>, Vec<Function>) =
-        functions.functions.iter().cloned().partition(|function| {
-            KernelName::named(function.name).is_some_and(|name| OF_ONE_RESIDUAL.contains(&name))
-        });
+    let (alike, others): (Vec<Function>, Vec<Function>) = functions
+        .functions
+        .iter()
+        .cloned()
+        .partition(|function| KernelName::named(function.name).is_some_and(|name| OF_ONE_RESIDUAL.contains(&name)));
     let mut kernels = regrouped(&mut functions.graph, &alike);
     for function in others {
         kernels.extend(regrouped(&mut functions.graph, &[function]));
@@ -131,10 +116,7 @@ impl Compilation {
     }
 
     /// The generated items, tokenised by a custom lexer.
-    pub fn emit_with<E: Debug>(
-        &self,
-        lexer: impl Fn(&str) -> Result<TokenStream, E>,
-    ) -> TokenStream {
+    pub fn emit_with<E: Debug>(&self, lexer: impl Fn(&str) -> Result<TokenStream, E>) -> TokenStream {
         emit(&self.mechanism, &self.functions, &self.program, lexer)
     }
 }

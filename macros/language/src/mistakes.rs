@@ -48,10 +48,7 @@ impl Mistakes {
 
     /// `file:line:column: message`, for each mistake.
     pub fn of_file(&self, path: &Path) -> String {
-        let lines: Vec<String> = self
-            .iter()
-            .map(|mistake| format!("{}:{mistake}", path.display()))
-            .collect();
+        let lines: Vec<String> = self.iter().map(|mistake| format!("{}:{mistake}", path.display())).collect();
         lines.join("\n")
     }
 }
@@ -121,16 +118,8 @@ const PAIRS: &str = "brackets and quotes come in pairs";
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// Signs used in drawings and word processors, and what to write instead.
-const SIGNS: [(&str, &str); 8] = [
-    ("±", "+/-"),
-    ("°", "deg"),
-    ("–—−‒", "-"),
-    ("×⋅∙•", "*"),
-    ("÷", "/"),
-    ("²", "^2"),
-    ("³", "^3"),
-    ("⁻¹", "^-1"),
-];
+const SIGNS: [(&str, &str); 8] =
+    [("±", "+/-"), ("°", "deg"), ("–—−‒", "-"), ("×⋅∙•", "*"), ("÷", "/"), ("²", "^2"), ("³", "^3"), ("⁻¹", "^-1")];
 
 impl From<Diagnostics> for Mistakes {
     fn from(diagnostics: Diagnostics) -> Self {
@@ -142,11 +131,7 @@ impl From<Diagnostics> for Mistakes {
     }
 }
 
-pub(crate) fn mistake(
-    (first, last): (Span, Span),
-    message: String,
-    help: Option<String>,
-) -> Mistake {
+pub(crate) fn mistake((first, last): (Span, Span), message: String, help: Option<String>) -> Mistake {
     let (start, end) = (first.start(), last.end());
     Mistake {
         line: start.line,

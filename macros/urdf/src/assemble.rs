@@ -89,11 +89,7 @@ const Y: Vector = [0.0, 1.0, 0.0];
 const Z: Vector = [0.0, 0.0, 1.0];
 
 /// Assembles the content of the declaration from a robot.
-pub(crate) fn assemble(
-    robot: &Robot,
-    tree: &Tree,
-    options: &Options,
-) -> Result<Assembly, ImportError> {
+pub(crate) fn assemble(robot: &Robot, tree: &Tree, options: &Options) -> Result<Assembly, ImportError> {
     let mut names = Names::default();
     // Results are identified by coordinate, so joints get first choice of their names.
     let joints = tree.moving.iter().map(|&index| {
@@ -140,14 +136,7 @@ pub(crate) fn assemble(
         let reason = Reason::NothingMoves("every joint is fixed");
         return Err(alone(robot.at.mistake(reason)));
     }
-    let points = points(
-        robot,
-        tree,
-        &body_names,
-        options.base,
-        &mut names,
-        &mut notes,
-    );
+    let points = points(robot, tree, &body_names, options.base, &mut names, &mut notes);
     let couplings = couplings(robot, &joint_names, &mut names);
     if options.resistance != Resistance::KernelsOnly {
         drive_what_moves_no_mass(&mut moving, &bodies, &couplings, &mut notes);
@@ -161,27 +150,16 @@ pub(crate) fn assemble(
         true => dampers(robot, &joint_names, &moving, &mut names),
         false => Vec::new(),
     };
-    for joint in tree
-        .held
-        .iter()
-        .map(|&index| robot.joints[index].name.clone())
-    {
+    for joint in tree.held.iter().map(|&index| robot.joints[index].name.clone()) {
         notes.push(Note::Held { joint });
     }
-    for joint in robot
-        .joints
-        .iter()
-        .filter(|joint| joint.kind == JointKind::Fixed && joint.mimic.is_some())
-    {
+    for joint in robot.joints.iter().filter(|joint| joint.kind == JointKind::Fixed && joint.mimic.is_some()) {
         let joint = joint.name.clone();
         notes.push(Note::FixedMimic { joint });
     }
     Ok(Assembly {
         robot: robot.name.clone(),
-        name: options
-            .name
-            .clone()
-            .unwrap_or_else(|| type_name(&robot.name)),
+        name: options.name.clone().unwrap_or_else(|| type_name(&robot.name)),
         bodies,
         joints: moving,
         points,
@@ -194,30 +172,20 @@ pub(crate) fn assemble(
 }
 
 fn alone(mistake: Mistake) -> ImportError {
-    ImportError {
-        mistakes: vec![mistake],
-    }
+    ImportError { mistakes: vec![mistake] }
 }
 
 fn ignored(robot: &Robot) -> Vec<Note> {
-    let notes = robot
-        .ignored
-        .iter()
-        .map(|((of, element), names)| Note::Ignored {
-            element: element.clone(),
-            of,
-            names: names.clone(),
-        });
+    let notes = robot.ignored.iter().map(|((of, element), names)| Note::Ignored {
+        element: element.clone(),
+        of,
+        names: names.clone(),
+    });
     notes.collect()
 }
 
 fn coordinate(name: String, axis: Vector, is_angle: bool) -> Coordinate {
-    Coordinate {
-        name,
-        axis,
-        is_angle,
-        driven: false,
-    }
+    Coordinate { name, axis, is_angle, driven: false }
 }
 
 type BaseJoint = (String, &'static str, Vec<Coordinate>);
@@ -236,14 +204,7 @@ fn base_joint(base: Base, names: &mut Names) -> Option<BaseJoint> {
 type Motion = (&'static str, Vector, bool);
 
 fn floating() -> Vec<Motion> {
-    vec![
-        ("px", X, false),
-        ("py", Y, false),
-        ("pz", Z, false),
-        ("yaw", Z, true),
-        ("pitch", Y, true),
-        ("roll", X, true),
-    ]
+    vec![("px", X, false), ("py", Y, false), ("pz", Z, false), ("yaw", Z, true), ("pitch", Y, true), ("roll", X, true)]
 }
 
 /// Two displacements perpendicular to a normal, and the turn about it.
@@ -253,11 +214,7 @@ fn in_plane(normal: Vector) -> Vec<Motion> {
     let least = (0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()));
     let across = [X, Y, Z][least.unwrap_or(0)];
     let second = unit(cross(normal, across));
-    vec![
-        ("px", unit(cross(second, normal)), false),
-        ("py", second, false),
-        ("yaw", normal, true),
-    ]
+    vec![("px", unit(cross(second, normal)), false), ("py", second, false), ("yaw", normal, true)]
 }
 
 fn named(motions: &[Motion], prefix: &str, names: &mut Names) -> Vec<Coordinate> {
@@ -302,17 +259,10 @@ fn bodies(
         if name == GROUND {
             continue;
         }
-        let heavy: Vec<usize> = links
-            .iter()
-            .copied()
-            .filter(|&link| is_heavy(robot, link))
-            .collect();
+        let heavy: Vec<usize> = links.iter().copied().filter(|&link| is_heavy(robot, link)).collect();
         let total = mass(robot, tree, &heavy);
         match total.and_then(|mass| judged(robot, &heavy, mass, options, notes)) {
-            Ok(mass) => bodies.push(Body {
-                name: name.clone(),
-                mass,
-            }),
+            Ok(mass) => bodies.push(Body { name: name.clone(), mass }),
             Err(reason) => {
                 let first = heavy.first().unwrap_or(&links[0]);
                 mistakes.push(robot.links[*first].at.mistake(reason));
@@ -329,9 +279,7 @@ fn bodies(
 /// Whether it has a mass or an inertia.
 fn is_heavy(robot: &Robot, link: usize) -> bool {
     let inertial = robot.links[link].inertial.as_ref();
-    inertial.is_some_and(|inertial| {
-        inertial.mass > 0.0 || inertial.inertia.iter().flatten().any(|entry| *entry != 0.0)
-    })
+    inertial.is_some_and(|inertial| inertial.mass > 0.0 || inertial.inertia.iter().flatten().any(|entry| *entry != 0.0))
 }
 
 /// The combined mass of links, in the frame of their group.
@@ -347,11 +295,7 @@ fn mass(robot: &Robot, tree: &Tree, links: &[usize]) -> Result<Option<Mass>, Rea
         && inertial.pose.rotations.is_empty()
         && inertial.mass > 0.0
     {
-        return Ok(Some(Mass {
-            mass: inertial.mass,
-            center: inertial.pose.offset,
-            inertia: inertial.inertia,
-        }));
+        return Ok(Some(Mass { mass: inertial.mass, center: inertial.pose.offset, inertia: inertial.inertia }));
     }
     let mut moments = Moments::default();
     for (link, inertial) in &inertials {
@@ -362,11 +306,7 @@ fn mass(robot: &Robot, tree: &Tree, links: &[usize]) -> Result<Option<Mass>, Rea
         (false, [link, ..]) => Err(Reason::InertiaWithoutMass(robot.links[*link].name.clone())),
         (true, _) => {
             let (center, inertia) = moments.central();
-            Ok(Some(Mass {
-                mass: moments.mass,
-                center,
-                inertia,
-            }))
+            Ok(Some(Mass { mass: moments.mass, center, inertia }))
         }
     }
 }
@@ -382,10 +322,7 @@ fn judged(
     let Some(mut given) = mass.filter(|mass| !is_inertia_of_a_body(&mass.inertia)) else {
         return Ok(mass);
     };
-    let links = links
-        .iter()
-        .map(|&link| robot.links[link].name.clone())
-        .collect();
+    let links = links.iter().map(|&link| robot.links[link].name.clone()).collect();
     let inertia = nearest_of_a_body(&given.inertia);
     let (before, after) = (principal(&given.inertia).0, principal(&inertia).0);
     if !options.nearest_inertias {
@@ -397,11 +334,7 @@ fn judged(
             replacement: [xx, yy, zz, xy, yz, xz],
         });
     }
-    notes.push(Note::Replaced {
-        links,
-        principal: before,
-        nearest: after,
-    });
+    notes.push(Note::Replaced { links, principal: before, nearest: after });
     given.inertia = inertia;
     Ok(Some(given))
 }
@@ -429,10 +362,7 @@ fn points(
         if !welded.is_empty() {
             notes.push(Note::Welded {
                 body: body_names[group].clone(),
-                links: welded
-                    .iter()
-                    .map(|&link| robot.links[link].name.clone())
-                    .collect(),
+                links: welded.iter().map(|&link| robot.links[link].name.clone()).collect(),
             });
         }
     }
@@ -442,10 +372,7 @@ fn points(
 fn couplings(robot: &Robot, joints: &[(usize, String)], names: &mut Names) -> Vec<Coupling> {
     let named = |index: usize| {
         let (_, name) = joints.iter().find(|(joint, _)| *joint == index)?;
-        Some((
-            name.clone(),
-            robot.joints[index].kind == JointKind::Revolute,
-        ))
+        Some((name.clone(), robot.joints[index].kind == JointKind::Revolute))
     };
     let mut couplings = Vec::new();
     for (index, name) in joints {
@@ -464,12 +391,7 @@ fn couplings(robot: &Robot, joints: &[(usize, String)], names: &mut Names) -> Ve
     couplings
 }
 
-fn dampers(
-    robot: &Robot,
-    joints: &[(usize, String)],
-    moving: &[Moving],
-    names: &mut Names,
-) -> Vec<Damper> {
+fn dampers(robot: &Robot, joints: &[(usize, String)], moving: &[Moving], names: &mut Names) -> Vec<Damper> {
     let mut dampers = Vec::new();
     for (index, name) in joints {
         let joint = &robot.joints[*index];
@@ -489,12 +411,7 @@ fn dampers(
 
 /// Drives joints that carry no mass, because no equation determines their motion. Exceptions are joints that follow
 /// another, and joints followed by one that carries mass.
-fn drive_what_moves_no_mass(
-    joints: &mut [Moving],
-    bodies: &[Body],
-    couplings: &[Coupling],
-    notes: &mut Vec<Note>,
-) {
+fn drive_what_moves_no_mass(joints: &mut [Moving], bodies: &[Body], couplings: &[Coupling], notes: &mut Vec<Note>) {
     let mut heavy: Vec<String> = Vec::new();
     for body in bodies.iter().filter(|body| body.mass.is_some()) {
         heavy.push(body.name.clone());
@@ -511,15 +428,9 @@ fn drive_what_moves_no_mass(
     for coordinate in joints.iter_mut().flat_map(|joint| &mut joint.coordinates) {
         let name = &coordinate.name;
         let follows = couplings.iter().any(|one| one.of.0 == *name);
-        if light.contains(name)
-            && !follows
-            && lead_by(name, couplings).all(|one| light.contains(one))
-        {
+        if light.contains(name) && !follows && lead_by(name, couplings).all(|one| light.contains(one)) {
             coordinate.driven = true;
-            notes.push(Note::Driven {
-                coordinate: coordinate.name.clone(),
-                why: "it moves no mass",
-            });
+            notes.push(Note::Driven { coordinate: coordinate.name.clone(), why: "it moves no mass" });
         }
     }
 }

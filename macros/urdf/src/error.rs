@@ -173,16 +173,17 @@ impl Reason {
             Reason::MissingAttribute { attribute, .. } => format!("add `{attribute}=\"...\"`"),
             Reason::MissingElement { element, .. } => format!("add `<{element} .../>`"),
             Reason::Value { .. } => "correct the value".to_owned(),
-            Reason::JointType { near, .. } => did_you_mean(*near).unwrap_or_else(|| {
-                "known are revolute, continuous, prismatic, fixed, floating, planar".to_owned()
-            }),
+            Reason::JointType { near, .. } => did_you_mean(*near)
+                .unwrap_or_else(|| "known are revolute, continuous, prismatic, fixed, floating, planar".to_owned()),
             Reason::Twice { .. } => "rename one of them".to_owned(),
-            Reason::Unknown { what, near, .. } => did_you_mean(near.as_deref())
-                .unwrap_or_else(|| format!("declare the {what}, or name another")),
+            Reason::Unknown { what, near, .. } => {
+                did_you_mean(near.as_deref()).unwrap_or_else(|| format!("declare the {what}, or name another"))
+            }
             Reason::TooLarge(_) => "convert its limbs one by one".to_owned(),
             Reason::NoLink => "a robot needs a link and a joint that moves it".to_owned(),
             Reason::TwoParents { .. } => {
-                "a URDF file has no loops: remove one of the joints, and close the loop in the declaration by a `joint`".to_owned()
+                "a URDF file has no loops: remove one of the joints, and close the loop in the declaration by a `joint`"
+                    .to_owned()
             }
             Reason::TwoRoots { root, link } => {
                 format!("connect it by a joint, for example a fixed one from `{root}` to `{link}`")
@@ -198,7 +199,7 @@ impl Reason {
             ),
             Reason::NothingMoves(_) => {
                 "a floating or planar base makes the whole robot move, and springs hold what nothing resists".to_owned()
-            },
+            }
             Reason::Refused(_) => "choose another resistance, or correct what it names".to_owned(),
         }
     }
@@ -212,27 +213,15 @@ pub(crate) fn three(values: &[f64; 3]) -> String {
 pub(crate) fn of_links(links: &[String]) -> String {
     match links {
         [only] => format!("the link `{only}`"),
-        [first, rest @ ..] => format!(
-            "the link `{first}` with {} welded to it (`{}`)",
-            rest.len(),
-            rest.join("`, `")
-        ),
+        [first, rest @ ..] => format!("the link `{first}` with {} welded to it (`{}`)", rest.len(), rest.join("`, `")),
         [] => "a link".to_owned(),
     }
 }
 
 impl fmt::Display for Mistake {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            line,
-            column,
-            reason,
-        } = self;
-        write!(
-            f,
-            "{line}:{column}: error: {reason}\nhelp: {}",
-            reason.help()
-        )
+        let Self { line, column, reason } = self;
+        write!(f, "{line}:{column}: error: {reason}\nhelp: {}", reason.help())
     }
 }
 

@@ -61,9 +61,7 @@ impl Pose {
     /// The axes of the frame, as columns.
     pub(crate) fn matrix(&self) -> Matrix {
         let turns = self.rotations.iter();
-        turns.fold(matrix(identity), |before, &(axis, angle)| {
-            product(&before, &rotation(axis, angle))
-        })
+        turns.fold(matrix(identity), |before, &(axis, angle)| product(&before, &rotation(axis, angle)))
     }
 
     /// This pose followed by `inner`, which is a pose in the frame that this one describes.
@@ -138,11 +136,7 @@ mod tests {
             rotations: vec![([0.0, 0.0, 1.0], FRAC_PI_2), ([1.0, 0.0, 0.0], FRAC_PI_2)],
         };
         let [x, y, z] = turn.matrix();
-        for (row, expected) in
-            [x, y, z]
-                .into_iter()
-                .zip([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-        {
+        for (row, expected) in [x, y, z].into_iter().zip([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]) {
             for (a, b) in row.into_iter().zip(expected) {
                 assert!((a - b).abs() < 1e-15, "{row:?}");
             }
@@ -159,18 +153,12 @@ mod tests {
     fn halves_make_a_rod() {
         let third = 3.0 / 12.0;
         let half = Inertial {
-            pose: Pose {
-                offset: [0.5, 0.0, 0.0],
-                rotations: vec![([0.0, 0.0, 1.0], FRAC_PI_2)],
-            },
+            pose: Pose { offset: [0.5, 0.0, 0.0], rotations: vec![([0.0, 0.0, 1.0], FRAC_PI_2)] },
             mass: 3.0,
             inertia: [[third, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, third]],
         };
         let mut rod = Moments::of(&half, &Pose::default());
-        let mirrored = Pose {
-            offset: [2.0, 0.0, 0.0],
-            rotations: vec![([0.0, 1.0, 0.0], 2.0 * FRAC_PI_2)],
-        };
+        let mirrored = Pose { offset: [2.0, 0.0, 0.0], rotations: vec![([0.0, 1.0, 0.0], 2.0 * FRAC_PI_2)] };
         rod.add(&Moments::of(&half, &mirrored));
         let (center, inertia) = rod.central();
         for (i, row) in inertia.into_iter().enumerate() {

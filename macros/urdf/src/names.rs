@@ -97,9 +97,7 @@ impl Names {
     pub(crate) fn unique(&mut self, wanted: &str, kind: &str) -> String {
         let with_kind = format!("{wanted}_{kind}");
         let numbered = (2..).map(|number| format!("{with_kind}_{number}"));
-        let mut candidates = [wanted.to_owned(), with_kind.clone()]
-            .into_iter()
-            .chain(numbered);
+        let mut candidates = [wanted.to_owned(), with_kind.clone()].into_iter().chain(numbered);
         let free = candidates.find(|name| !self.taken.contains(name) && !is_reserved(name));
         let name = free.unwrap_or_default();
         self.taken.insert(name.clone());
@@ -147,10 +145,8 @@ mod tests {
     #[test]
     fn names_become_valid_and_unique() {
         let mut names = Names::default();
-        let given = [
-            "wrist-3", "wrist_3", "wrist/3", "2f_85", "", "body", "Self", "é", "_", "pi", "arm",
-        ]
-        .map(|name| names.of_file(name, "link"));
+        let given = ["wrist-3", "wrist_3", "wrist/3", "2f_85", "", "body", "Self", "é", "_", "pi", "arm"]
+            .map(|name| names.of_file(name, "link"));
         let expected = [
             "wrist_3",
             "wrist_3_link",
@@ -173,9 +169,6 @@ mod tests {
     #[test]
     fn names_of_types() {
         let given = ["solo12", "my-robot v2", "", "2dof", "self"].map(type_name);
-        assert_eq!(
-            given,
-            ["Solo12", "MyRobotV2", "Robot", "Robot2dof", "RobotSelf"]
-        );
+        assert_eq!(given, ["Solo12", "MyRobotV2", "Robot", "Robot2dof", "RobotSelf"]);
     }
 }

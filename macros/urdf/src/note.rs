@@ -58,25 +58,14 @@ impl fmt::Display for Note {
             Note::Ignored { element, of, names } => match (*of, names.as_slice()) {
                 ("the robot", _) => write!(f, "`{element}` has no meaning in a mechanism"),
                 (_, [only]) => write!(f, "`{element}` of `{only}` has no meaning in a mechanism"),
-                (of, names) => write!(
-                    f,
-                    "`{element}` of {} {of} has no meaning in a mechanism: {}",
-                    names.len(),
-                    names.join(", ")
-                ),
+                (of, names) => {
+                    write!(f, "`{element}` of {} {of} has no meaning in a mechanism: {}", names.len(), names.join(", "))
+                }
             },
             Note::Welded { body, links } => {
-                write!(
-                    f,
-                    "welded to `{body}`, and points of it: {}",
-                    links.join(", ")
-                )
+                write!(f, "welded to `{body}`, and points of it: {}", links.join(", "))
             }
-            Note::Replaced {
-                links,
-                principal,
-                nearest,
-            } => write!(
+            Note::Replaced { links, principal, nearest } => write!(
                 f,
                 "the inertia of {} is replaced by the nearest that a body can have: principal moments {} kg*m^2 in place of {}",
                 of_links(links),

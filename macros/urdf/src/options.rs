@@ -62,12 +62,7 @@ pub enum Resistance {
 impl Default for Resistance {
     /// Defaults: 50 N m/rad, 0.5 N m s/rad, 50 N/m, 0.5 N s/m.
     fn default() -> Self {
-        Self::Springs {
-            stiffness: 50.0,
-            damping: 0.5,
-            linear_stiffness: 50.0,
-            linear_damping: 0.5,
-        }
+        Self::Springs { stiffness: 50.0, damping: 0.5, linear_stiffness: 50.0, linear_damping: 0.5 }
     }
 }
 

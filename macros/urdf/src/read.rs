@@ -20,29 +20,17 @@ const KINDS: [(&str, JointKind); 6] = [
 
 /// Reads a file.
 pub(crate) fn read(text: &str) -> Result<Robot, ImportError> {
-    let only = |place: SourcePosition, reason| ImportError {
-        mistakes: vec![place.mistake(reason)],
-    };
+    let only = |place: SourcePosition, reason| ImportError { mistakes: vec![place.mistake(reason)] };
     let document = Document::parse(text).map_err(|error| {
         let at = error.pos();
-        let place = SourcePosition {
-            line: at.row,
-            column: at.col,
-        };
+        let place = SourcePosition { line: at.row, column: at.col };
         only(place, Reason::Xml(error.to_string()))
     })?;
     let root = document.root_element();
-    let mut reader = Reader {
-        document: &document,
-        mistakes: Vec::new(),
-        ignored: BTreeMap::new(),
-    };
+    let mut reader = Reader { document: &document, mistakes: Vec::new(), ignored: BTreeMap::new() };
     let at = reader.place(root);
     if root.tag_name().name() != "robot" {
-        return Err(only(
-            at,
-            Reason::NotARobot(root.tag_name().name().to_owned()),
-        ));
+        return Err(only(at, Reason::NotARobot(root.tag_name().name().to_owned())));
     }
     let is_macro = |node: &Node| {
         let namespace = node.tag_name().namespace();
@@ -92,10 +80,7 @@ fn child<'a>(node: Node<'a, 'a>, tag: &str) -> Option<Node<'a, 'a>> {
 impl<'a> Reader<'a> {
     fn place(&self, node: Node) -> SourcePosition {
         let at = self.document.text_pos_at(node.range().start);
-        SourcePosition {
-            line: at.row,
-            column: at.col,
-        }
+        SourcePosition { line: at.row, column: at.col }
     }
 
     fn report(&mut self, node: Node, reason: Reason) {
@@ -138,44 +123,26 @@ impl<'a> Reader<'a> {
                 continue;
             }
             self.ignore_others(node, "links", name, &["inertial"]);
-            let inertial =
-                child(node, "inertial").and_then(|inertial| self.inertial(inertial, name));
-            links.push(Link {
-                name: name.to_owned(),
-                at: self.place(node),
-                inertial,
-            });
+            let inertial = child(node, "inertial").and_then(|inertial| self.inertial(inertial, name));
+            links.push(Link { name: name.to_owned(), at: self.place(node), inertial });
         }
         links
     }
 
     fn inertial(&mut self, node: Node<'a, 'a>, link: &str) -> Option<Inertial> {
         let pose = self.origin(node);
-        let mass = self
-            .needed(node, "mass", link)
-            .and_then(|mass| self.needed_number(mass, "value"));
-        let inertia = self
-            .needed(node, "inertia", link)
-            .and_then(|inertia| self.tensor(inertia));
+        let mass = self.needed(node, "mass", link).and_then(|mass| self.needed_number(mass, "value"));
+        let inertia = self.needed(node, "inertia", link).and_then(|inertia| self.tensor(inertia));
         let mass = mass?;
         if mass < 0.0 {
             let link = link.to_owned();
             self.report(node, Reason::NegativeMass { link, mass });
             return None;
         }
-        Some(Inertial {
-            pose: pose?,
-            mass,
-            inertia: inertia?,
-        })
+        Some(Inertial { pose: pose?, mass, inertia: inertia? })
     }
 
-    fn needed(
-        &mut self,
-        node: Node<'a, 'a>,
-        element: &'static str,
-        name: &str,
-    ) -> Option<Node<'a, 'a>> {
+    fn needed(&mut self, node: Node<'a, 'a>, element: &'static str, name: &str) -> Option<Node<'a, 'a>> {
         let found = child(node, element);
         if found.is_none() {
             let of = format!("the `{}` of `{name}`", node.tag_name().name());
@@ -200,38 +167,21 @@ impl<'a> Reader<'a> {
             };
             if names.contains(&name) {
                 let name = name.to_owned();
-                self.report(
-                    node,
-                    Reason::Twice {
-                        what: "joint",
-                        name,
-                    },
-                );
+                self.report(node, Reason::Twice { what: "joint", name });
                 continue;
             }
             names.push(name);
             nodes.push(node);
         }
-        let joints = nodes
-            .iter()
-            .zip(&names)
-            .map(|(&node, &name)| self.joint(node, name, links, &names));
+        let joints = nodes.iter().zip(&names).map(|(&node, &name)| self.joint(node, name, links, &names));
         let joints: Vec<Option<Joint>> = joints.collect();
         joints.into_iter().flatten().collect()
     }
 
-    fn joint(
-        &mut self,
-        node: Node<'a, 'a>,
-        name: &str,
-        links: &[Link],
-        names: &[&str],
-    ) -> Option<Joint> {
+    fn joint(&mut self, node: Node<'a, 'a>, name: &str, links: &[Link], names: &[&str]) -> Option<Joint> {
         const KNOWN: [&str; 6] = ["origin", "parent", "child", "axis", "mimic", "dynamics"];
         self.ignore_others(node, "joints", name, &KNOWN);
-        let kind = self
-            .attribute(node, "type")
-            .and_then(|kind| self.kind(node, kind));
+        let kind = self.attribute(node, "type").and_then(|kind| self.kind(node, kind));
         let parent = self.link_of(node, "parent", name, links);
         let child_link = self.link_of(node, "child", name, links);
         let pose = self.origin(node);
@@ -268,33 +218,20 @@ impl<'a> Reader<'a> {
         let entry = KINDS.iter().find(|(known, _)| *known == word);
         if entry.is_none() {
             let near = nearest(word, KINDS.map(|(known, _)| known));
-            let near = KINDS
-                .iter()
-                .map(|(known, _)| *known)
-                .find(|known| Some(*known) == near);
+            let near = KINDS.iter().map(|(known, _)| *known).find(|known| Some(*known) == near);
             let word = word.to_owned();
             self.report(node, Reason::JointType { found: word, near });
         }
         entry.map(|(_, kind)| *kind)
     }
 
-    fn link_of(
-        &mut self,
-        node: Node<'a, 'a>,
-        element: &'static str,
-        joint: &str,
-        links: &[Link],
-    ) -> Option<usize> {
+    fn link_of(&mut self, node: Node<'a, 'a>, element: &'static str, joint: &str, links: &[Link]) -> Option<usize> {
         let end = self.needed(node, element, joint)?;
         let name = self.attribute(end, "link")?;
         let index = links.iter().position(|link| link.name == name);
         if index.is_none() {
             let near = nearest(name, links.iter().map(|link| link.name.as_str()));
-            let reason = Reason::Unknown {
-                what: "link",
-                name: name.to_owned(),
-                near: near.map(str::to_owned),
-            };
+            let reason = Reason::Unknown { what: "link", name: name.to_owned(), near: near.map(str::to_owned) };
             self.report(end, reason);
         }
         index
@@ -310,18 +247,11 @@ impl<'a> Reader<'a> {
             let near = nearest(name, names.iter().copied());
             // A copied limb may have a prefix that its `mimic` lacks.
             let longer = || names.iter().copied().find(|known| known.ends_with(name));
-            let reason = Reason::Unknown {
-                what: "joint",
-                name: name.to_owned(),
-                near: near.or_else(longer).map(str::to_owned),
-            };
+            let reason =
+                Reason::Unknown { what: "joint", name: name.to_owned(), near: near.or_else(longer).map(str::to_owned) };
             self.report(node, reason);
         }
-        Some(Mimic {
-            of: index?,
-            ratio: ratio?,
-            offset: offset?,
-        })
+        Some(Mimic { of: index?, ratio: ratio?, offset: offset? })
     }
 
     /// The viscous damping; dry friction is ignored.
@@ -346,18 +276,8 @@ impl<'a> Reader<'a> {
         let offset = self.vector(origin, "xyz", [0.0; 3]);
         let turns = self.vector(origin, "rpy", [0.0; 3]);
         let [roll, pitch, yaw] = turns?;
-        let rotations = [
-            ([0.0, 0.0, 1.0], yaw),
-            ([0.0, 1.0, 0.0], pitch),
-            ([1.0, 0.0, 0.0], roll),
-        ];
-        Some(Pose {
-            offset: offset?,
-            rotations: rotations
-                .into_iter()
-                .filter(|(_, angle)| *angle != 0.0)
-                .collect(),
-        })
+        let rotations = [([0.0, 0.0, 1.0], yaw), ([0.0, 1.0, 0.0], pitch), ([1.0, 0.0, 0.0], roll)];
+        Some(Pose { offset: offset?, rotations: rotations.into_iter().filter(|(_, angle)| *angle != 0.0).collect() })
     }
 
     fn vector(&mut self, node: Node, attribute: &'static str, default: Vector) -> Option<Vector> {
@@ -390,11 +310,8 @@ impl<'a> Reader<'a> {
 
     fn wrong_value(&mut self, node: Node, attribute: &str, text: &str, expected: &'static str) {
         let text: String = text.chars().take(60).collect();
-        let reason = Reason::Value {
-            attribute: format!("{} {attribute}", node.tag_name().name()),
-            found: text,
-            expected,
-        };
+        let reason =
+            Reason::Value { attribute: format!("{} {attribute}", node.tag_name().name()), found: text, expected };
         self.report(node, reason);
     }
 }

@@ -70,10 +70,6 @@ pub(crate) struct SourcePosition {
 
 impl SourcePosition {
     pub(crate) fn mistake(self, reason: Reason) -> Mistake {
-        Mistake {
-            line: self.line,
-            column: self.column,
-            reason,
-        }
+        Mistake { line: self.line, column: self.column, reason }
     }
 }

@@ -9,11 +9,7 @@ use crate::note::Note;
 use crate::write::declaration;
 
 /// Leaves out everything that only a solver needs.
-const LIMITS: Limits = Limits {
-    explicit_partials: 0,
-    partial_operations: usize::MAX,
-    motion_linear: 0,
-};
+const LIMITS: Limits = Limits { explicit_partials: 0, partial_operations: usize::MAX, motion_linear: 0 };
 
 /// Drives coordinates at 0 if nothing resists them. This may leave other coordinates without weight, so the search is
 /// repeated.
@@ -24,28 +20,17 @@ pub(crate) fn drive(assembly: &mut Assembly) -> Result<(), ImportError> {
             return Ok(());
         }
         let mut rest = 0;
-        for coordinate in assembly
-            .joints
-            .iter_mut()
-            .flat_map(|joint| &mut joint.coordinates)
-        {
+        for coordinate in assembly.joints.iter_mut().flat_map(|joint| &mut joint.coordinates) {
             if undetermined.contains(&coordinate.name) {
                 coordinate.driven = true;
-                assembly.notes.push(Note::Driven {
-                    coordinate: coordinate.name.clone(),
-                    why: "nothing resists it",
-                });
+                assembly.notes.push(Note::Driven { coordinate: coordinate.name.clone(), why: "nothing resists it" });
             }
             rest += usize::from(!coordinate.driven);
         }
         let driven: Vec<String> = undetermined;
-        assembly
-            .dampers
-            .retain(|damper| !driven.contains(&damper.on));
+        assembly.dampers.retain(|damper| !driven.contains(&damper.on));
         if rest == 0 {
-            return Err(refused(Reason::NothingMoves(
-                "nothing resists any joint, not even gravity",
-            )));
+            return Err(refused(Reason::NothingMoves("nothing resists any joint, not even gravity")));
         }
     }
 }
@@ -57,9 +42,7 @@ fn undetermined(declaration: &str) -> Result<Vec<String>, ImportError> {
     let compiled = compiled.map_err(|mistakes| refused(Reason::Refused(mistakes.to_string())))?;
     let coordinates = &compiled.mechanism.coordinates;
     let names = compiled.functions.undetermined.iter();
-    let mut names: Vec<String> = names
-        .map(|id| coordinates[id.index()].name.to_string())
-        .collect();
+    let mut names: Vec<String> = names.map(|id| coordinates[id.index()].name.to_string()).collect();
     for (unknown, share) in compiled.functions.unknowns.iter().zip(stiffness(&compiled)) {
         let is_position = matches!(unknown.role, Role::Position(_));
         if is_position && share < NEARLY_NOTHING && !names.contains(&unknown.name) {
@@ -93,11 +76,5 @@ fn stiffness(compiled: &Compilation) -> Vec<f64> {
 }
 
 fn refused(reason: Reason) -> ImportError {
-    ImportError {
-        mistakes: vec![Mistake {
-            line: 1,
-            column: 1,
-            reason,
-        }],
-    }
+    ImportError { mistakes: vec![Mistake { line: 1, column: 1, reason }] }
 }

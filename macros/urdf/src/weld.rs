@@ -36,10 +36,7 @@ pub(crate) fn weld(robot: &Robot) -> Result<Tree, ImportError> {
     while let Some(index) = waiting.pop() {
         let joint = &robot.joints[index];
         let (group, pose) = &tree.place[joint.parent];
-        if let (true, held) = (
-            joint.kind == JointKind::Fixed || held[index].is_some(),
-            &held[index],
-        ) {
+        if let (true, held) = (joint.kind == JointKind::Fixed || held[index].is_some(), &held[index]) {
             let mut pose = pose.then(&joint.pose);
             if let Some(at) = held {
                 pose = pose.then(&displaced(joint.kind, joint.axis, *at));
@@ -63,14 +60,8 @@ fn displaced(kind: JointKind, axis: [f64; 3], at: f64) -> Pose {
     let length = crate::geometry::norm(axis);
     match kind {
         _ if at == 0.0 => Pose::default(),
-        JointKind::Prismatic => Pose {
-            offset: axis.map(|x| at * x / length),
-            rotations: Vec::new(),
-        },
-        _ => Pose {
-            offset: [0.0; 3],
-            rotations: vec![(axis, at)],
-        },
+        JointKind::Prismatic => Pose { offset: axis.map(|x| at * x / length), rotations: Vec::new() },
+        _ => Pose { offset: [0.0; 3], rotations: vec![(axis, at)] },
     }
 }
 
@@ -97,17 +88,12 @@ fn root(robot: &Robot, joint_to: &[Option<usize>]) -> Result<usize, ImportError>
     let mut roots = (0..robot.links.len()).filter(|&link| joint_to[link].is_none());
     let Some(root) = roots.next() else {
         let reason = Reason::Circle(name(0));
-        return Err(ImportError {
-            mistakes: vec![robot.links[0].at.mistake(reason)],
-        });
+        return Err(ImportError { mistakes: vec![robot.links[0].at.mistake(reason)] });
     };
     let mut mistakes: Vec<Mistake> = roots
         .map(|link| {
             let (root, link_name) = (name(root), name(link));
-            robot.links[link].at.mistake(Reason::TwoRoots {
-                root,
-                link: link_name,
-            })
+            robot.links[link].at.mistake(Reason::TwoRoots { root, link: link_name })
         })
         .collect();
     // A link reaches the root in at most as many steps as there are links, or never.
@@ -134,9 +120,7 @@ fn held(robot: &Robot) -> Result<Vec<Option<f64>>, ImportError> {
             continue;
         };
         let leader = &robot.joints[mimic.of];
-        let several = [joint, leader]
-            .iter()
-            .any(|one| matches!(one.kind, JointKind::Planar | JointKind::Floating));
+        let several = [joint, leader].iter().any(|one| matches!(one.kind, JointKind::Planar | JointKind::Floating));
         let why = if several {
             Some("one of them has several coordinates")
         } else if follows_itself(robot, index) {
@@ -182,9 +166,5 @@ fn stands_at(robot: &Robot, joint: usize) -> Option<f64> {
 }
 
 fn none_or<T>(mistakes: Vec<Mistake>, value: T) -> Result<T, ImportError> {
-    if mistakes.is_empty() {
-        Ok(value)
-    } else {
-        Err(ImportError { mistakes })
-    }
+    if mistakes.is_empty() { Ok(value) } else { Err(ImportError { mistakes }) }
 }

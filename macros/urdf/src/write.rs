@@ -54,19 +54,10 @@ pub(crate) fn declaration(assembly: &Assembly, kernels_only: bool) -> String {
         line("", coupling(one));
     }
     for damper in &assembly.dampers {
-        let unit = if damper.is_angle {
-            "N*m*s/rad"
-        } else {
-            "N*s/m"
-        };
+        let unit = if damper.is_angle { "N*m*s/rad" } else { "N*s/m" };
         line(
             "",
-            format!(
-                "force {}: damper(on: {}, damping: {} {unit})",
-                damper.name,
-                damper.on,
-                number(damper.damping)
-            ),
+            format!("force {}: damper(on: {}, damping: {} {unit})", damper.name, damper.on, number(damper.damping)),
         );
     }
     if !kernels_only {
@@ -134,11 +125,7 @@ fn joint(joint: &Moving) -> String {
     let named = joint.coordinates.len() > 1;
     let axis = |coordinate: &Coordinate| {
         let axis = direction(coordinate.axis);
-        if named {
-            format!("{}: {axis}", coordinate.name)
-        } else {
-            axis
-        }
+        if named { format!("{}: {axis}", coordinate.name) } else { axis }
     };
     let axes: Vec<String> = joint.coordinates.iter().map(axis).collect();
     let mut text = format!(
@@ -150,16 +137,8 @@ fn joint(joint: &Moving) -> String {
         joint.to,
         placed(&joint.pose)
     );
-    for coordinate in joint
-        .coordinates
-        .iter()
-        .filter(|coordinate| coordinate.driven)
-    {
-        let name = if named {
-            format!(" {}", coordinate.name)
-        } else {
-            String::new()
-        };
+    for coordinate in joint.coordinates.iter().filter(|coordinate| coordinate.driven) {
+        let name = if named { format!(" {}", coordinate.name) } else { String::new() };
         let _ = write!(text, ",{name} driven at 0");
     }
     text
@@ -199,13 +178,7 @@ fn coupling(coupling: &Coupling) -> String {
 }
 
 fn springs(assembly: &Assembly) -> Vec<String> {
-    let Resistance::Springs {
-        stiffness,
-        damping,
-        linear_stiffness,
-        linear_damping,
-    } = assembly.resistance
-    else {
+    let Resistance::Springs { stiffness, damping, linear_stiffness, linear_damping } = assembly.resistance else {
         return Vec::new();
     };
     let is_free = |is_angle: bool| {

@@ -21,18 +21,12 @@ fn chain(joints: &[(&str, &str, &str)]) -> String {
 
 fn compiled(import: &Import) -> Compilation {
     let tokens = import.declaration.parse().expect("tokens");
-    compile(tokens, Limits::default())
-        .unwrap_or_else(|mistakes| panic!("{}\n{mistakes}", import.declaration))
+    compile(tokens, Limits::default()).unwrap_or_else(|mistakes| panic!("{}\n{mistakes}", import.declaration))
 }
 
 fn unknowns(import: &Import) -> Vec<String> {
     let compilation = compiled(import);
-    compilation
-        .functions
-        .unknowns
-        .iter()
-        .map(|one| one.name.clone())
-        .collect()
+    compilation.functions.unknowns.iter().map(|one| one.name.clone()).collect()
 }
 
 fn lines<'a>(import: &'a Import, word: &str) -> Vec<&'a str> {
@@ -48,18 +42,10 @@ fn with(text: &str, options: &Options) -> Import {
 fn every_type_of_joint() {
     let text = chain(&[
         ("turn", "revolute", "<axis xyz=\"0 -2 0\"/>"),
-        (
-            "spin",
-            "continuous",
-            "<origin xyz=\"1 2 3\" rpy=\"0.1 0.2 0.3\"/><axis xyz=\"1 1 0\"/>",
-        ),
+        ("spin", "continuous", "<origin xyz=\"1 2 3\" rpy=\"0.1 0.2 0.3\"/><axis xyz=\"1 1 0\"/>"),
         ("slide", "prismatic", ""),
         ("weld", "fixed", "<origin xyz=\"0 0 1\" rpy=\"0 0 0.5\"/>"),
-        (
-            "plane",
-            "planar",
-            "<origin xyz=\"1 0 0\"/><axis xyz=\"1 0 0\"/>",
-        ),
+        ("plane", "planar", "<origin xyz=\"1 0 0\"/><axis xyz=\"1 0 0\"/>"),
         ("fly", "floating", ""),
     ]);
     let import = with(&text, &Options::default());
@@ -75,10 +61,7 @@ fn every_type_of_joint() {
     );
     assert_eq!(
         lines(&import, "point"),
-        [
-            "point l0: ground;",
-            "point l4: l3 at [0.0, 0.0, 1.0] m rotated(z, 0.5 rad);"
-        ]
+        ["point l0: ground;", "point l4: l3 at [0.0, 0.0, 1.0] m rotated(z, 0.5 rad);"]
     );
     assert_eq!(unknowns(&import).len(), 12);
     let skew = text.replace("<axis xyz=\"1 0 0\"/>", "<axis xyz=\"1 2 3\"/>");
@@ -92,58 +75,32 @@ fn bases() {
     let unknowns_of = |base| unknowns(&with(&text, &Options::default().base(base)));
     assert_eq!(unknowns_of(Base::Fixed), ["j"]);
     // Upright, only the springs hold the heading.
-    assert_eq!(
-        unknowns_of(Base::Planar),
-        ["base_px", "base_py", "base_yaw", "j"]
-    );
-    let all = [
-        "base_px",
-        "base_py",
-        "base_pz",
-        "base_yaw",
-        "base_pitch",
-        "base_roll",
-        "j",
-    ];
+    assert_eq!(unknowns_of(Base::Planar), ["base_px", "base_py", "base_yaw", "j"]);
+    let all = ["base_px", "base_py", "base_pz", "base_yaw", "base_pitch", "base_roll", "j"];
     assert_eq!(unknowns_of(Base::Floating), all);
 }
 
 /// Of a joint about the vertical and one about a horizontal axis, gravity holds only the second.
 #[test]
 fn what_nothing_resists() {
-    let text = chain(&[
-        ("pan", "revolute", "<axis xyz=\"0 0 1\"/>"),
-        ("tilt", "revolute", ""),
-    ]);
+    let text = chain(&[("pan", "revolute", "<axis xyz=\"0 0 1\"/>"), ("tilt", "revolute", "")]);
     let springs = with(&text, &Options::default());
     assert_eq!(lines(&springs, "every").len(), 1);
     assert_eq!(unknowns(&springs), ["pan", "tilt"]);
     let drives = with(&text, &Options::default().resistance(Resistance::Drives));
     assert_eq!(unknowns(&drives), ["tilt"]);
-    assert!(drives.notes.contains(&Note::Driven {
-        coordinate: "pan".to_owned(),
-        why: "nothing resists it",
-    }));
-    let alone = with(
-        &text,
-        &Options::default().resistance(Resistance::KernelsOnly),
-    );
+    assert!(drives.notes.contains(&Note::Driven { coordinate: "pan".to_owned(), why: "nothing resists it" }));
+    let alone = with(&text, &Options::default().resistance(Resistance::KernelsOnly));
     assert_eq!(unknowns(&alone), ["pan", "tilt"]);
     assert_eq!(lines(&alone, "kernels"), ["kernels only;"]);
     // Nearly zero.
     let tilted = text.replace("0 0 1", "0 -1e-12 -1");
     let drives = with(&tilted, &Options::default().resistance(Resistance::Drives));
     assert_eq!(unknowns(&drives), ["tilt"]);
-    let upright = chain(&[
-        ("pan", "revolute", "<axis xyz=\"0 0 1\"/>"),
-        ("turn", "revolute", "<axis xyz=\"0 0 -1\"/>"),
-    ]);
-    let error = import(&upright, &Options::default().resistance(Resistance::Drives))
-        .expect_err("nothing moves");
-    assert!(
-        error.to_string().contains("nothing resists any joint"),
-        "{error}"
-    );
+    let upright =
+        chain(&[("pan", "revolute", "<axis xyz=\"0 0 1\"/>"), ("turn", "revolute", "<axis xyz=\"0 0 -1\"/>")]);
+    let error = import(&upright, &Options::default().resistance(Resistance::Drives)).expect_err("nothing moves");
+    assert!(error.to_string().contains("nothing resists any joint"), "{error}");
 }
 
 /// Joints that carry nothing, and a chain of such joints.
@@ -154,19 +111,10 @@ fn what_moves_no_mass() {
         ("b", "revolute", ""),
         ("c", "revolute", "<mimic joint=\"b\" multiplier=\"2\"/>"),
     ]);
-    let light = text
-        .replacen(MASS, "HEAVY", 1)
-        .replace(MASS, "")
-        .replace("HEAVY", MASS);
+    let light = text.replacen(MASS, "HEAVY", 1).replace(MASS, "").replace("HEAVY", MASS);
     let import = with(&light, &Options::default());
-    assert_eq!(
-        lines(&import, "joint b"),
-        ["joint b: revolute(x) from l1 to l2, driven at 0;"]
-    );
-    assert_eq!(
-        lines(&import, "joint c"),
-        ["joint c: revolute(x) from l2 to l3;"]
-    );
+    assert_eq!(lines(&import, "joint b"), ["joint b: revolute(x) from l1 to l2, driven at 0;"]);
+    assert_eq!(lines(&import, "joint c"), ["joint c: revolute(x) from l2 to l3;"]);
     compiled(&import);
 }
 
@@ -175,26 +123,10 @@ fn joints_that_follow_others() {
     let text = chain(&[
         ("turn", "revolute", ""),
         ("same", "revolute", "<mimic joint=\"turn\"/>"),
-        (
-            "rack",
-            "prismatic",
-            "<mimic joint=\"turn\" multiplier=\"0.02\" offset=\"0.1\"/>",
-        ),
-        (
-            "back",
-            "continuous",
-            "<mimic joint=\"rack\" multiplier=\"-50\" offset=\"0.2\"/>",
-        ),
-        (
-            "still",
-            "revolute",
-            "<axis xyz=\"0 0 1\"/><mimic joint=\"turn\" multiplier=\"0\" offset=\"0.3\"/>",
-        ),
-        (
-            "stiller",
-            "prismatic",
-            "<mimic joint=\"still\" multiplier=\"2\" offset=\"0.4\"/>",
-        ),
+        ("rack", "prismatic", "<mimic joint=\"turn\" multiplier=\"0.02\" offset=\"0.1\"/>"),
+        ("back", "continuous", "<mimic joint=\"rack\" multiplier=\"-50\" offset=\"0.2\"/>"),
+        ("still", "revolute", "<axis xyz=\"0 0 1\"/><mimic joint=\"turn\" multiplier=\"0\" offset=\"0.3\"/>"),
+        ("stiller", "prismatic", "<mimic joint=\"still\" multiplier=\"2\" offset=\"0.4\"/>"),
         ("weld", "fixed", "<mimic joint=\"turn\"/>"),
     ]);
     let import = with(&text, &Options::default());
@@ -216,43 +148,22 @@ fn joints_that_follow_others() {
         ]
     );
     assert_eq!(unknowns(&import).len(), 7);
-    let held = |joint: &str| Note::Held {
-        joint: joint.to_owned(),
-    };
+    let held = |joint: &str| Note::Held { joint: joint.to_owned() };
     assert!(import.notes.contains(&held("still")) && import.notes.contains(&held("stiller")));
-    assert!(import.notes.contains(&Note::FixedMimic {
-        joint: "weld".to_owned()
-    }));
+    assert!(import.notes.contains(&Note::FixedMimic { joint: "weld".to_owned() }));
 }
 
 #[test]
 fn names_that_are_none_here() {
-    let text = chain(&[
-        ("box", "revolute", ""),
-        ("l1", "revolute", ""),
-        ("every-3", "prismatic", ""),
-    ])
-    .replace("\"l3\"", "\"2 hands\"")
-    .replace("\"chain\"", "\"a `b`\nc\"");
+    let text = chain(&[("box", "revolute", ""), ("l1", "revolute", ""), ("every-3", "prismatic", "")])
+        .replace("\"l3\"", "\"2 hands\"")
+        .replace("\"chain\"", "\"a `b`\nc\"");
     let import = with(&text, &Options::default());
     assert_eq!(unknowns(&import), ["box_joint", "l1", "every_3"]);
-    assert!(
-        import.declaration.starts_with("/// The robot `a  b  c`"),
-        "{}",
-        import.declaration
-    );
+    assert!(import.declaration.starts_with("/// The robot `a  b  c`"), "{}", import.declaration);
     assert!(import.declaration.contains("pub mechanism ABC {"));
-    let names = [
-        ("box_joint", "box"),
-        ("every_3", "every-3"),
-        ("l1_link", "l1"),
-        ("link_2_hands", "2 hands"),
-    ];
-    let renamed: Vec<(&str, &str)> = import
-        .names
-        .iter()
-        .map(|(a, b)| (a.as_str(), b.as_str()))
-        .collect();
+    let names = [("box_joint", "box"), ("every_3", "every-3"), ("l1_link", "l1"), ("link_2_hands", "2 hands")];
+    let renamed: Vec<(&str, &str)> = import.names.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
     assert_eq!(renamed, names);
     assert!(lines(&import, "body link_2_hands")[0].ends_with("// `2 hands`"));
 }
@@ -260,11 +171,7 @@ fn names_that_are_none_here() {
 #[test]
 fn dampers_of_the_file() {
     let text = chain(&[
-        (
-            "a",
-            "revolute",
-            "<dynamics damping=\"0.7\" friction=\"2\"/>",
-        ),
+        ("a", "revolute", "<dynamics damping=\"0.7\" friction=\"2\"/>"),
         ("b", "prismatic", "<dynamics damping=\"3\"/>"),
     ]);
     let import = with(&text, &Options::default());
@@ -290,15 +197,9 @@ fn no_text_panics() {
         ("b", "planar", "<axis xyz=\"1 2 3\"/>"),
         ("c", "floating", ""),
     ]);
-    let resistances = [
-        Resistance::default(),
-        Resistance::Drives,
-        Resistance::KernelsOnly,
-    ];
+    let resistances = [Resistance::default(), Resistance::Drives, Resistance::KernelsOnly];
     for resistance in resistances {
-        let options = Options::default()
-            .resistance(resistance)
-            .nearest_inertias(true);
+        let options = Options::default().resistance(resistance).nearest_inertias(true);
         for end in (0..text.len()).step_by(7) {
             let _ = import(&text[..end], &options);
         }

@@ -53,18 +53,12 @@ pub fn varied<R>(
 /// Says that a computation along an input was stopped.
 pub fn not_reached(said: &mut Findings, unreached: usize) {
     if unreached > 0 {
-        said.note(format!(
-            "Not complete: {unreached} of the values were not reached."
-        ));
+        said.note(format!("Not complete: {unreached} of the values were not reached."));
     }
 }
 
 /// What several say together: their number and their table.
-pub(crate) fn together<T: Listed, R>(
-    all: &[T],
-    table: Option<Columns<'_, R>>,
-    one: &str,
-) -> Findings {
+pub(crate) fn together<T: Listed, R>(all: &[T], table: Option<Columns<'_, R>>, one: &str) -> Findings {
     let of = all.first().and_then(Listed::subject);
     let (Some(of), Some(table)) = (of, table) else {
         return Findings::titled(format!("no {one}s"));
@@ -102,30 +96,18 @@ impl<'a> Moving<'a> {
         let (columns, still): (Vec<usize>, Vec<usize>) = asked.map(|(i, _)| i).partition(moves);
         let known = states.clone().next().is_some();
         let still = still.into_iter().filter(|_| known);
-        Self {
-            description: d,
-            columns,
-            still: still.map(|i| &*d.coordinates[i].name).collect(),
-        }
+        Self { description: d, columns, still: still.map(|i| &*d.coordinates[i].name).collect() }
     }
 
     /// A column of the text for each.
-    pub(crate) fn columns<R>(
-        &self,
-        table: &mut Columns<'_, R>,
-        of: &dyn Fn(&R) -> Option<&Equilibrium>,
-    ) {
+    pub(crate) fn columns<R>(&self, table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> Option<&Equilibrium>) {
         for &i in &self.columns {
             table.cells(&self.heading(i), &|row| self.cell(of(row), i));
         }
     }
 
     /// Two columns of the text for each: where a row begins and where it ends.
-    pub(crate) fn columns_from_to<R>(
-        &self,
-        table: &mut Columns<'_, R>,
-        of: &dyn Fn(&R) -> [&Equilibrium; 2],
-    ) {
+    pub(crate) fn columns_from_to<R>(&self, table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> [&Equilibrium; 2]) {
         for &i in &self.columns {
             table.cells(&self.heading(i), &|row| self.cell(Some(of(row)[0]), i));
             table.cells("to", &|row| self.cell(Some(of(row)[1]), i));

@@ -10,8 +10,8 @@ use crate::kernels::{DirectionalKernels, Kernels};
 use crate::modes::{Family, Mode, Modes, Whirl, whirls};
 use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
 use crate::sweep::{
-    Condition, Crossing, Event, EventTolerance, Events, Following, Line, Searched, Sought, Tracker,
-    between, critical_tolerance, crossing_tolerance, growing,
+    Condition, Crossing, Event, EventTolerance, Events, Following, Line, Searched, Sought, Tracker, between,
+    critical_tolerance, crossing_tolerance, growing,
 };
 use crate::tolerance::{Spread, Tolerances};
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
@@ -105,18 +105,13 @@ impl Campbell {
             1 => "1 crossing is".to_owned(),
             count => format!("{count} crossings are"),
         };
-        Some(format!(
-            "{count} left out, of modes that no unbalance excites: `campbell --all-crossings` lists all"
-        ))
+        Some(format!("{count} left out, of modes that no unbalance excites: `campbell --all-crossings` lists all"))
     }
 
     /// Labels of the modes that occur, in ascending order.
     #[must_use]
     pub fn labels(&self) -> Vec<usize> {
-        let modes = self
-            .points
-            .iter()
-            .filter_map(|point| point.modes.as_ref().ok());
+        let modes = self.points.iter().filter_map(|point| point.modes.as_ref().ok());
         let mut labels: Vec<usize> = modes.flatten().map(|mode| mode.label).collect();
         labels.sort_unstable();
         labels.dedup();
@@ -149,11 +144,7 @@ impl<'a> Axes<'a> {
     /// A diagram over `input` at `values` (SI), with the lines `orders`.
     #[must_use]
     pub fn new(input: Input, values: &'a [f64], orders: &'a [Line]) -> Self {
-        Self {
-            input,
-            values,
-            orders,
-        }
+        Self { input, values, orders }
     }
 }
 
@@ -198,18 +189,10 @@ pub fn campbell_each(
     mut each: impl FnMut(CampbellPoint) -> ControlFlow<()>,
 ) -> Result<Campbell, Error> {
     let following = following.into();
-    let Axes {
-        input,
-        values,
-        orders,
-    } = *axes;
+    let Axes { input, values, orders } = *axes;
     let description = mechanism.description();
     check_input(input, &description)?;
-    let sought = Sought {
-        lines: orders.to_vec(),
-        flutter: true,
-        critical: true,
-    };
+    let sought = Sought { lines: orders.to_vec(), flutter: true, critical: true };
     let way = (mechanism, (u, b), start);
     let (all_events, route) = between(way, &following, (input, values), &sought)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input).on(route);
@@ -257,10 +240,7 @@ pub fn campbell_each(
         let spread = |state| critical_tolerance(mechanism, state, tolerances);
         diagram.critical = events.critical.iter().map(spread).collect();
         for crossing in &events.crossings {
-            let event = labelled(
-                crossing,
-                crossing_tolerance(mechanism, crossing, tolerances),
-            );
+            let event = labelled(crossing, crossing_tolerance(mechanism, crossing, tolerances));
             match crossing.condition {
                 Condition::Line(_) => diagram.crossings.push(event),
                 Condition::FlutterOnset => diagram.flutter_onsets.push(event),
@@ -270,16 +250,11 @@ pub fn campbell_each(
     }
     // By engine order; the sort is stable, so events stay in the order found.
     let order = |event: &EventTolerance| match event.event {
-        Event::Crossing {
-            condition: Condition::Line(line),
-            ..
-        } => orders.iter().position(|order| *order == line),
+        Event::Crossing { condition: Condition::Line(line), .. } => orders.iter().position(|order| *order == line),
         _ => None,
     };
     diagram.crossings.sort_by_key(order);
-    diagram.not_excited = (diagram.crossings)
-        .extract_if(.., |event| !event.is_excited())
-        .collect();
+    diagram.not_excited = (diagram.crossings).extract_if(.., |event| !event.is_excited()).collect();
     Ok(diagram)
 }
 
@@ -289,12 +264,7 @@ fn labelled(crossing: &Crossing, spread: EventTolerance) -> EventTolerance {
     spread.with_mode(mode.map_or(crossing.mode, |mode| mode.label))
 }
 
-fn describe(
-    mechanism: &dyn Kernels,
-    state: &Equilibrium,
-    modes: &Modes,
-    tolerances: &Tolerances,
-) -> Vec<CampbellMode> {
+fn describe(mechanism: &dyn Kernels, state: &Equilibrium, modes: &Modes, tolerances: &Tolerances) -> Vec<CampbellMode> {
     let slopes: Option<Sensitivities> = sensitivities(mechanism, state, modes).ok();
     let whirls = whirls(mechanism, state, modes);
     let one = |(r, mode): (usize, &Mode)| {

@@ -22,18 +22,14 @@ mod variables;
 
 use eigentol_contract::scalar;
 use eigentol_contract::{
-    Any, DampingKind, Description, Excitation, Input, Output, PictureInfo, Role, Shared, SolidInfo,
-    SolidKind, Text, Unit,
+    Any, DampingKind, Description, Excitation, Input, Output, PictureInfo, Role, Shared, SolidInfo, SolidKind, Text,
+    Unit,
 };
 use eigentol_numerics::algebra::Vector;
 use eigentol_numerics::{Complex, algebra, eigenproblem};
 use eigentol_results::setters;
-use eigentol_solve::{
-    Behaviour, Equilibrium, Error, Kernels, Mode, Modes, Quantity, Sensitivities, Stability, Watch,
-};
-use eigentol_solve::{
-    arguments, constraints, equilibrium, error, free, kernels, modes, rounding, sensitivity,
-};
+use eigentol_solve::{Behaviour, Equilibrium, Error, Kernels, Mode, Modes, Quantity, Sensitivities, Stability, Watch};
+use eigentol_solve::{arguments, constraints, equilibrium, error, free, kernels, modes, rounding, sensitivity};
 use eigentol_tolerance::{batched, tolerance};
 
 pub use campbell::Campbell;

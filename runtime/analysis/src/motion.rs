@@ -44,9 +44,7 @@ pub fn accelerations(
     if !all_finite(&right) || !all_finite_matrix(&mass) {
         return Err(outside(description, q));
     }
-    Cholesky::new(&mass)
-        .map(|factors| factors.solve(&right))
-        .map_err(|row| singular(description, row))
+    Cholesky::new(&mass).map(|factors| factors.solve(&right)).map_err(|row| singular(description, row))
 }
 
 fn constrained_accelerations(
@@ -59,9 +57,7 @@ fn constrained_accelerations(
 ) -> Result<Vector, Error> {
     let (plain, directional): (&dyn Kernels, &dyn DirectionalKernels) = (mechanism, mechanism);
     let (n, motions) = (q.len(), structure.motions());
-    let only = |x: &[f64], count: usize| -> Vector {
-        Vector::from_fn(n, |i| if i < count { x[i] } else { 0.0 })
-    };
+    let only = |x: &[f64], count: usize| -> Vector { Vector::from_fn(n, |i| if i < count { x[i] } else { 0.0 }) };
     let rates = only(velocity, structure.coordinates);
     let q = only(q, motions);
     let rest = mechanism.motion_residual(&Vector::zeros(n), &rates, &q, u, b);
@@ -102,11 +98,7 @@ fn constrained_accelerations(
 
 /// Derivative of velocity constraint `i` with respect to the velocity of a coordinate or to a speed.
 fn by_velocity(linear: &Linear, structure: Structure, i: usize, j: usize) -> f64 {
-    if j < structure.coordinates {
-        linear.damping[i][j]
-    } else {
-        linear.stiffness[i][j]
-    }
+    if j < structure.coordinates { linear.damping[i][j] } else { linear.stiffness[i][j] }
 }
 
 fn outside(description: &Description, q: &[f64]) -> Error {
@@ -118,7 +110,5 @@ fn outside(description: &Description, q: &[f64]) -> Error {
 }
 
 fn singular(description: &Description, row: usize) -> Error {
-    Error::SingularMass {
-        coordinate: description.unknown_name(row),
-    }
+    Error::SingularMass { coordinate: description.unknown_name(row) }
 }

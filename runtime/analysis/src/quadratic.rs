@@ -8,8 +8,7 @@ use crate::algebra::{Matrix, Vector};
 use crate::kernels::CurvatureKernels;
 use crate::response::{Response, Responses};
 use crate::second_order::{
-    EventCurvature, ModeCurvature, Quadratic, critical_curvature, crossing_curvature,
-    mode_curvature, output_curvature,
+    EventCurvature, ModeCurvature, Quadratic, critical_curvature, crossing_curvature, mode_curvature, output_curvature,
 };
 use crate::{Error, Quantity};
 
@@ -33,11 +32,7 @@ pub struct QuadraticModel {
 impl<'a> QuadraticModels<'a> {
     /// For responses of `mechanism`.
     pub fn new(mechanism: &'a dyn CurvatureKernels, responses: &'a Responses<'a>) -> Self {
-        Self {
-            mechanism,
-            responses,
-            of_mode: BTreeMap::new(),
-        }
+        Self { mechanism, responses, of_mode: BTreeMap::new() }
     }
 
     /// The model of a response.
@@ -48,12 +43,7 @@ impl<'a> QuadraticModels<'a> {
     /// amplitude that does not exist; what the second derivatives of each response say.
     pub fn of(&mut self, response: Response) -> Result<QuadraticModel, Error> {
         let (mechanism, at) = (self.mechanism, self.responses.nominal());
-        let missing = Error::NoResponse {
-            response: 0,
-            missing: 1,
-            needed: 1,
-            method: "second order",
-        };
+        let missing = Error::NoResponse { response: 0, missing: 1, needed: 1, method: "second order" };
         match response {
             Response::Mode { mode, quantity } => self.of_mode(mode, quantity),
             Response::Output(output) => {
@@ -64,27 +54,18 @@ impl<'a> QuadraticModels<'a> {
                         slopes: expansion.first.by_design,
                         curvature: expansion.second.by_design,
                     },
-                    by_input: Some((
-                        expansion.first.by_input,
-                        expansion.second.by_input_and_design,
-                    )),
+                    by_input: Some((expansion.first.by_input, expansion.second.by_input_and_design)),
                 })
             }
             Response::Vibration(vibration) => {
                 let derivatives = vibration.quadratic(mechanism, at)?;
                 let ((value, first), second) = derivatives.ok_or(missing)?;
                 Ok(QuadraticModel {
-                    quadratic: Quadratic {
-                        value,
-                        slopes: first.by_design,
-                        curvature: second.by_design,
-                    },
+                    quadratic: Quadratic { value, slopes: first.by_design, curvature: second.by_design },
                     by_input: Some((first.by_input, second.by_input_and_design)),
                 })
             }
-            Response::Peak { .. } => Err(Error::NoSensitivity {
-                reason: NoDerivative::Peak,
-            }),
+            Response::Peak { .. } => Err(Error::NoSensitivity { reason: NoDerivative::Peak }),
             Response::Critical(range) => {
                 let state = self.responses.critical_state(&at.design, range);
                 critical_curvature(mechanism, &state.ok_or(missing)?).map(QuadraticModel::along)
@@ -106,10 +87,7 @@ impl<'a> QuadraticModels<'a> {
         let quadratic = curvature.quadratic(quantity).ok_or_else(silent)?;
         let first = curvature.first.of(quantity).ok_or_else(silent)?;
         let second = curvature.of(quantity).ok_or_else(silent)?;
-        Ok(QuadraticModel {
-            quadratic,
-            by_input: Some((first.by_input, second.by_input_and_design)),
-        })
+        Ok(QuadraticModel { quadratic, by_input: Some((first.by_input, second.by_input_and_design)) })
     }
 }
 

@@ -14,8 +14,8 @@ use crate::peaks::{self, PeakQuantity};
 use crate::scalar::Instructions;
 use crate::sensitivity::{Quantity, eigenvalue_slope, output_sensitivities, sensitivities};
 use crate::sweep::{
-    Change, Condition, CriticalState, Crossing, Following, Range, critical_sensitivity,
-    critical_state, crossing_sensitivity, first_crossing, meeting,
+    Change, Condition, CriticalState, Crossing, Following, Range, critical_sensitivity, critical_state,
+    crossing_sensitivity, first_crossing, meeting,
 };
 use crate::tolerance::side_by_side::SolvedDesign;
 use crate::tolerance::{Outcome, Solution};
@@ -68,10 +68,7 @@ impl Response {
     /// Whether it describes the state at the operating point: a mode or an output, which only a stable equilibrium has.
     #[doc(hidden)]
     pub fn of_state(self) -> bool {
-        matches!(
-            self,
-            Self::Mode { .. } | Self::Output(_) | Self::Vibration(_)
-        )
+        matches!(self, Self::Mode { .. } | Self::Output(_) | Self::Vibration(_))
     }
 
     /// Whether it is a size, which is never below zero: a frequency or an amplitude.
@@ -100,11 +97,7 @@ impl Response {
                 info.map_or("?", |info| &*info.name).to_owned()
             }
             Self::Vibration(vibration) => vibration.name(of),
-            Self::Peak {
-                vibration,
-                range,
-                quantity,
-            } => {
+            Self::Peak { vibration, range, quantity } => {
                 let (name, input) = (vibration.name(of), name_of(of, range.input));
                 match quantity {
                     PeakQuantity::Height => format!("greatest {name} along {input}"),
@@ -112,20 +105,13 @@ impl Response {
                 }
             }
             Self::Critical(range) => format!("critical {}", name_of(of, range.input)),
-            Self::Crossing {
-                mode,
-                condition,
-                range,
-            } => {
+            Self::Crossing { mode, condition, range } => {
                 let name = name_of(of, range.input);
                 let link = match condition {
                     Condition::Line(_) => "where",
                     Condition::FlutterOnset => "at the",
                 };
-                format!(
-                    "{name} {link} {}",
-                    meeting(*mode, *condition, Change::Onset, name)
-                )
+                format!("{name} {link} {}", meeting(*mode, *condition, Change::Onset, name))
             }
         }
     }
@@ -136,12 +122,7 @@ impl Response {
         let declared = match self {
             Self::Mode { quantity, .. } => return quantity.unit(),
             Self::Output(output) => of.outputs.get(output.index()).map(|info| &info.unit),
-            Self::Vibration(vibration)
-            | Self::Peak {
-                vibration,
-                quantity: PeakQuantity::Height,
-                ..
-            } => {
+            Self::Vibration(vibration) | Self::Peak { vibration, quantity: PeakQuantity::Height, .. } => {
                 let unit = vibration.unit(of);
                 return unit.unwrap_or_else(|| Quantity::DampingRatio.unit());
             }
@@ -149,9 +130,7 @@ impl Response {
                 of.inputs.get(range.input.index()).map(|info| &info.unit)
             }
         };
-        declared
-            .cloned()
-            .unwrap_or_else(|| Quantity::DampingRatio.unit())
+        declared.cloned().unwrap_or_else(|| Quantity::DampingRatio.unit())
     }
 }
 
@@ -206,9 +185,7 @@ impl<'a> Responses<'a> {
                 Response::Mode { mode, .. } => check_mode(*mode, modes)?,
                 Response::Output(output) => check_output(*output, description)?,
                 Response::Vibration(vibration) => vibration.check(description)?,
-                Response::Peak {
-                    vibration, range, ..
-                } => {
+                Response::Peak { vibration, range, .. } => {
                     vibration.check(description)?;
                     range.check(description)?;
                 }
@@ -231,10 +208,7 @@ impl<'a> Responses<'a> {
         };
         let flutter = responses.wanted.iter().filter_map(|response| {
             let onsets = responses.nominal_flutter(*response)?;
-            Some((
-                *response,
-                onsets.into_iter().map(|(mode, _)| mode).collect(),
-            ))
+            Some((*response, onsets.into_iter().map(|(mode, _)| mode).collect()))
         });
         responses.flutter = flutter.collect();
         Ok(responses)
@@ -281,10 +255,7 @@ impl<'a> Responses<'a> {
         modes: &'a Modes,
         wanted: Vec<Response>,
     ) -> Result<Self, Error> {
-        Ok(Self {
-            batches: Some(mechanism),
-            ..Self::new(mechanism, nominal, modes, wanted)?
-        })
+        Ok(Self { batches: Some(mechanism), ..Self::new(mechanism, nominal, modes, wanted)? })
     }
 
     /// Chooses the vector instructions for [`Self::side_by_side`] (default: the best the processor supports); `None`
@@ -311,9 +282,9 @@ impl<'a> Responses<'a> {
     #[doc(hidden)]
     pub fn price(&self) -> u64 {
         let steps = self.wanted.iter().map(|response| match response {
-            Response::Critical(range)
-            | Response::Crossing { range, .. }
-            | Response::Peak { range, .. } => range.steps as u64,
+            Response::Critical(range) | Response::Crossing { range, .. } | Response::Peak { range, .. } => {
+                range.steps as u64
+            }
             Response::Mode { .. } | Response::Output(_) | Response::Vibration(_) => 0,
         });
         steps.fold(1, u64::saturating_add)
@@ -355,20 +326,11 @@ impl<'a> Responses<'a> {
     ///
     /// # Errors
     /// As [`Self::at`].
-    pub fn with_gradients(
-        &self,
-        room: &mut Workspace,
-        design: &[f64],
-    ) -> Result<Realisation, Error> {
+    pub fn with_gradients(&self, room: &mut Workspace, design: &[f64]) -> Result<Realisation, Error> {
         self.evaluate(room, design, true)
     }
 
-    fn evaluate(
-        &self,
-        Workspace(solved): &mut Workspace,
-        design: &[f64],
-        slopes: bool,
-    ) -> Result<Realisation, Error> {
+    fn evaluate(&self, Workspace(solved): &mut Workspace, design: &[f64], slopes: bool) -> Result<Realisation, Error> {
         crate::arguments::check_count("design variables", design, self.nominal.design.len())?;
         self.counted()?;
         let of_mode = |response: &Response| matches!(response, Response::Mode { .. });
@@ -387,25 +349,21 @@ impl<'a> Responses<'a> {
                 Response::Critical(range) => {
                     let state = self.critical_state(design, *range);
                     let asked = state.as_ref().filter(|_| slopes);
-                    let gradient =
-                        asked.and_then(|state| critical_sensitivity(self.mechanism, state).ok());
+                    let gradient = asked.and_then(|state| critical_sensitivity(self.mechanism, state).ok());
                     (state.map(|state| state.value), gradient)
                 }
                 Response::Crossing { .. } => {
                     let state = self.first_crossing(design, response);
                     let asked = state.as_ref().filter(|_| slopes);
-                    let gradient =
-                        asked.and_then(|state| crossing_sensitivity(self.mechanism, state).ok());
+                    let gradient = asked.and_then(|state| crossing_sensitivity(self.mechanism, state).ok());
                     (state.map(|state| state.value), gradient)
                 }
-                Response::Peak {
-                    vibration,
-                    range,
-                    quantity,
-                } => match self.peak(design, (*vibration, *range, *quantity)) {
-                    Some((value, slopes)) => (Some(value), slopes),
-                    None => (None, None),
-                },
+                Response::Peak { vibration, range, quantity } => {
+                    match self.peak(design, (*vibration, *range, *quantity)) {
+                        Some((value, slopes)) => (Some(value), slopes),
+                        None => (None, None),
+                    }
+                }
                 _ if !(stable || unstable && tells_stability(response)) => (None, None),
                 Response::Mode { mode, quantity } => {
                     let value = solved.mode(*mode).and_then(|mode| quantity.of(mode));
@@ -480,9 +438,7 @@ impl<'a> Responses<'a> {
                         self.mechanism.linear_into(q, u, design, &mut state.linear);
                         forced::response(self.mechanism, state).ok()
                     });
-                    forced_response
-                        .as_ref()
-                        .and_then(|forced_response| vibration.of(forced_response))
+                    forced_response.as_ref().and_then(|forced_response| vibration.of(forced_response))
                 }
                 _ => None,
             };
@@ -490,12 +446,7 @@ impl<'a> Responses<'a> {
     }
 
     /// Derivatives of a quantity of one of several equal modes, if no variable splits them.
-    fn common_gradient(
-        &self,
-        solved: &Solution,
-        index: usize,
-        quantity: Quantity,
-    ) -> Option<Vector> {
+    fn common_gradient(&self, solved: &Solution, index: usize, quantity: Quantity) -> Option<Vector> {
         let modes = solved.modes();
         let slopes = common_slopes(self.mechanism, &solved.state, modes, index)?;
         let s = modes.modes.get(index)?.s;
@@ -517,11 +468,7 @@ impl<'a> Responses<'a> {
     }
 
     /// What a [`Response::Peak`] asks for.
-    fn peak(
-        &self,
-        design: &[f64],
-        what: (Vibration, Range, PeakQuantity),
-    ) -> Option<(f64, Option<Vector>)> {
+    fn peak(&self, design: &[f64], what: (Vibration, Range, PeakQuantity)) -> Option<(f64, Option<Vector>)> {
         let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
         if self.mechanism.violation(inputs, design).is_some() {
             return None;
@@ -533,12 +480,7 @@ impl<'a> Responses<'a> {
     /// The first crossing that a [`Response::Crossing`] asks for.
     #[doc(hidden)]
     pub fn first_crossing(&self, design: &[f64], response: &Response) -> Option<Crossing> {
-        let Response::Crossing {
-            mode,
-            condition,
-            range,
-        } = *response
-        else {
+        let Response::Crossing { mode, condition, range } = *response else {
             return None;
         };
         let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
@@ -551,9 +493,7 @@ impl<'a> Responses<'a> {
             Following::default(),
             range,
             what,
-            known
-                .filter(|(_, all)| all.contains(&mode))
-                .map(|(_, all)| &all[..]),
+            known.filter(|(_, all)| all.contains(&mode)).map(|(_, all)| &all[..]),
         )
         .ok()
         .flatten()
@@ -585,20 +525,12 @@ struct LazyDerivatives {
 }
 
 impl LazyDerivatives {
-    fn of_modes(
-        &mut self,
-        mechanism: &dyn Kernels,
-        solved: &Solution,
-    ) -> Option<&crate::Sensitivities> {
+    fn of_modes(&mut self, mechanism: &dyn Kernels, solved: &Solution) -> Option<&crate::Sensitivities> {
         let computed = || sensitivities(mechanism, &solved.state, solved.modes()).ok();
         self.modes.get_or_insert_with(computed).as_ref()
     }
 
-    fn of_vibrations(
-        &mut self,
-        mechanism: &dyn Kernels,
-        solved: &Solution,
-    ) -> Option<&ForcedResponse> {
+    fn of_vibrations(&mut self, mechanism: &dyn Kernels, solved: &Solution) -> Option<&ForcedResponse> {
         let computed = || forced::response(mechanism, &solved.state).ok();
         self.vibrations.get_or_insert_with(computed).as_ref()
     }

@@ -10,10 +10,7 @@ mod answer;
 use crate::algebra::{Field, Lu, Matrix, Vector, greater, largest, times, times_complex};
 use crate::constraints::Structure;
 use crate::kernels::{DirectionalKernels, Linear};
-use crate::modes::{
-    CLUSTER_GAP, Family, Normalisation, clusters, lead, pencil_slope_times, pencil_times,
-    transposed,
-};
+use crate::modes::{CLUSTER_GAP, Family, Normalisation, clusters, lead, pencil_slope_times, pencil_times, transposed};
 use crate::scalar::Real as _;
 use crate::sensitivity::{Rate, check_modes, directions, outside_domain};
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
@@ -89,17 +86,10 @@ enum Sides {
 }
 
 impl<'a> Shapes<'a> {
-    pub(super) fn new(
-        at: &'a Equilibrium,
-        modes: &'a Modes,
-        position: usize,
-    ) -> Result<Self, Error> {
+    pub(super) fn new(at: &'a Equilibrium, modes: &'a Modes, position: usize) -> Result<Self, Error> {
         check_modes(at, modes)?;
         let Some(mode) = modes.modes.get(position) else {
-            return Err(Error::NoSuchMode {
-                mode: position,
-                count: modes.modes.len(),
-            });
+            return Err(Error::NoSuchMode { mode: position, count: modes.modes.len() });
         };
         let clustered = Error::ClusteredMode { mode: position };
         if clusters(modes, CLUSTER_GAP)[position] {
@@ -114,15 +104,10 @@ impl<'a> Shapes<'a> {
         let sides = match family {
             Family::Undamped => {
                 let shape = mode.real_shape();
-                let pencil =
-                    |i: usize, j: usize| linear.stiffness[i][j] - mode.lambda * linear.mass[i][j];
-                let slope = times(&linear.mass, &shape)
-                    .iter()
-                    .map(|time| -time)
-                    .collect();
+                let pencil = |i: usize, j: usize| linear.stiffness[i][j] - mode.lambda * linear.mass[i][j];
+                let slope = times(&linear.mass, &shape).iter().map(|time| -time).collect();
                 let normalised = (size, first_of(&mode.shape, leading.right));
-                Side::new(linear, pencil, (&shape, slope), scale, normalised)
-                    .map(|side| Sides::Undamped(side.into()))
+                Side::new(linear, pencil, (&shape, slope), scale, normalised).map(|side| Sides::Undamped(side.into()))
             }
             Family::General => {
                 let side = |linear: &Linear, shape: &[Complex], leading: usize| {
@@ -137,26 +122,14 @@ impl<'a> Shapes<'a> {
                 let right = side(linear, &mode.shape, leading.right);
                 let left = side(&transposed(linear), mode.left(), leading.left);
                 let both = right.zip(left);
-                both.map(|(right, left)| Sides::General {
-                    right: right.into(),
-                    left: left.into(),
-                })
+                both.map(|(right, left)| Sides::General { right: right.into(), left: left.into() })
             }
         };
-        Ok(Self {
-            linear,
-            mode,
-            sides: sides.ok_or(clustered)?,
-            rate: Rate::of(at, family, mode),
-        })
+        Ok(Self { linear, mode, sides: sides.ok_or(clustered)?, rate: Rate::of(at, family, mode) })
     }
 
     /// Derivatives of the right and the left shape when the matrices change by `change` and the eigenvalue by `rate`.
-    pub(super) fn along(
-        &self,
-        change: &Linear,
-        rate: Complex,
-    ) -> (Vector<Complex>, Vector<Complex>) {
+    pub(super) fn along(&self, change: &Linear, rate: Complex) -> (Vector<Complex>, Vector<Complex>) {
         let mode = self.mode;
         match &self.sides {
             Sides::Undamped(side) => {
@@ -187,11 +160,7 @@ impl<'a> Shapes<'a> {
 
     /// Derivatives of an undamped shape along several directions, given for each the products of the changes of
     /// stiffness and mass with the shape, and the change of `lambda`; `None` for a general mode.
-    pub(super) fn undamped_along(
-        &self,
-        products: &[(Vector, Vector)],
-        rates: &[f64],
-    ) -> Option<Vec<Vector>> {
+    pub(super) fn undamped_along(&self, products: &[(Vector, Vector)], rates: &[f64]) -> Option<Vec<Vector>> {
         let Sides::Undamped(side) = &self.sides else {
             return None;
         };
@@ -204,10 +173,7 @@ impl<'a> Shapes<'a> {
             || side.factors.solve_columns(&right),
         );
         let each = products.iter().enumerate();
-        Some(
-            each.map(|(j, (_, m))| side.complete(&across.column(j), m))
-                .collect(),
-        )
+        Some(each.map(|(j, (_, m))| side.complete(&across.column(j), m)).collect())
     }
 
     /// `-(dQ + Q' dlambda) phi` of an undamped mode.
@@ -224,15 +190,11 @@ impl<'a> Shapes<'a> {
 /// Size of the elements of the pencil; constraints are no stiffness.
 fn scale(linear: &Linear, motions: usize, mode: &Mode) -> f64 {
     let largest = |matrix: &Matrix| {
-        let moving = matrix
-            .iter()
-            .take(motions)
-            .map(|row| largest(&row[..motions]));
+        let moving = matrix.iter().take(motions).map(|row| largest(&row[..motions]));
         moving.fold(0.0, greater)
     };
     let s = mode.s.norm();
-    let scale =
-        largest(&linear.stiffness) + s * (largest(&linear.damping) + s * largest(&linear.mass));
+    let scale = largest(&linear.stiffness) + s * (largest(&linear.damping) + s * largest(&linear.mass));
     if scale > 0.0 { scale } else { 1.0 }
 }
 
@@ -307,26 +269,15 @@ impl<T: Component> Side<T> {
                 let row = |row: &[f64]| row.iter().zip(shape).map(|(m, x)| x.scaled(*m)).sum();
                 linear.mass.iter().map(row).collect()
             }
-            Normalisation::Largest => {
-                Vector::from_fn(n, |i| T::from_parts(if i == lead { 1.0 } else { 0.0 }, 0.0))
-            }
+            Normalisation::Largest => Vector::from_fn(n, |i| T::from_parts(if i == lead { 1.0 } else { 0.0 }, 0.0)),
         };
         let size = |vector: &[T]| {
             let sizes = vector.iter().map(|value| value.modulus());
             sizes.fold(0.0, f64::max)
         };
         let added = T::from_parts(scale / (size(&slope) * size(&weighted)), 0.0);
-        let deflated = Matrix::from_fn(n, n, |i, j| {
-            pencil(i, j) + added * slope[i] * weighted[j].conj()
-        });
-        Some(Self {
-            shape: shape.into(),
-            slope,
-            size: normalisation,
-            weighted,
-            lead,
-            factors: Lu::new(&deflated)?,
-        })
+        let deflated = Matrix::from_fn(n, n, |i, j| pencil(i, j) + added * slope[i] * weighted[j].conj());
+        Some(Self { shape: shape.into(), slope, size: normalisation, weighted, lead, factors: Lu::new(&deflated)? })
     }
 
     /// The derivative of the shape, from the right-hand side and `dMhat phi`.
@@ -342,8 +293,7 @@ impl<T: Component> Side<T> {
             Normalisation::Mass => {
                 let (size_change, _) = product(&self.shape, mass_change).parts();
                 let (along, _) = product(&self.weighted, across).parts();
-                let ((_, turned), (lead, _)) =
-                    (across[self.lead].parts(), self.shape[self.lead].parts());
+                let ((_, turned), (lead, _)) = (across[self.lead].parts(), self.shape[self.lead].parts());
                 T::from_parts(-0.5 * size_change - along, -turned / lead)
             }
         };

@@ -12,19 +12,13 @@ pub(crate) struct Variable<'a> {
 
 /// All variables, inputs first.
 pub(crate) fn variables(d: &Description) -> Vec<Variable<'_>> {
-    let inputs = d.inputs.iter().map(|info| Variable {
-        name: &info.name,
-        unit: &info.unit,
-    });
+    let inputs = d.inputs.iter().map(|info| Variable { name: &info.name, unit: &info.unit });
     inputs.chain(design_variables(d)).collect()
 }
 
 /// The design variables.
 pub(crate) fn design_variables(d: &Description) -> impl Iterator<Item = Variable<'_>> {
-    d.design.iter().map(|info| Variable {
-        name: &info.name,
-        unit: &info.unit,
-    })
+    d.design.iter().map(|info| Variable { name: &info.name, unit: &info.unit })
 }
 
 /// Entry of a matrix, which a damaged file may have truncated.

@@ -52,8 +52,7 @@ pub(crate) fn last_mode(tables: &[Table]) -> usize {
             _ => false,
         };
         let filled = table.columns.iter().filter(filled);
-        let numbers =
-            filled.filter_map(|column| column.name.strip_prefix("frequency ")?.parse().ok());
+        let numbers = filled.filter_map(|column| column.name.strip_prefix("frequency ")?.parse().ok());
         numbers.max()
     };
     let least = |table: &Table| match &*table.name {
@@ -62,9 +61,7 @@ pub(crate) fn last_mode(tables: &[Table]) -> usize {
         _ => None,
     };
     let each = tables.iter();
-    let last = each
-        .flat_map(|x| [by_rows(x), by_columns(x), least(x)])
-        .flatten();
+    let last = each.flat_map(|x| [by_rows(x), by_columns(x), least(x)]).flatten();
     last.max().unwrap_or(0)
 }
 

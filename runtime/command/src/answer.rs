@@ -49,20 +49,12 @@ struct Written {
 
 impl Answer {
     pub(crate) fn new(form: Form) -> Self {
-        Self {
-            form,
-            results: Vec::new(),
-            last_mode: 0,
-        }
+        Self { form, results: Vec::new(), last_mode: 0 }
     }
 
     /// Which of the results of a question [`Self::written`] will show: only those need to be computed. `kinds` are all
     /// results that there can be, in order, each with whether it is set aside.
-    pub(crate) fn shown(
-        &self,
-        kinds: &[(&str, bool)],
-        kind: Option<&str>,
-    ) -> Result<Vec<bool>, Failure> {
+    pub(crate) fn shown(&self, kinds: &[(&str, bool)], kind: Option<&str>) -> Result<Vec<bool>, Failure> {
         if self.form == Form::Text && kind.is_none() {
             return Ok(kinds.iter().map(|(_, aside)| !aside).collect());
         }
@@ -71,10 +63,7 @@ impl Answer {
     }
 
     /// Adds a result.
-    pub(crate) fn add<R: eigentol_tables::Answer + Serialize>(
-        &mut self,
-        result: &R,
-    ) -> Result<(), Failure> {
+    pub(crate) fn add<R: eigentol_tables::Answer + Serialize>(&mut self, result: &R) -> Result<(), Failure> {
         let kind = R::KIND;
         let (text, tables) = match self.form {
             Form::Text => (result.findings().to_string(), Vec::new()),
@@ -84,12 +73,7 @@ impl Answer {
         if advice::has_beams() && kind != "convergence" {
             self.last_mode = self.last_mode.max(advice::last_mode(&result.tables()));
         }
-        self.results.push(Written {
-            kind,
-            text,
-            tables,
-            aside: false,
-        });
+        self.results.push(Written { kind, text, tables, aside: false });
         Ok(())
     }
 
@@ -99,10 +83,7 @@ impl Answer {
     }
 
     /// Adds a result whose text is shown only on request, because another result already includes it.
-    pub(crate) fn add_aside<R: eigentol_tables::Answer + Serialize>(
-        &mut self,
-        result: &R,
-    ) -> Result<(), Failure> {
+    pub(crate) fn add_aside<R: eigentol_tables::Answer + Serialize>(&mut self, result: &R) -> Result<(), Failure> {
         self.add(result)?;
         if let Some(result) = self.results.last_mut() {
             result.aside = true;
@@ -112,11 +93,7 @@ impl Answer {
 
     /// The formatted answer: as text, the result of this kind or else all results not set aside; otherwise the result
     /// of this kind or the first.
-    pub(crate) fn written(
-        &self,
-        kind: Option<&str>,
-        table: Option<&str>,
-    ) -> Result<Vec<u8>, Failure> {
+    pub(crate) fn written(&self, kind: Option<&str>, table: Option<&str>) -> Result<Vec<u8>, Failure> {
         if self.form == Form::Text && kind.is_none() {
             let shown = self.results.iter().filter(|result| !result.aside);
             let all: Vec<&str> = shown.map(|shown| shown.text.as_str()).collect();
@@ -195,22 +172,14 @@ mod tests {
 
     #[test]
     fn names_as_the_library_writes_them() {
-        let all = [
-            "first-order tolerances",
-            "summary",
-            "output tolerances",
-            "output shares",
-        ];
+        let all = ["first-order tolerances", "summary", "output tolerances", "output shares"];
         for (name, expected) in [
             ("first-order tolerances", Some(all[0])),
             ("first_order", Some(all[0])),
             ("First Order", Some(all[0])),
             ("output_tolerances", Some(all[2])),
             ("SUMMARY", Some(all[1])),
-            (
-                "Rotor at speed = 3 rpm: first-order spread of the outputs",
-                Some(all[2]),
-            ),
+            ("Rotor at speed = 3 rpm: first-order spread of the outputs", Some(all[2])),
             ("what tolerances do", None),
             ("output", None),
             ("first_ord", None),

@@ -9,8 +9,8 @@ use eigentol::Error;
 
 use crate::color::Color;
 use crate::commands::{
-    allocate, branches, campbell, check, completions, converge, equilibria, expand, import, merge,
-    modes, new, probability, report, response, sample, schema, sensitivities, sweep, tolerance,
+    allocate, branches, campbell, check, completions, converge, equilibria, expand, import, merge, modes, new,
+    probability, report, response, sample, schema, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -27,13 +27,7 @@ use crate::verdict::Verdict;
 #[command(name = "eigentol", version, subcommand_required = true)]
 pub(crate) struct Arguments {
     /// Whether messages are coloured; `auto` does it on a terminal
-    #[arg(
-        long,
-        global = true,
-        value_enum,
-        default_value = "auto",
-        value_name = "WHEN"
-    )]
+    #[arg(long, global = true, value_enum, default_value = "auto", value_name = "WHEN")]
     color: Color,
     #[command(subcommand)]
     command: Command,

@@ -13,15 +13,12 @@ pub(crate) enum Color {
 impl Color {
     /// The setting requested on a command line that could not be parsed.
     pub(crate) fn asked() -> Self {
-        let arguments: Vec<String> = (std::env::args_os())
-            .map(|argument| argument.to_string_lossy().into_owned())
-            .collect();
+        let arguments: Vec<String> =
+            (std::env::args_os()).map(|argument| argument.to_string_lossy().into_owned()).collect();
         let apart = arguments.iter().position(|argument| argument == "--color");
         let value = match apart {
             Some(k) => arguments.get(k + 1).map(String::as_str),
-            None => arguments
-                .iter()
-                .find_map(|argument| argument.strip_prefix("--color=")),
+            None => arguments.iter().find_map(|argument| argument.strip_prefix("--color=")),
         };
         let known = value.and_then(|value| Self::from_str(value, false).ok());
         known.unwrap_or(Self::Auto)

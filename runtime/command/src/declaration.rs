@@ -39,10 +39,6 @@ impl Declaration {
     }
 
     pub(crate) fn refused(&self, mistakes: Vec<Mistake>) -> Failure {
-        Failure::Declaration {
-            name: self.name.clone(),
-            text: self.text.clone(),
-            mistakes,
-        }
+        Failure::Declaration { name: self.name.clone(), text: self.text.clone(), mistakes }
     }
 }

@@ -158,15 +158,10 @@ pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
 /// Removes the temporary files that killed runs left beside a file, where the system says which processes run.
 fn remove_left_behind(path: &Path) {
     let processes = Path::new("/proc");
-    let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(OsStr::to_str))
-    else {
+    let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(OsStr::to_str)) else {
         return;
     };
-    let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (true, Ok(entries)) = (processes.join("self").exists(), fs::read_dir(folder)) else {
         return;
     };
@@ -237,10 +232,7 @@ impl Target {
     pub(crate) fn write(&self, content: &[u8]) -> io::Result<()> {
         self.check()?;
         match self {
-            Self::Device(path) => OpenOptions::new()
-                .write(true)
-                .open(path)?
-                .write_all(content),
+            Self::Device(path) => OpenOptions::new().write(true).open(path)?.write_all(content),
             Self::File { path, beside } => {
                 let written = File::create(beside).and_then(|mut file| {
                     file.write_all(content)?;

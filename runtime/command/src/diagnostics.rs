@@ -18,12 +18,7 @@ const MOST: usize = 50;
 pub(crate) fn say(failure: &Failure, color: Color) {
     let renderer = renderer(color);
     let mut text = String::new();
-    if let Failure::Declaration {
-        name,
-        text: source,
-        mistakes,
-    } = failure
-    {
+    if let Failure::Declaration { name, text: source, mistakes } = failure {
         for mistake in mistakes.iter().take(MOST) {
             text += &drawn(Level::ERROR, name, source, mistake, &renderer);
             text += "\n\n";
@@ -60,11 +55,7 @@ fn write(text: &str) {
 }
 
 fn renderer(color: Color) -> Renderer {
-    if color.on(stderr().is_terminal()) {
-        Renderer::styled()
-    } else {
-        Renderer::plain()
-    }
+    if color.on(stderr().is_terminal()) { Renderer::styled() } else { Renderer::plain() }
 }
 
 fn title(message: &str, help: Option<&str>, renderer: &Renderer) -> String {
@@ -76,13 +67,7 @@ fn title(message: &str, help: Option<&str>, renderer: &Renderer) -> String {
 }
 
 /// Draws a mistake below its source line.
-fn drawn(
-    level: Level<'_>,
-    name: &str,
-    source: &str,
-    mistake: &Mistake,
-    renderer: &Renderer,
-) -> String {
+fn drawn(level: Level<'_>, name: &str, source: &str, mistake: &Mistake, renderer: &Renderer) -> String {
     let annotation = AnnotationKind::Primary.span(bytes(source, mistake));
     let snippet = Snippet::source(source).path(name).annotation(annotation);
     let title = level.primary_title(&*mistake.message);
@@ -106,11 +91,7 @@ fn bytes(source: &str, mistake: &Mistake) -> Range<usize> {
 
 fn byte(source: &str, (line, column): (usize, usize)) -> usize {
     let mut lines = source.split_inclusive('\n');
-    let before: usize = lines
-        .clone()
-        .take(line.saturating_sub(1))
-        .map(str::len)
-        .sum();
+    let before: usize = lines.clone().take(line.saturating_sub(1)).map(str::len).sum();
     let line = lines.nth(line.saturating_sub(1)).unwrap_or("");
     let text = line.trim_end_matches(['\n', '\r']);
     let inside = text.char_indices().nth(column.saturating_sub(1));
@@ -124,13 +105,7 @@ mod tests {
     #[test]
     fn lines_and_characters_become_bytes() {
         let text = "ab\nµ c\r\nd";
-        for (location, expected) in [
-            ((1, 1), 0),
-            ((2, 1), 3),
-            ((2, 2), 5),
-            ((2, 9), 7),
-            ((3, 1), 9),
-        ] {
+        for (location, expected) in [((1, 1), 0), ((2, 1), 3), ((2, 2), 5), ((2, 9), 7), ((3, 1), 9)] {
             assert_eq!(byte(text, location), expected, "{location:?}");
         }
         assert_eq!(byte(text, (9, 1)), text.len());

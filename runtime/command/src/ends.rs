@@ -10,9 +10,7 @@ pub(crate) fn with_unit_of(low: &str, high: &str) -> String {
 
 /// Length of the number at the start of a text.
 fn number(text: &str) -> usize {
-    let ends = (1..=text.len())
-        .rev()
-        .filter(|&end| text.is_char_boundary(end));
+    let ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
     let mut numbers = ends.filter(|&end| text[..end].trim().parse::<f64>().is_ok());
     numbers.next().unwrap_or(0)
 }

@@ -22,11 +22,7 @@ pub(crate) enum Failure {
     Print(io::Error),
     /// Drawn in the source text.
     #[error("`{name}` has {} {}", .mistakes.len(), plural(.mistakes.len(), "mistake", "mistakes"))]
-    Declaration {
-        name: String,
-        text: String,
-        mistakes: Vec<Mistake>,
-    },
+    Declaration { name: String, text: String, mistakes: Vec<Mistake> },
     #[error("`{}` is not a valid study file: {message}", .path.display())]
     StudyFile { path: PathBuf, message: String },
     #[error("`{}` cannot be merged: {message}", .path.display())]
@@ -38,18 +34,9 @@ pub(crate) enum Failure {
     #[error("{0}")]
     Usage(String, Option<String>),
     #[error("`{mechanism}` has no {kind} `{name}`")]
-    UnknownName {
-        mechanism: String,
-        kind: String,
-        name: String,
-        help: String,
-    },
+    UnknownName { mechanism: String, kind: String, name: String, help: String },
     #[error("{place}: {message}")]
-    Value {
-        place: String,
-        message: String,
-        help: Option<String>,
-    },
+    Value { place: String, message: String, help: Option<String> },
     #[error("{}", advice::message(.0))]
     Analysis(#[from] Error),
     #[error("{0}")]
@@ -126,17 +113,11 @@ impl Failure {
     }
 
     pub(crate) fn read(path: &Path, source: io::Error) -> Self {
-        Self::Read {
-            path: path.to_owned(),
-            source,
-        }
+        Self::Read { path: path.to_owned(), source }
     }
 
     pub(crate) fn write(path: &Path, source: io::Error) -> Self {
-        Self::Write {
-            path: path.to_owned(),
-            source,
-        }
+        Self::Write { path: path.to_owned(), source }
     }
 }
 

@@ -25,8 +25,8 @@ pub(crate) fn watch() -> Result<(), Failure> {
     ctrlc::set_handler(interrupted)?;
     #[cfg(unix)]
     {
-        let mut requests = signal_hook::iterator::Signals::new([signal_hook::consts::SIGTERM])
-            .map_err(ctrlc::Error::System)?;
+        let mut requests =
+            signal_hook::iterator::Signals::new([signal_hook::consts::SIGTERM]).map_err(ctrlc::Error::System)?;
         std::thread::spawn(move || requests.forever().for_each(|_| interrupted()));
     }
     Ok(())

@@ -13,10 +13,7 @@ const NAMED: usize = 5;
 pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     if why == ErrorKind::IsADirectory {
         let files = declarations(path);
-        let names: Vec<String> = files
-            .iter()
-            .map(|file| file.display().to_string())
-            .collect();
+        let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
         return Some(match &names[..] {
             [] => "name a file: this is a folder".to_owned(),
             names => format!("name a file in it: `{}`", names.join("`, `")),
@@ -33,9 +30,7 @@ pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     let stem = |file: &Path| Some(file.file_stem()?.to_str()?.to_owned());
     let stems: Vec<String> = files.iter().filter_map(|file| stem(file)).collect();
     let near = nearest(&stem(path)?, stems.iter().map(String::as_str))?;
-    let file = files
-        .iter()
-        .find(|file| stem(file).as_deref() == Some(near))?;
+    let file = files.iter().find(|file| stem(file).as_deref() == Some(near))?;
     Some(format!("did you mean `{}`?", file.display()))
 }
 
@@ -52,9 +47,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     let here = folder.as_os_str().is_empty();
     let read = fs::read_dir(if here { Path::new(".") } else { folder });
     let entries = read.into_iter().flatten().flatten();
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| folder.join(entry.file_name()))
-        .collect();
+    let mut files: Vec<PathBuf> = entries.map(|entry| folder.join(entry.file_name())).collect();
     files.retain(|file| file.is_file());
     files.sort_by_key(|file| (!is_declaration(file), file.clone()));
     files

@@ -44,12 +44,8 @@ impl Output {
         if let (Form::Text, Some(path)) = (form, self.place.path())
             && eigentol_figures::Form::of(path).is_ok()
         {
-            let message = format!(
-                "`{}` is a picture, and the answer is a text",
-                path.display()
-            );
-            let help =
-                "`modes`, `tolerance`, `campbell` and `branches` draw it with `--figure FILE`";
+            let message = format!("`{}` is a picture, and the answer is a text", path.display());
+            let help = "`modes`, `tolerance`, `campbell` and `branches` draw it with `--figure FILE`";
             return Err(Failure::usage(message, help));
         }
         if let (Form::Text, Some(path)) = (form, self.place.path())
@@ -61,19 +57,12 @@ impl Output {
             return Err(Failure::usage(message, help));
         }
         if self.table.is_some() && !form.has_rows() {
-            let help =
-                "add `--csv` or `--parquet`, or an `--output` that ends in `.csv` or `.parquet`";
-            return Err(Failure::usage(
-                "a table is written only as CSV or Parquet",
-                help,
-            ));
+            let help = "add `--csv` or `--parquet`, or an `--output` that ends in `.csv` or `.parquet`";
+            return Err(Failure::usage("a table is written only as CSV or Parquet", help));
         }
         if form == Form::Parquet && self.place.path().is_none() && io::stdout().is_terminal() {
             let help = "name a file: `--output FILE.parquet`";
-            return Err(Failure::usage(
-                "Parquet is binary and not written to a terminal",
-                help,
-            ));
+            return Err(Failure::usage("Parquet is binary and not written to a terminal", help));
         }
         self.place.check()
     }
@@ -84,10 +73,7 @@ impl Output {
     }
 
     fn form(&self) -> Form {
-        let ending = self
-            .place
-            .path()
-            .and_then(|path| path.extension()?.to_str());
+        let ending = self.place.path().and_then(|path| path.extension()?.to_str());
         match (self.json, self.csv, self.parquet) {
             (true, ..) => Form::Json,
             (_, true, _) => Form::Csv,
@@ -127,14 +113,10 @@ impl Output {
         (kind, table): (&str, &str),
         make: impl Fn(&[T]) -> Table + 'a,
     ) -> Result<Option<Rows<'a, T>>, Failure> {
-        let matches = |wanted: &Option<String>, name: &str| {
-            wanted.as_deref().is_none_or(|wanted| wanted == name)
-        };
+        let matches = |wanted: &Option<String>, name: &str| wanted.as_deref().is_none_or(|wanted| wanted == name);
         let asked = matches(&self.result, kind) && matches(&self.table, table);
         match self.form() {
-            form if form.has_rows() && asked => {
-                Rows::begin(&self.place, form, Box::new(make)).map(Some)
-            }
+            form if form.has_rows() && asked => Rows::begin(&self.place, form, Box::new(make)).map(Some),
             _ => Ok(None),
         }
     }

@@ -33,10 +33,7 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    pub(crate) const WHOLE: Self = Self {
-        number: 1,
-        count: 1,
-    };
+    pub(crate) const WHOLE: Self = Self { number: 1, count: 1 };
 
     /// The range of its samples, out of `samples`.
     pub(crate) fn range(self, samples: u64) -> Range<u64> {
@@ -62,27 +59,18 @@ pub(crate) fn read(path: &Path) -> Result<PartialMonteCarlo, Failure> {
 }
 
 /// Merges a part read from a file with others of its run.
-pub(crate) fn add(
-    all: &mut PartialMonteCarlo,
-    path: &Path,
-    part: PartialMonteCarlo,
-) -> Result<(), Failure> {
+pub(crate) fn add(all: &mut PartialMonteCarlo, path: &Path, part: PartialMonteCarlo) -> Result<(), Failure> {
     all.merge(part).map_err(|error| {
         let message = match &error {
             Error::OtherRun { what, own, other } => {
-                format!(
-                    "it belongs to another run: its {what} is {other}, that of the others {own}"
-                )
+                format!("it belongs to another run: its {what} is {other}, that of the others {own}")
             }
             Error::SamplesOverlap { start, end } => {
                 format!("its samples {start} to below {end} are already included")
             }
             error => error.to_string(),
         };
-        Failure::Part {
-            path: path.to_owned(),
-            message,
-        }
+        Failure::Part { path: path.to_owned(), message }
     })
 }
 
@@ -110,13 +98,7 @@ mod tests {
 
     #[test]
     fn shards_are_counted_from_one() {
-        assert_eq!(
-            "3/64".parse(),
-            Ok(Shard {
-                number: 3,
-                count: 64
-            })
-        );
+        assert_eq!("3/64".parse(), Ok(Shard { number: 3, count: 64 }));
         for wrong in ["0/4", "5/4", "1/0", "3", "a/b", "-1/4", ""] {
             assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
         }

@@ -54,10 +54,7 @@ impl Wording {
             1 => "is 1 mode".to_owned(),
             _ => format!("are {modes} modes"),
         };
-        let message = format!(
-            "{} names of modes are given, and there {there}",
-            names.len()
-        );
+        let message = format!("{} names of modes are given, and there {there}", names.len());
         let unknown = names[modes..].join("`, `");
         Err(Failure::usage(message, format!("leave out `{unknown}`")))
     }
@@ -114,10 +111,7 @@ impl Picture {
     }
 
     /// Draws the figure, if one is requested.
-    pub(crate) fn draw(
-        &self,
-        figure: impl FnOnce() -> Result<Figure, eigentol_figures::Error>,
-    ) -> Result<(), Failure> {
+    pub(crate) fn draw(&self, figure: impl FnOnce() -> Result<Figure, eigentol_figures::Error>) -> Result<(), Failure> {
         if let Some(path) = &self.figure {
             let file = figure()?.file(Form::of(path)?)?;
             let written = Target::of(path).write(&file);

@@ -7,8 +7,8 @@ use clap::Args;
 use eigentol::equilibrium::{Equilibria, Search};
 use eigentol::judge;
 use eigentol::{
-    Coordinate, CoordinateInfo, Description, DesignVariable, Input, Law, Matrix, Parameter, Role,
-    Study, Text, ToleranceInfo, Unit,
+    Coordinate, CoordinateInfo, Description, DesignVariable, Input, Law, Matrix, Parameter, Role, Study, Text,
+    ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::base::nearest::nearest;
@@ -106,10 +106,7 @@ impl Question {
     fn of_equilibrium(mut self, number: usize) -> Result<Self, Failure> {
         let equilibria = self.equilibria()?;
         let Some(state) = number.checked_sub(1).and_then(|k| equilibria.get(k)) else {
-            let message = format!(
-                "there is no equilibrium {number}: the search finds {}",
-                equilibria.len()
-            );
+            let message = format!("there is no equilibrium {number}: the search finds {}", equilibria.len());
             return Err(Failure::usage(message, "`eigentol equilibria` lists them"));
         };
         self.study = self.study.at(state);
@@ -130,15 +127,12 @@ fn pair(text: &str) -> Result<(String, String), String> {
 pub(crate) fn whole(text: &str) -> Result<usize, String> {
     let number = text.parse::<f64>().ok();
     let whole = number.filter(|number| number.fract() == 0.0 && (0.0..1e15).contains(number));
-    whole
-        .map(|x| x as usize)
-        .ok_or_else(|| "write a whole number: `10000` or `1e4`".to_owned())
+    whole.map(|x| x as usize).ok_or_else(|| "write a whole number: `10000` or `1e4`".to_owned())
 }
 
 /// Parses a number such as a seed, of which every digit counts.
 pub(crate) fn exact<N: FromStr>(text: &str) -> Result<N, String> {
-    text.parse()
-        .map_err(|_| "write a whole number that is not negative: `7`".to_owned())
+    text.parse().map_err(|_| "write a whole number that is not negative: `7`".to_owned())
 }
 
 /// The number of samples of the command line or else the study file.
@@ -206,9 +200,7 @@ impl Point {
         }
         let given = file.between.iter();
         let options = self.between.iter().map(|(name, text)| (name, text));
-        let between = given
-            .chain(options)
-            .map(|(name, text)| bounds(&study, name, text));
+        let between = given.chain(options).map(|(name, text)| bounds(&study, name, text));
         let question = Question {
             between: between.collect::<Result<_, _>>()?,
             starts: self.starts,
@@ -234,11 +226,7 @@ fn positive_level(level: f64) -> Result<f64, Failure> {
 }
 
 /// Sets a value.
-fn set(
-    study: Study<Interpreted>,
-    option: &str,
-    (name, text): (&str, &str),
-) -> Result<Study<Interpreted>, Failure> {
+fn set(study: Study<Interpreted>, option: &str, (name, text): (&str, &str)) -> Result<Study<Interpreted>, Failure> {
     if option == "set" {
         let (parameter, unit) = parameter(&study, name)?;
         let value = read(option, name, text, &unit)?;
@@ -257,18 +245,11 @@ fn set(
 }
 
 /// Bounds of an unknown, SI.
-fn bounds(
-    study: &Study<Interpreted>,
-    name: &str,
-    text: &str,
-) -> Result<(Coordinate<Interpreted>, f64, f64), Failure> {
+fn bounds(study: &Study<Interpreted>, name: &str, text: &str) -> Result<(Coordinate<Interpreted>, f64, f64), Failure> {
     let (coordinate, unit) = coordinate(study, name)?;
     let Some((low, high)) = text.split_once("..") else {
         let message = format!("`{text}` is not a range");
-        return Err(Failure::usage(
-            message,
-            format!("write `--between {name}=-1..1`"),
-        ));
+        return Err(Failure::usage(message, format!("write `--between {name}=-1..1`")));
     };
     let low = read("between", name, &with_unit_of(low, high), &unit)?;
     Ok((coordinate, low, read("between", name, high, &unit)?))
@@ -298,12 +279,7 @@ fn tolerate(
             (design[k], design_tolerance(of, text, k, design))
         }
     };
-    let ToleranceInfo {
-        lower,
-        upper,
-        relative,
-        law,
-    } = parsed.map_err(refused)?;
+    let ToleranceInfo { lower, upper, relative, law } = parsed.map_err(refused)?;
     let study = if !relative {
         study.limits(parameter, lower, upper)
     } else if lower == -upper {
@@ -319,10 +295,7 @@ fn tolerate(
 }
 
 /// Sets pairwise correlations of the design variables, followed by the inputs with tolerances.
-fn correlate(
-    study: Study<Interpreted>,
-    pairs: &[(String, String, f64)],
-) -> Result<Study<Interpreted>, Failure> {
+fn correlate(study: Study<Interpreted>, pairs: &[(String, String, f64)]) -> Result<Study<Interpreted>, Failure> {
     if pairs.is_empty() {
         return Ok(study);
     }
@@ -348,19 +321,13 @@ fn correlate(
 }
 
 /// The input or design variable with this name, and its unit.
-pub(crate) fn parameter(
-    study: &Study<Interpreted>,
-    name: &str,
-) -> Result<(Parameter<Interpreted>, Unit), Failure> {
+pub(crate) fn parameter(study: &Study<Interpreted>, name: &str) -> Result<(Parameter<Interpreted>, Unit), Failure> {
     if let Ok((input, unit)) = input(study, name) {
         return Ok((input.into(), unit));
     }
     let description = study.description();
     if let Ok(variable) = study.find_design(name) {
-        return Ok((
-            variable.into(),
-            description.design[variable.index()].unit.clone(),
-        ));
+        return Ok((variable.into(), description.design[variable.index()].unit.clone()));
     }
     let inputs = description.inputs.iter().map(|info| &info.name);
     if study.find_coordinate(name).is_ok() {
@@ -369,36 +336,20 @@ pub(crate) fn parameter(
         return Err(Failure::usage(message, help));
     }
     let known = inputs.chain(description.design.iter().map(|info| &info.name));
-    Err(unknown(
-        description,
-        "input or design variable",
-        name,
-        known,
-    ))
+    Err(unknown(description, "input or design variable", name, known))
 }
 
 /// The design variable with this name, and its unit.
-pub(crate) fn design(
-    study: &Study<Interpreted>,
-    name: &str,
-) -> Result<(DesignVariable<Interpreted>, Unit), Failure> {
+pub(crate) fn design(study: &Study<Interpreted>, name: &str) -> Result<(DesignVariable<Interpreted>, Unit), Failure> {
     let all = &study.description().design;
     match study.find_design(name) {
         Ok(design_variable) => Ok((design_variable, all[design_variable.index()].unit.clone())),
-        Err(_) => Err(unknown(
-            study.description(),
-            "design variable",
-            name,
-            all.iter().map(|info| &info.name),
-        )),
+        Err(_) => Err(unknown(study.description(), "design variable", name, all.iter().map(|info| &info.name))),
     }
 }
 
 /// The input with this name, and its unit.
-pub(crate) fn input(
-    study: &Study<Interpreted>,
-    name: &str,
-) -> Result<(Input<Interpreted>, Unit), Failure> {
+pub(crate) fn input(study: &Study<Interpreted>, name: &str) -> Result<(Input<Interpreted>, Unit), Failure> {
     let all = &study.description().inputs;
     match study.find_input(name) {
         Ok(input) => Ok((input, all[input.index()].unit.clone())),
@@ -409,17 +360,13 @@ pub(crate) fn input(
     }
 }
 
-fn coordinate(
-    study: &Study<Interpreted>,
-    name: &str,
-) -> Result<(Coordinate<Interpreted>, Unit), Failure> {
+fn coordinate(study: &Study<Interpreted>, name: &str) -> Result<(Coordinate<Interpreted>, Unit), Failure> {
     let all = &study.description().coordinates;
     match study.find_coordinate(name) {
         Ok(coordinate) => Ok((coordinate, all[coordinate.index()].unit.clone())),
         Err(_) if parameter(study, name).is_ok() => {
             let message = format!("`{name}` is not a coordinate");
-            let help =
-                format!("give the values of inputs and design variables by `--set {name}=...`");
+            let help = format!("give the values of inputs and design variables by `--set {name}=...`");
             Err(Failure::usage(message, help))
         }
         Err(_) => {
@@ -443,12 +390,7 @@ pub(crate) fn unknown<'a>(
         None if known.is_empty() => "it has none".to_owned(),
         None => format!("it has `{}`", known.join("`, `")),
     };
-    Failure::UnknownName {
-        mechanism: description.name.to_string(),
-        kind: kind.to_owned(),
-        name: name.to_owned(),
-        help,
-    }
+    Failure::UnknownName { mechanism: description.name.to_string(), kind: kind.to_owned(), name: name.to_owned(), help }
 }
 
 /// Reads a value from a study file.

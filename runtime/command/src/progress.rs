@@ -44,10 +44,7 @@ const COUNTER: &str = "{pos} {msg}  {elapsed}";
 /// A bar with this number of steps, or a step counter if the number is unknown.
 pub(crate) fn bar(what: &'static str, steps: Option<u64>) -> Bar {
     let (bar, template) = match steps {
-        Some(steps) => (
-            ProgressBar::new(steps),
-            "{msg} {bar:40} {percent:>3} %  {elapsed}, {eta} left",
-        ),
+        Some(steps) => (ProgressBar::new(steps), "{msg} {bar:40} {percent:>3} %  {elapsed}, {eta} left"),
         None => (ProgressBar::no_length(), COUNTER),
     };
     BARS.fetch_add(1, Ordering::Relaxed);

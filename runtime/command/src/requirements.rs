@@ -99,8 +99,7 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
             }
         }
         [quantity, of] if study_file::Quantity::named(quantity).is_some() => {
-            (require.mode, require.quantity) =
-                (Some(mode(of)?), study_file::Quantity::named(quantity));
+            (require.mode, require.quantity) = (Some(mode(of)?), study_file::Quantity::named(quantity));
         }
         ["output", name] | [name] => require.output = Some(name.to_owned()),
         _ => return Err(refused()),
@@ -109,10 +108,7 @@ pub(crate) fn parsed(text: &str) -> Result<Require, String> {
 }
 
 /// The requirements of a study file or a command line.
-pub(crate) fn requirements(
-    study: &Study<Interpreted>,
-    all: &[Require],
-) -> Result<Vec<Requirement>, Failure> {
+pub(crate) fn requirements(study: &Study<Interpreted>, all: &[Require]) -> Result<Vec<Requirement>, Failure> {
     all.iter().map(|x| requirement(study, x)).collect()
 }
 
@@ -128,33 +124,23 @@ fn requirement(study: &Study<Interpreted>, require: &Require) -> Result<Requirem
         return away(study, response, text);
     }
     match (&require.at_least, &require.at_most, &require.outside) {
-        (None, None, Some([low, high])) => Ok(Requirement::Outside {
-            response,
-            low: read("outside", low)?,
-            high: read("outside", high)?,
-        }),
+        (None, None, Some([low, high])) => {
+            Ok(Requirement::Outside { response, low: read("outside", low)?, high: read("outside", high)? })
+        }
         (None, None, None) | (_, _, Some(_)) => Err(Failure::usage(
             "a requirement has limits",
             "give `at_least`, `at_most` or both, or a forbidden band: `outside = [\"4 Hz\", \"5 Hz\"]`",
         )),
         (low, high, None) => Ok(Requirement::Within {
             response,
-            low: low
-                .as_ref()
-                .map_or(Ok(f64::NEG_INFINITY), |text| read("at_least", text))?,
-            high: high
-                .as_ref()
-                .map_or(Ok(f64::INFINITY), |text| read("at_most", text))?,
+            low: low.as_ref().map_or(Ok(f64::NEG_INFINITY), |text| read("at_least", text))?,
+            high: high.as_ref().map_or(Ok(f64::INFINITY), |text| read("at_most", text))?,
         }),
     }
 }
 
 /// A requirement to stay away from a multiple of an input: `2 speed by 10%`.
-fn away(
-    study: &Study<Interpreted>,
-    response: Response,
-    text: &str,
-) -> Result<Requirement, Failure> {
+fn away(study: &Study<Interpreted>, response: Response, text: &str) -> Result<Requirement, Failure> {
     let refused = || {
         let help = "write an input, perhaps a multiple of it, and a fraction: `away_from = \"2 speed by 10%\"`";
         Failure::usage(format!("`{text}` is no multiple of an input"), help)
@@ -170,25 +156,14 @@ fn away(
         None => (1.0, what.trim()),
     };
     let (input, _) = input(study, name)?;
-    Ok(Requirement::Away {
-        response,
-        input: input.any(),
-        order,
-        fraction,
-    })
+    Ok(Requirement::Away { response, input: input.any(), order, fraction })
 }
 
 /// Rejects settings that would have no effect in this requirement.
 fn all_used(require: &Require) -> Result<(), Failure> {
     let ends = require.at_least.is_some() || require.at_most.is_some() || require.outside.is_some();
     let limited = ends || require.away_from.is_some();
-    let elsewhere = [
-        &require.output,
-        &require.vibration,
-        &require.critical,
-        &require.resonance,
-        &require.flutter,
-    ];
+    let elsewhere = [&require.output, &require.vibration, &require.critical, &require.resonance, &require.flutter];
     let of_a_mode = require.mode.is_some() && elsewhere.iter().all(|text| text.is_none());
     let refuse = |message: &str, help: &str| Err(Failure::usage(message, help));
     if require.order.is_some() && require.resonance.is_none() {
@@ -223,13 +198,7 @@ fn all_used(require: &Require) -> Result<(), Failure> {
 }
 
 fn about_a_number(require: &Require) -> bool {
-    let texts = [
-        &require.output,
-        &require.vibration,
-        &require.critical,
-        &require.resonance,
-        &require.flutter,
-    ];
+    let texts = [&require.output, &require.vibration, &require.critical, &require.resonance, &require.flutter];
     require.mode.is_some() || texts.into_iter().any(Option::is_some)
 }
 
@@ -241,32 +210,16 @@ fn response(study: &Study<Interpreted>, require: &Require) -> Result<Response, F
     };
     let along = |text: &str| {
         let interval = range(study, text)?;
-        Ok::<_, Failure>(Range::new(
-            interval.input.any(),
-            interval.low,
-            interval.high,
-        ))
+        Ok::<_, Failure>(Range::new(interval.input.any(), interval.low, interval.high))
     };
     // Which event is the first must not depend on the direction in which the range is written.
     let crossing = |condition, text: &str| {
         let mode = mode()?;
         let interval = range(study, text)?;
-        let (low, high) = (
-            interval.low.min(interval.high),
-            interval.low.max(interval.high),
-        );
-        Ok(Response::Crossing {
-            mode,
-            condition,
-            range: Range::new(interval.input.any(), low, high),
-        })
+        let (low, high) = (interval.low.min(interval.high), interval.low.max(interval.high));
+        Ok(Response::Crossing { mode, condition, range: Range::new(interval.input.any(), low, high) })
     };
-    let stated = [
-        &require.output,
-        &require.critical,
-        &require.resonance,
-        &require.flutter,
-    ];
+    let stated = [&require.output, &require.critical, &require.resonance, &require.flutter];
     if let Some(name) = &require.vibration
         && require.mode.is_none()
         && !require.stable
@@ -278,25 +231,13 @@ fn response(study: &Study<Interpreted>, require: &Require) -> Result<Response, F
             (Some(text), _) => (text, PeakQuantity::Height),
             (_, Some(text)) => (text, PeakQuantity::Place),
         };
-        return Ok(Response::Peak {
-            vibration,
-            range: along(text)?,
-            quantity,
-        });
+        return Ok(Response::Peak { vibration, range: along(text)?, quantity });
     }
-    match (
-        &require.output,
-        &require.critical,
-        &require.resonance,
-        &require.flutter,
-    ) {
+    match (&require.output, &require.critical, &require.resonance, &require.flutter) {
         _ if require.stable || require.vibration.is_some() => {}
         (None, None, None, None) if require.mode.is_some() => {
             let quantity = require.quantity.map_or(Quantity::Frequency, Quantity::from);
-            return Ok(Response::Mode {
-                mode: mode()?,
-                quantity,
-            });
+            return Ok(Response::Mode { mode: mode()?, quantity });
         }
         (Some(name), None, None, None) if require.mode.is_none() => {
             return output(study, name).map(Response::Output);
@@ -319,26 +260,17 @@ fn response(study: &Study<Interpreted>, require: &Require) -> Result<Response, F
 }
 
 /// The vibration written as `shake` or `shake under u`.
-pub(crate) fn named_vibration(
-    study: &Study<Interpreted>,
-    text: &str,
-) -> Result<Vibration, Failure> {
+pub(crate) fn named_vibration(study: &Study<Interpreted>, text: &str) -> Result<Vibration, Failure> {
     let (name, under) = match text.split_once(" under ") {
         Some((name, under)) => (name, Some(under.trim().to_owned())),
         None => (text, None),
     };
-    let require = Require {
-        under,
-        ..Require::default()
-    };
+    let require = Require { under, ..Require::default() };
     vibration(study, name.trim(), &require)
 }
 
 /// The orbit written as `shake,lift` or `shake,lift under u`.
-pub(crate) fn named_orbit(
-    study: &Study<Interpreted>,
-    text: &str,
-) -> Result<([Output; 2], Excitation), Failure> {
+pub(crate) fn named_orbit(study: &Study<Interpreted>, text: &str) -> Result<([Output; 2], Excitation), Failure> {
     let (pair, under) = match text.split_once(" under ") {
         Some((pair, under)) => (pair, Some(under.trim())),
         None => (text, None),
@@ -358,11 +290,7 @@ pub(crate) fn named_pair(study: &Study<Interpreted>, text: &str) -> Result<[Outp
 }
 
 /// The amplitude of an output under one of the excitations.
-fn vibration(
-    study: &Study<Interpreted>,
-    name: &str,
-    require: &Require,
-) -> Result<Vibration, Failure> {
+fn vibration(study: &Study<Interpreted>, name: &str, require: &Require) -> Result<Vibration, Failure> {
     Ok(Vibration {
         output: output(study, name)?,
         excitation: excitation(study, require.under.as_deref())?,
@@ -404,23 +332,17 @@ fn excitation(study: &Study<Interpreted>, under: Option<&str>) -> Result<Excitat
         None => {
             let names: Vec<&str> = known.map(|name| &**name).collect();
             let help = format!("say under which: {}", names.join(", "));
-            Err(Failure::usage(
-                "the excitations have several frequencies",
-                help,
-            ))
+            Err(Failure::usage("the excitations have several frequencies", help))
         }
     }
 }
 
 fn output(study: &Study<Interpreted>, name: &str) -> Result<Output, Failure> {
     let all = &study.description().outputs;
-    study
-        .find_output(name)
-        .map(|handle| handle.any())
-        .map_err(|_| {
-            let known = all.iter().map(|info| &info.name);
-            unknown(study.description(), "output", name, known)
-        })
+    study.find_output(name).map(|handle| handle.any()).map_err(|_| {
+        let known = all.iter().map(|info| &info.name);
+        unknown(study.description(), "output", name, known)
+    })
 }
 
 impl From<study_file::Quantity> for Quantity {

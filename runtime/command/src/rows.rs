@@ -37,11 +37,7 @@ enum File {
 }
 
 impl<'a, T> Rows<'a, T> {
-    pub(crate) fn begin(
-        destination: &'a Destination,
-        form: Form,
-        make: Make<'a, T>,
-    ) -> Result<Self, Failure> {
+    pub(crate) fn begin(destination: &'a Destination, form: Form, make: Make<'a, T>) -> Result<Self, Failure> {
         let (target, begun) = destination.begin()?;
         Ok(Self {
             place: destination,

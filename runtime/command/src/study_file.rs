@@ -63,20 +63,14 @@ pub(crate) struct StudyFile {
 
 /// Names of pairs, each with its correlation.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(
-    untagged,
-    expecting = "a list of pairs, each with its correlation: `correlation = [[\"l\", \"k\", 0.5]]`"
-)]
+#[serde(untagged, expecting = "a list of pairs, each with its correlation: `correlation = [[\"l\", \"k\", 0.5]]`")]
 pub(crate) enum Correlation {
     Pairs(Vec<(String, String, f64)>),
 }
 
 /// A value as written: text with its unit, or a number without one.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(
-    untagged,
-    expecting = "a number, or a text with a unit such as \"3000 rpm\""
-)]
+#[serde(untagged, expecting = "a number, or a text with a unit such as \"3000 rpm\"")]
 pub(crate) enum Written {
     Text(String),
     Number(f64),
@@ -188,10 +182,7 @@ pub(crate) struct Choose {
 
 /// Cost `fixed + factor / T^power` of a half-width `T` in the declared unit.
 #[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "a table such as `{ factor = 2.0, power = 1.0, fixed = 0.5 }`"
-)]
+#[serde(deny_unknown_fields, expecting = "a table such as `{ factor = 2.0, power = 1.0, fixed = 0.5 }`")]
 pub(crate) struct Cost {
     #[serde(default)]
     pub(crate) fixed: f64,

@@ -34,12 +34,7 @@ pub(crate) struct Points {
 #[derive(Args, Debug)]
 pub(crate) struct Orders {
     /// Engine orders whose crossings to locate: `1,2`; may be given several times [default: none]
-    #[arg(
-        long = "order",
-        value_name = "NUMBERS",
-        value_delimiter = ',',
-        allow_negative_numbers = true
-    )]
+    #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',', allow_negative_numbers = true)]
     orders: Vec<f64>,
 }
 
@@ -84,18 +79,13 @@ pub(crate) fn unswept(option: &str) -> Failure {
 
 /// Parses a range.
 pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Failure> {
-    let parts = text
-        .split_once('=')
-        .and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)));
+    let parts = text.split_once('=').and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)));
     let Some((name, (low, high))) = parts else {
         let help = "write a range of an input as `speed=0..6000rpm`";
         return Err(Failure::usage(format!("`{text}` is not a range"), help));
     };
     let (input, unit) = input(study, name)?;
-    for (end, what, instead) in [
-        (low, "start", format!("0..{high}")),
-        (high, "end", format!("{low}..6000rpm")),
-    ] {
+    for (end, what, instead) in [(low, "start", format!("0..{high}")), (high, "end", format!("{low}..6000rpm"))] {
         if end.trim().is_empty() {
             let message = format!("the range `{text}` has no {what}");
             return Err(Failure::usage(message, format!("write `{name}={instead}`")));
@@ -103,11 +93,7 @@ pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Fai
     }
     let refused = |mistakes| Failure::value(format!("sweep {text}"), &mistakes);
     let end = |text: &str| value(text, &unit, &format!("`{name}`")).map_err(refused);
-    Ok(Range {
-        input,
-        low: end(&with_unit_of(low, high))?,
-        high: end(high)?,
-    })
+    Ok(Range { input, low: end(&with_unit_of(low, high))?, high: end(high)? })
 }
 
 impl Points {
@@ -120,20 +106,12 @@ impl Points {
     }
 
     /// The values of a range, SI; `held` says that an answer for each is in memory at once.
-    pub(crate) fn values(
-        &self,
-        range: &Range,
-        question: &Question,
-        held: bool,
-    ) -> Result<Vec<f64>, Failure> {
+    pub(crate) fn values(&self, range: &Range, question: &Question, held: bool) -> Result<Vec<f64>, Failure> {
         let count = self.points.or(question.file.points).unwrap_or(POINTS);
         if count < 2 {
             let help = "a range has two ends: `--points 2` is the least";
             return Err(Failure::usage(
-                format!(
-                    "{count} {} no sweep",
-                    plural(count, "point makes", "points make")
-                ),
+                format!("{count} {} no sweep", plural(count, "point makes", "points make")),
                 help,
             ));
         }
@@ -159,11 +137,7 @@ const MOST_ROWS: usize = 100_000_000;
 impl Orders {
     /// The orders, without repetitions, from the command line or else the study file. Where the range has negative
     /// speeds, an order is a multiple of their amount: it has the line of the negative order too.
-    pub(crate) fn along(
-        &self,
-        range: Option<&Range>,
-        question: &Question,
-    ) -> Result<Vec<f64>, Failure> {
+    pub(crate) fn along(&self, range: Option<&Range>, question: &Question) -> Result<Vec<f64>, Failure> {
         let Some(range) = range else {
             return match self.orders.is_empty() {
                 true => Ok(Vec::new()),
@@ -191,11 +165,7 @@ impl Orders {
 }
 
 /// Requires an order to be a multiple of the input with which a mode can oscillate somewhere in a range.
-pub(crate) fn multiple(
-    order: f64,
-    range: &Range,
-    study: &Study<Interpreted>,
-) -> Result<f64, Failure> {
+pub(crate) fn multiple(order: f64, range: &Range, study: &Study<Interpreted>) -> Result<f64, Failure> {
     let info = &study.description().inputs[range.input.index()];
     let name = &info.name;
     if value("1 rad/s", &info.unit, name).is_err() {

@@ -43,8 +43,7 @@ pub(crate) fn operating_point(d: &Description, inputs: &[f64], varied: Option<In
     let varied = varied.map(Input::index);
     let each = d.inputs.iter().zip(inputs).enumerate();
     let fixed = each.filter(|(k, _)| Some(*k) != varied);
-    let values = fixed
-        .map(|(_, (info, &value))| format!("{} = {}", info.name, with_unit(value, &info.unit)));
+    let values = fixed.map(|(_, (info, &value))| format!("{} = {}", info.name, with_unit(value, &info.unit)));
     let values: Vec<String> = values.collect();
     match values.is_empty() {
         true => d.name.to_string(),

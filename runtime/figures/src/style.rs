@@ -132,8 +132,7 @@ impl Style {
     #[must_use]
     pub fn mode(&self, label: usize) -> String {
         let name = self.names.get(&label);
-        name.cloned()
-            .unwrap_or_else(|| format!("mode {}", label + 1))
+        name.cloned().unwrap_or_else(|| format!("mode {}", label + 1))
     }
 
     /// The name of a mode with its kind or whirl sense.

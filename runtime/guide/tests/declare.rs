@@ -59,8 +59,9 @@ fn declaration(snippet: &str) -> String {
     let within = match snippet.split(['(', ' ']).next().unwrap_or_default() {
         "joint" => free(&["fork", "cart", "rotor"]) + snippet,
         "free" => format!("{others} joint own: {snippet};"),
-        "revolute" | "prismatic" | "cylindrical" | "spherical" | "universal" | "screw"
-        | "planar" => format!("{others} joint own: {snippet} from ground to rotor;"),
+        "revolute" | "prismatic" | "cylindrical" | "spherical" | "universal" | "screw" | "planar" => {
+            format!("{others} joint own: {snippet} from ground to rotor;")
+        }
         "constraint" if snippet.contains("willis") => format!("{GEARS} {snippet}"),
         "constraint" if snippet.contains("cam:") => format!("{CAM} {snippet}"),
         "constraint" if !snippet.contains("coupling") => format!("{all} {snippet}"),
@@ -78,9 +79,7 @@ fn snippets() -> Vec<&'static str> {
     let rows = tables.lines().filter(|line| line.starts_with("| "));
     let codes = rows.flat_map(|row| row.split('`').skip(1).step_by(2));
     let piece = |code: &&str| code.contains('(') || code.starts_with("curve ");
-    codes
-        .filter(|code| piece(code) && !code.contains(".."))
-        .collect()
+    codes.filter(|code| piece(code) && !code.contains("..")).collect()
 }
 
 #[test]

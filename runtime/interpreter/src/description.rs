@@ -1,8 +1,8 @@
 //! Converts the compiler's description of a mechanism to the runtime's types.
 
 use eigentol::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo,
-    Law, OutputInfo, Role, Text, ToleranceInfo, Unit,
+    CoordinateInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, Law, OutputInfo, Role,
+    Text, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::mechanics;
@@ -14,10 +14,7 @@ fn text(text: impl Into<String>) -> Text {
 }
 
 fn unit(unit: &mechanism::Unit) -> Unit {
-    Unit {
-        symbol: text(unit.symbol.as_str()),
-        scale: unit.scale,
-    }
+    Unit { symbol: text(unit.symbol.as_str()), scale: unit.scale }
 }
 
 pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
@@ -35,10 +32,7 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
             mechanism::Law::Triangular => Law::Triangular,
             mechanism::Law::Lognormal => Law::Lognormal,
             mechanism::Law::Weibull => Law::Weibull,
-            mechanism::Law::Beta { alpha, beta } => Law::Beta {
-                alpha: *alpha,
-                beta: *beta,
-            },
+            mechanism::Law::Beta { alpha, beta } => Law::Beta { alpha: *alpha, beta: *beta },
             mechanism::Law::OneOf(values) => Law::OneOf(values.clone().into()),
         },
     }
@@ -49,10 +43,7 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
 pub(crate) fn good_modes(of: &Compilation) -> Option<usize> {
     let beams = &of.mechanism.beams;
     let moves = |unknown: &&mechanics::Unknown| {
-        matches!(
-            unknown.role,
-            mechanics::Role::Position(_) | mechanics::Role::Speed(_)
-        )
+        matches!(unknown.role, mechanics::Role::Position(_) | mechanics::Role::Speed(_))
     };
     let unknowns = &of.functions.unknowns;
     let moving = unknowns.iter().filter(moves).count();
@@ -65,21 +56,13 @@ pub(crate) fn good_modes(of: &Compilation) -> Option<usize> {
 
 /// Names, units, nominal values and properties of a compiled declaration, for those who need no kernels.
 pub fn description(compilation: &Compilation) -> Description {
-    let Compilation {
-        mechanism,
-        functions,
-        program,
-        ..
-    } = compilation;
+    let Compilation { mechanism, functions, program, .. } = compilation;
     let coordinates: Vec<_> = functions
         .unknowns
         .iter()
         .map(|unknown| CoordinateInfo {
             name: text(unknown.name.as_str()),
-            unit: Unit {
-                symbol: text(unknown.unit.as_str()),
-                scale: 1.0,
-            },
+            unit: Unit { symbol: text(unknown.unit.as_str()), scale: 1.0 },
             role: match unknown.role {
                 mechanics::Role::Position(_) => Role::Position,
                 mechanics::Role::Speed(_) => Role::Speed,
@@ -110,10 +93,7 @@ pub fn description(compilation: &Compilation) -> Description {
     let outputs: Vec<_> = mechanism
         .outputs
         .iter()
-        .map(|output| OutputInfo {
-            name: text(output.name.to_string()),
-            unit: unit(&output.unit),
-        })
+        .map(|output| OutputInfo { name: text(output.name.to_string()), unit: unit(&output.unit) })
         .collect();
     let excitations: Vec<_> = functions
         .excitations

@@ -4,10 +4,9 @@ use std::array::from_fn;
 use std::slice::from_ref;
 
 use eigentol::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Curvature,
-    CurvatureKernels, Directional, DirectionalKernels, Gradient, Interval, Kernel, Kernels, Linear,
-    MotionKernel, MotionKernels, PartialMatrices, PictureKernels, Second, Sizes, gradient_results,
-    linear_results,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Curvature, CurvatureKernels,
+    Directional, DirectionalKernels, Gradient, Interval, Kernel, Kernels, Linear, MotionKernel, MotionKernels,
+    PartialMatrices, PictureKernels, Second, Sizes, gradient_results, linear_results,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Description, Dual, PictureInfo, PoseMargin, Shared, Violation};
@@ -62,12 +61,7 @@ fn run(tape: &Option<Tape>, arguments: &[&[f64]], to: &mut [&mut [f64]]) {
 }
 
 /// Runs a tape at one state and copies the derivatives of its results along a direction.
-fn run_along(
-    tape: &Option<Tape>,
-    arguments: &[&[f64]],
-    direction: &[&[f64]],
-    to: &mut [&mut [f64]],
-) {
+fn run_along(tape: &Option<Tape>, arguments: &[&[f64]], direction: &[&[f64]], to: &mut [&mut [f64]]) {
     let Some(tape) = tape else {
         to.iter_mut().for_each(|to| to.fill(0.0));
         return;
@@ -77,9 +71,7 @@ fn run_along(
         .zip(direction)
         .map(|(values, slopes)| {
             let pairs = values.iter().zip(*slopes);
-            pairs
-                .map(|(&value, &slope)| Dual { value, slope })
-                .collect()
+            pairs.map(|(&value, &slope)| Dual { value, slope }).collect()
         })
         .collect();
     let moved: Vec<&[Dual<f64>]> = moved.iter().map(Vec::as_slice).collect();
@@ -110,11 +102,7 @@ fn run_along_each<const N: usize>(
             let values = arguments[list].iter().enumerate();
             let pairs = values.map(|(k, &value)| Dual {
                 value: Batch::all(value),
-                slope: Batch::from_fn(|lane| {
-                    directions
-                        .get(lane)
-                        .map_or(0.0, |direction| direction[list][k])
-                }),
+                slope: Batch::from_fn(|lane| directions.get(lane).map_or(0.0, |direction| direction[list][k])),
             });
             pairs.collect()
         });
@@ -130,12 +118,7 @@ fn run_along_each<const N: usize>(
     }
 }
 
-fn run_batch(
-    tape: &Option<Tape>,
-    instructions: Instructions,
-    arguments: &[&[Batch]],
-    to: &mut [&mut [Batch]],
-) {
+fn run_batch(tape: &Option<Tape>, instructions: Instructions, arguments: &[&[Batch]], to: &mut [&mut [Batch]]) {
     if let Some(tape) = tape {
         batch(tape, instructions, arguments, |registers| {
             for (to, places) in to.iter_mut().zip(&tape.results) {
@@ -169,17 +152,9 @@ impl Kernels for Interpreted {
         run(self.tape(kernel), arguments, results);
     }
 
-    fn linear_partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        partials: &mut PartialMatrices,
-    ) {
+    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices) {
         let counts = [q.len(), u.len(), b.len()];
-        let mut changes = partials
-            .iter_mut()
-            .map(|change| [change.mass, change.damping, change.stiffness]);
+        let mut changes = partials.iter_mut().map(|change| [change.mass, change.damping, change.stiffness]);
         if let Some(tape) = &self.shared.tapes.linear_partials {
             scalar(tape, &[q, u, b], |registers| {
                 copy_partials(registers, tape, counts, changes);
@@ -212,11 +187,7 @@ impl Kernels for Interpreted {
             failing.find(|(value, _)| value.is_nan() || *value <= 0.0)
         };
         let (value, (quantity, requirement)) = scalar(tape, &[u, b], values)?;
-        Some(Violation {
-            quantity: quantity.clone(),
-            requirement: requirement.clone(),
-            value,
-        })
+        Some(Violation { quantity: quantity.clone(), requirement: requirement.clone(), value })
     }
 
     fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool {
@@ -225,9 +196,7 @@ impl Kernels for Interpreted {
         };
         let fixed: Vec<_> = u.iter().map(|&value| Interval::about(value, 0.0)).collect();
         let around = b.iter().zip(reach);
-        let around: Vec<_> = around
-            .map(|(&value, &reach)| Interval::about(value, reach))
-            .collect();
+        let around: Vec<_> = around.map(|(&value, &reach)| Interval::about(value, reach)).collect();
         let registers = once(tape, &[&fixed, &around]);
         let zero = Interval::about(0.0, 0.0);
         let mut places = tape.results.iter().flatten();
@@ -238,15 +207,10 @@ impl Kernels for Interpreted {
         let tape = self.shared.tapes.pose_margin.as_ref()?;
         let least = |registers: &[f64]| {
             let places = tape.results.first()?;
-            let margins = places
-                .iter()
-                .map(|register| registers[*register as usize].abs());
+            let margins = places.iter().map(|register| registers[*register as usize].abs());
             let poses = margins.zip(&self.shared.poses);
-            let poses = poses.map(|(margin, (joint, least))| PoseMargin {
-                joint: joint.clone(),
-                margin,
-                least: *least,
-            });
+            let poses =
+                poses.map(|(margin, (joint, least))| PoseMargin { joint: joint.clone(), margin, least: *least });
             let beyond = |pose_margin: &PoseMargin<f64>| pose_margin.margin - pose_margin.least;
             poses.reduce(|least, other| match beyond(&other) < beyond(&least) {
                 true => other,
@@ -318,12 +282,7 @@ impl CurvatureKernels for Interpreted {
 }
 
 impl MotionKernels for Interpreted {
-    fn evaluate_motion(
-        &self,
-        kernel: MotionKernel,
-        arguments: &[&[f64]],
-        results: &mut [&mut [f64]],
-    ) {
+    fn evaluate_motion(&self, kernel: MotionKernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
         let tapes = &self.shared.tapes.in_motion;
         match (kernel, &tapes[kernel as usize]) {
             (MotionKernel::Linear, None) => self.linear_by_columns(arguments, results),
@@ -339,11 +298,7 @@ impl Interpreted {
         let (damping, stiffness) = rest.split_at_mut(1);
         let n = arguments[0].len();
         let mut column = vec![0.0; n];
-        self.evaluate_motion(
-            MotionKernel::Motion,
-            &arguments[1..],
-            &mut [&mut *mass[0], &mut column],
-        );
+        self.evaluate_motion(MotionKernel::Motion, &arguments[1..], &mut [&mut *mass[0], &mut column]);
         let tape = &self.shared.tapes.in_motion[MotionKernel::Residual as usize];
         let zeros = arguments.iter().map(|list| vec![0.0; list.len()]);
         let mut direction: Vec<_> = zeros.collect();
@@ -384,17 +339,8 @@ impl BatchKernels for Interpreted {
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
     }
 
-    fn linear_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        linear: &mut BatchLinear<'_>,
-    ) {
-        let mut to = [
-            &mut *linear.mass,
-            &mut *linear.damping,
-            &mut *linear.stiffness,
-        ];
+    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
+        let mut to = [&mut *linear.mass, &mut *linear.damping, &mut *linear.stiffness];
         let tape = self.tape(Kernel::Linear);
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
     }
@@ -422,11 +368,7 @@ impl BatchKernels for Interpreted {
         let arguments = [at.q, at.u, at.b];
         if let Some(tape) = &self.shared.tapes.linear_partials {
             batch(tape, instructions, &arguments, |registers| {
-                let BatchPartials {
-                    by_coordinate,
-                    by_input,
-                    by_design,
-                } = matrices;
+                let BatchPartials { by_coordinate, by_input, by_design } = matrices;
                 let counts = [at.q.len(), at.u.len(), at.b.len()];
                 let entries = at.q.len() * at.q.len();
                 let changes = changes(by_coordinate, entries)
@@ -453,11 +395,7 @@ impl BatchKernels for Interpreted {
             tape,
             instructions,
             &arguments,
-            &mut [
-                &mut *gradient.coordinates,
-                &mut *gradient.inputs,
-                &mut *gradient.design,
-            ],
+            &mut [&mut *gradient.coordinates, &mut *gradient.inputs, &mut *gradient.design],
         );
     }
 
@@ -473,21 +411,14 @@ impl BatchKernels for Interpreted {
             tape,
             instructions,
             &[at.q, at.u, at.b, w],
-            &mut [
-                &mut *gradient.coordinates,
-                &mut *gradient.inputs,
-                &mut *gradient.design,
-            ],
+            &mut [&mut *gradient.coordinates, &mut *gradient.inputs, &mut *gradient.design],
         );
     }
 }
 
 /// The derivatives of the three matrices with respect to each variable in turn; the damping is skipped if it has no
 /// buffer.
-fn changes<'a>(
-    matrices: &'a mut BatchLinear<'_>,
-    entries: usize,
-) -> impl Iterator<Item = [&'a mut [Batch]; 3]> {
+fn changes<'a>(matrices: &'a mut BatchLinear<'_>, entries: usize) -> impl Iterator<Item = [&'a mut [Batch]; 3]> {
     let size = entries.max(1);
     let mut damping = matrices.damping.chunks_exact_mut(size);
     let stiffness = matrices.stiffness.chunks_exact_mut(size);

@@ -87,14 +87,8 @@ impl Interpreted {
     /// [`ReadError`]: the file cannot be read, or its declaration is invalid.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        let text = fs::read_to_string(path).map_err(|source| ReadError::File {
-            path: path.to_owned(),
-            source,
-        })?;
-        Self::from_text(&text).map_err(|mistakes| ReadError::Mistakes {
-            path: path.to_owned(),
-            mistakes,
-        })
+        let text = fs::read_to_string(path).map_err(|source| ReadError::File { path: path.to_owned(), source })?;
+        Self::from_text(&text).map_err(|mistakes| ReadError::Mistakes { path: path.to_owned(), mistakes })
     }
 
     /// Reads the mechanism declared by a text, with this many `more` coordinates of each component of its beams: bending,
@@ -118,12 +112,9 @@ impl Interpreted {
     /// [`RefineError`]: there is no beam, or the declaration is invalid.
     pub fn refined(text: &str, more: usize) -> Result<Self, RefineError> {
         let tokens = tokens(text)?;
-        let compilation =
-            compile_refined(tokens, Limits::default(), more).map_err(Mistakes::from)?;
+        let compilation = compile_refined(tokens, Limits::default(), more).map_err(Mistakes::from)?;
         match compilation.mechanism.beams.is_empty() {
-            true => Err(RefineError::NoBeam {
-                mechanism: compilation.mechanism.name.to_string(),
-            }),
+            true => Err(RefineError::NoBeam { mechanism: compilation.mechanism.name.to_string() }),
             false => Ok(Self::new(&compilation)),
         }
     }
@@ -142,13 +133,9 @@ impl Interpreted {
             good_modes: good_modes(compilation),
             tapes: Tapes::new(&compilation.program),
             requirements: requirements.collect(),
-            poses: poses
-                .map(|pose| (Text::from(pose.joint.clone()), pose.least))
-                .collect(),
+            poses: poses.map(|pose| (Text::from(pose.joint.clone()), pose.least)).collect(),
         };
-        Self {
-            shared: Arc::new(tables),
-        }
+        Self { shared: Arc::new(tables) }
     }
 
     /// How many of the first modes the coordinates of its beams are enough for, by the rule that `m` modes of a plane of
@@ -167,9 +154,7 @@ impl Interpreted {
 
 impl fmt::Debug for Interpreted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Interpreted")
-            .field("description", &self.shared.description)
-            .finish_non_exhaustive()
+        f.debug_struct("Interpreted").field("description", &self.shared.description).finish_non_exhaustive()
     }
 }
 

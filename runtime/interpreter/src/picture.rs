@@ -1,8 +1,8 @@
 //! Converts the compiler's layout of picture numbers to the runtime's types.
 
 use eigentol::{
-    BeamInfo, BodyInfo, ElementInfo, JointInfo, LinkInfo, List, PictureInfo, PointInfo, SolidInfo,
-    SolidKind, Text, WheelInfo,
+    BeamInfo, BodyInfo, ElementInfo, JointInfo, LinkInfo, List, PictureInfo, PointInfo, SolidInfo, SolidKind, Text,
+    WheelInfo,
 };
 use eigentol_compiler::mechanics::{self, Picture};
 use eigentol_compiler::model::mechanism::Frame;
@@ -11,10 +11,7 @@ pub(crate) fn picture(picture: &Picture) -> PictureInfo {
     PictureInfo {
         bodies: list(&picture.bodies, |body| BodyInfo {
             name: text(&body.name),
-            solids: list(&body.solids, |&(solid, hole)| SolidInfo {
-                kind: kind(solid),
-                hole,
-            }),
+            solids: list(&body.solids, |&(solid, hole)| SolidInfo { kind: kind(solid), hole }),
         }),
         beams: list(&picture.beams, |beam| BeamInfo {
             name: text(&beam.name),
@@ -32,10 +29,7 @@ pub(crate) fn picture(picture: &Picture) -> PictureInfo {
                 driven: joint.driven,
             }
         }),
-        points: list(&picture.points, |(name, frame)| PointInfo {
-            name: text(name),
-            body: body(*frame),
-        }),
+        points: list(&picture.points, |(name, frame)| PointInfo { name: text(name), body: body(*frame) }),
         links: list(&picture.links, |link| LinkInfo {
             name: text(&link.name),
             kind: Text::Static(link.kind),
@@ -43,11 +37,7 @@ pub(crate) fn picture(picture: &Picture) -> PictureInfo {
         }),
         wheels: list(&picture.wheels, |(name, points)| {
             let [center, on] = points.map(|point| point.0);
-            WheelInfo {
-                name: text(name),
-                center,
-                on,
-            }
+            WheelInfo { name: text(name), center, on }
         }),
         elements: list(&picture.elements, |element| ElementInfo {
             name: text(&element.name),

@@ -58,10 +58,7 @@ impl<V: Lanes> Registers for Directions<'_, V> {
     #[inline(always)]
     fn get(&self, register: u32) -> Dual<V> {
         let Dual { value, slope } = &self.duals[register as usize];
-        Dual {
-            value: V::load(value, self.at),
-            slope: V::load(slope, self.at),
-        }
+        Dual { value: V::load(value, self.at), slope: V::load(slope, self.at) }
     }
 
     #[inline(always)]
@@ -100,10 +97,7 @@ macro_rules! kept {
 kept!(f64, |value| value);
 kept!(Dual<f64>, Dual::fixed);
 kept!(Batch, Batch::all);
-kept!(Dual<Batch>, |value| Dual {
-    value: Batch::all(value),
-    slope: Batch::all(0.0),
-});
+kept!(Dual<Batch>, |value| Dual { value: Batch::all(value), slope: Batch::all(0.0) });
 
 /// Writes constants and arguments to their registers, runs the tape, and passes the registers to `read`.
 #[inline]
@@ -133,11 +127,7 @@ fn evaluate<T: Kept, R>(
 
 /// Evaluates one state.
 #[inline]
-pub(crate) fn scalar<T: Kept + Real, R>(
-    tape: &Tape,
-    arguments: &[&[T]],
-    read: impl FnOnce(&[T]) -> R,
-) -> R {
+pub(crate) fn scalar<T: Kept + Real, R>(tape: &Tape, arguments: &[&[T]], read: impl FnOnce(&[T]) -> R) -> R {
     let run = |registers: &mut [T]| T::run(|| tape.run(&mut Scalars(registers)));
     evaluate(tape, arguments, run, read)
 }
@@ -165,11 +155,7 @@ pub(crate) fn batch<R>(
 }
 
 /// Evaluates one state with derivatives along several directions at once.
-pub(crate) fn along_each<R>(
-    tape: &Tape,
-    arguments: &[&[Dual<Batch>]],
-    read: impl FnOnce(&[Dual<Batch>]) -> R,
-) -> R {
+pub(crate) fn along_each<R>(tape: &Tape, arguments: &[&[Dual<Batch>]], read: impl FnOnce(&[Dual<Batch>]) -> R) -> R {
     let run = |duals: &mut [Dual<Batch>]| Instructions::best().run(AlongEach { tape, duals });
     evaluate(tape, arguments, run, read)
 }
@@ -185,11 +171,7 @@ impl Task for AlongEach<'_> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            self.tape.run(&mut Directions::<V> {
-                duals: self.duals,
-                at,
-                kind: PhantomData,
-            });
+            self.tape.run(&mut Directions::<V> { duals: self.duals, at, kind: PhantomData });
         }
     }
 }
@@ -205,11 +187,7 @@ impl Task for SideBySide<'_> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            self.tape.run(&mut Vectors::<V> {
-                batches: self.batches,
-                at,
-                kind: PhantomData,
-            });
+            self.tape.run(&mut Vectors::<V> { batches: self.batches, at, kind: PhantomData });
         }
     }
 }

@@ -49,15 +49,12 @@ pub(crate) fn runs(kernel: &Kernel) -> Vec<Run> {
         }
     }
     let mut runs = Vec::new();
-    while let Some(most) = (0..ready.len())
-        .max_by_key(|&k| (ready[k].1.len(), ready.len() - k))
-        .filter(|&k| !ready[k].1.is_empty())
+    while let Some(most) =
+        (0..ready.len()).max_by_key(|&k| (ready[k].1.len(), ready.len() - k)).filter(|&k| !ready[k].1.is_empty())
     {
         let (code, members) = (ready[most].0, std::mem::take(&mut ready[most].1));
-        let members: Vec<_> = members
-            .into_iter()
-            .map(|index| (index, partners[index].filter(|_| code == Code::SinCos)))
-            .collect();
+        let members: Vec<_> =
+            members.into_iter().map(|index| (index, partners[index].filter(|_| code == Code::SinCos))).collect();
         for &(first, second) in &members {
             for done in std::iter::once(first).chain(second) {
                 for &user in &users[done] {
@@ -83,9 +80,7 @@ fn partners(instructions: &[Instruction]) -> Vec<Option<usize>> {
             Operation::Unary(Unary::Cos, angle) => (angle, false),
             _ => continue,
         };
-        let other = open
-            .iter()
-            .position(|&(other, sine, _)| other == angle && sine != is_sine);
+        let other = open.iter().position(|&(other, sine, _)| other == angle && sine != is_sine);
         match other {
             Some(position) => {
                 let (_, _, other) = open.swap_remove(position);

@@ -58,11 +58,7 @@ impl Tape {
             .iter()
             .map(|run| Run {
                 code: run.code,
-                steps: run
-                    .members
-                    .iter()
-                    .map(|&(index, second)| allocation.step(kernel, index, second))
-                    .collect(),
+                steps: run.members.iter().map(|&(index, second)| allocation.step(kernel, index, second)).collect(),
             })
             .collect();
         let results = kernel
@@ -75,11 +71,7 @@ impl Tape {
             .collect();
         Self {
             constants: allocation.constants,
-            arguments: kernel
-                .parameters
-                .iter()
-                .map(|parameter| parameter.entries.len())
-                .collect(),
+            arguments: kernel.parameters.iter().map(|parameter| parameter.entries.len()).collect(),
             registers: allocation.next as usize,
             runs,
             results,
@@ -143,11 +135,7 @@ fn unary<R: Registers>(registers: &mut R, steps: &[Step], f: impl Fn(R::Number) 
 }
 
 #[inline(always)]
-fn binary<R: Registers>(
-    registers: &mut R,
-    steps: &[Step],
-    f: impl Fn(R::Number, R::Number) -> R::Number,
-) {
+fn binary<R: Registers>(registers: &mut R, steps: &[Step], f: impl Fn(R::Number, R::Number) -> R::Number) {
     for step in steps {
         let value = f(registers.get(step.a), registers.get(step.b));
         registers.set(step.to, value);
@@ -199,15 +187,7 @@ impl Allocation {
                 first
             })
             .collect();
-        Self {
-            constants,
-            known,
-            arguments,
-            values: vec![0; kernel.instructions.len()],
-            uses,
-            free: Vec::new(),
-            next,
-        }
+        Self { constants, known, arguments, values: vec![0; kernel.instructions.len()], uses, free: Vec::new(), next }
     }
 
     fn register(&self, operand: Operand) -> u32 {
@@ -227,8 +207,7 @@ impl Allocation {
         };
         let (from_a, from_b) = (self.register(a), b.map(|b| self.register(b)));
         // The angle is read once for both.
-        let readers = std::iter::once(operation)
-            .chain(second.map(|cosine| &kernel.instructions[cosine].operation));
+        let readers = std::iter::once(operation).chain(second.map(|cosine| &kernel.instructions[cosine].operation));
         for operand in readers.flat_map(Operation::operands) {
             self.release(operand);
         }

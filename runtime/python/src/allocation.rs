@@ -83,14 +83,9 @@ impl Study {
     /// Index and unit among the design variables, followed by the input tolerances.
     fn toleranced(&self, py: Python<'_>, of: &Description, name: &str) -> PyResult<(usize, Unit)> {
         let inputs = self.inner.deviating_inputs();
-        let input = inputs
-            .iter()
-            .position(|input| of.inputs[input.index()].name == *name);
+        let input = inputs.iter().position(|input| of.inputs[input.index()].name == *name);
         match input {
-            Some(k) => Ok((
-                of.design.len() + k,
-                of.inputs[inputs[k].index()].unit.clone(),
-            )),
+            Some(k) => Ok((of.design.len() + k, of.inputs[inputs[k].index()].unit.clone())),
             None => List::Design.find(py, of, name),
         }
     }

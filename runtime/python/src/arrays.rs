@@ -12,18 +12,12 @@ pub(crate) type Array4<'py, T = f64> = Bound<'py, PyArray4<T>>;
 /// A complex number that is missing.
 pub(crate) const NONE: Complex = Complex::new(f64::NAN, f64::NAN);
 
-pub(crate) fn vector<'py, T: Element>(
-    py: Python<'py>,
-    values: impl IntoIterator<Item = T>,
-) -> Array1<'py, T> {
+pub(crate) fn vector<'py, T: Element>(py: Python<'py>, values: impl IntoIterator<Item = T>) -> Array1<'py, T> {
     PyArray::from_vec(py, values.into_iter().collect())
 }
 
 /// Numbers, with NaN for missing ones.
-pub(crate) fn optional<'py>(
-    py: Python<'py>,
-    values: impl IntoIterator<Item = Option<f64>>,
-) -> Array1<'py> {
+pub(crate) fn optional<'py>(py: Python<'py>, values: impl IntoIterator<Item = Option<f64>>) -> Array1<'py> {
     vector(py, values.into_iter().map(or_nan))
 }
 
@@ -31,10 +25,7 @@ pub(crate) fn or_nan(value: Option<f64>) -> f64 {
     value.unwrap_or(f64::NAN)
 }
 
-pub(crate) fn matrix<'py, T: Element + Copy>(
-    py: Python<'py>,
-    matrix: &Matrix<T>,
-) -> PyResult<Array2<'py, T>> {
+pub(crate) fn matrix<'py, T: Element + Copy>(py: Python<'py>, matrix: &Matrix<T>) -> PyResult<Array2<'py, T>> {
     let shape = [matrix.row_count(), matrix.column_count()];
     vector(py, matrix.as_flattened().iter().copied()).reshape(shape)
 }

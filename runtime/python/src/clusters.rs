@@ -32,9 +32,7 @@ impl Study {
         let of = self.inner.description();
         let inputs = List::Inputs.changes(py, of, inputs)?;
         let design = List::Design.changes(py, of, design)?;
-        let answer = self.ask(py, |study| {
-            study.directional_derivatives(mode, (&inputs, &design))
-        });
+        let answer = self.ask(py, |study| study.directional_derivatives(mode, (&inputs, &design)));
         answer.map(DirectionalDerivatives)
     }
 }
@@ -47,10 +45,7 @@ result! {
 impl Clusters {
     fn counts<'py>(&self, py: Python<'py>, of: fn(&ClusterSpread) -> usize) -> Array1<'py, i64> {
         let count = |cluster_tolerance: &ClusterTolerance| {
-            cluster_tolerance
-                .spread
-                .as_ref()
-                .map_or(0, |spread| of(spread) as i64)
+            cluster_tolerance.spread.as_ref().map_or(0, |spread| of(spread) as i64)
         };
         vector(py, self.0.iter().map(count))
     }

@@ -7,12 +7,10 @@ use crate::events::Event;
 use crate::hints;
 use crate::requirements::Chances;
 use crate::results::{
-    Bode, Branch, Branches, Campbell, EventCurvature, ForcedCurvature, ModeCurvature, Modes,
-    OutputCurvature, Sensitivities, Sweep, attributes, family,
+    Bode, Branch, Branches, Campbell, EventCurvature, ForcedCurvature, ModeCurvature, Modes, OutputCurvature,
+    Sensitivities, Sweep, attributes, family,
 };
-use crate::spreads::{
-    FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, counts,
-};
+use crate::spreads::{FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, counts};
 
 attributes! {
     Campbell, DirectionalDerivatives, Event, FirstOrder, Modes, MonteCarlo, Sensitivities(self, py) {

@@ -32,14 +32,7 @@ pub(crate) struct Mistake {
 impl Mistake {
     fn __getnewargs__(&self) -> (usize, usize, usize, usize, &str, Option<&str>) {
         let (start, end) = ((self.line, self.column), (self.end_line, self.end_column));
-        (
-            start.0,
-            start.1,
-            end.0,
-            end.1,
-            &self.message,
-            self.help.as_deref(),
-        )
+        (start.0, start.1, end.0, end.1, &self.message, self.help.as_deref())
     }
 
     fn __repr__(&self) -> String {
@@ -126,11 +119,7 @@ pub(crate) fn new(py: Python<'_>, kind: Kind, message: String) -> PyErr {
 }
 
 /// An exception with attached data.
-fn with<'py>(
-    py: Python<'py>,
-    error: PyErr,
-    attributes: impl FnOnce(&Bound<'py, PyAny>) -> PyResult<()>,
-) -> PyErr {
+fn with<'py>(py: Python<'py>, error: PyErr, attributes: impl FnOnce(&Bound<'py, PyAny>) -> PyResult<()>) -> PyErr {
     match attributes(error.value(py).as_any()) {
         Ok(()) => error,
         Err(other) => other,
@@ -162,18 +151,16 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
         | Error::Setting { .. }
         | Error::UnknownHandle { .. } => Kind::InvalidValue,
         Error::UnknownName { .. } => Kind::UnknownName,
-        Error::NoEquilibrium { .. }
-        | Error::UnboundedReactions { .. }
-        | Error::BranchLost { .. } => Kind::NoEquilibrium,
+        Error::NoEquilibrium { .. } | Error::UnboundedReactions { .. } | Error::BranchLost { .. } => {
+            Kind::NoEquilibrium
+        }
         Error::NotAssembled { .. } => Kind::NotAssembled,
         Error::SingularMass { .. }
         | Error::NonsymmetricStiffness { .. }
         | Error::NoUndampedModes
         | Error::ModesNotFound { .. }
         | Error::EigenvalueRange { .. } => Kind::NoModes,
-        Error::NoExcitation { .. } | Error::NoFrequency { .. } | Error::Resonance { .. } => {
-            Kind::NoVibration
-        }
+        Error::NoExcitation { .. } | Error::NoFrequency { .. } | Error::Resonance { .. } => Kind::NoVibration,
         Error::CriticalState
         | Error::ClosesHereOnly { .. }
         | Error::NotOscillating { .. }
@@ -190,15 +177,15 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
             let near = did_you_mean(name, known.iter().map(|x| &**x));
             raised(format!("{error}{near}"))
         }
-        Error::NoSuchMode { mode, count } => raised(format!(
-            "there is no mode {mode}: modes are counted from 0, and the mechanism has {count}"
-        )),
+        Error::NoSuchMode { mode, count } => {
+            raised(format!("there is no mode {mode}: modes are counted from 0, and the mechanism has {count}"))
+        }
         Error::NoEquilibrium { coordinates, .. }
         | Error::UnboundedReactions { coordinates, .. }
         | Error::BranchLost { coordinates, .. }
-        | Error::NotAssembled { coordinates, .. } => with(py, raised(message), |exception| {
-            exception.setattr("coordinates", coordinates.clone())
-        }),
+        | Error::NotAssembled { coordinates, .. } => {
+            with(py, raised(message), |exception| exception.setattr("coordinates", coordinates.clone()))
+        }
         _ => raised(message),
     }
 }
@@ -211,12 +198,7 @@ pub(crate) fn declaration(py: Python<'_>, mistakes: &Mistakes, path: Option<&Pat
 }
 
 /// The exception for a text with mistakes, a line for each.
-fn no_mechanism(
-    py: Python<'_>,
-    mut lines: Vec<String>,
-    mistakes: Vec<Mistake>,
-    path: Option<&Path>,
-) -> PyErr {
+fn no_mechanism(py: Python<'_>, mut lines: Vec<String>, mistakes: Vec<Mistake>, path: Option<&Path>) -> PyErr {
     if let Some(path) = path {
         for line in &mut lines {
             line.insert_str(0, &format!("{}:", path.display()));

@@ -27,18 +27,12 @@ pub(crate) fn events(all: &[EventTolerance]) -> Vec<Event> {
 impl Event {
     fn each(&self, of: impl Fn(&Spread) -> &Vector) -> Vec<f64> {
         let missing = || vec![f64::NAN; self.0.description.design.len()];
-        self.0
-            .spread
-            .as_ref()
-            .map_or_else(|_| missing(), |spread| of(spread).to_vec())
+        self.0.spread.as_ref().map_or_else(|_| missing(), |spread| of(spread).to_vec())
     }
 
     fn line(&self) -> Option<Line> {
         match self.0.event {
-            eigentol::sweep::Event::Crossing {
-                condition: Condition::Line(line),
-                ..
-            } => Some(line),
+            eigentol::sweep::Event::Crossing { condition: Condition::Line(line), .. } => Some(line),
             _ => None,
         }
     }

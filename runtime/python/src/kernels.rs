@@ -16,11 +16,7 @@ type Given<'a, 'py> = Option<&'a hints::Numbers<'py>>;
 impl Mechanism {
     fn point(&self, py: Python<'_>, [q, u, b]: [Given<'_, '_>; 3]) -> PyResult<[Vec<f64>; 3]> {
         let of = self.inner.description();
-        Ok([
-            List::Coordinates.read(py, of, q)?,
-            List::Inputs.read(py, of, u)?,
-            List::Design.read(py, of, b)?,
-        ])
+        Ok([List::Coordinates.read(py, of, q)?, List::Inputs.read(py, of, u)?, List::Design.read(py, of, b)?])
     }
 
     fn kernels(&self) -> &dyn Kernels {
@@ -37,12 +33,7 @@ impl Mechanism {
     }
 
     /// Rejects kernel results evaluated outside their domain.
-    fn finite<'a>(
-        &self,
-        py: Python<'_>,
-        q: &[f64],
-        mut all: impl Iterator<Item = &'a [f64]>,
-    ) -> PyResult<()> {
+    fn finite<'a>(&self, py: Python<'_>, q: &[f64], mut all: impl Iterator<Item = &'a [f64]>) -> PyResult<()> {
         if all.all(|values| values.iter().all(|value| value.is_finite())) {
             return Ok(());
         }
@@ -61,12 +52,7 @@ impl Mechanism {
         Ok((mass?, damping?, stiffness?))
     }
 
-    fn gradient<'py>(
-        &self,
-        py: Python<'py>,
-        q: &[f64],
-        gradient: Gradient,
-    ) -> PyResult<Slopes<'py>> {
+    fn gradient<'py>(&self, py: Python<'py>, q: &[f64], gradient: Gradient) -> PyResult<Slopes<'py>> {
         let all = [gradient.coordinates, gradient.inputs, gradient.design];
         self.finite(py, q, all.iter().map(|x| &x[..]))?;
         Ok(all.map(|x| arrays::vector(py, x)).into())

@@ -48,24 +48,20 @@ mod module {
     #[pymodule_export]
     use crate::parts::Part;
     #[pymodule_export]
-    use crate::requirements::{
-        Chances, Probabilities, RareFailure, Reliability, SecondOrderFailure,
-    };
+    use crate::requirements::{Chances, Probabilities, RareFailure, Reliability, SecondOrderFailure};
     #[pymodule_export]
     use crate::response::Response;
     #[pymodule_export]
     use crate::results::{
-        Assembly, Bode, Branch, Branches, Campbell, Convergence, Equilibrium, EquilibriumShift,
-        EventCurvature, ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes,
-        OutputCurvature, OutputSensitivities, Peaks, Sensitivities, Separation, ShapeSensitivity,
-        Sweep, json_schema,
+        Assembly, Bode, Branch, Branches, Campbell, Convergence, Equilibrium, EquilibriumShift, EventCurvature,
+        ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes, OutputCurvature,
+        OutputSensitivities, Peaks, Sensitivities, Separation, ShapeSensitivity, Sweep, json_schema,
     };
     #[pymodule_export]
     use crate::robots::{Import, import_urdf};
     #[pymodule_export]
     use crate::spreads::{
-        FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary,
-        WorstCase,
+        FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary, WorstCase,
     };
     #[pymodule_export]
     use crate::study::Study;

@@ -24,12 +24,8 @@ pub(crate) struct Mechanism {
 impl Mechanism {
     fn of_roles(&self, wanted: impl Fn(Role) -> bool) -> Vec<&str> {
         let of = self.inner.description();
-        let all = names::coordinates(of)
-            .into_iter()
-            .zip(of.coordinates.iter());
-        all.filter(|(_, info)| wanted(info.role))
-            .map(|(name, _)| name)
-            .collect()
+        let all = names::coordinates(of).into_iter().zip(of.coordinates.iter());
+        all.filter(|(_, info)| wanted(info.role)).map(|(name, _)| name).collect()
     }
 
     /// Reads the mechanism declared in a text.

@@ -25,11 +25,7 @@ pub(crate) struct Motion {
 
 impl Motion {
     pub(crate) fn new(mechanism: Py<Mechanism>, inputs: Vec<f64>, design: Vec<f64>) -> Self {
-        Self {
-            mechanism,
-            inputs,
-            design,
-        }
+        Self { mechanism, inputs, design }
     }
 
     fn inner(&self) -> &Interpreted {
@@ -49,11 +45,7 @@ impl Motion {
         let (positions, speeds) = (self.count(Role::Position), self.count(Role::Speed));
         let expected = 2 * positions + speeds;
         if y.len() != expected {
-            return Err(Error::WrongLength {
-                kind: "values of a state of motion",
-                found: y.len(),
-                expected,
-            });
+            return Err(Error::WrongLength { kind: "values of a state of motion", found: y.len(), expected });
         }
         let n = self.description().coordinates.len();
         let (mut q, mut velocity) = (vec![0.0; n], vec![0.0; n]);
@@ -105,12 +97,7 @@ attributes! {
 #[pymethods]
 impl Motion {
     /// dy/dt at the state `y`, the same shape. `t` does not matter: inputs are constant.
-    fn __call__<'py>(
-        &self,
-        py: Python<'py>,
-        t: f64,
-        y: &hints::ArrayLike<'py>,
-    ) -> PyResult<Array1<'py>> {
+    fn __call__<'py>(&self, py: Python<'py>, t: f64, y: &hints::ArrayLike<'py>) -> PyResult<Array1<'py>> {
         let _ = t;
         let y = numbers(y, "y")?;
         match py.detach(|| self.rates(&y)) {
@@ -138,17 +125,11 @@ impl Motion {
             return Err(invalid(py, message));
         }
         let y = [&q[..positions], &velocity[..positions]];
-        Ok(vector(
-            py,
-            [&y.concat()[..], &q[positions..positions + speeds]].concat(),
-        ))
+        Ok(vector(py, [&y.concat()[..], &q[positions..positions + speeds]].concat()))
     }
 
     #[expect(clippy::type_complexity, reason = "what Python asks for")]
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Vec<f64>, Vec<f64>))> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Vec<f64>, Vec<f64>))> {
         let motion = self.mechanism.bind(py).getattr("motion")?;
         Ok((motion, (self.inputs.clone(), self.design.clone())))
     }

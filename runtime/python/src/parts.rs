@@ -57,10 +57,7 @@ impl Part {
         format!("PartialMonteCarlo(ranges={:?})", self.ranges(py))
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
         let text = slf.borrow().to_json(py)?;
         Ok((slf.get_type().getattr("from_json")?, (text,)))
     }
@@ -70,12 +67,7 @@ impl Part {
 impl Study {
     /// The samples `start` to below `stop` of `monte_carlo`, with the same seed: parts merge to the same bits as the
     /// whole run.
-    fn samples_between(
-        &self,
-        py: Python<'_>,
-        start: &hints::Count<'_>,
-        stop: &hints::Count<'_>,
-    ) -> PyResult<Part> {
+    fn samples_between(&self, py: Python<'_>, start: &hints::Count<'_>, stop: &hints::Count<'_>) -> PyResult<Part> {
         let (start, stop) = (whole(start, "start")?, whole(stop, "stop")?);
         let answer = self.ask_stoppably(py, |study| study.samples_between(start..stop));
         answer.map(Part)

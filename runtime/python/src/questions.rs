@@ -14,13 +14,12 @@ use crate::events::{Event, events};
 use crate::hints;
 use crate::response::{range, wanted};
 use crate::results::{
-    Assembly, Bode, Branches, Campbell, Convergence, Equilibrium, EquilibriumShift, EventCurvature,
-    ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes, OutputCurvature,
-    OutputSensitivities, Peaks, Sensitivities, ShapeSensitivity, Sweep,
+    Assembly, Bode, Branches, Campbell, Convergence, Equilibrium, EquilibriumShift, EventCurvature, ForcedCurvature,
+    ForcedResponse, ForcedSensitivities, ModeCurvature, Modes, OutputCurvature, OutputSensitivities, Peaks,
+    Sensitivities, ShapeSensitivity, Sweep,
 };
 use crate::spreads::{
-    FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary,
-    WorstCase,
+    FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary, WorstCase,
 };
 use crate::study::Study;
 use crate::values::{List, mode_number, not_finite, number, numbers};
@@ -181,8 +180,7 @@ impl Study {
             }
             Err(error) => {
                 let each = values.try_iter().map_err(|_| error)?;
-                each.map(|value| number(&value?, &declared, input))
-                    .collect::<PyResult<_>>()?
+                each.map(|value| number(&value?, &declared, input)).collect::<PyResult<_>>()?
             }
         };
         let values: Vec<f64> = converted;
@@ -193,15 +191,10 @@ impl Study {
     }
 
     /// Responses by name, given as the tuples that `Study.response` takes.
-    fn wanted(
-        &self,
-        given: Vec<Bound<'_, PyTuple>>,
-    ) -> PyResult<Vec<eigentol::response::Response>> {
+    fn wanted(&self, given: Vec<Bound<'_, PyTuple>>) -> PyResult<Vec<eigentol::response::Response>> {
         let one = |given: &Bound<'_, PyTuple>| {
             if given.is_empty() {
-                return Err(PyTypeError::new_err(
-                    "a response is a tuple: (\"frequency\", 0)",
-                ));
+                return Err(PyTypeError::new_err("a response is a tuple: (\"frequency\", 0)"));
             }
             let what = given.get_item(0)?.extract::<String>()?;
             wanted(&self.inner, &what, &given.get_slice(1, given.len()))
@@ -212,18 +205,12 @@ impl Study {
 
 impl Study {
     /// Amplitudes of vibration, given as the tuples that `Study.response` takes.
-    fn vibrations(
-        &self,
-        py: Python<'_>,
-        given: Vec<Bound<'_, PyTuple>>,
-    ) -> PyResult<Vec<Vibration>> {
+    fn vibrations(&self, py: Python<'_>, given: Vec<Bound<'_, PyTuple>>) -> PyResult<Vec<Vibration>> {
         let vibration_of = |response| match response {
             Response::Vibration(vibration) => Ok(vibration),
             other => {
                 let name = other.name(self.inner.description());
-                let message = format!(
-                    "{name} is no vibration: that is a tuple such as (\"vibration\", \"shake\")"
-                );
+                let message = format!("{name} is no vibration: that is a tuple such as (\"vibration\", \"shake\")");
                 Err(invalid(py, message))
             }
         };
@@ -235,14 +222,9 @@ impl Study {
 impl Study {
     /// How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
     /// measure) as `response` takes them.
-    fn vibration_spread(
-        &self,
-        py: Python<'_>,
-        vibrations: Vec<Bound<'_, PyTuple>>,
-    ) -> PyResult<Propagation> {
+    fn vibration_spread(&self, py: Python<'_>, vibrations: Vec<Bound<'_, PyTuple>>) -> PyResult<Propagation> {
         let wanted = self.vibrations(py, vibrations)?;
-        self.ask_stoppably(py, |study| study.vibration_spread(&wanted))
-            .map(Propagation)
+        self.ask_stoppably(py, |study| study.vibration_spread(&wanted)).map(Propagation)
     }
 
     /// How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
@@ -259,17 +241,13 @@ impl Study {
     ) -> PyResult<Convergence> {
         let mechanism = self.mechanism(py);
         let text = mechanism.get().text();
-        let refined = |more| {
-            py.detach(|| Interpreted::refined(text, more))
-                .map_err(|error| invalid(py, error.to_string()))
-        };
+        let refined =
+            |more| py.detach(|| Interpreted::refined(text, more)).map_err(|error| invalid(py, error.to_string()));
         let refined = [refined(1)?, refined(2)?];
         let answer = match along {
             None => self.ask(py, |study| study.convergence(refined))?,
             Some(along) => {
-                let Range {
-                    input, low, high, ..
-                } = range(&self.inner, &along, 0)?;
+                let Range { input, low, high, .. } = range(&self.inner, &along, 0)?;
                 let range = Range::new(Input::new(input.index()), low, high);
                 let lines: Vec<Line> = orders.into_iter().map(Line::from).collect();
                 self.ask_stoppably(py, |study| study.convergence_along(refined, range, &lines))?
@@ -281,16 +259,9 @@ impl Study {
     /// Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,
     /// texts with units, or numbers in `unit`. A value without a vibration is NaN in arrays; `failures` says why.
     #[pyo3(signature = (input, values, unit=None))]
-    fn bode(
-        &self,
-        py: Python<'_>,
-        input: &str,
-        values: &hints::ArrayLike<'_>,
-        unit: Option<&str>,
-    ) -> PyResult<Bode> {
+    fn bode(&self, py: Python<'_>, input: &str, values: &hints::ArrayLike<'_>, unit: Option<&str>) -> PyResult<Bode> {
         let (input, values) = self.values(py, input, values, unit)?;
-        self.ask_stoppably(py, |study| study.bode(input, &values))
-            .map(Bode)
+        self.ask_stoppably(py, |study| study.bode(input, &values)).map(Bode)
     }
 
     /// The same with bands of these vibrations under tolerances, given as `vibration_spread` takes them. `checked`
@@ -307,9 +278,7 @@ impl Study {
     ) -> PyResult<Bode> {
         let (input, values) = self.values(py, input, values, unit)?;
         let wanted = self.vibrations(py, vibrations)?;
-        let answer = self.ask_stoppably(py, |study| {
-            study.bode_bands(input, &values, &wanted, checked)
-        });
+        let answer = self.ask_stoppably(py, |study| study.bode_bands(input, &values, &wanted, checked));
         answer.map(Bode)
     }
 
@@ -325,15 +294,13 @@ impl Study {
     ) -> PyResult<Peaks> {
         let (input, low, high) = self.range(py, input, low, high)?;
         let wanted = self.vibrations(py, vec![vibration])?;
-        self.ask_stoppably(py, |study| study.peaks(wanted[0], input, low, high))
-            .map(Peaks)
+        self.ask_stoppably(py, |study| study.peaks(wanted[0], input, low, high)).map(Peaks)
     }
 
     /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
     /// is done, take the samples in parts (`samples_between`).
     fn monte_carlo(&self, py: Python<'_>) -> PyResult<MonteCarlo> {
-        self.ask_stoppably(py, |study| study.monte_carlo())
-            .map(MonteCarlo)
+        self.ask_stoppably(py, |study| study.monte_carlo()).map(MonteCarlo)
     }
 
     /// Equilibria found from random starts: between bounds for the coordinates that have some,
@@ -366,12 +333,7 @@ impl Study {
     /// does not apply.
     fn whirls<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
         let answer = self.ask(py, |study| study.whirls())?;
-        Ok(optional(
-            py,
-            answer
-                .into_iter()
-                .map(|whirl| whirl.and_then(|whirl| whirl.ratio)),
-        ))
+        Ok(optional(py, answer.into_iter().map(|whirl| whirl.and_then(|whirl| whirl.ratio))))
     }
 
     /// Kind of each mode, "lateral", "torsional", "axial" or "mixed"; None where no shaft moves.
@@ -384,37 +346,25 @@ impl Study {
     /// First and second derivatives of one mode, counted from 0.
     fn mode_curvature(&self, py: Python<'_>, mode: i64) -> PyResult<ModeCurvature> {
         let mode = mode_number(py, mode)?;
-        self.ask(py, |study| study.mode_curvature(mode))
-            .map(ModeCurvature)
+        self.ask(py, |study| study.mode_curvature(mode)).map(ModeCurvature)
     }
 
     /// First and second derivatives of an output.
     fn output_curvature(&self, py: Python<'_>, output: &str) -> PyResult<OutputCurvature> {
-        self.ask(py, |study| {
-            study.output_curvature(study.find_output(output)?)
-        })
-        .map(OutputCurvature)
+        self.ask(py, |study| study.output_curvature(study.find_output(output)?)).map(OutputCurvature)
     }
 
     /// Derivatives of the shapes of one mode, counted from 0.
     fn shape_sensitivity(&self, py: Python<'_>, mode: i64) -> PyResult<ShapeSensitivity> {
         let mode = mode_number(py, mode)?;
-        self.ask(py, |study| study.shape_sensitivity(mode))
-            .map(ShapeSensitivity)
+        self.ask(py, |study| study.shape_sensitivity(mode)).map(ShapeSensitivity)
     }
 
     /// Equilibria and modes along an input. Values are SI, texts with units, or numbers in `unit`.
     #[pyo3(signature = (input, values, unit=None))]
-    fn sweep(
-        &self,
-        py: Python<'_>,
-        input: &str,
-        values: &hints::ArrayLike<'_>,
-        unit: Option<&str>,
-    ) -> PyResult<Sweep> {
+    fn sweep(&self, py: Python<'_>, input: &str, values: &hints::ArrayLike<'_>, unit: Option<&str>) -> PyResult<Sweep> {
         let (input, values) = self.values(py, input, values, unit)?;
-        self.ask_stoppably(py, |study| study.sweep(input, &values))
-            .map(Sweep)
+        self.ask_stoppably(py, |study| study.sweep(input, &values)).map(Sweep)
     }
 
     /// A Campbell diagram: modes along an input with spreads, and where they meet `orders`, multiples of the input.
@@ -432,8 +382,7 @@ impl Study {
         if let Some(other) = orders.iter().find(|order| !order.is_finite()) {
             return Err(not_finite(py, "orders", *other));
         }
-        self.ask_stoppably(py, |study| study.campbell(input, &values, &orders))
-            .map(Campbell)
+        self.ask_stoppably(py, |study| study.campbell(input, &values, &orders)).map(Campbell)
     }
 
     /// Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and
@@ -449,13 +398,8 @@ impl Study {
         offset: f64,
     ) -> PyResult<Vec<Event>> {
         let (input, low, high) = self.range(py, input, low, high)?;
-        let line = Line {
-            ratio: order,
-            offset,
-        };
-        let answer = self.ask(py, |study| {
-            study.crossing_tolerances(input, low, high, line)
-        })?;
+        let line = Line { ratio: order, offset };
+        let answer = self.ask(py, |study| study.crossing_tolerances(input, low, high, line))?;
         Ok(events(&answer))
     }
 }

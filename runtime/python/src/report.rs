@@ -78,23 +78,18 @@ impl Study {
             Error::Study(error) => raise(py, error),
             other => PyOSError::new_err(other.to_string()),
         })?;
-        fs::write(&path, html)
-            .map_err(|source| PyOSError::new_err(Error::Write { path, source }.to_string()))
+        fs::write(&path, html).map_err(|source| PyOSError::new_err(Error::Write { path, source }.to_string()))
     }
 }
 
 /// Name, values, unit.
-fn parts<'py>(
-    sweep: &Bound<'py, PyTuple>,
-) -> PyResult<(String, Bound<'py, PyAny>, Option<String>)> {
+fn parts<'py>(sweep: &Bound<'py, PyTuple>) -> PyResult<(String, Bound<'py, PyAny>, Option<String>)> {
     match sweep.len() {
         2 => {
             let (input, values) = sweep.extract()?;
             Ok((input, values, None))
         }
         3 => sweep.extract(),
-        _ => Err(PyTypeError::new_err(
-            "a sweep is a tuple: (\"speed\", values) or (\"speed\", values, \"rpm\")",
-        )),
+        _ => Err(PyTypeError::new_err("a sweep is a tuple: (\"speed\", values) or (\"speed\", values, \"rpm\")")),
     }
 }

@@ -41,21 +41,10 @@ fn requirement(
         }
     }
     let response = response_of(study, &response)?;
-    let (low, high) = (
-        low.unwrap_or(f64::NEG_INFINITY),
-        high.unwrap_or(f64::INFINITY),
-    );
+    let (low, high) = (low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY));
     Ok(match outside {
-        true => requirement::Requirement::Outside {
-            response,
-            low,
-            high,
-        },
-        false => requirement::Requirement::Within {
-            response,
-            low,
-            high,
-        },
+        true => requirement::Requirement::Outside { response, low, high },
+        false => requirement::Requirement::Within { response, low, high },
     })
 }
 
@@ -94,9 +83,7 @@ fn ends<'py>(given: &Bound<'py, PyAny>) -> PyResult<Ends<'py>> {
     }
     let read = given.extract::<(String, Bound<'py, PyTuple>, f64, f64)>();
     match read {
-        Ok((word, response, low, high)) if word == "outside" => {
-            Ok((response, Some(low), Some(high), true))
-        }
+        Ok((word, response, low, high)) if word == "outside" => Ok((response, Some(low), Some(high), true)),
         _ => Err(PyTypeError::new_err(
             "a requirement is \"stable\", or a response, a low and a high end: ((\"frequency\", 0), 3.0, None), or a \
              forbidden band: (\"outside\", (\"frequency\", 0), 3.0, 4.0), or one around an input: (\"away\", \
@@ -137,11 +124,7 @@ const RARE: (usize, f64) = (1_000_000, 0.05);
 impl Study {
     /// A small probability of failing any requirement, by importance sampling about the design points; requirements as
     /// `chances` takes them.
-    fn rare_failure(
-        &self,
-        py: Python<'_>,
-        requirements: Vec<Requirement<'_>>,
-    ) -> PyResult<RareFailure> {
+    fn rare_failure(&self, py: Python<'_>, requirements: Vec<Requirement<'_>>) -> PyResult<RareFailure> {
         let wanted = self.requirements(&requirements)?;
         let answer = self.ask_stoppably(py, |study| {
             let (most, accuracy) = RARE;
@@ -152,14 +135,9 @@ impl Study {
 
     /// Probability of failing one requirement by the second-order model of its response, with what changes it;
     /// requirements as `chances` takes them.
-    fn second_order_failure(
-        &self,
-        py: Python<'_>,
-        requirement: Requirement<'_>,
-    ) -> PyResult<SecondOrderFailure> {
+    fn second_order_failure(&self, py: Python<'_>, requirement: Requirement<'_>) -> PyResult<SecondOrderFailure> {
         let wanted = self::requirement(&self.inner, &requirement)?;
-        self.ask(py, |study| study.second_order_failure(wanted))
-            .map(SecondOrderFailure)
+        self.ask(py, |study| study.second_order_failure(wanted)).map(SecondOrderFailure)
     }
 }
 
@@ -194,10 +172,7 @@ of_requirements! {
 }
 
 impl Study {
-    pub(crate) fn requirements(
-        &self,
-        given: &[Requirement<'_>],
-    ) -> PyResult<Vec<requirement::Requirement>> {
+    pub(crate) fn requirements(&self, given: &[Requirement<'_>]) -> PyResult<Vec<requirement::Requirement>> {
         let one = |given| requirement(&self.inner, given);
         given.iter().map(one).collect()
     }
@@ -304,16 +279,8 @@ impl Reliability {
     }
 
     /// Numbers of the most probable design point of each limit, a row each.
-    fn points<'py>(
-        &self,
-        py: Python<'py>,
-        of: fn(&DesignPoint) -> Vec<f64>,
-    ) -> PyResult<Array2<'py>> {
-        let points = self
-            .0
-            .limits
-            .iter()
-            .map(|limit| limit.design_points.as_ref());
+    fn points<'py>(&self, py: Python<'py>, of: fn(&DesignPoint) -> Vec<f64>) -> PyResult<Array2<'py>> {
+        let points = self.0.limits.iter().map(|limit| limit.design_points.as_ref());
         let first = points.map(|point| point.ok()?.first().map(&of));
         optional_rows(py, self.0.description.design.len(), first)
     }
@@ -448,17 +415,8 @@ result! {
 }
 
 impl SecondOrderFailure {
-    fn slopes<'py>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&MarginDerivatives) -> &Vector,
-    ) -> Array1<'py> {
-        let derivatives = self
-            .0
-            .margin
-            .derivatives
-            .as_ref()
-            .map(|derivative| &of(derivative)[..]);
+    fn slopes<'py>(&self, py: Python<'py>, of: impl Fn(&MarginDerivatives) -> &Vector) -> Array1<'py> {
+        let derivatives = self.0.margin.derivatives.as_ref().map(|derivative| &of(derivative)[..]);
         slopes(py, self.0.description.design.len(), derivatives)
     }
 }
@@ -507,8 +465,5 @@ attributes! {
 
 /// Derivatives, or as many NaN.
 fn slopes<'py>(py: Python<'py>, count: usize, values: Option<&[f64]>) -> Array1<'py> {
-    vector(
-        py,
-        values.map_or_else(|| vec![f64::NAN; count], <[f64]>::to_vec),
-    )
+    vector(py, values.map_or_else(|| vec![f64::NAN; count], <[f64]>::to_vec))
 }

@@ -69,10 +69,7 @@ pub(crate) fn wanted(
         }
         "vibration" => {
             if !(1..=3).contains(&given.len()) {
-                count(
-                    1,
-                    "the name of an output, and perhaps of an excitation and a measure",
-                )?;
+                count(1, "the name of an output, and perhaps of an excitation and a measure")?;
             }
             vibration(study, given).map(response::Response::Vibration)
         }
@@ -123,10 +120,7 @@ pub(crate) fn wanted(
 }
 
 /// The amplitude of an output under an excitation, or under all if they have one frequency.
-fn vibration(
-    study: &eigentol::Study<Interpreted>,
-    given: &Bound<'_, PyTuple>,
-) -> PyResult<Vibration> {
+fn vibration(study: &eigentol::Study<Interpreted>, given: &Bound<'_, PyTuple>) -> PyResult<Vibration> {
     let py = given.py();
     let name = given.get_item(0)?.extract::<String>()?;
     let output = study.find_output(&name).map_err(|error| raise(py, error))?;
@@ -176,11 +170,7 @@ pub(crate) fn measure(py: Python<'_>, name: &str) -> PyResult<Measure> {
 }
 
 /// The range of the input whose name is item `first` of the given tuple.
-pub(crate) fn range(
-    study: &eigentol::Study<Interpreted>,
-    given: &Bound<'_, PyTuple>,
-    first: usize,
-) -> PyResult<Range> {
+pub(crate) fn range(study: &eigentol::Study<Interpreted>, given: &Bound<'_, PyTuple>, first: usize) -> PyResult<Range> {
     let name = given.get_item(first)?.extract::<String>()?;
     let (index, unit) = List::Inputs.find(given.py(), study.description(), &name)?;
     let low = number(&given.get_item(first + 1)?, &unit, &name)?;
@@ -228,10 +218,7 @@ impl Study {
         })?;
         let study = slf.clone().unbind();
         let arguments = of.clone().unbind();
-        let of: Vec<String> = of
-            .iter()
-            .map(|quantity| Ok(quantity.str()?.to_string()))
-            .collect::<PyResult<_>>()?;
+        let of: Vec<String> = of.iter().map(|quantity| Ok(quantity.str()?.to_string())).collect::<PyResult<_>>()?;
         Ok(Response {
             mechanism: slf.get().inner.mechanism().clone(),
             given: (study, what.to_owned(), arguments),
@@ -278,19 +265,11 @@ impl Response {
             }
             Err(_) => (vec![numbers(x, "x")?], true),
         };
-        match designs
-            .iter()
-            .find(|values: &&Vec<f64>| values.len() != columns)
-        {
+        match designs.iter().find(|values: &&Vec<f64>| values.len() != columns) {
             None => Ok((designs, single)),
-            Some(other) => Err(raise(
-                x.py(),
-                Error::WrongLength {
-                    kind: "variables",
-                    found: other.len(),
-                    expected: columns,
-                },
-            )),
+            Some(other) => {
+                Err(raise(x.py(), Error::WrongLength { kind: "variables", found: other.len(), expected: columns }))
+            }
         }
     }
 }
@@ -314,11 +293,7 @@ attributes! {
 #[pymethods]
 impl Response {
     /// The response at a design, or at each of several, SI.
-    fn __call__<'py>(
-        &self,
-        py: Python<'py>,
-        x: &hints::ArrayLike<'py>,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    fn __call__<'py>(&self, py: Python<'py>, x: &hints::ArrayLike<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (designs, single) = self.designs(x)?;
         let values = self.evaluate(py, &designs, |responses, room, design| {
             let realisation = responses.at(room, design)?;
@@ -331,11 +306,7 @@ impl Response {
     }
 
     /// Total derivatives by the variables, SI: shape (variables,) for one design, (N, variables) for several.
-    fn gradient<'py>(
-        &self,
-        py: Python<'py>,
-        x: &hints::ArrayLike<'py>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    fn gradient<'py>(&self, py: Python<'py>, x: &hints::ArrayLike<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let (designs, single) = self.designs(x)?;
         let values = self.evaluate(py, &designs, |responses, room, design| {
             let realisation = responses.with_gradients(room, design)?;

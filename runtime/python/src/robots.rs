@@ -56,28 +56,15 @@ fn options(py: Python<'_>, given: Option<&UrdfOptions<'_>>) -> PyResult<Options>
         }
     }
     if let Some(base) = given.get_item("base")? {
-        let words = [
-            ("fixed", Base::Fixed),
-            ("floating", Base::Floating),
-            ("planar", Base::Planar),
-        ];
+        let words = [("fixed", Base::Fixed), ("floating", Base::Floating), ("planar", Base::Planar)];
         options.base = word(py, "base", &base.extract::<String>()?, &words)?;
     }
     if let Some(resistance) = given.get_item("resistance")? {
-        let words = [
-            ("springs", Resistance::default()),
-            ("drives", Resistance::Drives),
-            ("none", Resistance::KernelsOnly),
-        ];
+        let words =
+            [("springs", Resistance::default()), ("drives", Resistance::Drives), ("none", Resistance::KernelsOnly)];
         options.resistance = word(py, "resistance", &resistance.extract::<String>()?, &words)?;
     }
-    if let Resistance::Springs {
-        stiffness,
-        damping,
-        linear_stiffness,
-        linear_damping,
-    } = &mut options.resistance
-    {
+    if let Resistance::Springs { stiffness, damping, linear_stiffness, linear_damping } = &mut options.resistance {
         for (name, slot) in [
             ("stiffness", stiffness),
             ("damping", damping),
@@ -89,8 +76,7 @@ fn options(py: Python<'_>, given: Option<&UrdfOptions<'_>>) -> PyResult<Options>
             };
             *slot = value.extract()?;
             if !(slot.is_finite() && *slot >= 0.0) {
-                let message =
-                    format!("`{name}` is {slot}: give a finite value that is not negative");
+                let message = format!("`{name}` is {slot}: give a finite value that is not negative");
                 return Err(errors::invalid(py, message));
             }
         }
@@ -107,11 +93,7 @@ fn options(py: Python<'_>, given: Option<&UrdfOptions<'_>>) -> PyResult<Options>
     Ok(options)
 }
 
-fn read(
-    py: Python<'_>,
-    path: &Path,
-    given: Option<&UrdfOptions<'_>>,
-) -> PyResult<eigentol_urdf::Import> {
+fn read(py: Python<'_>, path: &Path, given: Option<&UrdfOptions<'_>>) -> PyResult<eigentol_urdf::Import> {
     let options = options(py, given)?;
     let text = std::fs::read_to_string(path).map_err(|source| errors::unreadable(path, &source))?;
     let imported = py.detach(|| import(&text, &options));
@@ -129,19 +111,11 @@ fn read(
 /// Raises OSError when the file cannot be read, DeclarationError with line and column of every mistake.
 #[pyfunction]
 #[pyo3(signature = (path, **options))]
-pub(crate) fn import_urdf(
-    py: Python<'_>,
-    path: PathBuf,
-    options: Option<&UrdfOptions<'_>>,
-) -> PyResult<Import> {
+pub(crate) fn import_urdf(py: Python<'_>, path: PathBuf, options: Option<&UrdfOptions<'_>>) -> PyResult<Import> {
     let imported = read(py, &path, options)?;
     let notes = imported.notes.iter().map(ToString::to_string).collect();
     let (declaration, names) = (imported.declaration, imported.names);
-    Ok(Import {
-        declaration,
-        names,
-        notes,
-    })
+    Ok(Import { declaration, names, notes })
 }
 
 #[pymethods]
@@ -165,11 +139,7 @@ impl Mechanism {
     /// The robot that a URDF file describes; options as of `import_urdf`, which also tells names and remarks.
     #[classmethod]
     #[pyo3(signature = (path, **options))]
-    fn from_urdf(
-        class: &Bound<'_, PyType>,
-        path: PathBuf,
-        options: Option<&UrdfOptions<'_>>,
-    ) -> PyResult<Self> {
+    fn from_urdf(class: &Bound<'_, PyType>, path: PathBuf, options: Option<&UrdfOptions<'_>>) -> PyResult<Self> {
         let imported = read(class.py(), &path, options)?;
         Self::read(class.py(), imported.declaration)
     }

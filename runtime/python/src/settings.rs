@@ -3,9 +3,7 @@
 use eigentol::kernels::Kernels;
 use eigentol::modes::Family;
 use eigentol::tolerance::Distribution;
-use eigentol::{
-    Coordinate, DesignVariable, Input, Law, Matrix, Parameter, Policy, Study, ToleranceInfo, Unit,
-};
+use eigentol::{Coordinate, DesignVariable, Input, Law, Matrix, Parameter, Policy, Study, ToleranceInfo, Unit};
 use eigentol_interpreter::{Interpreted, tolerance};
 use numpy::{AllowTypeChange, PyArrayLike2};
 use pyo3::exceptions::PyTypeError;
@@ -29,52 +27,32 @@ pub(crate) type Settings<'py> = Bound<'py, PyDict>;
 const SETTINGS: [(&str, &str, Set); 20] = [
     ("inputs", "Mapping[str, Value]", |study, given| {
         let list = ("inputs", List::Inputs);
-        values(study, given, list, |study, k, value| {
-            study.input(Input::new(k), value)
-        })
+        values(study, given, list, |study, k, value| study.input(Input::new(k), value))
     }),
     ("design", "Mapping[str, Value]", |study, given| {
         let list = ("design", List::Design);
-        values(study, given, list, |study, k, value| {
-            study.design(DesignVariable::new(k), value)
-        })
+        values(study, given, list, |study, k, value| study.design(DesignVariable::new(k), value))
     }),
     ("start", "Mapping[str, Value]", |study, given| {
         let list = ("start", List::Coordinates);
-        values(study, given, list, |study, k, value| {
-            study.start(Coordinate::new(k), value)
-        })
+        values(study, given, list, |study, k, value| study.start(Coordinate::new(k), value))
     }),
     ("guess", "Mapping[str, Value]", |study, given| {
         let list = ("guess", List::Coordinates);
-        values(study, given, list, |study, k, value| {
-            study.guess(Coordinate::new(k), value)
-        })
+        values(study, given, list, |study, k, value| study.guess(Coordinate::new(k), value))
     }),
     ("hold", "Mapping[str, Value]", |study, given| {
         let list = ("hold", List::Coordinates);
-        values(study, given, list, |study, k, value| {
-            study.hold(Coordinate::new(k), value)
-        })
+        values(study, given, list, |study, k, value| study.hold(Coordinate::new(k), value))
     }),
-    ("sigma_level", "float", |study, given| {
-        Ok(study.sigma_level(real(given, "sigma_level")?))
-    }),
-    (
-        "tolerances",
-        "Mapping[str, Value | tuple[Value, Value]]",
-        tolerances,
-    ),
+    ("sigma_level", "float", |study, given| Ok(study.sigma_level(real(given, "sigma_level")?))),
+    ("tolerances", "Mapping[str, Value | tuple[Value, Value]]", tolerances),
     ("measured", "Mapping[str, ArrayLike]", measured),
     ("correlation", "ArrayLike", correlation),
-    (
-        "policy",
-        "Literal[\"stable\", \"nearest\"]",
-        |study, given| {
-            let words = [("stable", Policy::Stable), ("nearest", Policy::Nearest)];
-            Ok(study.policy(chosen(given, "policy", &words)?))
-        },
-    ),
+    ("policy", "Literal[\"stable\", \"nearest\"]", |study, given| {
+        let words = [("stable", Policy::Stable), ("nearest", Policy::Nearest)];
+        Ok(study.policy(chosen(given, "policy", &words)?))
+    }),
     ("stay", "bool", |study, given| {
         let wanted = given.extract::<bool>()?;
         Ok(if wanted { study.stay() } else { study })
@@ -92,30 +70,18 @@ const SETTINGS: [(&str, &str, Set); 20] = [
         let words = [("undamped", Family::Undamped), ("general", Family::General)];
         Ok(study.family(chosen(given, "family", &words)?))
     }),
-    ("samples", "int", |study, given| {
-        match whole(given, "samples")? {
-            0 => {
-                let message = "`samples`: at least one is needed";
-                Err(invalid(given.py(), message.to_owned()))
-            }
-            samples => Ok(study.samples(samples)),
+    ("samples", "int", |study, given| match whole(given, "samples")? {
+        0 => {
+            let message = "`samples`: at least one is needed";
+            Err(invalid(given.py(), message.to_owned()))
         }
+        samples => Ok(study.samples(samples)),
     }),
-    ("seed", "int", |study, given| {
-        Ok(study.seed(whole(given, "seed")?))
-    }),
-    ("stream", "int", |study, given| {
-        Ok(study.stream(whole(given, "stream")?))
-    }),
-    ("threads", "int", |study, given| {
-        Ok(study.threads(whole(given, "threads")?))
-    }),
-    ("keep_samples", "bool", |study, given| {
-        Ok(study.keep_samples(given.extract()?))
-    }),
-    ("steps", "int", |study, given| {
-        Ok(study.steps(whole(given, "steps")?))
-    }),
+    ("seed", "int", |study, given| Ok(study.seed(whole(given, "seed")?))),
+    ("stream", "int", |study, given| Ok(study.stream(whole(given, "stream")?))),
+    ("threads", "int", |study, given| Ok(study.threads(whole(given, "threads")?))),
+    ("keep_samples", "bool", |study, given| Ok(study.keep_samples(given.extract()?))),
+    ("steps", "int", |study, given| Ok(study.steps(whole(given, "steps")?))),
     ("vectors", "bool", |study, given| {
         let wanted = given.extract::<bool>()?;
         Ok(if wanted { study } else { study.vectors(None) })
@@ -123,10 +89,7 @@ const SETTINGS: [(&str, &str, Set); 20] = [
 ];
 
 /// A study with these settings.
-pub(crate) fn study(
-    mechanism: Interpreted,
-    settings: &Bound<'_, PyDict>,
-) -> PyResult<Study<Interpreted>> {
+pub(crate) fn study(mechanism: Interpreted, settings: &Bound<'_, PyDict>) -> PyResult<Study<Interpreted>> {
     for key in settings.keys() {
         let key = key.extract::<String>()?;
         if SETTINGS.iter().all(|(name, ..)| *name != key) {
@@ -149,10 +112,7 @@ pub(crate) fn study(
 }
 
 /// Names of the inputs that are given no value.
-pub(crate) fn unset_inputs(
-    study: &Study<Interpreted>,
-    settings: &Bound<'_, PyDict>,
-) -> Vec<String> {
+pub(crate) fn unset_inputs(study: &Study<Interpreted>, settings: &Bound<'_, PyDict>) -> Vec<String> {
     let given = settings.get_item("inputs").ok().flatten();
     let named = match &given {
         None => None,
@@ -170,10 +130,7 @@ pub(crate) fn unset_inputs(
 }
 
 /// The settings of a study updated with others; dictionaries are merged by name.
-pub(crate) fn merged<'py>(
-    settings: &Bound<'py, PyDict>,
-    others: &Bound<'py, PyDict>,
-) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn merged<'py>(settings: &Bound<'py, PyDict>, others: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
     let all = copied(settings)?;
     for (key, value) in copied(others)? {
         let existing = all.get_item(&key)?;
@@ -199,24 +156,15 @@ pub(crate) fn copied<'py>(settings: &Bound<'py, PyDict>) -> PyResult<Bound<'py, 
 }
 
 fn real(given: &Bound<'_, PyAny>, name: &str) -> PyResult<f64> {
-    given
-        .extract()
-        .map_err(|_| PyTypeError::new_err(format!("`{name}`: a number is needed")))
+    given.extract().map_err(|_| PyTypeError::new_err(format!("`{name}`: a number is needed")))
 }
 
-pub(crate) fn whole<'py, T: FromPyObjectOwned<'py>>(
-    given: &Bound<'py, PyAny>,
-    name: &str,
-) -> PyResult<T> {
+pub(crate) fn whole<'py, T: FromPyObjectOwned<'py>>(given: &Bound<'py, PyAny>, name: &str) -> PyResult<T> {
     let extracted = match given.is_instance_of::<PyBool>() {
         true => None,
         false => given.extract().ok(),
     };
-    extracted.ok_or_else(|| {
-        PyTypeError::new_err(format!(
-            "`{name}`: a whole number that is not negative is needed"
-        ))
-    })
+    extracted.ok_or_else(|| PyTypeError::new_err(format!("`{name}`: a whole number that is not negative is needed")))
 }
 
 /// Each entry of a dictionary by name.
@@ -254,11 +202,7 @@ fn values(
 }
 
 /// A parameter that may have a tolerance, with its unit and value, SI.
-fn parameter(
-    study: &Study<Interpreted>,
-    py: Python<'_>,
-    name: &str,
-) -> PyResult<(Parameter<Interpreted>, Unit, f64)> {
+fn parameter(study: &Study<Interpreted>, py: Python<'_>, name: &str) -> PyResult<(Parameter<Interpreted>, Unit, f64)> {
     let of = study.description();
     if let Ok((index, unit)) = List::Inputs.find(py, of, name) {
         return Ok((Input::new(index).into(), unit, study.input_values()[index]));
@@ -321,8 +265,7 @@ fn possible(
     for end in ends {
         if let Some(violation) = violation(end) {
             let (quantity, requirement) = (violation.quantity, violation.requirement);
-            let message =
-                format!("within the tolerance of `{name}`, {quantity} would not be {requirement}");
+            let message = format!("within the tolerance of `{name}`, {quantity} would not be {requirement}");
             return Err(invalid(py, message));
         }
     }
@@ -335,12 +278,7 @@ fn tolerate(
     read: ToleranceInfo,
     value: f64,
 ) -> Study<Interpreted> {
-    let ToleranceInfo {
-        lower,
-        upper,
-        relative,
-        law,
-    } = read;
+    let ToleranceInfo { lower, upper, relative, law } = read;
     let study = if !relative {
         study.limits(parameter, lower, upper)
     } else if lower == -upper {
@@ -365,10 +303,7 @@ fn measured(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Stu
     })
 }
 
-fn correlation(
-    study: Study<Interpreted>,
-    given: &Bound<'_, PyAny>,
-) -> PyResult<Study<Interpreted>> {
+fn correlation(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
     let Ok(given) = given.extract::<PyArrayLike2<'_, f64, AllowTypeChange>>() else {
         let message = "`correlation`: a square array of numbers is needed";
         return Err(PyTypeError::new_err(message));
@@ -380,10 +315,6 @@ fn correlation(
 }
 
 /// One of several words.
-fn chosen<T: Copy>(
-    given: &Bound<'_, PyAny>,
-    what: &str,
-    words: &[(&'static str, T)],
-) -> PyResult<T> {
+fn chosen<T: Copy>(given: &Bound<'_, PyAny>, what: &str, words: &[(&'static str, T)]) -> PyResult<T> {
     word(given.py(), what, &given.extract::<String>()?, words)
 }

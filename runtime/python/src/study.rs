@@ -193,11 +193,7 @@ impl Study {
 
     /// The nonlinear motion at the inputs and the design of this study, for `scipy.integrate.solve_ivp`.
     fn motion(&self, py: Python<'_>) -> Motion {
-        Motion::new(
-            self.mechanism(py),
-            self.inner.input_values().to_vec(),
-            self.inner.design_values().to_vec(),
-        )
+        Motion::new(self.mechanism(py), self.inner.input_values().to_vec(), self.inner.design_values().to_vec())
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
@@ -206,10 +202,7 @@ impl Study {
         Ok(format!("Study of {name} with {settings}"))
     }
 
-    fn __getnewargs_ex__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
         let mechanism = PyTuple::new(py, [self.mechanism.bind(py)])?;
         Ok((mechanism, self.settings.bind(py).clone()))
     }

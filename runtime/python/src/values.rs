@@ -27,11 +27,7 @@ pub(crate) fn number(given: &Bound<'_, PyAny>, unit: &Unit, name: &str) -> PyRes
             }
         })?,
     };
-    if parsed.is_finite() {
-        Ok(parsed)
-    } else {
-        Err(not_finite(py, name, parsed))
-    }
+    if parsed.is_finite() { Ok(parsed) } else { Err(not_finite(py, name, parsed)) }
 }
 
 pub(crate) fn not_finite(py: Python<'_>, name: &str, value: f64) -> PyErr {
@@ -88,17 +84,9 @@ impl List {
 
     pub(crate) fn quantities(self, of: &Description) -> Vec<Quantity> {
         match self {
-            Self::Coordinates => named(
-                of.coordinates
-                    .iter()
-                    .map(|coordinate| (&coordinate.name, &coordinate.unit)),
-            ),
+            Self::Coordinates => named(of.coordinates.iter().map(|coordinate| (&coordinate.name, &coordinate.unit))),
             Self::Inputs => named(of.inputs.iter().map(|input| (&input.name, &input.unit))),
-            Self::Design => named(
-                of.design
-                    .iter()
-                    .map(|variable| (&variable.name, &variable.unit)),
-            ),
+            Self::Design => named(of.design.iter().map(|variable| (&variable.name, &variable.unit))),
         }
     }
 
@@ -112,12 +100,7 @@ impl List {
     }
 
     /// Index and unit of the entry with this name.
-    pub(crate) fn find(
-        self,
-        py: Python<'_>,
-        of: &Description,
-        name: &str,
-    ) -> PyResult<(usize, Unit)> {
+    pub(crate) fn find(self, py: Python<'_>, of: &Description, name: &str) -> PyResult<(usize, Unit)> {
         let quantities = self.quantities(of);
         if let Some(index) = quantities.iter().position(|one| one.name == *name) {
             return Ok((index, quantities[index].unit.clone()));
@@ -126,12 +109,7 @@ impl List {
     }
 
     /// A value for each entry, SI: from a dictionary of names that overrides the defaults, or from a list.
-    pub(crate) fn read(
-        self,
-        py: Python<'_>,
-        of: &Description,
-        given: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Vec<f64>> {
+    pub(crate) fn read(self, py: Python<'_>, of: &Description, given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
         self.over(self.usual(of), py, of, given)
     }
 
@@ -158,14 +136,7 @@ impl List {
         if list.len() == values.len() {
             Ok(list)
         } else {
-            Err(raise(
-                py,
-                Error::WrongLength {
-                    kind: self.plural(),
-                    found: list.len(),
-                    expected: values.len(),
-                },
-            ))
+            Err(raise(py, Error::WrongLength { kind: self.plural(), found: list.len(), expected: values.len() }))
         }
     }
 
@@ -189,10 +160,7 @@ impl List {
 }
 
 fn named<'a>(all: impl Iterator<Item = (&'a Text, &'a Unit)>) -> Vec<Quantity> {
-    let quantity = |(name, unit): (&Text, &Unit)| Quantity {
-        name: name.clone(),
-        unit: unit.clone(),
-    };
+    let quantity = |(name, unit): (&Text, &Unit)| Quantity { name: name.clone(), unit: unit.clone() };
     all.map(quantity).collect()
 }
 
@@ -223,27 +191,19 @@ fn unknown(py: Python<'_>, of: &Description, list: List, name: &str) -> PyErr {
 pub(crate) fn numbers(given: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
     match given.extract::<PyArrayLike1<'_, f64, AllowTypeChange>>() {
         Ok(array) => Ok(array.as_array().iter().copied().collect()),
-        Err(_) => Err(PyTypeError::new_err(format!(
-            "`{name}`: a list or a one-dimensional array of numbers is needed"
-        ))),
+        Err(_) => {
+            Err(PyTypeError::new_err(format!("`{name}`: a list or a one-dimensional array of numbers is needed")))
+        }
     }
 }
 
 /// One of several words.
-pub(crate) fn word<T: Copy>(
-    py: Python<'_>,
-    what: &str,
-    given: &str,
-    words: &[(&'static str, T)],
-) -> PyResult<T> {
+pub(crate) fn word<T: Copy>(py: Python<'_>, what: &str, given: &str, words: &[(&'static str, T)]) -> PyResult<T> {
     if let Some((_, meaning)) = words.iter().find(|(word, _)| *word == given) {
         return Ok(*meaning);
     }
     let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
     let near = did_you_mean(given, known.iter().copied());
-    let message = format!(
-        "{what} `{given}`: one of {} is needed{near}",
-        known.join(", ")
-    );
+    let message = format!("{what} `{given}`: one of {} is needed{near}", known.join(", "));
     Err(invalid(py, message))
 }

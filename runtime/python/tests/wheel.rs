@@ -29,46 +29,25 @@ struct Environment {
 
 impl Environment {
     fn new(name: &str, packages: &[&str]) -> Result<Self, Skipped> {
-        let own = Self {
-            folder: Path::new(env!("CARGO_TARGET_TMPDIR")).join(name),
-        };
+        let own = Self { folder: Path::new(env!("CARGO_TARGET_TMPDIR")).join(name) };
         if own.python().output().is_err() {
             let check = "import sys; sys.exit(sys.version_info < (3, 9))";
             answer(Command::new("python3").args(["-c", check]))
                 .map_err(|_| Skipped("there is no Python 3.9 or later".to_owned()))?;
-            let made = answer(
-                Command::new("python3")
-                    .args(["-m", "venv"])
-                    .arg(&own.folder),
-            );
+            let made = answer(Command::new("python3").args(["-m", "venv"]).arg(&own.folder));
             made.map_err(|why| Skipped(format!("no virtual environment can be made: {why}")))?;
         }
-        own.install(packages).map_err(|why| {
-            Skipped(format!(
-                "{} cannot be installed: {why}",
-                packages.join(", ")
-            ))
-        })?;
+        own.install(packages).map_err(|why| Skipped(format!("{} cannot be installed: {why}", packages.join(", "))))?;
         Ok(own)
     }
 
     fn python(&self) -> Command {
-        let program = if cfg!(windows) {
-            "Scripts/python.exe"
-        } else {
-            "bin/python"
-        };
+        let program = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
         Command::new(self.folder.join(program))
     }
 
     fn install(&self, what: &[&str]) -> Result<Output, String> {
-        let pip = [
-            "-m",
-            "pip",
-            "install",
-            "--quiet",
-            "--disable-pip-version-check",
-        ];
+        let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
         answer(self.python().args(pip).args(["--retries", "0"]).args(what))
     }
 
@@ -80,15 +59,7 @@ impl Environment {
         let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent();
         let mut build = self.python();
         build
-            .args([
-                "-m",
-                "maturin",
-                "build",
-                "--quiet",
-                "--profile",
-                "dev",
-                "--out",
-            ])
+            .args(["-m", "maturin", "build", "--quiet", "--profile", "dev", "--out"])
             .arg(&wheels)
             .env("CARGO_TARGET_DIR", target.expect("the target folder"))
             .current_dir(folder());
@@ -105,15 +76,7 @@ impl Environment {
 
     /// Runs tests and prints their reasons for skipping.
     fn test(&self, files: &[&str]) {
-        let pytest = [
-            "-m",
-            "pytest",
-            "-q",
-            "-rs",
-            "--tb=short",
-            "-p",
-            "no:cacheprovider",
-        ];
+        let pytest = ["-m", "pytest", "-q", "-rs", "--tb=short", "-p", "no:cacheprovider"];
         let run = self
             .python()
             .args(pytest)
@@ -126,10 +89,7 @@ impl Environment {
         print!("{text}");
         let errors = String::from_utf8_lossy(&run.stderr);
         // A third-party program may terminate the interpreter without a message.
-        assert!(
-            run.status.success() && text.contains(" passed"),
-            "tests of Python fail:\n{text}\n{errors}"
-        );
+        assert!(run.status.success() && text.contains(" passed"), "tests of Python fail:\n{text}\n{errors}");
     }
 }
 
@@ -146,13 +106,7 @@ fn run(name: &str, packages: &[&str], files: &[&str]) {
 #[test]
 #[ignore = "builds the module once more, and installs NumPy and SciPy"]
 fn the_module_passes_its_tests() {
-    let packages = [
-        "maturin>=1.9.4,<2",
-        "jsonschema",
-        "numpy",
-        "pytest",
-        "scipy",
-    ];
+    let packages = ["maturin>=1.9.4,<2", "jsonschema", "numpy", "pytest", "scipy"];
     let files = [
         "test_beams.py",
         "test_documents.py",

@@ -10,10 +10,7 @@ use crate::words::sentence;
 ///
 /// # Errors
 /// [`Error::Data`].
-pub(crate) fn chart(
-    html: &mut Html,
-    figure: &Result<Figure, eigentol_figures::Error>,
-) -> Result<(), Error> {
+pub(crate) fn chart(html: &mut Html, figure: &Result<Figure, eigentol_figures::Error>) -> Result<(), Error> {
     let figure = match figure {
         Ok(figure) => figure,
         Err(why) => {

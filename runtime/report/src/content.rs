@@ -6,8 +6,7 @@ use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol::summary::Summary;
 use eigentol::tolerance::{Distribution, OutputTolerances};
 use eigentol::{
-    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Output, Study, Text,
-    Tolerances, Value,
+    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Output, Study, Text, Tolerances, Value,
 };
 
 use eigentol_figures::Style;
@@ -69,9 +68,7 @@ impl Content {
     ///
     /// # Errors
     /// Errors of the caller only; any other error is kept and reported in its place.
-    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(
-        report: &Report<M>,
-    ) -> Result<Self, Error> {
+    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(report: &Report<M>) -> Result<Self, Error> {
         let study = &report.study;
         let setup = Setup::of(study)?;
         let equilibrium = answer(study.equilibrium())?;
@@ -92,14 +89,8 @@ impl Content {
         let varies = setup.tolerances.sigmas().iter().any(|sigma| *sigma > 0.0);
         let spread = match &modes {
             _ if !varies => None,
-            Ok(_) => Some(Spreads {
-                summary: answer(study.summary())?,
-                monte_carlo: answer(study.monte_carlo())?,
-            }),
-            Err(error) => Some(Spreads {
-                summary: Err(error.clone()),
-                monte_carlo: Err(error.clone()),
-            }),
+            Ok(_) => Some(Spreads { summary: answer(study.summary())?, monte_carlo: answer(study.monte_carlo())? }),
+            Err(error) => Some(Spreads { summary: Err(error.clone()), monte_carlo: Err(error.clone()) }),
         };
         let description = study.description().clone();
         let swept = match &report.along {
@@ -140,13 +131,7 @@ impl Setup {
         let deviating: Vec<usize> = deviating.iter().map(|input| input.index()).collect();
         let moved = deviating.iter().filter_map(|&input| inputs.get(input));
         let nominal: Vec<f64> = design.iter().chain(moved).copied().collect();
-        Ok(Self {
-            distributions: tolerances.distributions(&nominal)?,
-            inputs,
-            design,
-            tolerances,
-            deviating,
-        })
+        Ok(Self { distributions: tolerances.distributions(&nominal)?, inputs, design, tolerances, deviating })
     }
 }
 
@@ -168,11 +153,7 @@ impl Along {
 }
 
 /// Values of an input, SI.
-fn values_si<M: SummaryKernels>(
-    study: &Study<M>,
-    input: Input<M>,
-    values: &[Value],
-) -> Result<Vec<f64>, Error> {
+fn values_si<M: SummaryKernels>(study: &Study<M>, input: Input<M>, values: &[Value]) -> Result<Vec<f64>, Error> {
     let si = |value: &Value| Ok(study.continuation(input, *value, *value)?.low);
     let values = values.iter().map(si).collect::<Result<Vec<f64>, Error>>()?;
     if let Some(value) = values.iter().copied().find(|value| !value.is_finite()) {

@@ -46,18 +46,12 @@ impl Forced {
             };
             let ends = (values.first(), values.last());
             let peaks = match ends {
-                (Some(&first), Some(&last)) if first != last => {
-                    peaks(study, &wanted, input, (first, last))
-                }
+                (Some(&first), Some(&last)) if first != last => peaks(study, &wanted, input, (first, last)),
                 _ => Vec::new(),
             };
             ForcedAlong { bode, peaks }
         });
-        Ok(Self {
-            response,
-            spread: spread.transpose()?,
-            along,
-        })
+        Ok(Self { response, spread: spread.transpose()?, along })
     }
 }
 

@@ -13,12 +13,7 @@ pub(crate) struct Html {
 
 impl Html {
     /// Writes an element and its content.
-    pub(crate) fn element(
-        &mut self,
-        tag: &'static str,
-        attributes: Attributes<'_>,
-        inside: impl FnOnce(&mut Self),
-    ) {
+    pub(crate) fn element(&mut self, tag: &'static str, attributes: Attributes<'_>, inside: impl FnOnce(&mut Self)) {
         self.open(tag, attributes);
         inside(self);
         let _ = write!(self.out, "</{tag}>");
@@ -69,10 +64,7 @@ impl Html {
     /// Writes data for the scripts of the page. Inside a script element no HTML escape applies and `<` may end it, so
     /// `<` is written as a JSON escape.
     pub(crate) fn data(&mut self, kind: &str, json: &str) {
-        self.open(
-            "script",
-            &[("type", "application/json"), ("data-kind", kind)],
-        );
+        self.open("script", &[("type", "application/json"), ("data-kind", kind)]);
         self.out.push_str(&json.replace('<', "\\u003c"));
         self.constant("</script>\n");
     }
@@ -90,10 +82,7 @@ mod tests {
     fn text_stays_text() {
         let mut html = Html::default();
         html.leaf("p", &[("title", "a\" onclick='x'")], "</p><script>&\0");
-        assert_eq!(
-            html.finish(),
-            "<p title=\"a&quot; onclick=&#39;x&#39;\">&lt;/p&gt;&lt;script&gt;&amp;\u{fffd}</p>"
-        );
+        assert_eq!(html.finish(), "<p title=\"a&quot; onclick=&#39;x&#39;\">&lt;/p&gt;&lt;script&gt;&amp;\u{fffd}</p>");
     }
 
     #[test]

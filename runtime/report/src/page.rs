@@ -37,13 +37,7 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 pub(crate) fn html(content: &Content) -> Result<String, Error> {
     let mut html = Html::default();
     html.constant("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-    html.open(
-        "meta",
-        &[
-            ("http-equiv", "Content-Security-Policy"),
-            ("content", POLICY),
-        ],
-    );
+    html.open("meta", &[("http-equiv", "Content-Security-Policy"), ("content", POLICY)]);
     html.constant("\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
     html.leaf("title", &[], &content.title);
     html.constant("\n<style>\n");

@@ -38,25 +38,18 @@ impl Pictures {
         let harmonics = harmonics(study.description());
         let motions = harmonics.len() + study.modes()?.modes.len();
         let (shown, phases) = frames(scene.poses(), motions);
-        let vibrations = harmonics.into_iter().take(shown).map(|excitation| {
-            study.vibration_pictures(Excitation::new(excitation), phases, AMPLITUDE)
-        });
+        let vibrations = harmonics
+            .into_iter()
+            .take(shown)
+            .map(|excitation| study.vibration_pictures(Excitation::new(excitation), phases, AMPLITUDE));
         let vibrations: Vec<_> = vibrations.collect();
         let modes = 0..shown - vibrations.len();
         let modes = modes.map(|mode| study.mode_pictures(mode, phases, AMPLITUDE));
-        Ok(Self {
-            modes: modes.collect(),
-            vibrations,
-            scene,
-        })
+        Ok(Self { modes: modes.collect(), vibrations, scene })
     }
 
     pub(crate) fn at_rest(scene: Scene) -> Self {
-        Self {
-            scene,
-            modes: Vec::new(),
-            vibrations: Vec::new(),
-        }
+        Self { scene, modes: Vec::new(), vibrations: Vec::new() }
     }
 }
 

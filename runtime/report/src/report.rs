@@ -138,9 +138,6 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let path = path.as_ref();
         let written = fs::write(path, self.html()?);
-        written.map_err(|source| Error::Write {
-            path: path.to_owned(),
-            source,
-        })
+        written.map_err(|source| Error::Write { path: path.to_owned(), source })
     }
 }

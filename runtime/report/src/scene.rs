@@ -31,12 +31,7 @@ struct Motion {
 }
 
 impl<'a> View<'a> {
-    pub(crate) fn new(
-        pictures: &'a Pictures,
-        d: &Description,
-        modes: Option<&Modes>,
-        style: &Style,
-    ) -> Self {
+    pub(crate) fn new(pictures: &'a Pictures, d: &Description, modes: Option<&Modes>, style: &Style) -> Self {
         let scene = &pictures.scene;
         let size = scene.size();
         let motion = |mode_pictures: &ModePictures| {
@@ -60,21 +55,13 @@ impl<'a> View<'a> {
             })
         });
         let modes = pictures.modes.iter().flatten().filter_map(motion);
-        Self {
-            scene,
-            up: scene.up(),
-            motions: modes.chain(forced).collect(),
-        }
+        Self { scene, up: scene.up(), motions: modes.chain(forced).collect() }
     }
 }
 
 /// Flattens poses and rounds them to four decimals of the size, finer than a screen can show.
 fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
-    let step = if size > 0.0 {
-        10_f64.powf(size.log10().floor() - 4.0)
-    } else {
-        1e-4
-    };
+    let step = if size > 0.0 { 10_f64.powf(size.log10().floor() - 4.0) } else { 1e-4 };
     let round = |value: f64, step: f64| {
         let digits = (value / step).round() * step;
         // A multiple that is not exact in binary is rounded to a short decimal.
@@ -83,9 +70,7 @@ fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
     let all = poses.iter().flat_map(|pose| {
         let position = pose.position.map(|value| round(value, step));
         let rotation = pose.rotation.as_flattened().to_vec();
-        position
-            .into_iter()
-            .chain(rotation.into_iter().map(|value| round(value, 1e-4)))
+        position.into_iter().chain(rotation.into_iter().map(|value| round(value, 1e-4)))
     });
     all.collect()
 }
@@ -102,10 +87,7 @@ fn title(mode: &Mode, style: &Style) -> String {
 fn enlarged(vibration_pictures: &VibrationPictures) -> String {
     match vibration_pictures.enlargement {
         0.0 => "forced vibration; it moves no body".to_owned(),
-        factor => format!(
-            "forced vibration, enlarged {} times, not in real time",
-            digits(factor, 3)
-        ),
+        factor => format!("forced vibration, enlarged {} times, not in real time", digits(factor, 3)),
     }
 }
 
@@ -113,12 +95,8 @@ fn about(mode: &Mode, amplitude: f64) -> String {
     if amplitude == 0.0 {
         return format!("{}; it moves no body", mode.behaviour);
     }
-    let damping = mode
-        .damping_ratio()
-        .filter(|ratio| *ratio != 0.0 && mode.frequency().is_some());
-    let damping = damping.map_or_else(String::new, |ratio| {
-        format!(", damping ratio {}", number(ratio))
-    });
+    let damping = mode.damping_ratio().filter(|ratio| *ratio != 0.0 && mode.frequency().is_some());
+    let damping = damping.map_or_else(String::new, |ratio| format!(", damping ratio {}", number(ratio)));
     let pace = match mode.frequency() {
         Some(omega) => format!("{} Hz, ", number(omega / TAU)),
         None => String::new(),
@@ -126,8 +104,5 @@ fn about(mode: &Mode, amplitude: f64) -> String {
     if mode.frequency().is_none() {
         return "shown as if it oscillated, not in real time".to_owned();
     }
-    format!(
-        "{pace}{}{damping}; shown at constant amplitude, not in real time",
-        mode.behaviour
-    )
+    format!("{pace}{}{damping}; shown at constant amplitude, not in real time", mode.behaviour)
 }

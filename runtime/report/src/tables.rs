@@ -14,17 +14,10 @@ const ROWS: usize = 24;
 ///
 /// # Errors
 /// [`Error::Data`].
-pub(crate) fn table(
-    html: &mut Html,
-    caption: &str,
-    table: &Table,
-    names: &[&str],
-) -> Result<(), Error> {
+pub(crate) fn table(html: &mut Html, caption: &str, table: &Table, names: &[&str]) -> Result<(), Error> {
     let filled = |column: &&Column| !is_empty(&column.values);
     let named = |column: &&Column| names.is_empty() || names.contains(&&*column.name);
-    let columns: Vec<&Column> = (table.columns.iter().filter(named))
-        .filter(filled)
-        .collect();
+    let columns: Vec<&Column> = (table.columns.iter().filter(named)).filter(filled).collect();
     let mixed = table.column("unit").is_some();
     let size = |column: &&Column| if mixed { 0.0 } else { largest(&column.values) };
     let largest: Vec<f64> = columns.iter().map(size).collect();
@@ -68,10 +61,7 @@ fn left_out(rows: usize, columns: usize) -> String {
         1 => Some(format!("1 more {what}")),
         _ => Some(format!("{count} more {what}s")),
     };
-    let more: Vec<String> = [count(rows, "row"), count(columns, "column")]
-        .into_iter()
-        .flatten()
-        .collect();
+    let more: Vec<String> = [count(rows, "row"), count(columns, "column")].into_iter().flatten().collect();
     match more.is_empty() {
         true => " with all digits".to_owned(),
         false => format!(" with all digits, {}", more.join(" and ")),
@@ -83,11 +73,7 @@ fn head(html: &mut Html, columns: &[&Column]) {
         html.element("tr", &[], |html| {
             for column in columns {
                 let class = class_of(&column.values);
-                html.leaf(
-                    "th",
-                    &[("scope", "col"), ("class", class)],
-                    &column.heading(),
-                );
+                html.leaf("th", &[("scope", "col"), ("class", class)], &column.heading());
             }
         });
     });

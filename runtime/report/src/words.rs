@@ -19,9 +19,7 @@ pub(crate) fn digits(value: f64, count: usize) -> String {
     }
     // The exponent of the rounded number: 0.99999 has one digit before the point.
     let exponent = scientific.rsplit('e').next();
-    let exponent: i32 = exponent
-        .and_then(|exponent| exponent.parse().ok())
-        .unwrap_or(0);
+    let exponent: i32 = exponent.and_then(|exponent| exponent.parse().ok()).unwrap_or(0);
     let decimals = (count as i32 - 1 - exponent).clamp(0, 9) as usize;
     trimmed(&format!("{value:.decimals$}"))
 }
@@ -59,8 +57,7 @@ pub(crate) fn with_unit(value: f64, unit: &Unit) -> String {
 /// `speed = 3000 rpm, load = 2 N`; empty without inputs.
 pub(crate) fn operating_point(d: &Description, inputs: &[f64]) -> String {
     let each = d.inputs.iter().zip(inputs);
-    let each =
-        each.map(|(info, &value)| format!("{} = {}", info.name, with_unit(value, &info.unit)));
+    let each = each.map(|(info, &value)| format!("{} = {}", info.name, with_unit(value, &info.unit)));
     each.collect::<Vec<_>>().join(", ")
 }
 
@@ -74,11 +71,7 @@ pub(crate) fn capital(text: &str) -> String {
 /// Makes a sentence: capital first letter, full stop at the end.
 pub(crate) fn sentence(text: &str) -> String {
     let text = text.trim();
-    let stop = if text.ends_with(['.', '?', '!']) {
-        ""
-    } else {
-        "."
-    };
+    let stop = if text.ends_with(['.', '?', '!']) { "" } else { "." };
     format!("{}{stop}", capital(text))
 }
 
@@ -105,10 +98,7 @@ mod tests {
 
     #[test]
     fn a_sentence_begins_and_ends() {
-        assert_eq!(
-            sentence("no oscillation, so no frequency."),
-            "No oscillation, so no frequency."
-        );
+        assert_eq!(sentence("no oscillation, so no frequency."), "No oscillation, so no frequency.");
         assert_eq!(sentence("\u{3c9} diverges"), "\u{3a9} diverges.");
         assert_eq!(sentence(""), ".");
     }

@@ -33,12 +33,7 @@ pub struct Columns<'a, R> {
 impl<'a, R> Columns<'a, R> {
     /// A table of this name with these rows and no columns yet.
     pub fn new(name: &str, rows: &'a [R]) -> Self {
-        Self {
-            rows,
-            shown: (0..rows.len()).collect(),
-            table: Table::new(name),
-            text: Vec::new(),
-        }
+        Self { rows, shown: (0..rows.len()).collect(), table: Table::new(name), text: Vec::new() }
     }
 
     /// Only these rows belong in the text. To be called before the first column.
@@ -53,12 +48,7 @@ impl<'a, R> Columns<'a, R> {
     }
 
     /// A column of numbers that are converted from SI to a declared unit.
-    pub fn measured(
-        &mut self,
-        name: &str,
-        unit: &Unit,
-        of: &dyn Fn(&R) -> Option<f64>,
-    ) -> Added<'_> {
+    pub fn measured(&mut self, name: &str, unit: &Unit, of: &dyn Fn(&R) -> Option<f64>) -> Added<'_> {
         let values = self.rows.iter().map(|row| Some(converted(of(row)?, unit)));
         self.table.numbers(name, &unit.symbol, values);
         self.added()
@@ -115,22 +105,13 @@ impl<'a, R> Columns<'a, R> {
         let heads = self.text.iter().map(|(heading, _)| heading.clone());
         let mut grid = Grid::new(heads.collect());
         for row in 0..self.shown.len() {
-            grid.row(
-                self.text
-                    .iter()
-                    .map(|(_, cells)| cells[row].clone())
-                    .collect(),
-            );
+            grid.row(self.text.iter().map(|(_, cells)| cells[row].clone()).collect());
         }
         (self.table, grid)
     }
 
     fn added(&mut self) -> Added<'_> {
-        Added {
-            column: self.table.columns.last(),
-            shown: &self.shown,
-            text: &mut self.text,
-        }
+        Added { column: self.table.columns.last(), shown: &self.shown, text: &mut self.text }
     }
 }
 

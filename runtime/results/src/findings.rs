@@ -106,19 +106,12 @@ pub struct Subject<'a> {
 impl<'a> Subject<'a> {
     /// A mechanism at an operating point; without inputs where the result does not record them.
     pub fn at(description: &'a Shared<Description>, inputs: &'a [f64]) -> Self {
-        Self {
-            description,
-            inputs,
-            varied: None,
-        }
+        Self { description, inputs, varied: None }
     }
 
     /// A mechanism along an input.
     pub fn along(description: &'a Shared<Description>, inputs: &'a [f64], varied: Input) -> Self {
-        Self {
-            varied: Some(varied),
-            ..Self::at(description, inputs)
-        }
+        Self { varied: Some(varied), ..Self::at(description, inputs) }
     }
 }
 
@@ -140,9 +133,7 @@ impl Findings {
     /// Nothing but a title yet.
     #[must_use]
     pub fn titled(title: String) -> Self {
-        Self {
-            parts: vec![Part::Title(title)],
-        }
+        Self { parts: vec![Part::Title(title)] }
     }
 
     /// Adds a sentence.
@@ -177,8 +168,7 @@ impl Findings {
     /// Adds what another result says in its text, without its data.
     pub fn quote(&mut self, other: Self) {
         let said = other.parts.into_iter();
-        self.parts
-            .extend(said.filter(|part| !matches!(part, Part::Data(_))));
+        self.parts.extend(said.filter(|part| !matches!(part, Part::Data(_))));
     }
 
     /// The sentences.
@@ -268,9 +258,6 @@ mod tests {
         omega.digits(rough).headed("omega");
         let (data, text) = table.finish();
         assert_eq!(data.rows(), 3);
-        assert_eq!(
-            text.to_string(),
-            "  place  omega\n  2      2.500\n  9      9.000\n"
-        );
+        assert_eq!(text.to_string(), "  place  omega\n  2      2.500\n  9      9.000\n");
     }
 }

@@ -38,11 +38,7 @@ fn digits(value: f64, count: usize) -> String {
     if value == 0.0 {
         "0".to_owned()
     } else if !value.is_finite() {
-        if value > 0.0 {
-            "inf".to_owned()
-        } else {
-            format!("{value}")
-        }
+        if value > 0.0 { "inf".to_owned() } else { format!("{value}") }
     } else {
         let scientific = format!("{value:.*e}", count - 1);
         if !(1e-3..1e6).contains(&size) {
@@ -83,11 +79,7 @@ pub const CLUSTER: &str = "cluster";
 
 /// Like [`or_dash`], for a mode that may be a member of a cluster.
 pub fn of_mode(value: Option<f64>, clustered: bool, form: fn(f64) -> String) -> String {
-    if clustered {
-        CLUSTER.to_owned()
-    } else {
-        or_dash(value, form)
-    }
+    if clustered { CLUSTER.to_owned() } else { or_dash(value, form) }
 }
 
 /// A value converted from SI to a declared unit.
@@ -107,20 +99,12 @@ pub fn rough_in(value: f64, unit: &Unit) -> String {
 
 /// A value converted from SI to a declared unit; unchanged where the unit has no size.
 pub fn converted(value: f64, unit: &Unit) -> f64 {
-    if unit.scale == 0.0 {
-        value
-    } else {
-        value / unit.scale
-    }
+    if unit.scale == 0.0 { value } else { value / unit.scale }
 }
 
 /// `name [unit]`.
 pub fn heading(name: &str, unit: &Unit) -> String {
-    if unit.symbol.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{name} [{}]", unit.symbol)
-    }
+    if unit.symbol.is_empty() { name.to_owned() } else { format!("{name} [{}]", unit.symbol) }
 }
 
 /// A number with its unit, if it has one: `3000 rpm`.
@@ -136,20 +120,12 @@ pub fn with_unit(number: String, unit: &Unit) -> String {
 pub fn as_written(value: f64, unit: &Unit) -> f64 {
     let number = converted(value, unit);
     let short = format!("{number:.14e}").parse().unwrap_or(number);
-    if unit.to_si(short) == value {
-        short
-    } else {
-        number
-    }
+    if unit.to_si(short) == value { short } else { number }
 }
 
 /// `top per unit`, for derivatives.
 pub fn per(name: &str, unit: &Unit) -> String {
-    if unit.symbol.is_empty() {
-        format!("/ {name}")
-    } else {
-        format!("/ {name} [{}]", unit.symbol)
-    }
+    if unit.symbol.is_empty() { format!("/ {name}") } else { format!("/ {name} [{}]", unit.symbol) }
 }
 
 #[cfg(test)]
@@ -160,10 +136,7 @@ mod tests {
 
     #[test]
     fn chosen_values_come_back_as_they_were_written() {
-        let unit = |scale: f64| Unit {
-            symbol: Text::Static("a unit"),
-            scale,
-        };
+        let unit = |scale: f64| Unit { symbol: Text::Static("a unit"), scale };
         let rpm = unit(core::f64::consts::PI / 30.0);
         let mut rough = 0;
         for speed in 0..=20_000 {
@@ -180,10 +153,7 @@ mod tests {
 
     #[test]
     fn what_nobody_wrote_keeps_its_digits() {
-        let one = Unit {
-            symbol: Text::Static("m"),
-            scale: 1.0,
-        };
+        let one = Unit { symbol: Text::Static("m"), scale: 1.0 };
         for value in [core::f64::consts::PI, 1.0 / 3.0, -0.1 - 0.2, 0.0] {
             assert_eq!(as_written(value, &one), value);
         }

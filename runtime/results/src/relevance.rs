@@ -35,8 +35,7 @@ pub fn relevant(value: f64, largest: f64) -> bool {
 
 /// The value, or zero if it is rounding compared to the largest of its kind.
 pub fn unless_rounding(value: f64, largest: f64) -> f64 {
-    if value.abs() <= ROUNDING * largest.abs() || value.abs() <= NOTHING && largest.abs() <= NOTHING
-    {
+    if value.abs() <= ROUNDING * largest.abs() || value.abs() <= NOTHING && largest.abs() <= NOTHING {
         0.0
     } else {
         value

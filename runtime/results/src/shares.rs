@@ -20,10 +20,7 @@ pub struct Shares<'a> {
 
 impl<'a> Shares<'a> {
     /// Columns for quantities with these shares.
-    pub fn of<'b>(
-        description: &'a Description,
-        quantities: impl Iterator<Item = &'b [f64]> + Clone,
-    ) -> Self {
+    pub fn of<'b>(description: &'a Description, quantities: impl Iterator<Item = &'b [f64]> + Clone) -> Self {
         let mut columns = Vec::new();
         let mut below = Vec::new();
         for (k, info) in description.design.iter().enumerate() {
@@ -34,11 +31,7 @@ impl<'a> Shares<'a> {
                 below.push(&*info.name);
             }
         }
-        Self {
-            description,
-            columns,
-            below,
-        }
+        Self { description, columns, below }
     }
 
     fn side_by_side(&self) -> bool {
@@ -55,9 +48,7 @@ impl<'a> Shares<'a> {
         }
         for &k in &self.columns {
             let heading = format!("share of {}", self.description.design[k].name);
-            table.cells(&heading, &|row| {
-                of(row).map_or_else(|| "-".to_owned(), |shares| share(shares[k]))
-            });
+            table.cells(&heading, &|row| of(row).map_or_else(|| "-".to_owned(), |shares| share(shares[k])));
         }
     }
 
@@ -73,11 +64,7 @@ impl<'a> Shares<'a> {
 /// A share in a column in which another share matters.
 fn share(value: f64) -> String {
     let value = unless_rounding(value, 1.0);
-    if value == 0.0 || value.abs() >= RELEVANT {
-        percent(value)
-    } else {
-        "<0.1 %".to_owned()
-    }
+    if value == 0.0 || value.abs() >= RELEVANT { percent(value) } else { "<0.1 %".to_owned() }
 }
 
 /// The largest shares by name: `modulus 52.3 %, diameter 23.2 %`.

@@ -30,10 +30,7 @@ pub struct Column {
 /// The entries of a column.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(tag = "kind", content = "values", rename_all = "lowercase")
-)]
+#[cfg_attr(feature = "serde", serde(tag = "kind", content = "values", rename_all = "lowercase"))]
 pub enum Values {
     /// Finite numbers.
     Numbers(Vec<Option<f64>>),
@@ -79,10 +76,7 @@ impl Table {
     /// Creates a table without columns.
     #[must_use]
     pub fn new(name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            columns: Vec::new(),
-        }
+        Self { name: name.to_owned(), columns: Vec::new() }
     }
 
     /// The first column with this name.
@@ -98,44 +92,27 @@ impl Table {
     }
 
     /// Adds a column of numbers; non-finite values become missing.
-    pub fn numbers<V: Into<Option<f64>>>(
-        &mut self,
-        name: &str,
-        unit: &str,
-        values: impl IntoIterator<Item = V>,
-    ) {
+    pub fn numbers<V: Into<Option<f64>>>(&mut self, name: &str, unit: &str, values: impl IntoIterator<Item = V>) {
         let finite = |value: V| value.into().filter(|value: &f64| value.is_finite());
         let values = values.into_iter().map(finite).collect();
         self.add(name, unit, Values::Numbers(values));
     }
 
     /// Adds a column of whole numbers.
-    pub fn whole<V: Into<Option<usize>>>(
-        &mut self,
-        name: &str,
-        values: impl IntoIterator<Item = V>,
-    ) {
+    pub fn whole<V: Into<Option<usize>>>(&mut self, name: &str, values: impl IntoIterator<Item = V>) {
         let whole = |value: V| value.into().and_then(|x| i64::try_from(x).ok());
         let values = values.into_iter().map(whole).collect();
         self.add(name, "", Values::Whole(values));
     }
 
     /// Adds a column of words.
-    pub fn texts<V: Into<Option<String>>>(
-        &mut self,
-        name: &str,
-        values: impl IntoIterator<Item = V>,
-    ) {
+    pub fn texts<V: Into<Option<String>>>(&mut self, name: &str, values: impl IntoIterator<Item = V>) {
         let values = values.into_iter().map(Into::into).collect();
         self.add(name, "", Values::Texts(values));
     }
 
     /// Adds a column of yes/no values.
-    pub fn flags<V: Into<Option<bool>>>(
-        &mut self,
-        name: &str,
-        values: impl IntoIterator<Item = V>,
-    ) {
+    pub fn flags<V: Into<Option<bool>>>(&mut self, name: &str, values: impl IntoIterator<Item = V>) {
         let values = values.into_iter().map(Into::into).collect();
         self.add(name, "", Values::Flags(values));
     }
@@ -149,11 +126,7 @@ impl Table {
             unique = format!("{name} {number}");
             number += 1;
         }
-        self.columns.push(Column {
-            name: unique,
-            unit: unit.to_owned(),
-            values,
-        });
+        self.columns.push(Column { name: unique, unit: unit.to_owned(), values });
     }
 
     /// Adds the operating point as the last columns, without an input that varies.

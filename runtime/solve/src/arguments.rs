@@ -8,11 +8,7 @@ pub fn check_count(kind: &'static str, values: &[f64], count: usize) -> Result<(
     if values.len() == count {
         return Ok(());
     }
-    Err(Error::WrongLength {
-        kind,
-        found: values.len(),
-        expected: count,
-    })
+    Err(Error::WrongLength { kind, found: values.len(), expected: count })
 }
 
 /// Refuses the first value that is not finite, reporting its name.
@@ -27,11 +23,7 @@ pub(crate) fn check_finite<'n>(
     }
     match values.iter().position(|value| !value.is_finite()) {
         None => Ok(()),
-        Some(index) => Err(Error::NotFinite {
-            kind,
-            name: name(index).clone(),
-            value: values[index],
-        }),
+        Some(index) => Err(Error::NotFinite { kind, name: name(index).clone(), value: values[index] }),
     }
 }
 
@@ -41,10 +33,5 @@ pub fn check_input(input: Input, description: &Description) -> Result<(), Error>
     if index < count {
         return Ok(());
     }
-    Err(Error::UnknownHandle {
-        kind: "input",
-        index,
-        mechanism: description.name.clone(),
-        count,
-    })
+    Err(Error::UnknownHandle { kind: "input", index, mechanism: description.name.clone(), count })
 }

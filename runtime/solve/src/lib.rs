@@ -25,8 +25,8 @@ pub mod state;
 pub mod watch;
 
 use eigentol_contract::{
-    Coordinate, CoordinateInfo, DampingKind, Description, DesignVariable, Input, PoseMargin, Real,
-    Role, Shared, Text, Unit,
+    Coordinate, CoordinateInfo, DampingKind, Description, DesignVariable, Input, PoseMargin, Real, Role, Shared, Text,
+    Unit,
 };
 use eigentol_contract::{mechanism, scalar};
 use eigentol_numerics::{Complex, algebra, eigenproblem};

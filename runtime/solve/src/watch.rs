@@ -41,9 +41,6 @@ impl<'a> Watch<'a> {
 
 impl fmt::Debug for Watch<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Watch")
-            .field("progress", &self.progress.is_some())
-            .field("stop", &self.stop)
-            .finish()
+        f.debug_struct("Watch").field("progress", &self.progress.is_some()).field("stop", &self.stop).finish()
     }
 }

@@ -66,11 +66,7 @@ impl<M: Kernels> Study<M> {
         let start = self.settings.assembled_start(&self.mechanism)?;
         let bounds = bounds.iter();
         let bounds = bounds.map(|(x, low, high)| (x.any(), *low, *high));
-        let bounds: Vec<_> = self
-            .settings
-            .held_bounds(&self.mechanism)
-            .chain(bounds)
-            .collect();
+        let bounds: Vec<_> = self.settings.held_bounds(&self.mechanism).chain(bounds).collect();
         Search::within(&self.settings.description, &start, &bounds)
     }
 
@@ -190,13 +186,7 @@ impl<M: BatchKernels> Study<M> {
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
         let toleranced = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
         let ((state, modes), sampling) = (toleranced.solved(), self.sampling());
-        tolerance::monte_carlo(
-            toleranced.kernels(),
-            state,
-            modes,
-            toleranced.tolerances,
-            &sampling,
-        )
+        tolerance::monte_carlo(toleranced.kernels(), state, modes, toleranced.tolerances, &sampling)
     }
 
     /// Solves part of the samples of [`Study::monte_carlo`], possibly on another machine: merged parts give the same
@@ -241,24 +231,14 @@ impl<M: BatchKernels> Study<M> {
     pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
         let toleranced = Toleranced::<dyn BatchKernels>::of(&self.settings, &self.mechanism)?;
         let (state, modes) = toleranced.solved();
-        tolerance::partial_monte_carlo(
-            toleranced.kernels(),
-            state,
-            modes,
-            toleranced.tolerances,
-            sampling,
-        )
+        tolerance::partial_monte_carlo(toleranced.kernels(), state, modes, toleranced.tolerances, sampling)
     }
 
     /// Solves the missing samples of a run, unless it is stopped again; see [`Study::sample_modes`].
     ///
     /// # Errors
     /// As [`Study::sample_modes`]; [`Error::OtherRun`] where it is not a run of this study.
-    pub fn resume_samples(
-        &self,
-        done: &mut PartialMonteCarlo,
-        sampling: &Sampling<'_>,
-    ) -> Result<(), Error> {
+    pub fn resume_samples(&self, done: &mut PartialMonteCarlo, sampling: &Sampling<'_>) -> Result<(), Error> {
         let part = |range| self.sample_modes(&sampling.clone().range(Some(range)));
         // Reject a run of another study before any work is done.
         done.merge(part(0..0)?)?;

@@ -5,9 +5,7 @@ use super::deviating::Toleranced;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::convergence::{self, Convergence, Solved};
 use crate::forced;
-use crate::kernels::{
-    CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels,
-};
+use crate::kernels::{CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels};
 use crate::peaks::Peaks;
 use crate::picture::{self, ModePictures, Scene, VibrationPictures};
 use crate::response::{Response, Vibration};
@@ -28,10 +26,7 @@ impl<M: Kernels> Study<M> {
     /// As [`Study::modes`].
     pub fn convergence<N: Kernels>(&self, refined: [N; 2]) -> Result<Convergence, Error> {
         let [one, two] = &self.refined(refined)?;
-        Ok(convergence::convergence(
-            self.solution()?,
-            [one.solution()?, two.solution()?],
-        ))
+        Ok(convergence::convergence(self.solution()?, [one.solution()?, two.solution()?]))
     }
 
     /// Like [`Study::convergence`], with what is found along an input between `low` and `high`: critical values, where
@@ -50,14 +45,10 @@ impl<M: Kernels> Study<M> {
     {
         let refined = self.refined(refined)?;
         let [one, two] = &refined;
-        let convergence =
-            convergence::convergence(self.solution()?, [one.solution()?, two.solution()?]);
+        let convergence = convergence::convergence(self.solution()?, [one.solution()?, two.solution()?]);
         let range = range.any();
-        let mut answers = [
-            self.events_along(range, lines)?,
-            one.events_along(range, lines)?,
-            two.events_along(range, lines)?,
-        ];
+        let mut answers =
+            [self.events_along(range, lines)?, one.events_along(range, lines)?, two.events_along(range, lines)?];
         let peaks = || -> Result<[Vec<Peaks>; 3], Error> {
             let [one, two] = [one.all_peaks(range)?, two.all_peaks(range)?];
             Ok([self.all_peaks(range)?, one, two])
@@ -98,19 +89,12 @@ impl<M: Kernels> Study<M> {
     /// Studies of mechanisms with more coordinates, next to the equilibrium of this one.
     fn refined<N: Kernels>(&self, refined: [N; 2]) -> Result<[Study<N>; 2], Error> {
         let state = self.settings.equilibrium(&self.mechanism)?;
-        Ok(refined.map(|mechanism| Study {
-            settings: self.settings.of(mechanism.description(), state),
-            mechanism,
-        }))
+        Ok(refined.map(|mechanism| Study { settings: self.settings.of(mechanism.description(), state), mechanism }))
     }
 
     fn solution(&self) -> Result<Solved<'_>, Error> {
         let (state, modes) = self.solved()?;
-        Ok(Solved {
-            mechanism: &self.mechanism,
-            state,
-            modes,
-        })
+        Ok(Solved { mechanism: &self.mechanism, state, modes })
     }
 }
 
@@ -123,12 +107,7 @@ impl<M: PictureKernels> Study<M> {
     /// # Errors
     /// As [`Study::equilibrium`].
     pub fn picture(&self) -> Result<Scene, Error> {
-        let Equilibrium {
-            coordinates,
-            inputs,
-            design,
-            ..
-        } = self.settings.equilibrium(&self.mechanism)?;
+        let Equilibrium { coordinates, inputs, design, .. } = self.settings.equilibrium(&self.mechanism)?;
         picture::scene(&self.mechanism, coordinates, inputs, design)
     }
 
@@ -142,12 +121,7 @@ impl<M: PictureKernels> Study<M> {
     #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::modes`]; [`Error::NoSuchMode`], [`Error::Setting`].
-    pub fn mode_pictures(
-        &self,
-        mode: usize,
-        phases: usize,
-        amplitude: f64,
-    ) -> Result<ModePictures, Error> {
+    pub fn mode_pictures(&self, mode: usize, phases: usize, amplitude: f64) -> Result<ModePictures, Error> {
         let (state, modes) = self.solved()?;
         picture::mode_pictures(&self.mechanism, state, modes, mode, phases, amplitude)
     }
@@ -266,9 +240,7 @@ impl<M: CurvatureKernels> Study<M> {
         let toleranced = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
         let (state, modes) = toleranced.solved();
         let (kernels, tolerances) = (toleranced.kernels(), toleranced.tolerances);
-        Ok(second_order::second_order(
-            kernels, state, modes, tolerances,
-        ))
+        Ok(second_order::second_order(kernels, state, modes, tolerances))
     }
 }
 
@@ -296,12 +268,6 @@ impl<M: SummaryKernels> Study<M> {
     pub fn summary_within(&self, operations: f64) -> Result<Summary, Error> {
         let toleranced = Toleranced::<dyn SummaryKernels>::of(&self.settings, &self.mechanism)?;
         let (kernels, watch) = (toleranced.kernels(), self.settings.watch());
-        summary::summary_watched(
-            kernels,
-            toleranced.solved(),
-            toleranced.tolerances,
-            operations,
-            watch,
-        )
+        summary::summary_watched(kernels, toleranced.solved(), toleranced.tolerances, operations, watch)
     }
 }

@@ -13,8 +13,7 @@ use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::tolerance::{Distribution, Sampling, Tolerances};
 use crate::{
-    Coordinate, Description, DesignVariable, Equilibrium, Error, Excitation, Input, Law, Matrix,
-    Output, Text,
+    Coordinate, Description, DesignVariable, Equilibrium, Error, Excitation, Input, Law, Matrix, Output, Text,
 };
 
 /// A mechanism at one operating point, with tolerances and settings.
@@ -89,10 +88,7 @@ impl<M: Kernels> Study<M> {
     #[must_use]
     pub fn new(mechanism: M) -> Self {
         let settings = Settings::new(mechanism.description());
-        Self {
-            mechanism,
-            settings,
-        }
+        Self { mechanism, settings }
     }
 
     /// Sets the value of an input.
@@ -125,8 +121,7 @@ impl<M: Kernels> Study<M> {
     /// many coordinates as are independent, and a [`Study::guess`] to the others.
     #[must_use]
     pub fn start(mut self, coordinate: Coordinate<M>, value: impl Into<Value>) -> Self {
-        self.settings
-            .set_start(coordinate.any(), value.into(), true);
+        self.settings.set_start(coordinate.any(), value.into(), true);
         self
     }
 
@@ -160,8 +155,7 @@ impl<M: Kernels> Study<M> {
     /// The guess selects the assembly mode. Without constraints this is equivalent to [`Study::start`].
     #[must_use]
     pub fn guess(mut self, coordinate: Coordinate<M>, value: impl Into<Value>) -> Self {
-        self.settings
-            .set_start(coordinate.any(), value.into(), false);
+        self.settings.set_start(coordinate.any(), value.into(), false);
         self
     }
 
@@ -177,14 +171,9 @@ impl<M: Kernels> Study<M> {
     /// assert!(spread.modes[0].lambda.sigma > study.first_order()?.modes[0].lambda.sigma);
     #[doc = include_str!("end.txt")]
     #[must_use]
-    pub fn tolerance(
-        mut self,
-        parameter: impl Into<Parameter<M>>,
-        half_width: impl Into<Value>,
-    ) -> Self {
+    pub fn tolerance(mut self, parameter: impl Into<Parameter<M>>, half_width: impl Into<Value>) -> Self {
         let half_width = half_width.into();
-        self.settings
-            .set_limits(parameter.into().any(), half_width.negative(), half_width);
+        self.settings.set_limits(parameter.into().any(), half_width.negative(), half_width);
         self
     }
 
@@ -194,9 +183,7 @@ impl<M: Kernels> Study<M> {
     #[must_use]
     pub fn relative_tolerance(mut self, parameter: impl Into<Parameter<M>>, fraction: f64) -> Self {
         let limits = (-fraction, fraction);
-        self.settings.vary(parameter.into().any(), |setting| {
-            setting.set_limits(limits, true)
-        });
+        self.settings.vary(parameter.into().any(), |setting| setting.set_limits(limits, true));
         self
     }
 
@@ -213,8 +200,7 @@ impl<M: Kernels> Study<M> {
         lower: impl Into<Value>,
         upper: impl Into<Value>,
     ) -> Self {
-        self.settings
-            .set_limits(parameter.into().any(), lower.into(), upper.into());
+        self.settings.set_limits(parameter.into().any(), lower.into(), upper.into());
         self
     }
 
@@ -230,8 +216,7 @@ impl<M: Kernels> Study<M> {
     #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn law(mut self, parameter: impl Into<Parameter<M>>, law: Law) -> Self {
-        self.settings
-            .vary(parameter.into().any(), |setting| setting.set_law(law));
+        self.settings.vary(parameter.into().any(), |setting| setting.set_law(law));
         self
     }
 
@@ -244,14 +229,8 @@ impl<M: Kernels> Study<M> {
     /// println!("{}", study.monte_carlo()?);
     #[doc = include_str!("end.txt")]
     #[must_use]
-    pub fn distribution(
-        mut self,
-        parameter: impl Into<Parameter<M>>,
-        values: Distribution,
-    ) -> Self {
-        self.settings.vary(parameter.into().any(), |setting| {
-            *setting = Variation::Values(values)
-        });
+    pub fn distribution(mut self, parameter: impl Into<Parameter<M>>, values: Distribution) -> Self {
+        self.settings.vary(parameter.into().any(), |setting| *setting = Variation::Values(values));
         self
     }
 
@@ -392,8 +371,7 @@ impl<M: Kernels> Study<M> {
     /// [`Error::UnknownName`], which lists the names that exist.
     pub fn find_design(&self, name: &str) -> Result<DesignVariable<M>, Error> {
         let names = self.description().design.iter().map(|info| &info.name);
-        self.find("design variable", name, names)
-            .map(DesignVariable::new)
+        self.find("design variable", name, names).map(DesignVariable::new)
     }
 
     /// Looks up an output by name.
@@ -411,8 +389,7 @@ impl<M: Kernels> Study<M> {
     /// [`Error::UnknownName`], which lists the names that exist.
     pub fn find_excitation(&self, name: &str) -> Result<Excitation<M>, Error> {
         let names = self.description().excitations.iter();
-        self.find("excitation", name, names.map(|info| &info.name))
-            .map(Excitation::new)
+        self.find("excitation", name, names.map(|info| &info.name)).map(Excitation::new)
     }
 
     fn find<'a>(
@@ -422,14 +399,12 @@ impl<M: Kernels> Study<M> {
         mut names: impl Iterator<Item = &'a Text> + Clone,
     ) -> Result<usize, Error> {
         let known = names.clone();
-        names
-            .position(|x| *x == *name)
-            .ok_or_else(|| Error::UnknownName {
-                kind,
-                name: name.to_owned(),
-                mechanism: self.description().name.clone(),
-                known: known.cloned().collect(),
-            })
+        names.position(|x| *x == *name).ok_or_else(|| Error::UnknownName {
+            kind,
+            name: name.to_owned(),
+            mechanism: self.description().name.clone(),
+            known: known.cloned().collect(),
+        })
     }
 
     /// Values of the inputs, SI.

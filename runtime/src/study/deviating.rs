@@ -9,9 +9,7 @@
 use std::borrow::Cow;
 
 use super::settings::Settings;
-use crate::kernels::{
-    BatchKernels, CurvatureKernels, DeviatingInputs, DirectionalKernels, Kernels, SummaryKernels,
-};
+use crate::kernels::{BatchKernels, CurvatureKernels, DeviatingInputs, DirectionalKernels, Kernels, SummaryKernels};
 use crate::{Equilibrium, Error, Modes, Tolerances};
 
 /// A table of kernels with the settings to study it with, and the same with deviating inputs if any are wanted.
@@ -116,10 +114,4 @@ macro_rules! tables {
     )*};
 }
 
-tables!(
-    Kernels,
-    DirectionalKernels,
-    CurvatureKernels,
-    BatchKernels,
-    SummaryKernels
-);
+tables!(Kernels, DirectionalKernels, CurvatureKernels, BatchKernels, SummaryKernels);

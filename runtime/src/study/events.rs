@@ -175,11 +175,7 @@ impl Along<'_> {
     fn critical_tolerance(&self, range: Range) -> Result<EventTolerance, Error> {
         let tolerances = self.settings.tolerances()?;
         let state = self.critical_state(range)?;
-        Ok(sweep::critical_tolerance(
-            self.kernels(),
-            &state,
-            tolerances,
-        ))
+        Ok(sweep::critical_tolerance(self.kernels(), &state, tolerances))
     }
 
     fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {

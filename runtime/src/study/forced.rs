@@ -132,12 +132,7 @@ impl<M: SummaryKernels> Study<M> {
         let wanted = wanted.iter().copied().map(Response::Vibration);
         let responses = Responses::new(toleranced.kernels(), state, modes, wanted.collect())?;
         let sampling = self.settings.sampling();
-        propagation::vibrations(
-            toleranced.kernels(),
-            &responses,
-            toleranced.tolerances,
-            &sampling,
-        )
+        propagation::vibrations(toleranced.kernels(), &responses, toleranced.tolerances, &sampling)
     }
 
     /// Forced vibration at each value of one input: amplitude and phase of every output with their derivatives
@@ -189,13 +184,6 @@ impl Table<'_, dyn SummaryKernels + '_> {
         let from = (along.0, first_of(along.1));
         let (start, following) = self.way(self.plain, from)?;
         let watch = self.settings.watch();
-        bode::bode(
-            self.kernels(),
-            point,
-            &start,
-            following,
-            along,
-            (banded, self.settings.sampling().threads, watch),
-        )
+        bode::bode(self.kernels(), point, &start, following, along, (banded, self.settings.sampling().threads, watch))
     }
 }

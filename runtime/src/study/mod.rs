@@ -6,10 +6,7 @@ mod at_point;
 mod beyond_first_order;
 mod builder;
 mod cache;
-#[cfg_attr(
-    not(feature = "analysis"),
-    allow(dead_code, reason = "questions of the feature use the rest")
-)]
+#[cfg_attr(not(feature = "analysis"), allow(dead_code, reason = "questions of the feature use the rest"))]
 mod deviating;
 #[cfg(feature = "analysis")]
 mod events;
@@ -22,10 +19,7 @@ mod parameter;
 mod propagation;
 #[cfg(feature = "analysis")]
 mod requirements;
-#[cfg_attr(
-    not(feature = "analysis"),
-    allow(dead_code, reason = "questions of the feature use the rest")
-)]
+#[cfg_attr(not(feature = "analysis"), allow(dead_code, reason = "questions of the feature use the rest"))]
 mod settings;
 mod value;
 mod variation;

@@ -25,11 +25,7 @@ impl<M: BatchKernels> Study<M> {
     #[doc = include_str!("end.txt")]
     /// # Errors
     /// [`Error::UnknownHandle`], [`Error::NotAssembled`]; a point that fails carries its own error.
-    pub fn sweep(
-        &self,
-        input: Input<M>,
-        values: &[impl Into<Value> + Copy],
-    ) -> Result<Sweep, Error> {
+    pub fn sweep(&self, input: Input<M>, values: &[impl Into<Value> + Copy]) -> Result<Sweep, Error> {
         let mut points = Vec::new();
         let mut whole = self.sweep_each(input, values, |point| {
             points.push(point.clone());
@@ -80,8 +76,7 @@ impl<M: BatchKernels> Study<M> {
         mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        Swept::plain(&self.settings, &self.mechanism)
-            .sensitivity_sweep((input.any(), &values), &mut each)
+        Swept::plain(&self.settings, &self.mechanism).sensitivity_sweep((input.any(), &values), &mut each)
     }
 
     /// First-order spread of the frequencies at each value of one input, in order; modes keep their position and label
@@ -162,12 +157,7 @@ impl<M: DirectionalKernels> Study<M> {
     #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::equilibrium`] if there is none at either end; [`Error::Setting`], [`Error::UnknownHandle`].
-    pub fn branches(
-        &self,
-        input: Input<M>,
-        low: impl Into<Value>,
-        high: impl Into<Value>,
-    ) -> Result<Branches, Error> {
+    pub fn branches(&self, input: Input<M>, low: impl Into<Value>, high: impl Into<Value>) -> Result<Branches, Error> {
         self.branches_with(&self.continuation(input, low, high)?, None)
     }
 
@@ -181,11 +171,7 @@ impl<M: DirectionalKernels> Study<M> {
     #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::branches`].
-    pub fn branches_with(
-        &self,
-        continuation: &Continuation,
-        search: Option<&Search>,
-    ) -> Result<Branches, Error> {
+    pub fn branches_with(&self, continuation: &Continuation, search: Option<&Search>) -> Result<Branches, Error> {
         self.branches_each(continuation, search, |_| {})
     }
 
@@ -232,16 +218,10 @@ type Swept<'a> = Table<'a, dyn BatchKernels + 'a>;
 /// The mechanism of any other question along an input.
 impl<K: Kernels + ?Sized> Table<'_, K> {
     /// The start of a way along an input from a value, and what to follow: the equilibrium to be kept, if there is one.
-    pub(super) fn way(
-        &self,
-        plain: &dyn Kernels,
-        from: (Input, f64),
-    ) -> Result<(Cow<'_, [f64]>, Following), Error> {
+    pub(super) fn way(&self, plain: &dyn Kernels, from: (Input, f64)) -> Result<(Cow<'_, [f64]>, Following), Error> {
         let settings = self.settings;
         let start = settings.assembled_start(plain)?;
-        let mut following = Following::from(settings.policy)
-            .family(settings.family)
-            .vectors(settings.vectors);
+        let mut following = Following::from(settings.policy).family(settings.family).vectors(settings.vectors);
         let Some(state) = settings.kept(plain, from) else {
             return Ok((start, following));
         };
@@ -283,10 +263,7 @@ impl Swept<'_> {
         sweep::sensitivity_sweep(self.kernels(), point, &start, following, along, each)
     }
 
-    fn first_order_sweep(
-        &self,
-        along: (Input, &[f64]),
-    ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
+    fn first_order_sweep(&self, along: (Input, &[f64])) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
         let tolerances = self.settings.tolerances()?;
         let mut spreads = Vec::with_capacity(along.1.len());
         self.sensitivity_sweep(along, &mut |point, slopes| {
@@ -360,11 +337,7 @@ impl Settings {
     }
 
     /// Converts values of an input to SI.
-    pub(super) fn values_si(
-        &self,
-        input: Input,
-        values: &[impl Into<Value> + Copy],
-    ) -> Result<Vec<f64>, Error> {
+    pub(super) fn values_si(&self, input: Input, values: &[impl Into<Value> + Copy]) -> Result<Vec<f64>, Error> {
         let si = |&value: &_| self.si(input.into(), Into::into(value));
         values.iter().map(si).collect()
     }

@@ -24,13 +24,7 @@ impl<M: SummaryKernels> Study<M> {
         let sampling = self.settings.sampling();
         // At least one solution for each sample.
         let solutions = SOLUTIONS.max(sampling.samples as u64);
-        propagation::propagate(
-            toleranced.kernels(),
-            &responses,
-            toleranced.tolerances,
-            solutions,
-            &sampling,
-        )
+        propagation::propagate(toleranced.kernels(), &responses, toleranced.tolerances, solutions, &sampling)
     }
 
     /// Samples the given responses at any kind of points, over any range of them ([`propagation::sampled`]).
@@ -44,11 +38,7 @@ impl<M: SummaryKernels> Study<M> {
     #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::propagate`]; [`Error::Setting`] for invalid settings.
-    pub fn sample_responses(
-        &self,
-        wanted: &[Response],
-        sampling: &Sampling<'_>,
-    ) -> Result<Samples, Error> {
+    pub fn sample_responses(&self, wanted: &[Response], sampling: &Sampling<'_>) -> Result<Samples, Error> {
         let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
         let responses = toleranced.responses(wanted)?.watched(Watch::default());
         propagation::sampled(&responses, toleranced.tolerances, sampling)
@@ -80,12 +70,7 @@ impl<M: SummaryKernels> Study<M> {
         let responses = toleranced.responses(wanted)?;
         // The designs report themselves.
         let sampling = self.settings.sampling().progress(None).stop(None);
-        propagation::controlled(
-            toleranced.kernels(),
-            &responses,
-            toleranced.tolerances,
-            &sampling,
-        )
+        propagation::controlled(toleranced.kernels(), &responses, toleranced.tolerances, &sampling)
     }
 
     /// Attributes the scatter of the responses to the variables ([`propagation::influence`]).
@@ -109,8 +94,6 @@ impl TolerancedMachine<'_> {
     fn responses(&self, wanted: &[Response]) -> Result<Responses<'_>, Error> {
         let ((state, modes), settings) = (self.solved(), self.settings());
         let responses = Responses::side_by_side(self.kernels(), state, modes, wanted.to_vec())?;
-        Ok(responses
-            .vectors(settings.vectors)
-            .watched(settings.watch()))
+        Ok(responses.vectors(settings.vectors).watched(settings.watch()))
     }
 }

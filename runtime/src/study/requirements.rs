@@ -6,8 +6,8 @@ use crate::Error;
 use crate::allocation::{Allocation, Choices, allocate};
 use crate::kernels::CurvatureKernels;
 use crate::requirement::{
-    Chances, FormSettings, Probabilities, RareFailure, Reliability, Requirement, Requirements,
-    SecondOrderFailure, second_order_failure,
+    Chances, FormSettings, Probabilities, RareFailure, Reliability, Requirement, Requirements, SecondOrderFailure,
+    second_order_failure,
 };
 use crate::tolerance::Sampling;
 
@@ -25,9 +25,7 @@ impl<M: CurvatureKernels> Study<M> {
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::probabilities`].
     pub fn probability(&self, wanted: &[Requirement]) -> Result<Probabilities, Error> {
         let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
-        let requirements = toleranced
-            .requirements(wanted)?
-            .watched(self.settings.watch());
+        let requirements = toleranced.requirements(wanted)?.watched(self.settings.watch());
         // The designs report themselves.
         requirements.probabilities(&self.sampling().progress(None))
     }
@@ -57,11 +55,7 @@ impl<M: CurvatureKernels> Study<M> {
     #[doc = include_str!("end.txt")]
     /// # Errors
     /// As [`Study::chances`].
-    pub fn chances_by(
-        &self,
-        wanted: &[Requirement],
-        sampling: &Sampling<'_>,
-    ) -> Result<Chances, Error> {
+    pub fn chances_by(&self, wanted: &[Requirement], sampling: &Sampling<'_>) -> Result<Chances, Error> {
         let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
         toleranced.requirements(wanted)?.chances(sampling)
     }
@@ -79,9 +73,7 @@ impl<M: CurvatureKernels> Study<M> {
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::reliability`].
     pub fn reliability(&self, wanted: &[Requirement]) -> Result<Reliability, Error> {
         let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
-        let requirements = toleranced
-            .requirements(wanted)?
-            .watched(self.settings.watch());
+        let requirements = toleranced.requirements(wanted)?.watched(self.settings.watch());
         requirements.reliability(&FormSettings::default())
     }
 
@@ -102,9 +94,7 @@ impl<M: CurvatureKernels> Study<M> {
         accuracy: f64,
     ) -> Result<RareFailure, Error> {
         let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
-        let requirements = toleranced
-            .requirements(wanted)?
-            .watched(self.settings.watch());
+        let requirements = toleranced.requirements(wanted)?.watched(self.settings.watch());
         let about = requirements.reliability(&FormSettings::default())?;
         requirements.rare_failure(&about, sampling, accuracy)
     }
@@ -126,11 +116,7 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and
     /// [`allocation::allocate`](crate::allocation::allocate).
-    pub fn allocation(
-        &self,
-        wanted: &[Requirement],
-        choices: &Choices<'_>,
-    ) -> Result<Allocation, Error> {
+    pub fn allocation(&self, wanted: &[Requirement], choices: &Choices<'_>) -> Result<Allocation, Error> {
         let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
         allocate(&toleranced.requirements(wanted)?, choices, &self.sampling())
     }
@@ -151,13 +137,7 @@ impl<M: CurvatureKernels> Study<M> {
     pub fn second_order_failure(&self, wanted: Requirement) -> Result<SecondOrderFailure, Error> {
         let toleranced = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
         let (state, modes) = toleranced.solved();
-        second_order_failure(
-            toleranced.kernels(),
-            state,
-            modes,
-            toleranced.tolerances,
-            wanted,
-        )
+        second_order_failure(toleranced.kernels(), state, modes, toleranced.tolerances, wanted)
     }
 }
 
@@ -167,12 +147,6 @@ type TolerancedMachine<'a> = Toleranced<'a, dyn CurvatureKernels + 'a>;
 impl TolerancedMachine<'_> {
     fn requirements(&self, wanted: &[Requirement]) -> Result<Requirements<'_>, Error> {
         let (state, modes) = self.solved();
-        Requirements::new(
-            self.kernels(),
-            state,
-            modes,
-            self.tolerances,
-            wanted.to_vec(),
-        )
+        Requirements::new(self.kernels(), state, modes, self.tolerances, wanted.to_vec())
     }
 }

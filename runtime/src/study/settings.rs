@@ -72,9 +72,7 @@ impl Settings {
             holds: Vec::new(),
             policy: Policy::Stable,
             family: None,
-            design_variations: (design.iter())
-                .map(|info| Variation::About(info.tolerance.clone()))
-                .collect(),
+            design_variations: (design.iter()).map(|info| Variation::About(info.tolerance.clone())).collect(),
             input_variations: (description.inputs.iter())
                 .map(|info| Variation::About(info.tolerance.clone()))
                 .collect(),
@@ -97,14 +95,12 @@ impl Settings {
     pub(super) fn set_value(&mut self, parameter: Parameter, value: Value) {
         let value = self.si(parameter, value);
         let (slot, is_fixed) = match parameter {
-            Parameter::Design(variable) => (
-                self.design.get_mut(variable.index()),
-                self.design_variations.iter().all(Variation::is_fixed),
-            ),
-            Parameter::Input(input) => (
-                self.inputs.get_mut(input.index()),
-                self.input_variations.iter().all(Variation::is_none),
-            ),
+            Parameter::Design(variable) => {
+                (self.design.get_mut(variable.index()), self.design_variations.iter().all(Variation::is_fixed))
+            }
+            Parameter::Input(input) => {
+                (self.inputs.get_mut(input.index()), self.input_variations.iter().all(Variation::is_none))
+            }
         };
         set(slot, value, &mut self.fault);
         self.solution.clear();
@@ -125,10 +121,7 @@ impl Settings {
 
     /// The same settings for a mechanism that differs in its unknowns alone: those of the same name start at their
     /// values in an equilibrium of this one, the others at zero.
-    #[cfg_attr(
-        not(feature = "analysis"),
-        allow(dead_code, reason = "only convergence asks for it")
-    )]
+    #[cfg_attr(not(feature = "analysis"), allow(dead_code, reason = "only convergence asks for it"))]
     pub(super) fn of(&self, description: Shared<Description>, at: &Equilibrium) -> Self {
         let unknowns = &description.coordinates;
         let index_of = |unknown: usize| {
@@ -247,12 +240,7 @@ impl Settings {
     }
 
     fn unknown(&self, kind: &'static str, index: usize, count: usize) -> Error {
-        Error::UnknownHandle {
-            kind,
-            index,
-            mechanism: self.description.name.clone(),
-            count,
-        }
+        Error::UnknownHandle { kind, index, mechanism: self.description.name.clone(), count }
     }
 
     fn ready(&self) -> Result<(), Error> {
@@ -294,10 +282,7 @@ impl Settings {
     }
 
     /// Bounds of the unknowns that are held or have declared steady values: these values.
-    pub(super) fn held_bounds(
-        &self,
-        mechanism: &dyn Kernels,
-    ) -> impl Iterator<Item = (Coordinate, f64, f64)> {
+    pub(super) fn held_bounds(&self, mechanism: &dyn Kernels) -> impl Iterator<Item = (Coordinate, f64, f64)> {
         let bounds = |held: Held| (Coordinate::new(held.unknown), held.value, held.value);
         let declared = declared(mechanism, &self.inputs, &self.design);
         self.holds.iter().cloned().chain(declared).map(bounds)
@@ -306,8 +291,7 @@ impl Settings {
     /// A search for equilibria held as the study is; if there is none, `None` or only the equilibrium from `start`.
     pub(super) fn held_in(&self, search: Option<&Search>, start: &[f64]) -> Option<Search> {
         let search = search.cloned();
-        let search = search
-            .or_else(|| (!self.holds.is_empty()).then(|| Search::new(start, start).starts(0)))?;
+        let search = search.or_else(|| (!self.holds.is_empty()).then(|| Search::new(start, start).starts(0)))?;
         Some(match search.held.is_empty() {
             true => search.held(self.holds.clone()),
             false => search,
@@ -316,11 +300,7 @@ impl Settings {
 
     /// The equilibrium at this value of an input that is to be kept along it: a start value that is given keeps an
     /// unstable equilibrium, and picks the member of a family of steady motions.
-    pub(super) fn kept(
-        &self,
-        plain: &dyn Kernels,
-        (input, first): (Input, f64),
-    ) -> Option<Equilibrium> {
+    pub(super) fn kept(&self, plain: &dyn Kernels, (input, first): (Input, f64)) -> Option<Equilibrium> {
         let (_, named) = self.beginning(plain);
         let asked = named.contains(&true) || !self.holds.is_empty();
         if !asked && self.description.held.is_empty() {

@@ -20,12 +20,7 @@ impl Variation {
             Self::About(info) => info.law.clone(),
             Self::Values(_) => Law::Normal,
         };
-        *self = Self::About(ToleranceInfo {
-            lower,
-            upper,
-            relative,
-            law,
-        });
+        *self = Self::About(ToleranceInfo { lower, upper, relative, law });
     }
 
     /// Sets the law. The limits are kept; an explicit distribution is replaced by one without limits.

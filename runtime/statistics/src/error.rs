@@ -82,14 +82,10 @@ pub enum Error {
         end: u64,
     },
     /// Partial results were gathered by different plans.
-    #[error(
-        "these samples were gathered by different plans; use clones of the same plan for all of them"
-    )]
+    #[error("these samples were gathered by different plans; use clones of the same plan for all of them")]
     OtherPlan,
     /// A quantity of a sample is not a number, or too large to compute with.
-    #[error(
-        "quantity {quantity} of sample {sample} is {value}; leave it out (`None`) where a sample does not have it"
-    )]
+    #[error("quantity {quantity} of sample {sample} is {value}; leave it out (`None`) where a sample does not have it")]
     Value {
         /// Index of the quantity.
         quantity: usize,

@@ -92,11 +92,7 @@ mod tests {
             (1e-100, -21.273_453_560_965_324),
             (1e-300, -37.047_096_299_361_2),
         ] {
-            assert!(
-                (quantile(p) - z).abs() <= 4e-15 * z.abs(),
-                "{p:e}: {:.17}",
-                quantile(p)
-            );
+            assert!((quantile(p) - z).abs() <= 4e-15 * z.abs(), "{p:e}: {:.17}", quantile(p));
         }
         assert_eq!(quantile(0.0), f64::NEG_INFINITY);
         assert_eq!(quantile(1.0), f64::INFINITY);
@@ -120,10 +116,7 @@ mod tests {
             let z = 0.1 * f64::from(k);
             // Near one, a probability has no digits left for z.
             let lost = 1e-15 + f64::EPSILON / density(z.max(0.0)) * cdf(z);
-            assert!(
-                (quantile(cdf(z)) - z).abs() <= lost + 4e-15 * z.abs(),
-                "{z}"
-            );
+            assert!((quantile(cdf(z)) - z).abs() <= lost + 4e-15 * z.abs(), "{z}");
         }
     }
 }

@@ -37,30 +37,17 @@ impl RandomPhases {
     /// # Errors
     /// [`Error::Setting`] for a length that is negative or not finite.
     pub fn new(lengths: &[f64]) -> Result<Self, Error> {
-        if let Some(wrong) = lengths
-            .iter()
-            .find(|length| !(**length >= 0.0 && length.is_finite()))
-        {
-            return Err(Error::Setting {
-                setting: "lengths",
-                reason: format!("{wrong} is no length"),
-            });
+        if let Some(wrong) = lengths.iter().find(|length| !(**length >= 0.0 && length.is_finite())) {
+            return Err(Error::Setting { setting: "lengths", reason: format!("{wrong} is no length") });
         }
-        let mut lengths: Vec<f64> = lengths
-            .iter()
-            .copied()
-            .filter(|length| *length > 0.0)
-            .collect();
+        let mut lengths: Vec<f64> = lengths.iter().copied().filter(|length| *length > 0.0).collect();
         lengths.sort_by(|a, b| b.total_cmp(a));
         let all: f64 = lengths.iter().sum();
         let mut terms = Vec::new();
         if lengths.len() > 2 {
             for m in 1..=TERMS {
                 let j = zero_of_j0(m);
-                let product: f64 = lengths
-                    .iter()
-                    .map(|length| libm::j0(length * j / all))
-                    .product();
+                let product: f64 = lengths.iter().map(|length| libm::j0(length * j / all)).product();
                 terms.push([j, product / (j * libm::j1(j).powi(2))]);
             }
         }
@@ -83,11 +70,7 @@ impl RandomPhases {
     /// Root of the mean square of the length.
     #[must_use]
     pub fn root_mean_square(&self) -> f64 {
-        self.lengths
-            .iter()
-            .map(|length| length * length)
-            .sum::<f64>()
-            .sqrt()
+        self.lengths.iter().map(|length| length * length).sum::<f64>().sqrt()
     }
 
     /// Probability that the sum is not longer than `length`; the series of three or more vectors to about 1e-6.
@@ -116,10 +99,7 @@ impl RandomPhases {
     /// [`Error::Setting`] unless the probability lies between zero and one.
     pub fn quantile(&self, probability: f64) -> Result<f64, Error> {
         if !(0.0..=1.0).contains(&probability) {
-            return Err(Error::Setting {
-                setting: "probability",
-                reason: format!("{probability} is no probability"),
-            });
+            return Err(Error::Setting { setting: "probability", reason: format!("{probability} is no probability") });
         }
         let (mut low, mut high) = (self.least(), self.greatest());
         if probability == 1.0 {
@@ -204,10 +184,7 @@ mod tests {
     fn certain_and_empty_sums() -> Result<(), Error> {
         let one = RandomPhases::new(&[3.0, 0.0])?;
         assert_eq!((one.least(), one.greatest()), (3.0, 3.0));
-        assert_eq!(
-            (one.probability_below(2.9), one.probability_below(3.0)),
-            (0.0, 1.0)
-        );
+        assert_eq!((one.probability_below(2.9), one.probability_below(3.0)), (0.0, 1.0));
         assert_eq!(one.quantile(0.5)?, 3.0);
         let none = RandomPhases::new(&[])?;
         assert_eq!((none.greatest(), none.probability_below(0.0)), (0.0, 1.0));

@@ -28,10 +28,7 @@ fn uniform_variables() {
     for r in [-0.99, -0.5, 0.1, 0.7, 0.95] {
         let joint = pair(&uniform(), &uniform(), r).unwrap();
         let [rho, rest] = factor(&joint);
-        assert!(
-            (rho - 2.0 * (PI * r / 6.0).sin()).abs() < 1e-6,
-            "{r}: {rho}"
-        );
+        assert!((rho - 2.0 * (PI * r / 6.0).sin()).abs() < 1e-6, "{r}: {rho}");
         assert!((rho.hypot(rest) - 1.0).abs() < 1e-14);
     }
 }
@@ -54,18 +51,12 @@ fn the_factor_is_that_of_the_normal_variables() {
         }
     }
     let alone = Joint::independent(vec![uniform(); 2]);
-    assert_eq!(
-        (alone.normal_factor(1, 1), alone.normal_factor(1, 0)),
-        (1.0, 0.0)
-    );
+    assert_eq!((alone.normal_factor(1, 1), alone.normal_factor(1, 0)), (1.0, 0.0));
 }
 
 #[test]
 fn lognormal_variables() {
-    let (a, b) = (
-        Distribution::lognormal(2.0, 0.8).unwrap(),
-        Distribution::lognormal(1.0, 0.3).unwrap(),
-    );
+    let (a, b) = (Distribution::lognormal(2.0, 0.8).unwrap(), Distribution::lognormal(1.0, 0.3).unwrap());
     let [s, t] = [0.4_f64, 0.3].map(|variation| (variation * variation).ln_1p().sqrt());
     for r in [-0.6, 0.2, 0.9] {
         let joint = pair(&a, &b, r).unwrap();
@@ -101,9 +92,7 @@ fn coins() {
         let steps = 400;
         for i in 0..steps {
             for j in 0..steps {
-                let z = [i, j].map(|k| {
-                    eigentol_statistics::normal::quantile((f64::from(k) + 0.5) / f64::from(steps))
-                });
+                let z = [i, j].map(|k| eigentol_statistics::normal::quantile((f64::from(k) + 0.5) / f64::from(steps)));
                 let mut values = [0.0; 2];
                 joint.from_normal(&z, &mut values);
                 found += values[0] * values[1];

@@ -35,10 +35,7 @@ impl<W: Write> Writer<W> {
     /// Creates a writer; nothing is written yet.
     pub fn new(file: W) -> Self {
         let file = csv::Writer::from_writer(file);
-        Self {
-            file,
-            headings: None,
-        }
+        Self { file, headings: None }
     }
 
     /// Writes the rows of a table, preceded by the headings if it is the first.
@@ -51,10 +48,7 @@ impl<W: Write> Writer<W> {
         match &self.headings {
             Some(written) if *written == headings => {}
             Some(written) => {
-                return Err(Error::OtherColumns {
-                    found: headings.join(", "),
-                    expected: written.join(", "),
-                });
+                return Err(Error::OtherColumns { found: headings.join(", "), expected: written.join(", ") });
             }
             None => {
                 self.file.write_record(&headings).map_err(writing)?;
@@ -73,9 +67,7 @@ impl<W: Write> Writer<W> {
     /// # Errors
     /// [`Error::Write`].
     pub fn finish(self) -> Result<W, Error> {
-        self.file
-            .into_inner()
-            .map_err(|failed| Error::Write(failed.into_error()))
+        self.file.into_inner().map_err(|failed| Error::Write(failed.into_error()))
     }
 }
 
@@ -118,10 +110,7 @@ pub fn read(name: &str, mut file: impl Read) -> Result<Table, Error> {
             reason: "the line has no end: the file is cut off".to_owned(),
         });
     }
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .from_reader(&bytes[..]);
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(&bytes[..]);
     let mut headings = Vec::new();
     let mut cells: Vec<Vec<String>> = Vec::new();
     for (k, record) in reader.records().enumerate() {
@@ -146,30 +135,19 @@ pub fn read(name: &str, mut file: impl Read) -> Result<Table, Error> {
         }
     }
     if headings.is_empty() {
-        return Err(Error::Malformed {
-            line: 1,
-            reason: "there are no headings: the file is empty".to_owned(),
-        });
+        return Err(Error::Malformed { line: 1, reason: "there are no headings: the file is empty".to_owned() });
     }
-    let columns = headings
-        .into_iter()
-        .zip(cells)
-        .map(|((name, unit), cells)| {
-            let values = values(cells);
-            Column { name, unit, values }
-        });
-    Ok(Table {
-        name: name.to_owned(),
-        columns: columns.collect(),
-    })
+    let columns = headings.into_iter().zip(cells).map(|((name, unit), cells)| {
+        let values = values(cells);
+        Column { name, unit, values }
+    });
+    Ok(Table { name: name.to_owned(), columns: columns.collect() })
 }
 
 fn cell(values: &Values, row: usize) -> String {
     match values {
         // Debug prints the shortest digits that restore the number, with an exponent where that is shorter.
-        Values::Numbers(numbers) => {
-            numbers[row].map_or_else(String::new, |value| format!("{value:?}"))
-        }
+        Values::Numbers(numbers) => numbers[row].map_or_else(String::new, |value| format!("{value:?}")),
         Values::Whole(whole) => whole[row].map_or_else(String::new, |value| value.to_string()),
         Values::Texts(texts) => texts[row].clone().unwrap_or_default(),
         Values::Flags(flags) => flags[row].map_or_else(String::new, |value| value.to_string()),

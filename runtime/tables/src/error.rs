@@ -21,9 +21,7 @@ pub enum Error {
         reason: String,
     },
     /// The columns of a table have different lengths.
-    #[error(
-        "table `{table}`: column `{column}` has {found} rows where the first column has {expected}"
-    )]
+    #[error("table `{table}`: column `{column}` has {found} rows where the first column has {expected}")]
     Lengths {
         /// The table.
         table: String,
@@ -35,9 +33,7 @@ pub enum Error {
         expected: usize,
     },
     /// The file was not written by this library.
-    #[error(
-        "this is not a document of eigentol: it has no `\"format\": \"eigentol\"` with a version and a kind"
-    )]
+    #[error("this is not a document of eigentol: it has no `\"format\": \"eigentol\"` with a version and a kind")]
     Foreign,
     /// The document has another version.
     #[error(
@@ -63,9 +59,7 @@ pub enum Error {
     #[error("the document is damaged: {0}")]
     Content(String),
     /// The columns of the rows differ from those already in the file.
-    #[error(
-        "these rows have the columns {found}, those before them {expected}: write them to a file of their own"
-    )]
+    #[error("these rows have the columns {found}, those before them {expected}: write them to a file of their own")]
     OtherColumns {
         /// Headings of the new rows.
         found: String,

@@ -156,16 +156,9 @@ pub fn read<A: Answer + DeserializeOwned>(file: impl Read) -> Result<A, Error> {
     let document: Value = serde_json::from_reader(file).map_err(reading)?;
     let kind = kind(&document)?;
     if kind != A::KIND {
-        return Err(Error::Kind {
-            found: kind.to_owned(),
-            expected: A::KIND,
-        });
+        return Err(Error::Kind { found: kind.to_owned(), expected: A::KIND });
     }
-    let Whole {
-        lengths: written,
-        description,
-        mut result,
-    } = serde_json::from_value(document).map_err(content)?;
+    let Whole { lengths: written, description, mut result } = serde_json::from_value(document).map_err(content)?;
     if written != lengths(&description, &result) {
         let reason = "its lists have not the lengths with which they were written";
         return Err(Error::Content(reason.to_owned()));
@@ -282,10 +275,7 @@ fn reading(error: serde_json::Error) -> Error {
         true => "the file is cut off".to_owned(),
         false => error.to_string(),
     };
-    Error::Malformed {
-        line: error.line() as u64,
-        reason,
-    }
+    Error::Malformed { line: error.line() as u64, reason }
 }
 
 fn content(error: serde_json::Error) -> Error {

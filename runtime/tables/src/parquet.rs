@@ -55,10 +55,7 @@ pub struct Writer<W: Write + Send> {
 
 enum State<W: Write + Send> {
     Empty(W),
-    Begun {
-        file: Box<SerializedFileWriter<W>>,
-        columns: Vec<(String, Physical)>,
-    },
+    Begun { file: Box<SerializedFileWriter<W>>, columns: Vec<(String, Physical)> },
     Failed,
 }
 
@@ -76,9 +73,8 @@ impl<W: Write + Send> Writer<W> {
     /// from the previous rows; [`Error::Lengths`].
     pub fn write(&mut self, table: &Table) -> Result<(), Error> {
         check(table)?;
-        let schema: Vec<(String, Physical)> = (table.columns.iter())
-            .map(|column| (column.heading(), physical(&column.values)))
-            .collect();
+        let schema: Vec<(String, Physical)> =
+            (table.columns.iter()).map(|column| (column.heading(), physical(&column.values))).collect();
         match std::mem::replace(&mut self.state, State::Failed) {
             State::Failed => Err(Error::Write(io::Error::other("writing failed before"))),
             State::Empty(file) => {
@@ -87,10 +83,7 @@ impl<W: Write + Send> Writer<W> {
             }
             State::Begun { file, columns } if columns == schema => self.group(file, schema, table),
             State::Begun { file, columns } => {
-                let error = Error::OtherColumns {
-                    found: listed(&schema),
-                    expected: listed(&columns),
-                };
+                let error = Error::OtherColumns { found: listed(&schema), expected: listed(&columns) };
                 self.state = State::Begun { file, columns };
                 Err(error)
             }
@@ -141,9 +134,7 @@ fn physical(values: &Values) -> Physical {
 }
 
 fn listed(columns: &[(String, Physical)]) -> String {
-    let each = columns
-        .iter()
-        .map(|(name, kind)| format!("{name} ({kind})"));
+    let each = columns.iter().map(|(name, kind)| format!("{name} ({kind})"));
     each.collect::<Vec<_>>().join(", ")
 }
 
@@ -158,25 +149,15 @@ fn begin<W: Write + Send>(file: W, table: &Table) -> Result<SerializedFileWriter
             .map(Arc::new)
     });
     let fields = fields.collect::<Result<Vec<_>, _>>()?;
-    let schema = Type::group_type_builder("table")
-        .with_fields(fields)
-        .build()?;
+    let schema = Type::group_type_builder("table").with_fields(fields).build()?;
     let said = |key: &str, value: String| KeyValue::new(key.to_owned(), value);
-    let keys = vec![
-        said(FORMAT, VERSION.to_string()),
-        said(TABLE, table.name.clone()),
-    ];
-    let properties = WriterProperties::builder()
-        .set_dictionary_enabled(false)
-        .set_key_value_metadata(Some(keys))
-        .build();
+    let keys = vec![said(FORMAT, VERSION.to_string()), said(TABLE, table.name.clone())];
+    let properties =
+        WriterProperties::builder().set_dictionary_enabled(false).set_key_value_metadata(Some(keys)).build();
     SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties))
 }
 
-fn group<W: Write + Send>(
-    file: &mut SerializedFileWriter<W>,
-    table: &Table,
-) -> Result<(), ParquetError> {
+fn group<W: Write + Send>(file: &mut SerializedFileWriter<W>, table: &Table) -> Result<(), ParquetError> {
     let mut group = file.next_row_group()?;
     for column in &table.columns {
         let Some(mut writer) = group.next_column()? else {
@@ -224,26 +205,17 @@ pub fn read(mut file: impl Read) -> Result<Table, Error> {
     let reader = SerializedFileReader::new(Bytes::from(bytes)).map_err(content)?;
     let metadata = reader.metadata().file_metadata();
     let keys = metadata.key_value_metadata().into_iter().flatten();
-    let keys: BTreeMap<&str, &str> = keys
-        .filter_map(|key| Some((key.key.as_str(), key.value.as_deref()?)))
-        .collect();
+    let keys: BTreeMap<&str, &str> = keys.filter_map(|key| Some((key.key.as_str(), key.value.as_deref()?))).collect();
     if let Some(version) = keys.get(FORMAT).filter(|key| **key != VERSION.to_string()) {
         return Err(Error::Version {
             found: (*version).to_owned(),
-            by: metadata
-                .created_by()
-                .unwrap_or("an unknown program")
-                .to_owned(),
+            by: metadata.created_by().unwrap_or("an unknown program").to_owned(),
             expected: VERSION,
         });
     }
     let mut columns = Vec::new();
     for field in metadata.schema_descr().columns() {
-        let values = match (
-            field.max_rep_level(),
-            field.max_def_level(),
-            field.physical_type(),
-        ) {
+        let values = match (field.max_rep_level(), field.max_def_level(), field.physical_type()) {
             (0, 0 | 1, Physical::DOUBLE) => Values::Numbers(Vec::new()),
             (0, 0 | 1, Physical::INT64) => Values::Whole(Vec::new()),
             (0, 0 | 1, Physical::BYTE_ARRAY) => Values::Texts(Vec::new()),
@@ -264,10 +236,7 @@ pub fn read(mut file: impl Read) -> Result<Table, Error> {
             append(&*group, j, &mut column.values)?;
         }
     }
-    let table = Table {
-        name: (*keys.get(TABLE).unwrap_or(&"")).to_owned(),
-        columns,
-    };
+    let table = Table { name: (*keys.get(TABLE).unwrap_or(&"")).to_owned(), columns };
     check(&table)?;
     Ok(table)
 }
@@ -282,9 +251,7 @@ fn append(group: &dyn RowGroupReader, column: usize, to: &mut Values) -> Result<
         Values::Flags(all) => all.extend(entries::<BoolType>(reader, rows)?),
         Values::Texts(all) => {
             for entry in entries::<ByteArrayType>(reader, rows)? {
-                let text = entry
-                    .map(|entry| entry.as_utf8().map(str::to_owned))
-                    .transpose();
+                let text = entry.map(|entry| entry.as_utf8().map(str::to_owned)).transpose();
                 all.push(text.map_err(content)?);
             }
         }
@@ -297,9 +264,7 @@ fn entries<T: DataType>(reader: ColumnReader, rows: usize) -> Result<Vec<Option<
     let (mut levels, mut values) = (Vec::new(), Vec::new());
     let mut read = 0;
     while read < rows {
-        let (records, ..) = reader
-            .read_records(rows - read, Some(&mut levels), None, &mut values)
-            .map_err(content)?;
+        let (records, ..) = reader.read_records(rows - read, Some(&mut levels), None, &mut values).map_err(content)?;
         if records == 0 {
             break;
         }
@@ -310,9 +275,7 @@ fn entries<T: DataType>(reader: ColumnReader, rows: usize) -> Result<Vec<Option<
         levels = vec![1; values.len()];
     }
     let mut values = values.into_iter();
-    let entries = levels
-        .into_iter()
-        .map(|level| if level == 1 { values.next() } else { None });
+    let entries = levels.into_iter().map(|level| if level == 1 { values.next() } else { None });
     Ok(entries.collect())
 }
 

@@ -21,15 +21,11 @@ mechanism! {
 const RPM: f64 = 60.0;
 
 fn study() -> Study<RotatingBar> {
-    Study::new(RotatingBar)
-        .input(RotatingBar::speed, InDeclaredUnit(RPM))
-        .start(RotatingBar::theta, 1.0)
+    Study::new(RotatingBar).input(RotatingBar::speed, InDeclaredUnit(RPM)).start(RotatingBar::theta, 1.0)
 }
 
 fn number(table: &Table, name: &str, row: usize) -> f64 {
-    let column = table
-        .column(name)
-        .unwrap_or_else(|| panic!("no column `{name}`"));
+    let column = table.column(name).unwrap_or_else(|| panic!("no column `{name}`"));
     match &column.values {
         Values::Numbers(values) => values[row].expect("a number"),
         _ => panic!("`{name}` has no numbers"),
@@ -37,10 +33,7 @@ fn number(table: &Table, name: &str, row: usize) -> f64 {
 }
 
 fn close(value: f64, expected: f64) {
-    assert!(
-        (value - expected).abs() <= 1e-9 * expected.abs(),
-        "{value} for {expected}"
-    );
+    assert!((value - expected).abs() <= 1e-9 * expected.abs(), "{value} for {expected}");
 }
 
 /// `theta`, the frequency and its derivative by the length in m.
@@ -98,13 +91,7 @@ fn every_table_comes_back_from_its_file() {
         let back = csv::read(&table.name, text.as_bytes()).expect("a table");
         assert_eq!(csv::to_string(&back).expect("text"), text, "{}", table.name);
         assert_eq!(back.rows(), table.rows());
-        let heads = |table: &Table| {
-            table
-                .columns
-                .iter()
-                .map(|column| column.heading())
-                .collect::<Vec<_>>()
-        };
+        let heads = |table: &Table| table.columns.iter().map(|column| column.heading()).collect::<Vec<_>>();
         assert_eq!(heads(&back), heads(table));
         assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
     }
@@ -119,10 +106,7 @@ fn parts_of_a_sweep_are_the_sweep() {
     let sweep = study.sweep(RotatingBar::speed, &speeds).expect("a sweep");
     let whole = &sweep.tables()[0];
     assert_eq!(whole.columns[0].heading(), "speed [rpm]");
-    close(
-        number(whole, "speed", 39),
-        speeds[39] * 60.0 / std::f64::consts::TAU,
-    );
+    close(number(whole, "speed", 39), speeds[39] * 60.0 / std::f64::consts::TAU);
     let mut writer = csv::Writer::new(Vec::new());
     for part in sweep.points.chunks(7) {
         let table = sweep_table(&sweep.description, &sweep.inputs, sweep.input, part, 1);
@@ -141,16 +125,12 @@ fn second_derivatives_are_per_declared_units() {
         number(table, "frequency", 1)
     };
     let step = 1e-2;
-    let difference =
-        (frequency_slope(1000.0 + step) - frequency_slope(1000.0 - step)) / (2.0 * step);
+    let difference = (frequency_slope(1000.0 + step) - frequency_slope(1000.0 - step)) / (2.0 * step);
     let curvature = study().mode_curvature(0).expect("derivatives");
     let table = &curvature.tables()[0];
     assert_eq!(table.rows(), 4);
     let found = number(table, "Im s", 3);
-    assert!(
-        (found - difference).abs() < 1e-6 * found.abs(),
-        "{found} {difference}"
-    );
+    assert!((found - difference).abs() < 1e-6 * found.abs(), "{found} {difference}");
     let mixed = [number(table, "lambda", 1), number(table, "lambda", 2)];
     assert!(mixed[0] == mixed[1] && mixed[0] != 0.0, "{mixed:?}");
 }
@@ -164,10 +144,7 @@ fn second_derivatives_of_outputs_and_critical_values() {
     let angle = study().output_curvature(RotatingBar::angle);
     let table = &angle.expect("derivatives").tables()[0];
     assert_eq!(table.rows(), 4);
-    close(
-        number(table, "angle", 3),
-        -1e-6 * cos / sin * (2.0 + (cos / sin).powi(2)),
-    );
+    close(number(table, "angle", 3), -1e-6 * cos / sin * (2.0 + (cos / sin).powi(2)));
     // dtheta/dl = cot theta / l, dtheta/dOmega = 2 cot theta / Omega.
     let mixed = -1e-3 / RPM * 2.0 * cos / sin.powi(3);
     close(number(table, "angle", 1), mixed);

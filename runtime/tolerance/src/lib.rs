@@ -11,9 +11,7 @@ use eigentol_contract::{mechanism, scalar};
 use eigentol_numerics::{Complex, algebra, eigenproblem};
 use eigentol_results::setters;
 pub use eigentol_solve::Error;
-use eigentol_solve::{
-    Behaviour, Equilibrium, Mode, Modes, Policy, Sensitivities, Stability, Watch,
-};
+use eigentol_solve::{Behaviour, Equilibrium, Mode, Modes, Policy, Sensitivities, Stability, Watch};
 use eigentol_solve::{constraints, equilibrium, kernels, modes, rounding, sensitivity};
 
 pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};

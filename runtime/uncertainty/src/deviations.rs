@@ -32,12 +32,7 @@ impl<'a> Deviations<'a> {
             (Some(matrix), None) => semidefinite_factor(matrix.as_flattened(), size)?,
             _ => Vec::new(),
         };
-        Ok(Self {
-            tolerances,
-            nominal: nominal.into(),
-            scales: Vector::filled(size, 1.0),
-            root,
-        })
+        Ok(Self { tolerances, nominal: nominal.into(), scales: Vector::filled(size, 1.0), root })
     }
 
     /// Rejects variables without a density, which are not smooth functions of normal ones.
@@ -50,9 +45,7 @@ impl<'a> Deviations<'a> {
         let name = description.design.get(k).map_or("", |info| &*info.name);
         Err(Error::Setting {
             setting: "distribution",
-            reason: format!(
-                "`{name}` takes discrete values: a design point needs a density, sampling does not"
-            ),
+            reason: format!("`{name}` takes discrete values: a design point needs a density, sampling does not"),
         })
     }
 
@@ -60,11 +53,7 @@ impl<'a> Deviations<'a> {
     pub(crate) fn moved(&self, nominal: &[f64], half_widths: &[f64]) -> Self {
         let pairs = half_widths.iter().zip(self.tolerances.half_widths());
         let scales = pairs.map(|(new, old)| if *old > 0.0 { new / old } else { 1.0 });
-        Self {
-            nominal: nominal.into(),
-            scales: scales.collect(),
-            ..self.clone()
-        }
+        Self { nominal: nominal.into(), scales: scales.collect(), ..self.clone() }
     }
 
     pub(crate) fn dimension(&self) -> usize {
@@ -81,8 +70,7 @@ impl<'a> Deviations<'a> {
 
     fn unscaled(&self, z: &[f64]) -> Vector {
         let mut design = Vector::zeros(self.dimension());
-        self.tolerances
-            .design_from_normal(&self.nominal, z, &mut design);
+        self.tolerances.design_from_normal(&self.nominal, z, &mut design);
         design
     }
 
@@ -100,11 +88,7 @@ impl<'a> Deviations<'a> {
     /// Transforms derivatives with respect to the design variables into derivatives with respect to the standard normal
     /// numbers.
     pub(crate) fn gradient(&self, z: &[f64], by_design: &[f64]) -> Vec<f64> {
-        let scaled: Vec<f64> = by_design
-            .iter()
-            .zip(&self.scales)
-            .map(|(a, s)| a * s)
-            .collect();
+        let scaled: Vec<f64> = by_design.iter().zip(&self.scales).map(|(a, s)| a * s).collect();
         let mut by_normal = vec![0.0; self.dimension()];
         match self.tolerances.joint() {
             Some((joint, _)) => joint.gradient_by_normal(z, &scaled, &mut by_normal),

@@ -51,13 +51,7 @@ pub(crate) fn measure(folder: &Path, machines: &[Machine]) -> Result<Vec<Build>,
         for profile in PROFILES {
             let mut add = |machine: &str, calls, source: &str| -> Result<(), Box<dyn Error>> {
                 let seconds = package.build(profile, source)?;
-                builds.push(Build {
-                    machine: machine.to_owned(),
-                    settings,
-                    profile,
-                    calls,
-                    seconds,
-                });
+                builds.push(Build { machine: machine.to_owned(), settings, profile, calls, seconds });
                 Ok(())
             };
             add("dependencies", "nothing", "fn main() {}")?;
@@ -113,9 +107,7 @@ impl Package {
         );
         fs::write(folder.join("Cargo.toml"), manifest)?;
         fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock"))?;
-        Ok(Self {
-            folder: folder.to_owned(),
-        })
+        Ok(Self { folder: folder.to_owned() })
     }
 
     /// Processor time of a build of the package with this source, in seconds.
@@ -123,14 +115,7 @@ impl Package {
         fs::write(self.folder.join("src/main.rs"), source)?;
         let clock = Children::start();
         let status = Command::new(env!("CARGO"))
-            .args([
-                "build",
-                "--quiet",
-                "--profile",
-                profile,
-                "--target-dir",
-                "target",
-            ])
+            .args(["build", "--quiet", "--profile", profile, "--target-dir", "target"])
             .current_dir(&self.folder)
             .env_remove("CARGO_TARGET_DIR")
             .env("CARGO_INCREMENTAL", "0")

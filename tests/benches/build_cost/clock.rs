@@ -14,10 +14,7 @@ pub(crate) struct Children {
 
 impl Children {
     pub(crate) fn start() -> Self {
-        Self {
-            start: Instant::now(),
-            used: used_by_children(),
-        }
+        Self { start: Instant::now(), used: used_by_children() }
     }
 
     pub(crate) fn seconds(&self) -> f64 {

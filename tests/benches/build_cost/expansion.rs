@@ -51,12 +51,8 @@ pub(crate) fn measure(machines: &[Machine]) -> Result<Vec<Expansion>, Box<dyn Er
 }
 
 fn expansion(machine: &Machine) -> Result<Expansion, Box<dyn Error>> {
-    let mut least = Expansion {
-        name: machine.name.clone(),
-        instructions: 0,
-        bytes: 0,
-        stages: [f64::INFINITY; STAGES.len()],
-    };
+    let mut least =
+        Expansion { name: machine.name.clone(), instructions: 0, bytes: 0, stages: [f64::INFINITY; STAGES.len()] };
     for _ in 0..REPETITIONS {
         let once = once(&machine.text).map_err(|mistakes| format!("{}: {mistakes}", least.name))?;
         least.instructions = once.0;

@@ -25,36 +25,14 @@ pub(crate) enum Extent {
 /// The paper's examples, a seven-joint arm, chains of bars.
 pub(crate) fn all() -> Vec<Machine> {
     let named = [
-        (
-            "single pendulum",
-            include_str!("../../../examples/rotating_pendulum.rs"),
-            Extent::Expanded,
-        ),
-        (
-            "double pendulum",
-            include_str!("../../../examples/rotating_double_pendulum.rs"),
-            Extent::Called,
-        ),
-        (
-            "arm of seven joints",
-            include_str!("../../src/corpus/robot_arm.rs"),
-            Extent::Called,
-        ),
+        ("single pendulum", include_str!("../../../examples/rotating_pendulum.rs"), Extent::Expanded),
+        ("double pendulum", include_str!("../../../examples/rotating_double_pendulum.rs"), Extent::Called),
+        ("arm of seven joints", include_str!("../../src/corpus/robot_arm.rs"), Extent::Called),
     ];
-    let chains = [
-        (8, Extent::Expanded),
-        (16, Extent::Expanded),
-        (32, Extent::Called),
-        (64, Extent::Built),
-    ];
+    let chains = [(8, Extent::Expanded), (16, Extent::Expanded), (32, Extent::Called), (64, Extent::Built)];
     let named = named.into_iter().map(|(name, source, extent)| {
         let text = declared(source);
-        Machine {
-            name: name.to_owned(),
-            kind: kind(&text),
-            text,
-            extent,
-        }
+        Machine { name: name.to_owned(), kind: kind(&text), text, extent }
     });
     let chains = chains.into_iter().map(|(bars, extent)| Machine {
         name: format!("chain of {bars}"),
@@ -89,9 +67,5 @@ fn declared(source: &str) -> String {
 /// The word after `mechanism`.
 fn kind(declaration: &str) -> String {
     let words = declaration.split_whitespace();
-    words
-        .skip_while(|word| *word != "mechanism")
-        .nth(1)
-        .expect("a declaration with a name")
-        .to_owned()
+    words.skip_while(|word| *word != "mechanism").nth(1).expect("a declaration with a name").to_owned()
 }

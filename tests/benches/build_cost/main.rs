@@ -29,9 +29,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let table = report.table();
     print!("{table}");
     fs::write(folder.join("build_cost.md"), table)?;
-    fs::write(
-        folder.join("build_cost.json"),
-        format!("{:#}\n", report.json()),
-    )?;
+    fs::write(folder.join("build_cost.json"), format!("{:#}\n", report.json()))?;
     Ok(())
 }

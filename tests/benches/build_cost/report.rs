@@ -46,32 +46,17 @@ impl Report {
         }
         text += " milliseconds |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
         for expansion in &self.expansions {
-            let Expansion {
-                name,
-                instructions,
-                bytes,
-                stages,
-            } = expansion;
+            let Expansion { name, instructions, bytes, stages } = expansion;
             let _ = write!(text, "| {name} | {instructions} | {bytes} |");
             for stage in stages {
                 let _ = write!(text, " {stage:.2} |");
             }
             let _ = writeln!(text, " {:.1} |", expansion.milliseconds());
         }
-        text +=
-            "\n| build | settings | profile | calls | seconds |\n| --- | --- | --- | --- | --- |\n";
+        text += "\n| build | settings | profile | calls | seconds |\n| --- | --- | --- | --- | --- |\n";
         for build in &self.builds {
-            let Build {
-                machine,
-                settings,
-                profile,
-                calls,
-                seconds,
-            } = build;
-            let _ = writeln!(
-                text,
-                "| {machine} | {settings} | {profile} | {calls} | {seconds:.1} |"
-            );
+            let Build { machine, settings, profile, calls, seconds } = build;
+            let _ = writeln!(text, "| {machine} | {settings} | {profile} | {calls} | {seconds:.1} |");
         }
         text
     }

@@ -38,10 +38,7 @@ pub(crate) fn turning(n: usize, damping: f64) -> Interpreted {
              force t{k}: spring(on: y{k}, stiffness: 1.1 * k{k});"
         );
         if damping != 0.0 {
-            let _ = write!(
-                text,
-                "force d{k}: damper(on: x{k}, damping: {damping} N*s/m);"
-            );
+            let _ = write!(text, "force d{k}: damper(on: x{k}, damping: {damping} N*s/m);");
         }
         before = format!("b{k}");
     }

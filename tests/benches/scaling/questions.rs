@@ -21,58 +21,19 @@ pub(crate) struct Question {
 }
 
 pub(crate) const QUESTIONS: [Question; 13] = [
-    Question {
-        name: "equilibrium",
-        prepare: |n| Case::turning(n, 0.0).timed(Case::equilibrium),
-    },
-    Question {
-        name: "modes, undamped",
-        prepare: |n| Case::storeys(n).timed(Case::modes),
-    },
-    Question {
-        name: "modes, gyroscopic",
-        prepare: |n| Case::turning(n, 0.0).timed(Case::modes),
-    },
-    Question {
-        name: "modes, general",
-        prepare: |n| Case::turning(n, 3.0).timed(Case::modes),
-    },
-    Question {
-        name: "sensitivities, undamped",
-        prepare: |n| Case::storeys(n).timed(Case::sensitivities),
-    },
-    Question {
-        name: "sensitivities, gyroscopic",
-        prepare: |n| Case::turning(n, 0.0).timed(Case::sensitivities),
-    },
-    Question {
-        name: "sensitivities, general",
-        prepare: |n| Case::turning(n, 3.0).timed(Case::sensitivities),
-    },
-    Question {
-        name: "tolerances, first order, undamped",
-        prepare: |n| Case::storeys(n).timed(Case::first_order),
-    },
-    Question {
-        name: "tolerances, first order, general",
-        prepare: |n| Case::turning(n, 3.0).timed(Case::first_order),
-    },
-    Question {
-        name: "summary, undamped",
-        prepare: |n| Case::storeys(n).timed(Case::summary),
-    },
-    Question {
-        name: "summary, gyroscopic",
-        prepare: |n| Case::turning(n, 0.0).timed(Case::summary),
-    },
-    Question {
-        name: "a point of a sweep",
-        prepare: |n| Case::turning(n, 0.0).timed(Case::sweep),
-    },
-    Question {
-        name: "critical state",
-        prepare: |n| Case::turning(n, 0.0).timed(Case::critical),
-    },
+    Question { name: "equilibrium", prepare: |n| Case::turning(n, 0.0).timed(Case::equilibrium) },
+    Question { name: "modes, undamped", prepare: |n| Case::storeys(n).timed(Case::modes) },
+    Question { name: "modes, gyroscopic", prepare: |n| Case::turning(n, 0.0).timed(Case::modes) },
+    Question { name: "modes, general", prepare: |n| Case::turning(n, 3.0).timed(Case::modes) },
+    Question { name: "sensitivities, undamped", prepare: |n| Case::storeys(n).timed(Case::sensitivities) },
+    Question { name: "sensitivities, gyroscopic", prepare: |n| Case::turning(n, 0.0).timed(Case::sensitivities) },
+    Question { name: "sensitivities, general", prepare: |n| Case::turning(n, 3.0).timed(Case::sensitivities) },
+    Question { name: "tolerances, first order, undamped", prepare: |n| Case::storeys(n).timed(Case::first_order) },
+    Question { name: "tolerances, first order, general", prepare: |n| Case::turning(n, 3.0).timed(Case::first_order) },
+    Question { name: "summary, undamped", prepare: |n| Case::storeys(n).timed(Case::summary) },
+    Question { name: "summary, gyroscopic", prepare: |n| Case::turning(n, 0.0).timed(Case::summary) },
+    Question { name: "a point of a sweep", prepare: |n| Case::turning(n, 0.0).timed(Case::sweep) },
+    Question { name: "critical state", prepare: |n| Case::turning(n, 0.0).timed(Case::critical) },
 ];
 
 const SPEED: Input = Input::new(0);
@@ -97,30 +58,17 @@ impl Case {
 
     /// At half of its critical speed.
     fn turning(n: usize, damping: f64) -> Self {
-        Self::new(
-            Box::new(turning(n, damping)),
-            n,
-            vec![0.5 * critical_speed(n)],
-        )
+        Self::new(Box::new(turning(n, damping)), n, vec![0.5 * critical_speed(n)])
     }
 
     fn new(machine: Box<dyn SummaryKernels>, n: usize, inputs: Vec<f64>) -> Self {
         let description = machine.description();
         let design: Vector = description.design.iter().map(|info| info.nominal).collect();
         let start = vec![0.0; n];
-        let state = equilibrium(&*machine, &inputs, &design, &start, Policy::Stable)
-            .expect("an equilibrium");
+        let state = equilibrium(&*machine, &inputs, &design, &start, Policy::Stable).expect("an equilibrium");
         let modes = modes(&state).expect("modes");
         let tolerances = Tolerances::declared(&description).expect("tolerances");
-        Self {
-            machine,
-            inputs,
-            design,
-            start,
-            state,
-            modes,
-            tolerances,
-        }
+        Self { machine, inputs, design, start, state, modes, tolerances }
     }
 
     fn timed(self, question: fn(&Self) -> usize) -> Box<dyn FnMut() -> usize> {
@@ -128,13 +76,7 @@ impl Case {
     }
 
     fn equilibrium(&self) -> usize {
-        let found = equilibrium(
-            &*self.machine,
-            &self.inputs,
-            &self.design,
-            &self.start,
-            Policy::Stable,
-        );
+        let found = equilibrium(&*self.machine, &self.inputs, &self.design, &self.start, Policy::Stable);
         black_box(found).map_or(0, |_| 1)
     }
 
@@ -161,27 +103,13 @@ impl Case {
         let n = self.start.len();
         let speed = |k: usize| (0.1 + 0.05 * k as f64) * critical_speed(n);
         let speeds: Vec<f64> = (0..POINTS).map(speed).collect();
-        let found = sweep(
-            &*self.machine,
-            &self.inputs,
-            &self.design,
-            &self.start,
-            Policy::Stable,
-            SPEED,
-            &speeds,
-        );
+        let found = sweep(&*self.machine, &self.inputs, &self.design, &self.start, Policy::Stable, SPEED, &speeds);
         black_box(found).map_or(0, |found| found.points.len())
     }
 
     fn critical(&self) -> usize {
         let range = Range::new(SPEED, 0.0, 1.2 * critical_speed(self.start.len()));
-        let found = critical_state(
-            &*self.machine,
-            &self.inputs,
-            &self.design,
-            &self.start,
-            range,
-        );
+        let found = critical_state(&*self.machine, &self.inputs, &self.design, &self.start, range);
         black_box(found).map_or(0, |_| 1)
     }
 }

@@ -47,18 +47,11 @@ arm! {
 }
 
 /// Timed functions, by CasADi's names.
-const FUNCTIONS: [&str; 4] = [
-    "motion_residual",
-    "motion",
-    "residual_and_stiffness",
-    "motion_linear",
-];
+const FUNCTIONS: [&str; 4] = ["motion_residual", "motion", "residual_and_stiffness", "motion_linear"];
 
 /// The numerical data of the arm.
 pub(crate) fn numbers() -> String {
-    source("../../truth/panda_arm.json")
-        .to_string_lossy()
-        .into_owned()
+    source("../../truth/panda_arm.json").to_string_lossy().into_owned()
 }
 
 /// The tasks with a selected name.
@@ -113,9 +106,7 @@ fn ours(function: &str) -> Box<dyn Work> {
             },
             results: move |s: &State| {
                 let all = Arm.motion_linear(&s.acceleration, &s.velocity, &s.q, &none, &none);
-                [all.mass, all.damping, all.stiffness]
-                    .map(|x| x.concat())
-                    .into()
+                [all.mass, all.damping, all.stiffness].map(|x| x.concat()).into()
             },
         }),
         "motion" => Box::new(Closures {
@@ -158,9 +149,5 @@ fn peer(tools: &mut Tools, function: &str) -> Result<Box<dyn Work>, String> {
             _ => vec![q],
         }
     });
-    Ok(Box::new(CasadiWork::load(
-        &library,
-        &name,
-        inputs.collect(),
-    )?))
+    Ok(Box::new(CasadiWork::load(&library, &name, inputs.collect())?))
 }

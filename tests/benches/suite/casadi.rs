@@ -9,8 +9,7 @@ use libloading::{Library, Symbol};
 use crate::work::Work;
 
 /// `int f(const double** arg, double** res, long long* iw, double* w, int mem)`.
-type Evaluate =
-    unsafe extern "C" fn(*const *const f64, *const *mut f64, *mut i64, *mut f64, c_int) -> c_int;
+type Evaluate = unsafe extern "C" fn(*const *const f64, *const *mut f64, *mut i64, *mut f64, c_int) -> c_int;
 
 /// A loaded function and its prepared inputs.
 pub(crate) struct CasadiWork {
@@ -31,11 +30,7 @@ impl CasadiWork {
     ///
     /// # Errors
     /// When the library or the function is missing, or the arguments do not fit.
-    pub(crate) fn load(
-        library: &Path,
-        name: &str,
-        inputs: Vec<Vec<Vec<f64>>>,
-    ) -> Result<Self, String> {
+    pub(crate) fn load(library: &Path, name: &str, inputs: Vec<Vec<Vec<f64>>>) -> Result<Self, String> {
         let fail = |error: libloading::Error| error.to_string();
         // SAFETY: the library was compiled from C that CasADi generated. It runs no code when loaded, its functions
         // have the signatures that CasADi documents, and it outlives the pointer taken from it.
@@ -48,27 +43,20 @@ impl CasadiWork {
                 let symbol = format!("{name}_sparsity_{suffix}");
                 let sparsity: Symbol<Sparsity> = library.get(symbol.as_bytes()).map_err(fail)?;
                 // An array of row count, column count and sparsity; these matrices are all dense.
-                Ok((0..number as i64)
-                    .map(|k| sparsity(k))
-                    .map(|s| (*s * *s.add(1)) as usize)
-                    .collect())
+                Ok((0..number as i64).map(|k| sparsity(k)).map(|s| (*s * *s.add(1)) as usize).collect())
             };
             let number = |suffix: &str| -> Result<usize, String> {
                 let symbol = format!("{name}_n_{suffix}");
-                let number: Symbol<unsafe extern "C" fn() -> i64> =
-                    library.get(symbol.as_bytes()).map_err(fail)?;
+                let number: Symbol<unsafe extern "C" fn() -> i64> = library.get(symbol.as_bytes()).map_err(fail)?;
                 Ok(number() as usize)
             };
             let lengths = dense("in", number("in")?)?;
-            let fits =
-                |input: &Vec<Vec<f64>>| input.iter().map(Vec::len).collect::<Vec<_>>() == lengths;
+            let fits = |input: &Vec<Vec<f64>>| input.iter().map(Vec::len).collect::<Vec<_>>() == lengths;
             if !inputs.iter().all(fits) {
                 return Err(format!("{name} takes arrays of lengths {lengths:?}"));
             }
             type Sizes = unsafe extern "C" fn(*mut i64, *mut i64, *mut i64, *mut i64) -> c_int;
-            let work: Symbol<Sizes> = library
-                .get(format!("{name}_work").as_bytes())
-                .map_err(fail)?;
+            let work: Symbol<Sizes> = library.get(format!("{name}_work").as_bytes()).map_err(fail)?;
             let [mut arguments, mut results, mut integers, mut reals] = [0_i64; 4];
             work(&mut arguments, &mut results, &mut integers, &mut reals);
             let lengths = dense("out", number("out")?)?.into_iter();

@@ -30,11 +30,7 @@ const MOST_WITH_ALL: usize = 16;
 
 /// The tasks with a selected name.
 pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Task> {
-    let mut collector = Collector {
-        wanted,
-        tools,
-        tasks: Vec::new(),
-    };
+    let mut collector = Collector { wanted, tools, tasks: Vec::new() };
     generated::visit_all(&mut collector);
     collector.tasks
 }
@@ -155,15 +151,8 @@ fn all_partials<M: Mechanism>(chain: &M, s: &State<M>) -> Vec<Vec<f64>> {
     let columns = (0..M::Design::<f64>::LEN).flat_map(column).collect();
     let partials = chain.linear_partials(&s.q, &s.u, &s.b);
     let mut results = vec![flat(by_input), columns];
-    let lists = [
-        partials.by_coordinate.as_ref(),
-        partials.by_input.as_ref(),
-        partials.by_design.as_ref(),
-    ];
-    for matrix in [
-        |x: &Linear<Square<M, f64>>| flat(x.mass),
-        |x: &Linear<Square<M, f64>>| flat(x.stiffness),
-    ] {
+    let lists = [partials.by_coordinate.as_ref(), partials.by_input.as_ref(), partials.by_design.as_ref()];
+    for matrix in [|x: &Linear<Square<M, f64>>| flat(x.mass), |x: &Linear<Square<M, f64>>| flat(x.stiffness)] {
         results.extend(lists.map(|list| list.iter().flat_map(matrix).collect()));
     }
     results
@@ -172,11 +161,7 @@ fn all_partials<M: Mechanism>(chain: &M, s: &State<M>) -> Vec<Vec<f64>> {
 /// A zeroed buffer for [`Mechanism::linear_partials_into`].
 fn zeros<M: Mechanism>() -> PartialsOf<M, f64> {
     let zeros: Square<M, f64> = Array::filled(Array::filled(0.0));
-    let zeros = Linear {
-        mass: zeros,
-        damping: zeros,
-        stiffness: zeros,
-    };
+    let zeros = Linear { mass: zeros, damping: zeros, stiffness: zeros };
     LinearPartials {
         by_coordinate: Array::filled(zeros),
         by_input: Array::filled(zeros),
@@ -184,10 +169,7 @@ fn zeros<M: Mechanism>() -> PartialsOf<M, f64> {
     }
 }
 
-pub(crate) fn peer<M: Mechanism>(
-    tools: &mut Tools,
-    function: &str,
-) -> Result<Box<dyn Work>, String> {
+pub(crate) fn peer<M: Mechanism>(tools: &mut Tools, function: &str) -> Result<Box<dyn Work>, String> {
     let bars = bars::<M>();
     let (script, folder) = ("chain.py", tools.written()?);
     let name = format!("chain{bars}_{function}");
@@ -198,17 +180,11 @@ pub(crate) fn peer<M: Mechanism>(
     }
     let library = tools.library(&file)?;
     let inputs = states::<M>().into_iter().map(|s| {
-        let mut arguments = [s.q.as_ref(), s.u.as_ref(), s.b.as_ref()]
-            .map(<[f64]>::to_vec)
-            .to_vec();
+        let mut arguments = [s.q.as_ref(), s.u.as_ref(), s.b.as_ref()].map(<[f64]>::to_vec).to_vec();
         if function == "mode_gradient" {
             arguments.extend([s.phi.as_ref().to_vec(), vec![s.lambda]]);
         }
         arguments
     });
-    Ok(Box::new(CasadiWork::load(
-        &library,
-        &name,
-        inputs.collect(),
-    )?))
+    Ok(Box::new(CasadiWork::load(&library, &name, inputs.collect())?))
 }

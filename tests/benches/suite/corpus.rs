@@ -1,9 +1,5 @@
 //! Machines of the tests, by their declarations.
-#![allow(
-    unreachable_pub,
-    unused_imports,
-    reason = "files of another crate, where others use what they declare"
-)]
+#![allow(unreachable_pub, unused_imports, reason = "files of another crate, where others use what they declare")]
 
 macro_rules! machine {
     ($($declaration:tt)*) => {

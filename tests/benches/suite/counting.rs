@@ -58,10 +58,7 @@ pub(crate) fn count(folder: &Path) -> Result<Counts, String> {
         .args(["--tool=callgrind", "--quiet"])
         .arg("--zero-before=eigentol_bench_counted")
         .arg("--dump-after=eigentol_bench_counted")
-        .arg(format!(
-            "--callgrind-out-file={}",
-            profiles.join("out").display()
-        ))
+        .arg(format!("--callgrind-out-file={}", profiles.join("out").display()))
         .arg(program)
         .args(env::args_os().skip(1))
         .env(VARIABLE, "1")
@@ -88,8 +85,7 @@ pub(crate) fn count(folder: &Path) -> Result<Counts, String> {
 
 /// The total of a profile, from its line `summary: N`.
 fn total(profile: &Path) -> Result<f64, String> {
-    let text =
-        fs::read_to_string(profile).map_err(|error| format!("{}: {error}", profile.display()))?;
+    let text = fs::read_to_string(profile).map_err(|error| format!("{}: {error}", profile.display()))?;
     text.lines()
         .find_map(|line| line.strip_prefix("summary: "))
         .and_then(|number| number.trim().parse().ok())

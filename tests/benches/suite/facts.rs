@@ -40,9 +40,7 @@ type PendulumStudy = Study<DoublePendulum>;
 /// One study per speed, below and above the critical speed, with the paper's start values.
 fn studies() -> Vec<PendulumStudy> {
     let start = 60f64.to_radians();
-    let study = Study::new(DoublePendulum)
-        .start(DoublePendulum::theta1, start)
-        .samples(SAMPLES);
+    let study = Study::new(DoublePendulum).start(DoublePendulum::theta1, start).samples(SAMPLES);
     let at = |k| study.clone().input(DoublePendulum::omega, speed(k));
     (0..SPEEDS).map(at).collect()
 }
@@ -94,14 +92,8 @@ pub(crate) fn pendulum() -> Vec<Fact> {
     let two = sampled(&with(2, best));
     let fact = |name: &str, value: String| (format!("double pendulum: {name}"), value);
     vec![
-        fact(
-            "first-order analysis from a cold start, per speed",
-            format!("{:.0} ns", analytic * 1e9 / SPEEDS as f64),
-        ),
-        fact(
-            "first-order analysis along the speeds, per speed",
-            format!("{:.0} ns", along * 1e9 / SPEEDS as f64),
-        ),
+        fact("first-order analysis from a cold start, per speed", format!("{:.0} ns", analytic * 1e9 / SPEEDS as f64)),
+        fact("first-order analysis along the speeds, per speed", format!("{:.0} ns", along * 1e9 / SPEEDS as f64)),
         fact(
             "Monte Carlo of 3000 samples one by one, one thread, per speed",
             format!("{:.3} ms", scalar * 1e3 / SPEEDS as f64),
@@ -110,18 +102,12 @@ pub(crate) fn pendulum() -> Vec<Fact> {
             "Monte Carlo of 3000 samples in vectors, one thread, per speed",
             format!("{:.3} ms", one * 1e3 / SPEEDS as f64),
         ),
-        fact(
-            "Monte Carlo one by one against first order, both one thread",
-            format!("{:.0}x", scalar / analytic),
-        ),
+        fact("Monte Carlo one by one against first order, both one thread", format!("{:.0}x", scalar / analytic)),
         fact(
             "Monte Carlo one by one against first order along the speeds, both one thread",
             format!("{:.0}x", scalar / along),
         ),
-        fact(
-            "Monte Carlo, 3000 samples x 100 speeds, two threads",
-            format!("{:.1} ms", two * 1e3),
-        ),
+        fact("Monte Carlo, 3000 samples x 100 speeds, two threads", format!("{:.1} ms", two * 1e3)),
     ]
 }
 
@@ -144,10 +130,7 @@ pub(crate) fn long_chain() -> Vec<Fact> {
             Ok(seconds) => format!("{:.3} ms", seconds * 1e3),
             Err(reason) => format!("failed: {reason}"),
         };
-        (
-            format!("{LONGEST} bars, {} variables: {step}", 2 * LONGEST),
-            value,
-        )
+        (format!("{LONGEST} bars, {} variables: {step}", 2 * LONGEST), value)
     };
     steps.into_iter().map(fact).collect()
 }

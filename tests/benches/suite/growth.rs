@@ -88,13 +88,7 @@ impl Visitor for Collector {
         let mut add = |kernel, name: &str| {
             let info = description.kernel(name);
             let operations = info.map_or(0, |info| info.operations + info.functions);
-            self.0.push(Grown {
-                kernel,
-                bars: bars::<M>(),
-                operations,
-                bytes,
-                work: work(chain, kernel),
-            });
+            self.0.push(Grown { kernel, bars: bars::<M>(), operations, bytes, work: work(chain, kernel) });
         };
         add("residual", "residual");
         add("mode_gradient", "mode_gradient");
@@ -122,10 +116,7 @@ struct State<M: Kernels> {
 
 /// Values with derivatives along a direction.
 fn along<A: Array<f64>, D: Array<Dual<f64>>>(values: &A, direction: &A) -> D {
-    D::from_fn(|k| Dual {
-        value: values.as_ref()[k],
-        slope: direction.as_ref()[k],
-    })
+    D::from_fn(|k| Dual { value: values.as_ref()[k], slope: direction.as_ref()[k] })
 }
 
 fn work<M: Kernels>(chain: M, kernel: &str) -> Box<dyn Work> {

@@ -13,10 +13,7 @@ use crate::work::{AGREEMENT, Closures, Task, Work};
 
 /// The tasks with a selected name.
 pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool) -> Vec<Task> {
-    let mut collector = Collector {
-        wanted,
-        tasks: Vec::new(),
-    };
+    let mut collector = Collector { wanted, tasks: Vec::new() };
     visit_short(&mut collector);
     collector.tasks
 }
@@ -49,12 +46,7 @@ impl Visitor for Collector<'_> {
                         name,
                         units: [eigentol::scalar::WIDTH, 1],
                         agreement: AGREEMENT,
-                        ours: lanes::ours(
-                            Box::new(read()),
-                            lanes::states::<M>(),
-                            function,
-                            instructions,
-                        ),
+                        ours: lanes::ours(Box::new(read()), lanes::states::<M>(), function, instructions),
                         peer: compiled(),
                     });
                 }
@@ -75,13 +67,7 @@ fn one_by_one<M: Mechanism + 'static>(chain: Interpreted, function: &str) -> Box
                 inputs,
                 evaluate: move |s: &State<M>| {
                     let (q, u, b) = (s.q.as_ref(), s.u.as_ref(), s.b.as_ref());
-                    chain.residual_and_stiffness_into(
-                        q,
-                        u,
-                        b,
-                        &mut out.0,
-                        out.1.as_flattened_mut(),
-                    );
+                    chain.residual_and_stiffness_into(q, u, b, &mut out.0, out.1.as_flattened_mut());
                     black_box(&out);
                 },
                 results: move |s: &State<M>| {
@@ -103,9 +89,7 @@ fn one_by_one<M: Mechanism + 'static>(chain: Interpreted, function: &str) -> Box
                 results: move |s: &State<M>| {
                     let again: &dyn Kernels = &again;
                     let linear = again.linear(s.q.as_ref(), s.u.as_ref(), s.b.as_ref());
-                    [linear.mass, linear.stiffness]
-                        .map(|matrix| matrix.as_flattened().to_vec())
-                        .to_vec()
+                    [linear.mass, linear.stiffness].map(|matrix| matrix.as_flattened().to_vec()).to_vec()
                 },
             })
         }
@@ -124,9 +108,7 @@ fn one_by_one<M: Mechanism + 'static>(chain: Interpreted, function: &str) -> Box
                 results: move |s: &State<M>| {
                     let mut out = Gradient::zeros(sizes);
                     gradient(&again, s, &mut out);
-                    [out.coordinates, out.inputs, out.design]
-                        .map(|numbers| numbers.to_vec())
-                        .to_vec()
+                    [out.coordinates, out.inputs, out.design].map(|numbers| numbers.to_vec()).to_vec()
                 },
             })
         }

@@ -21,11 +21,7 @@ pub(crate) fn vectors() -> impl Iterator<Item = (&'static str, Instructions)> {
 
 /// The tasks with a selected name.
 pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Task> {
-    let mut collector = Collector {
-        wanted,
-        tools,
-        tasks: Vec::new(),
-    };
+    let mut collector = Collector { wanted, tools, tasks: Vec::new() };
     visit_short(&mut collector);
     collector.tasks
 }
@@ -49,12 +45,7 @@ impl Visitor for Collector<'_> {
                     name,
                     units: [WIDTH, 1],
                     agreement: AGREEMENT,
-                    ours: ours(
-                        Box::new(chain.clone()),
-                        states::<M>(),
-                        function,
-                        instructions,
-                    ),
+                    ours: ours(Box::new(chain.clone()), states::<M>(), function, instructions),
                     peer: chains::peer::<M>(self.tools, function),
                 });
             }
@@ -140,15 +131,9 @@ pub(crate) fn ours(
         "residual_and_stiffness" => Box::new(Lanes {
             inputs,
             out: (Vector::zeros(n), Matrix::zeros(n, n)),
-            evaluate:
-                move |s: &States, (residual, stiffness): &mut (Vector<Batch>, Matrix<Batch>)| {
-                    chain.residual_and_stiffness_batch(
-                        instructions,
-                        s.point(),
-                        residual,
-                        stiffness.as_flattened_mut(),
-                    );
-                },
+            evaluate: move |s: &States, (residual, stiffness): &mut (Vector<Batch>, Matrix<Batch>)| {
+                chain.residual_and_stiffness_batch(instructions, s.point(), residual, stiffness.as_flattened_mut());
+            },
             lane: |out: &(Vector<Batch>, Matrix<Batch>), of_lane: OfLane<'_>| {
                 vec![of_lane(&out.0), of_lane(out.1.as_flattened())]
             },
@@ -181,11 +166,7 @@ pub(crate) fn ours(
                 chain.mode_gradient_batch(instructions, s.point(), &s.phi, &s.lambda, &mut to);
             },
             lane: |out: &Gradient<Batch>, of_lane: OfLane<'_>| {
-                vec![
-                    of_lane(&out.coordinates),
-                    of_lane(&out.inputs),
-                    of_lane(&out.design),
-                ]
+                vec![of_lane(&out.coordinates), of_lane(&out.inputs), of_lane(&out.design)]
             },
         }),
     }

@@ -81,13 +81,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if wanted(facts::LONG_CHAIN) {
         singles.extend(facts::long_chain());
     }
-    let report = Report {
-        counts: counting::count(&folder),
-        rows,
-        operations,
-        growth,
-        facts: singles,
-    };
+    let report = Report { counts: counting::count(&folder), rows, operations, growth, facts: singles };
     report.write(&folder)?;
     println!("{}", report.table());
     println!("written to {}", folder.display());
@@ -122,19 +116,10 @@ fn measure(criterion: &mut Criterion, mut task: Task) -> Result<Row, String> {
     let [our_units, peer_units] = task.units;
     let ours = timing::time(criterion, &id("eigentol"), our_units, &mut *task.ours);
     let (peer, absent) = match &mut task.peer {
-        Ok(peer) => (
-            timing::time(criterion, &id("peer"), peer_units, &mut **peer),
-            None,
-        ),
+        Ok(peer) => (timing::time(criterion, &id("peer"), peer_units, &mut **peer), None),
         Err(reason) => (None, Some(reason.clone())),
     };
-    Ok(Row {
-        name,
-        ours,
-        peer,
-        absent,
-        difference: worst,
-    })
+    Ok(Row { name, ours, peer, absent, difference: worst })
 }
 
 /// `target/eigentol-bench`.
@@ -146,7 +131,5 @@ fn results_folder() -> PathBuf {
 
 /// Criterion's filter: the first argument that is not an option.
 fn filter() -> Option<String> {
-    env::args()
-        .skip(1)
-        .find(|argument| !argument.starts_with('-'))
+    env::args().skip(1).find(|argument| !argument.starts_with('-'))
 }

@@ -49,10 +49,7 @@ pub(crate) fn count(tools: &mut Tools) -> Result<Vec<Operations>, String> {
 
 fn of_chain(bars: usize, tools: &mut Tools) -> Result<Vec<Operations>, String> {
     let with_all = bars <= MOST_WITH_ALL;
-    let limits = Limits {
-        explicit_partials: if with_all { usize::MAX } else { 0 },
-        ..Limits::default()
-    };
+    let limits = Limits { explicit_partials: if with_all { usize::MAX } else { 0 }, ..Limits::default() };
     let functions = functions(&declaration("Counted", bars), limits)?;
     let size = bars.to_string();
     let mut arguments = vec!["count", &size];
@@ -86,14 +83,8 @@ fn of_arm(tools: &mut Tools) -> Result<Vec<Operations>, String> {
     let sets = [
         ("inverse dynamics", kernel("motion_residual", &["residual"])),
         ("mass", upper(kernel("motion", &["mass"]), 7)),
-        (
-            "stiffness at rest",
-            kernel("residual_and_stiffness", &["stiffness"]),
-        ),
-        (
-            "derivatives in motion",
-            kernel("motion_linear", &["mass", "damping", "stiffness"]),
-        ),
+        ("stiffness at rest", kernel("residual_and_stiffness", &["stiffness"])),
+        ("derivatives in motion", kernel("motion_linear", &["mass", "damping", "stiffness"])),
     ];
     let counted = sets.map(|(set, roots)| {
         let (ours, signs) = operations(&functions, &roots);
@@ -146,10 +137,8 @@ fn of_set(functions: &Functions, set: &str, bars: usize) -> Vec<ExprId> {
 fn result(functions: &Functions, kernel: &str, name: &str) -> Vec<ExprId> {
     let of_kernel = functions.functions.iter().filter(|f| f.name == kernel);
     let arrays = of_kernel.flat_map(|f| &f.results);
-    let expr_ids: Vec<ExprId> = arrays
-        .filter(|array| array.name == name)
-        .flat_map(|array| array.values.iter().copied())
-        .collect();
+    let expr_ids: Vec<ExprId> =
+        arrays.filter(|array| array.name == name).flat_map(|array| array.values.iter().copied()).collect();
     assert!(!expr_ids.is_empty(), "{kernel} has no result {name}");
     expr_ids
 }

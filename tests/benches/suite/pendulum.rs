@@ -13,9 +13,7 @@ use eigentol::scalar::Instructions;
 use eigentol::sweep::sensitivity_sweep;
 use eigentol::sweep::{Following, SweepPoint};
 use eigentol::tolerance::{Sampling, monte_carlo};
-use eigentol::{
-    Equilibrium, Error, Mechanism, Modes, MonteCarlo, Policy, Sensitivities, Tolerances, mechanism,
-};
+use eigentol::{Equilibrium, Error, Mechanism, Modes, MonteCarlo, Policy, Sensitivities, Tolerances, mechanism};
 use libloading::Library;
 
 use crate::tools::{Tools, source};
@@ -58,25 +56,10 @@ const DIFFERENCE_ERROR: f64 = 1e-6;
 const TASKS: [(&str, &str, usize, f64); 6] = [
     ("pendulum/sweep", "sweep", SPEEDS, AGREEMENT),
     ("pendulum/sweep-one-by-one", "sweep", SPEEDS, AGREEMENT),
-    (
-        "pendulum/sweep-against-differences",
-        "sweep_by_differences",
-        SPEEDS,
-        DIFFERENCE_ERROR,
-    ),
-    (
-        "pendulum/sweep-against-differences-one-by-one",
-        "sweep_by_differences",
-        SPEEDS,
-        DIFFERENCE_ERROR,
-    ),
+    ("pendulum/sweep-against-differences", "sweep_by_differences", SPEEDS, DIFFERENCE_ERROR),
+    ("pendulum/sweep-against-differences-one-by-one", "sweep_by_differences", SPEEDS, DIFFERENCE_ERROR),
     ("pendulum/monte-carlo", "monte_carlo", SAMPLES, AGREEMENT),
-    (
-        "pendulum/monte-carlo-one-by-one",
-        "monte_carlo",
-        SAMPLES,
-        AGREEMENT,
-    ),
+    ("pendulum/monte-carlo-one-by-one", "monte_carlo", SAMPLES, AGREEMENT),
 ];
 
 /// Suffix of the tasks in which our side solves one state at a time.
@@ -86,10 +69,7 @@ const SCALAR: &str = "-one-by-one";
 ///
 /// # Errors
 /// When our side has no solution.
-pub(crate) fn tasks(
-    wanted: &dyn Fn(&str) -> bool,
-    tools: &mut Tools,
-) -> Result<Vec<Task>, Box<dyn StdError>> {
+pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Result<Vec<Task>, Box<dyn StdError>> {
     let mut tasks = Vec::new();
     for (name, function, units, agreement) in TASKS {
         if !wanted(name) {
@@ -98,22 +78,12 @@ pub(crate) fn tasks(
         let library = tools.library(&source("double_pendulum.cpp"));
         let vectors = (!name.ends_with(SCALAR)).then(Instructions::best);
         let (ours, peer) = match function {
-            "monte_carlo" => (
-                sampling(samples()?, vectors),
-                library.and_then(|library| MonteCarloByHand::load(&library)),
-            ),
-            _ => (
-                sweep(vectors),
-                library.and_then(|library| SweepByHand::load(&library, function)),
-            ),
+            "monte_carlo" => {
+                (sampling(samples()?, vectors), library.and_then(|library| MonteCarloByHand::load(&library)))
+            }
+            _ => (sweep(vectors), library.and_then(|library| SweepByHand::load(&library, function))),
         };
-        tasks.push(Task {
-            name: name.to_owned(),
-            units: [units, units],
-            agreement,
-            ours,
-            peer,
-        });
+        tasks.push(Task { name: name.to_owned(), units: [units, units], agreement, ours, peer });
     }
     Ok(tasks)
 }
@@ -130,10 +100,7 @@ fn sweeps() -> Vec<Sweep> {
         let [l1, l2, m1, m2]: [f64; 4] = random.array(1.0, 1.1);
         let (low, high) = (random.between(3.2, 3.3), random.between(7.5, 8.0));
         let speed = |k| low + (high - low) * k as f64 / (SPEEDS - 1) as f64;
-        Sweep {
-            design: [l1, l2, 3.0 * m1, 3.0 * m2],
-            speeds: std::array::from_fn(speed),
-        }
+        Sweep { design: [l1, l2, 3.0 * m1, 3.0 * m2], speeds: std::array::from_fn(speed) }
     };
     (0..INPUTS).map(sweep).collect()
 }
@@ -166,8 +133,7 @@ fn sweep(vectors: Option<Instructions>) -> Box<dyn Work> {
         results: move |sweep: &Sweep| {
             let mut arrays = Vec::new();
             follow(sweep, vectors, |point, slopes| {
-                let (Ok(state), Ok(modes), Ok(slopes)) = (&point.equilibrium, &point.modes, slopes)
-                else {
+                let (Ok(state), Ok(modes), Ok(slopes)) = (&point.equilibrium, &point.modes, slopes) else {
                     return;
                 };
                 arrays.push(state.coordinates.to_vec());
@@ -183,8 +149,7 @@ fn sweep(vectors: Option<Instructions>) -> Box<dyn Work> {
 }
 
 /// `int sweep(design, start, speeds, count, out)`.
-type SweepFunction =
-    unsafe extern "C" fn(*const f64, *const f64, *const f64, c_int, *mut f64) -> c_int;
+type SweepFunction = unsafe extern "C" fn(*const f64, *const f64, *const f64, c_int, *mut f64) -> c_int;
 
 struct SweepByHand {
     function: SweepFunction,
@@ -204,12 +169,7 @@ impl SweepByHand {
             let function = *function.map_err(|error| error.to_string())?;
             (library, function)
         };
-        Ok(Box::new(Self {
-            function,
-            inputs: sweeps(),
-            out: vec![0.0; SPEEDS * WIDTH],
-            _library: library,
-        }))
+        Ok(Box::new(Self { function, inputs: sweeps(), out: vec![0.0; SPEEDS * WIDTH], _library: library }))
     }
 
     fn call(&mut self, input: usize) -> c_int {
@@ -242,8 +202,7 @@ impl Work for SweepByHand {
     fn results(&mut self, input: usize) -> Vec<Vec<f64>> {
         let done = self.call(input) as usize;
         let rows = self.out[..done * WIDTH].chunks(WIDTH);
-        let arrays =
-            |row: &[f64]| [&row[..2], &row[2..4], &row[4..8], &row[8..]].map(<[f64]>::to_vec);
+        let arrays = |row: &[f64]| [&row[..2], &row[2..4], &row[4..8], &row[8..]].map(<[f64]>::to_vec);
         rows.flat_map(arrays).collect()
     }
 }
@@ -265,34 +224,16 @@ fn samples() -> Result<Vec<Samples>, Error> {
         let (inputs, design) = ([sweep.speeds[10 * seed]], &sweep.design);
         let state = equilibrium(&DoublePendulum, &inputs, design, &START, Policy::Stable)?;
         let modes = modes(&state)?;
-        Ok(Samples {
-            state,
-            modes,
-            tolerances: tolerances.clone(),
-            seed: seed as u64,
-        })
+        Ok(Samples { state, modes, tolerances: tolerances.clone(), seed: seed as u64 })
     };
     let sweeps = sweeps().into_iter().take(SEEDS);
     sweeps.enumerate().map(set).collect()
 }
 
-fn draw(
-    samples: &Samples,
-    vectors: Option<Instructions>,
-    keep_samples: bool,
-) -> Result<MonteCarlo, Error> {
-    let sampling = Sampling::default()
-        .samples(SAMPLES)
-        .seed(samples.seed)
-        .threads(1)
-        .keep_samples(keep_samples)
-        .vectors(vectors);
-    let Samples {
-        state,
-        modes,
-        tolerances,
-        ..
-    } = samples;
+fn draw(samples: &Samples, vectors: Option<Instructions>, keep_samples: bool) -> Result<MonteCarlo, Error> {
+    let sampling =
+        Sampling::default().samples(SAMPLES).seed(samples.seed).threads(1).keep_samples(keep_samples).vectors(vectors);
+    let Samples { state, modes, tolerances, .. } = samples;
     monte_carlo(&DoublePendulum, state, modes, tolerances, &sampling)
 }
 
@@ -312,8 +253,7 @@ fn sampling(inputs: Vec<Samples>, vectors: Option<Instructions>) -> Box<dyn Work
 }
 
 /// `int monte_carlo(start, speed, designs, count, out)`.
-type MonteCarloFunction =
-    unsafe extern "C" fn(*const f64, f64, *const f64, c_int, *mut f64) -> c_int;
+type MonteCarloFunction = unsafe extern "C" fn(*const f64, f64, *const f64, c_int, *mut f64) -> c_int;
 
 /// Uses the samples of our side, drawn in advance: drawing them costs this side nothing.
 struct MonteCarloByHand {
@@ -336,11 +276,7 @@ impl MonteCarloByHand {
         };
         let designs = |samples: Samples| {
             let all = draw(&samples, None, true)?.all.unwrap_or_default();
-            let flat = all
-                .iter()
-                .flat_map(|sample| &sample.design)
-                .copied()
-                .collect();
+            let flat = all.iter().flat_map(|sample| &sample.design).copied().collect();
             Ok((samples.state, flat))
         };
         let samples = samples().map_err(|error| error.to_string())?.into_iter();

@@ -84,10 +84,7 @@ impl Report {
 
     fn counted(&self, name: &str) -> [Option<f64>; 2] {
         let counts = self.counts.as_ref().ok();
-        counts
-            .and_then(|counts| counts.get(name))
-            .copied()
-            .unwrap_or_default()
+        counts.and_then(|counts| counts.get(name)).copied().unwrap_or_default()
     }
 
     /// The table as Markdown.
@@ -113,8 +110,7 @@ impl Report {
             );
         }
         if !self.operations.is_empty() {
-            text +=
-                "\n| operations | eigentol | of them signs | CasADi | ratio | CasADi, energies |\n";
+            text += "\n| operations | eigentol | of them signs | CasADi | ratio | CasADi, energies |\n";
             text += "| --- | ---: | ---: | ---: | ---: | ---: |\n";
         }
         for row in &self.operations {

@@ -18,10 +18,7 @@ impl Timed {
     /// Times the samples of a study.
     fn add<M: Mechanism>(&mut self, name: &str, study: &Study<M>) {
         let study = study.clone().samples(COUNT).threads(1);
-        for (way, vectors) in [
-            ("one by one", None),
-            ("in vectors", Some(Instructions::best())),
-        ] {
+        for (way, vectors) in [("one by one", None), ("in vectors", Some(Instructions::best()))] {
             let study = study.clone().vectors(vectors);
             let seconds = fastest(5, || {
                 let _ = black_box(&study.monte_carlo());
@@ -53,10 +50,7 @@ pub(crate) fn samples() -> Vec<Fact> {
     timed.add("rotor in a soft bearing", &rotor);
     let linkage = at(FiveBar, &[5.0], &[2.0, 1.0, -1.2, 1.1]);
     timed.add("five-bar linkage", &linkage);
-    timed.add(
-        "chain of eight bars",
-        &at(ChainOfEight, &[2.5], &[0.9, 0.1]),
-    );
+    timed.add("chain of eight bars", &at(ChainOfEight, &[2.5], &[0.9, 0.1]));
     timed.add("screw press", &at(ScrewPress, &[], &[]));
     timed.0
 }

@@ -20,12 +20,7 @@ pub(crate) fn criterion() -> Criterion {
 
 /// Nanoseconds per unit of `work`: the minimum of criterion's samples, which other load disturbs least; `None` if
 /// criterion's filter excluded it.
-pub(crate) fn time(
-    criterion: &mut Criterion,
-    name: &str,
-    units: usize,
-    work: &mut dyn Work,
-) -> Option<f64> {
+pub(crate) fn time(criterion: &mut Criterion, name: &str, units: usize, work: &mut dyn Work) -> Option<f64> {
     let least = Cell::new(f64::INFINITY);
     criterion.bench_function(name, |bencher| {
         bencher.iter_custom(|iterations| {

@@ -25,11 +25,7 @@ pub(crate) struct Tools {
 impl Tools {
     /// Finds the tools; build products are kept in `folder`.
     pub(crate) fn new(folder: &Path, target: Target) -> Self {
-        Self {
-            folder: folder.to_owned(),
-            target,
-            python: Err("not looked for".to_owned()),
-        }
+        Self { folder: folder.to_owned(), target, python: Err("not looked for".to_owned()) }
     }
 
     /// Runs a script from the folder `peers` in a Python that has CasADi.
@@ -94,9 +90,7 @@ pub(crate) fn setting() -> Vec<(String, String)> {
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         text.lines().next().map(str::to_owned)
     };
-    let named = |variable: &str, default: &str| {
-        version(env::var(variable).unwrap_or_else(|_| default.to_owned()))
-    };
+    let named = |variable: &str, default: &str| version(env::var(variable).unwrap_or_else(|_| default.to_owned()));
     let processor = fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
         let line = text.lines().find(|line| line.starts_with("model name"))?;
         Some(line.split_once(':')?.1.trim().to_owned())
@@ -108,16 +102,12 @@ pub(crate) fn setting() -> Vec<(String, String)> {
         ("Rust", named("RUSTC", "rustc")),
     ];
     let found = found.into_iter();
-    found
-        .map(|(name, value)| (name.to_owned(), value.unwrap_or_else(|| "-".to_owned())))
-        .collect()
+    found.map(|(name, value)| (name.to_owned(), value.unwrap_or_else(|| "-".to_owned()))).collect()
 }
 
 /// A file of the folder `peers`.
 pub(crate) fn source(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("peers")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("peers").join(name)
 }
 
 /// Whether `made` exists and is no older than `source`.
@@ -136,10 +126,7 @@ fn interpreter(folder: &Path) -> Result<PathBuf, String> {
     }
     eprintln!("installing CasADi in {}", environment.display());
     let run = |program: &Path, arguments: &[&str]| {
-        let status = Command::new(program)
-            .args(arguments)
-            .stdout(Stdio::null())
-            .status();
+        let status = Command::new(program).args(arguments).stdout(Stdio::null()).status();
         matches!(status, Ok(status) if status.success())
     };
     let place = environment.to_string_lossy();
@@ -155,9 +142,6 @@ fn interpreter(folder: &Path) -> Result<PathBuf, String> {
 }
 
 fn has_casadi(python: &Path) -> bool {
-    let status = Command::new(python)
-        .args(["-c", "import casadi"])
-        .stderr(Stdio::null())
-        .status();
+    let status = Command::new(python).args(["-c", "import casadi"]).stderr(Stdio::null()).status();
     matches!(status, Ok(status) if status.success())
 }

@@ -24,10 +24,7 @@ impl Bounded {
     }
 
     fn rounded(value: f64, inherited: f64) -> Self {
-        Self {
-            value,
-            error: inherited + UNIT * value.abs(),
-        }
+        Self { value, error: inherited + UNIT * value.abs() }
     }
 
     fn through(self, value: f64, slope: f64) -> Self {
@@ -69,10 +66,7 @@ impl Div for Bounded {
 impl Neg for Bounded {
     type Output = Self;
     fn neg(self) -> Self {
-        Self {
-            value: -self.value,
-            ..self
-        }
+        Self { value: -self.value, ..self }
     }
 }
 
@@ -81,14 +75,7 @@ impl Real for Bounded {
     /// ones, such as the sine of half a turn.
     fn constant(value: f64) -> Self {
         let simple = (2.0 * value).fract() == 0.0;
-        Self {
-            value,
-            error: if simple {
-                0.0
-            } else {
-                4.0 * UNIT * value.abs().max(1.0)
-            },
-        }
+        Self { value, error: if simple { 0.0 } else { 4.0 * UNIT * value.abs().max(1.0) } }
     }
 
     fn sqrt(self) -> Self {

@@ -50,11 +50,7 @@ pub struct Outcome {
 /// # Panics
 /// When a kernel of the runtime's contract is missing.
 pub fn check(subject: &Subject, state: &State) -> Outcome {
-    let mut this = Check {
-        program: &subject.program,
-        state,
-        outcome: Outcome::default(),
-    };
+    let mut this = Check { program: &subject.program, state, outcome: Outcome::default() };
     this.reactions(&subject.roles);
     this.residuals();
     this.linear();
@@ -81,11 +77,7 @@ enum By {
     Position,
 }
 
-const MATRICES: [(By, &str); 3] = [
-    (By::Acceleration, "mass"),
-    (By::Velocity, "damping"),
-    (By::Position, "stiffness"),
-];
+const MATRICES: [(By, &str); 3] = [(By::Acceleration, "mass"), (By::Velocity, "damping"), (By::Position, "stiffness")];
 
 fn exact(values: &[f64]) -> Vec<Bounded> {
     values.iter().copied().map(Bounded::exact).collect()
@@ -97,9 +89,7 @@ fn fixed<T: Real + Copy>(values: &[T]) -> Vec<Dual<T>> {
 
 fn moving<T: Real + Copy>(values: &[T], along: &[T]) -> Vec<Dual<T>> {
     let pairs = values.iter().zip(along);
-    pairs
-        .map(|(&value, &slope)| Dual { value, slope })
-        .collect()
+    pairs.map(|(&value, &slope)| Dual { value, slope }).collect()
 }
 
 fn slopes<T: Copy>(values: &[Dual<T>]) -> Vec<T> {
@@ -222,11 +212,7 @@ impl Check<'_> {
         let found = self.evaluate("residual", &[], &[]);
         self.compare("residual", &found[0], &rest);
         let parts = self.evaluate("residual_parts", &[], &[]);
-        let sum: Vec<Bounded> = parts[0]
-            .iter()
-            .zip(&parts[1])
-            .map(|(&a, &b)| a - b)
-            .collect();
+        let sum: Vec<Bounded> = parts[0].iter().zip(&parts[1]).map(|(&a, &b)| a - b).collect();
         self.compare("residual_parts", &sum, &rest);
         let found = self.evaluate("residual_and_stiffness", &[], &[]);
         self.compare("residual_and_stiffness.residual", &found[0], &rest);
@@ -244,11 +230,7 @@ impl Check<'_> {
         if self.kernel("motion_linear").is_none() {
             return;
         }
-        let found = self.evaluate(
-            "motion_linear",
-            &[&state.acceleration, &state.velocity],
-            &[],
-        );
+        let found = self.evaluate("motion_linear", &[&state.acceleration, &state.velocity], &[]);
         for ((by, name), found) in MATRICES.iter().zip(&found) {
             let expected = self.matrix(*by, false);
             self.compare(&format!("motion_linear.{name}"), found, &expected);
@@ -261,11 +243,7 @@ impl Check<'_> {
         self.compare("motion.mass", &found[0], &mass);
         let mut arguments = self.arguments(false);
         arguments[0] = exact(&vec![0.0; self.n()]);
-        let force: Vec<Bounded> = self
-            .motion_residual(&arguments)
-            .iter()
-            .map(|&h| -h)
-            .collect();
+        let force: Vec<Bounded> = self.motion_residual(&arguments).iter().map(|&h| -h).collect();
         self.compare("motion.force", &found[1], &force);
     }
 
@@ -316,10 +294,7 @@ impl Check<'_> {
     fn gradient_along(&self, kernel: &str, values: &[&[f64]]) -> Bounded {
         let gradient = self.evaluate(kernel, &[], values);
         let along = self.state.along.each_ref().map(|list| exact(list));
-        let parts = gradient
-            .iter()
-            .zip(&along)
-            .map(|(part, along)| dot(part, along));
+        let parts = gradient.iter().zip(&along).map(|(part, along)| dot(part, along));
         parts.fold(Bounded::exact(0.0), |sum, part| sum + part)
     }
 
@@ -356,11 +331,8 @@ impl Check<'_> {
         self.compare("mode_gradient", &[found], &[stiffness - lambda * mass]);
 
         let [left, acceleration, velocity, position] = &state.pencil;
-        let changed = self.second(&[
-            (By::Acceleration, acceleration),
-            (By::Velocity, velocity),
-            (By::Position, position),
-        ]);
+        let changed =
+            self.second(&[(By::Acceleration, acceleration), (By::Velocity, velocity), (By::Position, position)]);
         let expected = dot(&exact(left), &changed);
         let own = [left, acceleration, velocity, position].map(Vec::as_slice);
         let found = self.gradient_along("pencil_gradient", &own);
@@ -391,8 +363,7 @@ impl Check<'_> {
 impl Check<'_> {
     /// Excitations: the gradient of the functional of `forcing` and `output_motion`, and the outputs by position.
     fn forced(&mut self) {
-        let (Some(forcing), Some(motion)) = (self.kernel("forcing"), self.kernel("output_motion"))
-        else {
+        let (Some(forcing), Some(motion)) = (self.kernel("forcing"), self.kernel("output_motion")) else {
             return;
         };
         let along = self.state.along.each_ref().map(|list| exact(list));
@@ -411,9 +382,8 @@ impl Check<'_> {
         let (n, excitations) = (self.n(), forcing[1].len());
         let outputs = forcing[2].len() / excitations;
         let state = self.state;
-        let weights = |count: usize, from: f64| -> Vec<f64> {
-            (0..count).map(|k| (from + 1.7 * k as f64).sin()).collect()
-        };
+        let weights =
+            |count: usize, from: f64| -> Vec<f64> { (0..count).map(|k| (from + 1.7 * k as f64).sin()).collect() };
         let on_outputs = weights(outputs, 0.3);
         let (share, frequency) = (weights(excitations, 1.1), weights(excitations, 2.3));
         let [direct_cosine, direct_sine] = [0.7, 1.9].map(|from| weights(outputs, from));
@@ -428,12 +398,7 @@ impl Check<'_> {
         for (matrix, by) in motion.iter().zip([acceleration, velocity, position]) {
             expected = expected + dot(&rows(matrix, n, by), &exact(&on_outputs));
         }
-        let forces = [
-            (0, cosine),
-            (2, &direct_cosine),
-            (3, sine),
-            (4, &direct_sine),
-        ];
+        let forces = [(0, cosine), (2, &direct_cosine), (3, sine), (4, &direct_sine)];
         for (place, by) in forces {
             // without outputs there are no rows
             let rows = rows(&forcing[place], by.len(), by);

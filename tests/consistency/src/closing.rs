@@ -5,19 +5,8 @@ use eigentol_oracle::model::{Frame, Model, Motion, Word};
 use eigentol_oracle::random::Random;
 
 const AXES: [&str; 6] = ["x", "y", "z", "-y", "[0, 3, -4]", "[1e-9, 1, 0]"];
-const PLACES: [&str; 4] = [
-    "[0, 0, 0] m",
-    "[0.4, 0, 0] m",
-    "[0, -0.3, 0.5] m",
-    "[0.2, 0.1, -0.6] m",
-];
-const TURNS: [&str; 5] = [
-    "",
-    "",
-    " rotated(x, 90 deg)",
-    " rotated(z, -90 deg)",
-    " rotated([1, 2, 0], 0.7 rad)",
-];
+const PLACES: [&str; 4] = ["[0, 0, 0] m", "[0.4, 0, 0] m", "[0, -0.3, 0.5] m", "[0.2, 0.1, -0.6] m"];
+const TURNS: [&str; 5] = ["", "", " rotated(x, 90 deg)", " rotated(z, -90 deg)", " rotated([1, 2, 0], 0.7 rad)"];
 
 /// Declarations that close a loop in a model.
 pub fn items(model: &Model, random: &mut Random) -> String {
@@ -44,9 +33,7 @@ pub fn items(model: &Model, random: &mut Random) -> String {
         5 => format!("joint closing: universal(ca: x, cb: [0.3, 1, 0]) {ends}, cut;"),
         6 => format!("joint closing: planar(ca: x, cb: y, cc: z) {ends}, cut;"),
         7 => format!("joint closing: spherical(ca: x, cb: y, cc: z) {ends}, cut;"),
-        8 => format!(
-            "{points} constraint closing: coincident(from: here, to: there, along: [y, z]);"
-        ),
+        8 => format!("{points} constraint closing: coincident(from: here, to: there, along: [y, z]);"),
         9 => format!("{points} constraint closing: aligned(from: here, to: there, axis: {axis});"),
         10 => {
             format!("{points} constraint closing: distance(from: here, to: there, length: 0.9 m);")
@@ -65,10 +52,7 @@ pub fn items(model: &Model, random: &mut Random) -> String {
 fn coupling(model: &Model) -> String {
     let hinges = model.joints.iter().filter(|joint| {
         joint.word == Word::Revolute
-            && joint
-                .steps
-                .iter()
-                .all(|step| step.drive.is_none() && step.motion == Motion::Turn)
+            && joint.steps.iter().all(|step| step.drive.is_none() && step.motion == Motion::Turn)
     });
     let names: Vec<&str> = hinges.map(|joint| joint.name.as_str()).collect();
     match names[..] {

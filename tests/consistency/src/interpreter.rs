@@ -16,26 +16,16 @@ pub fn interpret<T: Real>(kernel: &Kernel, arguments: &[&[T]]) -> Vec<Vec<T>> {
     for instruction in &kernel.instructions {
         let value = match instruction.operation {
             Operation::Unary(operator, a) => unary(operator, read(&values, a)),
-            Operation::Binary(operator, a, b) => {
-                binary(operator, read(&values, a), read(&values, b))
-            }
+            Operation::Binary(operator, a, b) => binary(operator, read(&values, a), read(&values, b)),
         };
         values.push(value);
     }
     let array = |list: &[Operand]| list.iter().map(|&entry| read(&values, entry)).collect();
-    kernel
-        .results
-        .iter()
-        .map(|result| array(&result.values))
-        .collect()
+    kernel.results.iter().map(|result| array(&result.values)).collect()
 }
 
 /// Directional derivatives of the results, in the same dual numbers that the runtime uses to differentiate kernels.
-pub fn interpret_along(
-    kernel: &Kernel,
-    arguments: &[&[f64]],
-    direction: &[&[f64]],
-) -> Vec<Vec<f64>> {
+pub fn interpret_along(kernel: &Kernel, arguments: &[&[f64]], direction: &[&[f64]]) -> Vec<Vec<f64>> {
     let dual = |(&value, &slope): (&f64, &f64)| Dual { value, slope };
     let moved = |(values, slopes): (&&[f64], &&[f64])| -> Vec<Dual<f64>> {
         assert_eq!(values.len(), slopes.len(), "{}", kernel.name);

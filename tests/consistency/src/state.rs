@@ -25,8 +25,7 @@ impl State {
     /// A random state at `at`, not near any equilibrium, with no zero component in its directions.
     pub fn random(at: [Vec<f64>; 3], random: &mut Random) -> Self {
         let [n, inputs, design] = [0, 1, 2].map(|k| at[k].len());
-        let mut full =
-            |count: usize| -> Vec<f64> { (0..count).map(|_| random.between(-1.0, 1.0)).collect() };
+        let mut full = |count: usize| -> Vec<f64> { (0..count).map(|_| random.between(-1.0, 1.0)).collect() };
         Self {
             along: [full(n), full(inputs), full(design)],
             acceleration: full(n),

@@ -29,9 +29,7 @@ impl Subject {
     /// # Errors
     /// The compiler's messages.
     pub fn new(declaration: &str, limits: Limits) -> Result<Self, Vec<String>> {
-        let tokens = declaration
-            .parse()
-            .map_err(|error| vec![format!("{error}")])?;
+        let tokens = declaration.parse().map_err(|error| vec![format!("{error}")])?;
         let compiled = compile(tokens, limits);
         let compiled = compiled.map_err(|mistakes| {
             let messages = mistakes.iter().map(|mistake| mistake.message.clone());
@@ -47,11 +45,7 @@ impl Subject {
         Self {
             unknowns: unknowns.iter().map(|one| one.name.clone()).collect(),
             roles: unknowns.iter().map(|one| one.role).collect(),
-            design: mechanism
-                .design
-                .iter()
-                .map(|one| one.name.to_string())
-                .collect(),
+            design: mechanism.design.iter().map(|one| one.name.to_string()).collect(),
             positions: unknowns.iter().filter(|one| is_position(&one.role)).count(),
             inputs: mechanism.inputs.len(),
             nominal: mechanism.design.iter().map(|one| one.nominal).collect(),

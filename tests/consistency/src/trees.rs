@@ -95,12 +95,7 @@ impl Summary {
 /// cases but take most of the time.
 pub fn text(number: u64) -> String {
     let mut random = Random::new(number ^ 0x51AC_1A15);
-    let settings = [
-        Setting::Still,
-        Setting::Spinning,
-        Setting::Conveyed,
-        Setting::Climbing,
-    ];
+    let settings = [Setting::Still, Setting::Spinning, Setting::Conveyed, Setting::Climbing];
     let (all_forces, closes) = (random.chance(0.2), random.chance(0.25));
     let plan = Plan {
         setting: match closes && random.chance(0.6) {
@@ -122,11 +117,7 @@ pub fn text(number: u64) -> String {
         let free = model.free();
         let springs = free.into_iter().enumerate().map(|(k, coordinate)| Force {
             name: format!("force{k}"),
-            law: ForceLaw::Spring {
-                coordinate,
-                stiffness: Value::Number(30.0),
-                rest: Value::Number(0.0),
-            },
+            law: ForceLaw::Spring { coordinate, stiffness: Value::Number(30.0), rest: Value::Number(0.0) },
         });
         model.forces = springs.collect();
     }
@@ -141,10 +132,7 @@ pub fn text(number: u64) -> String {
 
 /// Compiles tree `number` and compares its kernels.
 pub fn tree(number: u64) -> Tree {
-    let limits = Limits {
-        explicit_partials: 150,
-        ..Limits::NONE
-    };
+    let limits = Limits { explicit_partials: 150, ..Limits::NONE };
     census::take();
     match Subject::new(&text(number), limits) {
         Ok(subject) => {
@@ -159,8 +147,6 @@ pub fn tree(number: u64) -> Tree {
 pub fn summary(from: u64, to: u64) -> Summary {
     (from..to)
         .into_par_iter()
-        .fold(Summary::default, |summary, number| {
-            summary.with(number, tree(number))
-        })
+        .fold(Summary::default, |summary, number| summary.with(number, tree(number)))
         .reduce(Summary::default, Summary::merged)
 }

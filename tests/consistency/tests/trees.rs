@@ -70,16 +70,8 @@ fn require_consistent(trees: u64) {
     let found = summary(0, trees);
     assert_eq!(found.wrong, [0; 0], "trees with differences");
     assert_eq!(found.odd, [0; 0], "trees refused");
-    assert!(
-        found.compared > trees * 3 / 4,
-        "{} compared",
-        found.compared
-    );
-    assert!(
-        found.blurred * 10 < found.values,
-        "{} blurred",
-        found.blurred
-    );
+    assert!(found.compared > trees * 3 / 4, "{} compared", found.compared);
+    assert!(found.blurred * 10 < found.values, "{} blurred", found.blurred);
     for (case, least) in TAKEN {
         let count = count(&found, case);
         assert!(count * TREES >= least * trees, "{case}: {count} of {trees}");
@@ -88,8 +80,7 @@ fn require_consistent(trees: u64) {
     for row in 0..3 {
         for column in 0..3 {
             for mirrored in [false, true] {
-                let case =
-                    format!("turn_symmetric: row {row}, column {column}, mirrored {mirrored}");
+                let case = format!("turn_symmetric: row {row}, column {column}, mirrored {mirrored}");
                 let count = count(&found, &case);
                 assert!(count * TREES >= 30 * trees, "{case}: {count} of {trees}");
             }
@@ -118,13 +109,8 @@ fn same_results(one: &Program, other: &Program, kernel: &str, state: &State) -> 
         .parameters
         .iter()
         .map(|parameter| {
-            let known = ["q", "u", "b"]
-                .iter()
-                .position(|name| *name == parameter.name);
-            known.map_or_else(
-                || full[..parameter.entries.len()].to_vec(),
-                |place| state.at[place].clone(),
-            )
+            let known = ["q", "u", "b"].iter().position(|name| *name == parameter.name);
+            known.map_or_else(|| full[..parameter.entries.len()].to_vec(), |place| state.at[place].clone())
         })
         .collect();
     let arguments: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
@@ -158,30 +144,17 @@ fn every_wrong_sign_is_found() {
         output height = position(tip).z;
         point tip: hook at [0.2, 0, 0.1] m;
     }";
-    let subject =
-        Subject::new(text, Limits::NONE).unwrap_or_else(|mistakes| panic!("{mistakes:?}"));
+    let subject = Subject::new(text, Limits::NONE).unwrap_or_else(|mistakes| panic!("{mistakes:?}"));
     let state = subject.state(3);
     assert!(check(&subject, &state).differences.is_empty());
     let mut seen_spoils = 0;
     for (place, kernel) in subject.program.kernels.iter().enumerate() {
-        let reference = [
-            "motion_residual",
-            "outputs",
-            "violation",
-            "whirl",
-            "picture",
-            "pose_margin",
-        ];
+        let reference = ["motion_residual", "outputs", "violation", "whirl", "picture", "pose_margin"];
         if reference.contains(&kernel.name) {
             continue;
         }
         let is_zero = |operand: &Operand| matches!(operand, Operand::Constant(0.0));
-        assert!(
-            !kernel
-                .results
-                .iter()
-                .all(|array| array.values.iter().all(is_zero))
-        );
+        assert!(!kernel.results.iter().all(|array| array.values.iter().all(is_zero)));
         for instruction in 0..kernel.instructions.len() {
             let Some(wrong) = spoilt(&subject, place, instruction) else {
                 continue;

@@ -47,10 +47,7 @@ fn residuals() {
     assert_eq!(moving, Swing.motion_residual(&A, &V, &Q, &U, &B));
     call!(swing_motion(V.as_ptr(), q, u, b) -> [mass: 4, force: 2]);
     let motion = Swing.motion(&V, &Q, &U, &B);
-    assert_eq!(
-        (mass.as_slice(), force),
-        (motion.0.as_flattened(), motion.1)
-    );
+    assert_eq!((mass.as_slice(), force), (motion.0.as_flattened(), motion.1));
 }
 
 #[test]
@@ -58,10 +55,7 @@ fn matrices() {
     let [q, u, b] = state();
     call!(swing_residual_and_stiffness(q, u, b) -> [residual: 2, newton: 4]);
     let (expected, square) = Swing.residual_and_stiffness(&Q, &U, &B);
-    assert_eq!(
-        (residual, newton.as_slice()),
-        (expected, square.as_flattened())
-    );
+    assert_eq!((residual, newton.as_slice()), (expected, square.as_flattened()));
 
     call!(swing_linear(q, u, b) -> [mass: 4, damping: 4, stiffness: 4]);
     let linear = Swing.linear(&Q, &U, &B);
@@ -100,39 +94,15 @@ fn partial_derivatives() {
     let partials = Swing.linear_partials(&Q, &U, &B);
     let of_coordinates = partials.by_coordinate;
     let of_design = partials.by_design;
-    assert_eq!(
-        mass_q,
-        *of_coordinates.map(|l| l.mass).as_flattened().as_flattened()
-    );
-    assert_eq!(
-        damping_q,
-        *of_coordinates
-            .map(|l| l.damping)
-            .as_flattened()
-            .as_flattened()
-    );
-    assert_eq!(
-        stiffness_q,
-        *of_coordinates
-            .map(|l| l.stiffness)
-            .as_flattened()
-            .as_flattened()
-    );
+    assert_eq!(mass_q, *of_coordinates.map(|l| l.mass).as_flattened().as_flattened());
+    assert_eq!(damping_q, *of_coordinates.map(|l| l.damping).as_flattened().as_flattened());
+    assert_eq!(stiffness_q, *of_coordinates.map(|l| l.stiffness).as_flattened().as_flattened());
     assert_eq!(mass_u, *partials.by_input[0].mass.as_flattened());
     assert_eq!(damping_u, *partials.by_input[0].damping.as_flattened());
     assert_eq!(stiffness_u, *partials.by_input[0].stiffness.as_flattened());
-    assert_eq!(
-        mass_b,
-        *of_design.map(|l| l.mass).as_flattened().as_flattened()
-    );
-    assert_eq!(
-        damping_b,
-        *of_design.map(|l| l.damping).as_flattened().as_flattened()
-    );
-    assert_eq!(
-        stiffness_b,
-        *of_design.map(|l| l.stiffness).as_flattened().as_flattened()
-    );
+    assert_eq!(mass_b, *of_design.map(|l| l.mass).as_flattened().as_flattened());
+    assert_eq!(damping_b, *of_design.map(|l| l.damping).as_flattened().as_flattened());
+    assert_eq!(stiffness_b, *of_design.map(|l| l.stiffness).as_flattened().as_flattened());
 }
 
 #[test]
@@ -141,24 +111,15 @@ fn gradients() {
     let phi = [1.0, -0.4];
     call!(swing_mode_gradient(q, u, b, phi.as_ptr(), 3.0) -> [by_q: 2, by_u: 1, by_b: 3]);
     let gradient = Swing.mode_gradient(&Q, &U, &B, &phi, 3.0);
-    assert_eq!(
-        (by_q, by_u, by_b),
-        (gradient.coordinates, gradient.inputs, gradient.design)
-    );
+    assert_eq!((by_q, by_u, by_b), (gradient.coordinates, gradient.inputs, gradient.design));
 
     call!(swing_pencil_gradient(q, u, b, phi.as_ptr(), A.as_ptr(), V.as_ptr(), Q.as_ptr()) -> [by_q: 2, by_u: 1, by_b: 3]);
     let gradient = Swing.pencil_gradient(&Q, &U, &B, &phi, &A, &V, &Q);
-    assert_eq!(
-        (by_q, by_u, by_b),
-        (gradient.coordinates, gradient.inputs, gradient.design)
-    );
+    assert_eq!((by_q, by_u, by_b), (gradient.coordinates, gradient.inputs, gradient.design));
 
     call!(swing_residual_gradient(q, u, b, phi.as_ptr()) -> [by_q: 2, by_u: 1, by_b: 3]);
     let gradient = Swing.residual_gradient(&Q, &U, &B, &phi);
-    assert_eq!(
-        (by_q, by_u, by_b),
-        (gradient.coordinates, gradient.inputs, gradient.design)
-    );
+    assert_eq!((by_q, by_u, by_b), (gradient.coordinates, gradient.inputs, gradient.design));
 }
 
 #[test]
@@ -182,10 +143,7 @@ fn constants_name_places() {
     assert_eq!(b[SWING_DESIGN_m], 2.0);
     assert_eq!(b[SWING_DESIGN_M], 3.5);
     assert_eq!(b[SWING_DESIGN_l], 0.8);
-    assert_eq!(
-        [SWING_COORDINATES, SWING_INPUTS, SWING_DESIGN, SWING_OUTPUTS],
-        [2, 1, 3, 4]
-    );
+    assert_eq!([SWING_COORDINATES, SWING_INPUTS, SWING_DESIGN, SWING_OUTPUTS], [2, 1, 3, 4]);
     assert_eq!([SWING_COORDINATE_alpha, SWING_COORDINATE_beta], [0, 1]);
     assert_eq!([SWING_INPUT_omega, SWING_OUTPUT_sum], [0, 3]);
     assert_eq!(ball_c::BALL_COORDINATE_roll, 2);
@@ -203,18 +161,9 @@ fn violation(b: [f64; 3]) -> Option<&'static str> {
 #[test]
 fn requirements_are_told_in_words() {
     assert_eq!(violation(B), None);
-    assert_eq!(
-        violation([2.0, -1.0, 0.8]),
-        Some("mass of lower has to be positive")
-    );
-    assert_eq!(
-        violation([f64::NAN, 1.0, 0.8]),
-        Some("mass of upper has to be positive")
-    );
-    assert_eq!(
-        violation([2.0, 1.0, 0.0]),
-        Some("length of upper has to be positive")
-    );
+    assert_eq!(violation([2.0, -1.0, 0.8]), Some("mass of lower has to be positive"));
+    assert_eq!(violation([f64::NAN, 1.0, 0.8]), Some("mass of upper has to be positive"));
+    assert_eq!(violation([2.0, 1.0, 0.0]), Some("length of upper has to be positive"));
 }
 
 #[test]

@@ -46,9 +46,8 @@ impl Case {
     pub fn random(model: &Model, seed: u64) -> Self {
         let mut random = Random::new(seed);
         let n = model.free().len();
-        let mut full = |count: usize, limit: f64| -> Vec<f64> {
-            (0..count).map(|_| random.between(-limit, limit)).collect()
-        };
+        let mut full =
+            |count: usize, limit: f64| -> Vec<f64> { (0..count).map(|_| random.between(-limit, limit)).collect() };
         let (inputs, design) = (model.inputs.len(), model.design.len());
         let along = [full(n, 1.0), full(inputs, 1.0), full(design, 1.0)];
         let (acceleration, velocity) = (full(n, 3.0), full(n, 2.0));
@@ -56,27 +55,11 @@ impl Case {
         let (weight, weight_along) = (full(n, 1.0), full(n, 1.0));
         let q = position(model, &mut random);
         let u = (0..inputs).map(|_| random.between(0.5, 4.0)).collect();
-        let b = model
-            .design
-            .iter()
-            .map(|b| b.nominal * random.between(0.9, 1.1))
-            .collect();
-        let mut vectors =
-            || std::array::from_fn(|_| (0..n).map(|_| random.between(-1.0, 1.0)).collect());
+        let b = model.design.iter().map(|b| b.nominal * random.between(0.9, 1.1)).collect();
+        let mut vectors = || std::array::from_fn(|_| (0..n).map(|_| random.between(-1.0, 1.0)).collect());
         let (pencil, pencil_along) = (vectors(), vectors());
         let at = [q, u, b];
-        Self {
-            at,
-            along,
-            acceleration,
-            velocity,
-            mode,
-            mode_along,
-            weight,
-            weight_along,
-            pencil,
-            pencil_along,
-        }
+        Self { at, along, acceleration, velocity, mode, mode_along, weight, weight_along, pencil, pencil_along }
     }
 }
 
@@ -116,13 +99,7 @@ fn arrays(kernels: &dyn Kernels, case: &Case) -> Vec<Array> {
     let pencil_along: Pencil = case.pencil_along.each_ref().map(Vec::as_slice);
     let mut list = Vec::new();
     let mut add = |kernel, name, shape: &[usize], kind, values| {
-        list.push(Array {
-            kernel,
-            name,
-            shape: shape.to_vec(),
-            kind,
-            values,
-        });
+        list.push(Array { kernel, name, shape: shape.to_vec(), kind, values });
     };
 
     add("residual", "residual", &[n], None, kernels.residual(at));
@@ -140,88 +117,31 @@ fn arrays(kernels: &dyn Kernels, case: &Case) -> Vec<Array> {
 
     let [residual, stiffness] = kernels.residual_and_stiffness(at);
     add("residual_and_stiffness", "residual", &[n], None, residual);
-    add(
-        "residual_and_stiffness",
-        "stiffness",
-        &[n, n],
-        None,
-        stiffness,
-    );
+    add("residual_and_stiffness", "stiffness", &[n, n], None, stiffness);
 
-    for (kernel, linear) in [
-        ("linear", kernels.linear(at)),
-        ("linear_along", kernels.linear_along(at, along)),
-    ] {
+    for (kernel, linear) in [("linear", kernels.linear(at)), ("linear_along", kernels.linear_along(at, along))] {
         add(kernel, "mass", &[n, n], None, linear.mass);
         add(kernel, "damping", &[n, n], None, linear.damping);
         add(kernel, "stiffness", &[n, n], None, linear.stiffness);
     }
 
     let [by_input, by_design] = kernels.residual_partials(at);
-    add(
-        "residual_partials",
-        "by_input",
-        &[n, inputs],
-        Some(1),
-        by_input,
-    );
-    add(
-        "residual_partials",
-        "by_design",
-        &[n, design],
-        Some(1),
-        by_design,
-    );
+    add("residual_partials", "by_input", &[n, inputs], Some(1), by_input);
+    add("residual_partials", "by_design", &[n, design], Some(1), by_design);
 
     let partials = kernels.linear_partials(at);
     let join = |list: &[Linear<f64>], part: fn(&Linear<f64>) -> &Vec<f64>| {
-        list.iter()
-            .flat_map(|linear| part(linear).iter().copied())
-            .collect::<Vec<_>>()
+        list.iter().flat_map(|linear| part(linear).iter().copied()).collect::<Vec<_>>()
     };
     for ([mass, damping, stiffness], list, count) in [
-        (
-            [
-                "by_coordinate.mass",
-                "by_coordinate.damping",
-                "by_coordinate.stiffness",
-            ],
-            &partials.by_coordinate,
-            n,
-        ),
-        (
-            ["by_input.mass", "by_input.damping", "by_input.stiffness"],
-            &partials.by_input,
-            inputs,
-        ),
-        (
-            ["by_design.mass", "by_design.damping", "by_design.stiffness"],
-            &partials.by_design,
-            design,
-        ),
+        (["by_coordinate.mass", "by_coordinate.damping", "by_coordinate.stiffness"], &partials.by_coordinate, n),
+        (["by_input.mass", "by_input.damping", "by_input.stiffness"], &partials.by_input, inputs),
+        (["by_design.mass", "by_design.damping", "by_design.stiffness"], &partials.by_design, design),
     ] {
         let shape = [count, n, n];
-        add(
-            "linear_partials",
-            mass,
-            &shape,
-            Some(0),
-            join(list, |linear| &linear.mass),
-        );
-        add(
-            "linear_partials",
-            damping,
-            &shape,
-            Some(0),
-            join(list, |linear| &linear.damping),
-        );
-        add(
-            "linear_partials",
-            stiffness,
-            &shape,
-            Some(0),
-            join(list, |linear| &linear.stiffness),
-        );
+        add("linear_partials", mass, &shape, Some(0), join(list, |linear| &linear.mass));
+        add("linear_partials", damping, &shape, Some(0), join(list, |linear| &linear.damping));
+        add("linear_partials", stiffness, &shape, Some(0), join(list, |linear| &linear.stiffness));
     }
 
     let whirl = kernels.whirl(at, &case.mode.0, &case.weight);
@@ -230,22 +150,10 @@ fn arrays(kernels: &dyn Kernels, case: &Case) -> Vec<Array> {
     for (kernel, gradient) in [
         ("mode_gradient", kernels.mode_gradient(at, mode.0, mode.1)),
         ("pencil_gradient", kernels.pencil_gradient(at, pencil)),
-        (
-            "residual_gradient",
-            kernels.residual_gradient(at, &case.weight),
-        ),
-        (
-            "mode_gradient_along",
-            kernels.mode_gradient_along(at, mode, along, mode_along),
-        ),
-        (
-            "pencil_gradient_along",
-            kernels.pencil_gradient_along(at, pencil, along, pencil_along),
-        ),
-        (
-            "residual_gradient_along",
-            kernels.residual_gradient_along(at, &case.weight, along, &case.weight_along),
-        ),
+        ("residual_gradient", kernels.residual_gradient(at, &case.weight)),
+        ("mode_gradient_along", kernels.mode_gradient_along(at, mode, along, mode_along)),
+        ("pencil_gradient_along", kernels.pencil_gradient_along(at, pencil, along, pencil_along)),
+        ("residual_gradient_along", kernels.residual_gradient_along(at, &case.weight, along, &case.weight_along)),
     ] {
         let [coordinates, inputs_part, design_part] = gradient;
         add(kernel, "coordinates", &[n], Some(0), coordinates);
@@ -268,9 +176,7 @@ fn sizes(value: &Array, turned: &Array) -> Vec<f64> {
         let kin = (0..single.len()).filter(|&flat| value.kind_of(flat) == kind);
         kin.map(|flat| single[flat]).fold(0.0, f64::max)
     };
-    (0..single.len())
-        .map(|flat| of_kind(value.kind_of(flat)))
-        .collect()
+    (0..single.len()).map(|flat| of_kind(value.kind_of(flat))).collect()
 }
 
 /// The oracle's results at one random state of a model.
@@ -290,22 +196,12 @@ impl<'a> Reference<'a> {
         let oracle = Oracle::new(model);
         let expected = arrays(&oracle, &case);
         let turned = arrays(&oracle.turned([0.4, -0.7, 0.5], 0.9), &case);
-        let mut sizes: Vec<Vec<f64>> = expected
-            .iter()
-            .zip(&turned)
-            .map(|(one, other)| sizes(one, other))
-            .collect();
+        let mut sizes: Vec<Vec<f64>> = expected.iter().zip(&turned).map(|(one, other)| sizes(one, other)).collect();
         let floor = FLOOR * sizes.iter().flatten().copied().fold(0.0, f64::max);
         for size in sizes.iter_mut().flatten() {
             *size = size.max(floor);
         }
-        Self {
-            model,
-            seed,
-            case,
-            arrays: expected,
-            sizes,
-        }
+        Self { model, seed, case, arrays: expected, sizes }
     }
 
     /// Compares every kernel with the oracle.
@@ -322,27 +218,15 @@ impl<'a> Reference<'a> {
             return Ok(());
         }
         let (seed, case) = (self.seed, &self.case);
-        Err(format!(
-            "{report}\nseed {seed}, {case:?}\n\n{}",
-            declaration(self.model)
-        ))
+        Err(format!("{report}\nseed {seed}, {case:?}\n\n{}", declaration(self.model)))
     }
 }
 
 fn compare_array(report: &mut String, expected: &Array, sizes: &[f64], found: &[f64]) {
-    let Array {
-        kernel,
-        name,
-        shape,
-        values,
-        ..
-    } = expected;
+    let Array { kernel, name, shape, values, .. } = expected;
     if found.len() != values.len() {
         let (found, expected) = (found.len(), values.len());
-        let _ = writeln!(
-            report,
-            "{kernel}: {name} has {found} entries, not {expected} {shape:?}"
-        );
+        let _ = writeln!(report, "{kernel}: {name} has {found} entries, not {expected} {shape:?}");
         return;
     }
     for (flat, size) in sizes.iter().enumerate() {

@@ -4,8 +4,7 @@
 //! outermost.
 
 use crate::matrices::{
-    Along, Linear, LinearPartials, ModeFunctional, Oracle, PencilFunctional, ResidualFunctional,
-    State,
+    Along, Linear, LinearPartials, ModeFunctional, Oracle, PencilFunctional, ResidualFunctional, State,
 };
 
 /// A point of evaluation `q`, `u`, `b`, or a direction `dq`, `du`, `db` there.
@@ -60,22 +59,10 @@ pub trait Kernels {
     fn whirl(&self, at: At, real: &[f64], imaginary: &[f64]) -> Vec<f64>;
 
     /// Directional derivative of [`Kernels::mode_gradient`].
-    fn mode_gradient_along(
-        &self,
-        at: At,
-        mode: (&[f64], f64),
-        along: At,
-        mode_along: (&[f64], f64),
-    ) -> Gradient;
+    fn mode_gradient_along(&self, at: At, mode: (&[f64], f64), along: At, mode_along: (&[f64], f64)) -> Gradient;
 
     /// Directional derivative of [`Kernels::pencil_gradient`].
-    fn pencil_gradient_along(
-        &self,
-        at: At,
-        pencil: Pencil,
-        along: At,
-        pencil_along: Pencil,
-    ) -> Gradient;
+    fn pencil_gradient_along(&self, at: At, pencil: Pencil, along: At, pencil_along: Pencil) -> Gradient;
 
     /// Directional derivative of [`Kernels::residual_gradient`].
     fn residual_gradient_along(&self, at: At, w: &[f64], along: At, dw: &[f64]) -> Gradient;
@@ -94,33 +81,17 @@ impl Kernels for Oracle<'_> {
     fn motion_residual(&self, acceleration: &[f64], velocity: &[f64], [q, u, b]: At) -> Vec<f64> {
         let rest = State::at_rest(q, u, b);
         let (acceleration, velocity) = (acceleration.to_vec(), velocity.to_vec());
-        Oracle::motion_residual(
-            self,
-            &State {
-                acceleration,
-                velocity,
-                ..rest
-            },
-        )
+        Oracle::motion_residual(self, &State { acceleration, velocity, ..rest })
     }
 
     fn motion(&self, velocity: &[f64], [q, u, b]: At) -> [Vec<f64>; 2] {
         let rest = State::at_rest(q, u, b);
-        let motion = Oracle::motion(
-            self,
-            &State {
-                velocity: velocity.to_vec(),
-                ..rest
-            },
-        );
+        let motion = Oracle::motion(self, &State { velocity: velocity.to_vec(), ..rest });
         [motion.mass.concat(), motion.right_hand_side()]
     }
 
     fn residual_and_stiffness(&self, at: At) -> [Vec<f64>; 2] {
-        [
-            Kernels::residual(self, at),
-            Kernels::linear(self, at).stiffness,
-        ]
+        [Kernels::residual(self, at), Kernels::linear(self, at).stiffness]
     }
 
     fn linear(&self, [q, u, b]: At) -> Linear<f64> {
@@ -163,36 +134,16 @@ impl Kernels for Oracle<'_> {
         (dphi, dlambda): (&[f64], f64),
     ) -> Gradient {
         let fixed = [phi, &[lambda]].concat();
-        let direction = Along {
-            at: along,
-            fixed: &[dphi, &[dlambda]].concat(),
-        };
+        let direction = Along { at: along, fixed: &[dphi, &[dlambda]].concat() };
         self.gradient_along(&ModeFunctional, at, &fixed, direction)
     }
 
-    fn pencil_gradient_along(
-        &self,
-        at: At,
-        pencil: Pencil,
-        along: At,
-        pencil_along: Pencil,
-    ) -> Gradient {
-        let direction = Along {
-            at: along,
-            fixed: &pencil_along.concat(),
-        };
+    fn pencil_gradient_along(&self, at: At, pencil: Pencil, along: At, pencil_along: Pencil) -> Gradient {
+        let direction = Along { at: along, fixed: &pencil_along.concat() };
         self.gradient_along(&PencilFunctional, at, &pencil.concat(), direction)
     }
 
     fn residual_gradient_along(&self, at: At, w: &[f64], along: At, dw: &[f64]) -> Gradient {
-        self.gradient_along(
-            &ResidualFunctional,
-            at,
-            w,
-            Along {
-                at: along,
-                fixed: dw,
-            },
-        )
+        self.gradient_along(&ResidualFunctional, at, w, Along { at: along, fixed: dw })
     }
 }

@@ -18,6 +18,6 @@ pub mod random;
 pub mod truth;
 
 pub use matrices::{
-    Along, Functional, Linear, LinearPartials, ModeFunctional, Motion, Oracle, PencilFunctional,
-    Place, ResidualFunctional, Scalar, State,
+    Along, Functional, Linear, LinearPartials, ModeFunctional, Motion, Oracle, PencilFunctional, Place,
+    ResidualFunctional, Scalar, State,
 };

@@ -22,38 +22,22 @@ impl Truth {
     /// # Panics
     /// When the field is missing.
     pub fn get(&self, field: &str) -> Self {
-        self.find(field)
-            .unwrap_or_else(|| panic!("no field {field}"))
+        self.find(field).unwrap_or_else(|| panic!("no field {field}"))
     }
 
     /// A field that may be missing or null.
     pub fn find(&self, field: &str) -> Option<Self> {
-        self.0
-            .get(field)
-            .filter(|value| !value.is_null())
-            .cloned()
-            .map(Self)
+        self.0.get(field).filter(|value| !value.is_null()).cloned().map(Self)
     }
 
     /// The names of the fields.
     pub fn fields(&self) -> Vec<String> {
-        self.0
-            .as_object()
-            .expect("an object")
-            .keys()
-            .cloned()
-            .collect()
+        self.0.as_object().expect("an object").keys().cloned().collect()
     }
 
     /// The items of a list.
     pub fn list(&self) -> Vec<Self> {
-        self.0
-            .as_array()
-            .expect("a list")
-            .iter()
-            .cloned()
-            .map(Self)
-            .collect()
+        self.0.as_array().expect("a list").iter().cloned().map(Self).collect()
     }
 
     /// A text.

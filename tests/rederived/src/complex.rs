@@ -17,10 +17,7 @@ pub(super) struct HyperComplex {
 impl HyperComplex {
     /// A constant, without infinitesimal parts.
     pub(super) fn constant(value: Complex<f64>) -> Self {
-        Self {
-            re: Hyper::constant(value.re),
-            im: Hyper::constant(value.im),
-        }
+        Self { re: Hyper::constant(value.re), im: Hyper::constant(value.im) }
     }
 
     /// One complex number per infinitesimal part.
@@ -31,17 +28,11 @@ impl HyperComplex {
 
     /// The inverse of [`HyperComplex::parts`].
     pub(super) fn from_parts(parts: [Complex<f64>; Hyper::PARTS]) -> Self {
-        Self {
-            re: Hyper::new(parts.map(|part| part.re)),
-            im: Hyper::new(parts.map(|part| part.im)),
-        }
+        Self { re: Hyper::new(parts.map(|part| part.re)), im: Hyper::new(parts.map(|part| part.im)) }
     }
 
     pub(super) fn scaled(self, factor: Hyper) -> Self {
-        Self {
-            re: self.re * factor,
-            im: self.im * factor,
-        }
+        Self { re: self.re * factor, im: self.im * factor }
     }
 
     pub(super) fn modulus(self) -> Hyper {
@@ -52,29 +43,20 @@ impl HyperComplex {
 impl Add for HyperComplex {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self {
-            re: self.re + other.re,
-            im: self.im + other.im,
-        }
+        Self { re: self.re + other.re, im: self.im + other.im }
     }
 }
 
 impl Sub for HyperComplex {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        Self {
-            re: self.re - other.re,
-            im: self.im - other.im,
-        }
+        Self { re: self.re - other.re, im: self.im - other.im }
     }
 }
 
 impl Mul for HyperComplex {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self {
-            re: self.re * other.re - self.im * other.im,
-            im: self.re * other.im + self.im * other.re,
-        }
+        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
     }
 }

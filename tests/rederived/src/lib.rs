@@ -51,10 +51,6 @@ impl Derived {
             (gradient[i], gradient[j]) = (*by_i, *by_j);
             (hessian[i][j], hessian[j][i]) = (*by_both, *by_both);
         }
-        Self {
-            value: solutions[0][0],
-            gradient,
-            hessian,
-        }
+        Self { value: solutions[0][0], gradient, hessian }
     }
 }

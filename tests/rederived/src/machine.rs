@@ -62,11 +62,7 @@ impl Machine {
     pub fn new(declaration: &str) -> Self {
         let tokens = declaration.parse().expect("the text has tokens");
         // The compiler omits the partial derivatives of large mechanisms; none are used here.
-        let limits = Limits {
-            explicit_partials: 0,
-            partial_operations: usize::MAX,
-            motion_linear: 0,
-        };
+        let limits = Limits { explicit_partials: 0, partial_operations: usize::MAX, motion_linear: 0 };
         let compilation = compile(tokens, limits).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let design = compilation.mechanism.design.iter();
         let unknowns = &compilation.functions.unknowns;
@@ -87,9 +83,7 @@ impl Machine {
     }
 
     fn kernel(&self, name: &str) -> &Kernel {
-        self.program
-            .kernel(name)
-            .unwrap_or_else(|| panic!("there is a kernel {name}"))
+        self.program.kernel(name).unwrap_or_else(|| panic!("there is a kernel {name}"))
     }
 
     /// Eigenvalues of the whole pencil at given coordinates, which need not be an equilibrium, as in
@@ -178,14 +172,7 @@ impl Machine {
                 motion: interpret(self.kernel("output_motion"), &[&q, &u, &b]),
                 outputs: outputs.len(),
             });
-            Solution {
-                coordinates: q,
-                mass,
-                damping,
-                stiffness,
-                outputs,
-                excited,
-            }
+            Solution { coordinates: q, mass, damping, stiffness, outputs, excited }
         };
         State {
             coordinates: q.clone(),
@@ -200,16 +187,11 @@ impl State {
     /// Assembles one number from all solutions.
     pub(super) fn derived(&self, number: impl Fn(usize, &Solution) -> Hyper) -> Derived {
         let numbers = self.solutions.iter().enumerate();
-        Derived::collect(
-            self.variables,
-            numbers.map(|(k, solution)| number(k, solution)),
-        )
+        Derived::collect(self.variables, numbers.map(|(k, solution)| number(k, solution)))
     }
 
     fn all(&self, count: usize, list: fn(&Solution) -> &[Hyper]) -> Vec<Derived> {
-        (0..count)
-            .map(|i| self.derived(|_, solution| list(solution)[i]))
-            .collect()
+        (0..count).map(|i| self.derived(|_, solution| list(solution)[i])).collect()
     }
 
     /// The coordinates of the equilibrium.

@@ -72,9 +72,7 @@ fn normalised(shape: &[HyperComplex], mass: &[Hyper]) -> Vec<HyperComplex> {
 
 fn separate(s: Complex<f64>, all: &[Complex<f64>]) -> bool {
     let most = all.iter().map(|s| s.norm()).fold(0.0, f64::max);
-    let near = |other: &&Complex<f64>| {
-        (s - **other).norm() <= 1e-6 * s.norm().max(other.norm()) + 1e-12 * most
-    };
+    let near = |other: &&Complex<f64>| (s - **other).norm() <= 1e-6 * s.norm().max(other.norm()) + 1e-12 * most;
     all.iter().filter(near).count() == 1
 }
 
@@ -85,9 +83,8 @@ impl State {
 
     fn values(&self, polynomial: &[Vec<Hyper>]) -> Vec<DMatrix<Complex<f64>>> {
         let n = self.order();
-        let values = |matrix: &Vec<Hyper>| {
-            DMatrix::from_row_iterator(n, n, matrix.iter().map(|x| Complex::from(x.value())))
-        };
+        let values =
+            |matrix: &Vec<Hyper>| DMatrix::from_row_iterator(n, n, matrix.iter().map(|x| Complex::from(x.value())));
         polynomial.iter().map(values).collect()
     }
 
@@ -120,11 +117,7 @@ impl State {
     }
 
     fn general(solution: &Solution) -> Polynomial {
-        vec![
-            solution.stiffness.clone(),
-            solution.damping.clone(),
-            solution.mass.clone(),
-        ]
+        vec![solution.stiffness.clone(), solution.damping.clone(), solution.mass.clone()]
     }
 
     /// Eigenvalues of `Khat` and `Mhat`, ordered by real part.
@@ -156,20 +149,14 @@ impl State {
         let lambda = self.derived(|k, _| pairs[k].0.re);
         let omega = (lambda.value > 0.0).then(|| self.derived(|k, _| pairs[k].0.re.sqrt()));
         let component = |i: usize| self.derived(|k, _| pairs[k].1[i].re);
-        Some(UndampedMode {
-            lambda,
-            omega,
-            shape: (0..self.order()).map(component).collect(),
-            lead,
-        })
+        Some(UndampedMode { lambda, omega, shape: (0..self.order()).map(component).collect(), lead })
     }
 
     /// All modes of the whole pencil in the order of [`State::eigenvalues`]; `None` for a repeated eigenvalue, which
     /// has no derivative of its own.
     pub fn general_modes(&self) -> Vec<Option<GeneralMode>> {
         let all = self.eigenvalues();
-        let mode =
-            |s: &Complex<f64>| separate(*s, &all).then(|| self.general_mode(*s, [None; 2]))?;
+        let mode = |s: &Complex<f64>| separate(*s, &all).then(|| self.general_mode(*s, [None; 2]))?;
         all.iter().map(mode).collect()
     }
 
@@ -200,10 +187,7 @@ impl State {
             (0..n).map(component).collect()
         };
         Some(GeneralMode {
-            s: ComplexDerived {
-                re: of(&|s| s.re),
-                im: of(&|s| s.im),
-            },
+            s: ComplexDerived { re: of(&|s| s.re), im: of(&|s| s.im) },
             magnitude: of(&HyperComplex::modulus),
             damping_ratio: of(&|s| -s.re / s.modulus()),
             right: shape(&right),

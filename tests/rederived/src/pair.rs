@@ -54,11 +54,7 @@ fn bordered(
 impl Pair {
     /// The pair near the eigenvalue `s`, with the given lead component or the largest one. `None` where
     /// the eigenvalue is not simple.
-    pub(super) fn near(
-        coefficients: &[Matrix],
-        s: Complex<f64>,
-        given: Option<usize>,
-    ) -> Option<Self> {
+    pub(super) fn near(coefficients: &[Matrix], s: Complex<f64>, given: Option<usize>) -> Option<Self> {
         let n = coefficients[0].nrows();
         let mut s = s;
         let size = |s: Complex<f64>| s.norm().max(1e-6 * typical(coefficients));
@@ -86,12 +82,7 @@ impl Pair {
                 return None;
             }
             if length <= 1e-14 || length <= 1e-9 && length >= last {
-                return Some(Self {
-                    s,
-                    shape,
-                    lead,
-                    factors,
-                });
+                return Some(Self { s, shape, lead, factors });
             }
             s -= step[n];
             shape -= step.rows(0, n);
@@ -119,12 +110,9 @@ impl Pair {
             residual[n] = shape[self.lead] - HyperComplex::constant(Complex::from(1.0));
             let steps: [DVector<Complex<f64>>; Hyper::PARTS] = std::array::from_fn(|part| {
                 let column = DVector::from_fn(n + 1, |i, _| residual[i].parts()[part]);
-                self.factors
-                    .solve(&column)
-                    .expect("factors of a Newton step")
+                self.factors.solve(&column).expect("factors of a Newton step")
             });
-            let step =
-                |i: usize| HyperComplex::from_parts(std::array::from_fn(|part| steps[part][i]));
+            let step = |i: usize| HyperComplex::from_parts(std::array::from_fn(|part| steps[part][i]));
             for (i, component) in shape.iter_mut().enumerate() {
                 *component = *component - step(i);
             }

@@ -8,10 +8,7 @@ use nalgebra::{Complex, DMatrix};
 const SWEEPS: usize = 2000;
 
 /// `A(s) = sum_k s^k coefficients[k]` and its derivative by `s`.
-pub(super) fn evaluate(
-    coefficients: &[DMatrix<Complex<f64>>],
-    s: Complex<f64>,
-) -> [DMatrix<Complex<f64>>; 2] {
+pub(super) fn evaluate(coefficients: &[DMatrix<Complex<f64>>], s: Complex<f64>) -> [DMatrix<Complex<f64>>; 2] {
     let n = coefficients[0].nrows();
     let mut value = DMatrix::zeros(n, n);
     let mut slope = DMatrix::zeros(n, n);
@@ -87,9 +84,8 @@ fn newton_step(coefficients: &[DMatrix<Complex<f64>>], s: Complex<f64>) -> Optio
 /// Start values: magnitudes estimated from the diagonals, in different directions.
 fn starts(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex<f64>> {
     let (n, degree) = (coefficients[0].nrows(), coefficients.len() - 1);
-    let sizes: Vec<f64> = (0..n)
-        .map(|i| coefficients[0][(i, i)].norm() / coefficients[degree][(i, i)].norm())
-        .collect();
+    let sizes: Vec<f64> =
+        (0..n).map(|i| coefficients[0][(i, i)].norm() / coefficients[degree][(i, i)].norm()).collect();
     let typical = sizes.iter().copied().fold(1e-6, f64::max);
     (0..n * degree)
         .map(|k| {

@@ -28,9 +28,7 @@ impl State {
         let solve = |solution: &Solution| solution.vibration(excitations, rate);
         let all: Vec<(Hyper, Vec<HyperComplex>)> = self.solutions.iter().map(solve).collect();
         let each = |number: &dyn Fn(HyperComplex) -> Hyper| -> Vec<Derived> {
-            (0..all[0].1.len())
-                .map(|o| self.derived(|k, _| number(all[k].1[o])))
-                .collect()
+            (0..all[0].1.len()).map(|o| self.derived(|k, _| number(all[k].1[o]))).collect()
         };
         let parts = each(&|y| y.re).into_iter().zip(each(&|y| y.im));
         Vibration {
@@ -89,18 +87,12 @@ impl Solution {
     /// `y = c . z + direct` with `D z = F`, all at the declared frequency, which may be negative.
     fn outputs_under(&self, excitation: usize, w: Hyper) -> Vec<HyperComplex> {
         let (s, n) = (imaginary(w), self.coordinates.len());
-        let Excited {
-            forcing,
-            motion,
-            outputs,
-        } = self.excited();
+        let Excited { forcing, motion, outputs } = self.excited();
         let amplitude = |cosine: usize, sine: usize, entry: usize| HyperComplex {
             re: forcing[cosine][entry],
             im: -forcing[sine][entry],
         };
-        let force: Vec<HyperComplex> = (0..n)
-            .map(|i| amplitude(0, 3, excitation * n + i))
-            .collect();
+        let force: Vec<HyperComplex> = (0..n).map(|i| amplitude(0, 3, excitation * n + i)).collect();
         let z = self.solved(s, &force);
         let output = |o: usize| {
             let row = (0..n).map(|i| {

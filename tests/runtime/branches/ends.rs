@@ -11,21 +11,12 @@ fn an_isolated_branch_needs_more_starts() {
         assert!(alone.special().is_empty());
         assert_eq!(alone.stable().count(), 1);
         let search = Search::new([-2.0], [2.0]).starts(12).seed(1);
-        let both = of(
-            &imperfect,
-            &[e, 0.0],
-            &[0.0],
-            range(-1.0, 1.0),
-            Some(&search),
-        );
+        let both = of(&imperfect, &[e, 0.0], &[0.0], range(-1.0, 1.0), Some(&search));
         assert_eq!(both.branches.len(), 2, "{e}");
         let fold = only(&both);
         assert_eq!(fold.kind, SpecialKind::Fold);
         close(fold.value, 3.0 * (0.5 * e).powf(2.0 / 3.0), 1e-12);
-        assert_eq!(
-            ends(&both.branches[1]),
-            [&BranchEnd::High, &BranchEnd::High]
-        );
+        assert_eq!(ends(&both.branches[1]), [&BranchEnd::High, &BranchEnd::High]);
     }
 }
 
@@ -37,12 +28,7 @@ fn a_line_through_a_ring() {
     let ring = &found.branches[1];
     assert_eq!(ends(ring), [&BranchEnd::Closed; 2]);
     let special = found.special();
-    let kinds = |kind| {
-        special
-            .iter()
-            .filter(|special| special.kind == kind)
-            .count()
-    };
+    let kinds = |kind| special.iter().filter(|special| special.kind == kind).count();
     assert_eq!(kinds(SpecialKind::Fold), 2);
     assert_eq!(kinds(SpecialKind::Transcritical), 2);
     for special in special {
@@ -62,10 +48,7 @@ fn a_line_through_a_ring() {
 fn branches_end_at_the_edge_of_a_domain_and_at_infinity() {
     let edge = of(&Derived(Edge), &[], &[0.5], range(0.0, 2.0), None);
     let branch = &edge.branches[0];
-    assert!(matches!(
-        branch.ends[1],
-        BranchEnd::Domain(Error::OutsideDomain { .. })
-    ));
+    assert!(matches!(branch.ends[1], BranchEnd::Domain(Error::OutsideDomain { .. })));
     near(branch.points.last().unwrap().value, 1.0, 1e-12);
     assert!(edge.special().is_empty());
 
@@ -84,16 +67,10 @@ fn branches_end_at_the_edge_of_a_domain_and_at_infinity() {
 fn the_least_mechanisms_have_branches() {
     let nothing = of(&Derived(Nothing), &[], &[], range(0.0, 2.0), None);
     assert_eq!(nothing.branches.len(), 1);
-    assert_eq!(
-        ends(&nothing.branches[0]),
-        [&BranchEnd::Low, &BranchEnd::High]
-    );
+    assert_eq!(ends(&nothing.branches[0]), [&BranchEnd::Low, &BranchEnd::High]);
     // A free coordinate is in equilibrium anywhere: there is no branch to follow.
     let free = branches(&Derived(Free), &[0.0], &[], &[7.0], &range(1.0, 2.0), None).unwrap();
-    assert!(
-        matches!(free.branches[0].ends[1], BranchEnd::Lost(_)),
-        "{free}"
-    );
+    assert!(matches!(free.branches[0].ends[1], BranchEnd::Lost(_)), "{free}");
     assert_eq!(free.branches[0].points.len(), 1);
 }
 
@@ -102,9 +79,7 @@ fn the_least_mechanisms_have_branches() {
 fn no_equilibrium_of_a_random_field_is_missed() {
     let mut state = 1_u64;
     let mut random = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         ((state >> 33) as f64 / (1_u64 << 31) as f64) * 2.0 - 1.0
     };
     let search = Search::new([-3.0; 2], [3.0; 2]).starts(40).seed(5);
@@ -122,34 +97,20 @@ fn no_equilibrium_of_a_random_field_is_missed() {
         let field = Derived(Field);
         let found = of(&field, &b, &[0.0; 2], settings, Some(&search));
         let special = found.special();
-        folds += special
-            .iter()
-            .filter(|x| x.kind == SpecialKind::Fold)
-            .count();
-        crossings += special
-            .iter()
-            .filter(|x| x.kind != SpecialKind::Fold)
-            .count();
+        folds += special.iter().filter(|x| x.kind == SpecialKind::Fold).count();
+        crossings += special.iter().filter(|x| x.kind != SpecialKind::Fold).count();
         for branch in &found.branches {
             assert!(
-                !branch.ends.iter().any(|end| matches!(
-                    end,
-                    BranchEnd::Lost(_) | BranchEnd::Domain(_) | BranchEnd::PointLimit
-                )),
+                !branch
+                    .ends
+                    .iter()
+                    .any(|end| matches!(end, BranchEnd::Lost(_) | BranchEnd::Domain(_) | BranchEnd::PointLimit)),
                 "{trial}"
             );
         }
         for _ in 0..4 {
             let value = 1.9 * random();
-            let there = find_equilibria(
-                &field,
-                &[value],
-                &b,
-                &[0.0; 2],
-                &search,
-                eigentol::Watch::default(),
-            )
-            .unwrap();
+            let there = find_equilibria(&field, &[value], &b, &[0.0; 2], &search, eigentol::Watch::default()).unwrap();
             let crossed = |state: &Equilibrium| {
                 found.branches.iter().any(|branch| {
                     branch.points.windows(2).any(|pair| {
@@ -161,9 +122,7 @@ fn no_equilibrium_of_a_random_field_is_missed() {
                         let (a, b) = (place(a), place(b));
                         let q = &state.coordinates;
                         let c = [q[0], q[1], value / 4.5];
-                        let dot = |x: [f64; 3], y: [f64; 3]| -> f64 {
-                            x.iter().zip(y).map(|(x, y)| x * y).sum()
-                        };
+                        let dot = |x: [f64; 3], y: [f64; 3]| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
                         let minus = |x: [f64; 3], y: [f64; 3]| [0, 1, 2].map(|i| x[i] - y[i]);
                         let (along, off) = (minus(b, a), minus(c, a));
                         let share = (dot(off, along) / dot(along, along)).clamp(0.0, 1.0);
@@ -180,9 +139,7 @@ fn no_equilibrium_of_a_random_field_is_missed() {
                 .iter()
                 .map(|branch| {
                     let pairs = branch.points.windows(2);
-                    pairs
-                        .filter(|pair| (pair[0].value > value) != (pair[1].value > value))
-                        .count()
+                    pairs.filter(|pair| (pair[0].value > value) != (pair[1].value > value)).count()
                 })
                 .sum();
             // An odd field has an odd number of zeros, at most nine; the search may miss some.

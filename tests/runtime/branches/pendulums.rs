@@ -10,14 +10,8 @@ fn the_pendulum_bends_to_both_sides() {
     assert_eq!(critical.kind, SOFT);
     close(critical.value, W.sqrt(), 1e-13);
     near(critical.equilibrium.coordinates[0], 0.0, 1e-13);
-    assert_eq!(
-        critical.equilibrium.stability,
-        Stability::Neutral { zero: 1 }
-    );
-    assert_eq!(
-        ends(&found.branches[0]),
-        [&BranchEnd::Low, &BranchEnd::High]
-    );
+    assert_eq!(critical.equilibrium.stability, Stability::Neutral { zero: 1 });
+    assert_eq!(ends(&found.branches[0]), [&BranchEnd::Low, &BranchEnd::High]);
     let mut sides = 0.0;
     for (k, branch) in found.branches.iter().enumerate() {
         for point in &branch.points {
@@ -64,10 +58,7 @@ fn the_bent_branch_leads_to_the_hanging_one() {
     assert_eq!(found.branches.len(), 3);
     close(only(&found).value, W.sqrt(), 1e-13);
     assert_eq!(only(&found).kind, SOFT);
-    assert_eq!(
-        ends(&found.branches[0]),
-        [&BranchEnd::High, &BranchEnd::BranchPoint]
-    );
+    assert_eq!(ends(&found.branches[0]), [&BranchEnd::High, &BranchEnd::BranchPoint]);
 }
 
 #[test]
@@ -89,10 +80,7 @@ fn the_double_pendulum_has_two_pitchforks() {
     close(special[0].value, (GRAVITY * (3.0 - root)).sqrt(), 1e-13);
     close(special[1].value, (GRAVITY * (3.0 + root)).sqrt(), 1e-13);
     assert!(special.iter().all(|special| special.kind == SOFT));
-    assert_eq!(
-        special[1].equilibrium.stability,
-        Stability::Divergent { negative: 1 }
-    );
+    assert_eq!(special[1].equilibrium.stability, Stability::Divergent { negative: 1 });
     assert_eq!(found.branches.len(), 5);
     assert_eq!(found.stable().count(), 3);
     let unstable = |k: usize| found.branches[k].stretches();
@@ -112,36 +100,21 @@ fn the_double_pendulum_has_two_pitchforks() {
     }
     // 50-digit reference from an ordinary solve at 4 rad/s, met by the line between two points.
     let bent = &found.branches[2];
-    let after = bent
-        .points
-        .iter()
-        .position(|point| point.value > 4.0)
-        .unwrap();
+    let after = bent.points.iter().position(|point| point.value > 4.0).unwrap();
     let (a, b) = (&bent.points[after - 1], &bent.points[after]);
     let share = (4.0 - a.value) / (b.value - a.value);
-    let theta = a.equilibrium.coordinates[0]
-        + share * (b.equilibrium.coordinates[0] - a.equilibrium.coordinates[0]);
+    let theta = a.equilibrium.coordinates[0] + share * (b.equilibrium.coordinates[0] - a.equilibrium.coordinates[0]);
     near(theta.abs(), 1.055_011_451_297_718_3, 2e-3);
 }
 
 #[test]
 fn ranges_that_end_at_a_critical_value() {
     let critical = W.sqrt();
-    for (low, high) in [
-        (0.0, critical),
-        (critical, 6.0),
-        (6.0, critical),
-        (critical, 0.0),
-    ] {
+    for (low, high) in [(0.0, critical), (critical, 6.0), (6.0, critical), (critical, 0.0)] {
         let found = of(&Pendulum, &BAR, &[0.3], range(low, high), None);
         assert!(!found.branches.is_empty());
         for branch in &found.branches {
-            assert!(
-                !branch
-                    .ends
-                    .iter()
-                    .any(|end| matches!(end, BranchEnd::Lost(_)))
-            );
+            assert!(!branch.ends.iter().any(|end| matches!(end, BranchEnd::Lost(_))));
         }
     }
     let fold = 2.0 / 27f64.sqrt();
@@ -154,12 +127,7 @@ fn ranges_that_end_at_a_critical_value() {
     for (low, high) in [(0.0, second), (second, 5.0), (5.0, second)] {
         let found = of(&DOUBLE, &BARS, &[0.3; 2], range(low, high), None);
         for branch in &found.branches {
-            assert!(
-                !branch
-                    .ends
-                    .iter()
-                    .any(|end| matches!(end, BranchEnd::Lost(_)))
-            );
+            assert!(!branch.ends.iter().any(|end| matches!(end, BranchEnd::Lost(_))));
         }
     }
 }

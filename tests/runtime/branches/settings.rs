@@ -60,9 +60,8 @@ fn reports_name_what_they_show() {
 
 #[test]
 fn nasty_settings_are_refused_and_nasty_values_end_in_answers() {
-    let ask = |settings: Continuation, start: f64, b: [f64; 2]| {
-        branches(&Pendulum, &[0.0], &b, &[start], &settings, None)
-    };
+    let ask =
+        |settings: Continuation, start: f64, b: [f64; 2]| branches(&Pendulum, &[0.0], &b, &[start], &settings, None);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for settings in [
             range(bad, 1.0),
@@ -74,14 +73,8 @@ fn nasty_settings_are_refused_and_nasty_values_end_in_answers() {
             let refused = ask(settings, 0.1, BAR);
             assert!(matches!(refused, Err(Error::Setting { .. })), "{refused:?}");
         }
-        assert!(matches!(
-            ask(range(0.0, 1.0), bad, BAR),
-            Err(Error::NotFinite { .. })
-        ));
-        assert!(matches!(
-            ask(range(0.0, 1.0), 0.1, [3.0, bad]),
-            Err(Error::NotFinite { .. })
-        ));
+        assert!(matches!(ask(range(0.0, 1.0), bad, BAR), Err(Error::NotFinite { .. })));
+        assert!(matches!(ask(range(0.0, 1.0), 0.1, [3.0, bad]), Err(Error::NotFinite { .. })));
     }
     for settings in [
         range(1.0, 1.0),
@@ -90,20 +83,11 @@ fn nasty_settings_are_refused_and_nasty_values_end_in_answers() {
         range(0.0, 1.0).max_branches(0),
         range(0.0, 1.0).escape(0.5),
     ] {
-        assert!(matches!(
-            ask(settings, 0.1, BAR),
-            Err(Error::Setting { .. })
-        ));
+        assert!(matches!(ask(settings, 0.1, BAR), Err(Error::Setting { .. })));
     }
     let foreign = Continuation::new(Input::new(1), 0.0, 1.0);
-    assert!(matches!(
-        ask(foreign, 0.1, BAR),
-        Err(Error::UnknownHandle { index: 1, .. })
-    ));
-    assert!(matches!(
-        ask(range(0.0, 1.0), 0.1, [3.0, -1.0]),
-        Err(Error::Unphysical { .. })
-    ));
+    assert!(matches!(ask(foreign, 0.1, BAR), Err(Error::UnknownHandle { index: 1, .. })));
+    assert!(matches!(ask(range(0.0, 1.0), 0.1, [3.0, -1.0]), Err(Error::Unphysical { .. })));
     nasty_values_end_in_answers(&[0.0, 3.836_013_555_763_326_5, -1e9, 1e300]);
 }
 
@@ -114,10 +98,7 @@ fn all_nasty_values_end_in_answers() {
 }
 
 fn nasty_values_end_in_answers(wild: &[f64]) {
-    for (&low, &high) in wild
-        .iter()
-        .flat_map(|low| wild.iter().map(move |high| (low, high)))
-    {
+    for (&low, &high) in wild.iter().flat_map(|low| wild.iter().map(move |high| (low, high))) {
         for start in [0.1, -1e7, 1e200] {
             let along = range(low, high);
             let found = branches(&Pendulum, &[0.0], &BAR, &[start], &along, None);
@@ -135,11 +116,7 @@ fn assert_numbers(branches: Result<Branches, Error>, low: f64, high: f64) {
     for branch in branches.iter().flat_map(|found| &found.branches) {
         for point in &branch.points {
             let (least, most) = (low.min(high), low.max(high));
-            assert!(
-                (least..=most).contains(&point.value),
-                "{least:e} {:e} {most:e}",
-                point.value
-            );
+            assert!((least..=most).contains(&point.value), "{least:e} {:e} {most:e}", point.value);
             let q = point.equilibrium.coordinates[0];
             let numbers = [q, point.tangent[0], point.input_tangent];
             assert!(numbers.iter().all(|value| value.is_finite()));

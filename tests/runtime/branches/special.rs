@@ -14,11 +14,7 @@ fn snap_through_is_followed_through_both_folds() {
         for (special, side) in branch.special.iter().zip([1.0, -1.0]) {
             assert_eq!(special.kind, SpecialKind::Fold);
             close(special.value, side * fold, 1e-13);
-            close(
-                special.equilibrium.coordinates[0],
-                side * (a / 3.0).sqrt(),
-                1e-12,
-            );
+            close(special.equilibrium.coordinates[0], side * (a / 3.0).sqrt(), 1e-12);
         }
         let stability: Vec<_> = branch.stretches().iter().map(|run| run.0).collect();
         let unstable = Stability::Divergent { negative: 1 };
@@ -32,13 +28,7 @@ fn snap_through_is_followed_through_both_folds() {
 
 #[test]
 fn folds_of_a_nonsymmetric_stiffness() {
-    let found = of(
-        &Derived(LopsidedSnap),
-        &[0.2],
-        &[1.0, 0.5],
-        range(-1.0, 1.0),
-        None,
-    );
+    let found = of(&Derived(LopsidedSnap), &[0.2], &[1.0, 0.5], range(-1.0, 1.0), None);
     let special = found.special();
     assert_eq!((found.branches.len(), special.len()), (1, 2));
     for (special, side) in special.iter().zip([1.0, -1.0]) {
@@ -51,13 +41,7 @@ fn folds_of_a_nonsymmetric_stiffness() {
 #[test]
 fn branches_exchange_their_stability() {
     let (d, e, s) = (0.1, -0.2, 0.7);
-    let found = of(
-        &Derived(Exchange),
-        &[d, e, s],
-        &[0.2],
-        range(-1.0, 1.0),
-        None,
-    );
+    let found = of(&Derived(Exchange), &[d, e, s], &[0.2], range(-1.0, 1.0), None);
     assert_eq!(found.branches.len(), 2);
     let critical = only(&found);
     assert_eq!(critical.kind, SpecialKind::Transcritical);
@@ -73,10 +57,7 @@ fn branches_exchange_their_stability() {
             near(off, 0.0, 1e-15);
         }
         // Straight lines, also where they cross: there the second-order terms of the equations give the directions.
-        let level = branch
-            .points
-            .iter()
-            .all(|point| (point.equilibrium.coordinates[0] - d).abs() < 1e-9);
+        let level = branch.points.iter().all(|point| (point.equilibrium.coordinates[0] - d).abs() < 1e-9);
         for point in &branch.points {
             let slope = point.tangent[0] / point.input_tangent;
             near(slope, if level { 0.0 } else { s }, 1e-9);
@@ -130,18 +111,9 @@ fn two_critical_directions_at_once_are_told() {
         let critical = only(&found);
         assert_eq!(critical.kind, SpecialKind::Degenerate);
         close(critical.value, 1.0, 1e-12);
-        assert_eq!(
-            critical.equilibrium.stability,
-            Stability::Neutral { zero: 2 }
-        );
+        assert_eq!(critical.equilibrium.stability, Stability::Neutral { zero: 2 });
     }
-    let equal = of(
-        &Derived(NearlyTwo),
-        &[0.0],
-        &[0.0; 2],
-        range(0.0, 1.9),
-        None,
-    );
+    let equal = of(&Derived(NearlyTwo), &[0.0], &[0.0; 2], range(0.0, 1.9), None);
     assert_eq!(only(&equal).kind, SpecialKind::Degenerate);
     // Close together but separate: both pitchforks, and the secondary ones on the arms.
     for e in [1e-2, 1e-5] {

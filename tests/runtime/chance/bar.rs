@@ -22,17 +22,11 @@ mechanism! {
     }
 }
 
-const FREQUENCY: Response = Response::Mode {
-    mode: 0,
-    quantity: Quantity::Frequency,
-};
+const FREQUENCY: Response = Response::Mode { mode: 0, quantity: Quantity::Frequency };
 
 /// The bar at a multiple of its critical speed.
 fn bar(ratio: f64, tolerance: f64) -> Study<Bar> {
-    Study::new(Bar)
-        .input(Bar::omega, speed(ratio))
-        .start(Bar::theta, 1.0)
-        .tolerance(Bar::l, tolerance)
+    Study::new(Bar).input(Bar::omega, speed(ratio)).start(Bar::theta, 1.0).tolerance(Bar::l, tolerance)
 }
 
 /// The frequency below which the bar is with a probability.
@@ -57,11 +51,7 @@ fn cases(ratio: f64, tolerance: f64) -> [Case; 8] {
     let of = |probability| quantile(ratio, tolerance, probability);
     let most = of(0.99);
     let (low, high) = (1.0, 1.2);
-    let outside = Requirement::Outside {
-        response: FREQUENCY,
-        low,
-        high,
-    };
+    let outside = Requirement::Outside { response: FREQUENCY, low, high };
     [
         least(of(0.5)),
         least(of(0.1)),
@@ -98,34 +88,20 @@ impl Called {
         let found = study.reliability(&[wanted]).unwrap();
         if found.verified() {
             self.design_points += 1;
-            assert!(
-                right(found.limits[0].probability().unwrap()),
-                "{at}\n{found}"
-            );
+            assert!(right(found.limits[0].probability().unwrap()), "{at}\n{found}");
         }
         let limit = &found.limits[0];
         for point in limit.design_points.iter().flatten() {
             let claimed = limit.second_order().or(limit.probability()).unwrap();
             assert!(!point.verified || right(claimed), "{at}\n{found}");
         }
-        let Judgement::Judged(judged) = found.judgement else {
-            panic!("{at}\n{found}")
-        };
-        assert!(
-            judged.settled && judged.untold.value < 1e-12,
-            "{at}\n{found}"
-        );
+        let Judgement::Judged(judged) = found.judgement else { panic!("{at}\n{found}") };
+        assert!(judged.settled && judged.untold.value < 1e-12, "{at}\n{found}");
         // A single variable matters: no scatter.
-        assert!(
-            within(judged.probability.value, 1e-6 * exact),
-            "{at}\n{found}"
-        );
+        assert!(within(judged.probability.value, 1e-6 * exact), "{at}\n{found}");
         let margin = study.second_order_failure(wanted).unwrap();
         let corrected = margin.margin.corrected;
-        assert!(
-            within(corrected.value, corrected.error + 1e-6 * exact),
-            "{at}\n{margin}"
-        );
+        assert!(within(corrected.value, corrected.error + 1e-6 * exact), "{at}\n{margin}");
         if margin.verified() {
             self.margins += 1;
             assert!(right(corrected.value), "{at}\n{margin}");
@@ -136,30 +112,17 @@ impl Called {
         assert!(within(own.value, 1e-6 * exact), "{at}\n{answer}");
         let interval = own.interval;
         let rounding = 1e-6 * exact + NOTHING;
-        assert!(
-            interval.lower - rounding <= exact && exact <= interval.upper + rounding,
-            "{at}\n{answer}"
-        );
+        assert!(interval.lower - rounding <= exact && exact <= interval.upper + rounding, "{at}\n{answer}");
         let mut points = found.limits[0].design_points.iter().flatten();
         let described = points.any(|point| point.verified);
-        assert_eq!(
-            own.by == EstimatedBy::DesignPoint,
-            described,
-            "{at}\n{answer}\n{found}"
-        );
+        assert_eq!(own.by == EstimatedBy::DesignPoint, described, "{at}\n{answer}\n{found}");
     }
 }
 
 #[test]
 fn what_is_called_right_is_right() {
     let mut called = Called::default();
-    for (ratio, tolerance) in [
-        (0.9, 0.01),
-        (0.97, 0.12),
-        (0.995, 0.03),
-        (1.03, 0.25),
-        (1.1, 0.06),
-    ] {
+    for (ratio, tolerance) in [(0.9, 0.01), (0.97, 0.12), (0.995, 0.03), (1.03, 0.25), (1.1, 0.06)] {
         for case in cases(ratio, tolerance) {
             called.check((ratio, tolerance), case);
         }
@@ -192,9 +155,7 @@ fn what_is_called_right_in_400_combinations_is_right() {
 #[test]
 fn a_layer_is_not_taken_for_a_half_space() {
     let study = bar(1.03, 0.2);
-    let found = study
-        .reliability(&[Requirement::at_least(FREQUENCY, 0.1)])
-        .unwrap();
+    let found = study.reliability(&[Requirement::at_least(FREQUENCY, 0.1)]).unwrap();
     let exact = between(speed(1.03), 0.2 / 3.0, (0.0, 0.1));
     assert!((exact - 0.00373).abs() < 1e-5, "{exact}");
     assert!((found.limits[0].probability().unwrap() - 0.196).abs() < 1e-3);
@@ -209,18 +170,13 @@ fn a_layer_is_not_taken_for_a_half_space() {
 /// Second-order models of a frequency that is a root: the error that is stated covers the exact probability.
 #[test]
 fn a_margin_states_the_error_of_its_model() {
-    for (ratio, tolerance, band, modelled, exact) in [
-        (1.05, 0.06, (1.0, 1.2), 0.00409, 0.00564),
-        (0.97, 0.12, (0.0, 0.0055), 0.0116, 1.0e-5),
-    ] {
+    for (ratio, tolerance, band, modelled, exact) in
+        [(1.05, 0.06, (1.0, 1.2), 0.00409, 0.00564), (0.97, 0.12, (0.0, 0.0055), 0.0116, 1.0e-5)]
+    {
         let (low, high) = band;
         let wanted = match low == 0.0 {
             true => Requirement::at_least(FREQUENCY, high),
-            false => Requirement::Outside {
-                response: FREQUENCY,
-                low,
-                high,
-            },
+            false => Requirement::Outside { response: FREQUENCY, low, high },
         };
         let margin = bar(ratio, tolerance).second_order_failure(wanted).unwrap();
         let corrected = margin.margin.corrected;
@@ -228,10 +184,7 @@ fn a_margin_states_the_error_of_its_model() {
         assert!((value / exact - 1.0).abs() < 0.02, "{value}");
         assert!((corrected.value / modelled - 1.0).abs() < 0.01, "{margin}");
         assert!(!margin.verified());
-        assert!(
-            (corrected.value - value).abs() <= corrected.error,
-            "{margin}"
-        );
+        assert!((corrected.value - value).abs() <= corrected.error, "{margin}");
         let model = corrected.model_error.unwrap();
         assert!((model - (corrected.value - value).abs()).abs() < 1e-6 * model);
     }
@@ -242,13 +195,9 @@ fn a_margin_states_the_error_of_its_model() {
 fn importance_samples_that_miss_a_layer_are_not_trusted() {
     let most = Sampling::default().samples(20_000);
     let limit = |low| [Requirement::at_least(FREQUENCY, low)];
-    let thin = bar(0.97, 0.12)
-        .rare_failure(&limit(0.0055), &most, 0.05)
-        .unwrap();
+    let thin = bar(0.97, 0.12).rare_failure(&limit(0.0055), &most, 0.05).unwrap();
     assert!(!thin.trusted(), "{thin}");
-    let plain = bar(0.9, 0.03)
-        .rare_failure(&limit(1.3), &most, 0.05)
-        .unwrap();
+    let plain = bar(0.9, 0.03).rare_failure(&limit(1.3), &most, 0.05).unwrap();
     let exact = between(speed(0.9), 0.01, (0.0, 1.3));
     assert!(plain.trusted(), "{plain}");
     assert!((plain.failure.probability.value / exact - 1.0).abs() < 0.2);
@@ -257,13 +206,7 @@ fn importance_samples_that_miss_a_layer_are_not_trusted() {
 /// Every sample is on the branch that its own length decides, in Monte Carlo and in the summary.
 #[test]
 fn samples_beyond_the_critical_length_are_counted() {
-    for (ratio, tolerance) in [
-        (1.03, 0.12),
-        (0.97, 0.12),
-        (1.1, 0.06),
-        (0.9, 0.01),
-        (1.005, 0.03),
-    ] {
+    for (ratio, tolerance) in [(1.03, 0.12), (0.97, 0.12), (1.1, 0.06), (0.9, 0.01), (1.005, 0.03)] {
         let study = bar(ratio, tolerance).samples(2000).keep_samples(true);
         let run = study.monte_carlo().unwrap();
         let critical = W / speed(ratio).powi(2);
@@ -274,10 +217,7 @@ fn samples_beyond_the_critical_length_are_counted() {
         let upon = |length: f64| (length - critical).abs() < 1e-3 * (1.0 - critical).abs();
         let close = all.iter().filter(|x| upon(x.design[1])).count();
         let counted = elsewhere..=elsewhere + close;
-        assert!(
-            counted.contains(&run.left_nominal_branch),
-            "{ratio} {tolerance}\n{run}"
-        );
+        assert!(counted.contains(&run.left_nominal_branch), "{ratio} {tolerance}\n{run}");
         assert!(all.iter().all(|own| own.outcome == Outcome::Stable));
         assert_eq!(slow(speed(ratio), 0.0).0, critical);
         let summary = study.summary().unwrap();
@@ -288,10 +228,7 @@ fn samples_beyond_the_critical_length_are_counted() {
                 false => super::oracle::upper(3.0 * (critical - 1.0) / tolerance),
             };
         let error = 4.0 * (exact * (1.0 - exact) / chance.samples as f64).sqrt() + 1e-6;
-        assert!(
-            (chance.value() - exact).abs() < error,
-            "{ratio} {exact} {chance:?}"
-        );
+        assert!((chance.value() - exact).abs() < error, "{ratio} {exact} {chance:?}");
         let text = run.to_string();
         assert_eq!(text.contains("settled on another branch"), elsewhere > 0);
     }

@@ -26,8 +26,7 @@ fn a_valley_that_ends_is_left() {
         assert!(all.iter().all(|own| own.outcome == Outcome::Stable));
         let fell = all.iter().filter(|x| x.design[2] < -2.0).count();
         assert_eq!(run.left_nominal_branch, fell, "{nominal}");
-        let down =
-            |sample: &&eigentol::tolerance::Sample| sample.coordinates.as_ref().unwrap()[0] < 0.0;
+        let down = |sample: &&eigentol::tolerance::Sample| sample.coordinates.as_ref().unwrap()[0] < 0.0;
         assert_eq!(all.iter().filter(down).count(), fell);
     }
 }
@@ -50,16 +49,9 @@ mechanism! {
 /// An imperfect pitchfork has one branch, along which all samples stay.
 #[test]
 fn an_imperfect_pitchfork_keeps_its_branch() {
-    let study = Study::new(Leaning)
-        .start(Leaning::theta, 0.1)
-        .tolerance(Leaning::k, 9.0)
-        .samples(1000);
+    let study = Study::new(Leaning).start(Leaning::theta, 0.1).tolerance(Leaning::k, 9.0).samples(1000);
     let run = study.monte_carlo().unwrap();
-    assert_eq!(
-        (run.counts.stable, run.left_nominal_branch),
-        (1000, 0),
-        "{run}"
-    );
+    assert_eq!((run.counts.stable, run.left_nominal_branch), (1000, 0), "{run}");
 }
 
 /// An unstable state that the start names is kept by its samples: all of them are unstable, and none left it.

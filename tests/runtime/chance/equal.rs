@@ -39,17 +39,11 @@ mechanism! {
 }
 
 fn frequency(mode: usize) -> Response {
-    Response::Mode {
-        mode,
-        quantity: Quantity::Frequency,
-    }
+    Response::Mode { mode, quantity: Quantity::Frequency }
 }
 
 fn twins() -> Study<Twins> {
-    Study::new(Twins)
-        .sigma_level(1.0)
-        .tolerance(Twins::k1, 5.0)
-        .tolerance(Twins::k2, 5.0)
+    Study::new(Twins).sigma_level(1.0).tolerance(Twins::k1, 5.0).tolerance(Twins::k2, 5.0)
 }
 
 /// A gradient exists where no variable splits the two, and only there.
@@ -86,74 +80,43 @@ fn the_lowest_of_two_equal_frequencies_fails_for_either() {
     let exact = 1.0 - (1.0 - upper(1.0)).powi(2);
     let study = twins().samples(20_000).seed(5);
     let found = study.reliability(&wanted).unwrap();
-    assert!(
-        !found.verified() && found.limits[0].probability().is_none(),
-        "{found}"
-    );
+    assert!(!found.verified() && found.limits[0].probability().is_none(), "{found}");
     let judged = found.judgement.judged().unwrap();
     let error = 4.0 * judged.probability.standard_error;
-    assert!(
-        judged.settled && (judged.probability.value - exact).abs() < error,
-        "{found}"
-    );
+    assert!(judged.settled && (judged.probability.value - exact).abs() < error, "{found}");
     let run = study.chances(&wanted).unwrap();
     let interval = run.each[0].clopper_pearson(0.9999).unwrap();
     assert!(interval.lower < exact && exact < interval.upper, "{run}");
     let answer = study.probability(&wanted).unwrap();
     assert_eq!(answer.each[0].by, EstimatedBy::Lines, "{answer}");
-    assert!(
-        (answer.each[0].value - exact).abs() < 0.05 * exact,
-        "{answer}"
-    );
+    assert!((answer.each[0].value - exact).abs() < 0.05 * exact, "{answer}");
     // The highest needs both to be low.
     let highest = [Requirement::at_least(frequency(1), limit)];
     let exact = upper(1.0).powi(2);
     let answer = study.probability(&highest).unwrap();
-    assert!(
-        (answer.each[0].value - exact).abs() < 0.1 * exact,
-        "{answer}"
-    );
+    assert!((answer.each[0].value - exact).abs() < 0.1 * exact, "{answer}");
 }
 
 /// Monte Carlo counts equal modes in ascending order, alone and side by side, damped or not.
 #[test]
 fn equal_modes_are_sampled_in_ascending_order() {
-    let damped = Study::new(DampedTwins)
-        .sigma_level(1.0)
-        .tolerance(DampedTwins::k1, 5.0)
-        .tolerance(DampedTwins::k2, 5.0);
+    let damped =
+        Study::new(DampedTwins).sigma_level(1.0).tolerance(DampedTwins::k1, 5.0).tolerance(DampedTwins::k2, 5.0);
     for vectors in [None, Some(eigentol::scalar::Instructions::best())] {
         let runs = [
-            twins()
-                .samples(512)
-                .keep_samples(true)
-                .vectors(vectors)
-                .monte_carlo(),
-            damped
-                .clone()
-                .samples(512)
-                .keep_samples(true)
-                .vectors(vectors)
-                .monte_carlo(),
+            twins().samples(512).keep_samples(true).vectors(vectors).monte_carlo(),
+            damped.clone().samples(512).keep_samples(true).vectors(vectors).monte_carlo(),
         ];
         for run in runs {
             let run = run.unwrap();
             assert!(run.clustered);
             for sample in run.all.iter().flatten() {
-                let [low, high] = sample.frequencies[..] else {
-                    panic!("{sample:?}")
-                };
+                let [low, high] = sample.frequencies[..] else { panic!("{sample:?}") };
                 let (k1, k2) = (sample.design[1], sample.design[2]);
-                let damping =
-                    0.25 * 0.4_f64.powi(2) * f64::from(u8::from(low != k1.min(k2).sqrt().into()));
+                let damping = 0.25 * 0.4_f64.powi(2) * f64::from(u8::from(low != k1.min(k2).sqrt().into()));
                 let exact = |k: f64| [k.sqrt(), (k - damping).sqrt()];
-                let near = |value: Option<f64>, k: f64| {
-                    exact(k).iter().any(|x| (value.unwrap() - x).abs() < 1e-9)
-                };
-                assert!(
-                    near(low, k1.min(k2)) && near(high, k1.max(k2)),
-                    "{sample:?}"
-                );
+                let near = |value: Option<f64>, k: f64| exact(k).iter().any(|x| (value.unwrap() - x).abs() < 1e-9);
+                assert!(near(low, k1.min(k2)) && near(high, k1.max(k2)), "{sample:?}");
             }
         }
     }

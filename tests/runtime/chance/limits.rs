@@ -75,13 +75,9 @@ fn growth_has_a_value_on_both_sides_of_stability() {
         let described = wanted != Requirement::Stable;
         assert_eq!(own.by == EstimatedBy::DesignPoint, described, "{answer}");
     }
-    let found = block()
-        .reliability(&[Requirement::at_most(growth, 0.0)])
-        .unwrap();
+    let found = block().reliability(&[Requirement::at_most(growth, 0.0)]).unwrap();
     assert!(found.verified(), "{found}");
-    let margin = block()
-        .second_order_failure(Requirement::at_most(growth, 0.0))
-        .unwrap();
+    let margin = block().second_order_failure(Requirement::at_most(growth, 0.0)).unwrap();
     assert!(margin.verified(), "{margin}");
     assert!((margin.margin.corrected.value / exact - 1.0).abs() < 1e-6);
 }
@@ -90,10 +86,7 @@ fn growth_has_a_value_on_both_sides_of_stability() {
 #[test]
 fn what_has_no_frequency_is_told_apart() {
     // c = 20 is critical; the frequency sqrt(100 - c^2 / 4) is below 3 from c = 19.08 on.
-    let study = Study::new(Block)
-        .design(Block::c, 19.0)
-        .sigma_level(1.0)
-        .tolerance(Block::c, 1.0);
+    let study = Study::new(Block).design(Block::c, 19.0).sigma_level(1.0).tolerance(Block::c, 1.0);
     let wanted = [Requirement::at_least(mode(0, Quantity::Frequency), 3.0)];
     let limit = 2.0 * f64::sqrt(91.0);
     let answer = study.probability(&wanted).unwrap();
@@ -118,14 +111,8 @@ fn two_bars_as_many_samples_find_them() {
             .tolerance(TwoBars::l1, tolerance)
             .tolerance(TwoBars::l2, tolerance);
         let lowest = mode(0, Quantity::Frequency);
-        let wanted = [
-            Requirement::at_least(lowest, 0.4),
-            Requirement::Outside {
-                response: lowest,
-                low: 0.6,
-                high: 0.8,
-            },
-        ];
+        let wanted =
+            [Requirement::at_least(lowest, 0.4), Requirement::Outside { response: lowest, low: 0.6, high: 0.8 }];
         agrees(&study, &wanted);
     }
 }
@@ -148,32 +135,18 @@ fn a_rotor_on_equal_bearings_as_many_samples_find_it() {
 
 /// Compares with 4000 plain samples of another seed.
 fn agrees<M: Mechanism>(study: &Study<M>, wanted: &[Requirement]) {
-    let run = study
-        .clone()
-        .samples(4000)
-        .seed(99)
-        .chances(wanted)
-        .unwrap();
+    let run = study.clone().samples(4000).seed(99).chances(wanted).unwrap();
     let answer = study.probability(wanted).unwrap();
     let found = study.reliability(wanted).unwrap();
     let all = answer.each.iter().zip(&run.each);
     for (k, (own, tally)) in all.chain([(&answer.any, &run.all)]).enumerate() {
         let sampled = tally.clopper_pearson(0.9999).unwrap();
-        assert!(
-            own.interval.lower <= sampled.upper && sampled.lower <= own.interval.upper,
-            "{k}\n{answer}{run}"
-        );
-        assert!(
-            own.interval.upper - own.interval.lower < 0.3 * own.value + 0.01,
-            "{answer}"
-        );
+        assert!(own.interval.lower <= sampled.upper && sampled.lower <= own.interval.upper, "{k}\n{answer}{run}");
+        assert!(own.interval.upper - own.interval.lower < 0.3 * own.value + 0.01, "{answer}");
     }
     for limit in found.limits.iter().filter(|limit| limit.verified()) {
         let sampled = run.each[limit.requirement].clopper_pearson(0.9999).unwrap();
         let claimed = limit.probability().unwrap();
-        assert!(
-            0.9 * claimed <= sampled.upper && sampled.lower <= 1.1 * claimed,
-            "{found}{run}"
-        );
+        assert!(0.9 * claimed <= sampled.upper && sampled.lower <= 1.1 * claimed, "{found}{run}");
     }
 }

@@ -1,9 +1,7 @@
 //! Spreads from models near states where models fail: nothing is claimed about their errors, and samples are preferred.
 
 use eigentol::judge::Doubt;
-use eigentol::propagation::{
-    Method, Propagation, first_order, propagate, quadrature, second_order,
-};
+use eigentol::propagation::{Method, Propagation, first_order, propagate, quadrature, second_order};
 use eigentol::response::{Response, Responses};
 use eigentol::tolerance::Sampling;
 use eigentol::{Error, Quantity, Study, mechanism};
@@ -26,17 +24,11 @@ mechanism! {
 /// By first order, second order, quadrature, and what is chosen when a few designs may be solved; for the frequency, the
 /// angle and the critical speed.
 fn spreads(ratio: f64, tolerance: f64) -> Result<[Propagation; 4], Error> {
-    let study = Study::new(Bar)
-        .input(Bar::omega, speed(ratio))
-        .start(Bar::theta, 1.0)
-        .tolerance(Bar::l, tolerance);
+    let study = Study::new(Bar).input(Bar::omega, speed(ratio)).start(Bar::theta, 1.0).tolerance(Bar::l, tolerance);
     let tolerances = study.tolerances()?;
     let state = study.equilibrium()?;
     let modes = study.modes()?;
-    let frequency = Response::Mode {
-        mode: 0,
-        quantity: Quantity::Frequency,
-    };
+    let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
     let wanted = vec![frequency, Response::Output(Bar::angle.any())];
     let responses = Responses::new(&Bar, &state, &modes, wanted)?;
     let sampling = Sampling::default().samples(4096);
@@ -52,15 +44,8 @@ fn spreads(ratio: f64, tolerance: f64) -> Result<[Propagation; 4], Error> {
 fn near_a_critical_state_nothing_is_known_about_errors() {
     let [models @ .., chosen] = spreads(1.03, 0.12).unwrap();
     for model in &models {
-        let [
-            [Doubt::NearCritical { distance }],
-            [
-                Doubt::BranchNear {
-                    mode: 0,
-                    distance: other,
-                },
-            ],
-        ] = [&model.doubts[0][..], &model.doubts[1]]
+        let [[Doubt::NearCritical { distance }], [Doubt::BranchNear { mode: 0, distance: other }]] =
+            [&model.doubts[0][..], &model.doubts[1]]
         else {
             panic!("{model}")
         };
@@ -71,27 +56,13 @@ fn near_a_critical_state_nothing_is_known_about_errors() {
             assert!(spread.quantiles.iter().all(|own| own.error.is_none()));
         }
         let text = model.to_string();
-        assert!(
-            text.contains("Doubtful for frequency 1: the critical state is 1.57"),
-            "{text}"
-        );
-        assert!(
-            text.contains("Nothing is known about their errors"),
-            "{text}"
-        );
+        assert!(text.contains("Doubtful for frequency 1: the critical state is 1.57"), "{text}");
+        assert!(text.contains("Nothing is known about their errors"), "{text}");
     }
     assert!(matches!(chosen.method, Method::Sampled(_)), "{chosen}");
     assert!(chosen.reason.contains("doubt on any model"), "{chosen}");
     assert!(chosen.doubts.iter().all(Vec::is_empty));
-    assert!(
-        chosen.spreads[0]
-            .as_ref()
-            .unwrap()
-            .sigma
-            .unwrap()
-            .error
-            .is_some()
-    );
+    assert!(chosen.spreads[0].as_ref().unwrap().sigma.unwrap().error.is_some());
 }
 
 /// Far from it the errors are stated, and hold.
@@ -104,10 +75,7 @@ fn far_from_it_errors_are_stated() {
     for found in [first, second] {
         assert!(found.doubts.iter().all(Vec::is_empty), "{found}");
         let sigma = found.spreads[0].as_ref().unwrap().sigma.unwrap();
-        assert!(
-            (sigma.value - exact).abs() <= sigma.error.unwrap(),
-            "{found}"
-        );
+        assert!((sigma.value - exact).abs() <= sigma.error.unwrap(), "{found}");
         assert!(!found.to_string().contains("Nothing is known"));
     }
 }

@@ -13,11 +13,7 @@ pub(super) fn speed(ratio: f64) -> f64 {
 /// faster.
 pub(super) fn slow(speed: f64, limit: f64) -> (f64, f64) {
     let (square, limit) = (speed * speed, limit.max(0.0));
-    let longest = if limit < speed {
-        W / (speed * (square - limit * limit).sqrt())
-    } else {
-        f64::INFINITY
-    };
+    let longest = if limit < speed { W / (speed * (square - limit * limit).sqrt()) } else { f64::INFINITY };
     (W / (square + limit * limit), longest)
 }
 

@@ -47,33 +47,16 @@ fn pair(ratio: f64, tolerance: f64) -> Study<Pair> {
 fn doubts_stand_on_the_mode_they_belong_to() {
     let study = pair(1.03, 0.12);
     let first = study.first_order().unwrap();
-    let [Doubt::NearCritical { distance }] = first.doubts(0)[..] else {
-        panic!("{first}")
-    };
+    let [Doubt::NearCritical { distance }] = first.doubts(0)[..] else { panic!("{first}") };
     assert!((distance - 1.57).abs() < 0.01, "{distance}");
     assert!(first.modes[1].distance_to_critical > 100.0);
-    let [
-        Doubt::BranchNear {
-            mode: 0,
-            distance: other,
-        },
-    ] = first.doubts(1)[..]
-    else {
-        panic!("{first}")
-    };
+    let [Doubt::BranchNear { mode: 0, distance: other }] = first.doubts(1)[..] else { panic!("{first}") };
     assert_eq!(other, distance);
     let text = first.to_string();
-    assert!(
-        text.contains("mode 2: the critical state of mode 1 is 1.57 standard deviations away"),
-        "{text}"
-    );
+    assert!(text.contains("mode 2: the critical state of mode 1 is 1.57 standard deviations away"), "{text}");
     let second = study.second_order().unwrap();
     assert_eq!(second.doubts, [first.doubts(0), first.doubts(1)]);
-    assert!(
-        second
-            .to_string()
-            .contains("`summary` compares sigma with samples")
-    );
+    assert!(second.to_string().contains("`summary` compares sigma with samples"));
     // Far from it there are none.
     let far = pair(0.5, 0.03);
     assert!(far.first_order().unwrap().trusted());
@@ -105,9 +88,7 @@ fn first_order_and_summary_do_not_contradict_each_other() {
 #[test]
 fn monte_carlo_is_not_advised_where_it_has_nothing_to_say() {
     // c = 20 would be critical damping.
-    let study = Study::new(Overdamped)
-        .tolerance(Overdamped::c, 20.0)
-        .samples(500);
+    let study = Study::new(Overdamped).tolerance(Overdamped::c, 20.0).samples(500);
     let run = study.monte_carlo().unwrap().to_string();
     assert!(run.contains("no oscillation in any stable sample"), "{run}");
     let texts = [
@@ -124,9 +105,7 @@ fn monte_carlo_is_not_advised_where_it_has_nothing_to_say() {
 
 #[test]
 fn without_a_tolerance_nothing_is_called_a_spread() {
-    let study = Study::new(Overdamped)
-        .design(Overdamped::c, 1.0)
-        .samples(300);
+    let study = Study::new(Overdamped).design(Overdamped::c, 1.0).samples(300);
     let words = "No tolerance is declared";
     for text in [
         study.first_order().unwrap().to_string(),
@@ -136,17 +115,12 @@ fn without_a_tolerance_nothing_is_called_a_spread() {
     ] {
         assert!(text.contains(words), "{text}");
     }
-    let frequency = Response::Mode {
-        mode: 0,
-        quantity: Quantity::Frequency,
-    };
+    let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
     let wanted = [Requirement::at_least(frequency, 5.0)];
     assert!(study.chances(&wanted).unwrap().to_string().contains(words));
     let propagation = study.propagate(&[frequency]).unwrap();
     assert_eq!(propagation.reason, "no tolerance is declared");
-    let Err(Error::Setting { setting, reason }) = study.probability(&wanted) else {
-        panic!("it has an answer")
-    };
+    let Err(Error::Setting { setting, reason }) = study.probability(&wanted) else { panic!("it has an answer") };
     assert_eq!(setting, "tolerances");
     assert!(reason.contains("no tolerance is declared"), "{reason}");
     // A tolerance that moves nothing is another matter.

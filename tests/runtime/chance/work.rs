@@ -4,9 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use eigentol::clusters::clusters;
 use eigentol::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Curvature,
-    CurvatureKernels, Directional, DirectionalKernels, Kernel, Kernels, PartialMatrices, Second,
-    Sizes, SummaryKernels,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Curvature, CurvatureKernels,
+    Directional, DirectionalKernels, Kernel, Kernels, PartialMatrices, Second, Sizes, SummaryKernels,
 };
 use eigentol::scalar::{Batch, Instructions};
 use eigentol::second_order::second_order;
@@ -36,10 +35,7 @@ struct Counting<'a> {
 
 impl<'a> Counting<'a> {
     fn new(inner: &'a dyn SummaryKernels) -> Self {
-        Self {
-            inner,
-            calls: Default::default(),
-        }
+        Self { inner, calls: Default::default() }
     }
 
     fn count(&self, kind: Kind) {
@@ -48,9 +44,7 @@ impl<'a> Counting<'a> {
 
     /// The calls since the last time, by kind.
     fn taken(&self) -> [usize; 4] {
-        self.calls
-            .each_ref()
-            .map(|call| call.swap(0, Ordering::Relaxed))
+        self.calls.each_ref().map(|call| call.swap(0, Ordering::Relaxed))
     }
 }
 
@@ -70,13 +64,7 @@ impl Kernels for Counting<'_> {
         self.inner.evaluate(kernel, arguments, results);
     }
 
-    fn linear_partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        partials: &mut PartialMatrices,
-    ) {
+    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices) {
         self.count(Kind::Plain);
         self.inner.linear_partials_into(q, u, b, partials);
     }
@@ -110,8 +98,7 @@ impl DirectionalKernels for Counting<'_> {
             Directional::Linear => Kind::LinearAlong,
             Directional::ResidualGradient => Kind::GradientAlong,
         });
-        self.inner
-            .evaluate_along(kernel, arguments, direction, results);
+        self.inner.evaluate_along(kernel, arguments, direction, results);
     }
 }
 
@@ -124,8 +111,7 @@ impl CurvatureKernels for Counting<'_> {
         results: &mut [&mut [f64]],
     ) {
         self.count(Kind::GradientAlong);
-        self.inner
-            .evaluate_curvature(kernel, arguments, direction, results);
+        self.inner.evaluate_curvature(kernel, arguments, direction, results);
     }
 }
 
@@ -138,16 +124,10 @@ impl BatchKernels for Counting<'_> {
         stiffness: &mut [Batch],
     ) {
         self.count(Kind::Batch);
-        self.inner
-            .residual_and_stiffness_batch(instructions, at, residual, stiffness);
+        self.inner.residual_and_stiffness_batch(instructions, at, residual, stiffness);
     }
 
-    fn linear_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        linear: &mut BatchLinear<'_>,
-    ) {
+    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
         self.count(Kind::Batch);
         self.inner.linear_batch(instructions, at, linear);
     }
@@ -160,8 +140,7 @@ impl BatchKernels for Counting<'_> {
         linear: &mut BatchLinear<'_>,
     ) {
         self.count(Kind::Batch);
-        self.inner
-            .parts_and_linear_batch(instructions, at, parts, linear);
+        self.inner.parts_and_linear_batch(instructions, at, parts, linear);
     }
 
     fn partials_batch(
@@ -172,8 +151,7 @@ impl BatchKernels for Counting<'_> {
         residual: [&mut [Batch]; 2],
     ) {
         self.count(Kind::Batch);
-        self.inner
-            .partials_batch(instructions, at, matrices, residual);
+        self.inner.partials_batch(instructions, at, matrices, residual);
     }
 
     fn mode_gradient_batch(
@@ -185,8 +163,7 @@ impl BatchKernels for Counting<'_> {
         gradient: &mut BatchGradient<'_>,
     ) {
         self.count(Kind::Batch);
-        self.inner
-            .mode_gradient_batch(instructions, at, phi, lambda, gradient);
+        self.inner.mode_gradient_batch(instructions, at, phi, lambda, gradient);
     }
 
     fn residual_gradient_batch(
@@ -197,8 +174,7 @@ impl BatchKernels for Counting<'_> {
         gradient: &mut BatchGradient<'_>,
     ) {
         self.count(Kind::Batch);
-        self.inner
-            .residual_gradient_batch(instructions, at, w, gradient);
+        self.inner.residual_gradient_batch(instructions, at, w, gradient);
     }
 }
 

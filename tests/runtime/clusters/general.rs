@@ -37,9 +37,7 @@ fn speed_splits_a_double_frequency_by_plus_and_minus_the_speed() {
     let (state, found) = (study.equilibrium().unwrap(), study.modes().unwrap());
     let couplings = modal_couplings(study.mechanism(), &state, &found, &[0, 1]).unwrap();
     // Eigenvalues of the matrix of derivatives by the speed: +-i, so trace 0 and determinant 1.
-    let [a, b, c, d] = *couplings.by_input[0].as_flattened() else {
-        panic!("two modes")
-    };
+    let [a, b, c, d] = *couplings.by_input[0].as_flattened() else { panic!("two modes") };
     within((a + d).norm(), 0.0, 1e-13);
     within((a * d - b * c - 1.0).norm(), 0.0, 1e-12);
     let tolerances = study.tolerances().unwrap();
@@ -48,11 +46,7 @@ fn speed_splits_a_double_frequency_by_plus_and_minus_the_speed() {
     within((mean.value - Complex::new(0.0, 10.0)).norm(), 0.0, 1e-13);
     within(mean.by_input[0].norm(), 0.0, 1e-13);
     // ds/dk = i / (2 m omega), half of it for each; sorted like two normal values.
-    within(
-        (mean.by_design[KX.index()] - Complex::new(0.0, 0.05)).norm(),
-        0.0,
-        1e-13,
-    );
+    within((mean.by_design[KX.index()] - Complex::new(0.0, 0.05)).norm(), 0.0, 1e-13);
     let sigma = 0.4 / 10.0;
     close(mean.sigma_im, sigma / 2.0_f64.sqrt(), 1e-12);
     let frequency = &found[0].spread.as_ref().unwrap().frequency;
@@ -70,9 +64,7 @@ fn whirling_pairs_agree_with_monte_carlo() {
             study = study.tolerance(DAMPING, 0.05);
         }
         let found = study.clusters().unwrap();
-        let [found] = found.as_slice() else {
-            panic!("{found:?}")
-        };
+        let [found] = found.as_slice() else { panic!("{found:?}") };
         assert_eq!(found.modes, [0, 1]);
         let spread = found.spread.as_ref().unwrap();
         let sampled = run(&study);
@@ -108,18 +100,12 @@ fn critical_load() -> f64 {
 }
 
 fn column(load: f64) -> Study<Derived<Follower>> {
-    Study::new(Derived(Follower))
-        .sigma_level(3.0)
-        .input(Input::new(0), load)
-        .tolerance(STIFFNESS, 0.01)
+    Study::new(Derived(Follower)).sigma_level(3.0).input(Input::new(0), load).tolerance(STIFFNESS, 0.01)
 }
 
 /// The two `s` with positive imaginary part at a given stiffness.
 fn column_roots(load: f64, k: f64) -> [Complex; 2] {
-    let (b, root) = (
-        7.0 * k - 2.0 * load,
-        Complex::from((7.0 * k - 2.0 * load).powi(2) - 8.0 * k * k).sqrt(),
-    );
+    let (b, root) = (7.0 * k - 2.0 * load, Complex::from((7.0 * k - 2.0 * load).powi(2) - 8.0 * k * k).sqrt());
     [-1.0, 1.0].map(|sign| {
         let s = (-(b + sign * root) / 4.0).sqrt();
         if s.im < 0.0 { -s } else { s }
@@ -152,9 +138,7 @@ fn merging_frequencies_agree_with_monte_carlo_and_count_flutter() {
     // Flutter is 0.9 standard deviations of the stiffness away.
     let study = column(0.997 * critical_load());
     let found = study.clusters().unwrap();
-    let [found] = found.as_slice() else {
-        panic!("{found:?}")
-    };
+    let [found] = found.as_slice() else { panic!("{found:?}") };
     // The distance is the first-order distance of the discriminant from zero.
     let discriminant = |k: f64| (7.0 * k - 2.0 * 0.997 * critical_load()).powi(2) - 8.0 * k * k;
     let slope = (discriminant(1.0 + 1e-6) - discriminant(1.0 - 1e-6)) / 2e-6;
@@ -163,11 +147,7 @@ fn merging_frequencies_agree_with_monte_carlo_and_count_flutter() {
     let spread = found.spread.as_ref().unwrap();
     let sampled = run(&study);
     agree(&spread.frequency, &sorted(&sampled, |s| s.im), 0.02);
-    agree(
-        spread.growth.as_ref().unwrap(),
-        &sorted(&sampled, |s| s.re),
-        0.05,
-    );
+    agree(spread.growth.as_ref().unwrap(), &sorted(&sampled, |s| s.re), 0.05);
     let share = |count: usize| count as f64 / 4096.0;
     assert_eq!(sampled.counts.total(), 4096);
     within(share(spread.unstable), share(sampled.counts.flutter), 0.05);
@@ -213,10 +193,7 @@ fn a_defective_root_has_no_sigma() {
     let study = column(critical_load());
     let found = study.clusters().unwrap();
     assert_eq!(found.len(), 1);
-    assert_eq!(
-        (found[0].modes.as_slice(), found[0].distance),
-        (&[0, 1][..], 0.0)
-    );
+    assert_eq!((found[0].modes.as_slice(), found[0].distance), (&[0, 1][..], 0.0));
     assert!(found[0].defective() && found[0].mean.is_none());
     for mode in &study.sensitivities().unwrap().modes {
         assert!(mode.clustered && mode.s().is_none() && mode.frequency().is_none());
@@ -228,12 +205,7 @@ fn a_defective_root_has_no_sigma() {
         assert_eq!(mode.distance_to_neighbour, 0.0);
     }
     let summary = study.summary().unwrap();
-    for text in [
-        first.to_string(),
-        summary.to_string(),
-        found[0].to_string(),
-        format!("{summary:?}"),
-    ] {
+    for text in [first.to_string(), summary.to_string(), found[0].to_string(), format!("{summary:?}")] {
         assert!(!text.contains("NaN"), "{text}");
     }
     assert!(summary.to_string().contains("defective"));
@@ -249,9 +221,7 @@ fn overdamped_roots_form_a_pair() {
         .tolerance(KY, 0.0)
         .tolerance(DAMPING, 0.05);
     let found = study.clusters().unwrap();
-    let [found] = found.as_slice() else {
-        panic!("{found:?}")
-    };
+    let [found] = found.as_slice() else { panic!("{found:?}") };
     assert!(found.eigenvalues.iter().all(|s| s.im == 0.0));
     let spread = found.spread.as_ref().unwrap();
     let growth = spread.growth.as_ref().unwrap();
@@ -266,11 +236,7 @@ fn overdamped_roots_form_a_pair() {
         weight += density;
         oscillating += if inside < 0.0 { density } else { 0.0 };
     }
-    within(
-        highest.mean,
-        sum / weight,
-        5.0 * highest.standard_error.unwrap(),
-    );
+    within(highest.mean, sum / weight, 5.0 * highest.standard_error.unwrap());
     let frequency = spread.frequency.highest().unwrap();
     let share = frequency.value.as_ref().unwrap().count as f64 / 4096.0;
     within(share, oscillating / weight, 0.03);
@@ -285,9 +251,7 @@ fn critically_damped_roots_are_defective() {
     let one = both.clone().design(KY, 4000.0);
     for (study, count) in [(one, 2), (both, 4)] {
         let found = study.clusters().unwrap();
-        let [found] = found.as_slice() else {
-            panic!("{found:?}")
-        };
+        let [found] = found.as_slice() else { panic!("{found:?}") };
         assert!(found.defective(), "{found:?}");
         assert!(found.modes.len() == count || found.modes.len() == count / 2);
         let summary = study.summary().unwrap();
@@ -324,10 +288,7 @@ fn modes_that_do_not_exist_are_refused() {
     let study = plate(0.0, 0.0);
     let (state, found) = (study.equilibrium().unwrap(), study.modes().unwrap());
     let missing = modal_couplings(study.mechanism(), &state, &found, &[0, 2]);
-    assert!(matches!(
-        missing,
-        Err(Error::NoSuchMode { mode: 2, count: 2 })
-    ));
+    assert!(matches!(missing, Err(Error::NoSuchMode { mode: 2, count: 2 })));
     assert!(Quantity::Frequency.of(&found.modes[0]).is_some());
     assert_eq!(modes::clusters(&found, 1e-6)[..], [true, true]);
 }

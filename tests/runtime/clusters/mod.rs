@@ -14,11 +14,7 @@ use eigentol::{Complex, Error, MonteCarlo, Study, Tolerances};
 use crate::common::close;
 
 fn within(value: f64, expected: f64, distance: f64) {
-    assert!(
-        (value - expected).abs() <= distance,
-        "{value:e}, not {expected:e}: {:e} apart",
-        value - expected
-    );
+    assert!((value - expected).abs() <= distance, "{value:e}, not {expected:e}: {:e} apart", value - expected);
 }
 
 /// Independent variables with these standard deviations.
@@ -39,11 +35,7 @@ impl Moments {
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-        Self {
-            mean,
-            sigma: (squares / (count - 1.0)).sqrt(),
-            count,
-        }
+        Self { mean, sigma: (squares / (count - 1.0)).sqrt(), count }
     }
 
     /// Both agree within five standard errors, plus `model` times the standard deviation for model error.

@@ -14,11 +14,7 @@ fn couplings(family: Family, values: &[Complex], slopes: &[Vec<Complex>]) -> Mod
     ModalCouplings::new(family, values.to_vec(), slopes.iter().map(matrix).collect())
 }
 
-fn undamped(
-    values: &[f64],
-    slopes: &[Vec<f64>],
-    tolerances: &Tolerances,
-) -> Result<ClusterSpread, Error> {
+fn undamped(values: &[f64], slopes: &[Vec<f64>], tolerances: &Tolerances) -> Result<ClusterSpread, Error> {
     let complex = |values: &[f64]| -> Vec<Complex> { values.iter().map(|&x| x.into()).collect() };
     let slopes: Vec<Vec<Complex>> = slopes.iter().map(|slope| complex(slope)).collect();
     let couplings = couplings(Family::Undamped, &complex(values), &slopes);
@@ -38,10 +34,7 @@ fn split_pair_is_rayleigh() {
     // [[100 + x, y], [y, 100 - x]] has eigenvalues 100 -+ sqrt(x^2 + y^2): a Rayleigh distribution.
     let slopes = [vec![1.0, 0.0, 0.0, -1.0], vec![0.0, 1.0, 1.0, 0.0]];
     let found = undamped(&[100.0, 100.0], &slopes, &independent([2.0, 2.0])).unwrap();
-    assert_eq!(
-        (found.samples, found.unstable, found.unsolved),
-        (4096, 0, 0)
-    );
+    assert_eq!((found.samples, found.unstable, found.unsolved), (4096, 0, 0));
     assert!(found.growth.is_none() && found.damping_ratio.is_none());
     let lambda = found.lambda.unwrap();
     let (low, high) = (lambda.lowest().unwrap(), lambda.highest().unwrap());
@@ -55,32 +48,20 @@ fn split_pair_is_rayleigh() {
     within(lambda.splitting.unwrap().mean, 2.0 * mean, 8.0 * error);
     // Frequencies near 10 rad/s.
     let frequency = found.frequency.highest().unwrap();
-    assert_eq!(
-        (frequency.value.as_ref().unwrap().count, frequency.without),
-        (4096, 0)
-    );
-    within(
-        frequency.value.as_ref().unwrap().mean,
-        10.0 + mean / 20.0,
-        0.01,
-    );
+    assert_eq!((frequency.value.as_ref().unwrap().count, frequency.without), (4096, 0));
+    within(frequency.value.as_ref().unwrap().mean, 10.0 + mean / 20.0, 0.01);
 }
 
 #[test]
 fn members_are_sorted_and_their_mean_is_the_trace() {
-    let slopes = [
-        vec![1.0, 0.5, 0.0, 0.5, 2.0, -0.3, 0.0, -0.3, -1.0],
-        vec![0.2, 0.0, 1.0, 0.0, 0.3, 0.0, 1.0, 0.0, 0.7],
-    ];
+    let slopes =
+        [vec![1.0, 0.5, 0.0, 0.5, 2.0, -0.3, 0.0, -0.3, -1.0], vec![0.2, 0.0, 1.0, 0.0, 0.3, 0.0, 1.0, 0.0, 0.7]];
     let correlation = [[1.0, 0.6], [0.6, 1.0]];
     let tolerances = Tolerances::new([0.3, 0.9], 3.0, Some(correlation.into())).unwrap();
     let values = [4.0, 4.001, 4.002];
     let found = undamped(&values, &slopes, &tolerances).unwrap();
     let members = found.lambda.unwrap().members;
-    let means: Vec<f64> = members
-        .iter()
-        .map(|m| m.value.as_ref().unwrap().mean)
-        .collect();
+    let means: Vec<f64> = members.iter().map(|m| m.value.as_ref().unwrap().mean).collect();
     assert!(means[0] < means[1] && means[1] < means[2]);
     // Traces 2 and 1.2 over 3, with sigma 0.1 and 0.3 and correlation 0.6.
     let (a, b): (f64, f64) = (0.2 / 3.0, 0.36 / 3.0);
@@ -127,20 +108,12 @@ fn a_cluster_of_one_is_normal_and_loses_its_frequency_below_zero() {
 #[test]
 fn nonsymmetric_pairs_flutter() {
     // [[3, x], [-x, 3]]: always the pair 3 +- i |x|; rotated, frequency 3 and growth -+ |x|, half-normal.
-    let one = turned(
-        &[3.0, 3.0],
-        &[vec![0.0, 1.0, -1.0, 0.0]],
-        &independent([1.0]),
-    );
+    let one = turned(&[3.0, 3.0], &[vec![0.0, 1.0, -1.0, 0.0]], &independent([1.0]));
     assert_eq!(one.unstable, 4096);
     let growth = one.growth.unwrap();
     let highest = growth.highest().unwrap().value.as_ref().unwrap();
     within(highest.mean, (2.0 / PI).sqrt(), 4.0 * 0.603 / 64.0);
-    close(
-        growth.splitting.as_ref().unwrap().mean,
-        2.0 * highest.mean,
-        1e-12,
-    );
+    close(growth.splitting.as_ref().unwrap().mean, 2.0 * highest.mean, 1e-12);
     for member in &one.frequency.members {
         close(member.value.as_ref().unwrap().mean, 3.0, 1e-14);
     }
@@ -159,10 +132,7 @@ fn nonsymmetric_pairs_flutter() {
 #[test]
 fn one_seed_gives_one_result() {
     let one = Complex::new(0.0, 1.0);
-    let slopes = [
-        vec![one, 0.3 * one, 0.3 * one, -one],
-        vec![0.0 * one, one, 0.5 * one, 0.2 * one],
-    ];
+    let slopes = [vec![one, 0.3 * one, 0.3 * one, -one], vec![0.0 * one, one, 0.5 * one, 0.2 * one]];
     let couplings = couplings(Family::General, &[5.0 * one, 5.0 * one], &slopes);
     let tolerances = independent([0.1, 0.2]);
     let of = |seed, stream| {

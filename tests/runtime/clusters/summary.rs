@@ -14,10 +14,7 @@ const OMEGA: Input<Pendulum> = Input::new(0);
 const LENGTH: DesignVariable<Pendulum> = DesignVariable::new(1);
 
 fn of_pendulum(speed: f64, tolerance: f64) -> Study<Pendulum> {
-    Study::new(Pendulum)
-        .input(OMEGA, speed)
-        .start(Coordinate::new(0), 1.0)
-        .tolerance(LENGTH, tolerance)
+    Study::new(Pendulum).input(OMEGA, speed).start(Coordinate::new(0), 1.0).tolerance(LENGTH, tolerance)
 }
 
 fn pendulum(speed: f64, tolerance: f64) -> Summary {
@@ -53,31 +50,20 @@ fn says(text: &str, parts: &[&str]) {
 fn far_from_everything_a_mode_is_trusted() {
     for summary in [pendulum(2.0, 0.03), pendulum(6.0, 0.03)] {
         assert!(summary.trusted(), "{summary}");
-        says(
-            &summary.to_string(),
-            &["yes", "Mode 1: nothing contradicts"],
-        );
+        says(&summary.to_string(), &["yes", "Mode 1: nothing contradicts"]);
     }
     let whirling = plate(3.0, 0.0, 0.0);
     assert!(whirling.trusted(), "{whirling}");
-    says(
-        &whirling.to_string(),
-        &["Modes 1 and 2: nothing contradicts"],
-    );
+    says(&whirling.to_string(), &["Modes 1 and 2: nothing contradicts"]);
 }
 
 #[test]
 fn near_the_critical_speed_nothing_is_trusted() {
     let summary = pendulum(3.87, 0.03);
-    let [Doubt::NearCritical { distance }, ..] = summary.trust[0].doubts[..] else {
-        panic!("{summary:?}")
-    };
+    let [Doubt::NearCritical { distance }, ..] = summary.trust[0].doubts[..] else { panic!("{summary:?}") };
     assert_eq!(distance, summary.first.distance_to_critical);
     assert!(distance > 0.0 && distance < 2.0);
-    says(
-        &summary.to_string(),
-        &["critical state is", "Monte Carlo", " no\n"],
-    );
+    says(&summary.to_string(), &["critical state is", "Monte Carlo", " no\n"]);
 }
 
 /// At 1.000004 times the critical speed no term of the series is meaningful. Compared with the exact distribution, by
@@ -87,38 +73,24 @@ fn at_the_critical_speed_sampling_is_what_to_use() {
     let speed = 3.836;
     let frequency = |length: f64| {
         let (w, square) = (1.5 * GRAVITY / length, speed * speed);
-        f64::sqrt(if w > square {
-            w - square
-        } else {
-            square - w * w / square
-        })
+        f64::sqrt(if w > square { w - square } else { square - w * w / square })
     };
     let moment = |power: i32| {
         let steps = (-80_000..=80_000).map(|k| f64::from(k) * 1e-4);
         let density = |z: f64| (-0.5 * z * z).exp() * 1e-4 / std::f64::consts::TAU.sqrt();
-        steps
-            .map(|z| density(z) * frequency(1.0 + 0.01 * z).powi(power))
-            .sum::<f64>()
+        steps.map(|z| density(z) * frequency(1.0 + 0.01 * z).powi(power)).sum::<f64>()
     };
     let exact = (moment(2) - moment(1).powi(2)).sqrt();
     close(exact, 0.1745, 1e-3);
-    let study = Study::new(Pendulum)
-        .input(OMEGA, speed)
-        .start(Coordinate::new(0), 1.0)
-        .tolerance(LENGTH, 0.03);
+    let study = Study::new(Pendulum).input(OMEGA, speed).start(Coordinate::new(0), 1.0).tolerance(LENGTH, 0.03);
     let sampled = study.clone().samples(40_000).monte_carlo().unwrap();
     let sigma = sampled.modes[0].as_ref().unwrap().sigma.unwrap();
     close(sigma, exact, 0.02);
     let summary = study.summary().unwrap();
     let second = &summary.second.modes[0].as_ref().unwrap().frequency;
     assert!(second.moments.sigma > 3000.0);
-    let [
-        Doubt::NearCritical { .. },
-        Doubt::Inaccurate {
-            quantity: Quantity::Frequency,
-            error,
-        },
-    ] = summary.trust[0].doubts[..]
+    let [Doubt::NearCritical { .. }, Doubt::Inaccurate { quantity: Quantity::Frequency, error }] =
+        summary.trust[0].doubts[..]
     else {
         panic!("{:?}", summary.trust)
     };
@@ -128,43 +100,24 @@ fn at_the_critical_speed_sampling_is_what_to_use() {
     let text = summary.to_string();
     says(&text, &["use Monte Carlo", " no\n"]);
     assert!(!text.contains("use second"), "{text}");
-    let row = text
-        .lines()
-        .find(|line| line.trim_start().starts_with("1 "))
-        .unwrap();
+    let row = text.lines().find(|line| line.trim_start().starts_with("1 ")).unwrap();
     assert_eq!(row.matches(" -").count(), 1, "no second order: {row}");
 }
 
 #[test]
 fn wide_tolerances_bend() {
     let summary = by_distance(7.0, 0.6);
-    let found = summary.trust[0]
-        .doubts
-        .iter()
-        .find_map(|doubt| match doubt {
-            Doubt::Nonlinear { sigma_error, .. } => Some(*sigma_error),
-            _ => None,
-        });
+    let found = summary.trust[0].doubts.iter().find_map(|doubt| match doubt {
+        Doubt::Nonlinear { sigma_error, .. } => Some(*sigma_error),
+        _ => None,
+    });
     let second = summary.second.modes[0].as_ref().unwrap();
-    close(
-        found.unwrap(),
-        second.frequency.nonlinearity.sigma_error(),
-        1e-15,
-    );
-    says(
-        &summary.to_string(),
-        &["% below that of second order", "use Monte Carlo", " no\n"],
-    );
+    close(found.unwrap(), second.frequency.nonlinearity.sigma_error(), 1e-15);
+    says(&summary.to_string(), &["% below that of second order", "use Monte Carlo", " no\n"]);
     // Samples show how large the first-order error is.
     let measured = pendulum(7.0, 0.6);
-    assert!(matches!(
-        measured.trust[0].doubts[..],
-        [.., Doubt::Inaccurate { .. }]
-    ));
-    says(
-        &measured.to_string(),
-        &["% below that of the samples", " no\n"],
-    );
+    assert!(matches!(measured.trust[0].doubts[..], [.., Doubt::Inaccurate { .. }]));
+    says(&measured.to_string(), &["% below that of the samples", " no\n"]);
 }
 
 #[test]
@@ -172,16 +125,7 @@ fn mixed_modes_have_no_sigma_of_their_own() {
     let study = Study::new(Derived(Pair)).design(DesignVariable::new(1), 102.0);
     let summary = study.summary().unwrap();
     for trust in &summary.trust {
-        let [
-            Doubt::Clustered {
-                modes,
-                distance,
-                defective: false,
-            },
-        ] = &trust.doubts[..]
-        else {
-            panic!("{trust:?}")
-        };
+        let [Doubt::Clustered { modes, distance, defective: false }] = &trust.doubts[..] else { panic!("{trust:?}") };
         assert_eq!(modes, &[0, 1]);
         close(*distance, 1.0, 1e-12);
     }
@@ -199,22 +143,13 @@ fn mixed_modes_have_no_sigma_of_their_own() {
         ],
     );
     // Their rows show no sigma.
-    let row = text
-        .lines()
-        .find(|line| line.trim_start().starts_with("1 "))
-        .unwrap();
+    let row = text.lines().find(|line| line.trim_start().starts_with("1 ")).unwrap();
     assert_eq!(row.matches(" -").count(), 5, "{row}");
     // Only first order raises a warning there.
-    says(
-        &summary.first.to_string(),
-        &["Each mode is taken alone", "summary"],
-    );
+    says(&summary.first.to_string(), &["Each mode is taken alone", "summary"]);
     // Equal frequencies, for which second order does not exist either.
     let equal = Study::new(Derived(Pair)).summary().unwrap();
-    assert!(matches!(
-        &equal.trust[0].doubts[..],
-        [Doubt::Clustered { .. }]
-    ));
+    assert!(matches!(&equal.trust[0].doubts[..], [Doubt::Clustered { .. }]));
 }
 
 #[test]
@@ -224,13 +159,8 @@ fn a_vibration_about_to_grow_says_so() {
     let hazard = (-2.0_f64).exp() / std::f64::consts::TAU.sqrt() / 0.977_249_868;
     let cut = (1.0 - 2.0 * hazard - hazard * hazard).sqrt();
     for trust in &summary.trust {
-        let [
-            Doubt::NearInstability { distance },
-            Doubt::Inaccurate {
-                quantity: Quantity::DampingRatio,
-                error,
-            },
-        ] = trust.doubts[..]
+        let [Doubt::NearInstability { distance }, Doubt::Inaccurate { quantity: Quantity::DampingRatio, error }] =
+            trust.doubts[..]
         else {
             panic!("{trust:?}")
         };
@@ -255,13 +185,10 @@ fn a_vibration_about_to_grow_says_so() {
 fn an_oscillation_about_to_cease_says_so() {
     // In x at rest: (Im s)^2 = k/m - (c/2m)^2 with m = 0.5, k = 40; c = 8.9 is just below critical damping.
     let summary = plate(0.0, 8.9, 0.05);
-    let near = summary
-        .trust
-        .iter()
-        .find_map(|trust| match trust.doubts[..] {
-            [Doubt::NearCriticalDamping { distance }, ..] => Some((trust.mode, distance)),
-            _ => None,
-        });
+    let near = summary.trust.iter().find_map(|trust| match trust.doubts[..] {
+        [Doubt::NearCriticalDamping { distance }, ..] => Some((trust.mode, distance)),
+        _ => None,
+    });
     let (mode, distance) = near.unwrap();
     // Variances of (Im s)^2 due to k and c.
     let sigma = (0.1_f64 / 0.5).hypot(2.0 * 8.9 * 0.05);
@@ -271,14 +198,8 @@ fn an_oscillation_about_to_cease_says_so() {
     // Beyond it two decaying modes form a cluster.
     let beyond = plate(0.0, 9.0, 0.05);
     let doubts = &beyond.trust.iter().find(|x| !x.trusted()).unwrap().doubts;
-    assert!(matches!(
-        doubts[..],
-        [Doubt::NoFrequency, Doubt::Clustered { .. }]
-    ));
-    says(
-        &beyond.to_string(),
-        &["no oscillation", "a member has no frequency"],
-    );
+    assert!(matches!(doubts[..], [Doubt::NoFrequency, Doubt::Clustered { .. }]));
+    says(&beyond.to_string(), &["no oscillation", "a member has no frequency"]);
 }
 
 /// On both sides of each threshold, from closed forms. Thresholds on quantities that samples can judge apply only
@@ -303,14 +224,9 @@ fn thresholds_are_where_they_are_said_to_be() {
         assert_eq!(pair.clusters().unwrap().len(), usize::from(doubted));
         assert_eq!(pair.first_order().unwrap().trusted(), !doubted);
         // Growth -c / (2 m) of a damped mode by c alone: c / sigma(c).
-        let plate = (0..3).fold(Study::new(Derived(Plate)), |study, k| {
-            study.tolerance(DesignVariable::new(k), 0.0)
-        });
+        let plate = (0..3).fold(Study::new(Derived(Plate)), |study, k| study.tolerance(DesignVariable::new(k), 0.0));
         let plate = plate.design(DesignVariable::new(3), 0.02).sigma_level(1.0);
-        let plate = plate
-            .tolerance(DesignVariable::new(3), 0.02 / distance)
-            .summary()
-            .unwrap();
+        let plate = plate.tolerance(DesignVariable::new(3), 0.02 / distance).summary().unwrap();
         let growing = |doubt: &Doubt| matches!(doubt, Doubt::NearInstability { .. });
         assert_eq!(plate.trust[0].doubts.iter().any(growing), doubted);
     }

@@ -103,10 +103,7 @@ fn what_mixes_modes_counts_as_well_as_what_moves_them_apart() {
     let both = pair(2.0, 0.0, [0.3, 0.4, 1.0]);
     close(only(both.clusters().unwrap()).distance, 0.8, 1e-12);
     // Beyond TRUSTED_DISTANCE = 4.5 they are not a cluster, and second order captures the small remaining effect.
-    assert_eq!(
-        pair(8.99, 0.0, [0.0, 0.0, 1.0]).clusters().unwrap().len(),
-        1
-    );
+    assert_eq!(pair(8.99, 0.0, [0.0, 0.0, 1.0]).clusters().unwrap().len(), 1);
     let far = pair(9.01, 0.0, [0.0, 0.0, 1.0]);
     assert_eq!(far.clusters().unwrap(), []);
     let second = far.second_order().unwrap();
@@ -149,9 +146,7 @@ fn three_equal_modes_have_order_statistics() {
 fn three_modes_that_mix_agree_with_monte_carlo() {
     let coupled = |k3: f64| {
         let study = Study::new(Derived(Triple)).design(DesignVariable::new(2), k3);
-        (3..6).fold(study, |study, k| {
-            study.tolerance(DesignVariable::new(k), 2.0)
-        })
+        (3..6).fold(study, |study, k| study.tolerance(DesignVariable::new(k), 2.0))
     };
     let study = coupled(101.0);
     let spread = only(study.clusters().unwrap()).spread.unwrap();
@@ -160,9 +155,7 @@ fn three_modes_that_mix_agree_with_monte_carlo() {
     let pair = only(coupled(150.0).clusters().unwrap());
     assert_eq!(pair.modes, [0, 1]);
     // A chain 1 - 2 - 3 with distant ends is one cluster.
-    let chain = Study::new(Derived(Triple))
-        .design(DesignVariable::new(0), 94.0)
-        .design(DesignVariable::new(2), 106.0);
+    let chain = Study::new(Derived(Triple)).design(DesignVariable::new(0), 94.0).design(DesignVariable::new(2), 106.0);
     let found = only(chain.clusters().unwrap());
     assert_eq!(found.modes, [0, 1, 2]);
     close(found.distance, 6.0 / 2.0_f64.sqrt(), 1e-12);

@@ -1,8 +1,6 @@
 //! Mechanisms whose equilibrium branches have closed forms. Unit masses; each description gives `g`.
 
-use eigentol::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Shared, Violation,
-};
+use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Shared, Violation};
 
 use super::derived::Model;
 use super::{METRE, NUMBER, RAD, coordinate, design, input};

@@ -7,9 +7,7 @@
 
 use std::array::from_fn;
 
-use eigentol::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, OutputInfo, Real, Shared, Violation,
-};
+use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, OutputInfo, Real, Shared, Violation};
 
 use super::derived::{Derived, Model};
 use super::{GRAVITY, KILOGRAM, METRE, RAD, SPEED, coordinate, design, input, positive};
@@ -21,11 +19,7 @@ pub const DOUBLE: Derived<Bars<2>> = Derived(Bars);
 
 /// Coefficients `A` and `B`.
 fn coefficients<T: Real, const N: usize>(l: &[T; N], m: &[T; N]) -> ([[T; N]; N], [T; N]) {
-    let beyond: [T; N] = from_fn(|j| {
-        m[j + 1..]
-            .iter()
-            .fold(T::constant(0.0), |sum, &mass| sum + mass)
-    });
+    let beyond: [T; N] = from_fn(|j| m[j + 1..].iter().fold(T::constant(0.0), |sum, &mass| sum + mass));
     let half = T::constant(0.5);
     let a = from_fn(|j| {
         from_fn(|k| {
@@ -51,10 +45,7 @@ macro_rules! chain {
                     inputs: Shared::Static(&[input("omega", SPEED)]),
                     design: Shared::Static(&DESIGN),
                     excitations: Shared::Static(&[]),
-                    outputs: Shared::Static(&[OutputInfo {
-                        name: Shared::Static("tip_radius"),
-                        unit: METRE,
-                    }]),
+                    outputs: Shared::Static(&[OutputInfo { name: Shared::Static("tip_radius"), unit: METRE }]),
                     symmetric_stiffness: true,
                     free_directions: 0,
                     held: Shared::Static(&[]),
@@ -86,33 +77,14 @@ macro_rules! chain {
                 })
             }
 
-            fn applied<T: Real>(
-                &self,
-                _: &[T; $n],
-                q: &[T; $n],
-                _: &[T; 1],
-                b: &[T; $p],
-            ) -> [T; $n] {
-                let (_, weight) =
-                    coefficients::<T, $n>(&from_fn(|i| b[i]), &from_fn(|i| b[i + $n]));
+            fn applied<T: Real>(&self, _: &[T; $n], q: &[T; $n], _: &[T; 1], b: &[T; $p]) -> [T; $n] {
+                let (_, weight) = coefficients::<T, $n>(&from_fn(|i| b[i]), &from_fn(|i| b[i + $n]));
                 from_fn(|j| -(T::constant(GRAVITY) * weight[j] * q[j].sin()))
             }
 
-            fn violation<T: Real + PartialOrd>(
-                &self,
-                _: &[T; 1],
-                b: &[T; $p],
-            ) -> Option<Violation<T>> {
-                let names: [(T, &'static str); $p] = from_fn(|j| {
-                    (
-                        b[j],
-                        if j < $n {
-                            "length of a bar"
-                        } else {
-                            "mass of a bar"
-                        },
-                    )
-                });
+            fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], b: &[T; $p]) -> Option<Violation<T>> {
+                let names: [(T, &'static str); $p] =
+                    from_fn(|j| (b[j], if j < $n { "length of a bar" } else { "mass of a bar" }));
                 positive(&names)
             }
 
@@ -138,12 +110,7 @@ chain!(
 chain!(
     4,
     8,
-    [
-        coordinate("theta1", RAD),
-        coordinate("theta2", RAD),
-        coordinate("theta3", RAD),
-        coordinate("theta4", RAD)
-    ],
+    [coordinate("theta1", RAD), coordinate("theta2", RAD), coordinate("theta3", RAD), coordinate("theta4", RAD)],
     [
         design("l1", METRE, 1.0, 0.0),
         design("l2", METRE, 0.9, 0.0),

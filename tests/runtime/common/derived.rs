@@ -2,8 +2,8 @@
 //! that shares no code with the compiler.
 
 use eigentol::{
-    Array, Description, Forcing, Gradient, GradientOf, Linear, LinearPartials, Mechanism,
-    OutputMotionOf, PartialsOf, Real, ResidualPartialsOf, RestParts, Square, Violation,
+    Array, Description, Forcing, Gradient, GradientOf, Linear, LinearPartials, Mechanism, OutputMotionOf, PartialsOf,
+    Real, ResidualPartialsOf, RestParts, Square, Violation,
 };
 
 use super::dual::Dual;
@@ -42,21 +42,12 @@ pub trait Model: Clone + Sync {
         b: &Self::Design<T>,
     ) -> Self::Coordinates<T>;
 
-    fn violation<T: Real + PartialOrd>(
-        &self,
-        _: &Self::Inputs<T>,
-        _: &Self::Design<T>,
-    ) -> Option<Violation<T>> {
+    fn violation<T: Real + PartialOrd>(&self, _: &Self::Inputs<T>, _: &Self::Design<T>) -> Option<Violation<T>> {
         None
     }
 
     /// The outputs, for models that have any.
-    fn outputs<T: Real>(
-        &self,
-        _: &Self::Coordinates<T>,
-        _: &Self::Inputs<T>,
-        _: &Self::Design<T>,
-    ) -> Self::Outputs<T> {
+    fn outputs<T: Real>(&self, _: &Self::Coordinates<T>, _: &Self::Inputs<T>, _: &Self::Design<T>) -> Self::Outputs<T> {
         Array::filled(T::constant(f64::NAN))
     }
 
@@ -73,12 +64,7 @@ pub trait Model: Clone + Sync {
     }
 
     /// What the excitations exert, for models that have any.
-    fn forcing<T: Real>(
-        &self,
-        _: &Self::Coordinates<T>,
-        _: &Self::Inputs<T>,
-        _: &Self::Design<T>,
-    ) -> Excited<Self, T> {
+    fn forcing<T: Real>(&self, _: &Self::Coordinates<T>, _: &Self::Inputs<T>, _: &Self::Design<T>) -> Excited<Self, T> {
         Forcing {
             cosine: Array::filled(zeros()),
             frequency: zeros(),
@@ -114,9 +100,7 @@ fn slopes<T: Real, A: Array<T>>(x: &impl Array<Dual<T>>) -> A {
     A::from_fn(|i| x.as_ref()[i].slope)
 }
 
-fn slopes_linear<X: Model, T: Real>(
-    x: Linear<Square<Derived<X>, Dual<T>>>,
-) -> Linear<Square<Derived<X>, T>> {
+fn slopes_linear<X: Model, T: Real>(x: Linear<Square<Derived<X>, Dual<T>>>) -> Linear<Square<Derived<X>, T>> {
     x.map(|matrix| Array::from_fn(|i| slopes(&matrix.as_ref()[i])))
 }
 
@@ -130,9 +114,7 @@ fn product<T: Real>(a: &[T], b: &[T]) -> T {
 
 /// `left^T matrix right`.
 fn form<T: Real, R: Array<T>>(left: &[T], matrix: &[R], right: &[T]) -> T {
-    (0..left.len()).fold(T::constant(0.0), |sum, i| {
-        sum + left[i] * product(matrix[i].as_ref(), right)
-    })
+    (0..left.len()).fold(T::constant(0.0), |sum, i| sum + left[i] * product(matrix[i].as_ref(), right))
 }
 
 /// Derivative of `function` by each coordinate, input and design variable.
@@ -146,14 +128,8 @@ macro_rules! gradient {
     };
 }
 
-fn slopes_gradient<X: Model, T: Real>(
-    x: GradientOf<Derived<X>, Dual<T>>,
-) -> GradientOf<Derived<X>, T> {
-    Gradient {
-        coordinates: slopes(&x.coordinates),
-        inputs: slopes(&x.inputs),
-        design: slopes(&x.design),
-    }
+fn slopes_gradient<X: Model, T: Real>(x: GradientOf<Derived<X>, Dual<T>>) -> GradientOf<Derived<X>, T> {
+    Gradient { coordinates: slopes(&x.coordinates), inputs: slopes(&x.inputs), design: slopes(&x.design) }
 }
 
 impl<X: Model> Mechanism for Derived<X> {
@@ -166,12 +142,7 @@ impl<X: Model> Mechanism for Derived<X> {
 
     const DESCRIPTION: Description = X::DESCRIPTION;
 
-    fn residual<T: Real>(
-        &self,
-        q: &X::Coordinates<T>,
-        u: &X::Inputs<T>,
-        b: &X::Design<T>,
-    ) -> X::Coordinates<T> {
+    fn residual<T: Real>(&self, q: &X::Coordinates<T>, u: &X::Inputs<T>, b: &X::Design<T>) -> X::Coordinates<T> {
         self.motion_residual(&zeros(), &zeros(), q, u, b)
     }
 
@@ -181,10 +152,7 @@ impl<X: Model> Mechanism for Derived<X> {
         u: &X::Inputs<T>,
         b: &X::Design<T>,
     ) -> RestParts<X::Coordinates<T>> {
-        RestParts {
-            inertia: self.0.inertia(&zeros(), &zeros(), q, u, b),
-            applied: self.0.applied(&zeros(), q, u, b),
-        }
+        RestParts { inertia: self.0.inertia(&zeros(), &zeros(), q, u, b), applied: self.0.applied(&zeros(), q, u, b) }
     }
 
     fn motion_residual<T: Real>(
@@ -209,14 +177,10 @@ impl<X: Model> Mechanism for Derived<X> {
     ) -> (Square<Self, T>, X::Coordinates<T>) {
         let (v, x, u_, b_) = (fixed(velocity), fixed(q), fixed(u), fixed(b));
         let rest: X::Coordinates<T> = zeros();
-        let by_acceleration: Square<Self, T> = Array::from_fn(|j| {
-            slopes(&self.motion_residual::<Dual<T>>(&unit(&rest, j), &v, &x, &u_, &b_))
-        });
+        let by_acceleration: Square<Self, T> =
+            Array::from_fn(|j| slopes(&self.motion_residual::<Dual<T>>(&unit(&rest, j), &v, &x, &u_, &b_)));
         let residual = self.motion_residual(&rest, velocity, q, u, b);
-        (
-            transpose(by_acceleration.as_ref()),
-            Array::from_fn(|i| -residual.as_ref()[i]),
-        )
+        (transpose(by_acceleration.as_ref()), Array::from_fn(|i| -residual.as_ref()[i]))
     }
 
     fn residual_and_stiffness<T: Real>(
@@ -225,27 +189,19 @@ impl<X: Model> Mechanism for Derived<X> {
         u: &X::Inputs<T>,
         b: &X::Design<T>,
     ) -> (X::Coordinates<T>, Square<Self, T>) {
-        let columns: Square<Self, T> = Array::from_fn(|j| {
-            slopes(&self.residual::<Dual<T>>(&unit(q, j), &fixed(u), &fixed(b)))
-        });
+        let columns: Square<Self, T> =
+            Array::from_fn(|j| slopes(&self.residual::<Dual<T>>(&unit(q, j), &fixed(u), &fixed(b))));
         (self.residual(q, u, b), transpose(columns.as_ref()))
     }
 
-    fn linear<T: Real>(
-        &self,
-        q: &X::Coordinates<T>,
-        u: &X::Inputs<T>,
-        b: &X::Design<T>,
-    ) -> Linear<Square<Self, T>> {
+    fn linear<T: Real>(&self, q: &X::Coordinates<T>, u: &X::Inputs<T>, b: &X::Design<T>) -> Linear<Square<Self, T>> {
         let (x, u_, b_) = (fixed(q), fixed(u), fixed(b));
         let rest: X::Coordinates<T> = zeros();
         let zero = fixed(&rest);
-        let by_acceleration: Square<Self, T> = Array::from_fn(|j| {
-            slopes(&self.motion_residual::<Dual<T>>(&unit(&rest, j), &zero, &x, &u_, &b_))
-        });
-        let by_velocity: Square<Self, T> = Array::from_fn(|j| {
-            slopes(&self.motion_residual::<Dual<T>>(&zero, &unit(&rest, j), &x, &u_, &b_))
-        });
+        let by_acceleration: Square<Self, T> =
+            Array::from_fn(|j| slopes(&self.motion_residual::<Dual<T>>(&unit(&rest, j), &zero, &x, &u_, &b_)));
+        let by_velocity: Square<Self, T> =
+            Array::from_fn(|j| slopes(&self.motion_residual::<Dual<T>>(&zero, &unit(&rest, j), &x, &u_, &b_)));
         Linear {
             mass: transpose(by_acceleration.as_ref()),
             damping: transpose(by_velocity.as_ref()),
@@ -259,12 +215,10 @@ impl<X: Model> Mechanism for Derived<X> {
         u: &X::Inputs<T>,
         b: &X::Design<T>,
     ) -> ResidualPartialsOf<Self, T> {
-        let by_input: X::Inputs<X::Coordinates<T>> = Array::from_fn(|j| {
-            slopes(&self.residual::<Dual<T>>(&fixed(q), &unit(u, j), &fixed(b)))
-        });
-        let by_design: X::Design<X::Coordinates<T>> = Array::from_fn(|j| {
-            slopes(&self.residual::<Dual<T>>(&fixed(q), &fixed(u), &unit(b, j)))
-        });
+        let by_input: X::Inputs<X::Coordinates<T>> =
+            Array::from_fn(|j| slopes(&self.residual::<Dual<T>>(&fixed(q), &unit(u, j), &fixed(b))));
+        let by_design: X::Design<X::Coordinates<T>> =
+            Array::from_fn(|j| slopes(&self.residual::<Dual<T>>(&fixed(q), &fixed(u), &unit(b, j))));
         (transpose(by_input.as_ref()), transpose(by_design.as_ref()))
     }
 
@@ -275,15 +229,9 @@ impl<X: Model> Mechanism for Derived<X> {
         b: &X::Design<T>,
     ) -> PartialsOf<Self, T> {
         LinearPartials {
-            by_coordinate: Array::from_fn(|j| {
-                slopes_linear::<X, T>(self.linear(&unit(q, j), &fixed(u), &fixed(b)))
-            }),
-            by_input: Array::from_fn(|j| {
-                slopes_linear::<X, T>(self.linear(&fixed(q), &unit(u, j), &fixed(b)))
-            }),
-            by_design: Array::from_fn(|j| {
-                slopes_linear::<X, T>(self.linear(&fixed(q), &fixed(u), &unit(b, j)))
-            }),
+            by_coordinate: Array::from_fn(|j| slopes_linear::<X, T>(self.linear(&unit(q, j), &fixed(u), &fixed(b)))),
+            by_input: Array::from_fn(|j| slopes_linear::<X, T>(self.linear(&fixed(q), &unit(u, j), &fixed(b)))),
+            by_design: Array::from_fn(|j| slopes_linear::<X, T>(self.linear(&fixed(q), &fixed(u), &unit(b, j)))),
         }
     }
 
@@ -307,14 +255,13 @@ impl<X: Model> Mechanism for Derived<X> {
         phi: &X::Coordinates<T>,
         lambda: T,
     ) -> GradientOf<Self, T> {
-        let functional =
-            |q: &X::Coordinates<Dual<T>>, u: &X::Inputs<Dual<T>>, b: &X::Design<Dual<T>>| {
-                let linear = self.linear(q, u, b);
-                let phi: X::Coordinates<Dual<T>> = fixed(phi);
-                let stiffness = form(phi.as_ref(), linear.stiffness.as_ref(), phi.as_ref());
-                let mass = form(phi.as_ref(), linear.mass.as_ref(), phi.as_ref());
-                stiffness - Dual::fixed(lambda) * mass
-            };
+        let functional = |q: &X::Coordinates<Dual<T>>, u: &X::Inputs<Dual<T>>, b: &X::Design<Dual<T>>| {
+            let linear = self.linear(q, u, b);
+            let phi: X::Coordinates<Dual<T>> = fixed(phi);
+            let stiffness = form(phi.as_ref(), linear.stiffness.as_ref(), phi.as_ref());
+            let mass = form(phi.as_ref(), linear.mass.as_ref(), phi.as_ref());
+            stiffness - Dual::fixed(lambda) * mass
+        };
         gradient!(q, u, b, functional)
     }
 
@@ -330,9 +277,7 @@ impl<X: Model> Mechanism for Derived<X> {
     ) -> GradientOf<Self, T> {
         // The derivative of `left^T g` along the three vectors, taken at rest.
         let rest: X::Coordinates<Dual<T>> = zeros();
-        let functional = |q: &X::Coordinates<Dual<T>>,
-                          u: &X::Inputs<Dual<T>>,
-                          b: &X::Design<Dual<T>>| {
+        let functional = |q: &X::Coordinates<Dual<T>>, u: &X::Inputs<Dual<T>>, b: &X::Design<Dual<T>>| {
             let [acceleration, velocity, position] =
                 [acceleration, velocity, position].map(fixed::<T, X::Coordinates<Dual<T>>>);
             let change: X::Coordinates<Dual<T>> = slopes(&self.motion_residual::<Dual<Dual<T>>>(
@@ -355,11 +300,10 @@ impl<X: Model> Mechanism for Derived<X> {
         b: &X::Design<T>,
         w: &X::Coordinates<T>,
     ) -> GradientOf<Self, T> {
-        let functional =
-            |q: &X::Coordinates<Dual<T>>, u: &X::Inputs<Dual<T>>, b: &X::Design<Dual<T>>| {
-                let w: X::Coordinates<Dual<T>> = fixed(w);
-                product(w.as_ref(), self.residual(q, u, b).as_ref())
-            };
+        let functional = |q: &X::Coordinates<Dual<T>>, u: &X::Inputs<Dual<T>>, b: &X::Design<Dual<T>>| {
+            let w: X::Coordinates<Dual<T>> = fixed(w);
+            product(w.as_ref(), self.residual(q, u, b).as_ref())
+        };
         gradient!(q, u, b, functional)
     }
 
@@ -424,28 +368,14 @@ impl<X: Model> Mechanism for Derived<X> {
         db: &X::Design<T>,
         dw: &X::Coordinates<T>,
     ) -> GradientOf<Self, T> {
-        slopes_gradient::<X, T>(self.residual_gradient(
-            &along(q, dq),
-            &along(u, du),
-            &along(b, db),
-            &along(w, dw),
-        ))
+        slopes_gradient::<X, T>(self.residual_gradient(&along(q, dq), &along(u, du), &along(b, db), &along(w, dw)))
     }
 
-    fn violation<T: Real + PartialOrd>(
-        &self,
-        u: &X::Inputs<T>,
-        b: &X::Design<T>,
-    ) -> Option<Violation<T>> {
+    fn violation<T: Real + PartialOrd>(&self, u: &X::Inputs<T>, b: &X::Design<T>) -> Option<Violation<T>> {
         self.0.violation(u, b)
     }
 
-    fn outputs<T: Real>(
-        &self,
-        q: &X::Coordinates<T>,
-        u: &X::Inputs<T>,
-        b: &X::Design<T>,
-    ) -> X::Outputs<T> {
+    fn outputs<T: Real>(&self, q: &X::Coordinates<T>, u: &X::Inputs<T>, b: &X::Design<T>) -> X::Outputs<T> {
         self.0.outputs(q, u, b)
     }
 
@@ -454,30 +384,17 @@ impl<X: Model> Mechanism for Derived<X> {
         q: &X::Coordinates<T>,
         u: &X::Inputs<T>,
         b: &X::Design<T>,
-    ) -> (
-        X::Outputs<X::Coordinates<T>>,
-        X::Outputs<X::Inputs<T>>,
-        X::Outputs<X::Design<T>>,
-    ) {
+    ) -> (X::Outputs<X::Coordinates<T>>, X::Outputs<X::Inputs<T>>, X::Outputs<X::Design<T>>) {
         let by_coordinate: X::Coordinates<X::Outputs<T>> =
             Array::from_fn(|j| slopes(&self.outputs::<Dual<T>>(&unit(q, j), &fixed(u), &fixed(b))));
         let by_input: X::Inputs<X::Outputs<T>> =
             Array::from_fn(|j| slopes(&self.outputs::<Dual<T>>(&fixed(q), &unit(u, j), &fixed(b))));
         let by_design: X::Design<X::Outputs<T>> =
             Array::from_fn(|j| slopes(&self.outputs::<Dual<T>>(&fixed(q), &fixed(u), &unit(b, j))));
-        (
-            transpose(by_coordinate.as_ref()),
-            transpose(by_input.as_ref()),
-            transpose(by_design.as_ref()),
-        )
+        (transpose(by_coordinate.as_ref()), transpose(by_input.as_ref()), transpose(by_design.as_ref()))
     }
 
-    fn forcing<T: Real>(
-        &self,
-        q: &X::Coordinates<T>,
-        u: &X::Inputs<T>,
-        b: &X::Design<T>,
-    ) -> Excited<X, T> {
+    fn forcing<T: Real>(&self, q: &X::Coordinates<T>, u: &X::Inputs<T>, b: &X::Design<T>) -> Excited<X, T> {
         self.0.forcing(q, u, b)
     }
 
@@ -495,13 +412,7 @@ impl<X: Model> Mechanism for Derived<X> {
                 let (mut motion, moved) = ([still, still, x], [&rest, &rest, q][index]);
                 motion[index] = unit(moved, j);
                 let [acceleration, velocity, position] = &motion;
-                slopes(&(self.0).moving_outputs::<Dual<T>>(
-                    acceleration,
-                    velocity,
-                    position,
-                    &u,
-                    &b,
-                ))
+                slopes(&(self.0).moving_outputs::<Dual<T>>(acceleration, velocity, position, &u, &b))
             });
             transpose(columns.as_ref())
         };
@@ -524,12 +435,9 @@ impl<X: Model> Mechanism for Derived<X> {
         direct_sine: &X::Outputs<T>,
         frequency: &X::Excitations<T>,
     ) -> GradientOf<Self, T> {
-        let functional = |q: &X::Coordinates<Dual<T>>,
-                          u: &X::Inputs<Dual<T>>,
-                          b: &X::Design<Dual<T>>| {
+        let functional = |q: &X::Coordinates<Dual<T>>, u: &X::Inputs<Dual<T>>, b: &X::Design<Dual<T>>| {
             let [acceleration, velocity, position, cosine, sine] =
-                [acceleration, velocity, position, cosine, sine]
-                    .map(fixed::<T, X::Coordinates<Dual<T>>>);
+                [acceleration, velocity, position, cosine, sine].map(fixed::<T, X::Coordinates<Dual<T>>>);
             let [output, direct_cosine, direct_sine] =
                 [output, direct_cosine, direct_sine].map(fixed::<T, X::Outputs<Dual<T>>>);
             let [share, frequency] = [share, frequency].map(fixed::<T, X::Excitations<Dual<T>>>);
@@ -541,16 +449,8 @@ impl<X: Model> Mechanism for Derived<X> {
             sum = sum
                 + form(share.as_ref(), forces.cosine.as_ref(), cosine.as_ref())
                 + form(share.as_ref(), forces.sine.as_ref(), sine.as_ref())
-                + form(
-                    share.as_ref(),
-                    forces.direct_cosine.as_ref(),
-                    direct_cosine.as_ref(),
-                )
-                + form(
-                    share.as_ref(),
-                    forces.direct_sine.as_ref(),
-                    direct_sine.as_ref(),
-                );
+                + form(share.as_ref(), forces.direct_cosine.as_ref(), direct_cosine.as_ref())
+                + form(share.as_ref(), forces.direct_sine.as_ref(), direct_sine.as_ref());
             sum + product(frequency.as_ref(), forces.frequency.as_ref())
         };
         gradient!(q, u, b, functional)

@@ -18,17 +18,11 @@ impl<T: Real> Dual<T> {
     }
 
     pub fn fixed(value: T) -> Self {
-        Self {
-            value,
-            slope: T::constant(0.0),
-        }
+        Self { value, slope: T::constant(0.0) }
     }
 
     fn chain(self, value: T, derivative: T) -> Self {
-        Self {
-            value,
-            slope: self.slope * derivative,
-        }
+        Self { value, slope: self.slope * derivative }
     }
 }
 
@@ -49,10 +43,7 @@ impl<T: Real> Sub for Dual<T> {
 impl<T: Real> Mul for Dual<T> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self::new(
-            self.value * other.value,
-            self.slope * other.value + self.value * other.slope,
-        )
+        Self::new(self.value * other.value, self.slope * other.value + self.value * other.slope)
     }
 }
 
@@ -101,17 +92,11 @@ impl<T: Real> Real for Dual<T> {
     }
     fn asin(self) -> Self {
         let one = T::constant(1.0);
-        self.chain(
-            self.value.asin(),
-            one / (one - self.value * self.value).sqrt(),
-        )
+        self.chain(self.value.asin(), one / (one - self.value * self.value).sqrt())
     }
     fn acos(self) -> Self {
         let one = T::constant(1.0);
-        self.chain(
-            self.value.acos(),
-            -(one / (one - self.value * self.value).sqrt()),
-        )
+        self.chain(self.value.acos(), -(one / (one - self.value * self.value).sqrt()))
     }
     fn atan2(self, x: Self) -> Self {
         let square = self.value * self.value + x.value * x.value;

@@ -1,10 +1,5 @@
 //! Hand-written mechanisms, independent of the compiler.
-#![allow(
-    dead_code,
-    unreachable_pub,
-    unused_imports,
-    reason = "each test uses some of it"
-)]
+#![allow(dead_code, unreachable_pub, unused_imports, reason = "each test uses some of it")]
 
 /// The numbers of unknowns, inputs, design variables, outputs and excitations of a mechanism.
 macro_rules! sizes {
@@ -30,93 +25,43 @@ pub mod pendulum;
 pub mod priced;
 
 use eigentol::response::Response;
-use eigentol::{
-    CoordinateInfo, DesignInfo, InputInfo, Quantity, Role, Shared, ToleranceInfo, Unit, Violation,
-};
+use eigentol::{CoordinateInfo, DesignInfo, InputInfo, Quantity, Role, Shared, ToleranceInfo, Unit, Violation};
 
-pub const RAD: Unit = Unit {
-    symbol: Shared::Static("rad"),
-    scale: 1.0,
-};
-pub const METRE: Unit = Unit {
-    symbol: Shared::Static("m"),
-    scale: 1.0,
-};
-pub const KILOGRAM: Unit = Unit {
-    symbol: Shared::Static("kg"),
-    scale: 1.0,
-};
-pub const SPEED: Unit = Unit {
-    symbol: Shared::Static("rad/s"),
-    scale: 1.0,
-};
-pub const STIFFNESS: Unit = Unit {
-    symbol: Shared::Static("N/m"),
-    scale: 1.0,
-};
-pub const NUMBER: Unit = Unit {
-    symbol: Shared::Static(""),
-    scale: 1.0,
-};
+pub const RAD: Unit = Unit { symbol: Shared::Static("rad"), scale: 1.0 };
+pub const METRE: Unit = Unit { symbol: Shared::Static("m"), scale: 1.0 };
+pub const KILOGRAM: Unit = Unit { symbol: Shared::Static("kg"), scale: 1.0 };
+pub const SPEED: Unit = Unit { symbol: Shared::Static("rad/s"), scale: 1.0 };
+pub const STIFFNESS: Unit = Unit { symbol: Shared::Static("N/m"), scale: 1.0 };
+pub const NUMBER: Unit = Unit { symbol: Shared::Static(""), scale: 1.0 };
 
 /// Standard gravity as given in the paper, m/s^2.
 pub const GRAVITY: f64 = 9.81;
 
 /// The frequency of the first mode.
-pub const FREQUENCY: Response = Response::Mode {
-    mode: 0,
-    quantity: Quantity::Frequency,
-};
+pub const FREQUENCY: Response = Response::Mode { mode: 0, quantity: Quantity::Frequency };
 
 pub const fn coordinate(name: &'static str, unit: Unit) -> CoordinateInfo {
-    CoordinateInfo {
-        name: Shared::Static(name),
-        unit,
-        role: Role::Position,
-    }
+    CoordinateInfo { name: Shared::Static(name), unit, role: Role::Position }
 }
 
 pub const fn input(name: &'static str, unit: Unit) -> InputInfo {
-    InputInfo {
-        name: Shared::Static(name),
-        unit,
-        tolerance: ToleranceInfo::NONE,
-    }
+    InputInfo { name: Shared::Static(name), unit, tolerance: ToleranceInfo::NONE }
 }
 
 pub const fn design(name: &'static str, unit: Unit, nominal: f64, tolerance: f64) -> DesignInfo {
-    DesignInfo {
-        name: Shared::Static(name),
-        unit,
-        nominal,
-        tolerance: ToleranceInfo::half_width(tolerance),
-    }
+    DesignInfo { name: Shared::Static(name), unit, nominal, tolerance: ToleranceInfo::half_width(tolerance) }
 }
 
 /// The first of `values` that is not positive.
-pub fn positive<T: eigentol::Real + PartialOrd>(
-    values: &[(T, &'static str)],
-) -> Option<Violation<T>> {
+pub fn positive<T: eigentol::Real + PartialOrd>(values: &[(T, &'static str)]) -> Option<Violation<T>> {
     values
         .iter()
-        .find(|(value, _)| {
-            !matches!(
-                value.partial_cmp(&T::constant(0.0)),
-                Some(std::cmp::Ordering::Greater)
-            )
-        })
-        .map(|&(value, quantity)| Violation {
-            quantity: quantity.into(),
-            requirement: "positive".into(),
-            value,
-        })
+        .find(|(value, _)| !matches!(value.partial_cmp(&T::constant(0.0)), Some(std::cmp::Ordering::Greater)))
+        .map(|&(value, quantity)| Violation { quantity: quantity.into(), requirement: "positive".into(), value })
 }
 
 #[track_caller]
 pub fn close(actual: f64, expected: f64, relative: f64) {
     let scale = expected.abs().max(1e-12);
-    assert!(
-        (actual - expected).abs() <= relative * scale,
-        "{actual:e} is not {expected:e} to {relative:e}"
-    );
+    assert!((actual - expected).abs() <= relative * scale, "{actual:e} is not {expected:e} to {relative:e}");
 }

@@ -33,35 +33,18 @@ impl Model for Plate {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 2],
-        v: &[T; 2],
-        q: &[T; 2],
-        u: &[T; 1],
-        b: &[T; 4],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, a: &[T; 2], v: &[T; 2], q: &[T; 2], u: &[T; 1], b: &[T; 4]) -> [T; 2] {
         let two = T::constant(2.0);
         let square = u[0] * u[0];
-        [
-            b[0] * (a[0] - two * u[0] * v[1] - square * q[0]),
-            b[0] * (a[1] + two * u[0] * v[0] - square * q[1]),
-        ]
+        [b[0] * (a[0] - two * u[0] * v[1] - square * q[0]), b[0] * (a[1] + two * u[0] * v[0] - square * q[1])]
     }
 
     fn applied<T: Real>(&self, v: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 4]) -> [T; 2] {
-        [
-            b[1] * (T::constant(0.1) - q[0]) - b[3] * v[0],
-            b[2] * (T::constant(0.02) - q[1]) - b[3] * v[1],
-        ]
+        [b[1] * (T::constant(0.1) - q[0]) - b[3] * v[0], b[2] * (T::constant(0.02) - q[1]) - b[3] * v[1]]
     }
 
     fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], b: &[T; 4]) -> Option<Violation<T>> {
-        positive(&[
-            (b[0], "mass"),
-            (b[1], "stiffness kx"),
-            (b[2], "stiffness ky"),
-        ])
+        positive(&[(b[0], "mass"), (b[1], "stiffness kx"), (b[2], "stiffness ky")])
     }
 }
 
@@ -92,14 +75,7 @@ impl Model for Spring {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 1],
-        _: &[T; 1],
-        _: &[T; 1],
-        _: &[T; 1],
-        b: &[T; 3],
-    ) -> [T; 1] {
+    fn inertia<T: Real>(&self, a: &[T; 1], _: &[T; 1], _: &[T; 1], _: &[T; 1], b: &[T; 3]) -> [T; 1] {
         [b[0] * a[0]]
     }
 
@@ -130,23 +106,13 @@ impl Model for Follower {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 2],
-        _: &[T; 2],
-        _: &[T; 2],
-        _: &[T; 1],
-        _: &[T; 1],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, a: &[T; 2], _: &[T; 2], _: &[T; 2], _: &[T; 1], _: &[T; 1]) -> [T; 2] {
         [T::constant(3.0) * a[0] + a[1], a[0] + a[1]]
     }
 
     fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], u: &[T; 1], b: &[T; 1]) -> [T; 2] {
         let k = b[0];
-        [
-            u[0] * (q[0] - q[1]).sin() - k * (q[0] + q[0] - q[1]),
-            -(k * (q[1] - q[0])),
-        ]
+        [u[0] * (q[0] - q[1]).sin() - k * (q[0] + q[0] - q[1]), -(k * (q[1] - q[0]))]
     }
 
     fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], b: &[T; 1]) -> Option<Violation<T>> {
@@ -180,14 +146,7 @@ impl Model for Pair {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 2],
-        _: &[T; 2],
-        _: &[T; 2],
-        _: &[T; 0],
-        _: &[T; 3],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, a: &[T; 2], _: &[T; 2], _: &[T; 2], _: &[T; 0], _: &[T; 3]) -> [T; 2] {
         *a
     }
 
@@ -205,11 +164,7 @@ impl Model for Triple {
 
     const DESCRIPTION: Description = Description {
         name: Shared::Static("Triple"),
-        coordinates: Shared::Static(&[
-            coordinate("x", METRE),
-            coordinate("y", METRE),
-            coordinate("z", METRE),
-        ]),
+        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE), coordinate("z", METRE)]),
         inputs: Shared::Static(&[]),
         design: Shared::Static(&[
             design("k1", STIFFNESS, 100.0, 3.0),
@@ -229,14 +184,7 @@ impl Model for Triple {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 3],
-        _: &[T; 3],
-        _: &[T; 3],
-        _: &[T; 0],
-        _: &[T; 6],
-    ) -> [T; 3] {
+    fn inertia<T: Real>(&self, a: &[T; 3], _: &[T; 3], _: &[T; 3], _: &[T; 0], _: &[T; 6]) -> [T; 3] {
         *a
     }
 
@@ -277,20 +225,10 @@ impl Model for Slipping {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 2],
-        v: &[T; 2],
-        q: &[T; 2],
-        u: &[T; 1],
-        b: &[T; 3],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, a: &[T; 2], v: &[T; 2], q: &[T; 2], u: &[T; 1], b: &[T; 3]) -> [T; 2] {
         let speed = u[0] + v[1];
         let coriolis = T::constant(2.0) * v[0] * speed;
-        [
-            b[0] * (a[0] - q[0] * speed * speed),
-            b[0] * q[0] * (q[0] * a[1] + coriolis),
-        ]
+        [b[0] * (a[0] - q[0] * speed * speed), b[0] * q[0] * (q[0] * a[1] + coriolis)]
     }
 
     fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 3]) -> [T; 2] {
@@ -322,19 +260,9 @@ impl Model for Supercritical {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 2],
-        v: &[T; 2],
-        q: &[T; 2],
-        u: &[T; 1],
-        _: &[T; 1],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, a: &[T; 2], v: &[T; 2], q: &[T; 2], u: &[T; 1], _: &[T; 1]) -> [T; 2] {
         let (two, square) = (T::constant(2.0), u[0] * u[0]);
-        [
-            a[0] - two * u[0] * v[1] - square * q[0],
-            a[1] + two * u[0] * v[0] - square * q[1],
-        ]
+        [a[0] - two * u[0] * v[1] - square * q[0], a[1] + two * u[0] * v[0] - square * q[1]]
     }
 
     fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 1]) -> [T; 2] {
@@ -366,14 +294,7 @@ impl Model for Overdamped {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 2],
-        _: &[T; 2],
-        _: &[T; 2],
-        _: &[T; 1],
-        _: &[T; 0],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, a: &[T; 2], _: &[T; 2], _: &[T; 2], _: &[T; 1], _: &[T; 0]) -> [T; 2] {
         *a
     }
 
@@ -383,9 +304,6 @@ impl Model for Overdamped {
             let away = u[0] - c(at);
             c(peak) / (c(1.0) + c(4.0) * away * away)
         };
-        [
-            -(q[0] + bump(4.0, 1.0) * v[0]),
-            -(c(4.0) * q[1] + bump(8.0, 3.0) * v[1]),
-        ]
+        [-(q[0] + bump(4.0, 1.0) * v[0]), -(c(4.0) * q[1] + bump(8.0, 3.0) * v[1])]
     }
 }

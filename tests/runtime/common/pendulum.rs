@@ -2,8 +2,8 @@
 //! `g = J (qddot - Omega^2 sin q cos q) + m g L/2 sin q`, `J = m L^2/3`. Design variables: `m`, `l`.
 
 use eigentol::{
-    DampingKind, Description, Gradient, GradientOf, Linear, LinearPartials, Mechanism, OutputInfo,
-    PartialsOf, Real, RestParts, Shared, Violation,
+    DampingKind, Description, Gradient, GradientOf, Linear, LinearPartials, Mechanism, OutputInfo, PartialsOf, Real,
+    RestParts, Shared, Violation,
 };
 
 use super::dual::Dual;
@@ -25,11 +25,7 @@ fn moments<T: Real>(b: &[T; 2]) -> (T, T) {
 }
 
 fn one<T: Real>(mass: T, stiffness: T) -> Linear<[[T; 1]; 1]> {
-    Linear {
-        mass: [[mass]],
-        damping: [[c(0.0)]],
-        stiffness: [[stiffness]],
-    }
+    Linear { mass: [[mass]], damping: [[c(0.0)]], stiffness: [[stiffness]] }
 }
 
 fn lift<T: Real, const C: usize>(x: &[T; C], dx: &[T; C]) -> [Dual<T>; C] {
@@ -52,15 +48,9 @@ impl Mechanism for Pendulum {
         name: Shared::Static("Pendulum"),
         coordinates: Shared::Static(&[coordinate("theta", RAD)]),
         inputs: Shared::Static(&[input("omega", SPEED)]),
-        design: Shared::Static(&[
-            design("m", KILOGRAM, 3.0, 0.0),
-            design("l", METRE, 1.0, 0.03),
-        ]),
+        design: Shared::Static(&[design("m", KILOGRAM, 3.0, 0.0), design("l", METRE, 1.0, 0.03)]),
         excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[OutputInfo {
-            name: Shared::Static("tip_radius"),
-            unit: METRE,
-        }]),
+        outputs: Shared::Static(&[OutputInfo { name: Shared::Static("tip_radius"), unit: METRE }]),
         symmetric_stiffness: true,
         free_directions: 0,
         held: Shared::Static(&[]),
@@ -76,10 +66,7 @@ impl Mechanism for Pendulum {
 
     fn residual_parts<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> RestParts<[T; 1]> {
         let ((sin, cos), (j, s)) = (q[0].sin_cos(), moments(b));
-        RestParts {
-            inertia: [-(j * u[0] * u[0] * sin * cos)],
-            applied: [-(s * sin)],
-        }
+        RestParts { inertia: [-(j * u[0] * u[0] * sin * cos)], applied: [-(s * sin)] }
     }
 
     fn motion_residual<T: Real>(
@@ -93,40 +80,21 @@ impl Mechanism for Pendulum {
         [moments(b).0 * acceleration[0] + self.residual(q, u, b)[0]]
     }
 
-    fn motion<T: Real>(
-        &self,
-        _: &[T; 1],
-        q: &[T; 1],
-        u: &[T; 1],
-        b: &[T; 2],
-    ) -> ([[T; 1]; 1], [T; 1]) {
+    fn motion<T: Real>(&self, _: &[T; 1], q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> ([[T; 1]; 1], [T; 1]) {
         ([[moments(b).0]], [-self.residual(q, u, b)[0]])
     }
 
-    fn residual_and_stiffness<T: Real>(
-        &self,
-        q: &[T; 1],
-        u: &[T; 1],
-        b: &[T; 2],
-    ) -> ([T; 1], [[T; 1]; 1]) {
+    fn residual_and_stiffness<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> ([T; 1], [[T; 1]; 1]) {
         let ((sin, cos), (j, s)) = (q[0].sin_cos(), moments(b));
         let j_u = j * u[0] * u[0];
-        (
-            [sin * (s - j_u * cos)],
-            [[s * cos - j_u * (cos * cos - sin * sin)]],
-        )
+        ([sin * (s - j_u * cos)], [[s * cos - j_u * (cos * cos - sin * sin)]])
     }
 
     fn linear<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> Linear<[[T; 1]; 1]> {
         one(moments(b).0, self.residual_and_stiffness(q, u, b).1[0][0])
     }
 
-    fn residual_partials<T: Real>(
-        &self,
-        q: &[T; 1],
-        u: &[T; 1],
-        b: &[T; 2],
-    ) -> ([[T; 1]; 1], [[T; 2]; 1]) {
+    fn residual_partials<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> ([[T; 1]; 1], [[T; 2]; 1]) {
         let gradient = self.residual_gradient(q, u, b, &[c(1.0)]);
         ([gradient.inputs], [gradient.design])
     }
@@ -194,9 +162,8 @@ impl Mechanism for Pendulum {
         position: &[T; 1],
     ) -> GradientOf<Self, T> {
         let p = self.linear_partials(q, u, b);
-        let value = |x: &Linear<[[T; 1]; 1]>| {
-            left[0] * (x.mass[0][0] * acceleration[0] + x.stiffness[0][0] * position[0])
-        };
+        let value =
+            |x: &Linear<[[T; 1]; 1]>| left[0] * (x.mass[0][0] * acceleration[0] + x.stiffness[0][0] * position[0]);
         Gradient {
             coordinates: [value(&p.by_coordinate[0])],
             inputs: [value(&p.by_input[0])],
@@ -204,23 +171,14 @@ impl Mechanism for Pendulum {
         }
     }
 
-    fn residual_gradient<T: Real>(
-        &self,
-        q: &[T; 1],
-        u: &[T; 1],
-        b: &[T; 2],
-        w: &[T; 1],
-    ) -> GradientOf<Self, T> {
+    fn residual_gradient<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2], w: &[T; 1]) -> GradientOf<Self, T> {
         let ((sin, cos), (j, s)) = (q[0].sin_cos(), moments(b));
         let (residual, stiffness) = self.residual_and_stiffness(q, u, b);
         let two = c::<T>(2.0);
         Gradient {
             coordinates: [w[0] * stiffness[0][0]],
             inputs: [-(w[0] * two * j * u[0] * sin * cos)],
-            design: [
-                w[0] * residual[0] / b[0],
-                w[0] * sin * (s - two * j * u[0] * u[0] * cos) / b[1],
-            ],
+            design: [w[0] * residual[0] / b[0], w[0] * sin * (s - two * j * u[0] * u[0] * cos) / b[1]],
         }
     }
 
@@ -296,12 +254,7 @@ impl Mechanism for Pendulum {
         [b[1] * q[0].sin()]
     }
 
-    fn output_partials<T: Real>(
-        &self,
-        q: &[T; 1],
-        _: &[T; 1],
-        b: &[T; 2],
-    ) -> ([[T; 1]; 1], [[T; 1]; 1], [[T; 2]; 1]) {
+    fn output_partials<T: Real>(&self, q: &[T; 1], _: &[T; 1], b: &[T; 2]) -> ([[T; 1]; 1], [[T; 1]; 1], [[T; 2]; 1]) {
         let (sin, cos) = q[0].sin_cos();
         ([[b[1] * cos]], [[c(0.0)]], [[c(0.0), sin]])
     }

@@ -33,30 +33,17 @@ fn the_critical_speed_of_a_bar_by_its_tip() {
     let start = [0.3, 0.9, 0.0];
     let found = critical_state(&mechanism, &[0.0], &b, &start, through(0.5, 6.0)).unwrap();
     near(found.value, speed, 1e-13, speed);
-    assert_eq!(
-        found.kind,
-        SpecialKind::Pitchfork {
-            supercritical: Some(true)
-        }
-    );
+    assert_eq!(found.kind, SpecialKind::Pitchfork { supercritical: Some(true) });
     assert_eq!(found.equilibrium.stability, Stability::Neutral { zero: 1 });
     all_near(&found.v, &[1.0, 0.0, 0.0], 1e-9);
-    all_near(
-        &critical_sensitivity(&mechanism, &found).unwrap(),
-        &slopes,
-        1e-9,
-    );
+    all_near(&critical_sensitivity(&mechanism, &found).unwrap(), &slopes, 1e-9);
 
     // The same bar with its length stated twice.
     let twice = Derived(Bar::<2>);
     let start = [0.3, 0.9, 0.0, 0.0];
     let found = critical_state(&twice, &[0.0], &b, &start, through(0.5, 6.0)).unwrap();
     near(found.value, speed, 1e-13, speed);
-    all_near(
-        &critical_sensitivity(&twice, &found).unwrap(),
-        &slopes,
-        1e-9,
-    );
+    all_near(&critical_sensitivity(&twice, &found).unwrap(), &slopes, 1e-9);
 }
 
 /// Second derivatives of `(3 g / 2 L)^(1/2)` with a constraint stated once and twice, and of a limit point in minimal
@@ -64,13 +51,7 @@ fn the_critical_speed_of_a_bar_by_its_tip() {
 #[test]
 fn critical_values_bend_with_the_design() {
     let bar = |machine: &dyn CurvatureKernels, start: &[f64]| {
-        let found = Case {
-            machine,
-            b: &nominal::<Bar<1>>(),
-            start,
-            between: (0.5, 6.0),
-        }
-        .curvature();
+        let found = Case { machine, b: &nominal::<Bar<1>>(), start, between: (0.5, 6.0) }.curvature();
         let (speed, _) = critical();
         let g = 9.81;
         let mixed = -0.25 * speed / g;
@@ -81,13 +62,7 @@ fn critical_values_bend_with_the_design() {
     bar(&Derived(Bar::<1>), &[0.3, 0.9, 0.0]);
     bar(&Derived(Bar::<2>), &[0.3, 0.9, 0.0, 0.0]);
     let press = |machine: &dyn CurvatureKernels, start: &[f64]| {
-        Case {
-            machine,
-            b: &nominal::<Press>(),
-            start,
-            between: (1.0, 40.0),
-        }
-        .curvature()
+        Case { machine, b: &nominal::<Press>(), start, between: (1.0, 40.0) }.curvature()
     };
     let angle = press(&Derived(PressByAngle), &[0.8]);
     let own = press(&Derived(Press), &[0.8, 0.61, 0.0]);
@@ -100,14 +75,7 @@ fn critical_values_bend_with_the_design() {
 fn a_bar_by_its_tip_has_both_arms_of_its_pitchfork() {
     let b = nominal::<Bar<1>>();
     let settings = Continuation::new(OMEGA, 1.0, 8.0);
-    let found = branches(
-        &Derived(Bar::<1>),
-        &[0.0],
-        &b,
-        &[0.1, 1.0, 0.0],
-        &settings,
-        None,
-    );
+    let found = branches(&Derived(Bar::<1>), &[0.0], &b, &[0.1, 1.0, 0.0], &settings, None);
     let found = found.unwrap();
     assert_eq!(found.branches.len(), 3);
     let (speed, _) = critical();
@@ -118,9 +86,7 @@ fn a_bar_by_its_tip_has_both_arms_of_its_pitchfork() {
     for branch in &found.branches {
         assert!(branch.points.len() < 80, "{} points", branch.points.len());
         for point in &branch.points {
-            let [x, z, force] = point.equilibrium.coordinates[..] else {
-                panic!("three unknowns")
-            };
+            let [x, z, force] = point.equilibrium.coordinates[..] else { panic!("three unknowns") };
             near(x.hypot(z), 1.0, 1e-12, 1.0);
             let omega = point.value;
             if x.abs() > 1e-6 {
@@ -135,13 +101,7 @@ fn a_bar_by_its_tip_has_both_arms_of_its_pitchfork() {
             }
         }
         if branch.ends.contains(&BranchEnd::BranchPoint) {
-            ends.push(
-                branch
-                    .points
-                    .iter()
-                    .map(|point| point.equilibrium.coordinates[0])
-                    .sum::<f64>(),
-            );
+            ends.push(branch.points.iter().map(|point| point.equilibrium.coordinates[0]).sum::<f64>());
         }
     }
     assert_eq!(ends.len(), 2);
@@ -151,14 +111,7 @@ fn a_bar_by_its_tip_has_both_arms_of_its_pitchfork() {
 #[test]
 fn a_press_gives_way_at_its_greatest_torque() {
     let b = nominal::<Press>();
-    let angle = critical_state(
-        &Derived(PressByAngle),
-        &[0.0],
-        &b,
-        &[0.8],
-        through(0.0, 40.0),
-    )
-    .unwrap();
+    let angle = critical_state(&Derived(PressByAngle), &[0.0], &b, &[0.8], through(0.0, 40.0)).unwrap();
     assert_eq!(angle.kind, SpecialKind::Fold);
     let start = [0.8, 0.61, 0.0];
     let own = critical_state(&Derived(Press), &[0.0], &b, &start, through(0.0, 40.0)).unwrap();
@@ -179,27 +132,9 @@ fn a_press_gives_way_at_its_greatest_torque() {
 fn resonances_lie_where_minimal_coordinates_have_them() {
     let b = nominal::<Chain>();
     let range = through(0.1, 5.0);
-    let other = crossings(
-        &Derived(ChainByAngles),
-        &[0.0],
-        &b,
-        &[0.3, 0.4],
-        Policy::Stable,
-        range,
-        2.0,
-    )
-    .unwrap();
+    let other = crossings(&Derived(ChainByAngles), &[0.0], &b, &[0.3, 0.4], Policy::Stable, range, 2.0).unwrap();
     let start = [0.24, 0.76, 0.5, 1.2, 0.0, 0.0];
-    let own = crossings(
-        &Derived(Chain),
-        &[0.0],
-        &b,
-        &start,
-        Policy::Stable,
-        range,
-        2.0,
-    )
-    .unwrap();
+    let own = crossings(&Derived(Chain), &[0.0], &b, &start, Policy::Stable, range, 2.0).unwrap();
     assert!(!other.is_empty());
     assert_eq!(own.len(), other.len());
     for (own, other) in own.iter().zip(&other) {

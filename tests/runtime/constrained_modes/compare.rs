@@ -3,9 +3,7 @@
 use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::modes;
 use eigentol::second_order::mode_curvature;
-use eigentol::sensitivity::{
-    Quantity, sensitivities, sensitivities_by_finite_difference, sensitivities_explicit,
-};
+use eigentol::sensitivity::{Quantity, sensitivities, sensitivities_by_finite_difference, sensitivities_explicit};
 use eigentol::{Array, Equilibrium, Modes, Policy, Sensitivities, equilibrium::equilibrium};
 
 use crate::common::derived::{Derived, Model};
@@ -30,21 +28,13 @@ impl State {
         let mechanism = Box::new(Derived(model));
         let at = equilibrium(&*mechanism, u, b, start, Policy::Stable).unwrap();
         let modes = modes(&at).unwrap();
-        Self {
-            mechanism,
-            at,
-            modes,
-        }
+        Self { mechanism, at, modes }
     }
 }
 
 #[track_caller]
 pub(crate) fn near(a: f64, b: f64, tolerance: f64, scale: f64) {
-    assert!(
-        (a - b).abs() <= tolerance * scale,
-        "{a:e} is not {b:e}: off by {:e} of {scale:e}",
-        (a - b).abs()
-    );
+    assert!((a - b).abs() <= tolerance * scale, "{a:e} is not {b:e}: off by {:e} of {scale:e}", (a - b).abs());
 }
 
 #[track_caller]
@@ -60,17 +50,9 @@ pub(crate) fn all_near(a: &[f64], b: &[f64], tolerance: f64) {
 #[track_caller]
 pub(crate) fn same_modes(a: &Modes, b: &Modes, tolerance: f64) {
     assert_eq!(a.modes.len(), b.modes.len());
-    let size = b
-        .modes
-        .iter()
-        .fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
+    let size = b.modes.iter().fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
     for (mode, other) in a.modes.iter().zip(&b.modes) {
-        assert!(
-            (mode.s - other.s).norm() <= tolerance * size,
-            "{} {}",
-            mode.s,
-            other.s
-        );
+        assert!((mode.s - other.s).norm() <= tolerance * size, "{} {}", mode.s, other.s);
         assert_eq!(
             std::mem::discriminant(&mode.behaviour),
             std::mem::discriminant(&other.behaviour),
@@ -95,10 +77,7 @@ pub(crate) fn same_sensitivities(a: &Sensitivities, b: &Sensitivities, tolerance
                 assert!(pair.0.is_none() && pair.1.is_none());
                 continue;
             };
-            let scale = other
-                .by_design
-                .iter()
-                .fold(1e-4_f64, |most, x| most.max(x.abs()));
+            let scale = other.by_design.iter().fold(1e-4_f64, |most, x| most.max(x.abs()));
             for (a, b) in own.by_design.iter().zip(&other.by_design) {
                 near(*a, *b, tolerance, scale);
             }
@@ -115,22 +94,13 @@ pub(crate) fn same_mechanism(a: &State, b: &State) {
     same_sensitivities(&adjoint, &reference, 1e-9);
     let explicit = sensitivities_explicit(&*a.mechanism, &a.at, &a.modes).unwrap();
     same_sensitivities(&explicit, &reference, 1e-9);
-    let differences =
-        sensitivities_by_finite_difference(&*a.mechanism, &a.at, &a.modes, 5e-6).unwrap();
+    let differences = sensitivities_by_finite_difference(&*a.mechanism, &a.at, &a.modes, 5e-6).unwrap();
     same_sensitivities(&differences, &reference, 2e-6);
     for r in 0..a.modes.modes.len() {
         let own = mode_curvature(&*a.mechanism, &a.at, &a.modes, r).unwrap();
         let other = mode_curvature(&*b.mechanism, &b.at, &b.modes, r).unwrap();
         assert!(own.asymmetry < 1e-9, "asymmetry {}", own.asymmetry);
-        all_near(
-            own.lambda.by_design.as_flattened(),
-            other.lambda.by_design.as_flattened(),
-            1e-9,
-        );
-        all_near(
-            own.lambda.by_input_and_design.as_flattened(),
-            other.lambda.by_input_and_design.as_flattened(),
-            1e-9,
-        );
+        all_near(own.lambda.by_design.as_flattened(), other.lambda.by_design.as_flattened(), 1e-9);
+        all_near(own.lambda.by_input_and_design.as_flattened(), other.lambda.by_input_and_design.as_flattened(), 1e-9);
     }
 }

@@ -4,17 +4,12 @@
 use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Shared};
 
 use crate::common::derived::Model;
-use crate::common::{
-    KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes,
-};
+use crate::common::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes};
 use crate::constrained_modes::{FORCE, reaction};
 
 pub(crate) const OMEGA: &[InputInfo] = &[input("omega", SPEED)];
-pub(crate) const BAR: &[DesignInfo] = &[
-    design("m", KILOGRAM, 3.0, 0.01),
-    design("L", METRE, 1.0, 0.03),
-    design("g", NUMBER, 9.81, 0.0),
-];
+pub(crate) const BAR: &[DesignInfo] =
+    &[design("m", KILOGRAM, 3.0, 0.01), design("L", METRE, 1.0, 0.03), design("g", NUMBER, 9.81, 0.0)];
 
 const fn described(
     name: &'static str,
@@ -102,14 +97,7 @@ impl Model for BarByAngle {
 
     const DESCRIPTION: Description = described("BarByAngle", ANGLE, BAR, DampingKind::Zero);
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 1],
-        _: &[T; 1],
-        q: &[T; 1],
-        u: &[T; 1],
-        b: &[T; 3],
-    ) -> [T; 1] {
+    fn inertia<T: Real>(&self, a: &[T; 1], _: &[T; 1], q: &[T; 1], u: &[T; 1], b: &[T; 3]) -> [T; 1] {
         let (sin, cos) = q[0].sin_cos();
         let inertia = b[0] * b[1] * b[1] / T::constant(3.0);
         let weight = b[0] * b[2] * b[1] * T::constant(0.5);
@@ -121,11 +109,7 @@ impl Model for BarByAngle {
     }
 }
 
-const CRANK_AND_SLIDER: &[CoordinateInfo] = &[
-    coordinate("theta", RAD),
-    coordinate("x", METRE),
-    reaction("rod", FORCE),
-];
+const CRANK_AND_SLIDER: &[CoordinateInfo] = &[coordinate("theta", RAD), coordinate("x", METRE), reaction("rod", FORCE)];
 const ANGLE: &[CoordinateInfo] = &[coordinate("theta", RAD)];
 const CRANK: &[DesignInfo] = &[
     design("J", NUMBER, 0.02, 2e-4),
@@ -145,17 +129,9 @@ pub(crate) struct SliderCrank;
 impl Model for SliderCrank {
     sizes!(3, 1, 7, 0);
 
-    const DESCRIPTION: Description =
-        described("SliderCrank", CRANK_AND_SLIDER, CRANK, DampingKind::Zero);
+    const DESCRIPTION: Description = described("SliderCrank", CRANK_AND_SLIDER, CRANK, DampingKind::Zero);
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 3],
-        _: &[T; 3],
-        q: &[T; 3],
-        u: &[T; 1],
-        b: &[T; 7],
-    ) -> [T; 3] {
+    fn inertia<T: Real>(&self, a: &[T; 3], _: &[T; 3], q: &[T; 3], u: &[T; 1], b: &[T; 7]) -> [T; 3] {
         let [inertia, mass, r, l, k, x0, torque] = *b;
         let (sin, cos) = q[0].sin_cos();
         let (along, up) = (q[1] - r * cos, r * sin);
@@ -182,22 +158,14 @@ impl Model for CrankByAngle {
 
     const DESCRIPTION: Description = described("CrankByAngle", ANGLE, CRANK, DampingKind::Zero);
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 1],
-        v: &[T; 1],
-        q: &[T; 1],
-        u: &[T; 1],
-        b: &[T; 7],
-    ) -> [T; 1] {
+    fn inertia<T: Real>(&self, a: &[T; 1], v: &[T; 1], q: &[T; 1], u: &[T; 1], b: &[T; 7]) -> [T; 1] {
         let [inertia, mass, r, l, k, x0, torque] = *b;
         let (sin, cos) = q[0].sin_cos();
         let h = (l * l - r * r * sin * sin).sqrt();
         let x = r * cos + h;
         let slope = -(r * sin) - r * r * sin * cos / h;
-        let bend = -(r * cos)
-            - r * r * (cos * cos - sin * sin) / h
-            - r * r * r * r * sin * sin * cos * cos / (h * h * h);
+        let bend =
+            -(r * cos) - r * r * (cos * cos - sin * sin) / h - r * r * r * r * sin * sin * cos * cos / (h * h * h);
         let push = mass * (slope * a[0] + bend * v[0] * v[0] - u[0] * u[0] * x) + k * (x - x0);
         [inertia * a[0] - torque + slope * push]
     }
@@ -240,14 +208,7 @@ impl Model for Chain {
         DampingKind::Zero,
     );
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 6],
-        _: &[T; 6],
-        q: &[T; 6],
-        u: &[T; 1],
-        b: &[T; 5],
-    ) -> [T; 6] {
+    fn inertia<T: Real>(&self, a: &[T; 6], _: &[T; 6], q: &[T; 6], u: &[T; 1], b: &[T; 5]) -> [T; 6] {
         let c = T::constant;
         let [m1, m2, l1, l2, k] = *b;
         let square = u[0] * u[0];
@@ -277,21 +238,10 @@ pub(crate) struct ChainByAngles;
 impl Model for ChainByAngles {
     sizes!(2, 1, 5, 0);
 
-    const DESCRIPTION: Description = described(
-        "ChainByAngles",
-        const { &[coordinate("a", RAD), coordinate("b", RAD)] },
-        CHAIN,
-        DampingKind::Zero,
-    );
+    const DESCRIPTION: Description =
+        described("ChainByAngles", const { &[coordinate("a", RAD), coordinate("b", RAD)] }, CHAIN, DampingKind::Zero);
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 2],
-        v: &[T; 2],
-        q: &[T; 2],
-        u: &[T; 1],
-        b: &[T; 5],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, a: &[T; 2], v: &[T; 2], q: &[T; 2], u: &[T; 1], b: &[T; 5]) -> [T; 2] {
         let c = T::constant;
         let [m1, m2, l1, l2, k] = *b;
         let square = u[0] * u[0];
@@ -304,14 +254,8 @@ impl Model for ChainByAngles {
         let ax2 = ax1 + l2 * (c2 * a[1] - s2 * v[1] * v[1]);
         let az2 = az1 - l2 * (s2 * a[1] + c2 * v[1] * v[1]);
         let f1 = [m1 * (ax1 - square * x1), m1 * (az1 - c(G))];
-        let f2 = [
-            m2 * (ax2 - square * x2) + k * (x2 - c(0.6)),
-            m2 * (az2 - c(G)) + k * (z2 - c(1.0)),
-        ];
-        [
-            l1 * (c1 * (f1[0] + f2[0]) - s1 * (f1[1] + f2[1])),
-            l2 * (c2 * f2[0] - s2 * f2[1]),
-        ]
+        let f2 = [m2 * (ax2 - square * x2) + k * (x2 - c(0.6)), m2 * (az2 - c(G)) + k * (z2 - c(1.0))];
+        [l1 * (c1 * (f1[0] + f2[0]) - s1 * (f1[1] + f2[1])), l2 * (c2 * f2[0] - s2 * f2[1])]
     }
 
     fn applied<T: Real>(&self, _: &[T; 2], _: &[T; 2], _: &[T; 1], _: &[T; 5]) -> [T; 2] {
@@ -338,12 +282,8 @@ fn spherical<T: Real>(a: [T; 3], v: [T; 3], q: [T; 3], omega: T, b: &[T; 6]) -> 
     let [m, _, kx, ky, damper, e] = *b;
     let square = omega * omega;
     [
-        m * (a[0] - c(2.0) * omega * v[1] - square * q[0])
-            + kx * (q[0] - e * c(0.3))
-            + damper * v[0],
-        m * (a[1] + c(2.0) * omega * v[0] - square * q[1])
-            + ky * (q[1] - e * c(0.2))
-            + damper * c(0.5) * v[1],
+        m * (a[0] - c(2.0) * omega * v[1] - square * q[0]) + kx * (q[0] - e * c(0.3)) + damper * v[0],
+        m * (a[1] + c(2.0) * omega * v[0] - square * q[1]) + ky * (q[1] - e * c(0.2)) + damper * c(0.5) * v[1],
         m * (a[2] - c(G)),
     ]
 }
@@ -353,41 +293,16 @@ impl Model for Spherical {
 
     const DESCRIPTION: Description = described(
         "Spherical",
-        const {
-            &[
-                coordinate("x", METRE),
-                coordinate("y", METRE),
-                coordinate("z", METRE),
-                reaction("rod", FORCE),
-            ]
-        },
+        const { &[coordinate("x", METRE), coordinate("y", METRE), coordinate("z", METRE), reaction("rod", FORCE)] },
         SPHERE,
         DampingKind::General,
     );
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 4],
-        v: &[T; 4],
-        q: &[T; 4],
-        u: &[T; 1],
-        b: &[T; 6],
-    ) -> [T; 4] {
+    fn inertia<T: Real>(&self, a: &[T; 4], v: &[T; 4], q: &[T; 4], u: &[T; 1], b: &[T; 6]) -> [T; 4] {
         let size = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt();
-        let [fx, fy, fz] = spherical(
-            [a[0], a[1], a[2]],
-            [v[0], v[1], v[2]],
-            [q[0], q[1], q[2]],
-            u[0],
-            b,
-        );
+        let [fx, fy, fz] = spherical([a[0], a[1], a[2]], [v[0], v[1], v[2]], [q[0], q[1], q[2]], u[0], b);
         let pull = q[3] / size;
-        [
-            fx + pull * q[0],
-            fy + pull * q[1],
-            fz + pull * q[2],
-            size - b[1],
-        ]
+        [fx + pull * q[0], fy + pull * q[1], fz + pull * q[2], size - b[1]]
     }
 
     fn applied<T: Real>(&self, _: &[T; 4], _: &[T; 4], _: &[T; 1], _: &[T; 6]) -> [T; 4] {
@@ -409,14 +324,7 @@ impl Model for SphericalByPlane {
         DampingKind::General,
     );
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 2],
-        v: &[T; 2],
-        q: &[T; 2],
-        u: &[T; 1],
-        b: &[T; 6],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, a: &[T; 2], v: &[T; 2], q: &[T; 2], u: &[T; 1], b: &[T; 6]) -> [T; 2] {
         let h = (b[1] * b[1] - q[0] * q[0] - q[1] * q[1]).sqrt();
         let (qv, vv) = (q[0] * v[0] + q[1] * v[1], v[0] * v[0] + v[1] * v[1]);
         let qa = q[0] * a[0] + q[1] * a[1];
@@ -452,14 +360,7 @@ impl Model for Press {
 
     const DESCRIPTION: Description = described("Press", CRANK_AND_SLIDER, PRESS, DampingKind::Zero);
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 3],
-        v: &[T; 3],
-        q: &[T; 3],
-        u: &[T; 1],
-        b: &[T; 4],
-    ) -> [T; 3] {
+    fn inertia<T: Real>(&self, a: &[T; 3], v: &[T; 3], q: &[T; 3], u: &[T; 1], b: &[T; 4]) -> [T; 3] {
         SliderCrank.inertia(a, v, q, &[T::constant(0.0)], &crank_design(u[0], *b))
     }
 
@@ -476,14 +377,7 @@ impl Model for PressByAngle {
 
     const DESCRIPTION: Description = described("PressByAngle", ANGLE, PRESS, DampingKind::Zero);
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 1],
-        v: &[T; 1],
-        q: &[T; 1],
-        u: &[T; 1],
-        b: &[T; 4],
-    ) -> [T; 1] {
+    fn inertia<T: Real>(&self, a: &[T; 1], v: &[T; 1], q: &[T; 1], u: &[T; 1], b: &[T; 4]) -> [T; 1] {
         CrankByAngle.inertia(a, v, q, &[T::constant(0.0)], &crank_design(u[0], *b))
     }
 

@@ -20,17 +20,9 @@ fn a_bar_by_its_tip_is_the_bar_by_its_angle() {
         assert_eq!(state.modes.family, Family::Undamped);
         assert_eq!(state.modes.modes.len(), 1);
         let theta = other.at.coordinates[0];
-        all_near(
-            &state.at.coordinates[..2],
-            &[theta.sin(), theta.cos()],
-            1e-12,
-        );
+        all_near(&state.at.coordinates[..2], &[theta.sin(), theta.cos()], 1e-12);
         let g = 9.81;
-        let lambda = if omega < CRITICAL {
-            1.5 * g - omega * omega
-        } else {
-            omega * omega - (1.5 * g / omega).powi(2)
-        };
+        let lambda = if omega < CRITICAL { 1.5 * g - omega * omega } else { omega * omega - (1.5 * g / omega).powi(2) };
         all_near(&[state.modes.modes[0].lambda], &[lambda], 1e-12);
         same_mechanism(&state, &other);
     }
@@ -112,14 +104,9 @@ fn shapes_move_with_the_design() {
                     let two = part(&up2, i) - part(&down2, i);
                     (8.0 * one - two) / (12.0 * h)
                 };
-                let own = if left {
-                    &found.left_by_design[j]
-                } else {
-                    &found.right_by_design[j]
-                };
+                let own = if left { &found.left_by_design[j] } else { &found.right_by_design[j] };
                 for rows in [0..3, 3..4] {
-                    let values: Vec<f64> =
-                        rows.clone().flat_map(|i| [own[i].re, own[i].im]).collect();
+                    let values: Vec<f64> = rows.clone().flat_map(|i| [own[i].re, own[i].im]).collect();
                     let other: Vec<f64> = rows.flat_map(|i| [slope(i).re, slope(i).im]).collect();
                     all_near(&values, &other, 1e-7);
                 }
@@ -183,10 +170,7 @@ mod contradictory {
                 reaction("wire", FORCE),
             ]),
             inputs: Shared::Static(&[input("omega", SPEED)]),
-            design: Shared::Static(&[
-                design("rod_length", METRE, 1.0, 0.01),
-                design("wire_length", METRE, 1.0, 0.01),
-            ]),
+            design: Shared::Static(&[design("rod_length", METRE, 1.0, 0.01), design("wire_length", METRE, 1.0, 0.01)]),
             excitations: Shared::Static(&[]),
             outputs: Shared::Static(&[]),
             symmetric_stiffness: true,
@@ -197,22 +181,10 @@ mod contradictory {
             kernels: Shared::Static(&[]),
         };
 
-        fn inertia<T: Real>(
-            &self,
-            a: &[T; 4],
-            _: &[T; 4],
-            q: &[T; 4],
-            u: &[T; 1],
-            b: &[T; 2],
-        ) -> [T; 4] {
+        fn inertia<T: Real>(&self, a: &[T; 4], _: &[T; 4], q: &[T; 4], u: &[T; 1], b: &[T; 2]) -> [T; 4] {
             let size = (q[0] * q[0] + q[1] * q[1]).sqrt();
             let pull = (q[2] + q[3]) / size;
-            [
-                a[0] - u[0] * u[0] * q[0] + pull * q[0],
-                a[1] - T::constant(9.81) + pull * q[1],
-                size - b[0],
-                size - b[1],
-            ]
+            [a[0] - u[0] * u[0] * q[0] + pull * q[0], a[1] - T::constant(9.81) + pull * q[1], size - b[0], size - b[1]]
         }
 
         fn applied<T: Real>(&self, _: &[T; 4], _: &[T; 4], _: &[T; 1], _: &[T; 2]) -> [T; 4] {
@@ -226,13 +198,7 @@ fn constraints_that_agree_at_one_design_have_modes_but_no_derivatives() {
     let state = State::new(contradictory::Twice, &[4.2], &[0.8, 0.7, 0.0, 0.0]);
     assert_eq!(state.modes.modes.len(), 1);
     let error = sensitivities(&*state.mechanism, &state.at, &state.modes).unwrap_err();
-    let Error::ClosesHereOnly {
-        constraint,
-        variable,
-    } = error
-    else {
-        panic!("{error}")
-    };
+    let Error::ClosesHereOnly { constraint, variable } = error else { panic!("{error}") };
     assert!(["rod", "wire"].contains(&&*constraint), "{constraint}");
     assert_eq!(variable, "rod_length");
     assert!(shape_sensitivity(&*state.mechanism, &state.at, &state.modes, 0).is_err());
@@ -272,14 +238,7 @@ pub(crate) mod held {
             kernels: Shared::Static(&[]),
         };
 
-        fn inertia<T: Real>(
-            &self,
-            a: &[T; 4],
-            _: &[T; 4],
-            q: &[T; 4],
-            u: &[T; 1],
-            b: &[T; 1],
-        ) -> [T; 4] {
+        fn inertia<T: Real>(&self, a: &[T; 4], _: &[T; 4], q: &[T; 4], u: &[T; 1], b: &[T; 1]) -> [T; 4] {
             let size = (q[0] * q[0] + q[1] * q[1]).sqrt();
             [
                 a[0] - u[0] * u[0] * q[0] + q[2] * q[0] / size + q[3],
@@ -303,7 +262,6 @@ fn without_freedom_there_are_no_modes() {
     let none = sensitivities(&*state.mechanism, &state.at, &state.modes).unwrap();
     assert!(none.modes.is_empty());
     assert!(!state.modes.to_string().is_empty());
-    let general =
-        eigentol::modes::modes_of(&state.at.linear, Family::General, &state.at.description);
+    let general = eigentol::modes::modes_of(&state.at.linear, Family::General, &state.at.description);
     assert!(general.unwrap().modes.is_empty());
 }

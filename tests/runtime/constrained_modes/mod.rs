@@ -12,15 +12,8 @@ mod tolerance;
 
 use eigentol::{CoordinateInfo, Role, Shared, Unit};
 
-pub(crate) const FORCE: Unit = Unit {
-    symbol: Shared::Static("N"),
-    scale: 1.0,
-};
+pub(crate) const FORCE: Unit = Unit { symbol: Shared::Static("N"), scale: 1.0 };
 
 pub(crate) const fn reaction(name: &'static str, unit: Unit) -> CoordinateInfo {
-    CoordinateInfo {
-        name: Shared::Static(name),
-        unit,
-        role: Role::PositionReaction,
-    }
+    CoordinateInfo { name: Shared::Static(name), unit, role: Role::PositionReaction }
 }

@@ -9,17 +9,14 @@ use eigentol::shapes::shape_sensitivity;
 use eigentol::sweep::crossing_sensitivity;
 use eigentol::sweep::{Range, flutter_onsets};
 use eigentol::{
-    Behaviour, Complex, DampingKind, Description, Equilibrium, Error, Family, Input, Mode, Modes,
-    Policy, Real, Shared,
+    Behaviour, Complex, DampingKind, Description, Equilibrium, Error, Family, Input, Mode, Modes, Policy, Real, Shared,
 };
 
 use crate::common::derived::{Derived, Model};
 use crate::common::{METRE, coordinate, sizes};
 use crate::constrained_modes::compare::{State, near, nominal};
 use crate::constrained_modes::holonomic::{BAR, Bar, OMEGA};
-use crate::constrained_modes::rolling::{
-    CASTER, Caster, DRIVEN, Disk, DrivenDisk, Sleigh, Trail, rolling, speed,
-};
+use crate::constrained_modes::rolling::{CASTER, Caster, DRIVEN, Disk, DrivenDisk, Sleigh, Trail, rolling, speed};
 use crate::constrained_modes::{FORCE, reaction};
 
 fn solved(mechanism: &dyn Kernels, v: f64, b: &[f64], start: &[f64]) -> (Equilibrium, Modes) {
@@ -81,11 +78,7 @@ fn slope<const P: usize>(
 
 #[track_caller]
 fn near_complex(a: Complex, b: Complex, tolerance: f64, scale: f64) {
-    assert!(
-        (a - b).norm() <= tolerance * scale,
-        "{a} is not {b}: off by {:e} of {scale:e}",
-        (a - b).norm()
-    );
+    assert!((a - b).norm() <= tolerance * scale, "{a} is not {b}: off by {:e} of {scale:e}", (a - b).norm());
 }
 
 /// Eigenvalues, first derivatives by two methods and second derivatives of all modes against the roots of a cubic.
@@ -97,10 +90,7 @@ fn against_cubic<const P: usize>(
     polynomial: &impl Fn(&[f64; P], f64) -> [f64; 4],
 ) {
     let (at, found) = solved(mechanism, v, &b, start);
-    let size = found
-        .modes
-        .iter()
-        .fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
+    let size = found.modes.iter().fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
     let weight = |mode: &Mode| if mode.s.im > 0.0 { 2 } else { 1 };
     assert_eq!(found.modes.iter().map(weight).sum::<usize>(), 3);
     let adjoint = sensitivities(mechanism, &at, &found).unwrap();
@@ -110,11 +100,7 @@ fn against_cubic<const P: usize>(
         let exact = |b: &[f64; P], v: f64, j: usize| slope(polynomial, b, v, mode.s, j);
         let [own, other] = [&adjoint, &explicit].map(|all| all.modes[r].s().unwrap());
         let curvature = mode_curvature(mechanism, &at, &found, r).unwrap();
-        assert!(
-            curvature.asymmetry < 1e-8,
-            "asymmetry {}",
-            curvature.asymmetry
-        );
+        assert!(curvature.asymmetry < 1e-8, "asymmetry {}", curvature.asymmetry);
         let second = curvature.eigenvalue.unwrap();
         for j in 0..P {
             let wanted = exact(&b, v, j);
@@ -136,18 +122,8 @@ fn against_cubic<const P: usize>(
             }
         }
         let wanted = exact(&b, v, P);
-        near_complex(
-            own.by_input[0],
-            wanted,
-            1e-10,
-            wanted.norm().max(1e-6 * size / v),
-        );
-        near_complex(
-            other.by_input[0],
-            wanted,
-            1e-10,
-            wanted.norm().max(1e-6 * size / v),
-        );
+        near_complex(own.by_input[0], wanted, 1e-10, wanted.norm().max(1e-6 * size / v));
+        near_complex(other.by_input[0], wanted, 1e-10, wanted.norm().max(1e-6 * size / v));
     }
 }
 
@@ -161,21 +137,11 @@ fn a_massless_trail_swings_back() {
         assert_eq!(found.stable(), v > 0.0);
         let slopes = sensitivities(&Derived(Trail), &at, &found).unwrap();
         let own = slopes.modes[0].s().unwrap();
-        near_complex(
-            own.by_design[0],
-            Complex::new(v / 0.09, 0.0),
-            1e-13,
-            v.abs() / 0.09,
-        );
+        near_complex(own.by_design[0], Complex::new(v / 0.09, 0.0), 1e-13, v.abs() / 0.09);
         near_complex(own.by_input[0], Complex::new(-1.0 / 0.3, 0.0), 1e-13, 3.3);
         let second = mode_curvature(&Derived(Trail), &at, &found, 0).unwrap();
         let by_a = second.eigenvalue.unwrap().by_design[0][0];
-        near_complex(
-            by_a,
-            Complex::new(-2.0 * v / 0.027, 0.0),
-            1e-12,
-            80.0 * v.abs(),
-        );
+        near_complex(by_a, Complex::new(-2.0 * v / 0.027, 0.0), 1e-12, 80.0 * v.abs());
         assert!(matches!(undamped_modes(&at), Err(Error::NoUndampedModes)));
     }
 }
@@ -183,12 +149,7 @@ fn a_massless_trail_swings_back() {
 fn caster(b: &[f64; 8], v: f64) -> [f64; 4] {
     let [m, j, a, centre, k, kt, _, damper] = *b;
     let lever = a - centre;
-    [
-        j + m * lever * lever,
-        m * v * lever + damper,
-        k * a * a + kt,
-        k * a * v,
-    ]
+    [j + m * lever * lever, m * v * lever + damper, k * a * a + kt, k * a * v]
 }
 
 #[test]
@@ -230,12 +191,7 @@ fn a_caster_shimmies_beyond_its_speed() {
         };
         let h = 2e-4 * b[j];
         let wanted = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
-        near(
-            slopes[j],
-            wanted,
-            1e-8,
-            wanted.abs().max(1e-3 * onset / b[j]),
-        );
+        near(slopes[j], wanted, 1e-8, wanted.abs().max(1e-3 * onset / b[j]));
     }
 }
 
@@ -243,12 +199,7 @@ fn driven(b: &[f64; 5], v: f64) -> [f64; 4] {
     let [m, r, axial, transverse, c] = *b;
     let omega = v / r;
     let (lean, fall) = (transverse + m * r * r, m * 9.81 * r);
-    [
-        lean * transverse,
-        lean * c,
-        axial * (axial + m * r * r) * omega * omega - fall * transverse,
-        -fall * c,
-    ]
+    [lean * transverse, lean * c, axial * (axial + m * r * r) * omega * omega - fall * transverse, -fall * c]
 }
 
 #[test]
@@ -277,21 +228,14 @@ fn a_free_disk_stands_by_its_spin() {
         let modes = modes_of(&linear, Family::General, &mechanism.description()).unwrap();
         let held = axial * (axial + m * r * r) * spin * spin / transverse - m * 9.81 * r;
         let square = -held / (transverse + m * r * r);
-        let neutral: Vec<_> = modes
-            .modes
-            .iter()
-            .filter(|mode| mode.behaviour == Behaviour::Neutral)
-            .collect();
+        let neutral: Vec<_> = modes.modes.iter().filter(|mode| mode.behaviour == Behaviour::Neutral).collect();
         assert_eq!(neutral.len(), 2, "{spin}: {:?}", modes.frequencies());
         assert!(neutral.iter().all(|mode| mode.condition < 1e3));
         if held > 0.0 {
             assert_eq!(modes.modes.len(), 3);
             let omega = modes.modes[2].frequency().unwrap();
             near(omega, (-square).sqrt(), 1e-12, omega);
-            assert!(matches!(
-                modes.modes[2].behaviour,
-                Behaviour::Oscillating(_)
-            ));
+            assert!(matches!(modes.modes[2].behaviour, Behaviour::Oscillating(_)));
             assert!(modes.stable());
         } else {
             assert_eq!(modes.modes.len(), 4);
@@ -369,18 +313,9 @@ fn shapes_with_speeds_move_with_the_design() {
                 (8.0 * one - two) / (12.0 * h)
             };
             for i in 0..8 {
-                let scale = slopes.right_by_design[j]
-                    .iter()
-                    .fold(1e-3_f64, |m, x| m.max(x.norm()));
-                near_complex(
-                    slopes.right_by_design[j][i],
-                    by(|m| &m.shape, i),
-                    1e-7,
-                    scale,
-                );
-                let scale = slopes.left_by_design[j]
-                    .iter()
-                    .fold(1e-3_f64, |m, x| m.max(x.norm()));
+                let scale = slopes.right_by_design[j].iter().fold(1e-3_f64, |m, x| m.max(x.norm()));
+                near_complex(slopes.right_by_design[j][i], by(|m| &m.shape, i), 1e-7, scale);
+                let scale = slopes.left_by_design[j].iter().fold(1e-3_f64, |m, x| m.max(x.norm()));
                 near_complex(slopes.left_by_design[j][i], by(Mode::left, i), 1e-7, scale);
             }
         }
@@ -414,23 +349,10 @@ impl Model for Rated {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 4],
-        v: &[T; 4],
-        q: &[T; 4],
-        u: &[T; 1],
-        b: &[T; 3],
-    ) -> [T; 4] {
+    fn inertia<T: Real>(&self, a: &[T; 4], v: &[T; 4], q: &[T; 4], u: &[T; 1], b: &[T; 3]) -> [T; 4] {
         let size = (q[0] * q[0] + q[1] * q[1]).sqrt();
         let both = q[2] + q[3];
-        let [x, z, length] = Bar::<1>.inertia(
-            &[a[0], a[1], a[2]],
-            &[v[0], v[1], v[2]],
-            &[q[0], q[1], both],
-            u,
-            b,
-        );
+        let [x, z, length] = Bar::<1>.inertia(&[a[0], a[1], a[2]], &[v[0], v[1], v[2]], &[q[0], q[1], both], u, b);
         [x, z, length, (q[0] * v[0] + q[1] * v[1]) / size]
     }
 
@@ -481,12 +403,6 @@ fn a_free_mass_drifts() {
     assert_eq!(modes.modes.len(), 3);
     let neutral = |mode: &&Mode| mode.behaviour == Behaviour::Neutral;
     assert_eq!(modes.modes.iter().filter(neutral).count(), 2);
-    assert!(
-        modes
-            .modes
-            .iter()
-            .filter(neutral)
-            .all(|mode| mode.condition.is_infinite())
-    );
+    assert!(modes.modes.iter().filter(neutral).all(|mode| mode.condition.is_infinite()));
     near_complex(modes.modes[2].s, (-0.5).into(), 1e-14, 1.0);
 }

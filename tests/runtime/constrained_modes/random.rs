@@ -3,24 +3,16 @@
 
 use eigentol::kernels::Linear;
 use eigentol::modes::modes_of;
-use eigentol::{
-    Complex, CoordinateInfo, DampingKind, Description, Family, Mode, Role, Shared, Unit, Vector,
-};
+use eigentol::{Complex, CoordinateInfo, DampingKind, Description, Family, Mode, Role, Shared, Unit, Vector};
 
-const NONE: Unit = Unit {
-    symbol: Shared::Static(""),
-    scale: 1.0,
-};
+const NONE: Unit = Unit { symbol: Shared::Static(""), scale: 1.0 };
 
 /// The test's own random number generator, uniform in (-1, 1).
 struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
@@ -38,11 +30,7 @@ struct Sizes {
 
 impl Sizes {
     fn description(self) -> Shared<Description> {
-        let info = |role| CoordinateInfo {
-            name: "x".into(),
-            unit: NONE,
-            role,
-        };
+        let info = |role| CoordinateInfo { name: "x".into(), unit: NONE, role };
         let mut all = vec![info(Role::Position); self.coordinates];
         all.extend(vec![info(Role::Speed); self.speeds]);
         all.extend(vec![info(Role::PositionReaction); self.positions]);
@@ -79,9 +67,7 @@ impl Sizes {
 fn linear(sizes: Sizes, random: &mut Random) -> Linear {
     let mut linear = Linear::zeros(sizes.unknowns());
     let (q, motions) = (sizes.coordinates, sizes.coordinates + sizes.speeds);
-    let factor: Vec<Vec<f64>> = (0..motions)
-        .map(|_| (0..motions).map(|_| random.next()).collect())
-        .collect();
+    let factor: Vec<Vec<f64>> = (0..motions).map(|_| (0..motions).map(|_| random.next()).collect()).collect();
     for i in 0..motions {
         for j in 0..motions {
             let product: f64 = (0..motions).map(|k| factor[i][k] * factor[j][k]).sum();
@@ -103,9 +89,7 @@ fn linear(sizes: Sizes, random: &mut Random) -> Linear {
         let row: Vec<f64> = if k < independent {
             (0..q).map(|_| random.next()).collect()
         } else {
-            (0..q)
-                .map(|j| 3.0 * linear.stiffness[first + k - independent][j])
-                .collect()
+            (0..q).map(|j| 3.0 * linear.stiffness[first + k - independent][j]).collect()
         };
         for (j, value) in row.into_iter().enumerate() {
             linear.stiffness[first + k][j] = value;
@@ -156,10 +140,7 @@ fn times(linear: &Linear, factors: [Complex; 3], x: &[Complex]) -> (Vector<Compl
     let product = Vector::from_fn(x.len(), |i| {
         let mut sum = Complex::default();
         let mut terms = 0.0;
-        for (matrix, factor) in [&linear.mass, &linear.damping, &linear.stiffness]
-            .into_iter()
-            .zip(factors)
-        {
+        for (matrix, factor) in [&linear.mass, &linear.damping, &linear.stiffness].into_iter().zip(factors) {
             for (value, x) in matrix[i].iter().zip(x) {
                 sum += factor * value * x;
                 terms += (factor * value * x).norm();
@@ -206,35 +187,18 @@ fn check(sizes: Sizes, random: &mut Random, rescaled: bool) {
     let found = modes_of(&linear, Family::General, &sizes.description()).unwrap();
     for (a, b) in found.modes.iter().zip(&plain.modes) {
         let apart = (a.s - b.s).norm();
-        assert!(
-            apart <= 2.0 * (a.error + b.error),
-            "{sizes:?}: {} {}: {} {}",
-            a.s,
-            b.s,
-            a.error,
-            b.error
-        );
+        assert!(apart <= 2.0 * (a.error + b.error), "{sizes:?}: {} {}: {} {}", a.s, b.s, a.error, b.error);
     }
     let conjugates = found.modes.iter().filter(|mode| mode.s.im > 0.0);
     let modes = found.modes.iter().map(|mode| Root::of(mode, |x| x));
-    let all: Vec<_> = modes
-        .chain(conjugates.map(|mode| Root::of(mode, |x| x.conj())))
-        .collect();
+    let all: Vec<_> = modes.chain(conjugates.map(|mode| Root::of(mode, |x| x.conj()))).collect();
     assert_eq!(all.len(), sizes.freedom(), "{sizes:?}");
     let one = Complex::new(1.0, 0.0);
     let size = |x: &[Complex]| x.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
     for a in &all {
         let (rest, terms) = times(&linear, [a.s * a.s, a.s, one], &a.right);
-        assert!(
-            size(&rest) <= 1e-11 * terms,
-            "{sizes:?}: {} of {terms}",
-            size(&rest)
-        );
-        assert!(
-            a.error <= 1e-7 * (1.0 + a.s.norm()),
-            "{sizes:?}: error {}",
-            a.error
-        );
+        assert!(size(&rest) <= 1e-11 * terms, "{sizes:?}: {} of {terms}", size(&rest));
+        assert!(a.error <= 1e-7 * (1.0 + a.s.norm()), "{sizes:?}: error {}", a.error);
         for b in &all {
             if a.s == b.s {
                 continue;
@@ -247,12 +211,7 @@ fn check(sizes: Sizes, random: &mut Random, rescaled: bool) {
                 dot(&root.left, &times(&linear, factors, &root.right).0).norm()
             };
             let scale = (own(a) * own(b)).sqrt() * (a.condition * b.condition).sqrt();
-            assert!(
-                cross <= 1e-8 * scale,
-                "{sizes:?}: {} {}: {cross} of {scale}",
-                a.s,
-                b.s
-            );
+            assert!(cross <= 1e-8 * scale, "{sizes:?}: {} {}: {cross} of {scale}", a.s, b.s);
         }
     }
 }

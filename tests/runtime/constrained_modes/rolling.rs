@@ -1,34 +1,19 @@
 //! Mechanisms with speeds and velocity constraints, written with quasi-velocities.
 
-use eigentol::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared, Unit,
-};
+use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared, Unit};
 
 use crate::common::derived::Model;
-use crate::common::{
-    KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes,
-};
+use crate::common::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes};
 use crate::constrained_modes::{FORCE, reaction};
 
-const SLOW: Unit = Unit {
-    symbol: Shared::Static("m/s"),
-    scale: 1.0,
-};
+const SLOW: Unit = Unit { symbol: Shared::Static("m/s"), scale: 1.0 };
 
 pub(crate) const fn speed(name: &'static str, unit: Unit) -> CoordinateInfo {
-    CoordinateInfo {
-        name: Shared::Static(name),
-        unit,
-        role: Role::Speed,
-    }
+    CoordinateInfo { name: Shared::Static(name), unit, role: Role::Speed }
 }
 
 pub(crate) const fn rolling(name: &'static str) -> CoordinateInfo {
-    CoordinateInfo {
-        name: Shared::Static(name),
-        unit: FORCE,
-        role: Role::VelocityReaction,
-    }
+    CoordinateInfo { name: Shared::Static(name), unit: FORCE, role: Role::VelocityReaction }
 }
 
 const AT_SPEED: &[InputInfo] = &[input("v", SLOW)];
@@ -75,14 +60,7 @@ impl Model for Trail {
         const { &[design("a", METRE, 0.3, 0.01)] },
     );
 
-    fn inertia<T: Real>(
-        &self,
-        _: &[T; 2],
-        velocity: &[T; 2],
-        q: &[T; 2],
-        u: &[T; 1],
-        b: &[T; 1],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, _: &[T; 2], velocity: &[T; 2], q: &[T; 2], u: &[T; 1], b: &[T; 1]) -> [T; 2] {
         [b[0] * q[1], b[0] * velocity[0] + u[0] * q[0].sin_cos().0]
     }
 
@@ -103,13 +81,7 @@ impl Model for Caster {
 
     const DESCRIPTION: Description = described(
         "Caster",
-        const {
-            &[
-                coordinate("y", METRE),
-                coordinate("theta", RAD),
-                rolling("wheel"),
-            ]
-        },
+        const { &[coordinate("y", METRE), coordinate("theta", RAD), rolling("wheel")] },
         const {
             &[
                 design("m", KILOGRAM, CASTER[0], 0.02),
@@ -124,14 +96,7 @@ impl Model for Caster {
         },
     );
 
-    fn inertia<T: Real>(
-        &self,
-        acceleration: &[T; 3],
-        velocity: &[T; 3],
-        q: &[T; 3],
-        u: &[T; 1],
-        b: &[T; 8],
-    ) -> [T; 3] {
+    fn inertia<T: Real>(&self, acceleration: &[T; 3], velocity: &[T; 3], q: &[T; 3], u: &[T; 1], b: &[T; 8]) -> [T; 3] {
         let [m, j, a, centre, k, kt, t0, damper] = *b;
         let (sin, cos) = q[1].sin_cos();
         let (alpha, omega) = (acceleration[1], velocity[1]);
@@ -141,8 +106,7 @@ impl Model for Caster {
         let mu = q[2];
         [
             m * ay + k * q[0] + cos * mu,
-            m * centre * (sin * ax - cos * ay) + j * alpha + kt * (q[1] - t0) + damper * omega
-                - a * mu,
+            m * centre * (sin * ax - cos * ay) + j * alpha + kt * (q[1] - t0) + damper * omega - a * mu,
             cos * velocity[0] - a * velocity[1] - u[0] * sin,
         ]
     }
@@ -165,8 +129,7 @@ fn disk<T: Real, const N: usize>(
     let about_axis_rate = spin_rate + yaw_rate * sin + yaw * cos * phi_rate;
     let two = T::constant(2.0);
     let dynamics = [
-        transverse * phi_rate_2 + transverse * yaw * yaw * sin * cos
-            - axial * about_axis * yaw * cos
+        transverse * phi_rate_2 + transverse * yaw * yaw * sin * cos - axial * about_axis * yaw * cos
             + r * sin * normal
             + r * cos * across,
         m * z_rate_2 + m * T::constant(9.81) + normal,
@@ -178,11 +141,7 @@ fn disk<T: Real, const N: usize>(
             - r * sin * along,
         axial * about_axis_rate - r * along,
     ];
-    let constraints = [
-        z - r * cos,
-        forward - r * about_axis,
-        side + r * cos * phi_rate,
-    ];
+    let constraints = [z - r * cos, forward - r * about_axis, side + r * cos * phi_rate];
     (dynamics, constraints)
 }
 
@@ -220,14 +179,7 @@ impl Model for Disk {
         DISK_DESIGN,
     );
 
-    fn inertia<T: Real>(
-        &self,
-        acceleration: &[T; 9],
-        velocity: &[T; 9],
-        q: &[T; 9],
-        _: &[T; 1],
-        b: &[T; 5],
-    ) -> [T; 9] {
+    fn inertia<T: Real>(&self, acceleration: &[T; 9], velocity: &[T; 9], q: &[T; 9], _: &[T; 1], b: &[T; 5]) -> [T; 9] {
         let (d, c) = disk::<T, 9>(
             (q[0], q[1], q[2], q[3], q[4], q[5]),
             (velocity[0], acceleration[0], acceleration[1]),
@@ -264,14 +216,7 @@ impl Model for DrivenDisk {
         DISK_DESIGN,
     );
 
-    fn inertia<T: Real>(
-        &self,
-        acceleration: &[T; 8],
-        velocity: &[T; 8],
-        q: &[T; 8],
-        u: &[T; 1],
-        b: &[T; 5],
-    ) -> [T; 8] {
+    fn inertia<T: Real>(&self, acceleration: &[T; 8], velocity: &[T; 8], q: &[T; 8], u: &[T; 1], b: &[T; 5]) -> [T; 8] {
         let (d, c) = disk::<T, 8>(
             (q[0], q[1], q[2], q[3], q[4], u[0] / b[1]),
             (velocity[0], acceleration[0], acceleration[1]),
@@ -295,14 +240,7 @@ impl Model for Sleigh {
 
     const DESCRIPTION: Description = described(
         "Sleigh",
-        const {
-            &[
-                speed("forward", SLOW),
-                speed("side", SLOW),
-                speed("yaw", SPEED),
-                rolling("edge"),
-            ]
-        },
+        const { &[speed("forward", SLOW), speed("side", SLOW), speed("yaw", SPEED), rolling("edge")] },
         const {
             &[
                 design("m", KILOGRAM, 3.0, 0.02),
@@ -313,14 +251,7 @@ impl Model for Sleigh {
         },
     );
 
-    fn inertia<T: Real>(
-        &self,
-        _: &[T; 4],
-        velocity: &[T; 4],
-        q: &[T; 4],
-        u: &[T; 1],
-        b: &[T; 4],
-    ) -> [T; 4] {
+    fn inertia<T: Real>(&self, _: &[T; 4], velocity: &[T; 4], q: &[T; 4], u: &[T; 1], b: &[T; 4]) -> [T; 4] {
         let [m, j, a, d] = *b;
         [
             m * (velocity[0] - q[2] * q[1]) + d * (q[0] - u[0]),

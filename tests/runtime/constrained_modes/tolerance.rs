@@ -18,17 +18,12 @@ fn chain() -> Study<Derived<Chain>> {
     start
         .iter()
         .enumerate()
-        .fold(Study::new(Derived(Chain)), |study, (i, &value)| {
-            study.guess(Coordinate::new(i), value)
-        })
+        .fold(Study::new(Derived(Chain)), |study, (i, &value)| study.guess(Coordinate::new(i), value))
         .input(omega(), 1.5)
 }
 
 fn angles() -> Study<Derived<ChainByAngles>> {
-    Study::new(Derived(ChainByAngles))
-        .start(Coordinate::new(0), 0.3)
-        .start(Coordinate::new(1), 0.4)
-        .input(omega(), 1.5)
+    Study::new(Derived(ChainByAngles)).start(Coordinate::new(0), 0.3).start(Coordinate::new(1), 0.4).input(omega(), 1.5)
 }
 
 #[test]
@@ -39,18 +34,8 @@ fn first_and_second_order_are_those_of_minimal_coordinates() {
     for (a, b) in a.modes.iter().zip(&b.modes) {
         let [sigma, other] = [a, b].map(|mode| mode.frequency().unwrap().sigma);
         near(sigma, other, 1e-10, other);
-        near(
-            a.distance_to_critical,
-            b.distance_to_critical,
-            1e-9,
-            b.distance_to_critical,
-        );
-        near(
-            a.distance_to_neighbour,
-            b.distance_to_neighbour,
-            1e-9,
-            b.distance_to_neighbour,
-        );
+        near(a.distance_to_critical, b.distance_to_critical, 1e-9, b.distance_to_critical);
+        near(a.distance_to_neighbour, b.distance_to_neighbour, 1e-9, b.distance_to_neighbour);
     }
     let (a, b) = (own.summary().unwrap(), other.summary().unwrap());
     assert_eq!(a.trusted(), b.trusted());
@@ -121,10 +106,7 @@ fn damped_samples_are_those_of_minimal_coordinates() {
 /// First order against samples for a caster.
 #[test]
 fn a_caster_varies_as_its_first_order_says() {
-    let study = Study::new(Derived(Caster))
-        .input(omega(), 2.0)
-        .samples(1500)
-        .seed(3);
+    let study = Study::new(Derived(Caster)).input(omega(), 2.0).samples(1500).seed(3);
     let first = study.first_order().unwrap();
     let sampled = study.monte_carlo().unwrap();
     assert_eq!(sampled.counts.total(), 1500);
@@ -142,10 +124,7 @@ fn a_caster_varies_as_its_first_order_says() {
 /// Every question has an answer even without modes.
 #[test]
 fn a_held_mechanism_has_no_modes_and_no_surprises() {
-    let study = Study::new(Derived(Held))
-        .guess(Coordinate::new(0), 0.5)
-        .guess(Coordinate::new(1), 0.7)
-        .samples(50);
+    let study = Study::new(Derived(Held)).guess(Coordinate::new(0), 0.5).guess(Coordinate::new(1), 0.7).samples(50);
     assert!(study.first_order().unwrap().modes.is_empty());
     assert!(study.second_order().unwrap().modes.is_empty());
     let summary = study.summary().unwrap();
@@ -156,23 +135,12 @@ fn a_held_mechanism_has_no_modes_and_no_surprises() {
     assert!(sampled.modes.is_empty());
     println!("{sampled}");
     let sweep = study.sweep(omega(), &[0.0, 1.0, 2.0]).unwrap();
-    assert!(
-        sweep
-            .points
-            .iter()
-            .all(|point| point.modes.as_ref().unwrap().modes.is_empty())
-    );
+    assert!(sweep.points.iter().all(|point| point.modes.as_ref().unwrap().modes.is_empty()));
     println!("{sweep}");
-    println!(
-        "{}",
-        study.campbell(omega(), &[0.5, 1.0, 2.0], &[1.0]).unwrap()
-    );
+    println!("{}", study.campbell(omega(), &[0.5, 1.0, 2.0], &[1.0]).unwrap());
     assert!(study.crossings(omega(), 0.5, 3.0, 1.0).unwrap().is_empty());
     assert!(study.whirls().unwrap().is_empty());
-    assert!(matches!(
-        study.mode_curvature(0),
-        Err(Error::NoSuchMode { .. })
-    ));
+    assert!(matches!(study.mode_curvature(0), Err(Error::NoSuchMode { .. })));
 }
 
 /// A driven disk from standstill to rolling: the same modes all along, and their Campbell diagram.
@@ -182,20 +150,14 @@ fn modes_with_speeds_keep_their_identity_along_a_sweep() {
     let study = start
         .iter()
         .enumerate()
-        .fold(Study::new(Derived(DrivenDisk)), |study, (i, &value)| {
-            study.guess(Coordinate::new(i), value)
-        });
+        .fold(Study::new(Derived(DrivenDisk)), |study, (i, &value)| study.guess(Coordinate::new(i), value));
     let values: Vec<f64> = (0..30).map(|k| 1.5 + 0.1 * f64::from(k)).collect();
     let sweep = study.sweep(omega(), &values).unwrap();
     let mut weaving: Option<(usize, f64)> = None;
     for point in &sweep.points {
         let modes = point.modes.as_ref().unwrap();
         assert_eq!(modes.modes.len(), 2);
-        let mode = modes
-            .modes
-            .iter()
-            .find(|mode| mode.frequency().is_some())
-            .unwrap();
+        let mode = modes.modes.iter().find(|mode| mode.frequency().is_some()).unwrap();
         if let Some((label, omega)) = weaving {
             assert_eq!(mode.label, label);
             assert!(mode.s.im > omega);

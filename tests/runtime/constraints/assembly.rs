@@ -12,10 +12,7 @@ fn meeting(a: [f64; 2], b: [f64; 2], radii: [f64; 2], left: bool) -> [f64; 2] {
     let along = 0.5 + (radii[0] * radii[0] - radii[1] * radii[1]) / (2.0 * square);
     let across = (radii[0] * radii[0] / square - along * along).sqrt();
     let across = if left { across } else { -across };
-    [
-        a[0] + along * d[0] - across * d[1],
-        a[1] + along * d[1] + across * d[0],
-    ]
+    [a[0] + along * d[0] - across * d[1], a[1] + along * d[1] + across * d[0]]
 }
 
 #[test]
@@ -41,16 +38,10 @@ fn a_four_bar_closes_on_either_side() {
         close(found.moved[3], expected[1] - guess[1], 1e-12);
         assert!(found.gaps.iter().all(|gap| gap.abs() < 1e-15));
         assert!(!found.singular && found.margin > 1e-2);
-        assert_eq!(
-            (found.constraints.freedom, found.constraints.redundant),
-            (1, 0)
-        );
+        assert_eq!((found.constraints.freedom, found.constraints.redundant), (1, 0));
         modes.push(found.mode.expect("as many held as free"));
         let text = found.to_string();
-        assert!(
-            text.contains("assembly mode") && text.contains("coupler"),
-            "{text}"
-        );
+        assert!(text.contains("assembly mode") && text.contains("coupler"), "{text}");
     }
     assert_ne!(modes[0], modes[1]);
     assert!(modes.contains(&AssemblyMode::Positive));
@@ -70,20 +61,14 @@ fn without_held_coordinates_there_is_no_assembly_mode() {
 fn a_slider_crank_far_from_closed() {
     let [_, _, _, l1, l2, ..] = SLIDER;
     for (crank, rod) in [(1.0_f64, -0.3), (2.5, -0.2), (-1.2, 0.4), (1.0, 3.3)] {
-        let study = Study::new(bordered(SliderCrank))
-            .start(Coordinate::new(2), crank)
-            .guess(Coordinate::new(5), rod);
+        let study = Study::new(bordered(SliderCrank)).start(Coordinate::new(2), crank).guess(Coordinate::new(5), rod);
         let found = study.assembly().expect("it closes");
         let mut angle = (-l1 * crank.sin() / l2).asin();
         if rod > 2.0 {
             angle = std::f64::consts::PI - angle;
         }
         close(found.coordinates[5], angle, 1e-12);
-        close(
-            found.coordinates[6],
-            l1 * crank.cos() + l2 * angle.cos(),
-            1e-12,
-        );
+        close(found.coordinates[6], l1 * crank.cos() + l2 * angle.cos(), 1e-12);
         assert!(found.mode.is_some());
     }
 }
@@ -126,10 +111,7 @@ fn a_flat_parallelogram_is_singular() {
     let upright = [0.0, -0.8, 0.0, 0.0, 0.0, 0.0];
     let found = assemble(&bordered(Parallelogram), &[0.0], &b, &upright, &[]).expect("it closes");
     assert!(!found.singular);
-    assert_eq!(
-        (found.constraints.freedom, found.constraints.redundant),
-        (1, 1)
-    );
+    assert_eq!((found.constraints.freedom, found.constraints.redundant), (1, 1));
     // Hanging in line with the platform it is in equilibrium, but no linear model describes its swinging.
     let study = Study::new(bordered(Parallelogram))
         .input(eigentol::Input::new(0), std::f64::consts::FRAC_PI_2)
@@ -152,10 +134,7 @@ fn lengths_that_do_not_reach() {
             panic!("1.7 m do not reach over 2 m");
         };
         let text = error.to_string();
-        let Error::NotAssembled {
-            gap, others, unit, ..
-        } = error
-        else {
+        let Error::NotAssembled { gap, others, unit, .. } = error else {
             panic!("{text}");
         };
         assert_eq!((others.len(), unit), (2, "m"));
@@ -173,10 +152,7 @@ fn too_many_held_coordinates() {
         panic!("0.424 m is no crank of 0.4 m");
     };
     let text = error.to_string();
-    assert!(
-        text.contains("hold fewer") && text.contains("`crank`"),
-        "{text}"
-    );
+    assert!(text.contains("hold fewer") && text.contains("`crank`"), "{text}");
     // Held at compatible values, they cause no conflict.
     let start = [0.0, 0.4, 0.7, 0.5, 0.0, 0.0, 0.0];
     assemble(&bordered(FourBar), &[0.0], &FOUR_BAR, &start, &held).expect("it closes");
@@ -187,13 +163,7 @@ fn an_unfortunate_start_is_left() {
     // With all coordinates zero the bars have no length and no direction.
     let zero = assemble(&bordered(Truss), &[0.0], &[2.0, 1.3, 0.5], &[0.0; 4], &[]);
     close(zero.expect("it closes").coordinates[1].abs(), 1.2, 1e-12);
-    let nan = assemble(
-        &bordered(Truss),
-        &[0.0],
-        &[2.0, 1.3, 0.5],
-        &[f64::NAN; 4],
-        &[],
-    );
+    let nan = assemble(&bordered(Truss), &[0.0], &[2.0, 1.3, 0.5], &[f64::NAN; 4], &[]);
     assert!(matches!(nan, Err(Error::NotFinite { .. })));
     // A bar without length has no direction.
     let folded = [-0.5, 0.0, 0.0, 0.0];

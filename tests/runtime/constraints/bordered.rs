@@ -2,10 +2,7 @@
 //! the static part is the gradient of `V + mu . Phi` by all unknowns. Every row of the bordered system comes from one
 //! function.
 
-use eigentol::{
-    Array, CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared,
-    Unit,
-};
+use eigentol::{Array, CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared, Unit};
 
 use crate::common::derived::{Derived, Model};
 use crate::common::dual::Dual;
@@ -23,12 +20,7 @@ pub(crate) trait Lagrangian: Clone + Sync {
     fn masses<T: Real>(&self, b: &Self::Design<T>) -> Self::Coordinates<T>;
 
     /// `V + mu . Phi`, including the centrifugal potential.
-    fn value<T: Real>(
-        &self,
-        x: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> T;
+    fn value<T: Real>(&self, x: &Self::Coordinates<T>, u: &Self::Inputs<T>, b: &Self::Design<T>) -> T;
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -103,10 +95,7 @@ pub(crate) const fn described(
 pub(crate) const fn reaction(name: &'static str, symbol: &'static str) -> CoordinateInfo {
     CoordinateInfo {
         name: Shared::Static(name),
-        unit: Unit {
-            symbol: Shared::Static(symbol),
-            scale: 1.0,
-        },
+        unit: Unit { symbol: Shared::Static(symbol), scale: 1.0 },
         role: Role::PositionReaction,
     }
 }

@@ -1,8 +1,7 @@
 use eigentol::equilibrium::{Search, equilibrium, find_equilibria};
 use eigentol::motion::accelerations;
 use eigentol::{
-    Coordinate, DesignVariable, Equilibrium, Error, Input, Kernels, Matrix, Policy, Real,
-    Stability, Study,
+    Coordinate, DesignVariable, Equilibrium, Error, Input, Kernels, Matrix, Policy, Real, Stability, Study,
 };
 
 use super::bordered::bordered;
@@ -21,23 +20,13 @@ fn a_point_on_a_rod_is_a_pendulum() {
             .start(Coordinate::new(0), 0.3)
             .guess(Coordinate::new(1), -0.2);
         let state = study.equilibrium().expect("an equilibrium");
-        let cos = if factor > 1.0 {
-            1.0 / factor.powi(2)
-        } else {
-            1.0
-        };
+        let cos = if factor > 1.0 { 1.0 / factor.powi(2) } else { 1.0 };
         let sin = (1.0 - cos * cos).sqrt();
-        let [x, y, force] = state.coordinates[..] else {
-            panic!("three unknowns")
-        };
+        let [x, y, force] = state.coordinates[..] else { panic!("three unknowns") };
         assert!((x - l * sin).abs() < 1e-12 * l, "{factor}: {x}");
         close(y, -l * cos, 1e-12);
         // The rod is in tension: weight and centrifugal force along it.
-        close(
-            force,
-            m * GRAVITY * cos + m * omega * omega * l * sin * sin,
-            1e-11,
-        );
+        close(force, m * GRAVITY * cos + m * omega * omega * l * sin * sin, 1e-11);
         assert_eq!(state.stability, Stability::Stable);
         assert!(state.relative_residual < 2e-10);
     }
@@ -67,9 +56,7 @@ fn unstable_states_are_left_and_kept() {
 
 #[test]
 fn a_structure_cannot_move() {
-    let study = Study::new(bordered(Truss))
-        .input(Input::new(0), 7.0)
-        .guess(Coordinate::new(1), -1.0);
+    let study = Study::new(bordered(Truss)).input(Input::new(0), 7.0).guess(Coordinate::new(1), -1.0);
     let state = study.equilibrium().expect("an equilibrium");
     let (weight, height, half) = (2.0 * GRAVITY, 1.2, 0.5);
     assert!(state.coordinates[0].abs() < 1e-14);
@@ -120,12 +107,7 @@ impl MinimalFourBar<'_> {
         let two = T::constant(2.0);
         let along = T::constant(0.5) + (b[3] * b[3] - b[4] * b[4]) / (two * square);
         let across = T::constant(self.side) * (b[3] * b[3] / square - along * along).sqrt();
-        [
-            ax,
-            ay,
-            ax + along * dx - across * dy,
-            ay + along * dy + across * dx,
-        ]
+        [ax, ay, ax + along * dx - across * dy, ay + along * dy + across * dx]
     }
 }
 
@@ -146,13 +128,7 @@ impl Minimal for MinimalFourBar<'_> {
 fn rayleigh(state: &Equilibrium, direction: &[f64]) -> f64 {
     let n = direction.len();
     let form = |matrix: &Matrix| -> f64 {
-        (0..n)
-            .map(|i| {
-                (0..n)
-                    .map(|j| direction[i] * matrix[i][j] * direction[j])
-                    .sum::<f64>()
-            })
-            .sum()
+        (0..n).map(|i| (0..n).map(|j| direction[i] * matrix[i][j] * direction[j]).sum::<f64>()).sum()
     };
     form(&state.linear.stiffness) / form(&state.linear.mass)
 }
@@ -161,11 +137,7 @@ fn rayleigh(state: &Equilibrium, direction: &[f64]) -> f64 {
 fn a_four_bar_with_a_diagonal_spring() {
     for omega in [0.0, 2.0, 4.0] {
         for (side, guess) in [(1.0, [0.6, 0.5]), (-1.0, [0.4, -0.4])] {
-            let model = MinimalFourBar {
-                b: &FOUR_BAR,
-                omega,
-                side,
-            };
+            let model = MinimalFourBar { b: &FOUR_BAR, omega, side };
             let study = Study::new(bordered(FourBar))
                 .input(Input::new(0), omega)
                 .start(Coordinate::new(0), 0.2)
@@ -173,9 +145,7 @@ fn a_four_bar_with_a_diagonal_spring() {
                 .guess(Coordinate::new(2), guess[0])
                 .guess(Coordinate::new(3), guess[1]);
             let state = study.equilibrium().expect("an equilibrium");
-            let [ax, ay, bx, by, ..] = state.coordinates[..] else {
-                panic!("four coordinates")
-            };
+            let [ax, ay, bx, by, ..] = state.coordinates[..] else { panic!("four coordinates") };
             let (t, lambda) = minimum(&model, ay.atan2(ax));
             let expected = model.points(t);
             for (have, want) in [ax, ay, bx, by].into_iter().zip(expected) {
@@ -202,15 +172,7 @@ impl MinimalSlider {
         let (s1, c1) = t.sin_cos();
         let rod = -(l1 * s1 / l2).asin();
         let (s2, c2) = rod.sin_cos();
-        [
-            half * l1 * c1,
-            half * l1 * s1,
-            t,
-            l1 * c1 + half * l2 * c2,
-            l1 * s1 + half * l2 * s2,
-            rod,
-            l1 * c1 + l2 * c2,
-        ]
+        [half * l1 * c1, half * l1 * s1, t, l1 * c1 + half * l2 * c2, l1 * s1 + half * l2 * s2, rod, l1 * c1 + l2 * c2]
     }
 }
 
@@ -219,8 +181,7 @@ impl Minimal for MinimalSlider {
         let [m1, m2, _, _, _, k, s0] = SLIDER.map(T::constant);
         let p = self.places(t);
         let stretch = p[6] - s0;
-        T::constant(self.gravity) * (m1 * p[1] + m2 * p[4])
-            + T::constant(0.5) * k * stretch * stretch
+        T::constant(self.gravity) * (m1 * p[1] + m2 * p[4]) + T::constant(0.5) * k * stretch * stretch
     }
 
     fn mass(&self, t: f64) -> f64 {
@@ -234,9 +195,7 @@ impl Minimal for MinimalSlider {
 #[test]
 fn a_slider_crank_under_gravity() {
     for (gravity, crank) in [(GRAVITY, 1.2), (GRAVITY, -1.0), (40.0, -0.9), (0.0, 0.8)] {
-        let study = Study::new(bordered(SliderCrank))
-            .input(Input::new(0), gravity)
-            .start(Coordinate::new(2), crank);
+        let study = Study::new(bordered(SliderCrank)).input(Input::new(0), gravity).start(Coordinate::new(2), crank);
         let state = study.equilibrium().expect("an equilibrium");
         let model = MinimalSlider { gravity };
         let (t, lambda) = minimum(&model, state.coordinates[2]);
@@ -262,15 +221,9 @@ fn check_shift(study: &Study<impl Kernels>, scale: impl Fn(usize) -> f64) {
         let solve = |offset: f64| {
             let mut b = state.design.clone();
             b[variable] += offset;
-            equilibrium(
-                study.mechanism(),
-                &state.inputs,
-                &b,
-                &state.coordinates,
-                Policy::Stable,
-            )
-            .expect("an equilibrium nearby")
-            .coordinates
+            equilibrium(study.mechanism(), &state.inputs, &b, &state.coordinates, Policy::Stable)
+                .expect("an equilibrium nearby")
+                .coordinates
         };
         let h = 1e-3 * state.design[variable].abs();
         let (far, near) = ((solve(h), solve(-h)), (solve(0.5 * h), solve(-0.5 * h)));
@@ -280,10 +233,7 @@ fn check_shift(study: &Study<impl Kernels>, scale: impl Fn(usize) -> f64) {
             let difference = fine + (fine - coarse) / 3.0;
             let exact = shift.by_design[i][variable];
             let size = scale(i) / state.design[variable];
-            assert!(
-                (exact - difference).abs() < 1e-8 * size,
-                "{i} by {variable}: {exact} {difference}"
-            );
+            assert!((exact - difference).abs() < 1e-8 * size, "{i} by {variable}: {exact} {difference}");
         }
     }
 }
@@ -303,37 +253,19 @@ fn derivatives_of_states_and_reactions() {
         .guess(Coordinate::new(2), 0.6)
         .guess(Coordinate::new(3), 0.5);
     check_shift(&study, scale(4));
-    let study = Study::new(bordered(SliderCrank))
-        .input(Input::new(0), GRAVITY)
-        .start(Coordinate::new(2), -1.0);
+    let study = Study::new(bordered(SliderCrank)).input(Input::new(0), GRAVITY).start(Coordinate::new(2), -1.0);
     check_shift(&study, scale(7));
-    let study = Study::new(bordered(Truss))
-        .input(Input::new(0), 7.0)
-        .guess(Coordinate::new(1), -1.0);
+    let study = Study::new(bordered(Truss)).input(Input::new(0), 7.0).guess(Coordinate::new(1), -1.0);
     check_shift(&study, scale(2));
 }
 
 #[test]
 fn several_starts_find_both_ends() {
-    let search = Search::new([-2.0, -2.0, -1e6], [2.0, 2.0, 1e6])
-        .starts(20)
-        .seed(3);
-    let found = find_equilibria(
-        &bordered(Point),
-        &[6.0],
-        &[2.0, 0.7],
-        &[0.1; 3],
-        &search,
-        eigentol::Watch::default(),
-    )
-    .expect("valid values");
+    let search = Search::new([-2.0, -2.0, -1e6], [2.0, 2.0, 1e6]).starts(20).seed(3);
+    let found = find_equilibria(&bordered(Point), &[6.0], &[2.0, 0.7], &[0.1; 3], &search, eigentol::Watch::default())
+        .expect("valid values");
     // Two stable ones outside, plus the bottom and the top.
-    assert_eq!(
-        found.len(),
-        4,
-        "{:?}",
-        found.iter().map(|s| &s.coordinates).collect::<Vec<_>>()
-    );
+    assert_eq!(found.len(), 4, "{:?}", found.iter().map(|s| &s.coordinates).collect::<Vec<_>>());
 }
 
 #[test]
@@ -347,19 +279,10 @@ fn a_sweep_follows_the_assembly_mode() {
     let sweep = study.sweep(Input::new(0), &values).expect("valid handles");
     for point in &sweep {
         let state = point.equilibrium.as_ref().expect("an equilibrium");
-        let [ax, ay, bx, by, ..] = state.coordinates[..] else {
-            panic!("four coordinates")
-        };
-        let model = MinimalFourBar {
-            b: &FOUR_BAR,
-            omega: point.value,
-            side: -1.0,
-        };
+        let [ax, ay, bx, by, ..] = state.coordinates[..] else { panic!("four coordinates") };
+        let model = MinimalFourBar { b: &FOUR_BAR, omega: point.value, side: -1.0 };
         let points = model.points(minimum(&model, ay.atan2(ax)).0);
-        let off = [ax, ay, bx, by]
-            .into_iter()
-            .zip(points)
-            .map(|(a, b)| (a - b).abs());
+        let off = [ax, ay, bx, by].into_iter().zip(points).map(|(a, b)| (a - b).abs());
         assert!(off.fold(0.0, f64::max) < 1e-10, "at {}", point.value);
     }
 }
@@ -392,8 +315,5 @@ fn held_values_are_kept_until_it_moves() {
     let state = study.equilibrium().expect("an equilibrium");
     assert_ne!(state.coordinates[0], 0.2);
     let text = state.to_string();
-    assert!(
-        text.contains("reaction") && text.contains("coupler [N]"),
-        "{text}"
-    );
+    assert!(text.contains("reaction") && text.contains("coupler [N]"), "{text}");
 }

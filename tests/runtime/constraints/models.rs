@@ -3,9 +3,7 @@
 use eigentol::{Description, Real};
 
 use super::bordered::{Lagrangian, described, distance, reaction};
-use crate::common::{
-    GRAVITY, KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes,
-};
+use crate::common::{GRAVITY, KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes};
 
 fn c<T: Real>(value: f64) -> T {
     T::constant(value)
@@ -20,20 +18,9 @@ impl Lagrangian for Point {
 
     const DESCRIPTION: Description = described(
         "Point",
-        const {
-            &[
-                coordinate("x", METRE),
-                coordinate("y", METRE),
-                reaction("rod", "N"),
-            ]
-        },
+        const { &[coordinate("x", METRE), coordinate("y", METRE), reaction("rod", "N")] },
         const { &[input("omega", SPEED)] },
-        const {
-            &[
-                design("m", KILOGRAM, 2.0, 0.0),
-                design("l", METRE, 0.7, 0.01),
-            ]
-        },
+        const { &[design("m", KILOGRAM, 2.0, 0.0), design("l", METRE, 0.7, 0.01)] },
     );
 
     fn masses<T: Real>(&self, b: &[T; 2]) -> [T; 3] {
@@ -55,22 +42,9 @@ impl Lagrangian for Twice {
 
     const DESCRIPTION: Description = described(
         "Twice",
-        const {
-            &[
-                coordinate("x", METRE),
-                coordinate("y", METRE),
-                reaction("rod", "N"),
-                reaction("again", "mN"),
-            ]
-        },
+        const { &[coordinate("x", METRE), coordinate("y", METRE), reaction("rod", "N"), reaction("again", "mN")] },
         const { &[input("omega", SPEED)] },
-        const {
-            &[
-                design("m", KILOGRAM, 2.0, 0.0),
-                design("l", METRE, 0.7, 0.01),
-                design("l2", METRE, 0.7, 0.0),
-            ]
-        },
+        const { &[design("m", KILOGRAM, 2.0, 0.0), design("l", METRE, 0.7, 0.01), design("l2", METRE, 0.7, 0.0)] },
     );
 
     fn masses<T: Real>(&self, b: &[T; 3]) -> [T; 4] {
@@ -190,9 +164,7 @@ impl Lagrangian for SliderCrank {
         let inertia = |mass: T, length: T| mass * length * length / c(12.0);
         let (j1, j2) = (inertia(b[0], b[3]), inertia(b[1], b[4]));
         let [m1, m2, m3] = [b[0], b[1], b[2]];
-        [
-            m1, m1, j1, m2, m2, j2, m3, none, none, none, none, none, none,
-        ]
+        [m1, m1, j1, m2, m2, j2, m3, none, none, none, none, none, none]
     }
 
     fn value<T: Real>(&self, x: &[T; 13], u: &[T; 1], b: &[T; 7]) -> T {
@@ -272,22 +244,9 @@ impl Lagrangian for Truss {
 
     const DESCRIPTION: Description = described(
         "Truss",
-        const {
-            &[
-                coordinate("x", METRE),
-                coordinate("y", METRE),
-                reaction("left", "N"),
-                reaction("right", "N"),
-            ]
-        },
+        const { &[coordinate("x", METRE), coordinate("y", METRE), reaction("left", "N"), reaction("right", "N")] },
         const { &[input("load", NUMBER)] },
-        const {
-            &[
-                design("m", KILOGRAM, 2.0, 0.0),
-                design("l", METRE, 1.3, 0.001),
-                design("a", METRE, 0.5, 0.001),
-            ]
-        },
+        const { &[design("m", KILOGRAM, 2.0, 0.0), design("l", METRE, 1.3, 0.001), design("a", METRE, 0.5, 0.001)] },
     );
 
     fn masses<T: Real>(&self, b: &[T; 3]) -> [T; 4] {

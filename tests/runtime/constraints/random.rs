@@ -27,19 +27,14 @@ fn potential<T: Real>(p: &[T; 6], omega: T, b: &[T; 9]) -> T {
     (0..3).fold(T::constant(0.0), |sum, i| {
         let (x, y) = (p[2 * i], p[2 * i + 1]);
         let (dx, dy) = (x - T::constant(0.7), y - T::constant(0.4 - 0.3 * i as f64));
-        sum + b[i] * (T::constant(GRAVITY) * y - half * omega * omega * x * x)
-            + half * b[6 + i] * (dx * dx + dy * dy)
+        sum + b[i] * (T::constant(GRAVITY) * y - half * omega * omega * x * x) + half * b[6 + i] * (dx * dx + dy * dy)
     })
 }
 
 fn gaps<T: Real>(p: &[T], b: &[T; 9]) -> [T; 3] {
     from_fn(|i| {
         let before = |j: usize| {
-            if i == 0 {
-                T::constant(0.0)
-            } else {
-                p[2 * i - 2 + j]
-            }
+            if i == 0 { T::constant(0.0) } else { p[2 * i - 2 + j] }
         };
         distance(p[2 * i] - before(0), p[2 * i + 1] - before(1)) - b[3 + i]
     })
@@ -147,23 +142,14 @@ fn minimum(state: &Equilibrium) -> (f64, [f64; 3]) {
     let omega = Dual::fixed(Dual::fixed(state.inputs[0]));
     let value = |i: usize, j: usize| {
         let seed = |hit: bool| if hit { 1.0 } else { 0.0 };
-        let t = from_fn(|k| {
-            Dual::new(
-                Dual::new(angles[k], seed(k == i)),
-                Dual::new(seed(k == j), 0.0),
-            )
-        });
+        let t = from_fn(|k| Dual::new(Dual::new(angles[k], seed(k == i)), Dual::new(seed(k == j), 0.0)));
         by_angles(&t, omega, &b)
     };
     let h: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| value(i, j).slope.slope));
-    let size = h
-        .iter()
-        .flatten()
-        .fold(0.0_f64, |most, v| most.max(v.abs()));
+    let size = h.iter().flatten().fold(0.0_f64, |most, v| most.max(v.abs()));
     let slope = (0..3).fold(0.0_f64, |most, i| most.max(value(i, i).value.slope.abs()));
     let two = h[0][0] * h[1][1] - h[0][1] * h[1][0];
-    let three = h[0][0] * (h[1][1] * h[2][2] - h[1][2] * h[2][1])
-        - h[0][1] * (h[1][0] * h[2][2] - h[1][2] * h[2][0])
+    let three = h[0][0] * (h[1][1] * h[2][2] - h[1][2] * h[2][1]) - h[0][1] * (h[1][0] * h[2][2] - h[1][2] * h[2][0])
         + h[0][2] * (h[1][0] * h[2][1] - h[1][1] * h[2][0]);
     (slope / size, [h[0][0], two, three])
 }
@@ -173,10 +159,7 @@ struct Random(u64);
 impl Random {
     /// Uniform between two values.
     fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
@@ -207,39 +190,17 @@ fn stable_equilibria_are_found(cases: u32) {
         let values: [f64; 6] = from_fn(|_| random.between(-2.0, 2.0));
         let plain: [f64; 9] = from_fn(|i| if i < 6 { values[i] } else { 0.0 });
         let redundant: [f64; 11] = from_fn(|i| if i < 6 { values[i] } else { 0.0 });
-        let one = eigentol::equilibrium::equilibrium(
-            &bordered(Chain),
-            &[omega],
-            &b,
-            &plain,
-            Policy::Stable,
-        );
-        let two = eigentol::equilibrium::equilibrium(
-            &bordered(Redundant),
-            &[omega],
-            &b,
-            &redundant,
-            Policy::Stable,
-        );
+        let one = eigentol::equilibrium::equilibrium(&bordered(Chain), &[omega], &b, &plain, Policy::Stable);
+        let two = eigentol::equilibrium::equilibrium(&bordered(Redundant), &[omega], &b, &redundant, Policy::Stable);
         let one = one.unwrap_or_else(|error| panic!("case {case}: {error}"));
         let two = two.unwrap_or_else(|error| panic!("case {case}, redundant: {error}"));
         assert_eq!((one.constraints.freedom, one.constraints.redundant), (3, 0));
-        assert_eq!(
-            (two.constraints.freedom, two.constraints.redundant),
-            (3, 2),
-            "case {case}"
-        );
+        assert_eq!((two.constraints.freedom, two.constraints.redundant), (3, 2), "case {case}");
         assert!(!two.constraints.singular);
-        for (stability, (slope, minors)) in [
-            (one.stability, minimum(&one)),
-            (two.stability, minimum(&two)),
-        ] {
+        for (stability, (slope, minors)) in [(one.stability, minimum(&one)), (two.stability, minimum(&two))] {
             assert_eq!(stability, Stability::Stable, "case {case}");
             assert!(slope < 1e-11, "case {case}: {slope:e}");
-            assert!(
-                minors.iter().all(|&minor| minor > 0.0),
-                "case {case}: {minors:?}"
-            );
+            assert!(minors.iter().all(|&minor| minor > 0.0), "case {case}: {minors:?}");
         }
     }
 }
@@ -264,20 +225,8 @@ fn nearest_equilibria_are_equilibria(cases: u32) {
             _ => random.between(0.0, 100.0),
         });
         let omega = random.between(0.0, 4.0);
-        let start: [f64; 11] = from_fn(|i| {
-            if i < 6 {
-                random.between(-1.5, 1.5)
-            } else {
-                0.0
-            }
-        });
-        let state = eigentol::equilibrium::equilibrium(
-            &bordered(Redundant),
-            &[omega],
-            &b,
-            &start,
-            Policy::Nearest,
-        );
+        let start: [f64; 11] = from_fn(|i| if i < 6 { random.between(-1.5, 1.5) } else { 0.0 });
+        let state = eigentol::equilibrium::equilibrium(&bordered(Redundant), &[omega], &b, &start, Policy::Nearest);
         if let Ok(state) = state {
             let (slope, minors) = minimum(&state);
             assert!(slope < 1e-10, "case {case}: {slope:e}");

@@ -13,42 +13,26 @@ fn a_rod_stated_twice() {
     assert!(state.coordinates[0].abs() < 1e-12);
     close(state.coordinates[1], -0.7, 1e-14);
     // Together they carry the weight, sharing it equally in terms of the resulting forces.
-    let [.., rod, again] = state.coordinates[..] else {
-        panic!("two reactions")
-    };
+    let [.., rod, again] = state.coordinates[..] else { panic!("two reactions") };
     close(rod, 0.5 * 2.0 * GRAVITY, 1e-12);
     close(again, 0.5e-3 * 2.0 * GRAVITY, 1e-12);
-    assert_eq!(
-        (state.constraints.freedom, state.constraints.redundant),
-        (1, 1)
-    );
-    assert_eq!(
-        state.dependent_constraints().collect::<Vec<_>>(),
-        ["rod", "again"]
-    );
+    assert_eq!((state.constraints.freedom, state.constraints.redundant), (1, 1));
+    assert_eq!(state.dependent_constraints().collect::<Vec<_>>(), ["rod", "again"]);
     assert!(!state.constraints.singular);
     assert_eq!(state.stability, Stability::Stable);
     let text = state.to_string();
-    assert!(
-        text.contains("1 of 2 constraints redundant (rod, again)"),
-        "{text}"
-    );
+    assert!(text.contains("1 of 2 constraints redundant (rod, again)"), "{text}");
 }
 
 #[test]
 fn rods_that_contradict_each_other() {
-    let study = Study::new(bordered(Twice))
-        .guess(Coordinate::new(1), -0.7)
-        .design(DesignVariable::new(2), 0.701);
+    let study = Study::new(bordered(Twice)).guess(Coordinate::new(1), -0.7).design(DesignVariable::new(2), 0.701);
     let Err(Error::NotAssembled { reason, gap, .. }) = study.equilibrium() else {
         panic!("0.7 m is not 0.701 m");
     };
     assert_eq!(reason, NotClosed::Contradiction);
     // Rows are weighted by their size: both are violated by half a millimetre, the second one in units of millimetres.
-    assert!(
-        (gap.abs() - 0.5e-3).abs() < 1e-6 || (gap.abs() - 0.5).abs() < 1e-3,
-        "{gap}"
-    );
+    assert!((gap.abs() - 0.5e-3).abs() < 1e-6 || (gap.abs() - 0.5).abs() < 1e-3, "{gap}");
 }
 
 #[test]
@@ -73,10 +57,7 @@ fn a_platform_on_three_bars() {
         close(state.coordinates[0] + 1.0, l * turn.sin() + 1.0, 1e-13);
         close(state.coordinates[1], -l * turn.cos(), 1e-13);
         assert!(state.coordinates[2].abs() < 1e-13);
-        assert_eq!(
-            (state.constraints.freedom, state.constraints.redundant),
-            (1, 1)
-        );
+        assert_eq!((state.constraints.freedom, state.constraints.redundant), (1, 1));
         assert!(!state.constraints.singular);
         assert_eq!(state.stability, Stability::Stable);
         let forces = &state.coordinates[3..];
@@ -93,10 +74,7 @@ fn a_bar_that_does_not_fit() {
     let start = [0.0, -0.8, 0.0, 0.0, 0.0, 0.0];
     let error = assemble(&bordered(Parallelogram), &[0.0], &b, &start, &[]).expect_err("too long");
     let text = error.to_string();
-    assert!(
-        text.contains("contradict") && text.contains("`middle`"),
-        "{text}"
-    );
+    assert!(text.contains("contradict") && text.contains("`middle`"), "{text}");
     let Error::NotAssembled { gap, others, .. } = error else {
         panic!("{text}");
     };
@@ -109,12 +87,8 @@ fn a_bar_that_does_not_fit() {
 
 #[test]
 fn a_branch_of_a_redundant_mechanism() {
-    let study = Study::new(bordered(Parallelogram))
-        .guess(Coordinate::new(0), 0.1)
-        .guess(Coordinate::new(1), -0.7);
-    let branches = study
-        .branches(eigentol::Input::new(0), 0.0, 1.0)
-        .expect("a branch");
+    let study = Study::new(bordered(Parallelogram)).guess(Coordinate::new(0), 0.1).guess(Coordinate::new(1), -0.7);
+    let branches = study.branches(eigentol::Input::new(0), 0.0, 1.0).expect("a branch");
     assert_eq!(branches.branches.len(), 1);
     let points = &branches.branches[0].points;
     assert!(points.len() > 5);

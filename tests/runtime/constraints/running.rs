@@ -2,8 +2,7 @@
 
 use eigentol::equilibrium::assemble;
 use eigentol::{
-    Coordinate, CoordinateInfo, DampingKind, Description, Policy, Real, Role, Shared, Unit,
-    equilibrium::equilibrium,
+    Coordinate, CoordinateInfo, DampingKind, Description, Policy, Real, Role, Shared, Unit, equilibrium::equilibrium,
 };
 
 use crate::common::derived::{Derived, Model};
@@ -27,10 +26,7 @@ impl Model for Gears {
             speed("v2"),
             CoordinateInfo {
                 name: Shared::Static("mesh"),
-                unit: Unit {
-                    symbol: Shared::Static("N*m"),
-                    scale: 1.0,
-                },
+                unit: Unit { symbol: Shared::Static("N*m"), scale: 1.0 },
                 role: Role::VelocityReaction,
             },
         ]),
@@ -55,34 +51,18 @@ impl Model for Gears {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 4],
-        v: &[T; 4],
-        _: &[T; 4],
-        _: &[T; 1],
-        b: &[T; 8],
-    ) -> [T; 4] {
+    fn inertia<T: Real>(&self, a: &[T; 4], v: &[T; 4], _: &[T; 4], _: &[T; 1], b: &[T; 8]) -> [T; 4] {
         [b[5] * a[0], b[0] * v[1], b[1] * v[2], T::constant(0.0)]
     }
 
     fn applied<T: Real>(&self, _: &[T; 4], q: &[T; 4], u: &[T; 1], b: &[T; 8]) -> [T; 4] {
         let [x, v1, v2, mu] = *q;
-        [
-            b[7] * v2 * v2 - b[6] * x,
-            u[0] - b[2] * v1 - mu,
-            -(b[3] * v2) - b[4] * mu,
-            -(v1 + b[4] * v2),
-        ]
+        [b[7] * v2 * v2 - b[6] * x, u[0] - b[2] * v1 - mu, -(b[3] * v2) - b[4] * mu, -(v1 + b[4] * v2)]
     }
 }
 
 const fn speed(name: &'static str) -> CoordinateInfo {
-    CoordinateInfo {
-        name: Shared::Static(name),
-        unit: SPEED,
-        role: Role::Speed,
-    }
+    CoordinateInfo { name: Shared::Static(name), unit: SPEED, role: Role::Speed }
 }
 
 #[test]
@@ -96,20 +76,13 @@ fn geared_rotors_run_at_one_speed() {
     let expected = [p * v2 * v2 / k, v1, v2, mu];
     for start in [[0.0; 4], [1.0, -50.0, 3.0, 7e5]] {
         for policy in [Policy::Stable, Policy::Nearest] {
-            let state = equilibrium(&Derived(Gears), &[torque], &VALUES, &start, policy)
-                .expect("an equilibrium");
+            let state = equilibrium(&Derived(Gears), &[torque], &VALUES, &start, policy).expect("an equilibrium");
             for (have, want) in state.coordinates.iter().zip(expected) {
                 crate::common::close(*have, want, 1e-12);
             }
-            assert_eq!(
-                (state.constraints.freedom, state.constraints.redundant),
-                (1, 0)
-            );
+            assert_eq!((state.constraints.freedom, state.constraints.redundant), (1, 0));
             let text = state.to_string();
-            assert!(
-                text.contains("speed") && text.contains("mesh [N*m]"),
-                "{text}"
-            );
+            assert!(text.contains("speed") && text.contains("mesh [N*m]"), "{text}");
         }
     }
 }

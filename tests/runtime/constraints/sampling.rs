@@ -32,10 +32,6 @@ fn samples_that_do_not_close_are_counted() {
         }
     }
     // One standard deviation from not closing: one sixth of the samples.
-    assert!(
-        (40..100).contains(&run.counts.not_assembled),
-        "{:?}",
-        run.counts
-    );
+    assert!((40..100).contains(&run.counts.not_assembled), "{:?}", run.counts);
     assert!(run.counts.to_string().contains("not assembled"));
 }

@@ -1,9 +1,6 @@
 //! Questions about one state: a deviation has the same effect as its input.
 
-use super::{
-    Double, Governor, OMEGA, Single, Spherical, all_deviate, frequency, frequency_slopes, nominal,
-    solved,
-};
+use super::{Double, Governor, OMEGA, Single, Spherical, all_deviate, frequency, frequency_slopes, nominal, solved};
 use crate::common::branching::{NearlyTwo, Rotor};
 use crate::common::chain::DOUBLE;
 use crate::common::close;
@@ -55,10 +52,7 @@ fn state<K: CurvatureKernels>(machine: &K, u: &[f64], start: &[f64]) {
                 near(second.by_design[own + i][own + j], plain.by_input[i][j]);
             }
             for k in 0..own {
-                near(
-                    second.by_design[own + i][k],
-                    plain.by_input_and_design[i][k],
-                );
+                near(second.by_design[own + i][k], plain.by_input_and_design[i][k]);
             }
         }
     }
@@ -73,48 +67,30 @@ fn state<K: CurvatureKernels>(machine: &K, u: &[f64], start: &[f64]) {
         moving += s.by_input.iter().filter(|slope| slope.norm() > 0.0).count();
         let without = without.s().unwrap().by_design;
         for (found, expected) in s.by_design.iter().zip(&without) {
-            let scale = without
-                .iter()
-                .fold(1.0, |most: f64, slope| most.max(slope.norm()));
-            assert!(
-                (found - expected).norm() <= 1e-12 * scale,
-                "{found} {expected}"
-            );
+            let scale = without.iter().fold(1.0, |most: f64, slope| most.max(slope.norm()));
+            assert!((found - expected).norm() <= 1e-12 * scale, "{found} {expected}");
         }
     }
     assert!(moving > 0);
 
     for mode in 0..modes.modes.len() {
         let shapes = shape_sensitivity(&deviating, &at, &modes, mode).unwrap();
-        let rows = shapes
-            .right_by_input
-            .iter()
-            .zip(shapes.right_by_design.iter().skip(own));
+        let rows = shapes.right_by_input.iter().zip(shapes.right_by_design.iter().skip(own));
         rows.for_each(|(by_input, by_design)| assert_eq!(by_input, by_design));
 
         let curvature = mode_curvature(&deviating, &at, &modes, mode).unwrap();
         let second = &curvature.lambda;
-        let scale = [
-            &second.by_input,
-            &second.by_design,
-            &second.by_input_and_design,
-        ];
+        let scale = [&second.by_input, &second.by_design, &second.by_input_and_design];
         let scale = scale.map(|matrix| matrix.as_flattened()).concat();
         let scale = scale.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
         let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-12 * scale, "{a:e} {b:e}");
         for i in 0..u.len() {
             for j in 0..u.len() {
                 near(second.by_design[own + i][own + j], second.by_input[i][j]);
-                near(
-                    second.by_input_and_design[i][own + j],
-                    second.by_input[i][j],
-                );
+                near(second.by_input_and_design[i][own + j], second.by_input[i][j]);
             }
             for j in 0..own {
-                near(
-                    second.by_design[own + i][j],
-                    second.by_input_and_design[i][j],
-                );
+                near(second.by_design[own + i][j], second.by_input_and_design[i][j]);
             }
         }
     }
@@ -149,11 +125,7 @@ fn of_the_pendulum(machine: &dyn SummaryKernels, speed: f64, sigma: f64) {
     let frequency = &second.modes[0].as_ref().unwrap().frequency;
     close(frequency.model.slopes[2], slope, 1e-12);
     close(frequency.model.curvature[2][2], bend, 1e-11);
-    close(
-        frequency.moments.mean_shift,
-        0.5 * bend * sigma * sigma,
-        1e-11,
-    );
+    close(frequency.moments.mean_shift, 0.5 * bend * sigma * sigma, 1e-11);
     let variance = (slope * sigma).powi(2) + 0.5 * (bend * sigma * sigma).powi(2);
     close(frequency.moments.sigma, variance.sqrt(), 1e-11);
     let curvature = mode_curvature(&deviating, &at, &modes, 0).unwrap();
@@ -222,9 +194,7 @@ fn clusters_move_with_inputs() {
     let deviating = all_deviate(&nearly);
     let b = deviating.design(&[0.0]);
     let (at, modes) = solved(&deviating, &[0.4], &b, &[0.0; 2]);
-    let along = |du: f64, db: [f64; 2]| {
-        directional_derivatives(&deviating, &at, &modes, 0, (&[du], &db)).unwrap()
-    };
+    let along = |du: f64, db: [f64; 2]| directional_derivatives(&deviating, &at, &modes, 0, (&[du], &db)).unwrap();
     assert_eq!(along(0.7, [0.2, 0.0]), along(0.0, [0.2, 0.7]));
     assert_eq!(along(0.7, [0.2, 0.0]), along(0.5, [0.2, 0.2]));
     let eigenvalues = along(0.0, [0.2, 0.7]).eigenvalues;

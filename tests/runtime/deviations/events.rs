@@ -11,18 +11,13 @@ use eigentol::campbell::{Axes, campbell};
 use eigentol::kernels::CurvatureKernels;
 use eigentol::second_order::{critical_curvature, crossing_curvature};
 use eigentol::sweep::{
-    Line, Range, critical_sensitivity, critical_state, critical_tolerance, crossing_sensitivity,
-    crossing_tolerance, crossings, flutter_onsets,
+    Line, Range, critical_sensitivity, critical_state, critical_tolerance, crossing_sensitivity, crossing_tolerance,
+    crossings, flutter_onsets,
 };
 use eigentol::{DampingKind, Description, Policy, Real, Shared, Tolerances};
 
 /// The set value moves by minus the deviation, independently of the design.
-fn critical_moves_back<K: CurvatureKernels>(
-    machine: &K,
-    b: &[f64],
-    start: &[f64],
-    (low, high): (f64, f64),
-) {
+fn critical_moves_back<K: CurvatureKernels>(machine: &K, b: &[f64], start: &[f64], (low, high): (f64, f64)) {
     let deviating = all_deviate(machine);
     let range = Range::new(OMEGA, low, high).steps(40);
     let b = deviating.design(b);
@@ -48,10 +43,7 @@ fn critical_moves_back<K: CurvatureKernels>(
         for j in 0..=own {
             let expected = if i.max(j) < own { expected[i][j] } else { 0.0 };
             let error = (bent[i][j] - expected).abs();
-            assert!(
-                error <= 1e-9 * expected.abs().max(1.0),
-                "{i}, {j}: {error:e}"
-            );
+            assert!(error <= 1e-9 * expected.abs().max(1.0), "{i}, {j}: {error:e}");
         }
     }
 }
@@ -87,28 +79,14 @@ fn crossings_move_back_by_the_deviation() {
     let deviating = all_deviate(&Pendulum);
     let b = deviating.design(&[3.0, 1.0]);
     let range = Range::new(OMEGA, 0.1, 8.0).steps(60);
-    let fixed = Line {
-        ratio: 0.0,
-        offset: 3.0,
-    };
-    let shifted = Line {
-        ratio: 0.5,
-        offset: 1.5,
-    };
+    let fixed = Line { ratio: 0.0, offset: 3.0 };
+    let shifted = Line { ratio: 0.5, offset: 1.5 };
     for line in [Line::from(1.0), Line::from(0.9), fixed, shifted] {
         let met = crossings(&deviating, &[0.0], &b, &[1.0], Policy::Stable, range, line).unwrap();
         assert!(!met.is_empty());
         let mut moved = b.clone();
         moved[2] = 0.2;
-        let again = crossings(
-            &deviating,
-            &[0.0],
-            &moved,
-            &[1.0],
-            Policy::Stable,
-            range,
-            line,
-        );
+        let again = crossings(&deviating, &[0.0], &moved, &[1.0], Policy::Stable, range, line);
         let again = again.unwrap();
         assert_eq!(again.len(), met.len());
         for (met, again) in met.iter().zip(&again) {
@@ -121,11 +99,7 @@ fn crossings_move_back_by_the_deviation() {
             assert!(bent[2].iter().all(|value| value.abs() < 1e-10), "{bent:?}");
             let tolerances = Tolerances::new([0.0, 0.03, 0.06], 3.0, None).unwrap();
             let spread = crossing_tolerance(&deviating, crossing, &tolerances);
-            close(
-                spread.sigma().unwrap(),
-                (0.01 * slopes[1]).hypot(0.02),
-                1e-12,
-            );
+            close(spread.sigma().unwrap(), (0.01 * slopes[1]).hypot(0.02), 1e-12);
         }
     }
 }
@@ -137,15 +111,7 @@ fn crossings_move_with_another_input() {
     let range = Range::new(OMEGA, 0.1, 8.0).steps(60);
     let at = |load: f64| {
         let b = deviating.design(&[3.0, 3.0, 1.0, 1.0]);
-        let met = crossings(
-            &deviating,
-            &[0.0, load],
-            &b,
-            &[1.0, 1.0],
-            Policy::Stable,
-            range,
-            1.0,
-        );
+        let met = crossings(&deviating, &[0.0, load], &b, &[1.0, 1.0], Policy::Stable, range, 1.0);
         met.unwrap().remove(0)
     };
     let crossing = at(2.0);
@@ -178,14 +144,7 @@ impl Model for Fed {
         kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 1],
-        _: &[T; 1],
-        _: &[T; 1],
-        _: &[T; 1],
-        _: &[T; 1],
-    ) -> [T; 1] {
+    fn inertia<T: Real>(&self, a: &[T; 1], _: &[T; 1], _: &[T; 1], _: &[T; 1], _: &[T; 1]) -> [T; 1] {
         *a
     }
 
@@ -220,15 +179,7 @@ fn a_campbell_diagram_has_the_spread_of_the_speed() {
     let orders = [Line::from(0.9)];
     let axes = Axes::new(OMEGA, &values, &orders);
     let tolerances = Tolerances::new([0.0, 0.0, 0.3], 3.0, None).unwrap();
-    let diagram = campbell(
-        &deviating,
-        &[0.0],
-        &b,
-        &[1.0],
-        Policy::Stable,
-        &axes,
-        &tolerances,
-    );
+    let diagram = campbell(&deviating, &[0.0], &b, &[1.0], Policy::Stable, &axes, &tolerances);
     let diagram = diagram.unwrap();
     for (point, speed) in diagram.points.iter().zip(values) {
         let mode = &point.modes.as_ref().unwrap()[0];
@@ -237,11 +188,7 @@ fn a_campbell_diagram_has_the_spread_of_the_speed() {
     }
     // sqrt(u^2 - c^2 / u^2) = 0.9 u where u^4 = c^2 / 0.19.
     assert_eq!(diagram.crossings.len(), 1);
-    close(
-        diagram.crossings[0].value,
-        (CRITICAL * CRITICAL / 0.19).powf(0.25),
-        1e-12,
-    );
+    close(diagram.crossings[0].value, (CRITICAL * CRITICAL / 0.19).powf(0.25), 1e-12);
     close(diagram.crossings[0].sigma().unwrap(), 0.1, 1e-12);
 }
 

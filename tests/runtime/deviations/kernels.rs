@@ -7,9 +7,8 @@ use crate::common::derived::Derived;
 use crate::common::models::{Follower, Plate};
 use crate::common::pendulum::Pendulum;
 use eigentol::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
-    CurvatureKernels, DeviatingInputs, DirectionalKernels, Gradient, Kernels, Linear,
-    LinearPartials, MotionKernels, ResidualPartials, Sizes,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, CurvatureKernels, DeviatingInputs,
+    DirectionalKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels, ResidualPartials, Sizes,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{DampingKind, Error, Input, Law, Matrix, ToleranceInfo, Vector};
@@ -55,12 +54,7 @@ fn same_rows(matrix: &Matrix, by_input: &Matrix, by_design: &Matrix) {
 }
 
 /// Both partial derivatives, from the kernel that computes them together.
-fn partials_of(
-    kernels: &dyn Kernels,
-    q: &[f64],
-    u: &[f64],
-    b: &[f64],
-) -> (LinearPartials, ResidualPartials) {
+fn partials_of(kernels: &dyn Kernels, q: &[f64], u: &[f64], b: &[f64]) -> (LinearPartials, ResidualPartials) {
     let mut residual = kernels.residual_partials(q, u, b);
     residual.0.as_flattened_mut().fill(f64::NAN);
     residual.1.as_flattened_mut().fill(f64::NAN);
@@ -88,85 +82,47 @@ fn one_state<K: CurvatureKernels + MotionKernels>(machine: &K) {
     assert_eq!(all.design, sizes.design + sizes.inputs + 1);
     assert_eq!(found.description().design.len(), all.design);
     let n = sizes.coordinates;
-    let (q, u, b) = (
-        &*numbers(n, 1),
-        &*numbers(sizes.inputs, 2),
-        &*numbers(all.design, 3),
-    );
+    let (q, u, b) = (&*numbers(n, 1), &*numbers(sizes.inputs, 2), &*numbers(all.design, 3));
     let (moved, own) = applied(sizes, u, b);
     let (v, p) = (&*moved, &*own);
 
     assert_eq!(found.residual(q, u, b), plain.residual(q, v, p));
     assert_eq!(found.residual_parts(q, u, b), plain.residual_parts(q, v, p));
-    assert_eq!(
-        found.residual_and_stiffness(q, u, b),
-        plain.residual_and_stiffness(q, v, p)
-    );
+    assert_eq!(found.residual_and_stiffness(q, u, b), plain.residual_and_stiffness(q, v, p));
     assert_eq!(found.linear(q, u, b), plain.linear(q, v, p));
-    assert_eq!(
-        found.parts_and_linear(q, u, b),
-        plain.parts_and_linear(q, v, p)
-    );
+    assert_eq!(found.parts_and_linear(q, u, b), plain.parts_and_linear(q, v, p));
     assert_eq!(found.outputs(q, u, b), plain.outputs(q, v, p));
     assert_eq!(found.pose_margin(q, u, b), plain.pose_margin(q, v, p));
     let (real, imaginary) = (numbers(n, 4), numbers(n, 5));
-    assert_eq!(
-        found.whirl(q, u, b, &real, &imaginary),
-        plain.whirl(q, v, p, &real, &imaginary)
-    );
+    assert_eq!(found.whirl(q, u, b, &real, &imaginary), plain.whirl(q, v, p, &real, &imaginary));
 
     let (by_input, by_design) = plain.residual_partials(q, v, p);
     let partials = found.residual_partials(q, u, b);
     assert_eq!(partials.0, by_input);
     same_rows(&partials.1, &by_input, &by_design);
-    same_partials(
-        &found.linear_partials(q, u, b),
-        &plain.linear_partials(q, v, p),
-    );
+    same_partials(&found.linear_partials(q, u, b), &plain.linear_partials(q, v, p));
     let (matrices, residual) = partials_of(found, q, u, b);
     let (expected, (by_input, by_design)) = partials_of(plain, q, v, p);
     same_partials(&matrices, &expected);
     same_rows(&residual.1, &by_input, &by_design);
-    let (outputs, expected) = (
-        found.output_partials(q, u, b),
-        plain.output_partials(q, v, p),
-    );
+    let (outputs, expected) = (found.output_partials(q, u, b), plain.output_partials(q, v, p));
     assert_eq!(outputs[..2], expected[..2]);
     same_rows(&outputs[2], &expected[1], &expected[2]);
 
     let vectors = [6, 7, 8, 9].map(|seed| numbers(n, seed));
     let phi = &*vectors[0];
-    same_gradient(
-        &found.mode_gradient(q, u, b, phi, 0.7),
-        &plain.mode_gradient(q, v, p, phi, 0.7),
-    );
-    same_gradient(
-        &found.pencil_gradient(q, u, b, lists(&vectors)),
-        &plain.pencil_gradient(q, v, p, lists(&vectors)),
-    );
-    same_gradient(
-        &found.residual_gradient(q, u, b, phi),
-        &plain.residual_gradient(q, v, p, phi),
-    );
+    same_gradient(&found.mode_gradient(q, u, b, phi, 0.7), &plain.mode_gradient(q, v, p, phi, 0.7));
+    same_gradient(&found.pencil_gradient(q, u, b, lists(&vectors)), &plain.pencil_gradient(q, v, p, lists(&vectors)));
+    same_gradient(&found.residual_gradient(q, u, b, phi), &plain.residual_gradient(q, v, p, phi));
 
     // Along a direction.
-    let (dq, du, db) = (
-        numbers(n, 10),
-        numbers(sizes.inputs, 11),
-        numbers(all.design, 12),
-    );
+    let (dq, du, db) = (numbers(n, 10), numbers(sizes.inputs, 11), numbers(all.design, 12));
     let (dv, dp) = applied(sizes, &du, &db);
     let changes = [13, 14, 15, 16].map(|seed| numbers(n, seed));
     let dphi = &*changes[0];
-    let (all, own) = (
-        &deviating as &dyn CurvatureKernels,
-        machine as &dyn CurvatureKernels,
-    );
+    let (all, own) = (&deviating as &dyn CurvatureKernels, machine as &dyn CurvatureKernels);
     let (all_along, own_along): (&dyn DirectionalKernels, &dyn DirectionalKernels) = (all, own);
-    assert_eq!(
-        all_along.linear_along(q, u, b, [&dq, &du, &db]),
-        own_along.linear_along(q, v, p, [&dq, &dv, &dp])
-    );
+    assert_eq!(all_along.linear_along(q, u, b, [&dq, &du, &db]), own_along.linear_along(q, v, p, [&dq, &dv, &dp]));
     same_gradient(
         &all_along.residual_gradient_along(q, u, b, phi, [&dq, &du, &db, dphi]),
         &own_along.residual_gradient_along(q, v, p, phi, [&dq, &dv, &dp, dphi]),
@@ -184,15 +140,9 @@ fn one_state<K: CurvatureKernels + MotionKernels>(machine: &K) {
     // Along a motion.
     let (all, machine): (&dyn MotionKernels, &dyn MotionKernels) = (&deviating, machine);
     let (a, r) = (&*numbers(n, 17), &*numbers(n, 18));
-    assert_eq!(
-        all.motion_residual(a, r, q, u, b),
-        machine.motion_residual(a, r, q, v, p)
-    );
+    assert_eq!(all.motion_residual(a, r, q, u, b), machine.motion_residual(a, r, q, v, p));
     assert_eq!(all.motion(r, q, u, b), machine.motion(r, q, v, p));
-    assert_eq!(
-        all.motion_linear(a, r, q, u, b),
-        machine.motion_linear(a, r, q, v, p)
-    );
+    assert_eq!(all.motion_linear(a, r, q, u, b), machine.motion_linear(a, r, q, v, p));
 }
 
 #[test]
@@ -220,10 +170,7 @@ fn against_differences(b: &[f64], value: impl Fn(&[f64]) -> Vec<f64>, values: &[
         assert_eq!(slopes.len(), above.len());
         for ((slope, above), below) in slopes.iter().zip(&above).zip(&below) {
             let error = (slope - (above - below) / (2.0 * STEP)).abs();
-            assert!(
-                error <= 1e-7 * scale,
-                "variable {j}: {error:e} of {scale:e}"
-            );
+            assert!(error <= 1e-7 * scale, "variable {j}: {error:e} of {scale:e}");
         }
     }
 }
@@ -237,23 +184,12 @@ fn differences<K: CurvatureKernels>(machine: &K) {
     let deviating = repeated(machine);
     let curvature: &dyn CurvatureKernels = &deviating;
     let (directional, kernels): (&dyn DirectionalKernels, &dyn Kernels) = (curvature, curvature);
-    let Sizes {
-        coordinates: n,
-        inputs,
-        design,
-        ..
-    } = kernels.sizes();
+    let Sizes { coordinates: n, inputs, design, .. } = kernels.sizes();
     let (q, u, b) = (&*numbers(n, 1), &*numbers(inputs, 2), &*numbers(design, 3));
-    let columns = |matrix: &Matrix| -> Vec<Vec<f64>> {
-        (0..design).map(|j| matrix.column(j).into()).collect()
-    };
+    let columns = |matrix: &Matrix| -> Vec<Vec<f64>> { (0..design).map(|j| matrix.column(j).into()).collect() };
 
     let (_, by_design) = kernels.residual_partials(q, u, b);
-    against_differences(
-        b,
-        |b| kernels.residual(q, u, b).into(),
-        &columns(&by_design),
-    );
+    against_differences(b, |b| kernels.residual(q, u, b).into(), &columns(&by_design));
     let [.., by_design] = kernels.output_partials(q, u, b);
     against_differences(b, |b| kernels.outputs(q, u, b).into(), &columns(&by_design));
     let partials = kernels.linear_partials(q, u, b);
@@ -269,23 +205,14 @@ fn differences<K: CurvatureKernels>(machine: &K) {
     let phi = &*numbers(n, 6);
     let form = |b: &[f64]| {
         let linear = kernels.linear(q, u, b);
-        let entry = |i: usize, j: usize| {
-            phi[i] * phi[j] * (linear.stiffness[i][j] - 0.7 * linear.mass[i][j])
-        };
+        let entry = |i: usize, j: usize| phi[i] * phi[j] * (linear.stiffness[i][j] - 0.7 * linear.mass[i][j]);
         vec![(0..n * n).map(|k| entry(k / n, k % n)).sum()]
     };
     let gradient = kernels.mode_gradient(q, u, b, phi, 0.7).design;
     let derived: Vec<_> = gradient.iter().map(|slope| vec![*slope]).collect();
     against_differences(b, form, &derived);
 
-    let list = |gradient: Gradient| {
-        [
-            &gradient.coordinates[..],
-            &gradient.inputs,
-            &gradient.design,
-        ]
-        .concat()
-    };
+    let list = |gradient: Gradient| [&gradient.coordinates[..], &gradient.inputs, &gradient.design].concat();
     let along = |j: usize| {
         let direction = [&zq[..], &zu, &unit(j), &zq];
         list(curvature.mode_gradient_along(q, u, b, phi, 0.7, direction, 0.0))
@@ -317,36 +244,18 @@ fn same_batch(batches: &[Batch], state: usize, expected: &[f64]) {
 
 /// Storage for three matrices, by rows, for each of the variables.
 fn room(entries: usize) -> eigentol::Linear<Vec<Batch>> {
-    eigentol::Linear {
-        mass: vec![BEFORE; entries],
-        damping: vec![BEFORE; entries],
-        stiffness: vec![BEFORE; entries],
-    }
+    eigentol::Linear { mass: vec![BEFORE; entries], damping: vec![BEFORE; entries], stiffness: vec![BEFORE; entries] }
 }
 
 fn lend(room: &mut eigentol::Linear<Vec<Batch>>) -> BatchLinear<'_> {
-    eigentol::Linear {
-        mass: &mut room.mass,
-        damping: &mut room.damping,
-        stiffness: &mut room.stiffness,
-    }
+    eigentol::Linear { mass: &mut room.mass, damping: &mut room.damping, stiffness: &mut room.stiffness }
 }
 
 /// The matrices of variable `k`.
-fn same_linear(
-    linear: &eigentol::Linear<Vec<Batch>>,
-    k: usize,
-    state: usize,
-    expected: &Linear,
-    damped: bool,
-) {
+fn same_linear(linear: &eigentol::Linear<Vec<Batch>>, k: usize, state: usize, expected: &Linear, damped: bool) {
     let matrix = |batches: &[Batch], expected: &Matrix| {
         let expected = expected.as_flattened();
-        same_batch(
-            &batches[k * expected.len()..][..expected.len()],
-            state,
-            expected,
-        );
+        same_batch(&batches[k * expected.len()..][..expected.len()], state, expected);
     };
     matrix(&linear.mass, &expected.mass);
     matrix(&linear.stiffness, &expected.stiffness);
@@ -367,26 +276,15 @@ fn eight_states<K: BatchKernels>(machine: &K, instructions: Instructions) {
         let one = |i: usize| Batch::from_fn(|state| numbers(count, seed + 3 * state)[i]);
         (0..count).map(one).collect()
     };
-    let (q, u, b) = (
-        states(n, 1),
-        states(sizes.inputs, 2),
-        states(sizes.design, 3),
-    );
+    let (q, u, b) = (states(n, 1), states(sizes.inputs, 2), states(sizes.design, 3));
     let (phi, lambda) = (states(n, 4), states(1, 5));
-    let at = BatchPoint {
-        q: &q,
-        u: &u,
-        b: &b,
-    };
+    let at = BatchPoint { q: &q, u: &u, b: &b };
     let (mut residual, mut stiffness) = (vec![BEFORE; n], vec![BEFORE; n * n]);
     batches.residual_and_stiffness_batch(instructions, at, &mut residual, &mut stiffness);
     let (mut linear, mut linear_too) = (room(n * n), room(n * n));
     batches.linear_batch(instructions, at, &mut lend(&mut linear));
     let (mut inertia, mut applied) = (vec![BEFORE; n], vec![BEFORE; n]);
-    let mut parts = BatchParts {
-        inertia: &mut inertia,
-        applied: &mut applied,
-    };
+    let mut parts = BatchParts { inertia: &mut inertia, applied: &mut applied };
     batches.parts_and_linear_batch(instructions, at, &mut parts, &mut lend(&mut linear_too));
     let counts = [n, sizes.inputs, sizes.design];
     let [mut by_coordinate, mut by_input, mut by_design] = counts.map(|count| room(count * n * n));
@@ -400,11 +298,7 @@ fn eight_states<K: BatchKernels>(machine: &K, instructions: Instructions) {
     batches.partials_batch(instructions, at, &mut matrices, [first, second]);
     let [mut of_mode, mut of_residual] = [(); 2].map(|()| counts.map(|count| vec![BEFORE; count]));
     let gradient = |[coordinates, inputs, design]: &mut [Vec<Batch>; 3], residual: bool| {
-        let mut gradient = BatchGradient {
-            coordinates,
-            inputs,
-            design,
-        };
+        let mut gradient = BatchGradient { coordinates, inputs, design };
         match residual {
             true => batches.residual_gradient_batch(instructions, at, &phi, &mut gradient),
             false => {
@@ -440,10 +334,7 @@ fn eight_states<K: BatchKernels>(machine: &K, instructions: Instructions) {
         same_batch(&partials[0], state, by_input.as_flattened());
         same_batch(&partials[1], state, by_design.as_flattened());
         let pairs = [
-            (
-                &of_mode,
-                alone.mode_gradient(&q, &u, &b, &phi, lambda[0].0[state]),
-            ),
+            (&of_mode, alone.mode_gradient(&q, &u, &b, &phi, lambda[0].0[state])),
             (&of_residual, alone.residual_gradient(&q, &u, &b, &phi)),
         ];
         for (found, expected) in pairs {
@@ -495,25 +386,13 @@ fn deviations_are_described() {
     assert!(deviating.inputs().eq(inputs));
     assert!(deviating.deviations().map(|one| one.index()).eq([2, 3]));
     let foreign = DeviatingInputs::new(&Spherical, &[Input::new(3)]);
-    assert!(matches!(
-        foreign,
-        Err(Error::UnknownHandle {
-            kind: "input",
-            index: 3,
-            count: 3,
-            ..
-        })
-    ));
+    assert!(matches!(foreign, Err(Error::UnknownHandle { kind: "input", index: 3, count: 3, .. })));
 }
 
 /// A table known only by its trait, from which another one is made.
 #[test]
 fn any_table_will_do() {
-    let (once, u, b) = (
-        &Double as &dyn CurvatureKernels,
-        [5.0, 1.0],
-        [3.0, 3.0, 1.0, 1.0],
-    );
+    let (once, u, b) = (&Double as &dyn CurvatureKernels, [5.0, 1.0], [3.0, 3.0, 1.0, 1.0]);
     let first = DeviatingInputs::new(once, &[Input::new(1)]).unwrap();
     let twice: &dyn CurvatureKernels = &first;
     let second = DeviatingInputs::new(twice, &[Input::new(0)]).unwrap();
@@ -524,10 +403,7 @@ fn any_table_will_do() {
     (moved[4], moved[5]) = (0.25, 0.5);
     let plain: &dyn Kernels = &Double;
     let q = [0.3, 0.4];
-    assert_eq!(
-        both.residual(&q, &u, &moved),
-        plain.residual(&q, &[5.5, 1.25], &b)
-    );
+    assert_eq!(both.residual(&q, &u, &moved), plain.residual(&q, &[5.5, 1.25], &b));
 }
 
 mod declared {
@@ -537,19 +413,10 @@ mod declared {
     use eigentol::{Description, InputInfo, Real, Shared};
 
     const fn given(name: &'static str, tolerance: ToleranceInfo) -> InputInfo {
-        InputInfo {
-            name: Shared::Static(name),
-            unit: NUMBER,
-            tolerance,
-        }
+        InputInfo { name: Shared::Static(name), unit: NUMBER, tolerance }
     }
 
-    const SKEW: ToleranceInfo = ToleranceInfo {
-        lower: -1.0,
-        upper: 2.0,
-        relative: false,
-        law: Law::Uniform,
-    };
+    const SKEW: ToleranceInfo = ToleranceInfo { lower: -1.0, upper: 2.0, relative: false, law: Law::Uniform };
 
     #[derive(Clone, Copy, Debug)]
     struct Toleranced;
@@ -560,16 +427,7 @@ mod declared {
         const DESCRIPTION: Description = Description {
             name: Shared::Static("Toleranced"),
             coordinates: Shared::Static(&[coordinate("x", METRE)]),
-            inputs: Shared::Static(&[
-                given("si", SKEW),
-                given(
-                    "fraction",
-                    ToleranceInfo {
-                        relative: true,
-                        ..SKEW
-                    },
-                ),
-            ]),
+            inputs: Shared::Static(&[given("si", SKEW), given("fraction", ToleranceInfo { relative: true, ..SKEW })]),
             design: Shared::Static(&[]),
             excitations: Shared::Static(&[]),
             outputs: Shared::Static(&[]),
@@ -581,14 +439,7 @@ mod declared {
             kernels: Shared::Static(&[]),
         };
 
-        fn inertia<T: Real>(
-            &self,
-            a: &[T; 1],
-            _: &[T; 1],
-            _: &[T; 1],
-            _: &[T; 2],
-            _: &[T; 0],
-        ) -> [T; 1] {
+        fn inertia<T: Real>(&self, a: &[T; 1], _: &[T; 1], _: &[T; 1], _: &[T; 2], _: &[T; 0]) -> [T; 1] {
             *a
         }
 

@@ -2,9 +2,7 @@
 
 use super::{CRITICAL, OMEGA, Single, all_deviate, solved};
 use crate::common::{FREQUENCY, close};
-use eigentol::requirement::{
-    FormSettings, Requirement, Requirements, SecondOrderFailure, second_order_failure,
-};
+use eigentol::requirement::{FormSettings, Requirement, Requirements, SecondOrderFailure, second_order_failure};
 use eigentol::tolerance::Sampling;
 use eigentol::{Error, Tolerances};
 
@@ -17,12 +15,7 @@ fn away() -> Requirement {
 
 /// The probability that the bar fails a requirement at a speed set to `speed` with mean `deviation` and standard deviation
 /// `sigma`.
-fn failure(
-    speed: f64,
-    deviation: f64,
-    sigma: f64,
-    wanted: Requirement,
-) -> Result<SecondOrderFailure, Error> {
+fn failure(speed: f64, deviation: f64, sigma: f64, wanted: Requirement) -> Result<SecondOrderFailure, Error> {
     let deviating = all_deviate(&Single);
     let mut b = deviating.design(&[3.0, 1.0]);
     b[2] = deviation;
@@ -60,10 +53,7 @@ fn the_band_is_around_the_speed_that_it_is() {
     close(margin.corrected.value, tail(near) - tail(far), 1e-7);
     let exact = tail(((square / 0.19).powf(0.25) - speed) / SIGMA);
     let errors = [margin.first_order, margin.corrected.value].map(|value| (value - exact).abs());
-    assert!(
-        errors[0] > 0.5 * exact && errors[1] < 0.1 * exact,
-        "{errors:?} of {exact}"
-    );
+    assert!(errors[0] > 0.5 * exact && errors[1] < 0.1 * exact, "{errors:?} of {exact}");
 }
 
 /// Design points and samples see the band move too. One variable matters, so that first order is exact.
@@ -86,10 +76,7 @@ fn design_points_and_samples_follow_the_band() {
     let samples = 4000;
     let chances = all.chances(&Sampling::default().samples(samples)).unwrap();
     let error = (tail(beta) * (1.0 - tail(beta)) / samples as f64).sqrt();
-    assert!(
-        (chances.all.failure() - tail(beta)).abs() < 4.0 * error,
-        "{chances}"
-    );
+    assert!((chances.all.failure() - tail(beta)).abs() < 4.0 * error, "{chances}");
 }
 
 /// Derivatives by the set speed and by the mean deviation, against differences.
@@ -103,11 +90,7 @@ fn its_derivatives_are_what_differences_show() {
     };
     let expected = (probability(5.6 + step) - probability(5.6 - step)) / (2.0 * step);
     assert!(expected.abs() > 0.1);
-    close(
-        second_order_failure.by_input.as_ref().unwrap()[0],
-        expected,
-        1e-6,
-    );
+    close(second_order_failure.by_input.as_ref().unwrap()[0], expected, 1e-6);
     let by_deviation = second_order_failure.margin.derivatives.unwrap().by_design[2];
     close(by_deviation, expected, 1e-6);
 }
@@ -115,27 +98,13 @@ fn its_derivatives_are_what_differences_show() {
 /// A mean deviation of the set speed is equivalent to that speed.
 #[test]
 fn a_mean_deviation_moves_the_speed() {
-    let beside = Requirement::Outside {
-        response: FREQUENCY,
-        low: 5.0,
-        high: 6.0,
-    };
+    let beside = Requirement::Outside { response: FREQUENCY, low: 5.0, high: 6.0 };
     for wanted in [away(), beside] {
         let [moved, other] = [(5.5, 0.12), (5.62, 0.0)].map(|(speed, deviation)| {
             let second_order_failure = failure(speed, deviation, SIGMA, wanted).unwrap();
             let derivatives = second_order_failure.margin.derivatives.unwrap();
-            let probabilities = [
-                second_order_failure.margin.first_order,
-                second_order_failure.margin.corrected.value,
-            ];
-            [
-                probabilities,
-                [
-                    derivatives.by_design[2],
-                    second_order_failure.by_input.unwrap()[0],
-                ],
-            ]
-            .concat()
+            let probabilities = [second_order_failure.margin.first_order, second_order_failure.margin.corrected.value];
+            [probabilities, [derivatives.by_design[2], second_order_failure.by_input.unwrap()[0]]].concat()
         });
         for (moved, other) in moved.iter().zip(&other) {
             close(*moved, *other, 1e-9);
@@ -150,8 +119,5 @@ fn exact_inputs_and_none() {
     let margin = failure(5.6, 0.0, 0.0, away()).unwrap().margin;
     assert_eq!((margin.sigma, margin.first_order), (0.0, 0.0));
     let at_rest = failure(0.0, 0.0, SIGMA, away());
-    assert!(
-        matches!(at_rest, Err(Error::NotFinite { .. })),
-        "{at_rest:?}"
-    );
+    assert!(matches!(at_rest, Err(Error::NotFinite { .. })), "{at_rest:?}");
 }

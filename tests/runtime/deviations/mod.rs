@@ -114,20 +114,13 @@ fn solved(kernels: &dyn Kernels, u: &[f64], b: &[f64], start: &[f64]) -> (Equili
 /// Frequency of a uniform bar of 1 m on a shaft at speed `u`, hanging or swung out.
 fn frequency(u: f64) -> f64 {
     let square = u * u;
-    if square > CRITICAL {
-        (square - CRITICAL * CRITICAL / square).sqrt()
-    } else {
-        (CRITICAL - square).sqrt()
-    }
+    if square > CRITICAL { (square - CRITICAL * CRITICAL / square).sqrt() } else { (CRITICAL - square).sqrt() }
 }
 
 /// The first two derivatives of `sqrt(u^2 - c^2 / u^2)`, the frequency above the critical speed.
 fn frequency_slopes(u: f64) -> [f64; 2] {
     let square = CRITICAL * CRITICAL;
-    let (first, second) = (
-        2.0 * u + 2.0 * square / u.powi(3),
-        2.0 - 6.0 * square / u.powi(4),
-    );
+    let (first, second) = (2.0 * u + 2.0 * square / u.powi(3), 2.0 - 6.0 * square / u.powi(4));
     let omega = frequency(u);
     let slope = 0.5 * first / omega;
     [slope, (0.5 * second - slope * slope) / omega]

@@ -40,11 +40,7 @@ fn sampled(
     let b = deviating.design(&[3.0, 1.0]);
     let (at, modes) = solved(&deviating, &[speed], &b, &[1.0]);
     let tolerances = Tolerances::new([0.0, 0.0, 3.0 * sigma], 3.0, None).unwrap();
-    let sampling = Sampling::default()
-        .samples(samples)
-        .seed(20)
-        .vectors(vectors)
-        .keep_samples(true);
+    let sampling = Sampling::default().samples(samples).seed(20).vectors(vectors).keep_samples(true);
     monte_carlo(&deviating, &at, &modes, &tolerances, &sampling).unwrap()
 }
 
@@ -72,12 +68,7 @@ fn samples_match_quadrature(samples: usize) {
             let error = (mode.mean - mean).abs() / mode.standard_error.unwrap();
             assert!(error < 4.0, "{speed}: mean {} is not {mean}", mode.mean);
             // Its standard error from the sample itself, through the fourth moment.
-            let frequency = run
-                .all
-                .as_ref()
-                .unwrap()
-                .iter()
-                .map(|one| one.frequencies[0].unwrap());
+            let frequency = run.all.as_ref().unwrap().iter().map(|one| one.frequencies[0].unwrap());
             let count = samples as f64;
             let fourth = frequency.map(|x| (x - mode.mean).powi(4)).sum::<f64>() / count;
             let spread = mode.sigma.unwrap();
@@ -94,9 +85,7 @@ fn samples_match_quadrature(samples: usize) {
 #[test]
 fn every_sample_is_the_closed_form() {
     let best = Some(Instructions::best());
-    for (speed, vectors, side_by_side) in
-        [(4.0, None, false), (5.0, None, false), (5.0, best, true)]
-    {
+    for (speed, vectors, side_by_side) in [(4.0, None, false), (5.0, None, false), (5.0, best, true)] {
         let run = sampled(&Single, speed, 0.1, vectors, 2000);
         assert_eq!(run.side_by_side, side_by_side);
         let mut hanging = 0;
@@ -107,10 +96,7 @@ fn every_sample_is_the_closed_form() {
             let (frequency, expected) = (sample.frequencies[0].unwrap(), frequency(speed));
             // A frequency near zero is the square root of a difference.
             let error = (frequency * frequency - expected * expected).abs();
-            assert!(
-                error <= 1e-9 * speed * speed,
-                "{speed}: {frequency} {expected}"
-            );
+            assert!(error <= 1e-9 * speed * speed, "{speed}: {frequency} {expected}");
         }
         assert_eq!(hanging > 20, speed == 4.0);
     }
@@ -124,12 +110,7 @@ fn side_by_side_is_one_by_one() {
     let (at, modes) = solved(&deviating, &[6.0, 2.0], &b, &[1.0, 1.1]);
     let tolerances = Tolerances::new([0.05, 0.0, 0.03, 0.02, 0.3, 0.5], 3.0, None).unwrap();
     let run = |vectors, threads| {
-        let sampling = Sampling::default()
-            .samples(1003)
-            .seed(3)
-            .threads(threads)
-            .vectors(vectors)
-            .keep_samples(true);
+        let sampling = Sampling::default().samples(1003).seed(3).threads(threads).vectors(vectors).keep_samples(true);
         monte_carlo(&deviating, &at, &modes, &tolerances, &sampling).unwrap()
     };
     let alone = run(None, 1);

@@ -10,9 +10,7 @@ use eigentol::sweep::{Following, SweepPoint, sensitivity_sweep, sweep};
 use eigentol::{Error, Policy, Sensitivities};
 
 fn values(count: usize) -> Vec<f64> {
-    (0..count)
-        .map(|k| 4.5 + 3.5 * k as f64 / count as f64)
-        .collect()
+    (0..count).map(|k| 4.5 + 3.5 * k as f64 / count as f64).collect()
 }
 
 /// Points and derivatives, with the given instruction set or one by one.
@@ -28,15 +26,7 @@ fn swept(
         all.push((point.clone(), slopes.clone()));
         ControlFlow::Continue(())
     };
-    sensitivity_sweep(
-        machine,
-        (u, b),
-        start,
-        following,
-        (OMEGA, &values(60)),
-        each,
-    )
-    .unwrap();
+    sensitivity_sweep(machine, (u, b), start, following, (OMEGA, &values(60)), each).unwrap();
     all
 }
 
@@ -57,8 +47,7 @@ fn compare(machine: &dyn BatchKernels, (u, b): (&[f64], &[f64]), start: &[f64]) 
         for (mode, expected) in modes.modes.iter().zip(&expected.modes) {
             close(mode.lambda, expected.lambda, 1e-10);
         }
-        let [slopes, expected] =
-            [slopes, expected_slopes].map(|slopes| &slopes.as_ref().unwrap().modes);
+        let [slopes, expected] = [slopes, expected_slopes].map(|slopes| &slopes.as_ref().unwrap().modes);
         for (slopes, expected) in slopes.iter().zip(expected) {
             assert_eq!(slopes.lambda.by_design[own..], *slopes.lambda.by_input);
             let expected = &expected.lambda.by_design;
@@ -75,11 +64,7 @@ fn side_by_side_is_one_by_one() {
     let one = all_deviate(&Single);
     compare(&one, (&[0.0], &one.design(&[3.0, 1.0])), &[1.0]);
     let two = all_deviate(&Double);
-    compare(
-        &two,
-        (&[0.0, 2.0], &two.design(&[3.0, 3.0, 1.0, 1.0])),
-        &[1.0, 1.1],
-    );
+    compare(&two, (&[0.0, 2.0], &two.design(&[3.0, 3.0, 1.0, 1.0])), &[1.0, 1.1]);
 }
 
 #[test]
@@ -104,15 +89,7 @@ fn a_fixed_deviation_moves_the_sweep() {
     let set = values(60);
     let moved: Vec<f64> = set.iter().map(|value| value + 0.25).collect();
     let found = sweep(&deviating, &[0.0], &b, &[1.0], Policy::Stable, OMEGA, &set).unwrap();
-    let expected = sweep(
-        &Single,
-        &[0.0],
-        &[3.0, 1.0],
-        &[1.0],
-        Policy::Stable,
-        OMEGA,
-        &moved,
-    );
+    let expected = sweep(&Single, &[0.0], &[3.0, 1.0], &[1.0], Policy::Stable, OMEGA, &moved);
     for (found, expected) in found.points.iter().zip(&expected.unwrap().points) {
         let [found, expected] = [found, expected].map(|point| &point.modes.as_ref().unwrap().modes);
         close(found[0].lambda, expected[0].lambda, 1e-11);

@@ -3,24 +3,14 @@
 use eigentol::{Description, ExcitationInfo, Forcing, OutputInfo, Real, Shared, Unit};
 
 use crate::common::derived::{Excited, Model};
-use crate::common::{
-    KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes,
-};
+use crate::common::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes};
 
 pub(super) const fn excitation(name: &'static str, with: usize) -> ExcitationInfo {
-    ExcitationInfo {
-        name: Shared::Static(name),
-        kind: Shared::Static("harmonic"),
-        with,
-        order: Shared::Static(""),
-    }
+    ExcitationInfo { name: Shared::Static(name), kind: Shared::Static("harmonic"), with, order: Shared::Static("") }
 }
 
 pub(super) const fn output(name: &'static str, unit: Unit) -> OutputInfo {
-    OutputInfo {
-        name: Shared::Static(name),
-        unit,
-    }
+    OutputInfo { name: Shared::Static(name), unit }
 }
 
 /// A description; the coordinates, inputs, design variables, outputs and excitations follow its name, then whether the
@@ -69,30 +59,16 @@ impl Model for Jeffcott {
             design("c", NUMBER, 310.0, 30.0),
             design("e", METRE, 4e-5, 1e-5),
         ],
-        [
-            output("x", METRE),
-            output("y", METRE),
-            output("force", NUMBER),
-        ],
+        [output("x", METRE), output("y", METRE), output("force", NUMBER),],
         [excitation("unbalance", 0)],
     );
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 2],
-        _: &[T; 2],
-        _: &[T; 2],
-        _: &[T; 1],
-        b: &[T; 4],
-    ) -> [T; 2] {
+    fn inertia<T: Real>(&self, a: &[T; 2], _: &[T; 2], _: &[T; 2], _: &[T; 1], b: &[T; 4]) -> [T; 2] {
         [b[0] * a[0], b[0] * a[1]]
     }
 
     fn applied<T: Real>(&self, v: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 4]) -> [T; 2] {
-        [
-            T::constant(0.0) - b[1] * q[0] - b[2] * v[0],
-            T::constant(0.0) - b[1] * q[1] - b[2] * v[1],
-        ]
+        [T::constant(0.0) - b[1] * q[0] - b[2] * v[0], T::constant(0.0) - b[1] * q[1] - b[2] * v[1]]
     }
 
     fn outputs<T: Real>(&self, q: &[T; 2], u: &[T; 1], b: &[T; 4]) -> [T; 3] {
@@ -100,14 +76,7 @@ impl Model for Jeffcott {
         self.moving_outputs(&rest, &rest, q, u, b)
     }
 
-    fn moving_outputs<T: Real>(
-        &self,
-        _: &[T; 2],
-        v: &[T; 2],
-        q: &[T; 2],
-        _: &[T; 1],
-        b: &[T; 4],
-    ) -> [T; 3] {
+    fn moving_outputs<T: Real>(&self, _: &[T; 2], v: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 4]) -> [T; 3] {
         [q[0], q[1], b[1] * q[0] + b[2] * v[0]]
     }
 
@@ -146,14 +115,7 @@ impl Model for Shaken {
         [excitation("heave", 0)],
     );
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 1],
-        _: &[T; 1],
-        q: &[T; 1],
-        u: &[T; 2],
-        b: &[T; 5],
-    ) -> [T; 1] {
+    fn inertia<T: Real>(&self, a: &[T; 1], _: &[T; 1], q: &[T; 1], u: &[T; 2], b: &[T; 5]) -> [T; 1] {
         let inertia = b[0] * b[1] * b[1] * T::constant(1.0 / 3.0);
         [inertia * (a[0] - u[0] * u[0] * q[0].sin() * q[0].cos())]
     }

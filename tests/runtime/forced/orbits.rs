@@ -39,17 +39,9 @@ fn lines_and_circles() {
 fn a_rotor_on_equal_springs_circles_with_its_shaft() {
     let model = Derived(Jeffcott);
     for (speed, turning) in [(200.0, Turning::Forward), (-200.0, Turning::Backward)] {
-        let at = equilibrium(
-            &model,
-            &[speed],
-            &[12.0, 1.9e6, 310.0, 4e-5],
-            &[0.0; 2],
-            Policy::Stable,
-        );
+        let at = equilibrium(&model, &[speed], &[12.0, 1.9e6, 310.0, 4e-5], &[0.0; 2], Policy::Stable);
         let found = response(&model, &at.unwrap()).unwrap();
-        let own = found.harmonics[0]
-            .orbit(Output::new(0), Output::new(1))
-            .unwrap();
+        let own = found.harmonics[0].orbit(Output::new(0), Output::new(1)).unwrap();
         assert_eq!(own.turning(), Some(turning));
         assert_eq!(own.direction(), None);
         let [long, short] = own.semi_axes();

@@ -26,15 +26,7 @@ fn jeffcott(low: f64, high: f64, steps: usize, tolerances: Option<&Tolerances>) 
     let range = Range::new(Input::new(0), low, high).steps(steps);
     let from = (&[0.0][..], &DESIGN[..]);
     let (policy, model) = (Policy::Stable, Derived(Jeffcott));
-    one(peaks(
-        &model,
-        from,
-        &[0.0; 2],
-        policy,
-        (range, &[vibration(0)]),
-        tolerances,
-        Watch::default(),
-    ))
+    one(peaks(&model, from, &[0.0; 2], policy, (range, &[vibration(0)]), tolerances, Watch::default()))
 }
 
 #[test]
@@ -45,14 +37,8 @@ fn jeffcott_rotor() {
     let tolerances = Tolerances::new(sigma, 1.0, None).unwrap();
     for (low, high, steps) in [(0.0, 1000.0, 1), (200.0, 900.0, 7), (900.0, 3.0, 50)] {
         let found = jeffcott(low, high, steps, Some(&tolerances));
-        let [peak] = &found.peaks[..] else {
-            panic!("one peak")
-        };
-        assert!(
-            found.gaps.is_empty() && found.states < 120,
-            "{}",
-            found.states
-        );
+        let [peak] = &found.peaks[..] else { panic!("one peak") };
+        assert!(found.gaps.is_empty() && found.states < 120, "{}", found.states);
         let mut sides = [0, 1].map(|k| peak.half_power[k].place().unwrap());
         if low > high {
             sides.reverse();
@@ -80,10 +66,7 @@ fn half_power_points_need_room() {
     let [before, after] = &found.peaks[0].half_power;
     assert_eq!(*before, HalfPower::EndOfRange);
     assert!(after.place().is_some() && found.peaks[0].amplification.is_none());
-    assert!(
-        found.to_string().contains("the range ends before it"),
-        "{found}"
-    );
+    assert!(found.to_string().contains("the range ends before it"), "{found}");
     assert!(jeffcott(400.0, 900.0, 10, None).peaks.is_empty());
 }
 
@@ -93,28 +76,12 @@ fn an_undamped_mode_has_no_highest_amplitude() {
     let design = [12.0, 1.9e6, 0.0, 4e-5];
     let from = (&[0.0][..], &design[..]);
     let model = Derived(Jeffcott);
-    let found = one(peaks(
-        &model,
-        from,
-        &[0.0; 2],
-        Policy::Stable,
-        (range, &[vibration(0)]),
-        None,
-        Watch::default(),
-    ));
-    let [gap] = &found.gaps[..] else {
-        panic!("{found}")
-    };
+    let found = one(peaks(&model, from, &[0.0; 2], Policy::Stable, (range, &[vibration(0)]), None, Watch::default()));
+    let [gap] = &found.gaps[..] else { panic!("{found}") };
     assert!(found.peaks.is_empty());
-    assert!(
-        matches!(gap.reason, Error::Resonance { mode: Some(_), .. }),
-        "{found}"
-    );
+    assert!(matches!(gap.reason, Error::Resonance { mode: Some(_), .. }), "{found}");
     let critical = (design[1] / design[0]).sqrt();
-    assert!(
-        gap.from <= critical && critical <= gap.to,
-        "{critical} {gap:?}"
-    );
+    assert!(gap.from <= critical && critical <= gap.to, "{critical} {gap:?}");
     assert!(gap.to - gap.from < 1e-3, "{gap:?}");
 }
 
@@ -155,15 +122,7 @@ fn the_poles_decide_how_many_peaks_there_are() {
                 let range = Range::new(Input::new(0), 0.5, 30.0).steps(steps);
                 let from = (&[1.0][..], &design[..]);
                 let wanted = vibration(o).measure(measure);
-                one(peaks(
-                    &model,
-                    from,
-                    &[0.0; 7],
-                    Policy::Stable,
-                    (range, &[wanted]),
-                    None,
-                    Watch::default(),
-                ))
+                one(peaks(&model, from, &[0.0; 7], Policy::Stable, (range, &[wanted]), None, Watch::default()))
             };
             let found = find(1);
             for steps in [2, 13] {
@@ -188,8 +147,7 @@ fn the_poles_decide_how_many_peaks_there_are() {
                 _ => {
                     let place = |k: usize| 0.5 + 29.5 * k as f64 / grid as f64;
                     let heights: Vec<f64> = (0..=grid).map(|k| height(place(k))).collect();
-                    let tops = (1..grid)
-                        .filter(|&k| heights[k] > heights[k - 1] && heights[k] >= heights[k + 1]);
+                    let tops = (1..grid).filter(|&k| heights[k] > heights[k - 1] && heights[k] >= heights[k + 1]);
                     let tops: Vec<f64> = tops.map(place).collect();
                     assert_eq!(found.peaks.len(), tops.len(), "{damping} {o}");
                     for (peak, top) in found.peaks.iter().zip(tops) {
@@ -218,21 +176,11 @@ fn peaks_follow_the_design() {
     let find = |design: &[f64]| {
         let range = Range::new(Input::new(0), 6.0, 12.0);
         let from = (&[8.0, 6.5][..], design);
-        one(peaks(
-            &model,
-            from,
-            &[1.0],
-            Policy::Stable,
-            (range, &[vibration(1)]),
-            None,
-            Watch::default(),
-        ))
+        one(peaks(&model, from, &[1.0], Policy::Stable, (range, &[vibration(1)]), None, Watch::default()))
     };
     let design = [1.3, 0.45, 0.02, 9.81, 0.002];
     let found = find(&design);
-    let [peak] = &found.peaks[..] else {
-        panic!("one peak")
-    };
+    let [peak] = &found.peaks[..] else { panic!("one peak") };
     assert!(peak.amplification.is_none() && peak.frequency.value == 6.5);
     for k in 0..5 {
         let step = 1e-4 * design[k];
@@ -246,10 +194,7 @@ fn peaks_follow_the_design() {
         };
         let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(moved);
         let sides = [0, 1].map(|k| peak.half_power[k].place().unwrap());
-        for (i, own) in [&peak.place, &peak.height, sides[0], sides[1]]
-            .into_iter()
-            .enumerate()
-        {
+        for (i, own) in [&peak.place, &peak.height, sides[0], sides[1]].into_iter().enumerate() {
             let expected = (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * step);
             let size = expected.abs() + own.value / design[k];
             assert!((own.by_design[k] - expected).abs() < 1e-7 * size, "{i} {k}");
@@ -269,15 +214,8 @@ fn a_peak_of_what_the_floor_moves_directly() {
         point p: m; output place = position(p).x; }";
     let model = Interpreted::from_text(text).unwrap();
     let range = Range::new(Input::new(0), 3.0, 30.0).steps(1);
-    let found = one(peaks(
-        &model,
-        (&[3.0], &[]),
-        &[0.0],
-        Policy::Stable,
-        (range, &[vibration(0)]),
-        None,
-        Watch::default(),
-    ));
+    let found =
+        one(peaks(&model, (&[3.0], &[]), &[0.0], Policy::Stable, (range, &[vibration(0)]), None, Watch::default()));
     let square = |w: f64| {
         let v = w * w;
         (1e4 + 4.0 * v) / ((100.0 - v).powi(2) + 4.0 * v) / (v * v)

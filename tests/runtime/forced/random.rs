@@ -18,8 +18,7 @@ struct Dense(u64);
 impl Dense {
     /// A number between -1 and 1.
     fn number(self, what: u64, i: usize, j: usize) -> f64 {
-        let mut z =
-            self.0.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (what << 40) ^ ((i << 20 | j) as u64);
+        let mut z = self.0.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (what << 40) ^ ((i << 20 | j) as u64);
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
@@ -37,12 +36,7 @@ impl Dense {
     }
 
     /// `sum_j (size delta_ij + varied) x_j`.
-    fn product<T: Real>(
-        self,
-        (what, size): (u64, f64),
-        x: &[T; 3],
-        (q, u, b): (&[T; 3], &[T; 2], &[T; 3]),
-    ) -> [T; 3] {
+    fn product<T: Real>(self, (what, size): (u64, f64), x: &[T; 3], (q, u, b): (&[T; 3], &[T; 2], &[T; 3])) -> [T; 3] {
         [0, 1, 2].map(|i| {
             let mut sum = T::constant(size) * x[i];
             for (j, x) in x.iter().enumerate() {
@@ -77,14 +71,7 @@ impl Model for Dense {
             ]; false, 0
     );
 
-    fn inertia<T: Real>(
-        &self,
-        a: &[T; 3],
-        _: &[T; 3],
-        q: &[T; 3],
-        u: &[T; 2],
-        b: &[T; 3],
-    ) -> [T; 3] {
+    fn inertia<T: Real>(&self, a: &[T; 3], _: &[T; 3], q: &[T; 3], u: &[T; 2], b: &[T; 3]) -> [T; 3] {
         self.product((1, 2.0), a, (q, u, b))
     }
 
@@ -102,20 +89,10 @@ impl Model for Dense {
         self.moving_outputs(&rest, &rest, q, u, b)
     }
 
-    fn moving_outputs<T: Real>(
-        &self,
-        a: &[T; 3],
-        v: &[T; 3],
-        q: &[T; 3],
-        u: &[T; 2],
-        b: &[T; 3],
-    ) -> [T; 2] {
+    fn moving_outputs<T: Real>(&self, a: &[T; 3], v: &[T; 3], q: &[T; 3], u: &[T; 2], b: &[T; 3]) -> [T; 2] {
         let of = (q, u, b);
         let (a, v) = (self.product((5, 0.3), a, of), self.product((6, 0.3), v, of));
-        [
-            q[0] * q[1] + a[0] + v[1],
-            (q[2] + u[0]).sin() + a[2] * b[0] + v[0],
-        ]
+        [q[0] * q[1] + a[0] + v[1], (q[2] + u[0]).sin() + a[2] * b[0] + v[0]]
     }
 
     fn forcing<T: Real>(&self, q: &[T; 3], u: &[T; 2], b: &[T; 3]) -> Excited<Self, T> {
@@ -147,18 +124,14 @@ fn values() -> Vec<f64> {
 
 /// `y` of both outputs for one excitation, by a direct solution at its own frequency, which may be negative.
 fn direct(seed: u64, at: &Equilibrium, k: usize) -> [Complex; 2] {
-    let (q, u, b) = (
-        at.coordinates[..].try_into().unwrap(),
-        at.inputs[..].try_into().unwrap(),
-        at.design[..].try_into().unwrap(),
-    );
+    let (q, u, b) =
+        (at.coordinates[..].try_into().unwrap(), at.inputs[..].try_into().unwrap(), at.design[..].try_into().unwrap());
     let model = Derived(Dense(seed));
     let forces = Dense(seed).forcing::<f64>(&q, &u, &b);
     let s = Complex::new(0.0, forces.frequency[k]);
     let linear = &at.linear;
-    let stiffness = DMatrix::from_fn(3, 3, |i, j| {
-        s * s * linear.mass[i][j] + s * linear.damping[i][j] + linear.stiffness[i][j]
-    });
+    let stiffness =
+        DMatrix::from_fn(3, 3, |i, j| s * s * linear.mass[i][j] + s * linear.damping[i][j] + linear.stiffness[i][j]);
     let force = |i: usize, _: usize| Complex::new(forces.cosine[k][i], -forces.sine[k][i]);
     let z = stiffness.lu().solve(&DVector::from_fn(3, force)).unwrap();
     let mut seen = [[0.0; 6]; 3];
@@ -166,8 +139,7 @@ fn direct(seed: u64, at: &Equilibrium, k: usize) -> [Complex; 2] {
     let arguments: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
     Kernels::evaluate(&model, Kernel::OutputMotion, &arguments, &mut [a, v, x]);
     [0, 1].map(|o| {
-        let row =
-            |i: usize| seen[0][3 * o + i] * s * s + s * seen[1][3 * o + i] + seen[2][3 * o + i];
+        let row = |i: usize| seen[0][3 * o + i] * s * s + s * seen[1][3 * o + i] + seen[2][3 * o + i];
         let complex: Complex = (0..3).map(|i| row(i) * z[i]).sum();
         complex + Complex::new(forces.direct_cosine[k][o], -forces.direct_sine[k][o])
     })
@@ -178,19 +150,14 @@ fn responses_are_direct_solutions() {
     for seed in 0..200 {
         let at = state(seed, &values());
         let found = response(&Derived(Dense(seed)), &at).unwrap();
-        let [both, one] = &found.harmonics[..] else {
-            panic!("two harmonics")
-        };
+        let [both, one] = &found.harmonics[..] else { panic!("two harmonics") };
         assert_eq!(both.shares.len(), 2);
         assert!(both.shares[1].reversed && !both.shares[0].reversed && !one.shares[0].reversed);
         let [ahead, other, back] = [0, 1, 2].map(|k| direct(seed, &at, k));
         for o in 0..2 {
             let near = |amplitude: Option<Complex>, expected: Complex| {
                 let complex = amplitude.expect("an amplitude");
-                assert!(
-                    (complex - expected).norm() <= 1e-12 * expected.norm(),
-                    "{seed}"
-                );
+                assert!((complex - expected).norm() <= 1e-12 * expected.norm(), "{seed}");
             };
             near(both.shares[0].outputs[o], ahead[o]);
             near(both.shares[1].outputs[o], back[o].conj());
@@ -218,11 +185,7 @@ fn differences(f: impl Fn(&[f64]) -> Vec<Complex>) -> Vec<Vec<Complex>> {
 
 /// The harmonic, the output and the measure of everything that vibrates.
 fn all_vibrations() -> impl Iterator<Item = (usize, Output, Measure)> {
-    let measures = [
-        Measure::Displacement,
-        Measure::Velocity,
-        Measure::Acceleration,
-    ];
+    let measures = [Measure::Displacement, Measure::Velocity, Measure::Acceleration];
     let each = move |(k, o)| measures.map(|measure| (k, Output::new(o), measure));
     [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter().flat_map(each)
 }
@@ -255,10 +218,7 @@ fn derivatives_are_those_of_the_whole_chain() {
     for seed in 0..4 {
         let of = second_derivatives(&Derived(Dense(seed)), &state(seed, &values())).unwrap();
         assert!(of.asymmetry < 1e-11, "{:e}", of.asymmetry);
-        let (at, expected) = (
-            first(seed, &values()),
-            differences(|values| first(seed, values)),
-        );
+        let (at, expected) = (first(seed, &values()), differences(|values| first(seed, values)));
         for (number, (harmonic, output, measure)) in all_vibrations().enumerate() {
             let start = EACH * number;
             let complex = of.complex(harmonic, output, measure).unwrap();

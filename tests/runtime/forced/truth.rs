@@ -28,11 +28,7 @@ pub(super) fn numbers(value: &Value) -> Vec<f64> {
 /// Compares with derivatives by one variable; what is zero in the closed form is zero beside `scale`.
 #[track_caller]
 pub(super) fn near(value: f64, expected: f64, tolerance: f64, scale: f64) {
-    let size = if expected.abs() < 1e-25 {
-        scale
-    } else {
-        expected.abs()
-    };
+    let size = if expected.abs() < 1e-25 { scale } else { expected.abs() };
     assert!(
         (value - expected).abs() <= tolerance * size,
         "{value:e} is not {expected:e}: {:e}",
@@ -50,9 +46,7 @@ struct Found {
 /// By input `Ok(k)` or design variable `Err(k)`.
 fn found(of: &ForcedCurvature, output: Output, by: Result<usize, usize>) -> Found {
     let measure = Measure::Displacement;
-    let y = of.first.response.harmonics[0]
-        .amplitude(output, measure)
-        .unwrap();
+    let y = of.first.response.harmonics[0].amplitude(output, measure).unwrap();
     let slope = |slopes: &Slopes<f64>| match by {
         Ok(k) => slopes.by_input[k],
         Err(k) => slopes.by_design[k],
@@ -71,10 +65,7 @@ fn found(of: &ForcedCurvature, output: Output, by: Result<usize, usize>) -> Foun
         Ok(k) => ddy.by_input[k][k],
         Err(k) => ddy.by_design[k][k],
     };
-    let (modulus, phase) = (
-        of.first.modulus(0, output, measure).unwrap(),
-        of.first.phase(0, output, measure).unwrap(),
-    );
+    let (modulus, phase) = (of.first.modulus(0, output, measure).unwrap(), of.first.phase(0, output, measure).unwrap());
     Found {
         values: [y.re, y.im, y.norm(), y.arg()],
         first: [dy.re, dy.im, slope(&modulus), slope(&phase)],
@@ -126,15 +117,8 @@ fn shaken_pendulum() {
     let model = Derived(Shaken);
     let truth = truth("pendulum");
     let design = [1.3, 0.45, 0.02, 9.81, 0.002];
-    let variables = [
-        ("m", Err(0)),
-        ("l", Err(1)),
-        ("c", Err(2)),
-        ("g", Err(3)),
-        ("Omega", Ok(0)),
-        ("a", Err(4)),
-        ("w", Ok(1)),
-    ];
+    let variables =
+        [("m", Err(0)), ("l", Err(1)), ("c", Err(2)), ("g", Err(3)), ("Omega", Ok(0)), ("a", Err(4)), ("w", Ok(1))];
     for case in truth["cases"].as_array().unwrap() {
         let inputs = [8.0, case["w"].as_f64().unwrap()];
         let at = equilibrium(&model, &inputs, &design, &[1.0], Policy::default()).unwrap();
@@ -150,24 +134,14 @@ fn shaken_pendulum() {
             };
             let [angle, tip] = [0, 1].map(|o| found(&of, Output::new(o), by));
             // The file has Re, Im, modulus and phase of the angle, then the modulus of the height of the tip.
-            for (k, (own, i)) in [
-                (&angle, 0),
-                (&angle, 1),
-                (&angle, 2),
-                (&angle, 3),
-                (&tip, 2),
-            ]
-            .into_iter()
-            .enumerate()
+            for (k, (own, i)) in [(&angle, 0), (&angle, 1), (&angle, 2), (&angle, 3), (&tip, 2)].into_iter().enumerate()
             {
                 let scale = values[2 + k].abs() / size;
                 near(own.values[i], values[2 + k], 1e-12, 0.0);
                 near(own.first[i], first[2 + k], 1e-10, scale);
                 near(own.second[i], second[2 + k], 1e-8, scale / size);
             }
-            if let Some(wrong) =
-                case["amplitude_derivative_with_frozen_equilibrium_WRONG"].get(name)
-            {
+            if let Some(wrong) = case["amplitude_derivative_with_frozen_equilibrium_WRONG"].get(name) {
                 let wrong = numbers(&wrong["first"])[0];
                 assert!((angle.first[2] - wrong).abs() > 1e-3 * wrong.abs());
             }

@@ -20,11 +20,7 @@ impl Exact {
     fn cdf(&self, f: f64) -> f64 {
         let square = self.omega * self.omega;
         let shorter = WEIGHT / (square + f * f);
-        let longer = if f < self.omega {
-            WEIGHT / (self.omega * (square - f * f).sqrt())
-        } else {
-            f64::INFINITY
-        };
+        let longer = if f < self.omega { WEIGHT / (self.omega * (square - f * f).sqrt()) } else { f64::INFINITY };
         let below = |length: f64| normal::cdf((length - 1.0) / self.sigma);
         below(longer) - below(shorter)
     }
@@ -58,9 +54,7 @@ impl Exact {
             .collect();
         let weight: f64 = values.iter().map(|(_, weight)| weight).sum();
         let mean_of = |power: i32, about: f64| {
-            let terms = values
-                .iter()
-                .map(|(value, w)| w * (value - about).powi(power));
+            let terms = values.iter().map(|(value, w)| w * (value - about).powi(power));
             terms.sum::<f64>() / weight
         };
         let mean = mean_of(1, 0.0);
@@ -72,10 +66,7 @@ impl Exact {
 /// Every reported quantity of `samples` is within a few of its own standard errors of the exact distribution.
 fn compare(samples: usize) {
     for (omega, tolerance) in [(2.0, 0.03), (3.82, 0.06), (6.0, 0.12)] {
-        let exact = Exact {
-            omega,
-            sigma: tolerance / 3.0,
-        };
+        let exact = Exact { omega, sigma: tolerance / 3.0 };
         let run = Study::new(Bar)
             .input(Bar::omega, omega)
             .start(Bar::theta, 1.0)
@@ -90,45 +81,21 @@ fn compare(samples: usize) {
         let [mean, sigma, skewness] = exact.moments();
         let within = |what: &str, value: f64, exact: f64, error: f64| {
             println!("{omega} {tolerance} {what}: {value} exact {exact} error {error:e}");
-            assert!(
-                (value - exact).abs() <= 4.0 * error,
-                "{what}: {value} {exact} {error}"
-            );
+            assert!((value - exact).abs() <= 4.0 * error, "{what}: {value} {exact} {error}");
         };
         within("mean", mode.mean, mean, mode.standard_error.unwrap());
-        within(
-            "sigma",
-            mode.sigma.unwrap(),
-            sigma,
-            mode.sigma_error.unwrap(),
-        );
+        within("sigma", mode.sigma.unwrap(), sigma, mode.sigma_error.unwrap());
         // The error for a normal distribution, times a factor for the tails of these.
-        within(
-            "skewness",
-            mode.skewness.unwrap(),
-            skewness,
-            2.0 * mode.skewness_error.unwrap(),
-        );
+        within("skewness", mode.skewness.unwrap(), skewness, 2.0 * mode.skewness_error.unwrap());
         let n = samples as f64;
         for p in [0.001, 0.01, 0.1, 0.5, 0.9, 0.99, 0.999] {
             let (value, truth) = (mode.quantile(p).unwrap(), exact.quantile(p));
             // In terms of the exact distribution: the probability below the reported value.
             let share = exact.cdf(value.value);
-            let bucket =
-                exact.cdf(value.value + value.error) - exact.cdf(value.value - value.error);
-            within(
-                &format!("share below {truth}"),
-                share,
-                p,
-                (p * (1.0 - p) / n).sqrt() + bucket,
-            );
+            let bucket = exact.cdf(value.value + value.error) - exact.cdf(value.value - value.error);
+            within(&format!("share below {truth}"), share, p, (p * (1.0 - p) / n).sqrt() + bucket);
             let below = mode.sketch().unwrap().cdf(truth).unwrap();
-            within(
-                &format!("cdf at {truth}"),
-                below.value,
-                p,
-                (p * (1.0 - p) / n).sqrt() + below.error,
-            );
+            within(&format!("cdf at {truth}"), below.value, p, (p * (1.0 - p) / n).sqrt() + below.error);
         }
     }
 }

@@ -13,10 +13,7 @@ use proptest::prelude::*;
 use super::{Bar, bar, plate, ranges};
 use crate::side_by_side::Rotor;
 
-const FREQUENCY: Response = Response::Mode {
-    mode: 0,
-    quantity: Quantity::Frequency,
-};
+const FREQUENCY: Response = Response::Mode { mode: 0, quantity: Quantity::Frequency };
 
 fn how(samples: &Samples) -> &str {
     let mut facts = samples.fingerprint().facts();
@@ -42,10 +39,7 @@ fn side_by_side_as_one_by_one() {
         (bar(), true),
         // Some bars are so long or short that the batch cannot guarantee them.
         (bar().tolerance(Bar::l, 0.7), true),
-        (
-            bar().distribution(Bar::l, uniform).tolerance(Bar::m, 0.2),
-            true,
-        ),
+        (bar().distribution(Bar::l, uniform).tolerance(Bar::m, 0.2), true),
         // Hanging just below the critical speed: not a clear minimum.
         (bar().input(Bar::omega, 3.83), false),
     ] {
@@ -56,36 +50,21 @@ fn side_by_side_as_one_by_one() {
             assert_eq!(how(&other), "one by one");
             if side_by_side {
                 assert_eq!(how(&own), "side by side");
-                assert!(
-                    own.clone()
-                        .merge(alone(&study, &sampling.clone().range(Some(0..0))))
-                        .is_err()
-                );
+                assert!(own.clone().merge(alone(&study, &sampling.clone().range(Some(0..0)))).is_err());
             }
             assert_eq!(own.counts(), other.counts());
             let (own, other) = (own.propagation().unwrap(), other.propagation().unwrap());
             let [a, b] = [&own, &other].map(|all| all.spreads[0].clone().expect("it swings"));
             close(Some(a.mean.value), Some(b.mean.value), 1.0);
-            close(
-                a.sigma.map(|sigma| sigma.value),
-                b.sigma.map(|sigma| sigma.value),
-                1.0,
-            );
-            close(
-                a.skewness.map(|skewness| skewness.value),
-                b.skewness.map(|skewness| skewness.value),
-                100.0,
-            );
+            close(a.sigma.map(|sigma| sigma.value), b.sigma.map(|sigma| sigma.value), 1.0);
+            close(a.skewness.map(|skewness| skewness.value), b.skewness.map(|skewness| skewness.value), 100.0);
             close(own.covariance[0][0], other.covariance[0][0], 1.0);
             close(own.with_design[0][1], other.with_design[0][1], 1.0);
             assert_eq!(a.share, b.share);
         }
     }
     // Another quantity of the mode, a response that is not one, and a mechanism that is not solved in vectors.
-    let growth = Response::Mode {
-        mode: 0,
-        quantity: Quantity::Growth,
-    };
+    let growth = Response::Mode { mode: 0, quantity: Quantity::Growth };
     let sampling = Sampling::default().samples(64);
     let study = bar();
     let both = study.sample_responses(&[FREQUENCY, growth], &sampling);

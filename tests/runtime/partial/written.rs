@@ -40,10 +40,7 @@ fn parts_that_were_written_are_merged_to_the_same_bits() {
         let result = serde_json::to_string(&whole).expect("numbers and lists");
         let result: MonteCarlo = serde_json::from_str(&result).expect("what was written");
         assert!(result == whole);
-        assert_eq!(
-            result.modes[0].as_ref().unwrap().quantile(0.9),
-            whole.modes[0].as_ref().unwrap().quantile(0.9)
-        );
+        assert_eq!(result.modes[0].as_ref().unwrap().quantile(0.9), whole.modes[0].as_ref().unwrap().quantile(0.9));
     }
     // A stopped run is resumed from the written file.
     let study = plate();
@@ -54,10 +51,7 @@ fn parts_that_were_written_are_merged_to_the_same_bits() {
 
 #[test]
 fn responses_that_were_written_are_merged_to_the_same_bits() {
-    let frequency = Response::Mode {
-        mode: 0,
-        quantity: Quantity::Frequency,
-    };
+    let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
     let study = bar();
     for points in [Points::Random, Points::Sobol] {
         let sampling = Sampling::default().points(points).samples(1024);
@@ -87,10 +81,7 @@ fn another_version_of_the_format_is_refused() {
     for other in ["1", "3"] {
         let later = format!(r#"{{"format":{other},"shards":[]}}"#);
         let reason = refused(&later);
-        assert!(
-            reason.contains(&format!("version {other} of the format, and version 2")),
-            "{reason}"
-        );
+        assert!(reason.contains(&format!("version {other} of the format, and version 2")), "{reason}");
         let changed = written.replacen("\"format\":2", &format!("\"format\":{other}"), 1);
         assert!(refused(&changed).contains("one version of eigentol for all parts"));
     }
@@ -107,9 +98,7 @@ fn what_was_cut_off_or_changed_is_refused() {
     let whole: Value = serde_json::from_str(&written).expect("JSON");
     let changed = |path: &str, value: Value| {
         let mut changed = whole.clone();
-        *changed
-            .pointer_mut(path)
-            .unwrap_or_else(|| panic!("no {path} in {whole}")) = value;
+        *changed.pointer_mut(path).unwrap_or_else(|| panic!("no {path} in {whole}")) = value;
         let reason = refused(&changed.to_string());
         assert!(!reason.is_empty());
     };

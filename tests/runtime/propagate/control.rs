@@ -1,9 +1,7 @@
 //! The Taylor model as a control variate: accurate within its stated error, which is much smaller than that of plain
 //! samples.
 
-use eigentol::propagation::{
-    Controlled, ControlledSpread, Method, Propagation, controlled, sampled,
-};
+use eigentol::propagation::{Controlled, ControlledSpread, Method, Propagation, controlled, sampled};
 use eigentol::tolerance::{Points, Sampling};
 
 use super::*;
@@ -14,10 +12,7 @@ fn of(tolerances: &Tolerances, samples: usize, seed: u64) -> (Controlled, Propag
     ask(&bar(), vec![FREQUENCY], |responses| {
         (
             controlled(&Bar, responses, tolerances, &sampling).unwrap(),
-            sampled(responses, tolerances, &sampling)
-                .unwrap()
-                .propagation()
-                .unwrap(),
+            sampled(responses, tolerances, &sampling).unwrap().propagation().unwrap(),
         )
     })
 }
@@ -29,9 +24,8 @@ fn the_stated_error_is_that_of_many_runs() {
     for (k, length) in lengths().into_iter().enumerate() {
         let exact = Exact::new(&length);
         let tolerances = varied(length);
-        let runs: Vec<ControlledSpread> = (0..60)
-            .map(|seed| of(&tolerances, 300, 100 * k as u64 + seed).0.spreads[0].unwrap())
-            .collect();
+        let runs: Vec<ControlledSpread> =
+            (0..60).map(|seed| of(&tolerances, 300, 100 * k as u64 + seed).0.spreads[0].unwrap()).collect();
         let check = |item: &dyn Fn(&ControlledSpread) -> (f64, f64), truth: f64| {
             let squares = runs.iter().map(|run| {
                 let (value, error) = item(run);
@@ -42,10 +36,7 @@ fn the_stated_error_is_that_of_many_runs() {
             assert!((0.4..2.5).contains(&mean), "{mean}");
         };
         check(&|run| (run.mean.value, run.mean.error.unwrap()), exact.mean);
-        check(
-            &|run| (run.sigma.value, run.sigma.error.unwrap()),
-            exact.sigma,
-        );
+        check(&|run| (run.sigma.value, run.sigma.error.unwrap()), exact.sigma);
     }
 }
 
@@ -58,10 +49,7 @@ fn it_is_worth_many_plain_samples() {
     let ratio = (plain.mean.error.unwrap() / spread.mean.error.unwrap()).powi(2);
     // The variance of plain samples has one degree of freedom fewer.
     close(spread.worth, ratio, 2e-3);
-    assert!(
-        spread.worth > 500.0 && spread.worth_of_sigma > 50.0,
-        "{spread:?}"
-    );
+    assert!(spread.worth > 500.0 && spread.worth_of_sigma > 50.0, "{spread:?}");
 }
 
 /// A linear response is known exactly, without samples.
@@ -69,9 +57,7 @@ fn it_is_worth_many_plain_samples() {
 fn a_linear_response_is_exact() {
     let tolerances = Tolerances::new([0.0, 0.0, 0.1, 0.2, 0.3], 1.0, None).unwrap();
     let sampling = Sampling::default().samples(50);
-    let all = ask_sum(outputs(), |responses| {
-        controlled(&Sum, responses, &tolerances, &sampling).unwrap()
-    });
+    let all = ask_sum(outputs(), |responses| controlled(&Sum, responses, &tolerances, &sampling).unwrap());
     let spread = all.spreads[0].unwrap();
     assert_eq!(spread.model, Method::SecondOrder);
     close(spread.mean.value, -4.0, 1e-12);
@@ -86,27 +72,19 @@ fn a_mean_that_the_model_misses() {
     let tolerances = Tolerances::new([0.0, 0.0, s, 0.0, 0.0], 1.0, None).unwrap();
     let sampling = Sampling::default().samples(100_000);
     let fourth = vec![Response::Output(Sum::fourth.any())];
-    let all = ask_sum(fourth, |responses| {
-        controlled(&Sum, responses, &tolerances, &sampling).unwrap()
-    });
+    let all = ask_sum(fourth, |responses| controlled(&Sum, responses, &tolerances, &sampling).unwrap());
     let spread = all.spreads[0].unwrap();
     assert_eq!(spread.model, Method::SecondOrder);
     let within = |estimated: eigentol::propagation::Estimated, exact: f64| {
         let error = estimated.error.expect("an error");
-        assert!(
-            (estimated.value - exact).abs() < 4.0 * error,
-            "{estimated:?} {exact}"
-        );
+        assert!((estimated.value - exact).abs() < 4.0 * error, "{estimated:?} {exact}");
         assert!(error < 0.01 * exact, "{estimated:?}");
     };
     let mean = 1.0 + 6.0 * s.powi(2) + 3.0 * s.powi(4);
     let square = 1.0 + 28.0 * s.powi(2) + 210.0 * s.powi(4) + 420.0 * s.powi(6) + 105.0 * s.powi(8);
     within(spread.mean, mean);
     within(spread.sigma, (square - mean * mean).sqrt());
-    assert!(
-        spread.mean.error.unwrap() < 0.5 * 3.0 * s.powi(4),
-        "the model's mean would do"
-    );
+    assert!(spread.mean.error.unwrap() < 0.5 * 3.0 * s.powi(4), "the model's mean would do");
 }
 
 #[test]
@@ -120,9 +98,6 @@ fn what_samples_do_not_have_is_not_controlled() {
         let found = controlled(&Bar, responses, &tolerances, &with(Points::Sobol));
         assert!(is_setting(found, "points"));
         let few = with(Points::Random).samples(2);
-        assert!(is_setting(
-            controlled(&Bar, responses, &tolerances, &few),
-            "samples"
-        ));
+        assert!(is_setting(controlled(&Bar, responses, &tolerances, &few), "samples"));
     });
 }

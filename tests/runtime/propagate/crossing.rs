@@ -39,10 +39,7 @@ fn a_resonance_and_its_derivatives() {
         assert_eq!((&found.values[0], &found.gradients[0]), (&None, &None));
     });
     let names = Bar::DESCRIPTION;
-    assert_eq!(
-        resonance().name(&names),
-        "omega where frequency 1 is 0.8 times omega"
-    );
+    assert_eq!(resonance().name(&names), "omega where frequency 1 is 0.8 times omega");
     assert_eq!(&*resonance().unit(&names).symbol, "rad/s");
 }
 
@@ -126,12 +123,7 @@ fn an_onset_of_flutter() {
     let [m, k, e, i]: [f64; 4] = [2.0, 800.0, 3.0, 5.0];
     let (root, ratio) = ((k / m).sqrt(), 1.0 + e / i);
     let onset = root * ratio;
-    let first = [
-        -0.5 * onset / m,
-        0.5 * onset / k,
-        root / i,
-        -root * e / (i * i),
-    ];
+    let first = [-0.5 * onset / m, 0.5 * onset / k, root / i, -root * e / (i * i)];
     // In order: `m` and `k` act through the square root, `e` and `i` through the ratio.
     let second = |a: usize, b: usize| match (a.min(b), a.max(b)) {
         (0, 0) => 0.75 * onset / (m * m),
@@ -161,17 +153,11 @@ fn an_onset_of_flutter() {
     let (at, modes) = (&study.equilibrium().unwrap(), &study.modes().unwrap());
     let responses = Responses::new(&Whirl, at, modes, vec![response]).unwrap();
     let stiffer = [m, 1.1 * k, e, i];
-    let value = responses
-        .at(&mut responses.workspace(), &stiffer)
-        .unwrap()
-        .values[0];
+    let value = responses.at(&mut responses.workspace(), &stiffer).unwrap().values[0];
     close(value.unwrap(), onset * 1.1_f64.sqrt(), 1e-10);
     assert_eq!(
         response.name(&Whirl::DESCRIPTION),
-        format!(
-            "speed at the onset of flutter of mode {}",
-            found[0].mode + 1
-        )
+        format!("speed at the onset of flutter of mode {}", found[0].mode + 1)
     );
 }
 

@@ -25,10 +25,7 @@ fn indices_of_simple_responses() {
         let share = part * part / variance;
         for index in [variable.first.unwrap(), variable.total.unwrap()] {
             assert!((index.value - share).abs() < 0.01, "{index:?} {share}");
-            assert!(
-                index.lower <= share && share <= index.upper,
-                "{index:?} {share}"
-            );
+            assert!(index.lower <= share && share <= index.upper, "{index:?} {share}");
         }
         close(variable.correlation.unwrap(), part / variance.sqrt(), 5e-3);
         close(variable.regression.unwrap(), part / variance.sqrt(), 5e-3);
@@ -37,13 +34,7 @@ fn indices_of_simple_responses() {
     close(response.determination.unwrap(), 1.0, 1e-12);
     // a b about (1, 2), at the half-widths: the corners of each variable separately.
     let product = &all.responses[1].variables;
-    assert_eq!(
-        product
-            .iter()
-            .map(|response| response.variable)
-            .collect::<Vec<_>>(),
-        [2, 3, 4]
-    );
+    assert_eq!(product.iter().map(|response| response.variable).collect::<Vec<_>>(), [2, 3, 4]);
     close(product[0].at_low.unwrap(), 0.9 * 2.0, 1e-12);
     close(product[0].at_high.unwrap(), 1.1 * 2.0, 1e-12);
     close(product[1].at_high.unwrap(), 2.2, 1e-12);
@@ -56,15 +47,8 @@ fn indices_of_simple_responses() {
 fn interaction() {
     let about_zero = |half: f64| Distribution::uniform(-half, half).unwrap();
     let fixed = |value| Distribution::constant(value).unwrap();
-    let values = vec![
-        fixed(2.0),
-        fixed(8.0),
-        about_zero(1.0),
-        about_zero(0.5),
-        fixed(3.0),
-    ];
-    let tolerances =
-        Tolerances::distributed(&[2.0, 8.0, 1.0, 2.0, 3.0], values, 3.0, None).unwrap();
+    let values = vec![fixed(2.0), fixed(8.0), about_zero(1.0), about_zero(0.5), fixed(3.0)];
+    let tolerances = Tolerances::distributed(&[2.0, 8.0, 1.0, 2.0, 3.0], values, 3.0, None).unwrap();
     let all = ask_sum(outputs(), |responses| {
         influence(responses, &tolerances, &Sampling::default().samples(16_384)).unwrap()
     });
@@ -87,24 +71,12 @@ fn what_has_no_indices() {
     ask_sum(outputs(), |responses| {
         let all = influence(responses, &tolerances, &sampling).unwrap();
         let sum = &all.responses[0];
-        assert!(
-            all.to_string()
-                .contains("No Sobol' indices: the variables depend"),
-            "{all}"
-        );
-        assert!(
-            sum.variables
-                .iter()
-                .all(|own| own.first.is_none() && own.total.is_none())
-        );
+        assert!(all.to_string().contains("No Sobol' indices: the variables depend"), "{all}");
+        assert!(sum.variables.iter().all(|own| own.first.is_none() && own.total.is_none()));
         // In units of the standard deviation: a + 2 b - 3 c with sigma^2 = 1 + 16 + 2.25 + 4 in tenths squared.
         let sigma = 23.25_f64.sqrt();
         close(sum.variables[1].regression.unwrap(), 4.0 / sigma, 1e-2);
-        close(
-            sum.variables[0].correlation.unwrap(),
-            (1.0 + 2.0) / sigma,
-            2e-2,
-        );
+        close(sum.variables[0].correlation.unwrap(), (1.0 + 2.0) / sigma, 2e-2);
         let few = influence(responses, &tolerances, &sampling.clone().samples(15));
         assert!(is_setting(few, "samples"));
         let still = Tolerances::new([0.0; 5], 3.0, None).unwrap();
@@ -126,10 +98,7 @@ fn reports() {
     ];
     for text in texts {
         assert!(text.starts_with("Bar at omega = 5 rad/s"), "{text}");
-        assert!(
-            text.contains("frequency 1 [rad/s]") && text.contains("length [m]"),
-            "{text}"
-        );
+        assert!(text.contains("frequency 1 [rad/s]") && text.contains("length [m]"), "{text}");
         assert!(!text.contains("NaN"));
     }
 }
@@ -143,11 +112,7 @@ fn inputs_with_tolerances() {
     let slope = (at(5.0 + 1e-4) - at(5.0 - 1e-4)) / 2e-4;
     close(spread(&all, 0).sigma.unwrap().value, 0.1 * slope, 5e-3);
     let worst = study.worst_case(&[FREQUENCY]).unwrap();
-    close(
-        worst.responses[0].greatest.as_ref().unwrap().value,
-        at(5.3),
-        1e-11,
-    );
+    close(worst.responses[0].greatest.as_ref().unwrap().value, at(5.3), 1e-11);
     let shares = study.influence(&[FREQUENCY]).unwrap();
     assert_eq!(shares.responses[0].variables.len(), 1);
 }
@@ -156,12 +121,7 @@ fn inputs_with_tolerances() {
 #[test]
 fn many_samples() {
     let study = bar().tolerance(Bar::l, 0.03).samples(131_072);
-    let all = study
-        .propagate(&[Response::Output(Bar::length.any())])
-        .unwrap();
-    assert_eq!(
-        (all.method, all.evaluations),
-        (Method::Sampled(Points::Sobol), 131_072)
-    );
+    let all = study.propagate(&[Response::Output(Bar::length.any())]).unwrap();
+    assert_eq!((all.method, all.evaluations), (Method::Sampled(Points::Sobol), 131_072));
     assert_eq!(spread(&all, 0).quantiles.len(), 7);
 }

@@ -19,10 +19,7 @@ fn statistics_of_the_exact_distribution() {
         let exact = Exact::new(&length);
         let tolerances = varied(length);
         for points in ALL {
-            let sampling = Sampling::default()
-                .points(points)
-                .samples(8192)
-                .seed(seed as u64);
+            let sampling = Sampling::default().points(points).samples(8192).seed(seed as u64);
             let all = ask(&bar(), vec![FREQUENCY], |responses| {
                 let samples = sampled(responses, &tolerances, &sampling).unwrap();
                 samples.propagation().unwrap()
@@ -33,10 +30,7 @@ fn statistics_of_the_exact_distribution() {
             let within = |value: f64, error: Option<f64>, exact: f64, most: f64| {
                 let error = error.unwrap();
                 // Eight randomisations determine a standard error within a factor of two.
-                assert!(
-                    (value - exact).abs() <= 6.0 * error + 1e-7,
-                    "{points:?} {value} {exact} {error}"
-                );
+                assert!((value - exact).abs() <= 6.0 * error + 1e-7, "{points:?} {value} {exact} {error}");
                 assert!(error <= most, "{points:?} {error} {most}");
             };
             let sigma = found.sigma.unwrap();
@@ -70,11 +64,7 @@ fn stated_errors_are_those_of_many_runs() {
             let (mut squares, mut sums) = ([0.0; 7], [0.0; 7]);
             let seeds = 40;
             for seed in 0..seeds {
-                let sampling = Sampling::default()
-                    .points(points)
-                    .samples(1024)
-                    .seed(seed)
-                    .threads(1);
+                let sampling = Sampling::default().points(points).samples(1024).seed(seed).threads(1);
                 let all = ask(&bar(), vec![FREQUENCY], |responses| {
                     let samples = sampled(responses, &tolerances, &sampling).unwrap();
                     samples.propagation().unwrap()
@@ -85,12 +75,8 @@ fn stated_errors_are_those_of_many_runs() {
                 let moments = moments.into_iter().zip([exact.mean, exact.sigma]);
                 // Those beyond two standard deviations have hardly a sample.
                 let quantiles = found.quantiles[1..6].iter();
-                let quantiles = quantiles.map(|quantile| {
-                    (
-                        (quantile.value, quantile.error),
-                        exact.quantile(quantile.probability),
-                    )
-                });
+                let quantiles =
+                    quantiles.map(|quantile| ((quantile.value, quantile.error), exact.quantile(quantile.probability)));
                 for (k, ((value, error), truth)) in moments.chain(quantiles).enumerate() {
                     let z = (value - truth) / error.unwrap();
                     squares[k] += z * z / seeds as f64;
@@ -123,9 +109,7 @@ fn splits_merge_to_the_same_bits() {
         assert_eq!(whole, run(None, 3));
         assert_eq!(whole.ranges(), [0..total]);
         let cuts = [0, 1, 700, 1100, total];
-        let mut parts: Vec<Samples> = (cuts.windows(2))
-            .map(|ends| run(Some(ends[0]..ends[1]), 2))
-            .collect();
+        let mut parts: Vec<Samples> = (cuts.windows(2)).map(|ends| run(Some(ends[0]..ends[1]), 2)).collect();
         assert_eq!(parts[2].ranges(), [700..1100]);
         let mut merged = parts.remove(2);
         for part in parts {
@@ -147,10 +131,7 @@ fn a_run_that_is_stopped_can_be_resumed() {
             stop.store(true, Ordering::Relaxed);
         }
     };
-    let whole = Sampling::default()
-        .points(Points::Sobol)
-        .samples(4096)
-        .threads(1);
+    let whole = Sampling::default().points(Points::Sobol).samples(4096).threads(1);
     let stopped = whole.clone().progress(Some(&progress)).stop(Some(&stop));
     ask(&bar(), vec![FREQUENCY], |responses| {
         let all = sampled(responses, &tolerances, &whole).unwrap();
@@ -161,8 +142,7 @@ fn a_run_that_is_stopped_can_be_resumed() {
         // Six of eight randomisations are missing, so no error can be estimated.
         assert_eq!(spread(&so_far, 0).mean.error, None);
         let rest = whole.clone().range(Some(1024..4096));
-        part.merge(sampled(responses, &tolerances, &rest).unwrap())
-            .unwrap();
+        part.merge(sampled(responses, &tolerances, &rest).unwrap()).unwrap();
         assert_eq!(part, all);
         stop.store(true, Ordering::Relaxed);
         let none = sampled(responses, &tolerances, &stopped).unwrap();
@@ -177,9 +157,7 @@ fn progress_counts_every_sample() {
     let seen = Mutex::new(0);
     let progress = |number| *seen.lock().unwrap() += number;
     let sampling = Sampling::default().samples(777).progress(Some(&progress));
-    ask(&bar(), vec![FREQUENCY], |responses| {
-        sampled(responses, &tolerances, &sampling).unwrap()
-    });
+    ask(&bar(), vec![FREQUENCY], |responses| sampled(responses, &tolerances, &sampling).unwrap());
     assert_eq!(*seen.lock().unwrap(), 777);
 }
 
@@ -189,12 +167,8 @@ fn covariance_of_responses() {
     let sigmas = [0.0, 0.0, 0.1, 0.2, 0.05];
     let tolerances = Tolerances::new(sigmas, 1.0, None).unwrap();
     let sampling = Sampling::default().points(Points::Sobol).samples(1 << 14);
-    let all = ask_sum(outputs(), |responses| {
-        sampled(responses, &tolerances, &sampling)
-            .unwrap()
-            .propagation()
-            .unwrap()
-    });
+    let all =
+        ask_sum(outputs(), |responses| sampled(responses, &tolerances, &sampling).unwrap().propagation().unwrap());
     // sum = a + 2 b - 3 c, product = a b with a = 1 +- 0.1, b = 2 +- 0.2.
     let sum = 0.1_f64.powi(2) + 0.4_f64.powi(2) + 0.15_f64.powi(2);
     let product = (2.0 * 0.1_f64).powi(2) + 0.2_f64.powi(2) + (0.1_f64 * 0.2).powi(2);
@@ -205,11 +179,7 @@ fn covariance_of_responses() {
     close(all.covariance[1][1].unwrap(), product, WITHIN);
     close(all.covariance[0][1].unwrap(), both, WITHIN);
     assert_eq!(all.covariance[0][1], all.covariance[1][0]);
-    close(
-        all.correlation(0, 1).unwrap(),
-        both / (sum * product).sqrt(),
-        WITHIN,
-    );
+    close(all.correlation(0, 1).unwrap(), both / (sum * product).sqrt(), WITHIN);
     close(all.with_design[0][4].unwrap(), -3.0 * 0.05 * 0.05, WITHIN);
     close(all.with_design[1][2].unwrap(), 2.0 * 0.01, WITHIN);
     assert_eq!(all.with_design[1][0], Some(0.0));
@@ -225,20 +195,10 @@ fn correlation_1_is_a_shared_variable() {
     });
     let both = Tolerances::new([0.0, 0.0, 0.1, 0.1, 0.0], 1.0, Some(matrix)).unwrap();
     let sampling = Sampling::default().points(Points::Sobol).samples(4096);
-    let all = ask_sum(outputs(), |responses| {
-        sampled(responses, &both, &sampling)
-            .unwrap()
-            .propagation()
-            .unwrap()
-    });
+    let all = ask_sum(outputs(), |responses| sampled(responses, &both, &sampling).unwrap().propagation().unwrap());
     // Three times the standard normal number underlying both.
     let alone = Tolerances::new([0.0, 0.0, 0.3, 0.0, 0.0], 1.0, None).unwrap();
-    let one = ask_sum(outputs(), |responses| {
-        sampled(responses, &alone, &sampling)
-            .unwrap()
-            .propagation()
-            .unwrap()
-    });
+    let one = ask_sum(outputs(), |responses| sampled(responses, &alone, &sampling).unwrap().propagation().unwrap());
     let sigma = |all: &Propagation| spread(all, 0).sigma.unwrap().value;
     close(sigma(&all), sigma(&one), 1e-12);
     close(sigma(&all), 0.3, 1e-3);
@@ -248,19 +208,10 @@ fn correlation_1_is_a_shared_variable() {
 #[test]
 fn samples_without_values_are_counted() {
     let tolerances = varied(Distribution::uniform(-0.5, 1.5).unwrap());
-    let sampling = Sampling::default()
-        .points(Points::LatinHypercube)
-        .samples(1600);
-    let all = ask(
-        &bar(),
-        vec![FREQUENCY, Response::Output(Bar::length.any())],
-        |responses| {
-            sampled(responses, &tolerances, &sampling)
-                .unwrap()
-                .propagation()
-                .unwrap()
-        },
-    );
+    let sampling = Sampling::default().points(Points::LatinHypercube).samples(1600);
+    let all = ask(&bar(), vec![FREQUENCY, Response::Output(Bar::length.any())], |responses| {
+        sampled(responses, &tolerances, &sampling).unwrap().propagation().unwrap()
+    });
     assert_eq!((all.counts.unphysical, all.counts.stable), (400, 1200));
     assert_eq!(spread(&all, 1).share, 0.75);
     close(spread(&all, 1).mean.value, 1.5, 1e-2);
@@ -274,24 +225,15 @@ fn a_sampling_that_makes_no_sense_is_refused() {
         let found = |sampling: Sampling<'_>| sampled(responses, &tolerances, &sampling);
         let sobol = || Sampling::default().points(Points::Sobol);
         assert!(is_setting(found(sobol().samples(15)), "samples"));
-        assert!(is_setting(
-            found(sobol().randomisations(1)),
-            "randomisations"
-        ));
+        assert!(is_setting(found(sobol().randomisations(1)), "randomisations"));
         assert!(is_setting(found(Sampling::default().samples(0)), "samples"));
         assert!(is_setting(found(sobol().range(Some(4000..4097))), "range"));
         let other = Tolerances::new([0.1], 3.0, None).unwrap();
-        assert!(matches!(
-            sampled(responses, &other, &sobol()),
-            Err(Error::WrongLength { .. })
-        ));
+        assert!(matches!(sampled(responses, &other, &sobol()), Err(Error::WrongLength { .. })));
         let mut one = found(sobol().range(Some(0..10))).unwrap();
         let other = found(sobol().seed(1).range(Some(10..20))).unwrap();
         let refused = one.merge(other).unwrap_err();
-        assert_eq!(
-            refused.to_string(),
-            "these samples belong to another run: seed is 0 here and 1 there"
-        );
+        assert_eq!(refused.to_string(), "these samples belong to another run: seed is 0 here and 1 there");
     });
 }
 
@@ -301,10 +243,7 @@ fn without_tolerances_nothing_is_spread() {
     let tolerances = varied(Distribution::constant(1.0).unwrap());
     let sampling = Sampling::default().points(Points::Sobol).samples(64);
     let all = ask(&bar(), vec![FREQUENCY], |responses| {
-        sampled(responses, &tolerances, &sampling)
-            .unwrap()
-            .propagation()
-            .unwrap()
+        sampled(responses, &tolerances, &sampling).unwrap().propagation().unwrap()
     });
     let found = spread(&all, 0);
     assert_eq!(found.sigma.unwrap().value, 0.0);

@@ -12,18 +12,12 @@ use crate::common::close;
 fn slopes(length: f64) -> (f64, f64) {
     let (n, f) = (1.5 * GRAVITY / (SPEED * length), frequency(length));
     let slope = n * n / (length * f);
-    (
-        slope,
-        -3.0 * n * n / (length * length * f) - slope * slope / f,
-    )
+    (slope, -3.0 * n * n / (length * length * f) - slope * slope / f)
 }
 
 fn both(tolerances: &Tolerances) -> [Propagation; 2] {
     ask(&bar(), vec![FREQUENCY], |responses| {
-        [
-            first_order(&Bar, responses, tolerances).unwrap(),
-            second_order(&Bar, responses, tolerances).unwrap(),
-        ]
+        [first_order(&Bar, responses, tolerances).unwrap(), second_order(&Bar, responses, tolerances).unwrap()]
     })
 }
 
@@ -62,10 +56,7 @@ fn moments_of_the_polynomial() {
             close(own.mean.value, mean, 1e-6);
             close(own.sigma.unwrap().value, sigma, 2e-4);
             let found = own.skewness.unwrap();
-            assert!(
-                (found.value - skewness).abs() < 5e-3 + 0.01 * skewness.abs(),
-                "{found:?} {skewness}"
-            );
+            assert!((found.value - skewness).abs() < 5e-3 + 0.01 * skewness.abs(), "{found:?} {skewness}");
         }
     }
 }
@@ -88,10 +79,7 @@ fn errors_hold() {
         let exact = Exact::new(&length);
         let [first, second] = both(&varied(length));
         let inside = |estimated: Estimated, truth: f64| {
-            assert!(
-                (estimated.value - truth).abs() < 1.5 * estimated.error.unwrap() + 1e-5,
-                "{estimated:?} {truth}"
-            );
+            assert!((estimated.value - truth).abs() < 1.5 * estimated.error.unwrap() + 1e-5, "{estimated:?} {truth}");
         };
         for own in [&first, &second].map(|all| spread(all, 0)) {
             inside(own.mean, exact.mean);
@@ -111,19 +99,12 @@ fn quantiles_of_the_models() {
         for quantile in &spread(all, 0).quantiles {
             let x = length.quantile(quantile.probability) - 1.0;
             let truth = frequency(1.0) + slope * x + bend * x * x;
-            assert!(
-                (quantile.value - truth).abs() < 2e-3 * slope * 0.03 + 1e-9,
-                "{quantile:?} {truth}"
-            );
+            assert!((quantile.value - truth).abs() < 2e-3 * slope * 0.03 + 1e-9, "{quantile:?} {truth}");
         }
     }
     // Normal to first order, hence exact.
     let [first, _] = both(&varied(Distribution::normal(1.0, 0.01).unwrap()));
-    close(
-        spread(&first, 0).quantiles[6].value,
-        frequency(1.0) + 3.0 * 0.01 * slope,
-        1e-12,
-    );
+    close(spread(&first, 0).quantiles[6].value, frequency(1.0) + 3.0 * 0.01 * slope, 1e-12);
 }
 
 /// Linear outputs are exact to first order, including their covariance; a product is exact to second order.
@@ -138,22 +119,14 @@ fn a_linear_response() {
     let [a, b, c]: [f64; 3] = [0.09 / 3.0, 0.09 / 6.0, 0.01];
     ask_sum(outputs(), |responses| {
         let all = first_order(&Sum, responses, &tolerances).unwrap();
-        close(
-            spread(&all, 0).sigma.unwrap().value,
-            (a + 4.0 * b + 9.0 * c).sqrt(),
-            1e-12,
-        );
+        close(spread(&all, 0).sigma.unwrap().value, (a + 4.0 * b + 9.0 * c).sqrt(), 1e-12);
         assert!(spread(&all, 0).skewness.unwrap().value.abs() < 1e-12);
         close(all.covariance[0][1].unwrap(), 2.0 * a + 2.0 * b, 1e-12);
         close(all.with_design[0][4].unwrap(), -3.0 * c, 1e-12);
         let second = second_order(&Sum, responses, &tolerances).unwrap();
         for all in [&all, &second] {
             assert!(spread(all, 0).mean.error < Some(1e-12));
-            close(
-                spread(all, 0).sigma.unwrap().value,
-                (a + 4.0 * b + 9.0 * c).sqrt(),
-                1e-12,
-            );
+            close(spread(all, 0).sigma.unwrap().value, (a + 4.0 * b + 9.0 * c).sqrt(), 1e-12);
         }
         // a0 = 1, b0 = 2: first order omits `sigma_a sigma_b`, and reports this.
         let [linear, exact] = [&all, &second].map(|all| spread(all, 1).sigma.unwrap());
@@ -169,19 +142,12 @@ fn outputs_and_critical_values() {
     let c = 1.5 * GRAVITY / SPEED.powi(2);
     let (sine, angle) = ((1.0 - c * c).sqrt(), c.acos());
     let speed = (1.5 * GRAVITY).sqrt();
-    let polynomials = [
-        [angle, c / sine, -c / sine * (2.0 + c * c / (sine * sine))],
-        [speed, -0.5 * speed, 0.75 * speed],
-    ];
+    let polynomials =
+        [[angle, c / sine, -c / sine * (2.0 + c * c / (sine * sine))], [speed, -0.5 * speed, 0.75 * speed]];
     let length = Distribution::uniform(0.92, 1.1).unwrap();
     let range = Range::new(Bar::omega.any(), 0.5, 8.0).steps(20);
-    let wanted = vec![
-        Response::Output(Bar::angle.any()),
-        Response::Critical(range),
-    ];
-    let all = ask(&bar(), wanted, |responses| {
-        second_order(&Bar, responses, &varied(length.clone())).unwrap()
-    });
+    let wanted = vec![Response::Output(Bar::angle.any()), Response::Critical(range)];
+    let all = ask(&bar(), wanted, |responses| second_order(&Bar, responses, &varied(length.clone())).unwrap());
     let number = 200_000;
     for (k, [value, slope, bend]) in polynomials.into_iter().enumerate() {
         let at = |k: u32| {
@@ -193,11 +159,7 @@ fn outputs_and_critical_values() {
         let own = spread(&all, k);
         close(own.nominal.unwrap(), value, 1e-12);
         close(own.mean.value, mean, 1e-8);
-        close(
-            own.sigma.unwrap().value,
-            (square / f64::from(number)).sqrt(),
-            1e-6,
-        );
+        close(own.sigma.unwrap().value, (square / f64::from(number)).sqrt(), 1e-6);
     }
 }
 
@@ -224,11 +186,7 @@ fn first_order_where_there_is_no_second() {
     let sampling = Sampling::default();
     let all = propagate(&Twins, &responses, &tolerances, 1, &sampling).unwrap();
     assert_eq!(all.method, Method::FirstOrder);
-    assert!(
-        all.reason.ends_with("no second derivatives"),
-        "{}",
-        all.reason
-    );
+    assert!(all.reason.ends_with("no second derivatives"), "{}", all.reason);
     assert_eq!(spread(&all, 0).mean.error, None);
 }
 
@@ -238,13 +196,7 @@ fn dependent_variables() {
     let length = Distribution::uniform(0.97, 1.03).unwrap();
     let mass = Distribution::uniform(2.9, 3.1).unwrap();
     let correlation = eigentol::Matrix::from([[1.0, 0.6], [0.6, 1.0]]);
-    let tolerances = Tolerances::distributed(
-        &[3.0, 1.0],
-        vec![mass, length.clone()],
-        3.0,
-        Some(correlation),
-    )
-    .unwrap();
+    let tolerances = Tolerances::distributed(&[3.0, 1.0], vec![mass, length.clone()], 3.0, Some(correlation)).unwrap();
     let [_, second] = both(&tolerances);
     let [mean, sigma, skewness] = model(&length, true);
     let own = spread(&second, 0);
@@ -272,44 +224,22 @@ fn the_method_follows_the_cost() {
         })
     };
     let all = of(&[FREQUENCY], &tolerances, 4096);
-    assert_eq!(
-        (all.method, all.evaluations),
-        (Method::Sampled(Points::Sobol), 4096)
-    );
-    assert_eq!(
-        of(&[FREQUENCY], &tolerances, 4095).method,
-        Method::Tensor { nodes: 7 }
-    );
-    assert_eq!(
-        of(&[FREQUENCY], &tolerances, 7).method,
-        Method::Tensor { nodes: 4 }
-    );
+    assert_eq!((all.method, all.evaluations), (Method::Sampled(Points::Sobol), 4096));
+    assert_eq!(of(&[FREQUENCY], &tolerances, 4095).method, Method::Tensor { nodes: 7 });
+    assert_eq!(of(&[FREQUENCY], &tolerances, 7).method, Method::Tensor { nodes: 4 });
     assert_eq!(of(&[FREQUENCY], &tolerances, 4).method, Method::SecondOrder);
     let found = of(&critical, &tolerances, 21 * 4095);
     assert_eq!(found.method, Method::Tensor { nodes: 7 });
     // sqrt(1.5 g / l): mean and sigma from its series to fourth order.
     let (speed, s) = ((1.5 * GRAVITY).sqrt(), 0.02_f64.powi(2));
     let own = spread(&found, 0);
-    close(
-        own.mean.value,
-        speed * (1.0 + 0.375 * s + 3.0 * 35.0 / 128.0 * s * s),
-        1e-8,
-    );
-    assert_eq!(
-        of(&critical, &tolerances, 21 * 4).method,
-        Method::SecondOrder
-    );
+    close(own.mean.value, speed * (1.0 + 0.375 * s + 3.0 * 35.0 / 128.0 * s * s), 1e-8);
+    assert_eq!(of(&critical, &tolerances, 21 * 4).method, Method::SecondOrder);
     let still = varied(Distribution::constant(1.0).unwrap());
-    assert_eq!(
-        of(&[FREQUENCY], &still, 1_000_000).method,
-        Method::FirstOrder
-    );
+    assert_eq!(of(&[FREQUENCY], &still, 1_000_000).method, Method::FirstOrder);
     let wide = varied(Distribution::normal(1.0, 0.6).unwrap());
     let found = of(&[FREQUENCY], &wide, 200);
-    assert_eq!(
-        (found.method, found.evaluations),
-        (Method::Sampled(Points::Sobol), 128)
-    );
+    assert_eq!((found.method, found.evaluations), (Method::Sampled(Points::Sobol), 128));
     assert!(found.counts.unphysical > 0);
     let steps = varied(Distribution::discrete(&[(0.9, 1.0), (1.1, 1.0)]).unwrap());
     assert_eq!(of(&[FREQUENCY], &steps, 100).method, Method::SecondOrder);

@@ -14,14 +14,9 @@ fn a_monotonic_response() {
         (Distribution::normal(1.01, 0.02).unwrap(), 0.95, 1.07),
         (Distribution::lognormal(1.0, 0.1).unwrap(), 0.7377, 1.3422),
     ] {
-        let worst = ask(&bar(), vec![FREQUENCY], |responses| {
-            worst_case(responses, &varied(length)).unwrap()
-        });
+        let worst = ask(&bar(), vec![FREQUENCY], |responses| worst_case(responses, &varied(length)).unwrap());
         let response = &worst.responses[0];
-        let (least, greatest) = (
-            response.least.as_ref().unwrap(),
-            response.greatest.as_ref().unwrap(),
-        );
+        let (least, greatest) = (response.least.as_ref().unwrap(), response.greatest.as_ref().unwrap());
         close(least.design[1], low, 1e-3);
         close(greatest.design[1], high, 1e-3);
         close(least.value, frequency(least.design[1]), 1e-11);
@@ -37,15 +32,9 @@ fn a_monotonic_response() {
 #[test]
 fn a_linear_response() {
     let tolerances = Tolerances::new([0.0, 0.0, 0.1, 0.2, 0.3], 3.0, None).unwrap();
-    let worst = ask_sum(outputs(), |responses| {
-        worst_case(responses, &tolerances).unwrap()
-    });
+    let worst = ask_sum(outputs(), |responses| worst_case(responses, &tolerances).unwrap());
     let [sum, product] = [0, 1].map(|k| &worst.responses[k]);
-    close(
-        sum.greatest.as_ref().unwrap().value,
-        -4.0 + 0.1 + 0.4 + 0.9,
-        1e-13,
-    );
+    close(sum.greatest.as_ref().unwrap().value, -4.0 + 0.1 + 0.4 + 0.9, 1e-13);
     close(sum.least.as_ref().unwrap().value, -4.0 - 1.4, 1e-13);
     close(product.greatest.as_ref().unwrap().value, 1.1 * 2.2, 1e-13);
     assert_eq!(product.least.as_ref().unwrap().design[4], 3.0);
@@ -62,9 +51,7 @@ fn a_response_that_turns() {
     let all = vec![fixed(2.0), fixed(8.0), a, b, fixed(3.0)];
     let nominal = [2.0, 8.0, 1.0, 2.0, 3.0];
     let tolerances = Tolerances::distributed(&nominal, all, 3.0, None).unwrap();
-    let worst = ask_sum(outputs(), |responses| {
-        worst_case(responses, &tolerances).unwrap()
-    });
+    let worst = ask_sum(outputs(), |responses| worst_case(responses, &tolerances).unwrap());
     let product = &worst.responses[1];
     assert_eq!(product.turning, [2, 3]);
     assert!(!product.is_monotonic());
@@ -91,10 +78,7 @@ mechanism! {
 /// A response that is stationary at the nominal design is not constant, although its gradient there is zero.
 #[test]
 fn a_stationary_response_turns() {
-    let study = Study::new(Balance)
-        .tolerance(Balance::e, 0.2)
-        .tolerance(Balance::f, 0.5)
-        .tolerance(Balance::idle, 0.3);
+    let study = Study::new(Balance).tolerance(Balance::e, 0.2).tolerance(Balance::f, 0.5).tolerance(Balance::idle, 0.3);
     let wanted = [Balance::parabola, Balance::saddle].map(|x| Response::Output(x.any()));
     let worst = study.worst_case(&wanted).unwrap();
     let ends = |k: usize| {
@@ -117,11 +101,7 @@ fn a_stationary_response_turns() {
 #[test]
 fn a_corner_without_value_is_said() {
     let worst = ask(&bar(), vec![FREQUENCY], |responses| {
-        worst_case(
-            responses,
-            &varied(Distribution::uniform(-0.5, 1.5).unwrap()),
-        )
-        .unwrap()
+        worst_case(responses, &varied(Distribution::uniform(-0.5, 1.5).unwrap())).unwrap()
     });
     let response = &worst.responses[0];
     assert_eq!(response.missing.len(), 1);

@@ -7,11 +7,7 @@ use eigentol::{Matrix, Tolerances, Vector};
 
 fn quadratic(value: f64, slopes: &[f64], curvature: &[&[f64]]) -> Quadratic {
     let n = slopes.len();
-    Quadratic {
-        value,
-        slopes: Vector::from(slopes),
-        curvature: Matrix::from_fn(n, n, |i, j| curvature[i][j]),
-    }
+    Quadratic { value, slopes: Vector::from(slopes), curvature: Matrix::from_fn(n, n, |i, j| curvature[i][j]) }
 }
 
 /// Normal variables whose means differ from the nominal values: the model about these means, with its coefficients
@@ -24,16 +20,9 @@ fn means_beside_the_nominal_values() {
     let nominal = [0.0, 0.0];
     let shifted = Tolerances::distributed(&nominal, vec![values(0), values(1)], 3.0, None).unwrap();
     let value = 2.0 + 0.3 + 0.3 + 0.5 * (0.5 * 0.09 - 2.0 * 0.2 * 0.03 - 0.01);
-    let moved = quadratic(
-        value,
-        &[1.0 + 0.5 * 0.3 - 0.2 * 0.1, -3.0 + 0.2 * 0.3 + 0.1],
-        &[&[0.5, 0.2], &[0.2, -1.0]],
-    );
+    let moved = quadratic(value, &[1.0 + 0.5 * 0.3 - 0.2 * 0.1, -3.0 + 0.2 * 0.3 + 0.1], &[&[0.5, 0.2], &[0.2, -1.0]]);
     let central = Tolerances::new(sigma, 1.0, None).unwrap();
-    let (found, expected) = (
-        model.moments(&shifted).unwrap(),
-        moved.moments(&central).unwrap(),
-    );
+    let (found, expected) = (model.moments(&shifted).unwrap(), moved.moments(&central).unwrap());
     close(found.mean, expected.mean, 1e-14);
     close(found.sigma, expected.sigma, 1e-14);
     close(found.skewness, expected.skewness, 1e-12);
@@ -63,20 +52,11 @@ fn a_uniform_variable() {
     let third = 4.0 / 15.0 + 16.0 / 945.0;
     close(found.skewness, third / (19.0 / 45.0_f64).powf(1.5), 1e-4);
     // x + x^2 < 0.75 between -1.5 and 0.5.
-    let probability = model
-        .probability(&tolerances, (f64::NEG_INFINITY, 0.75))
-        .unwrap();
+    let probability = model.probability(&tolerances, (f64::NEG_INFINITY, 0.75)).unwrap();
     assert!((probability.value - 0.75).abs() <= probability.error && probability.error < 2e-3);
-    let first = model
-        .probability_first_order(&tolerances, (0.5, 2.0))
-        .unwrap();
+    let first = model.probability_first_order(&tolerances, (0.5, 2.0)).unwrap();
     assert!((first - 0.25).abs() < 1e-3);
-    assert!(
-        margin(&model, &tolerances, &[(0.5, 2.0)])
-            .unwrap()
-            .derivatives
-            .is_none()
-    );
+    assert!(margin(&model, &tolerances, &[(0.5, 2.0)]).unwrap().derivatives.is_none());
 }
 
 /// The same relative tolerance: a band at 2.2 standard deviations contains 1.4 % of a normal variable and nothing of a
@@ -105,8 +85,8 @@ fn complete_correlation() {
     let ones = Matrix::from([[1.0, 1.0], [1.0, 1.0]]);
     let two = Tolerances::distributed(&[0.0; 2], vec![weibull(), weibull()], 3.0, Some(ones));
     let single = Tolerances::distributed(&[0.0], vec![weibull()], 3.0, None);
-    let [found, expected] = [(model, two.unwrap()), (one, single.unwrap())]
-        .map(|(model, tolerances)| model.moments(&tolerances).unwrap());
+    let [found, expected] =
+        [(model, two.unwrap()), (one, single.unwrap())].map(|(model, tolerances)| model.moments(&tolerances).unwrap());
     close(found.mean, expected.mean, 1e-12);
     close(found.first_order_sigma, expected.first_order_sigma, 1e-12);
     close(found.sigma, expected.sigma, 2e-4);

@@ -11,11 +11,7 @@ fn of(model: &Quadratic, tolerances: &Tolerances, band: (f64, f64)) -> Margin {
 
 #[test]
 fn one_variable_has_closed_forms() {
-    let model = Quadratic {
-        value: 10.0,
-        slopes: [2.0].into(),
-        curvature: [[0.0]].into(),
-    };
+    let model = Quadratic { value: 10.0, slopes: [2.0].into(), curvature: [[0.0]].into() };
     let tolerances = Tolerances::new([0.75], 3.0, None).unwrap();
     // sigma = 0.5: the band from 11 to 12 spans 2 to 4 standard deviations.
     let found = of(&model, &tolerances, (11.0, 12.0));
@@ -67,8 +63,7 @@ fn derivatives_match_differences() {
             let slopes = of(&model, &tolerances, band).derivatives.unwrap();
             let difference = |at: &dyn Fn(f64) -> f64| (at(STEP) - at(-STEP)) / (2.0 * STEP);
             for k in 0..4 {
-                let by_design =
-                    difference(&|h| of(&shifted(&model, k, h), &tolerances, band).first_order);
+                let by_design = difference(&|h| of(&shifted(&model, k, h), &tolerances, band).first_order);
                 within(slopes.by_design[k], by_design, 1e-9);
                 let by_half_width = difference(&|h| {
                     let mut half_widths = tolerances.half_widths().to_vec();
@@ -81,25 +76,18 @@ fn derivatives_match_differences() {
             }
             let by_low = difference(&|h| of(&model, &tolerances, (band.0 + h, band.1)).first_order);
             within(slopes.by_low, by_low, 1e-9);
-            let by_high =
-                difference(&|h| of(&model, &tolerances, (band.0, band.1 + h)).first_order);
+            let by_high = difference(&|h| of(&model, &tolerances, (band.0, band.1 + h)).first_order);
             within(slopes.by_high, by_high, 1e-9);
             // A band around a running speed u, and a quantity with derivative 0.3 by this speed.
             let along = difference(&|h| {
-                let moved = Quadratic {
-                    value: model.value + 0.3 * h,
-                    ..model.clone()
-                };
+                let moved = Quadratic { value: model.value + 0.3 * h, ..model.clone() };
                 of(&moved, &tolerances, (band.0 + 0.9 * h, band.1 + 1.1 * h)).first_order
             });
             within(slopes.along(0.3, 0.0, 0.9, 1.1), along, 1e-9);
             // Everything that changes the first-order standard deviation: a common factor of the slopes.
             let sigma = of(&model, &tolerances, band).sigma;
             let by_sigma = difference(&|h| {
-                let moved = Quadratic {
-                    slopes: model.slopes.map(|s| s * (1.0 + h / sigma)),
-                    ..model.clone()
-                };
+                let moved = Quadratic { slopes: model.slopes.map(|s| s * (1.0 + h / sigma)), ..model.clone() };
                 of(&moved, &tolerances, band).first_order
             });
             within(slopes.by_sigma, by_sigma, 1e-9);
@@ -109,16 +97,10 @@ fn derivatives_match_differences() {
 
 #[test]
 fn a_tolerance_of_zero_still_has_a_derivative() {
-    let model = Quadratic {
-        value: 0.0,
-        slopes: [1.0, 2.0].into(),
-        curvature: [[0.0; 2]; 2].into(),
-    };
+    let model = Quadratic { value: 0.0, slopes: [1.0, 2.0].into(), curvature: [[0.0; 2]; 2].into() };
     let matrix = [[1.0, 0.5], [0.5, 1.0]];
     let tolerances = Tolerances::new([1.0, 0.0], 1.0, Some(matrix.into())).unwrap();
-    let slopes = of(&model, &tolerances, (1.0, f64::INFINITY))
-        .derivatives
-        .unwrap();
+    let slopes = of(&model, &tolerances, (1.0, f64::INFINITY)).derivatives.unwrap();
     // sigma = sqrt(1 + 2 T + 4 T^2), so dsigma/dT = 1 at T = 0.
     close(slopes.by_half_width[1], slopes.by_sigma, 1e-15);
     assert!(slopes.by_half_width[1] > 0.2);
@@ -137,11 +119,7 @@ fn nothing_varies() {
     assert_eq!(inside.distance, f64::NEG_INFINITY);
     assert_eq!(of(&model, &still, (7.0, 9.0)).distance, 0.0);
     // Curvature without slope: first order sees nothing, the corrected probability does.
-    let flat = Quadratic {
-        value: 0.0,
-        slopes: [0.0].into(),
-        curvature: [[2.0]].into(),
-    };
+    let flat = Quadratic { value: 0.0, slopes: [0.0].into(), curvature: [[2.0]].into() };
     let found = of(&flat, &independent([1.0]), (-1.0, 1.0));
     assert_eq!(found.first_order, 1.0);
     close(found.corrected.value, 0.682_689_492_137_085_9, 1e-13);
@@ -152,23 +130,13 @@ fn nothing_varies() {
 fn nonsense_is_refused() {
     let (model, tolerances) = coupled();
     for band in [(f64::NAN, 1.0), (1.0, f64::NAN), (3.0, 2.0)] {
-        assert!(matches!(
-            margin(&model, &tolerances, &[band]),
-            Err(Error::Setting { .. })
-        ));
+        assert!(matches!(margin(&model, &tolerances, &[band]), Err(Error::Setting { .. })));
     }
-    let broken = Quadratic {
-        value: f64::NAN,
-        ..model.clone()
-    };
+    let broken = Quadratic { value: f64::NAN, ..model.clone() };
     let found = margin(&broken, &tolerances, &[(0.0, 1.0)]);
     assert!(matches!(found, Err(Error::NotFinite { .. })));
     // Derivatives beyond the range of a double are omitted; the others remain.
-    let steep = Quadratic {
-        value: 0.0,
-        slopes: [1e-300].into(),
-        curvature: [[0.0]].into(),
-    };
+    let steep = Quadratic { value: 0.0, slopes: [1e-300].into(), curvature: [[0.0]].into() };
     let found = of(&steep, &independent([1e-20]), (0.0, 1.0));
     assert_eq!(found.sigma, 1e-320);
     assert!(found.derivatives.is_none());
@@ -178,11 +146,7 @@ fn nonsense_is_refused() {
 /// Two bands at the same distance on both sides: probabilities add up, derivatives by the mean cancel.
 #[test]
 fn bands_add_up() {
-    let model = Quadratic {
-        value: 10.0,
-        slopes: [2.0].into(),
-        curvature: [[0.0]].into(),
-    };
+    let model = Quadratic { value: 10.0, slopes: [2.0].into(), curvature: [[0.0]].into() };
     let tolerances = Tolerances::new([0.75], 3.0, None).unwrap();
     let bands = [(f64::NEG_INFINITY, 9.0), (11.0, f64::INFINITY)];
     let found = margin(&model, &tolerances, &bands).unwrap();

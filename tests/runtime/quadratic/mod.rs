@@ -10,18 +10,11 @@ use eigentol::{Matrix, Tolerances, Vector};
 
 fn close(value: f64, expected: f64, tolerance: f64) {
     let size = expected.abs().max(f64::MIN_POSITIVE);
-    assert!(
-        (value - expected).abs() <= tolerance * size,
-        "{value:e}, not {expected:e}"
-    );
+    assert!((value - expected).abs() <= tolerance * size, "{value:e}, not {expected:e}");
 }
 
 fn within(value: f64, expected: f64, distance: f64) {
-    assert!(
-        (value - expected).abs() <= distance,
-        "{value:e}, not {expected:e}: {:e} apart",
-        value - expected
-    );
+    assert!((value - expected).abs() <= distance, "{value:e}, not {expected:e}: {:e} apart", value - expected);
 }
 
 /// Independent variables with these standard deviations.
@@ -34,20 +27,9 @@ fn coupled() -> (Quadratic, Tolerances) {
     let model = Quadratic {
         value: 7.0,
         slopes: [1.0, -0.5, 0.25, 2.0].into(),
-        curvature: [
-            [0.8, 0.3, -0.2, 0.1],
-            [0.3, -0.6, 0.4, 0.5],
-            [-0.2, 0.4, 1.1, -0.3],
-            [0.1, 0.5, -0.3, 0.2],
-        ]
-        .into(),
+        curvature: [[0.8, 0.3, -0.2, 0.1], [0.3, -0.6, 0.4, 0.5], [-0.2, 0.4, 1.1, -0.3], [0.1, 0.5, -0.3, 0.2]].into(),
     };
-    let correlation = [
-        [1.0, 0.5, 0.1, 0.0],
-        [0.5, 1.0, -0.3, 0.2],
-        [0.1, -0.3, 1.0, 0.4],
-        [0.0, 0.2, 0.4, 1.0],
-    ];
+    let correlation = [[1.0, 0.5, 0.1, 0.0], [0.5, 1.0, -0.3, 0.2], [0.1, -0.3, 1.0, 0.4], [0.0, 0.2, 0.4, 1.0]];
     let tolerances = Tolerances::new([0.9, 1.2, 0.6, 0.3], 2.0, Some(correlation.into())).unwrap();
     (model, tolerances)
 }
@@ -88,11 +70,7 @@ fn factor(tolerances: &Tolerances) -> Matrix {
             let correlation = tolerances.correlation().map_or(same, |matrix| matrix[i][j]);
             let done: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
             let rest = correlation * sigma[i] * sigma[j] - done;
-            lower[i][j] = if i == j {
-                rest.sqrt()
-            } else {
-                rest / lower[j][j]
-            };
+            lower[i][j] = if i == j { rest.sqrt() } else { rest / lower[j][j] };
         }
     }
     lower

@@ -11,13 +11,7 @@ fn gauss_hermite() -> [(f64, f64); 5] {
     let (inner, outer) = (10.0_f64.sqrt(), 5.0);
     let (near, far) = ((outer - inner).sqrt(), (outer + inner).sqrt());
     let (heavy, light) = ((7.0 + 2.0 * inner) / 60.0, (7.0 - 2.0 * inner) / 60.0);
-    [
-        (-far, light),
-        (-near, heavy),
-        (0.0, 8.0 / 15.0),
-        (near, heavy),
-        (far, light),
-    ]
+    [(-far, light), (-near, heavy), (0.0, 8.0 / 15.0), (near, heavy), (far, light)]
 }
 
 #[test]
@@ -44,11 +38,7 @@ fn moments_are_those_of_quadrature() {
     let standard = |power: i32| expectation(&|f| ((f - mean) / sigma).powi(power));
     close(moments.skewness, standard(3), 1e-12);
     close(moments.excess_kurtosis, standard(4) - 3.0, 1e-12);
-    close(
-        moments.first_order_sigma,
-        tolerances.sigma(&model.slopes),
-        1e-14,
-    );
+    close(moments.first_order_sigma, tolerances.sigma(&model.slopes), 1e-14);
     let parts = moments.first_order_sigma.hypot(moments.curvature_sigma);
     close(moments.sigma, parts, 1e-14);
 }
@@ -58,11 +48,7 @@ fn chi_square_has_its_known_moments() {
     // z1^2 + z2^2 + z3^2: mean 3, variance 6, skewness sqrt(8/3), excess kurtosis 4.
     let mut curvature = [[0.0; 3]; 3];
     (0..3).for_each(|i| curvature[i][i] = 2.0);
-    let model = Quadratic {
-        value: 0.0,
-        slopes: [0.0; 3].into(),
-        curvature: curvature.into(),
-    };
+    let model = Quadratic { value: 0.0, slopes: [0.0; 3].into(), curvature: curvature.into() };
     let moments = model.moments(&independent([1.0; 3])).unwrap();
     close(moments.mean, 3.0, 1e-15);
     close(moments.sigma, 6.0_f64.sqrt(), 1e-15);
@@ -91,38 +77,13 @@ fn moments_of_the_pendulums_match_reference() {
     // Second mode of the double pendulum at rest by lengths and masses.
     let double = Quadratic {
         value: 7.188_670_870_287_714,
-        slopes: [
-            -1.457_534_942_931_293_6,
-            -2.136_800_492_212_563,
-            -0.406_791_183_257_948_4,
-            0.406_791_183_257_948_4,
-        ]
-        .into(),
+        slopes: [-1.457_534_942_931_293_6, -2.136_800_492_212_563, -0.406_791_183_257_948_4, 0.406_791_183_257_948_4]
+            .into(),
         curvature: [
-            [
-                2.899_317_239_751_564_3,
-                -0.713_014_825_354_624,
-                0.064_284_105_986_698_93,
-                -0.064_284_105_986_698_93,
-            ],
-            [
-                -0.713_014_825_354_624,
-                3.918_215_563_673_469,
-                0.139_111_485_642_275_27,
-                -0.139_111_485_642_275_27,
-            ],
-            [
-                0.064_284_105_986_698_93,
-                0.139_111_485_642_275_27,
-                0.127_507_866_899_861_38,
-                0.008_089_194_186_121_427,
-            ],
-            [
-                -0.064_284_105_986_698_93,
-                -0.139_111_485_642_275_27,
-                0.008_089_194_186_121_427,
-                -0.143_686_255_272_104_2,
-            ],
+            [2.899_317_239_751_564_3, -0.713_014_825_354_624, 0.064_284_105_986_698_93, -0.064_284_105_986_698_93],
+            [-0.713_014_825_354_624, 3.918_215_563_673_469, 0.139_111_485_642_275_27, -0.139_111_485_642_275_27],
+            [0.064_284_105_986_698_93, 0.139_111_485_642_275_27, 0.127_507_866_899_861_38, 0.008_089_194_186_121_427],
+            [-0.064_284_105_986_698_93, -0.139_111_485_642_275_27, 0.008_089_194_186_121_427, -0.143_686_255_272_104_2],
         ]
         .into(),
     };
@@ -135,26 +96,15 @@ fn moments_of_the_pendulums_match_reference() {
 
 #[test]
 fn nonlinearity_compares_the_orders() {
-    let model = Quadratic {
-        value: 1.0,
-        slopes: [2.0].into(),
-        curvature: [[3.0]].into(),
-    };
+    let model = Quadratic { value: 1.0, slopes: [2.0].into(), curvature: [[3.0]].into() };
     let small = model.nonlinearity(&independent([0.1])).unwrap();
     // Shift 3 * 0.01 / 2 and standard deviation 3 * 0.01 / sqrt(2), both over 0.2.
     close(small.mean_shift, 0.075, 1e-14);
     close(small.spread, 0.03 / 2.0_f64.sqrt() / 0.2, 1e-14);
     close(small.largest(), small.spread, 1e-15);
     let sigma = model.moments(&independent([0.1])).unwrap();
-    close(
-        small.sigma_error(),
-        1.0 - sigma.first_order_sigma / sigma.sigma,
-        1e-12,
-    );
-    let flat = Quadratic {
-        slopes: [0.0].into(),
-        ..model.clone()
-    };
+    close(small.sigma_error(), 1.0 - sigma.first_order_sigma / sigma.sigma, 1e-12);
+    let flat = Quadratic { slopes: [0.0].into(), ..model.clone() };
     let flat = flat.nonlinearity(&independent([0.1])).unwrap();
     assert!(flat.mean_shift.is_infinite() && flat.spread.is_infinite());
     assert_eq!(flat.sigma_error(), 1.0);
@@ -165,11 +115,7 @@ fn nonlinearity_compares_the_orders() {
 
 #[test]
 fn extreme_scales_keep_their_digits() {
-    let ordinary = Quadratic {
-        value: 0.0,
-        slopes: [1.0, -2.0].into(),
-        curvature: [[0.5, 0.2], [0.2, -0.7]].into(),
-    };
+    let ordinary = Quadratic { value: 0.0, slopes: [1.0, -2.0].into(), curvature: [[0.5, 0.2], [0.2, -0.7]].into() };
     let expected = ordinary.moments(&independent([0.3, 0.4])).unwrap();
     for power in [1e200, 1e-200, 1e300] {
         let scaled = Quadratic {
@@ -184,17 +130,10 @@ fn extreme_scales_keep_their_digits() {
         close(moments.excess_kurtosis, expected.excess_kurtosis, 1e-13);
     }
     // Design variables of scale 1e-160 and 1e160 together.
-    let mixed = Quadratic {
-        value: 0.0,
-        slopes: [1e160, -2e-160].into(),
-        curvature: [[0.0, 0.2], [0.2, -0.7e-320]].into(),
-    };
+    let mixed =
+        Quadratic { value: 0.0, slopes: [1e160, -2e-160].into(), curvature: [[0.0, 0.2], [0.2, -0.7e-320]].into() };
     let moments = mixed.moments(&independent([0.3e-160, 0.4e160])).unwrap();
-    let plain = Quadratic {
-        value: 0.0,
-        slopes: [1.0, -2.0].into(),
-        curvature: [[0.0, 0.2], [0.2, -0.7]].into(),
-    };
+    let plain = Quadratic { value: 0.0, slopes: [1.0, -2.0].into(), curvature: [[0.0, 0.2], [0.2, -0.7]].into() };
     let expected = plain.moments(&independent([0.3, 0.4])).unwrap();
     // -0.7e-320 is subnormal, with three digits.
     close(moments.sigma, expected.sigma, 1e-3);
@@ -203,97 +142,50 @@ fn extreme_scales_keep_their_digits() {
 
 #[test]
 fn what_is_not_finite_is_refused() {
-    let model = Quadratic {
-        value: 1.0,
-        slopes: [1.0].into(),
-        curvature: [[1.0]].into(),
-    };
+    let model = Quadratic { value: 1.0, slopes: [1.0].into(), curvature: [[1.0]].into() };
     let tolerances = independent([1.0]);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for broken in [
-            Quadratic {
-                value: bad,
-                ..model.clone()
-            },
-            Quadratic {
-                slopes: [bad].into(),
-                ..model.clone()
-            },
-            Quadratic {
-                curvature: [[bad]].into(),
-                ..model.clone()
-            },
+            Quadratic { value: bad, ..model.clone() },
+            Quadratic { slopes: [bad].into(), ..model.clone() },
+            Quadratic { curvature: [[bad]].into(), ..model.clone() },
         ] {
-            assert!(matches!(
-                broken.moments(&tolerances),
-                Err(Error::NotFinite { .. })
-            ));
+            assert!(matches!(broken.moments(&tolerances), Err(Error::NotFinite { .. })));
             let probability = broken.probability(&tolerances, (0.0, 1.0));
             assert!(matches!(probability, Err(Error::NotFinite { .. })));
             let probability = broken.probability_first_order(&tolerances, (0.0, 1.0));
             assert!(matches!(probability, Err(Error::NotFinite { .. })));
         }
     }
-    let huge = Quadratic {
-        slopes: [1e200].into(),
-        ..model.clone()
-    };
+    let huge = Quadratic { slopes: [1e200].into(), ..model.clone() };
     let wide = independent([1e200]);
     assert!(matches!(huge.moments(&wide), Err(Error::Setting { .. })));
-    assert!(matches!(
-        huge.probability(&wide, (0.0, 1.0)),
-        Err(Error::Setting { .. })
-    ));
-    assert!(matches!(
-        huge.probability_first_order(&wide, (0.0, 1.0)),
-        Err(Error::Setting { .. })
-    ));
+    assert!(matches!(huge.probability(&wide, (0.0, 1.0)), Err(Error::Setting { .. })));
+    assert!(matches!(huge.probability_first_order(&wide, (0.0, 1.0)), Err(Error::Setting { .. })));
 }
 
 #[test]
 fn nothing_varies() {
-    let none = Quadratic {
-        value: 5.0,
-        slopes: Vector::zeros(0),
-        curvature: Matrix::zeros(0, 0),
-    };
+    let none = Quadratic { value: 5.0, slopes: Vector::zeros(0), curvature: Matrix::zeros(0, 0) };
     let moments = none.moments(&independent(Vector::zeros(0))).unwrap();
-    assert_eq!(
-        (moments.mean, moments.sigma, moments.skewness),
-        (5.0, 0.0, 0.0)
-    );
+    assert_eq!((moments.mean, moments.sigma, moments.skewness), (5.0, 0.0, 0.0));
     let (model, _) = coupled();
     let moments = model.moments(&independent([0.0; 4])).unwrap();
-    assert_eq!(
-        (moments.mean, moments.sigma, moments.excess_kurtosis),
-        (7.0, 0.0, 0.0)
-    );
+    assert_eq!((moments.mean, moments.sigma, moments.excess_kurtosis), (7.0, 0.0, 0.0));
 }
 
 #[test]
 fn fully_correlated_variables_act_as_one() {
-    let model = Quadratic {
-        value: 0.0,
-        slopes: [1.0, 2.0].into(),
-        curvature: [[0.5, 0.1], [0.1, -0.3]].into(),
-    };
+    let model = Quadratic { value: 0.0, slopes: [1.0, 2.0].into(), curvature: [[0.5, 0.1], [0.1, -0.3]].into() };
     let one = Tolerances::new([0.2, 0.4], 1.0, Some([[1.0; 2]; 2].into())).unwrap();
     let together = model.moments(&one).unwrap();
     // x = (0.2, 0.4) z: slope 1, curvature 0.5 * 0.04 + 2 * 0.1 * 0.08 - 0.3 * 0.16.
-    let single = Quadratic {
-        value: 0.0,
-        slopes: [1.0].into(),
-        curvature: [[0.02 + 0.016 - 0.048]].into(),
-    };
+    let single = Quadratic { value: 0.0, slopes: [1.0].into(), curvature: [[0.02 + 0.016 - 0.048]].into() };
     let expected = single.moments(&independent([1.0])).unwrap();
     close(together.sigma, expected.sigma, 1e-14);
     close(together.mean, expected.mean, 1e-13);
     close(together.skewness, expected.skewness, 1e-12);
     let band = (0.5, 2.0);
     let chance = model.probability(&one, band).unwrap();
-    close(
-        chance.value,
-        single.probability(&independent([1.0]), band).unwrap().value,
-        1e-13,
-    );
+    close(chance.value, single.probability(&independent([1.0]), band).unwrap().value, 1e-13);
 }

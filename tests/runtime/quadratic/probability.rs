@@ -38,21 +38,9 @@ fn agrees(model: &Quadratic, band: (f64, f64), expected: f64) {
 fn without_curvature_the_tails_keep_their_digits() {
     let model = diagonal(&[(3.0, 0.0), (-4.0, 0.0)]);
     // Tails of the normal distribution from 50-digit arithmetic.
-    close(
-        chance(&model, (25.0, ALL)).value,
-        2.866_515_718_791_939e-7,
-        1e-13,
-    );
-    close(
-        chance(&model, (-ALL, -50.0)).value,
-        7.619_853_024_160_526e-24,
-        1e-13,
-    );
-    close(
-        chance(&model, (-5.0, 5.0)).value,
-        0.682_689_492_137_085_9,
-        1e-14,
-    );
+    close(chance(&model, (25.0, ALL)).value, 2.866_515_718_791_939e-7, 1e-13);
+    close(chance(&model, (-ALL, -50.0)).value, 7.619_853_024_160_526e-24, 1e-13);
+    close(chance(&model, (-5.0, 5.0)).value, 0.682_689_492_137_085_9, 1e-14);
     assert_eq!(chance(&model, (-ALL, ALL)).value, 1.0);
     for band in [(25.0, ALL), (-ALL, -50.0), (-5.0, 5.0), (1.0, 2.0)] {
         let first = model.probability_first_order(&independent([1.0; 2]), band);
@@ -65,18 +53,11 @@ fn chi_square_of_one_to_seven_degrees() {
     // For even and odd numbers of squares: the upper tail by the recurrence Q(k + 2) = Q(k) + density terms.
     fn upper(degrees: usize, x: f64) -> f64 {
         let half = 0.5 * x;
-        let mut tail = if degrees.is_multiple_of(2) {
-            (-half).exp()
-        } else {
-            erfc(half.sqrt())
-        };
+        let mut tail = if degrees.is_multiple_of(2) { (-half).exp() } else { erfc(half.sqrt()) };
         let mut a = if degrees.is_multiple_of(2) { 1.0 } else { 0.5 };
         // half^a e^-half / Gamma(a + 1).
-        let mut term = if degrees.is_multiple_of(2) {
-            half * (-half).exp()
-        } else {
-            2.0 * (half / PI).sqrt() * (-half).exp()
-        };
+        let mut term =
+            if degrees.is_multiple_of(2) { half * (-half).exp() } else { 2.0 * (half / PI).sqrt() * (-half).exp() };
         while 2.0 * a + 0.5 < degrees as f64 {
             tail += term;
             a += 1.0;
@@ -89,11 +70,7 @@ fn chi_square_of_one_to_seven_degrees() {
         for x in [1e-3, 0.1, 1.0, 5.0, 12.0, 40.0] {
             agrees(&model, (x, ALL), upper(degrees, x));
             agrees(&model, (-ALL, x), 1.0 - upper(degrees, x));
-            agrees(
-                &model,
-                (0.5 * x, x),
-                upper(degrees, 0.5 * x) - upper(degrees, x),
-            );
+            agrees(&model, (0.5 * x, x), upper(degrees, 0.5 * x) - upper(degrees, x));
         }
         assert!(chance(&model, (-ALL, -1.0)).value < 1e-12);
         assert!(chance(&model, (-ALL, 0.0)).value < 1e-11);
@@ -115,9 +92,7 @@ fn erfc(x: f64) -> f64 {
         }
         1.0 - 2.0 / PI.sqrt() * (-x * x).exp() * sum
     } else {
-        let rest = (1..=200)
-            .rev()
-            .fold(x, |rest, k| x + 0.5 * f64::from(k) / rest);
+        let rest = (1..=200).rev().fold(x, |rest, k| x + 0.5 * f64::from(k) / rest);
         (-x * x).exp() / PI.sqrt() / rest
     }
 }
@@ -183,12 +158,7 @@ fn two_variables_match_reference() {
 #[test]
 fn a_square_beside_a_normal_term_matches_quadrature() {
     // X = c1 z1 + nu z1^2 / 2 + c2 z2: the trapezoidal rule over z1 of the normal probability in z2.
-    for (c1, nu, c2) in [
-        (1.0, 0.2, 0.5),
-        (0.3, -1.5, 0.4),
-        (0.0, 1.0, 1.0),
-        (1.0, 1e-3, 0.2),
-    ] {
+    for (c1, nu, c2) in [(1.0, 0.2, 0.5), (0.3, -1.5, 0.4), (0.0, 1.0, 1.0), (1.0, 1e-3, 0.2)] {
         let model = diagonal(&[(c1, nu), (c2, 0.0)]);
         for y in [-3.0, -0.7, 0.0, 0.4, 2.0] {
             let step = 1.0 / 256.0;
@@ -196,11 +166,7 @@ fn a_square_beside_a_normal_term_matches_quadrature() {
                 .map(|k| {
                     let z = f64::from(k) * step;
                     let rest = (y - c1 * z - 0.5 * nu * z * z) / c2 * FRAC_1_SQRT_2;
-                    let below = if rest > 0.0 {
-                        1.0 - 0.5 * erfc(rest)
-                    } else {
-                        0.5 * erfc(-rest)
-                    };
+                    let below = if rest > 0.0 { 1.0 - 0.5 * erfc(rest) } else { 0.5 * erfc(-rest) };
                     below * (-0.5 * z * z).exp() * step / (2.0 * PI).sqrt()
                 })
                 .sum();
@@ -280,10 +246,7 @@ fn intervals_at_the_edge_of_sense() {
     // Nothing varies: the nominal value is either inside or outside.
     let still = independent([0.0; 4]);
     let of = |band| model.probability(&still, band).unwrap().value;
-    assert_eq!(
-        (of((6.0, 8.0)), of((8.0, 9.0)), of((7.0, 8.0))),
-        (1.0, 0.0, 1.0)
-    );
+    assert_eq!((of((6.0, 8.0)), of((8.0, 9.0)), of((7.0, 8.0))), (1.0, 0.0, 1.0));
     let none = diagonal(&[]);
     assert_eq!(chance(&none, (-1.0, 1.0)).value, 1.0);
 }

@@ -29,12 +29,7 @@ const SETTINGS: [Setting; 16] = [
 ];
 
 fn fresh() -> Study<Pendulum> {
-    Study::new(Pendulum)
-        .input(OMEGA, 5.0)
-        .start(THETA, 1.0)
-        .relative_tolerance(LENGTH, 0.03)
-        .samples(20)
-        .threads(1)
+    Study::new(Pendulum).input(OMEGA, 5.0).start(THETA, 1.0).relative_tolerance(LENGTH, 0.03).samples(20).threads(1)
 }
 
 fn answers(study: &Study<Pendulum>) -> String {
@@ -72,10 +67,7 @@ fn a_mistake_after_a_question_is_found() {
     study.modes().unwrap();
     let study = study.tolerance(DesignVariable::<Pendulum>::new(7), 0.1);
     let refused = study.modes();
-    assert!(matches!(
-        refused,
-        Err(Error::UnknownHandle { index: 7, .. })
-    ));
+    assert!(matches!(refused, Err(Error::UnknownHandle { index: 7, .. })));
 }
 
 #[test]

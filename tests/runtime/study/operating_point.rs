@@ -23,10 +23,7 @@ mechanism! {
 const RPM: f64 = core::f64::consts::TAU / 60.0;
 
 fn study() -> Study<Governor> {
-    Study::new(Governor)
-        .input(Governor::speed, InDeclaredUnit(60.0))
-        .input(Governor::push, 0.25)
-        .samples(50)
+    Study::new(Governor).input(Governor::speed, InDeclaredUnit(60.0)).input(Governor::push, 0.25).samples(50)
 }
 
 #[test]
@@ -42,12 +39,7 @@ fn declared_units_and_si_meet() {
 
     let rpm = [30.0, 60.0].map(InDeclaredUnit);
     let sweep = study.sweep(Governor::speed, &rpm).unwrap();
-    assert_eq!(
-        sweep,
-        study
-            .sweep(Governor::speed, &[30.0 * RPM, 60.0 * RPM])
-            .unwrap()
-    );
+    assert_eq!(sweep, study.sweep(Governor::speed, &[30.0 * RPM, 60.0 * RPM]).unwrap());
     let settings = study.continuation(Governor::speed, 0.0, InDeclaredUnit(90.0));
     assert_eq!(settings.unwrap().high, 90.0 * RPM);
     let unit = &study.description().inputs[Governor::speed.index()].unit;
@@ -66,22 +58,13 @@ fn wrong_values_and_handles_are_refused() {
         study().sweep(unknown, &[InDeclaredUnit(1.0)]).err(),
         study().continuation(unknown, 0.0, 1.0).err(),
         study().crossings(unknown, 0.0, 1.0, 1.0).err(),
-        study()
-            .input(unknown, InDeclaredUnit(1.0))
-            .equilibrium()
-            .err(),
+        study().input(unknown, InDeclaredUnit(1.0)).equilibrium().err(),
     ];
     for error in refused {
-        assert!(
-            matches!(error, Some(Error::UnknownHandle { index: 7, .. })),
-            "{error:?}"
-        );
+        assert!(matches!(error, Some(Error::UnknownHandle { index: 7, .. })), "{error:?}");
     }
     let error = study().find_output("height").unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "`Governor` has no output `height`: it has `angle`"
-    );
+    assert_eq!(error.to_string(), "`Governor` has no output `height`: it has `angle`");
 }
 
 #[test]
@@ -99,10 +82,7 @@ fn reports_name_the_operating_point() {
         asked.second_order().unwrap().to_string(),
         asked.summary().unwrap().to_string(),
         asked.monte_carlo().unwrap().to_string(),
-        asked
-            .second_order_failure(Requirement::away(FREQUENCY, Governor::speed.any(), 0.1))
-            .unwrap()
-            .to_string(),
+        asked.second_order_failure(Requirement::away(FREQUENCY, Governor::speed.any(), 0.1)).unwrap().to_string(),
     ];
     for report in reports {
         let title = "Governor at speed = 60 rpm, push = 0.25 N*m: ";
@@ -133,9 +113,5 @@ fn reports_along_an_input_name_the_others() {
     let critical = free.critical_state(speed, 0.0, high).unwrap().to_string();
     assert!(critical.starts_with("Governor at push = 0 N*m: critical at speed = "));
     let spread = free.critical_tolerance(speed, 0.0, high).unwrap();
-    assert!(
-        spread
-            .to_string()
-            .starts_with("Governor at push = 0 N*m: critical at speed")
-    );
+    assert!(spread.to_string().starts_with("Governor at push = 0 N*m: critical at speed"));
 }

@@ -18,12 +18,7 @@ pub(crate) use machine;
 /// Performs an operation on every machine of the corpus, whatever its size.
 pub trait Visitor {
     /// Called once for each machine with its name in `snake_case`, its declaration and the compiled type.
-    fn visit<M: Mechanism + Copy + 'static>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    );
+    fn visit<M: Mechanism + Copy + 'static>(&mut self, name: &'static str, declaration: &'static str, machine: M);
 }
 
 /// Makes each machine known by the name of its module.

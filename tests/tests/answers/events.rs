@@ -30,19 +30,14 @@ fn study(text: &str) -> Study<Interpreted> {
 fn listed(study: &Study<Interpreted>, points: usize, orders: &[f64]) -> Vec<Event> {
     let last = points as f64 - 1.0;
     let values: Vec<f64> = (0..points).map(|k| HIGH * k as f64 / last).collect();
-    let found = study
-        .campbell(Input::new(0), &values, orders)
-        .expect("a diagram");
+    let found = study.campbell(Input::new(0), &values, orders).expect("a diagram");
     let searched = found.searched.as_ref().expect("a search");
     assert_eq!((searched.low, searched.high), (0.0, HIGH));
     assert!(searched.unresolved.is_empty() && searched.gaps.is_empty());
     let critical = found.critical.iter().map(|x| ("critical", x.value, None));
     let onsets = found.flutter_onsets.iter();
     let growth = onsets.map(|onset| ("growth", onset.value, Some(onset.change)));
-    let lines = found
-        .crossings
-        .iter()
-        .map(|crossing| ("line", crossing.value, None));
+    let lines = found.crossings.iter().map(|crossing| ("line", crossing.value, None));
     let mut all: Vec<Event> = critical.chain(growth).chain(lines).collect();
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
     all
@@ -55,11 +50,7 @@ fn check(text: &str, orders: &[f64], mut known: Vec<Event>) {
     for points in [2, 3, 5, 11, 51, 200] {
         let events = listed(&study, points, orders);
         let kinds = |all: &[Event]| all.iter().map(|pair| (pair.0, pair.2)).collect::<Vec<_>>();
-        assert_eq!(
-            kinds(&events),
-            kinds(&known),
-            "{points} points\n{text}\n{events:?}\n{known:?}"
-        );
+        assert_eq!(kinds(&events), kinds(&known), "{points} points\n{text}\n{events:?}\n{known:?}");
         for (found, known) in events.iter().zip(&known) {
             let off = (found.1 - known.1).abs();
             assert!(off < 1e-9 * HIGH, "{found:?}, not {known:?}\n{text}");
@@ -75,9 +66,7 @@ fn critical_speeds_of_sliders_also_close_together() {
     for free in [false, true] {
         for _ in 0..6 {
             let sliders = count(&mut random, 2, 6);
-            let mut speeds: Vec<f64> = (0..sliders)
-                .map(|_| between(&mut random, 2.0, 38.0))
-                .collect();
+            let mut speeds: Vec<f64> = (0..sliders).map(|_| between(&mut random, 2.0, 38.0)).collect();
             // Two that are close together, between two points of most grids.
             speeds.push(speeds[0] * (1.0 + 10f64.powf(between(&mut random, -6.0, -2.0))));
             let mut text = String::from(
@@ -138,10 +127,7 @@ fn rotors_with_internal_damping() {
     let mut random = RandomNumbers::new(3, 0);
     for _ in 0..6 {
         let omega: f64 = between(&mut random, 4.0, 12.0);
-        let (outer, inner) = (
-            between(&mut random, 0.1, 0.3),
-            between(&mut random, 0.1, 0.3),
-        );
+        let (outer, inner) = (between(&mut random, 0.1, 0.3), between(&mut random, 0.1, 0.3));
         let mass = between(&mut random, 0.5, 3.0);
         let (k, ce, ci) = (mass * omega * omega, mass * outer, mass * inner);
         let text = format!(
@@ -161,10 +147,7 @@ fn rotors_with_internal_damping() {
         let study = study(&text);
         let beyond = study.input(Input::new(0), onset * 1.01);
         let stability = beyond.equilibrium().expect("a state").stability;
-        assert!(
-            matches!(stability, Stability::Flutter { .. }),
-            "{stability}"
-        );
+        assert!(matches!(stability, Stability::Flutter { .. }), "{stability}");
     }
 }
 
@@ -201,10 +184,7 @@ fn resonances() {
 fn flutter_turns_into_divergence_and_back() {
     let mut random = RandomNumbers::new(5, 0);
     for _ in 0..4 {
-        let (a, k) = (
-            between(&mut random, 0.5, 2.0),
-            between(&mut random, 10.0, 30.0),
-        );
+        let (a, k) = (between(&mut random, 0.5, 2.0), between(&mut random, 10.0, 30.0));
         let study = study(&format!(
             "mechanism Turning {{ input u: N/m; body p: point(mass: 1 kg); joint x: prismatic(x) from ground to p;
              force f: generalized(on: x, value: -({k} N/m - u) * x + ({} N*s/m) * rate(x)); }}",
@@ -212,16 +192,8 @@ fn flutter_turns_into_divergence_and_back() {
         ))
         .stay();
         for (ends, change, words) in [
-            (
-                [0.0, HIGH],
-                Change::ToDivergence,
-                "flutter of mode 1 turns into divergence",
-            ),
-            (
-                [HIGH, 0.0],
-                Change::ToFlutter,
-                "divergence turns into flutter of mode",
-            ),
+            ([0.0, HIGH], Change::ToDivergence, "flutter of mode 1 turns into divergence"),
+            ([HIGH, 0.0], Change::ToFlutter, "divergence turns into flutter of mode"),
         ] {
             let found = study.campbell(Input::new(0), &ends, &[] as &[f64]);
             let found = found.expect("a diagram");
@@ -296,10 +268,7 @@ fn frequencies_that_cross_are_no_flutter() {
         text += "}";
         let study = study(&text);
         for _ in 0..40 {
-            let ends = [
-                between(&mut random, 0.0, 1.0),
-                between(&mut random, 1.0, 20.0),
-            ];
+            let ends = [between(&mut random, 0.0, 1.0), between(&mut random, 1.0, 20.0)];
             let ends = ends.map(|end| (10.0 * end).round() / 10.0);
             let found = study.campbell(Input::new(0), &ends, &[] as &[f64]);
             let found = found.expect("a diagram");
@@ -329,14 +298,10 @@ fn equal_pairs_merge_once_each() {
             text += "}";
             let study = study(&text);
             for _ in 0..20 {
-                let (low, high) = (
-                    between(&mut random, 0.0, 1.0),
-                    onset * between(&mut random, 1.05, 4.0),
-                );
+                let (low, high) = (between(&mut random, 0.0, 1.0), onset * between(&mut random, 1.05, 4.0));
                 let found = study.events(Input::new(0), low, high, &[] as &[f64]);
                 let found = found.expect("events").crossings;
-                let values: Vec<(f64, Change)> =
-                    found.iter().map(|x| (x.value, x.change)).collect();
+                let values: Vec<(f64, Change)> = found.iter().map(|x| (x.value, x.change)).collect();
                 assert_eq!(values.len(), copies, "{low} to {high}: {values:?}\n{text}");
                 for (value, change) in &values {
                     assert_eq!(*change, Change::Onset);
@@ -353,10 +318,7 @@ fn equal_pairs_merge_once_each() {
 fn the_way_past_a_branch_point_is_the_stable_one() {
     let mut random = RandomNumbers::new(8, 0);
     for _ in 0..4 {
-        let (first, second) = (
-            between(&mut random, 2.0, 6.0),
-            between(&mut random, 7.0, 12.0),
-        );
+        let (first, second) = (between(&mut random, 2.0, 6.0), between(&mut random, 7.0, 12.0));
         let study = study(&format!(
             "mechanism Buckling {{ input u: N/m; body p: point(mass: 1 kg); body q: point(mass: 1 kg);
              joint x: prismatic(x) from ground to p; joint y: prismatic(y) from ground to q;
@@ -368,15 +330,8 @@ fn the_way_past_a_branch_point_is_the_stable_one() {
             let found = study.events(Input::new(0), 0.0, high, &[] as &[f64]);
             let found = found.expect("events").critical;
             let values: Vec<f64> = found.iter().map(|x| x.value).collect();
-            assert_eq!(
-                values.len(),
-                1,
-                "0 to {high}: {values:?}, {first}, {second}"
-            );
-            assert!(
-                (values[0] - first).abs() < 1e-9 * high,
-                "{values:?}, {first}"
-            );
+            assert_eq!(values.len(), 1, "0 to {high}: {values:?}, {first}, {second}");
+            assert!((values[0] - first).abs() < 1e-9 * high, "{values:?}, {first}");
         }
     }
 }
@@ -391,9 +346,7 @@ fn growth_that_touches_zero() {
              force d: generalized(on: x, value: {sign}(0.01 kg*s/rad^2) * (u - 17 rad/s)^2 * rate(x)); }}"
         );
         for ends in [[0.0, HIGH], [HIGH, 0.0]] {
-            let found = study(&text)
-                .stay()
-                .campbell(Input::new(0), &ends, &[] as &[f64]);
+            let found = study(&text).stay().campbell(Input::new(0), &ends, &[] as &[f64]);
             let found = found.expect("a diagram");
             let [touch] = &found.flutter_onsets[..] else {
                 panic!("{sign} {found}");
@@ -422,9 +375,7 @@ fn events_at_the_ends_of_a_range() {
             if text == fold && f64::max(low, high) > 4.0 {
                 continue;
             }
-            let found = study(text)
-                .stay()
-                .events(Input::new(0), low, high, &[] as &[f64]);
+            let found = study(text).stay().events(Input::new(0), low, high, &[] as &[f64]);
             let found = found.expect("events");
             let of = format!("{low} to {high}: {text}");
             assert_eq!([found.critical.len(), found.crossings.len()], kinds, "{of}");
@@ -463,18 +414,12 @@ fn pull_in_across_micrometres() {
         let x = special[0].equilibrium.coordinates[0];
         assert!((3.0 * x / gap - 1.0).abs() < 1e-6, "{x} {found}");
         let state = study.critical_tolerance(Input::new(0), 0.0, 3.0 * snap);
-        let spread = state
-            .expect("a critical state")
-            .spread
-            .expect("derivatives");
+        let spread = state.expect("a critical state").spread.expect("derivatives");
         for (found, expected) in spread.by_design.iter().zip([0.5 / stiffness, 1.5 / gap]) {
             assert!((found / (expected * snap) - 1.0).abs() < 1e-8, "{found}");
         }
         let beyond = study.input(Input::new(0), 2.0 * snap).equilibrium();
-        assert!(
-            matches!(beyond, Err(Error::NoEquilibrium { .. })),
-            "{beyond:?}"
-        );
+        assert!(matches!(beyond, Err(Error::NoEquilibrium { .. })), "{beyond:?}");
     }
 }
 
@@ -491,15 +436,11 @@ fn two_plates_beyond_their_pull_in() {
     // Both springs in series.
     let snap = (8.0 * 0.75 * 8e-18 / (27.0 * 8.854_187_812_8e-20_f64)).sqrt();
     for share in [1.01, 1.3, 2.0, 3.0, 10.0, 30.0] {
-        let found = study
-            .clone()
-            .input(Input::new(0), share * snap)
-            .equilibrium();
+        let found = study.clone().input(Input::new(0), share * snap).equilibrium();
         match found {
             Ok(state) => {
                 let [x, y] = [0, 1].map(|i| state.coordinates[i]);
-                let force =
-                    8.854_187_812_8e-20 * (share * snap).powi(2) / (2.0 * (2e-6 + y - x).powi(2));
+                let force = 8.854_187_812_8e-20 * (share * snap).powi(2) / (2.0 * (2e-6 + y - x).powi(2));
                 assert!((x / force - 1.0).abs() < 1e-9, "{share}: {x} {y}");
                 assert!((3.0 * y / force + 1.0).abs() < 1e-9, "{share}: {x} {y}");
             }
@@ -530,44 +471,16 @@ fn lists_equal_counting() {
         let damping = [0.0, 0.001, 0.05][case % 3];
         // Stiffness and damping, at speed 0 and per unit of speed.
         let parts = match case % 5 {
-            0 => [
-                (2.0, 0.0, 9.0),
-                (0.5, 0.0, 0.0),
-                (0.1, 0.0, 0.2),
-                (0.1, 0.0, 0.0),
-            ],
-            1 => [
-                (2.0, 1.0, 9.0),
-                (0.4, 2.0, 0.0),
-                (0.0, 0.0, damping),
-                (0.0, 0.0, 0.0),
-            ],
-            2 => [
-                (2.0, 0.0, -9.0),
-                (0.0, 0.0, 0.0),
-                (0.0, 0.0, 0.0),
-                (0.0, 6.0, 0.0),
-            ],
-            3 => [
-                (0.02, 0.0, 8.0),
-                (0.1, 0.1, 0.0),
-                (0.0, 0.0, damping),
-                (0.0, 0.0, 0.0),
-            ],
-            _ => [
-                (3.0, 1.0, 9.0),
-                (2.0, 0.0, 0.0),
-                (0.0, 0.0, damping),
-                (0.0, 0.0, 0.0),
-            ],
+            0 => [(2.0, 0.0, 9.0), (0.5, 0.0, 0.0), (0.1, 0.0, 0.2), (0.1, 0.0, 0.0)],
+            1 => [(2.0, 1.0, 9.0), (0.4, 2.0, 0.0), (0.0, 0.0, damping), (0.0, 0.0, 0.0)],
+            2 => [(2.0, 0.0, -9.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 6.0, 0.0)],
+            3 => [(0.02, 0.0, 8.0), (0.1, 0.1, 0.0), (0.0, 0.0, damping), (0.0, 0.0, 0.0)],
+            _ => [(3.0, 1.0, 9.0), (2.0, 0.0, 0.0), (0.0, 0.0, damping), (0.0, 0.0, 0.0)],
         };
-        let [k0, k1, c0, c1] =
-            parts.map(|(symmetric, skew, diagonal)| matrix(symmetric, skew, diagonal));
+        let [k0, k1, c0, c1] = parts.map(|(symmetric, skew, diagonal)| matrix(symmetric, skew, diagonal));
         let mut text = String::from("mechanism Pencil { input speed: rad/s;\n");
         for i in 0..n {
-            text += &format!(
-                "body b{i}: point(mass: 1 kg); joint x{i}: prismatic(x) from ground to b{i};\n"
-            );
+            text += &format!("body b{i}: point(mass: 1 kg); joint x{i}: prismatic(x) from ground to b{i};\n");
         }
         for i in 0..n {
             let terms = (0..n).map(|j| {
@@ -577,10 +490,7 @@ fn lists_equal_counting() {
                 )
             });
             let terms: Vec<String> = terms.collect();
-            text += &format!(
-                "force f{i}: generalized(on: x{i}, value: {});\n",
-                terms.join(" + ")
-            );
+            text += &format!("force f{i}: generalized(on: x{i}, value: {});\n", terms.join(" + "));
         }
         text += "}";
         let flutter = |speed: f64| {

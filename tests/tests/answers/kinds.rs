@@ -7,8 +7,7 @@ use eigentol::{Input, Study};
 use eigentol_interpreter::Interpreted;
 
 fn study(text: &str, speed: f64) -> Study<Interpreted> {
-    let machine =
-        Interpreted::from_text(text).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes:?}"));
+    let machine = Interpreted::from_text(text).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes:?}"));
     Study::new(machine).input(Input::new(0), speed)
 }
 
@@ -59,9 +58,7 @@ fn a_uniform_shaft_bends_twists_and_stretches() {
     }
     for n in [1.0, 2.0] {
         for (omega, kind) in [(twisting(n), Kind::Torsional), (stretching(n), Kind::Axial)] {
-            let [only] = near(omega, kind, 2e-3)[..] else {
-                panic!("{kind} {omega}")
-            };
+            let [only] = near(omega, kind, 2e-3)[..] else { panic!("{kind} {omega}") };
             assert_eq!((only.ratio, only.sense()), (None, None));
             assert!(only.with_spin < 1e-9 && !only.is_excited_at(50.0));
             assert!(only.is_excited_at(100.0));
@@ -71,9 +68,7 @@ fn a_uniform_shaft_bends_twists_and_stretches() {
 
 /// Numbers between 0 and 1.
 fn random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1);
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
     (*state >> 11) as f64 / (1_u64 << 53) as f64
 }
 
@@ -147,15 +142,10 @@ fn masses_beside_an_axis_mix_bending_and_torsion() {
         let speed = 0.3 * random(&mut state) * slowest;
         let plain = study(&rotor.text([1.0, 1.0], "", [0.0; 3]), speed);
         let (modes, whirls) = found(&plain);
-        let at = plain
-            .equilibrium()
-            .expect("a steady state")
-            .coordinates
-            .clone();
+        let at = plain.equilibrium().expect("a steady state").coordinates.clone();
         let mass = rotor.mass + rotor.lump[0];
         let offset = rotor.lump[0] * rotor.lump[1] / mass;
-        let inertia =
-            rotor.inertia + rotor.lump[0] * rotor.lump[1].powi(2) - mass * offset * offset;
+        let inertia = rotor.inertia + rotor.lump[0] * rotor.lump[1].powi(2) - mass * offset * offset;
         let (sin, cos) = at[2].sin_cos();
         let arm = [at[0] + offset * cos, at[1] + offset * sin];
         for (mode, whirl) in modes.modes.iter().zip(whirls.iter()) {
@@ -182,11 +172,7 @@ fn masses_beside_an_axis_mix_bending_and_torsion() {
         }
         for (units, placed, moved) in [
             ([1e-3, 1e-3], "", [0.0; 3]),
-            (
-                [1.0, 1.0],
-                " rotated(x, 37 deg) rotated(y, -110 deg)",
-                [0.0; 3],
-            ),
+            ([1.0, 1.0], " rotated(x, 37 deg) rotated(y, -110 deg)", [0.0; 3]),
             ([1.0, 1.0], "", [0.3, -0.7, 1.1]),
         ] {
             let (_, others) = found(&study(&rotor.text(units, placed, moved), speed));

@@ -44,10 +44,7 @@ fn a_swinging_bar_on_a_turning_shaft() {
     let weight_moment = m * G * 0.5 * l * theta.sin();
     // The force of `twin` on `shaft`, in the axes of `twin`.
     let on_twin = [-centripetal(phi), m * G];
-    let in_twin = [
-        phi.cos() * on_twin[0] + phi.sin() * on_twin[1],
-        -phi.sin() * on_twin[0] + phi.cos() * on_twin[1],
-    ];
+    let in_twin = [phi.cos() * on_twin[0] + phi.sin() * on_twin[1], -phi.sin() * on_twin[0] + phi.cos() * on_twin[1]];
     let spring = 0.5 * 2.0 * theta * theta;
     let expected = [
         centripetal(theta),
@@ -61,11 +58,7 @@ fn a_swinging_bar_on_a_turning_shaft() {
         -m * G * 0.5 * l * (theta.cos() + phi.cos()) + spring,
     ];
     for (k, (x, y)) in got.iter().zip(expected).enumerate() {
-        assert!(
-            (x - y).abs() < 1e-12 * (1.0 + y.abs()),
-            "{}: {x} {y}",
-            Swing::DESCRIPTION.outputs[k].name
-        );
+        assert!((x - y).abs() < 1e-12 * (1.0 + y.abs()), "{}: {x} {y}", Swing::DESCRIPTION.outputs[k].name);
     }
 }
 
@@ -86,29 +79,17 @@ mechanism! {
 #[test]
 fn near_singular_poses_are_reported() {
     for pitch in [0.0, 0.5, -1.2, 1.57, 3.0] {
-        let pose = Bracket
-            .pose_margin(&[0.4, pitch, -0.8], &[], &[0.04])
-            .expect("a ball joint");
+        let pose = Bracket.pose_margin(&[0.4, pitch, -0.8], &[], &[0.04]).expect("a ball joint");
         assert_eq!(pose.joint, "ball");
         assert!((pose.margin - f64::cos(pitch).abs()).abs() < 1e-15);
     }
-    assert!(
-        Swing
-            .pose_margin(&[0.1, 0.2], &[1.0], &[3.0, 1.0])
-            .is_none()
-    );
+    assert!(Swing.pose_margin(&[0.1, 0.2], &[1.0], &[3.0, 1.0]).is_none());
 
-    let state = Study::new(Bracket)
-        .start(Bracket::pitch, 1.5)
-        .equilibrium()
-        .expect("a position");
+    let state = Study::new(Bracket).start(Bracket::pitch, 1.5).equilibrium().expect("a position");
     let pose = state.pose.as_ref().expect("a ball joint");
     assert!((pose.margin - state.coordinates[1].cos().abs()).abs() < 1e-15);
     assert!(pose.margin < 0.1, "{}", pose.margin);
-    assert!(
-        state.to_string().contains("ball is near its singular pose"),
-        "{state}"
-    );
+    assert!(state.to_string().contains("ball is near its singular pose"), "{state}");
 }
 
 mechanism! {
@@ -141,26 +122,20 @@ fn an_output_without_a_derivative_keeps_its_value() {
     let height = spread.spreads[1].as_ref().expect("a spread");
     assert!((height.sigma - 0.01).abs() < 1e-15);
     let text = spread.to_string();
-    assert!(
-        text.contains("height [m]") && text.contains("100.0 %"),
-        "{text}"
-    );
+    assert!(text.contains("height [m]") && text.contains("100.0 %"), "{text}");
 }
 
 /// Components of cross products share subexpressions; without sharing, translating a nested tree of them would never
 /// finish.
 #[test]
 fn nested_vector_functions_are_translated_once() {
-    let nested = (0..40).fold("[l, 2 * l, 3 * l]".to_owned(), |v, _| {
-        format!("cross({v}, w)")
-    });
+    let nested = (0..40).fold("[l, 2 * l, 3 * l]".to_owned(), |v, _| format!("cross({v}, w)"));
     let declaration = format!(
         "mechanism Deep {{ design l = 1 m; let w = [1, 2, l / (1 m)]; gravity 9.81 m/s^2 along -z;
          body bar: rod(mass: 1 kg, length: l, along: -z); joint theta: revolute(y) from ground to bar;
          output o = norm({nested}) / (1 m); }}"
     );
-    eigentol_compiler::program(declaration.parse().expect("tokens"))
-        .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    eigentol_compiler::program(declaration.parse().expect("tokens")).unwrap_or_else(|mistakes| panic!("{mistakes}"));
 }
 
 mod constants {
@@ -221,9 +196,6 @@ mechanism! {
 
 #[test]
 fn a_coordinate_driven_at_zero_is_locked() {
-    let state = Study::new(Locked)
-        .start(Locked::tilt, 0.1)
-        .equilibrium()
-        .expect("a position");
+    let state = Study::new(Locked).start(Locked::tilt, 0.1).equilibrium().expect("a position");
     assert!(state.stability.holds());
 }

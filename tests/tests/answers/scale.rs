@@ -75,13 +75,7 @@ struct Chain {
 
 impl Chain {
     fn new(length: usize, axes: Axes) -> Self {
-        Self {
-            length,
-            axes,
-            light: None,
-            idle: None,
-            twin: None,
-        }
+        Self { length, axes, light: None, idle: None, twin: None }
     }
 
     fn text(&self) -> String {
@@ -91,11 +85,7 @@ impl Chain {
              joint root: fixed from ground to b0 at [-0.5 m, 0, 0];",
         );
         for k in 1..=self.length {
-            let mass = if self.light == Some(k) {
-                "1e-12 kg"
-            } else {
-                "5 kg"
-            };
+            let mass = if self.light == Some(k) { "1e-12 kg" } else { "5 kg" };
             let (axis, turned) = match self.axes {
                 Axes::Parallel => ("z".to_owned(), String::new()),
                 Axes::Alternating => (["z", "y"][k % 2].to_owned(), String::new()),
@@ -104,28 +94,18 @@ impl Chain {
                     (axis, format!("rotated({about}, {angle:.3} rev)"))
                 }
             };
-            let _ = write!(
-                text,
-                "body b{k}: rod(mass: {mass}, length: 1 m, along: x, center: [0, 0, 0]);"
-            );
+            let _ = write!(text, "body b{k}: rod(mass: {mass}, length: 1 m, along: x, center: [0, 0, 0]);");
             let mut before = format!("b{}", k - 1);
             let mut place = format!("at [0.5 m, 0, 0] {turned}");
             if self.twin == Some(k) {
-                let _ = write!(
-                    text,
-                    "body ring: massless; joint twin: revolute({axis}) from {before} to ring {place};"
-                );
+                let _ =
+                    write!(text, "body ring: massless; joint twin: revolute({axis}) from {before} to ring {place};");
                 (before, place) = ("ring".to_owned(), "at [0, 0, 0]".to_owned());
             }
-            let _ = write!(
-                text,
-                "joint q{k}: revolute({axis}) from {before} to b{k} {place}, at [-0.5 m, 0, 0] on b{k};"
-            );
+            let _ =
+                write!(text, "joint q{k}: revolute({axis}) from {before} to b{k} {place}, at [-0.5 m, 0, 0] on b{k};");
             if self.idle == Some(k) {
-                let _ = write!(
-                    text,
-                    "body stub: point(mass: 1 kg); joint idle: revolute(z) from b{k} to stub;"
-                );
+                let _ = write!(text, "body stub: point(mass: 1 kg); joint idle: revolute(z) from b{k} to stub;");
             }
         }
         text + "}"
@@ -137,10 +117,7 @@ struct Numbers(u64);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 40) as f64 / f64::from(1 << 23) - 1.0
     }
 
@@ -192,10 +169,7 @@ fn very_long_chains_are_determined() {
 fn tiny_masses_count() {
     for axes in ALL {
         for light in [1, 2, 17, 40] {
-            let chain = Chain {
-                light: Some(light),
-                ..Chain::new(40, axes)
-            };
+            let chain = Chain { light: Some(light), ..Chain::new(40, axes) };
             assert!(compiled(&chain.text()).is_ok(), "{axes:?} {light}");
         }
     }
@@ -214,10 +188,7 @@ fn hidden_massless_motions_are_named() {
         for place in [1, 2, 9, 20, 33, 40] {
             let chain = Chain::new(40, axes);
             let idle = Some(place);
-            expect(
-                Chain { idle, ..chain },
-                "no mass moves when only `idle` changes",
-            );
+            expect(Chain { idle, ..chain }, "no mass moves when only `idle` changes");
             let chain = Chain::new(40, axes);
             let twin = Some(place);
             let both = format!("no mass moves when `twin` and `q{place}` change together");

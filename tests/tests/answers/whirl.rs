@@ -88,10 +88,7 @@ fn whirl(machine: &dyn eigentol::Kernels, speed: f64, (real, imaginary): Vibrati
 fn assert_close(values: [f64; 7], expected: [f64; 2]) {
     let expected = [expected[0], expected[1], 0.0, 0.0, 0.0];
     for (one, other) in values.iter().zip(expected) {
-        assert!(
-            (one - other).abs() <= 1e-14 * expected[1].abs(),
-            "{values:?}, not {expected:?}"
-        );
+        assert!((one - other).abs() <= 1e-14 * expected[1].abs(), "{values:?}, not {expected:?}");
     }
 }
 
@@ -152,8 +149,7 @@ fn forward_whirl_of_a_gyroscope_is_the_fast_one() {
             let residual = |(real, imaginary): Vibration| -> f64 {
                 // (K - w^2 M) x - w C y and (K - w^2 M) y + w C x.
                 let entry = |i: usize, j: usize, x: [f64; 2], y: [f64; 2], sign: f64| {
-                    (linear.stiffness[i][j] - w * w * linear.mass[i][j]) * x[j]
-                        + sign * w * linear.damping[i][j] * y[j]
+                    (linear.stiffness[i][j] - w * w * linear.mass[i][j]) * x[j] + sign * w * linear.damping[i][j] * y[j]
                 };
                 let row = |i: usize| {
                     let sum = |x, y, sign| entry(i, 0, x, y, sign) + entry(i, 1, x, y, sign);

@@ -37,12 +37,7 @@ fn agrees_on(trees: u32) {
             }
             Err(mistakes) => {
                 for mistake in mistakes.iter() {
-                    assert!(
-                        is_unbalanced(&model, &mistake.message),
-                        "{}\n{}",
-                        mistake.message,
-                        declaration(&model)
-                    );
+                    assert!(is_unbalanced(&model, &mistake.message), "{}\n{}", mistake.message, declaration(&model));
                 }
             }
         }
@@ -53,58 +48,30 @@ fn agrees_on(trees: u32) {
 
 /// A body on a ball joint, with a force fixed in it of which the moment about the line from the joint to the centre of
 /// mass is the same everywhere.
-const TURNED_BY_A_FOLLOWER: Plan = Plan {
-    setting: Setting::Still,
-    bodies: 5,
-    rotor: false,
-    special: false,
-    seed: 7_501_538_584_419_613_230,
-};
+const TURNED_BY_A_FOLLOWER: Plan =
+    Plan { setting: Setting::Still, bodies: 5, rotor: false, special: false, seed: 7_501_538_584_419_613_230 };
 
 /// A body on a hinge, with a load that is the same everywhere.
-const TURNED_BY_A_LOAD: Plan = Plan {
-    setting: Setting::Still,
-    bodies: 1,
-    rotor: false,
-    special: true,
-    seed: 10_268_359_363_991_272_455,
-};
+const TURNED_BY_A_LOAD: Plan =
+    Plan { setting: Setting::Still, bodies: 1, rotor: false, special: true, seed: 10_268_359_363_991_272_455 };
 
 #[test]
 fn a_refusal_is_right_only_if_nothing_holds_the_motion() {
     for (plan, joint, message) in [
-        (
-            TURNED_BY_A_FOLLOWER,
-            "joint3",
-            "`force5` acts along rotation of `body1`, which nothing holds",
-        ),
-        (
-            TURNED_BY_A_LOAD,
-            "joint0",
-            "`force0` acts along `joint0`, which nothing holds",
-        ),
+        (TURNED_BY_A_FOLLOWER, "joint3", "`force5` acts along rotation of `body1`, which nothing holds"),
+        (TURNED_BY_A_LOAD, "joint0", "`force0` acts along `joint0`, which nothing holds"),
     ] {
         let mut model = plan.model();
         let mistakes = Compiled::new(&model).err().expect("a refusal");
-        let messages: Vec<&str> = mistakes
-            .iter()
-            .map(|mistake| mistake.message.as_str())
-            .collect();
+        let messages: Vec<&str> = mistakes.iter().map(|mistake| mistake.message.as_str()).collect();
         assert_eq!(messages, [message]);
         assert!(is_unbalanced(&model, message), "{message}");
 
         let named = model.joints.iter().position(|x| x.name == joint);
-        let coordinate = Coordinate {
-            joint: named.expect("a joint of the model"),
-            step: 0,
-        };
+        let coordinate = Coordinate { joint: named.expect("a joint of the model"), step: 0 };
         model.forces.push(Force {
             name: "holder".to_owned(),
-            law: ForceLaw::Spring {
-                coordinate,
-                stiffness: Value::Number(0.1),
-                rest: Value::Number(0.0),
-            },
+            law: ForceLaw::Spring { coordinate, stiffness: Value::Number(0.1), rest: Value::Number(0.0) },
         });
         assert!(!is_unbalanced(&model, message), "held, yet {message}");
     }
@@ -154,14 +121,7 @@ struct Faulty<'a> {
 
 impl<'a> Faulty<'a> {
     fn new(oracle: &'a Oracle<'a>, record: &'a RefCell<Vec<Vec<Vec<f64>>>>, target: usize) -> Self {
-        Self {
-            oracle,
-            record,
-            target,
-            calls: Cell::new(0),
-            arrays: Cell::new(0),
-            touched: Cell::new(false),
-        }
+        Self { oracle, record, target, calls: Cell::new(0), arrays: Cell::new(0), touched: Cell::new(false) }
     }
 
     fn answer(&self, evaluate: impl FnOnce() -> Vec<Vec<f64>>) -> Vec<Vec<f64>> {
@@ -207,11 +167,7 @@ fn split(linear: Linear<f64>) -> [Vec<f64>; 3] {
 }
 
 fn joined([mass, damping, stiffness]: [Vec<f64>; 3]) -> Linear<f64> {
-    Linear {
-        mass,
-        damping,
-        stiffness,
-    }
+    Linear { mass, damping, stiffness }
 }
 
 impl Kernels for Faulty<'_> {
@@ -247,15 +203,11 @@ impl Kernels for Faulty<'_> {
         let mut arrays = self
             .answer(|| {
                 let partials = Kernels::linear_partials(self.oracle, at);
-                [
-                    partials.by_coordinate,
-                    partials.by_input,
-                    partials.by_design,
-                ]
-                .into_iter()
-                .flatten()
-                .flat_map(split)
-                .collect()
+                [partials.by_coordinate, partials.by_input, partials.by_design]
+                    .into_iter()
+                    .flatten()
+                    .flat_map(split)
+                    .collect()
             })
             .into_iter();
         let mut next = || arrays.next().expect("as many as there were");
@@ -263,11 +215,7 @@ impl Kernels for Faulty<'_> {
             let one = |_| joined([next(), next(), next()]);
             (0..arguments.len()).map(one).collect()
         });
-        LinearPartials {
-            by_coordinate,
-            by_input,
-            by_design,
-        }
+        LinearPartials { by_coordinate, by_input, by_design }
     }
 
     fn linear_along(&self, at: At, along: At) -> Linear<f64> {
@@ -290,23 +238,11 @@ impl Kernels for Faulty<'_> {
         self.one(|| Kernels::whirl(self.oracle, at, real, imaginary))
     }
 
-    fn mode_gradient_along(
-        &self,
-        at: At,
-        mode: (&[f64], f64),
-        along: At,
-        mode_along: (&[f64], f64),
-    ) -> Gradient {
+    fn mode_gradient_along(&self, at: At, mode: (&[f64], f64), along: At, mode_along: (&[f64], f64)) -> Gradient {
         self.some(|| self.oracle.mode_gradient_along(at, mode, along, mode_along))
     }
 
-    fn pencil_gradient_along(
-        &self,
-        at: At,
-        pencil: Pencil,
-        along: At,
-        pencil_along: Pencil,
-    ) -> Gradient {
+    fn pencil_gradient_along(&self, at: At, pencil: Pencil, along: At, pencil_along: Pencil) -> Gradient {
         self.some(|| {
             let oracle = self.oracle;
             oracle.pencil_gradient_along(at, pencil, along, pencil_along)
@@ -331,13 +267,7 @@ fn every_fault_is_found_on_three_bodies() {
 
 /// A comparison that cannot fail proves nothing: perturbs every array of every kernel once, by one part in 10^5.
 fn every_fault_is_found_on(bodies: usize) {
-    let plan = Plan {
-        setting: Setting::Spinning,
-        bodies,
-        rotor: false,
-        special: false,
-        seed: 11,
-    };
+    let plan = Plan { setting: Setting::Spinning, bodies, rotor: false, special: false, seed: 11 };
     let model = plan.model();
     let reference = Reference::new(&model, 5);
     let (oracle, record) = (Oracle::new(&model), RefCell::default());
@@ -345,11 +275,7 @@ fn every_fault_is_found_on(bodies: usize) {
     for target in 0.. {
         let faulty = Faulty::new(&oracle, &record, target);
         let report = reference.compare(&faulty);
-        assert_eq!(
-            report.is_err(),
-            faulty.touched.get(),
-            "array {target}: {report:?}"
-        );
+        assert_eq!(report.is_err(), faulty.touched.get(), "array {target}: {report:?}");
         found += usize::from(report.is_err());
         if target >= faulty.arrays.get() {
             break;
@@ -360,25 +286,12 @@ fn every_fault_is_found_on(bodies: usize) {
 
 #[test]
 fn a_report_names_the_kernel_the_entry_and_the_declaration() {
-    let plan = Plan {
-        setting: Setting::Spinning,
-        bodies: 2,
-        rotor: false,
-        special: false,
-        seed: 11,
-    };
+    let plan = Plan { setting: Setting::Spinning, bodies: 2, rotor: false, special: false, seed: 11 };
     let model = plan.model();
     let (oracle, record) = (Oracle::new(&model), RefCell::default());
     let faulty = Faulty::new(&oracle, &record, 0);
-    let report = Reference::new(&model, 5)
-        .compare(&faulty)
-        .expect_err("a fault");
-    for part in [
-        "residual: residual[",
-        "the oracle says",
-        "pub mechanism Tree {",
-        "seed 5",
-    ] {
+    let report = Reference::new(&model, 5).compare(&faulty).expect_err("a fault");
+    for part in ["residual: residual[", "the oracle says", "pub mechanism Tree {", "seed 5"] {
         assert!(report.contains(part), "{part}: {report}");
     }
 }

@@ -7,24 +7,15 @@ use eigentol_tests::{corpus, loops, machines, wheels};
 
 #[test]
 fn kernels_of_every_machine_are_consistent() {
-    let all = [
-        corpus::declarations(),
-        machines::declarations(),
-        loops::declarations(),
-        wheels::declarations(),
-    ]
-    .concat();
+    let all =
+        [corpus::declarations(), machines::declarations(), loops::declarations(), wheels::declarations()].concat();
     assert!(all.len() >= 38, "{}", all.len());
     for (name, declaration) in all {
-        let subject = Subject::new(declaration, Limits::default())
-            .unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"));
+        let subject =
+            Subject::new(declaration, Limits::default()).unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"));
         for seed in 1..4 {
             let outcome = check(&subject, &subject.state(seed));
-            assert!(
-                outcome.differences.is_empty(),
-                "{name}: {:#?}",
-                outcome.differences
-            );
+            assert!(outcome.differences.is_empty(), "{name}: {:#?}", outcome.differences);
         }
     }
 }

@@ -22,12 +22,8 @@ use pose::Embedding;
 /// Largest error relative to the size of the terms.
 const TOLERANCE: f64 = 1e-12;
 
-const CLOSINGS: [Closing; 4] = [
-    Closing::new(true, false),
-    Closing::new(false, false),
-    Closing::new(true, true),
-    Closing::new(false, true),
-];
+const CLOSINGS: [Closing; 4] =
+    [Closing::new(true, false), Closing::new(false, false), Closing::new(true, true), Closing::new(false, true)];
 
 /// How often each kind of joint was cut, by a joint and by constraints.
 type Seen = BTreeMap<(bool, Word), u32>;
@@ -35,8 +31,7 @@ type Seen = BTreeMap<(bool, Word), u32>;
 /// Whether constraints close the loop, and the kind of the joint; `None` if there is no such pair.
 fn compared(plan: Plan, closing: Closing) -> Option<(bool, Word)> {
     let pair = Pair::new(plan, closing)?;
-    pair.compare(plan.seed)
-        .unwrap_or_else(|report| panic!("{report}\n{pair}"));
+    pair.compare(plan.seed).unwrap_or_else(|report| panic!("{report}\n{pair}"));
     Some((closing.by_constraints, pair.word()))
 }
 
@@ -46,9 +41,7 @@ fn agrees_on(trees: u32) -> Seen {
         // The compiler takes nearly all the time.
         let kinds = thread::scope(|scope| {
             let start = |closing| scope.spawn(move || compared(plan, closing));
-            CLOSINGS
-                .map(start)
-                .map(|one| one.join().unwrap_or_else(|fault| resume_unwind(fault)))
+            CLOSINGS.map(start).map(|one| one.join().unwrap_or_else(|fault| resume_unwind(fault)))
         });
         for kind in kinds.into_iter().flatten() {
             *seen.borrow_mut().entry(kind).or_default() += 1;
@@ -77,13 +70,7 @@ fn faults_are_found() {
         let faults: [fn(&mut Embedding); 3] = [
             |embedding| embedding.value[3] += 1e-9,
             |embedding| embedding.slope.iter_mut().for_each(|all| all[4] += 1e-9),
-            |embedding| {
-                embedding
-                    .curvature
-                    .iter_mut()
-                    .flatten()
-                    .for_each(|all| *all = [0.0; 6])
-            },
+            |embedding| embedding.curvature.iter_mut().flatten().for_each(|all| *all = [0.0; 6]),
         ];
         for (place, fault) in faults.into_iter().enumerate() {
             pair.embedding = right.clone();

@@ -32,9 +32,7 @@ impl Numbers {
         let description = machine.description();
         let near = |numbers: &mut Self| {
             let nominal = description.design.iter().map(|info| info.nominal);
-            nominal
-                .map(|value| value * (1.0 + 0.05 * numbers.next()))
-                .collect()
+            nominal.map(|value| value * (1.0 + 0.05 * numbers.next())).collect()
         };
         parameters
             .iter()
@@ -48,11 +46,7 @@ impl Numbers {
     /// Arguments `q`, `u` and `b`.
     fn point(&mut self, machine: &dyn Kernels) -> Vec<Vec<f64>> {
         let sizes = machine.sizes();
-        let lengths = [
-            ("q", sizes.coordinates),
-            ("u", sizes.inputs),
-            ("b", sizes.design),
-        ];
+        let lengths = [("q", sizes.coordinates), ("u", sizes.inputs), ("b", sizes.design)];
         self.arguments(machine, &lengths)
     }
 }

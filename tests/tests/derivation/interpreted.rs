@@ -3,9 +3,7 @@
 
 use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels, PictureKernels};
 use eigentol::response::Vibration;
-use eigentol::{
-    Coordinate, Description, Excitation, Input, Law, Mechanism, Policy, Study, ToleranceInfo,
-};
+use eigentol::{Coordinate, Description, Excitation, Input, Law, Mechanism, Policy, Study, ToleranceInfo};
 use eigentol_interpreter::{Interpreted, ReadError};
 use eigentol_tests::corpus::{self, Visitor};
 use eigentol_tests::fits::{self, Fits};
@@ -16,11 +14,7 @@ fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
     machine: M,
     operation: &Operation,
 ) -> Vec<(&'static str, String)> {
-    let mut study = Study::new(machine)
-        .policy(operation.policy)
-        .samples(100)
-        .threads(1)
-        .keep_samples(true);
+    let mut study = Study::new(machine).policy(operation.policy).samples(100).threads(1).keep_samples(true);
     for (k, &value) in operation.inputs.iter().enumerate() {
         study = study.input(Input::new(k), value);
     }
@@ -37,10 +31,7 @@ fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
         ("sensitivities", format!("{:?}", study.sensitivities())),
         ("first order", format!("{:?}", study.first_order())),
         ("outputs", format!("{:?}", study.outputs())),
-        (
-            "spreads of outputs",
-            format!("{:?}", study.output_tolerances()),
-        ),
+        ("spreads of outputs", format!("{:?}", study.output_tolerances())),
         ("curvature", format!("{:?}", study.mode_curvature(0))),
         ("shape", format!("{:?}", study.shape_sensitivity(0))),
         ("samples", format!("{:?}", study.monte_carlo())),
@@ -56,10 +47,7 @@ fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
             ("its shares", format!("{:?}", study.share_sensitivities())),
             ("its curvature", format!("{:?}", study.forced_curvature())),
             ("its spread", format!("{:?}", study.vibration_spread(all))),
-            (
-                "its pictures",
-                format!("{:?}", study.vibration_pictures(Excitation::new(0), 4, 0.1)),
-            ),
+            ("its pictures", format!("{:?}", study.vibration_pictures(Excitation::new(0), 4, 0.1))),
         ]);
         for (input, &value) in operation.inputs.iter().enumerate() {
             let input = Input::new(input);
@@ -70,9 +58,7 @@ fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
         }
     }
     if let Some(&value) = operation.inputs.first() {
-        let values: Vec<f64> = (0..20)
-            .map(|k| value * (1.0 + 0.002 * f64::from(k)))
-            .collect();
+        let values: Vec<f64> = (0..20).map(|k| value * (1.0 + 0.002 * f64::from(k))).collect();
         let sweep = study.sweep(Input::new(0), &values);
         answers.push(("sweep", format!("{sweep:?}")));
     }
@@ -83,9 +69,7 @@ fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
 fn motion(machine: &dyn MotionKernels, operation: &Operation) -> String {
     let description = machine.description();
     let (q, u) = (&operation.start, &operation.inputs);
-    let q: Vec<f64> = (0..description.coordinates.len())
-        .map(|k| q.get(k).copied().unwrap_or(0.1))
-        .collect();
+    let q: Vec<f64> = (0..description.coordinates.len()).map(|k| q.get(k).copied().unwrap_or(0.1)).collect();
     let b: Vec<f64> = description.design.iter().map(|info| info.nominal).collect();
     let rates: Vec<f64> = (0..q.len()).map(|k| 0.3 - 0.1 * k as f64).collect();
     format!(
@@ -99,12 +83,7 @@ fn motion(machine: &dyn MotionKernels, operation: &Operation) -> String {
 struct Twins(usize);
 
 impl Visitor for Twins {
-    fn visit<M: Mechanism + Copy>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, declaration: &'static str, machine: M) {
         let twin = Interpreted::from_text(declaration).expect("a declaration");
         assert_eq!(twin.picture_info(), machine.picture_info(), "{name}");
         for operation in operating_points(name) {
@@ -113,11 +92,7 @@ impl Visitor for Twins {
                 assert!(expected == found, "{name}, {what}:\n{expected}\n{found}");
                 self.0 += 1;
             }
-            assert_eq!(
-                motion(&twin, &operation),
-                motion(&machine, &operation),
-                "{name}"
-            );
+            assert_eq!(motion(&twin, &operation), motion(&machine, &operation), "{name}");
         }
     }
 }
@@ -138,30 +113,13 @@ fn twins_have_the_same_tolerances() {
     let twin = Study::new(twin);
     assert_eq!(twin.description().inputs, compiled.inputs);
     assert_eq!(twin.description().design, compiled.design);
-    let limits = |lower, upper, law: Law| ToleranceInfo {
-        lower,
-        upper,
-        relative: false,
-        law,
-    };
-    let one_percent = ToleranceInfo {
-        relative: true,
-        ..ToleranceInfo::half_width(0.01)
-    };
+    let limits = |lower, upper, law: Law| ToleranceInfo { lower, upper, relative: false, law };
+    let one_percent = ToleranceInfo { relative: true, ..ToleranceInfo::half_width(0.01) };
     let inputs = compiled.inputs.iter().map(|info| info.tolerance.clone());
-    let expected = [
-        one_percent,
-        limits(0.0, 0.5, Law::Uniform),
-        ToleranceInfo::NONE,
-    ];
+    let expected = [one_percent, limits(0.0, 0.5, Law::Uniform), ToleranceInfo::NONE];
     assert!(inputs.eq(expected), "{:?}", compiled.inputs);
-    let beta = Law::Beta {
-        alpha: 2.0,
-        beta: 3.5,
-    };
-    let Law::OneOf(places) = &compiled.design[7].tolerance.law else {
-        panic!("a list of values")
-    };
+    let beta = Law::Beta { alpha: 2.0, beta: 3.5 };
+    let Law::OneOf(places) = &compiled.design[7].tolerance.law else { panic!("a list of values") };
     for (found, expected) in places.iter().zip([(0.0, 1.0), (0.25, 6.0), (1.0, 1.0)]) {
         assert!((found.0 - expected.0).abs() < 1e-12 && found.1 == expected.1);
     }
@@ -178,23 +136,15 @@ fn twins_have_the_same_tolerances() {
     ];
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-15 * b.abs();
     for (info, expected) in compiled.design.iter().zip(expected) {
-        let ToleranceInfo {
-            lower, upper, law, ..
-        } = &info.tolerance;
-        assert!(
-            near(*lower, expected.lower) && near(*upper, expected.upper) && *law == expected.law,
-            "{info:?}"
-        );
+        let ToleranceInfo { lower, upper, law, .. } = &info.tolerance;
+        assert!(near(*lower, expected.lower) && near(*upper, expected.upper) && *law == expected.law, "{info:?}");
         assert!(!info.tolerance.relative);
     }
 }
 
 #[test]
 fn names_are_handles() {
-    let governor = corpus::declarations()
-        .into_iter()
-        .find(|(name, _)| *name == "governor")
-        .expect("it is there");
+    let governor = corpus::declarations().into_iter().find(|(name, _)| *name == "governor").expect("it is there");
     let governor = Interpreted::from_text(governor.1).expect("a declaration");
     let study = Study::new(governor);
     let speed = study.find_input("speed").expect("declared");
@@ -216,8 +166,5 @@ fn mistakes_have_lines_and_columns() {
     assert!(first.message.contains("gruond"), "{mistakes}");
     let unclosed = Interpreted::from_text("mechanism Open {").expect_err("no end");
     assert_eq!(unclosed.iter().count(), 1, "{unclosed}");
-    assert!(matches!(
-        Interpreted::from_file("no such file"),
-        Err(ReadError::File { .. })
-    ));
+    assert!(matches!(Interpreted::from_file("no such file"), Err(ReadError::File { .. })));
 }

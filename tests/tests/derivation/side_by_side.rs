@@ -13,9 +13,7 @@ struct Machines {
 impl Visitor for Machines {
     fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, _: &'static str, machine: M) {
         for operation in operating_points(name) {
-            let mut study = Study::new(machine)
-                .policy(operation.policy)
-                .samples(self.samples);
+            let mut study = Study::new(machine).policy(operation.policy).samples(self.samples);
             for (k, &value) in operation.inputs.iter().enumerate() {
                 study = study.input(Input::new(k), value);
             }
@@ -39,20 +37,11 @@ fn many_samples_in_vectors_are_those_alone() {
 }
 
 fn compare_all(samples: usize) {
-    let mut machines = Machines {
-        samples,
-        compared: Vec::new(),
-    };
+    let mut machines = Machines { samples, compared: Vec::new() };
     corpus::visit(&mut machines);
     let compared = machines.compared;
     println!("{compared:#?}");
     let [own, wide] = Compared::sum(compared.iter().map(|(_, x)| *x));
-    assert!(
-        own.samples > 20 * samples && 10 * own.in_vectors > 8 * own.samples,
-        "{own:?}"
-    );
-    assert!(
-        wide.samples > 5 * samples && 10 * wide.in_vectors > 6 * wide.samples,
-        "{wide:?}"
-    );
+    assert!(own.samples > 20 * samples && 10 * own.in_vectors > 8 * own.samples, "{own:?}");
+    assert!(wide.samples > 5 * samples && 10 * wide.in_vectors > 6 * wide.samples, "{wide:?}");
 }

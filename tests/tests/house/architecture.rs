@@ -8,33 +8,14 @@ use std::path::{Path, PathBuf};
 const ROOMS: [(&str, &[&str]); 3] = [
     ("topology", &["base", "model"]),
     ("mechanics", &["base", "model", "topology", "algebra"]),
-    (
-        "emit",
-        &[
-            "base",
-            "algebra",
-            "program",
-            "model",
-            "topology",
-            "mechanics",
-        ],
-    ),
+    ("emit", &["base", "algebra", "program", "model", "topology", "mechanics"]),
 ];
 
 /// The rooms of `macros/language` and `macros/symbolic` that the compiler's rooms find beside their own.
 const OTHER_ROOMS: [&str; 5] = ["base", "syntax", "model", "algebra", "program"];
 
 /// The subfolders of `mechanics`, in order: each may import the earlier ones and the shared types.
-const MECHANICS: [&str; 8] = [
-    "setup",
-    "motion",
-    "inertia",
-    "loads",
-    "equations",
-    "linear",
-    "checks",
-    "kernels",
-];
+const MECHANICS: [&str; 8] = ["setup", "motion", "inertia", "loads", "equations", "linear", "checks", "kernels"];
 
 /// The types that the subfolders of `mechanics` share with other rooms.
 const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
@@ -44,31 +25,12 @@ const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 const CRATES: [(&str, &[&str], usize); 21] = [
     ("runtime/contract", &[], 3_250),
     ("runtime/statistics", &[], 10_200),
-    (
-        "runtime/numerics",
-        &["eigentol-contract", "eigentol-statistics"],
-        7_620,
-    ),
+    ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 7_620),
     ("runtime/results", &["eigentol-contract"], 1_150),
-    (
-        "runtime/solve",
-        &[
-            "eigentol-contract",
-            "eigentol-numerics",
-            "eigentol-results",
-            "eigentol-statistics",
-        ],
-        16_550,
-    ),
+    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 16_550),
     (
         "runtime/tolerance",
-        &[
-            "eigentol-contract",
-            "eigentol-numerics",
-            "eigentol-results",
-            "eigentol-solve",
-            "eigentol-statistics",
-        ],
+        &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-solve", "eigentol-statistics"],
         8_000,
     ),
     (
@@ -112,30 +74,14 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ),
     ("macros/symbolic", &[], 3_800),
     ("macros/language", &["eigentol-symbolic"], 17_500),
-    (
-        "macros/compiler",
-        &["eigentol-language", "eigentol-symbolic"],
-        16_110,
-    ),
+    ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 16_110),
     ("macros", &["eigentol-compiler"], 14),
     ("macros/build", &["eigentol-compiler"], 1_100),
     ("macros/urdf", &["eigentol-compiler"], 2_400),
-    (
-        "runtime/interpreter",
-        &["eigentol", "eigentol-compiler"],
-        1_900,
-    ),
-    (
-        "runtime/tables",
-        &["eigentol-contract", "eigentol-results"],
-        1_040,
-    ),
+    ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 1_900),
+    ("runtime/tables", &["eigentol-contract", "eigentol-results"], 1_040),
     ("runtime/figures", &["eigentol"], 5_000),
-    (
-        "runtime/report",
-        &["eigentol", "eigentol-figures", "eigentol-tables"],
-        2_650,
-    ),
+    ("runtime/report", &["eigentol", "eigentol-figures", "eigentol-tables"], 2_650),
     (
         "runtime/command",
         &[
@@ -169,10 +115,7 @@ const CRATE_ROOMS: [(&str, &[&str]); 8] = [
     ("macros/symbolic", &["base", "algebra", "program"]),
     ("macros/language", &["base", "syntax", "mistakes", "model"]),
     ("runtime/contract", &["scalar", "mechanism"]),
-    (
-        "runtime/numerics",
-        &["algebra", "linear", "rounding", "eigenproblem"],
-    ),
+    ("runtime/numerics", &["algebra", "linear", "rounding", "eigenproblem"]),
     (
         "runtime/solve",
         &[
@@ -210,18 +153,7 @@ const CRATE_ROOMS: [(&str, &[&str]); 8] = [
             "motion",
         ],
     ),
-    (
-        "runtime/uncertainty",
-        &[
-            "deviations",
-            "judge",
-            "propagation",
-            "bode",
-            "requirement",
-            "allocation",
-            "summary",
-        ],
-    ),
+    ("runtime/uncertainty", &["deviations", "judge", "propagation", "bode", "requirement", "allocation", "summary"]),
 ];
 
 /// Files that define the types passed between stages, and the modules of their own room that they may import.
@@ -229,15 +161,7 @@ const TYPE_FILES: [(&str, &[&str]); 13] = [
     ("language/src/syntax/ast.rs", &[]),
     (
         "language/src/model/mechanism.rs",
-        &[
-            "beam",
-            "constraint",
-            "excitation",
-            "expression",
-            "shape",
-            "tolerance",
-            "unit",
-        ],
+        &["beam", "constraint", "excitation", "expression", "shape", "tolerance", "unit"],
     ),
     ("language/src/model/beam.rs", &["expression"]),
     ("language/src/model/shape.rs", &["expression"]),
@@ -284,11 +208,7 @@ fn imported(text: &str, prefix: &str) -> BTreeSet<String> {
             None => rest,
         };
         for (k, item) in list.split(',').enumerate() {
-            let name: String = item
-                .trim()
-                .chars()
-                .take_while(|c| c.is_alphanumeric() || *c == '_')
-                .collect();
+            let name: String = item.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
             if k == 0 || rest.starts_with('{') {
                 names.insert(name);
             }
@@ -327,11 +247,7 @@ fn every_room_imports_only_what_it_may() {
 fn the_language_knows_no_expression_graph() {
     for file in sources(&root().join("macros/language/src")) {
         for name in imported(&read(&file), "eigentol_symbolic::") {
-            assert!(
-                ["base", "id"].contains(&name.as_str()),
-                "{} imports `{name}`",
-                file.display()
-            );
+            assert!(["base", "id"].contains(&name.as_str()), "{} imports `{name}`", file.display());
         }
     }
 }
@@ -372,10 +288,8 @@ fn assert_one_direction(source: &Path, files: Vec<PathBuf>) {
         .filter(|file| !file.ends_with("tests.rs"))
         .map(|file| (module(source, &file), file))
         .collect();
-    let imports: BTreeMap<&str, BTreeSet<String>> = modules
-        .iter()
-        .map(|(name, file)| (name.as_str(), uses(&read(file), name, &modules)))
-        .collect();
+    let imports: BTreeMap<&str, BTreeSet<String>> =
+        modules.iter().map(|(name, file)| (name.as_str(), uses(&read(file), name, &modules))).collect();
     if let Some(circle) = circle(&imports) {
         panic!("these import each other: {}", circle.join(", "));
     }
@@ -396,10 +310,7 @@ fn rooms_of(source: &Path) -> BTreeMap<String, Vec<PathBuf>> {
 }
 
 fn is_test(path: &Path) -> bool {
-    path.iter().any(|name| {
-        name.to_str()
-            .is_some_and(|name| name.trim_end_matches(".rs").ends_with("tests"))
-    })
+    path.iter().any(|name| name.to_str().is_some_and(|name| name.trim_end_matches(".rs").ends_with("tests")))
 }
 
 #[test]
@@ -428,14 +339,10 @@ fn no_crate_exceeds_its_lines() {
     for (path, _, budget) in CRATES {
         let source = root().join(path).join("src");
         let files = sources(&source);
-        let product = (files.iter())
-            .filter(|file| !is_test(file.strip_prefix(&source).expect("a file of the crate")));
+        let product = (files.iter()).filter(|file| !is_test(file.strip_prefix(&source).expect("a file of the crate")));
         let lines: usize = product.map(|file| product_lines(&read(file))).sum();
         assert!(lines <= budget, "{path}: {lines} lines of {budget}");
-        assert!(
-            4 * lines >= 3 * budget,
-            "{path}: {lines} lines, and a budget of {budget}: lower it"
-        );
+        assert!(4 * lines >= 3 * budget, "{path}: {lines} lines, and a budget of {budget}: lower it");
     }
 }
 
@@ -448,10 +355,7 @@ fn product_lines(text: &str) -> usize {
 /// A file without its comments and tests.
 fn code(text: &str) -> String {
     let code = text.split("mod tests {").next().unwrap_or(text);
-    code.lines()
-        .filter(|line| !line.trim_start().starts_with("//"))
-        .flat_map(|line| [line, "\n"])
-        .collect()
+    code.lines().filter(|line| !line.trim_start().starts_with("//")).flat_map(|line| [line, "\n"]).collect()
 }
 
 /// The crate items that a file refers to outside its tests and comments.
@@ -588,10 +492,7 @@ fn type_files_import_no_pass() {
     let macros = root().join("macros");
     for (file, allowed) in TYPE_FILES {
         for name in imported(&read(&macros.join(file)), "super::") {
-            assert!(
-                allowed.contains(&name.as_str()),
-                "{file} imports the pass `{name}`"
-            );
+            assert!(allowed.contains(&name.as_str()), "{file} imports the pass `{name}`");
         }
     }
 }
@@ -618,11 +519,7 @@ fn solver_types_never_enter_the_compiler() {
     for file in sources(&root().join("macros")) {
         let text = read(&file);
         for solver in ["nalgebra", "rayon"] {
-            assert!(
-                !text.contains(solver),
-                "{} mentions {solver}",
-                file.display()
-            );
+            assert!(!text.contains(solver), "{} mentions {solver}", file.display());
         }
     }
 }
@@ -630,22 +527,11 @@ fn solver_types_never_enter_the_compiler() {
 #[test]
 fn unsafe_code_stays_in_one_place() {
     let crates = ["runtime", "macros", "examples"];
-    let files = crates
-        .iter()
-        .flat_map(|folder| sources(&root().join(folder)));
-    let allowed: BTreeSet<PathBuf> = files
-        .filter(|file| read(file).contains("allow(unsafe_code"))
-        .collect();
+    let files = crates.iter().flat_map(|folder| sources(&root().join(folder)));
+    let allowed: BTreeSet<PathBuf> = files.filter(|file| read(file).contains("allow(unsafe_code")).collect();
     // The second one writes it into the text of C functions.
     let generator = root().join("macros/build/src/c/mod.rs");
-    assert_eq!(
-        allowed,
-        [
-            root().join("runtime/contract/src/scalar/x86/mod.rs"),
-            generator
-        ]
-        .into()
-    );
+    assert_eq!(allowed, [root().join("runtime/contract/src/scalar/x86/mod.rs"), generator].into());
 }
 
 #[test]
@@ -657,24 +543,18 @@ fn the_guard_reads_imports() {
 
 #[test]
 fn the_guard_finds_circles() {
-    let modules: BTreeMap<String, PathBuf> = ["a", "a::b", "a::b::c", "a::d"]
-        .map(|name| (name.to_owned(), PathBuf::new()))
-        .into();
+    let modules: BTreeMap<String, PathBuf> =
+        ["a", "a::b", "a::b::c", "a::d"].map(|name| (name.to_owned(), PathBuf::new())).into();
     let of = |text: &str, x: &str| uses(text, x, &modules);
     let text = "//! Text.\n\nuse super::c::{D, e};\nuse crate::a::d::F;\npub(in crate::a::b::c) fn g() {}\n";
     let found = of(text, "a::b");
     assert_eq!(found, BTreeSet::from(["a", "a::d"].map(str::to_owned)));
-    let found = of(
-        "mod c;\n\nuse c::{H, i::J};\nuse super::{d::{K, l}, M};",
-        "a::b",
-    );
+    let found = of("mod c;\n\nuse c::{H, i::J};\nuse super::{d::{K, l}, M};", "a::b");
     let expected = ["a", "a::b::c", "a::d"].map(str::to_owned);
     assert_eq!(found, BTreeSet::from(expected));
     let found = of("pub use b::G;\npub(super) use super::a::d::F;", "a");
     assert_eq!(found, BTreeSet::from(["a::d".to_owned()]));
-    let names = |list: &[&str]| -> BTreeSet<String> {
-        list.iter().map(|name| (*name).to_owned()).collect()
-    };
+    let names = |list: &[&str]| -> BTreeSet<String> { list.iter().map(|name| (*name).to_owned()).collect() };
     let tree = BTreeMap::from([("a", names(&["b"])), ("b", names(&["c"]))]);
     assert_eq!(circle(&tree), None);
     let round = BTreeMap::from([("a", names(&["b"])), ("b", names(&["a"]))]);

@@ -13,9 +13,7 @@ fn root() -> PathBuf {
 
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder");
-    entries
-        .map(|entry| entry.expect("a folder entry").path())
-        .collect()
+    entries.map(|entry| entry.expect("a folder entry").path()).collect()
 }
 
 /// The files of Rust in a folder and below it.
@@ -67,10 +65,8 @@ fn every_wrong_line_has_its_place() {
         assert!(ids.insert(id), "two are called {id}");
         assert!(!wrong.is_empty() && old != new, "{id} changes nothing");
         assert!(test.starts_with("cargo test -p "), "{id}: {test}");
-        let places: Vec<&str> = product
-            .iter()
-            .flat_map(|(name, text)| text.matches(old).map(|_| name.as_str()))
-            .collect();
+        let places: Vec<&str> =
+            product.iter().flat_map(|(name, text)| text.matches(old).map(|_| name.as_str())).collect();
         assert_eq!(places, [file], "{id}: files with `{old}`");
     }
     assert_eq!(ids.len(), 83);

@@ -42,11 +42,8 @@ fn undrawn(case: &str) -> String {
 /// The case with the compiler's diagnostics drawn in.
 fn drawn(source: &str) -> String {
     let whole = source.contains("mechanism") || source.contains("struct");
-    let (diagnostics, first) = if whole {
-        (diagnose(source), 1)
-    } else {
-        (diagnose(&format!("{BEFORE}{source}\n}}")), 4)
-    };
+    let (diagnostics, first) =
+        if whole { (diagnose(source), 1) } else { (diagnose(&format!("{BEFORE}{source}\n}}")), 4) };
     let line_of = |diagnostic: &Diagnostic| diagnostic.span.first.start().line;
     let mut text = String::new();
     for (index, line) in source.lines().enumerate() {
@@ -71,11 +68,7 @@ fn drawn(source: &str) -> String {
 
 fn draw(diagnostic: &Diagnostic, line: &str) -> (usize, String) {
     let (start, end) = (diagnostic.span.first.start(), diagnostic.span.last.end());
-    let end = if end.line == start.line {
-        end.column
-    } else {
-        line.chars().count()
-    };
+    let end = if end.line == start.line { end.column } else { line.chars().count() };
     assert!(start.column >= 2, "indent the line: {line}");
     let before = " ".repeat(start.column - 2);
     let carets = "^".repeat(end.saturating_sub(start.column).max(1));
@@ -151,14 +144,7 @@ fn a_wrong_drawing_is_noticed() {
     let wrong_help = right.replace("did you mean", "perhaps");
     let missing = source.clone();
     let extra = format!("{right}  //^ another mistake\n");
-    let wrong_drawings = [
-        wrong_column,
-        wrong_length,
-        wrong_message,
-        wrong_help,
-        missing,
-        extra,
-    ];
+    let wrong_drawings = [wrong_column, wrong_length, wrong_message, wrong_help, missing, extra];
     for wrong in wrong_drawings {
         assert_eq!(undrawn(&wrong), source);
         assert_ne!(drawn(&undrawn(&wrong)), wrong);

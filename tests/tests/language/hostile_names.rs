@@ -74,9 +74,7 @@ fn check(pendulum: &dyn Kernels) {
     near(linear.stiffness[0][0], stiffness);
     near(pendulum.outputs(&[q], &inputs, &design)[0], -l * cos);
     assert!(pendulum.violation(&inputs, &design).is_none());
-    let violation = pendulum
-        .violation(&inputs, &[-1.0, l])
-        .expect("a negative mass");
+    let violation = pendulum.violation(&inputs, &[-1.0, l]).expect("a negative mass");
     assert_eq!(violation.value, -1.0);
     assert_eq!(pendulum.description().design.len(), 2);
 }

@@ -51,16 +51,12 @@ fn targets(text: &str) -> Vec<String> {
 
 /// The anchors that GitHub and rustdoc give the headings of a page.
 fn anchors(text: &str) -> BTreeSet<String> {
-    let headings = prose(text).into_iter().filter_map(|line| {
-        line.trim_start_matches('#')
-            .strip_prefix(' ')
-            .filter(|_| line.starts_with('#'))
-    });
+    let headings = prose(text)
+        .into_iter()
+        .filter_map(|line| line.trim_start_matches('#').strip_prefix(' ').filter(|_| line.starts_with('#')));
     let anchor = |heading: &str| -> String {
         let letters = heading.trim().to_lowercase();
-        let kept = letters
-            .chars()
-            .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+        let kept = letters.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
         kept.map(|c| if c == ' ' { '-' } else { c }).collect()
     };
     headings.map(anchor).collect()
@@ -85,13 +81,7 @@ fn mistake(page: &Path, text: &str, target: &str) -> Option<String> {
         _ => fs::read_to_string(&to).ok()?,
     };
     let known = anchor.is_empty() || anchors(&other).contains(anchor);
-    (!known).then(|| {
-        format!(
-            "{}: no heading `#{anchor}` in {}",
-            page.display(),
-            to.display()
-        )
-    })
+    (!known).then(|| format!("{}: no heading `#{anchor}` in {}", page.display(), to.display()))
 }
 
 #[test]
@@ -115,9 +105,7 @@ fn the_check_finds_what_is_wrong() {
     let page = root().join("tests/tests/language/links.rs");
     let texts = targets(text);
     assert_eq!(texts.len(), 6, "{texts:?}");
-    let mistakes: Vec<String> = (texts.iter())
-        .filter_map(|target| mistake(&page, text, target))
-        .collect();
+    let mistakes: Vec<String> = (texts.iter()).filter_map(|target| mistake(&page, text, target)).collect();
     assert_eq!(mistakes.len(), 2, "{mistakes:?}");
     assert!(mistakes[0].contains("#missing") && mistakes[1].contains("no.md"));
 }

@@ -7,8 +7,7 @@ use std::mem::discriminant;
 
 use eigentol_oracle::declaration::declaration;
 use eigentol_oracle::examples::{
-    anisotropic_bearing, blade, chain, jeffcott_in_the_ground, screw_pendulum,
-    steadied_by_the_shaft, top, two_sliders,
+    anisotropic_bearing, blade, chain, jeffcott_in_the_ground, screw_pendulum, steadied_by_the_shaft, top, two_sliders,
 };
 use eigentol_oracle::model::{Amount, ForceLaw, Frame, Motion, ORIGIN, Shape, Value};
 use eigentol_oracle::random::on_plans;
@@ -49,24 +48,15 @@ fn forces_of_sliders_have_the_units_of_displacements() {
 
 #[test]
 fn several_coordinates_have_names_and_drives_of_their_own() {
-    let particle = Shape::Point {
-        mass: Value::Number(1.0),
-        center: ORIGIN,
-    };
+    let particle = Shape::Point { mass: Value::Number(1.0), center: ORIGIN };
     for (model, line) in [
         (
             top(particle.clone(), ORIGIN),
             "joint pivot: spherical(precession: z, tilt: y, spin: z) from ground to top, \
              precession driven at Omega, spin driven at nu;",
         ),
-        (
-            blade(particle),
-            "joint root: universal(flap: y, lag: z) from shaft to blade;",
-        ),
-        (
-            screw_pendulum(1.0, 0.5, 0.25 / TAU, 0.0),
-            "joint theta: screw(x, lead: 0.25 m) from ground to nut;",
-        ),
+        (blade(particle), "joint root: universal(flap: y, lag: z) from shaft to blade;"),
+        (screw_pendulum(1.0, 0.5, 0.25 / TAU, 0.0), "joint theta: screw(x, lead: 0.25 m) from ground to nut;"),
         (
             jeffcott_in_the_ground(1.0, [2.0, 3.0], 0.1),
             "force force2: drag(at: point0, damping: 0.1 N*s/m, turning_damping: 0.3 N*m*s/rad);",
@@ -107,13 +97,9 @@ fn random_models_leave_nothing_out() {
             for part in &body.parts {
                 count(format!("shape {:?}", discriminant(&part.shape)));
                 match &part.shape {
-                    Shape::Rod {
-                        center: Some(_), ..
-                    } => count("rod with a centre".to_owned()),
+                    Shape::Rod { center: Some(_), .. } => count("rod with a centre".to_owned()),
                     Shape::Rigid { about: Some(_), .. } => count("inertia elsewhere".to_owned()),
-                    Shape::Tube { mass, .. } | Shape::Disk { mass, .. }
-                        if matches!(mass, Amount::Density(_)) =>
-                    {
+                    Shape::Tube { mass, .. } | Shape::Disk { mass, .. } if matches!(mass, Amount::Density(_)) => {
                         count("density".to_owned());
                     }
                     _ => {}
@@ -146,11 +132,7 @@ fn random_models_leave_nothing_out() {
                 count(format!("reversed {word:?}"));
                 count("reversed joint".to_owned());
             }
-            let children = model
-                .tree()
-                .iter()
-                .filter(|b| b.parent == branch.parent)
-                .count();
+            let children = model.tree().iter().filter(|b| b.parent == branch.parent).count();
             if branch.parent != Frame::Ground && children > 1 {
                 count("fork".to_owned());
             }
@@ -178,10 +160,7 @@ fn random_models_leave_nothing_out() {
         ("partly driven", 20),
         ("several drives in one joint", 20),
     ] {
-        assert!(
-            seen.get(what).is_some_and(|&count| count >= least),
-            "{what}: {seen:#?}"
-        );
+        assert!(seen.get(what).is_some_and(|&count| count >= least), "{what}: {seen:#?}");
     }
     for (what, kinds) in [
         ("shape", 8),
@@ -196,16 +175,9 @@ fn random_models_leave_nothing_out() {
         let found = seen.keys().filter(|key| key.starts_with(what)).count();
         assert_eq!(found, kinds, "{what}: {seen:#?}");
     }
-    for (what, range) in [
-        ("bodies", 1..=7),
-        ("design variables", 1..=8),
-        ("drives", 0..=3),
-    ] {
+    for (what, range) in [("bodies", 1..=7), ("design variables", 1..=8), ("drives", 0..=3)] {
         for number in range {
-            assert!(
-                seen.contains_key(&format!("{number} {what}")),
-                "{number} {what}: {seen:#?}"
-            );
+            assert!(seen.contains_key(&format!("{number} {what}")), "{number} {what}: {seen:#?}");
         }
     }
 }

@@ -89,12 +89,7 @@ fn factor(scale: Scale, dimension: [i32; 3]) -> f64 {
 }
 
 fn factor_of(scale: Scale, symbol: &Unit) -> f64 {
-    let tokens: Vec<TokenTree> = symbol
-        .symbol
-        .parse::<TokenStream>()
-        .expect("a unit")
-        .into_iter()
-        .collect();
+    let tokens: Vec<TokenTree> = symbol.symbol.parse::<TokenStream>().expect("a unit").into_iter().collect();
     // `1/s` has no unit above the line.
     let (sign, tokens) = match &tokens[..] {
         [TokenTree::Literal(_), _, rest @ ..] => (-1, rest),
@@ -112,11 +107,7 @@ fn rescaled(tokens: TokenStream, scale: Scale, outer: f64) -> TokenStream {
     let mut found = Vec::new();
     for (k, token) in tokens.iter().enumerate() {
         let (dimension, taken) = unit(&tokens[k + 1..]);
-        let own = if taken > 0 {
-            factor(scale, dimension)
-        } else {
-            outer
-        };
+        let own = if taken > 0 { factor(scale, dimension) } else { outer };
         let exponent = k > 0 && is(&tokens, k - 1, '^');
         found.push(match token {
             TokenTree::Literal(number) if !exponent => {
@@ -190,10 +181,7 @@ impl Similar {
         let mut results = vec![(format!("{:?}", state.stability), vec![])];
         let coordinates = state.coordinates.iter().zip(description.coordinates.iter());
         for (value, info) in coordinates {
-            results.push((
-                format!("at {}", info.name),
-                vec![value / self.unit(&info.unit)],
-            ));
+            results.push((format!("at {}", info.name), vec![value / self.unit(&info.unit)]));
         }
         let units = description.design.iter().map(|info| self.unit(&info.unit));
         let units: Vec<f64> = units.collect();
@@ -239,10 +227,7 @@ impl Similar {
             let curvature = curvature.lambda.by_design;
             let entries = (0..units.len()).flat_map(|i| (0..units.len()).map(move |j| (i, j)));
             let curvature = entries.map(|(i, j)| curvature[i][j] * square * units[i] * units[j]);
-            results.push((
-                format!("curvatures of mode {position}"),
-                curvature.collect(),
-            ));
+            results.push((format!("curvatures of mode {position}"), curvature.collect()));
             self.study.shape_sensitivity(mode).map_err(words)?;
         }
         Ok(results)
@@ -271,12 +256,7 @@ impl Similar {
 }
 
 /// The results of the similar machine in the units of the original; a sweep starts at a share of its first input.
-fn results(
-    declaration: &str,
-    operation: &Operation,
-    scale: Scale,
-    from: f64,
-) -> Result<Results, String> {
+fn results(declaration: &str, operation: &Operation, scale: Scale, from: f64) -> Result<Results, String> {
     let machine = Similar::new(declaration, operation, scale)?;
     let mut results = machine.at_point()?;
     results.extend(machine.along(operation, from)?);
@@ -285,16 +265,8 @@ fn results(
 
 /// Similar machines: a watch, a micromachine, a crane; in a frantic and in a slow world; as light as a feather, as heavy
 /// as a ship; one with nothing in proportion.
-const SCALES: [Scale; 8] = [
-    [-10, -30, -7],
-    [-15, -45, -17],
-    [3, 9, 2],
-    [0, 0, -17],
-    [0, 0, 10],
-    [0, -40, 0],
-    [0, 30, 0],
-    [-12, 5, -9],
-];
+const SCALES: [Scale; 8] =
+    [[-10, -30, -7], [-15, -45, -17], [3, 9, 2], [0, 0, -17], [0, 0, 10], [0, -40, 0], [0, 30, 0], [-12, 5, -9]];
 /// Number of values in a sweep.
 const SWEPT: i32 = 12;
 /// Results agree to this share of the largest number of their kind.
@@ -323,9 +295,7 @@ fn compare(name: &str, declaration: &str, operation: &Operation) {
         assert_eq!(found.len(), expected.len(), "{name} {scale:?}");
         for ((what, found), (same, expected)) in found.iter().zip(&expected) {
             assert_eq!(what, same, "{name} {scale:?}");
-            let most = expected
-                .iter()
-                .fold(NOTHING, |most, value| most.max(value.abs()));
+            let most = expected.iter().fold(NOTHING, |most, value| most.max(value.abs()));
             for (found, expected) in found.iter().zip(expected) {
                 let close = (found - expected).abs() <= ROUNDING * most;
                 assert!(close, "{name} {scale:?}, {what}: {found}, not {expected}");
@@ -356,19 +326,14 @@ fn machines_with_constraints_do_not_know_their_units() {
                 if plain { 0.3 } else { 5.0 }
             })
             .collect();
-        let operation = Operation {
-            inputs,
-            start: Vec::new(),
-            policy: Policy::Stable,
-        };
+        let operation = Operation { inputs, start: Vec::new(), policy: Policy::Stable };
         compare(machine.name, machine.declaration, &operation);
     }
 }
 
 #[test]
 fn declarations_are_rescaled() {
-    let text =
-        "design a = 3 kN/m^2 +/- 2%; let b = [[1, -2.5], [0, 4 m]] g*s; force(c * 2, 1_000 rpm)";
+    let text = "design a = 3 kN/m^2 +/- 2%; let b = [[1, -2.5], [0, 4 m]] g*s; force(c * 2, 1_000 rpm)";
     let found = rescaled(text.parse().expect("tokens"), [3, 5, 7], 1.0).to_string();
     let force = 3.0 * 2f64.powi(3 + 5 - 14 - 6);
     let expected = format!(

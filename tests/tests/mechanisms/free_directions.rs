@@ -15,49 +15,30 @@ fn compiled(text: &str) -> Result<Compilation, Mistakes> {
 /// method finds none in this attempt. Shares no code with the compiler's proof.
 fn null_vectors(compilation: &Compilation, start: &[f64], attempt: u64) -> Option<usize> {
     let unknowns = &compilation.functions.unknowns;
-    let design: Vec<f64> = compilation
-        .mechanism
-        .design
-        .iter()
-        .map(|value| value.nominal)
-        .collect();
+    let design: Vec<f64> = compilation.mechanism.design.iter().map(|value| value.nominal).collect();
     let inputs = vec![0.7; compilation.mechanism.inputs.len()];
     let n = unknowns.len();
     let mut numbers = Numbers(attempt);
     let mut beside = || {
-        if attempt == 0 {
-            0.0
-        } else {
-            0.3 * numbers.next()
-        }
+        if attempt == 0 { 0.0 } else { 0.3 * numbers.next() }
     };
     let start = (0..n).map(|k| start.get(k).copied().unwrap_or(0.0) + beside());
     let mut q = DVector::from_iterator(n, start);
     let at = |q: &DVector<f64>| {
         let kernel = "residual_and_stiffness";
-        let values = compilation
-            .program
-            .evaluate(kernel, &[q.as_slice(), &inputs, &design])?;
+        let values = compilation.program.evaluate(kernel, &[q.as_slice(), &inputs, &design])?;
         let residual = DVector::from_column_slice(&values[0]);
         Some((residual, DMatrix::from_row_slice(n, n, &values[1])))
     };
     let moves = |role: &Role| matches!(role, Role::Position(_) | Role::Speed(_));
-    let moving = unknowns
-        .iter()
-        .filter(|unknown| moves(&unknown.role))
-        .count();
+    let moving = unknowns.iter().filter(|unknown| moves(&unknown.role)).count();
     let size = |q: &DVector<f64>| at(q).map_or(f64::INFINITY, |(residual, _)| residual.norm());
     for _ in 0..200 {
         let (residual, stiffness) = at(&q)?;
-        let step = SVD::new(stiffness, true, true)
-            .solve(&residual, 1e-8)
-            .ok()?;
+        let step = SVD::new(stiffness, true, true).solve(&residual, 1e-8).ok()?;
         let mut share = (0.5 / step.rows(0, moving).amax()).min(1.0);
         let near = step.amax() < 1e-5 * (1.0 + q.amax());
-        while !near
-            && share > 1e-3
-            && size(&(&q - &step * share)) > (1.0 - 0.1 * share) * residual.norm()
-        {
+        while !near && share > 1e-3 && size(&(&q - &step * share)) > (1.0 - 0.1 * share) * residual.norm() {
             share /= 2.0;
         }
         q -= &step * share;
@@ -98,10 +79,7 @@ struct Numbers(u64);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 40) as f64 / f64::from(1 << 23) - 1.0
     }
 
@@ -123,11 +101,7 @@ enum Coordinates {
     Mixed,
 }
 
-const ALL: [Coordinates; 3] = [
-    Coordinates::Relative,
-    Coordinates::Absolute,
-    Coordinates::Mixed,
-];
+const ALL: [Coordinates; 3] = [Coordinates::Relative, Coordinates::Absolute, Coordinates::Mixed];
 
 impl Coordinates {
     fn relative(self, k: usize) -> bool {
@@ -150,11 +124,7 @@ fn train(seed: u64, coordinates: Coordinates) -> (usize, String) {
     let mut trees: Vec<usize> = Vec::new();
     let mut held: Vec<usize> = Vec::new();
     for k in 0..wheels {
-        let _ = write!(
-            text,
-            "body w{k}: disk(mass: {} kg, radius: 10 cm, axis: z);",
-            k + 1
-        );
+        let _ = write!(text, "body w{k}: disk(mass: {} kg, radius: 10 cm, axis: z);", k + 1);
         let before = numbers.below(k.max(1));
         let stiffness = 100.0 + 50.0 * numbers.next();
         let alone = k == 0 || numbers.chance(0.2);
@@ -191,10 +161,7 @@ fn train(seed: u64, coordinates: Coordinates) -> (usize, String) {
         if numbers.chance(0.15) {
             held.push(tree);
             let angle = &angles[k];
-            let _ = write!(
-                text,
-                "force h{k}: potential(energy: 3 N*m/rad * ({angle})^2 / 2);"
-            );
+            let _ = write!(text, "force h{k}: potential(energy: 3 N*m/rad * ({angle})^2 / 2);");
         }
     }
     let loose = (0..wheels).filter(|k| trees[*k] == *k && !held.contains(k));
@@ -235,21 +202,12 @@ fn linkage(seed: u64, coordinates: Coordinates) -> (usize, String) {
                  joint y0: prismatic(y) from s to t; joint q0: revolute(z) from t to b0;"
             );
         } else if k == 0 || !coordinates.relative(k) {
-            let _ = write!(
-                text,
-                "joint p{k}: planar(x{k}: x, y{k}: y, q{k}: z) from ground to b{k};"
-            );
+            let _ = write!(text, "joint p{k}: planar(x{k}: x, y{k}: y, q{k}: z) from ground to b{k};");
         } else {
-            let _ = write!(
-                text,
-                "joint q{k}: revolute(z) from b{before} to b{k} at [1 m, 0, 0];"
-            );
+            let _ = write!(text, "joint q{k}: revolute(z) from b{before} to b{k} at [1 m, 0, 0];");
         }
         if k > 0 && !coordinates.relative(k) {
-            let _ = write!(
-                text,
-                "constraint h{k}: coincident(from: e{before}, to: a{k}, along: [x, y]);"
-            );
+            let _ = write!(text, "constraint h{k}: coincident(from: e{before}, to: a{k}, along: [x, y]);");
         }
         if k > 0 && sprung {
             let _ = write!(
@@ -302,10 +260,7 @@ fn turns_about_a_point_that_moves() {
     for (joint, start) in &joints {
         for (more, left) in [
             ("", 3),
-            (
-                "force f: bushing(from: end, to: stub, turning_stiffness: [0, 0, 3] N*m/rad);",
-                2,
-            ),
+            ("force f: bushing(from: end, to: stub, turning_stiffness: [0, 0, 3] N*m/rad);", 2),
             (
                 "point far: ball at [0, 0.5, 0] m; point post: ground at [1, 1, 0.5] m;
               force f: spring_damper(from: post, to: far, stiffness: 3 N/m, length: 0.2 m);",
@@ -409,11 +364,7 @@ fn rolling_leaves_places_open() {
     };
     assert_free(1, &disk(""), &[]);
     // how far the spring is wound up when the disk is put down
-    assert_free(
-        1,
-        &disk("force w: spring(on: spin, stiffness: 3 N*m/rad);"),
-        &[],
-    );
+    assert_free(1, &disk("force w: spring(on: spin, stiffness: 3 N*m/rad);"), &[]);
     let rotor = "body fan: disk(mass: 1 kg, radius: 5 cm, axis: z); joint idle: revolute(z) from ground to fan;";
     assert_free(2, &disk(rotor), &[]);
 
@@ -441,11 +392,7 @@ fn axes_and_balls_are_counted_at_the_equilibrium() {
         )
     };
     let start = [0.25, 0.1, 0.05];
-    assert_free(
-        3,
-        &hung("body load: sphere(mass: 1 kg, radius: 5 cm);"),
-        &start,
-    );
+    assert_free(3, &hung("body load: sphere(mass: 1 kg, radius: 5 cm);"), &start);
     let pear = "body load: rigid(mass: 1 kg, inertia: [1, 2, 2.5] kg*m^2, center: [0, 0, -10 cm]);";
     assert_free(1, &hung(pear), &start);
     let top = "mechanism Top { gravity 9.81 m/s^2 along -z;
@@ -510,26 +457,19 @@ fn loads_along_free_directions() {
         let free = compiled(text).expect("it balances").functions.free;
         [free.notes, Vec::from_iter(free.unbalanced)].concat()
     };
-    let free =
-        "free: `travel`; nothing depends on where it stands, so its place is that of the start";
+    let free = "free: `travel`; nothing depends on where it stands, so its place is that of the start";
     assert_eq!(notes(&carriage("p", "-p")), [free]);
     let nominal = notes(&carriage("a", "-b"));
     assert_eq!(nominal[0], free);
     assert!(nominal[1].starts_with("the loads along `travel` balance at the nominal design only"));
     for (pull, push) in [("p", "-2 * p"), ("a", "-p")] {
         let some = notes(&carriage(pull, push));
-        assert!(
-            some[1].contains("balance for some values of the inputs only"),
-            "{some:?}"
-        );
+        assert!(some[1].contains("balance for some values of the inputs only"), "{some:?}");
     }
     for (pull, push) in [("a", "-1.1 * b"), ("a", "0 N")] {
         let mistakes = compiled(&carriage(pull, push)).expect_err("it runs away");
         let message = &mistakes.iter().next().expect("a mistake").message;
-        assert!(
-            message.ends_with("along `travel`, which nothing holds"),
-            "{message}"
-        );
+        assert!(message.ends_with("along `travel`, which nothing holds"), "{message}");
     }
 }
 
@@ -543,8 +483,6 @@ fn directions_are_told_with_their_ratios() {
     let notes = compiled(text).expect("a mechanism").functions.free.notes;
     assert_eq!(
         notes,
-        [
-            "free: `p1 : p2 = 1 : 2.5`; nothing depends on where they stand, so their place is that of the start"
-        ]
+        ["free: `p1 : p2 = 1 : 2.5`; nothing depends on where they stand, so their place is that of the start"]
     );
 }

@@ -27,23 +27,12 @@ impl Machine {
     fn new(declaration: &str) -> Result<Self, Diagnostics> {
         let compilation = compile(declaration.parse().expect("tokens"), EVERYTHING)?;
         let coordinates = &compilation.mechanism.coordinates;
-        let quantities = compilation
-            .topology
-            .free
-            .iter()
-            .map(|id| coordinates[id.index()].quantity)
-            .collect();
-        Ok(Self {
-            mechanism: compilation.mechanism,
-            program: compilation.program,
-            quantities,
-        })
+        let quantities = compilation.topology.free.iter().map(|id| coordinates[id.index()].quantity).collect();
+        Ok(Self { mechanism: compilation.mechanism, program: compilation.program, quantities })
     }
 
     fn evaluate(&self, kernel: &str, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
-        self.program
-            .evaluate(kernel, arguments)
-            .expect("the kernel exists")
+        self.program.evaluate(kernel, arguments).expect("the kernel exists")
     }
 }
 
@@ -57,12 +46,7 @@ fn judged(machine: &Machine, q: &[f64], u: &[f64], b: &[f64]) -> [Vec<f64>; 4] {
     let oracle = Oracle::new(&model);
     let at = [q, &speeds[..], &[][..]];
     let linear = Kernels::linear(&oracle, at);
-    [
-        Kernels::residual(&oracle, at),
-        linear.mass,
-        linear.damping,
-        linear.stiffness,
-    ]
+    [Kernels::residual(&oracle, at), linear.mass, linear.damping, linear.stiffness]
 }
 
 fn largest(values: &[f64]) -> f64 {
@@ -73,8 +57,7 @@ fn largest(values: &[f64]) -> f64 {
 fn the_corpus_agrees_with_the_oracle() {
     let mut rng = ChaCha8Rng::seed_from_u64(7);
     for (name, declaration) in declarations() {
-        let machine =
-            Machine::new(declaration).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
+        let machine = Machine::new(declaration).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
         for _ in 0..4 {
             let q: Vec<f64> = machine
                 .quantities
@@ -84,12 +67,7 @@ fn the_corpus_agrees_with_the_oracle() {
                     CoordinateQuantity::Displacement => uniform(&mut rng, -0.1, 0.1),
                 })
                 .collect();
-            let u: Vec<f64> = machine
-                .mechanism
-                .inputs
-                .iter()
-                .map(|_| uniform(&mut rng, 0.5, 4.0))
-                .collect();
+            let u: Vec<f64> = machine.mechanism.inputs.iter().map(|_| uniform(&mut rng, 0.5, 4.0)).collect();
             let b: Vec<f64> = machine
                 .mechanism
                 .design
@@ -97,28 +75,17 @@ fn the_corpus_agrees_with_the_oracle() {
                 .map(|variable| variable.nominal * uniform(&mut rng, 0.95, 1.05))
                 .collect();
             let [residual, mass, damping, stiffness] = judged(&machine, &q, &u, &b);
-            let got = [
-                machine.evaluate("residual", &[&q, &u, &b]),
-                machine.evaluate("linear", &[&q, &u, &b]),
-            ]
-            .concat();
+            let got = [machine.evaluate("residual", &[&q, &u, &b]), machine.evaluate("linear", &[&q, &u, &b])].concat();
             let names = ["g", "Mhat", "Chat", "Khat"];
             // Stiff elements cancel in soft directions, so the size of the terms sets the scale.
             let size = largest(&stiffness).max(1e-3);
-            for ((name_of, expected), got) in names
-                .iter()
-                .zip([residual, mass, damping, stiffness])
-                .zip(&got)
-            {
+            for ((name_of, expected), got) in names.iter().zip([residual, mass, damping, stiffness]).zip(&got) {
                 let scale = match *name_of {
                     "Mhat" => largest(&expected),
                     _ => size.max(largest(&expected)),
                 };
                 for (k, (x, y)) in got.iter().zip(&expected).enumerate() {
-                    assert!(
-                        (x - y).abs() <= 1e-11 * scale,
-                        "{name}, {name_of}[{k}]: {x:e}, the oracle says {y:e}"
-                    );
+                    assert!((x - y).abs() <= 1e-11 * scale, "{name}, {name_of}[{k}]: {x:e}, the oracle says {y:e}");
                 }
             }
             check_design_derivatives(name, &machine, &q, &u, &b);
@@ -149,8 +116,7 @@ fn check_design_derivatives(name: &str, machine: &Machine, q: &[f64], u: &[f64],
                     _ => linear[6 + which - 1][j * n * n + k],
                 };
                 assert!(
-                    (exact - difference).abs()
-                        <= 1e-6 * (exact.abs() + size / b[j].abs().max(1e-3)),
+                    (exact - difference).abs() <= 1e-6 * (exact.abs() + size / b[j].abs().max(1e-3)),
                     "{name}: array {which}[{k}] by design {j}: {exact:e}, differences {difference:e}"
                 );
             }
@@ -162,26 +128,17 @@ fn check_design_derivatives(name: &str, machine: &Machine, q: &[f64], u: &[f64],
 /// (`truth/panda_arm.json`).
 #[test]
 fn the_arm_is_the_public_one() {
-    let (_, declaration) = declarations()
-        .into_iter()
-        .find(|(name, _)| *name == "robot_arm")
-        .expect("the arm is there");
+    let (_, declaration) = declarations().into_iter().find(|(name, _)| *name == "robot_arm").expect("the arm is there");
     let machine = Machine::new(declaration).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let truth = Truth::load("panda_arm");
     for state in truth.get("states").list() {
         let numbers = |field: &str| state.get(field).numbers();
         let (q, velocity, acceleration) = (numbers("q"), numbers("qdot"), numbers("qddot"));
         let off = [0.0];
-        let got = machine.evaluate(
-            "motion_residual",
-            &[&acceleration, &velocity, &q, &[], &off],
-        );
+        let got = machine.evaluate("motion_residual", &[&acceleration, &velocity, &q, &[], &off]);
         let close = |got: &[f64], expected: &[f64], what: &str| {
             for (x, y) in got.iter().zip(expected) {
-                assert!(
-                    (x - y).abs() <= 1e-10 * (1.0 + largest(expected)),
-                    "{what}: {x} {y}"
-                );
+                assert!((x - y).abs() <= 1e-10 * (1.0 + largest(expected)), "{what}: {x} {y}");
             }
         };
         close(&got[0], &numbers("tau"), "tau");
@@ -189,10 +146,6 @@ fn the_arm_is_the_public_one() {
         close(&motion[0], &state.get("M").matrix(), "M");
         let rest = machine.evaluate("residual_and_stiffness", &[&q, &[], &off]);
         close(&rest[0], &numbers("static_tau"), "tau at rest");
-        close(
-            &rest[1],
-            &state.get("static_dtau_dq").matrix(),
-            "dtau/dq at rest",
-        );
+        close(&rest[1], &state.get("static_dtau_dq").matrix(), "dtau/dq at rest");
     }
 }

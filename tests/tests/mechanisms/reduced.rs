@@ -15,24 +15,12 @@ use eigentol_tests::to_oracle_model::to_oracle_model;
 /// Tolerance relative to the largest entry.
 const TOLERANCE: f64 = 1e-13;
 
-const REDUCED: [&str; 10] = [
-    "RR_cyl",
-    "RR_on_R",
-    "RR_planar",
-    "RR_screw",
-    "crane",
-    "cyl",
-    "minimal",
-    "prec",
-    "uni",
-    "zyy",
-];
+const REDUCED: [&str; 10] =
+    ["RR_cyl", "RR_on_R", "RR_planar", "RR_screw", "crane", "cyl", "minimal", "prec", "uni", "zyy"];
 
 fn text(name: &str) -> String {
-    let path =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("truth/robots/minimal/{name}.mech"));
-    let text =
-        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("truth/robots/minimal/{name}.mech"));
+    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     // a rod that turns about its own axis moves no mass, which the compiler now detects and reports
     match name {
         "RR_cyl" => text.replace(
@@ -47,23 +35,14 @@ fn assert_close(what: &str, values: &[f64], expected: &[f64]) {
     let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     for (k, (one, other)) in values.iter().zip(expected).enumerate() {
         let error = (one - other).abs();
-        assert!(
-            error <= TOLERANCE * size,
-            "{what}[{k}] is {one:e}, not {other:e}"
-        );
+        assert!(error <= TOLERANCE * size, "{what}[{k}] is {one:e}, not {other:e}");
     }
 }
 
 /// Mass, damping and stiffness at a state.
 fn linear(text: &str, q: &[f64]) -> Vec<Vec<f64>> {
-    let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
-        .unwrap_or_else(|mistakes| panic!("{mistakes}"));
-    let design: Vec<f64> = compiled
-        .mechanism
-        .design
-        .iter()
-        .map(|one| one.nominal)
-        .collect();
+    let compiled = compile(text.parse().expect("tokens"), Limits::NONE).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let design: Vec<f64> = compiled.mechanism.design.iter().map(|one| one.nominal).collect();
     let found = compiled.program.evaluate("linear", &[q, &[], &design]);
     found.expect("a kernel")
 }
@@ -74,12 +53,7 @@ fn reduced_cases_are_those_of_the_oracle() {
         let text = text(name);
         let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
             .unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
-        let design: Vec<f64> = compiled
-            .mechanism
-            .design
-            .iter()
-            .map(|one| one.nominal)
-            .collect();
+        let design: Vec<f64> = compiled.mechanism.design.iter().map(|one| one.nominal).collect();
         let (model, speeds) = to_oracle_model(&compiled.mechanism, &[], &design);
         let oracle = Oracle::new(&model);
         let subject = Subject::new(&text, Limits::NONE).unwrap_or_else(|all| panic!("{all:?}"));
@@ -88,19 +62,11 @@ fn reduced_cases_are_those_of_the_oracle() {
             let q = &state.at[0];
             let [mass, right] = Kernels::motion(&oracle, &state.velocity, [q, &speeds, &[]]);
             let expected = Kernels::linear(&oracle, [q, &speeds, &[]]);
-            let evaluate = |kernel: &str, arguments: &[&[f64]]| {
-                compiled
-                    .program
-                    .evaluate(kernel, arguments)
-                    .expect("a kernel")
-            };
+            let evaluate =
+                |kernel: &str, arguments: &[&[f64]]| compiled.program.evaluate(kernel, arguments).expect("a kernel");
             let found = evaluate("linear", &[q, &[], &design]);
             assert_close(&format!("{name}: mass"), &found[0], &expected.mass);
-            assert_close(
-                &format!("{name}: stiffness"),
-                &found[2],
-                &expected.stiffness,
-            );
+            assert_close(&format!("{name}: stiffness"), &found[2], &expected.stiffness);
             let found = evaluate("motion", &[&state.velocity, q, &[], &design]);
             assert_close(&format!("{name}: mass of motion"), &found[0], &mass);
             assert_close(&format!("{name}: force of motion"), &found[1], &right);
@@ -115,15 +81,10 @@ fn reduced_cases_are_those_of_the_oracle() {
 #[test]
 fn reduced_cases_are_consistent() {
     for name in REDUCED.into_iter().chain(["yyP", "mimic"]) {
-        let subject =
-            Subject::new(&text(name), Limits::NONE).unwrap_or_else(|all| panic!("{all:?}"));
+        let subject = Subject::new(&text(name), Limits::NONE).unwrap_or_else(|all| panic!("{all:?}"));
         for seed in 0..20 {
             let outcome = check(&subject, &subject.state(seed));
-            assert!(
-                outcome.differences.is_empty(),
-                "{name}: {:#?}",
-                outcome.differences
-            );
+            assert!(outcome.differences.is_empty(), "{name}: {:#?}", outcome.differences);
         }
     }
 }
@@ -136,10 +97,7 @@ fn a_slider_behind_two_hinges_has_its_mass() {
     let slider = screw
         .replace("screw(x, lead: 1 m)", "prismatic(x)")
         .replace("on: q2, stiffness: 1 N*m/rad", "on: q2, stiffness: 1 N/m");
-    let inertia: f64 = [0.5_f64, 1.5, 2.5]
-        .map(|distance| 1.0 / 12.0 + distance.powi(2))
-        .iter()
-        .sum();
+    let inertia: f64 = [0.5_f64, 1.5, 2.5].map(|distance| 1.0 / 12.0 + distance.powi(2)).iter().sum();
     for text in [screw, slider] {
         let found = linear(&text, &[0.0; 3]);
         assert_close(&text, &found[0][..1], &[inertia]);

@@ -14,33 +14,19 @@ use eigentol_tests::robots::{self, Solo12Free, Ur5};
 use proc_macro2::TokenStream;
 use serde_json::Value;
 
-const ROBOTS: [&str; 10] = [
-    "AnymalC",
-    "Baxter",
-    "G1",
-    "Icub",
-    "Kinova",
-    "Panda",
-    "Solo12Free",
-    "TalosArm",
-    "Ur5",
-    "Xarm7",
-];
+const ROBOTS: [&str; 10] =
+    ["AnymalC", "Baxter", "G1", "Icub", "Kinova", "Panda", "Solo12Free", "TalosArm", "Ur5", "Xarm7"];
 
 /// Tolerance relative to the largest entry of an array.
 const TOLERANCE: f64 = 1e-9;
 
 fn read(file: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("truth/robots")
-        .join(file);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/robots").join(file);
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
-    let list = value
-        .as_array()
-        .unwrap_or_else(|| panic!("a list, not {value}"));
+    let list = value.as_array().unwrap_or_else(|| panic!("a list, not {value}"));
     list.iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
@@ -60,14 +46,9 @@ impl Robot {
     fn load(name: &str) -> Self {
         let truth: Value = serde_json::from_str(&read(&format!("{name}.json"))).expect("JSON");
         let text = read(&format!("{name}.mech"));
-        let subject = Subject::new(&text, Limits::default())
-            .unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"));
-        let names: Vec<&str> = truth["coordinates"]
-            .as_array()
-            .expect("names")
-            .iter()
-            .filter_map(Value::as_str)
-            .collect();
+        let subject = Subject::new(&text, Limits::default()).unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"));
+        let names: Vec<&str> =
+            truth["coordinates"].as_array().expect("names").iter().filter_map(Value::as_str).collect();
         let place = |name: &String| {
             let found = names.iter().position(|other| other == name);
             found.unwrap_or_else(|| panic!("`{name}` is among {names:?}"))
@@ -76,12 +57,7 @@ impl Robot {
         assert_eq!(order.len(), names.len(), "{name}");
         let value = |name: &String| truth["design"][name].as_f64().expect("a design variable");
         let design = subject.design.iter().map(value).collect();
-        Self {
-            subject,
-            truth,
-            order,
-            design,
-        }
+        Self { subject, truth, order, design }
     }
 
     /// Values by unknown, from the order of the reference.
@@ -96,9 +72,7 @@ impl Robot {
             found.unwrap_or_else(|| panic!("no kernel `{name}`"))
         };
         match kernel {
-            "linear_along" => {
-                interpret_along(kernel_of("linear"), &arguments[..3], &arguments[3..])
-            }
+            "linear_along" => interpret_along(kernel_of("linear"), &arguments[..3], &arguments[3..]),
             _ => interpret(kernel_of(kernel), arguments),
         }
     }
@@ -129,8 +103,7 @@ impl Robot {
             let n = q.len();
             let times = |matrix: &[f64]| -> Vec<f64> {
                 let rows = matrix.chunks_exact(n);
-                rows.map(|row| row.iter().zip(&w).map(|(m, w)| m * w).sum())
-                    .collect()
+                rows.map(|row| row.iter().zip(&w).map(|(m, w)| m * w).sum()).collect()
             };
             let at = [&q[..], &[], b];
             let moving = [&a[..], &v, &q, &[], b];
@@ -143,11 +116,7 @@ impl Robot {
             compare("motion: force", &bias, &get("bias"));
             compare("motion: mass", &times(&found[0]), &get("mass_w"));
             let found = evaluate("residual_and_stiffness", &at);
-            compare(
-                "stiffness with residual",
-                &times(&found[1]),
-                &get("rest_dq_w"),
-            );
+            compare("stiffness with residual", &times(&found[1]), &get("rest_dq_w"));
             let found = evaluate("linear", &at);
             compare("mass", &times(&found[0]), &get("mass_w"));
             compare("stiffness", &times(&found[2]), &get("rest_dq_w"));
@@ -160,15 +129,8 @@ impl Robot {
             let partials = evaluate("residual_partials", &at);
             let gradient = evaluate("mode_gradient", &[&q, &[], b, &w, &lambda]);
             for (k, name) in self.subject.design.iter().enumerate() {
-                let column: Vec<f64> = partials[1]
-                    .chunks_exact(b.len())
-                    .map(|row| row[k])
-                    .collect();
-                compare(
-                    "residual by design",
-                    &column,
-                    &self.ordered(&state["by_design"][name]),
-                );
+                let column: Vec<f64> = partials[1].chunks_exact(b.len()).map(|row| row[k]).collect();
+                compare("residual by design", &column, &self.ordered(&state["by_design"][name]));
                 let expected = state["mode_by_design"][name].as_f64().expect("a number");
                 compare("mode by design", &[gradient[2][k]], &[expected]);
                 // w^T (K - lambda M) w along the design variable, in dual numbers
@@ -176,9 +138,7 @@ impl Robot {
                 along[k] = 1.0;
                 let still = vec![0.0; n];
                 let slopes = evaluate("linear_along", &[&q, &[], b, &still, &[], &along]);
-                let form = |matrix: &[f64]| -> f64 {
-                    times(matrix).iter().zip(&w).map(|(x, w)| x * w).sum()
-                };
+                let form = |matrix: &[f64]| -> f64 { times(matrix).iter().zip(&w).map(|(x, w)| x * w).sum() };
                 let found = form(&slopes[2]) - lambda[0] * form(&slopes[0]);
                 compare("matrices by design", &[found], &[expected]);
             }
@@ -217,18 +177,12 @@ fn compiled_robots_are_those_of_pinocchio() {
         let tokens: TokenStream = text.parse().expect("tokens");
         tokens.to_string()
     };
-    for (name, declaration) in [
-        ("Ur5", robots::ur5::DECLARATION),
-        ("Solo12Free", robots::solo::DECLARATION),
-    ] {
+    for (name, declaration) in [("Ur5", robots::ur5::DECLARATION), ("Solo12Free", robots::solo::DECLARATION)] {
         let file = tokens(&read(&format!("{name}.mech")));
         assert!(tokens(declaration).ends_with(&file), "{name}");
     }
     let arm = Robot::load("Ur5");
-    assert_right(
-        "Ur5",
-        arm.errors(&|kernel, list| compiled(&Ur5, kernel, list)),
-    );
+    assert_right("Ur5", arm.errors(&|kernel, list| compiled(&Ur5, kernel, list)));
     let walker = Robot::load("Solo12Free");
     let errors = walker.errors(&|kernel, list| compiled(&Solo12Free, kernel, list));
     assert_right("Solo12Free", errors);
@@ -239,16 +193,8 @@ fn kernels_of_robots_are_consistent() {
     for name in ROBOTS {
         let robot = Robot::load(name);
         let outcome = check(&robot.subject, &robot.subject.state(1));
-        assert!(
-            outcome.differences.is_empty(),
-            "{name}: {:#?}",
-            outcome.differences
-        );
-        assert!(
-            20 * outcome.blurred < outcome.compared,
-            "{name}: {}",
-            outcome.blurred
-        );
+        assert!(outcome.differences.is_empty(), "{name}: {:#?}", outcome.differences);
+        assert!(20 * outcome.blurred < outcome.compared, "{name}: {}", outcome.blurred);
     }
 }
 
@@ -257,11 +203,7 @@ fn kernels_of_robots_are_consistent() {
 #[test]
 fn a_small_fault_is_found() {
     let mut robot = Robot::load("Ur5");
-    let length = robot
-        .subject
-        .design
-        .iter()
-        .position(|name| name == "offset_of_elbow_joint");
+    let length = robot.subject.design.iter().position(|name| name == "offset_of_elbow_joint");
     robot.design[length.expect("a length")] *= 1.0 + 1e-8;
     let errors = robot.errors(&|kernel, arguments| robot.interpreted(kernel, arguments));
     let wrong = errors.iter().filter(|(_, error)| *error > TOLERANCE);

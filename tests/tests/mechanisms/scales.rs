@@ -54,18 +54,12 @@ fn near(random: &mut RandomNumbers, middle: f64) -> f64 {
 fn loop_of_bars(random: &mut RandomNumbers, of: Scale) -> String {
     let mut text = of.gravity(near(random, 3.0));
     let lengths = [(); 3].map(|()| near(random, 0.9));
-    let angles = [
-        1.0 + random.fraction(),
-        0.8 * (random.fraction() - 0.5),
-        -1.0 - random.fraction(),
-    ];
+    let angles = [1.0 + random.fraction(), 0.8 * (random.fraction() - 0.5), -1.0 - random.fraction()];
     let (mut end, mut before) = ([0.0, 0.0], 0.0);
     let mut at = String::new();
     for (k, (length, angle)) in lengths.iter().zip(angles).enumerate() {
         let (mass, spring, turn) = (near(random, 1.0), near(random, 30.0), angle - before);
-        let from = k
-            .checked_sub(1)
-            .map_or("ground".to_owned(), |k| format!("b{k}"));
+        let from = k.checked_sub(1).map_or("ground".to_owned(), |k| format!("b{k}"));
         let _ = write!(
             text,
             "body b{k}: rod(mass: {}, length: {}, along: x);
@@ -80,9 +74,7 @@ fn loop_of_bars(random: &mut RandomNumbers, of: Scale) -> String {
         end = [end[0] + length * angle.cos(), end[1] + length * angle.sin()];
     }
     let [x, y] = end.map(|x| of.length(x));
-    text + &format!(
-        "joint pin: revolute(z) from b2 to ground {at}, at [{x}, {y}, 0 m] on ground, cut;"
-    )
+    text + &format!("joint pin: revolute(z) from b2 to ground {at}, at [{x}, {y}, 0 m] on ground, cut;")
 }
 
 /// A body on springs of one stiffness in all directions, which carries another: it may turn about the place where it
@@ -171,10 +163,7 @@ fn units_change_no_answer() {
                 assert_eq!(found.1.len(), expected.1.len(), "{kind} {seed} {of:?}");
                 for ((s, error), (known, rounding)) in found.1.iter().zip(&expected.1) {
                     let limit = 1e-9 * known.abs() + error + rounding;
-                    assert!(
-                        (s - known).abs() <= limit,
-                        "{kind} {seed} {of:?}: {s} {known}"
-                    );
+                    assert!((s - known).abs() <= limit, "{kind} {seed} {of:?}: {s} {known}");
                 }
             }
         }

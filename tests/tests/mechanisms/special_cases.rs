@@ -6,8 +6,8 @@ use eigentol_compiler::mechanics::{Damping, Limits};
 
 /// Evaluates a kernel of a declaration at its nominal design.
 fn at_nominal(declaration: &str, kernel: &str, before: &[&[f64]]) -> Vec<Vec<f64>> {
-    let compiled = compile(declaration.parse().expect("tokens"), Limits::NONE)
-        .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let compiled =
+        compile(declaration.parse().expect("tokens"), Limits::NONE).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let design = compiled.mechanism.design.iter();
     let nominal: Vec<f64> = design.map(|one| one.nominal).collect();
     let arguments = [before, &[&nominal]].concat();
@@ -54,10 +54,7 @@ fn an_axis_nominally_along_x_may_be_tilted() {
     let revolute = "revolute(AXIS)";
     let values = at_nominal(&joint(revolute, "[l, e, f]"), "residual", &state);
     assert!(values.concat().iter().all(|x| x.is_finite()), "{values:?}");
-    assert_equal(
-        &values,
-        &at_nominal(&joint(revolute, "x"), "residual", &state),
-    );
+    assert_equal(&values, &at_nominal(&joint(revolute, "x"), "residual", &state));
 }
 
 fn messages(declaration: &str) -> Vec<String> {
@@ -72,10 +69,7 @@ fn messages(declaration: &str) -> Vec<String> {
 #[test]
 fn a_bar_that_turns_about_itself_has_no_inertia() {
     let lengths = [-3.0, -1.0, 0.3, 0.7, 2.0];
-    for (x, y, z) in lengths
-        .iter()
-        .flat_map(|x| lengths.map(|y| (x, y)))
-        .flat_map(|(x, y)| lengths.map(|z| (x, y, z)))
+    for (x, y, z) in lengths.iter().flat_map(|x| lengths.map(|y| (x, y))).flat_map(|(x, y)| lengths.map(|z| (x, y, z)))
     {
         let along = format!("[{x}, {y}, {z}]");
         let alone = format!(
@@ -88,10 +82,7 @@ fn a_bar_that_turns_about_itself_has_no_inertia() {
         );
         let found = messages(&alone);
         assert_eq!(found.len(), 1, "{along}");
-        assert!(
-            found[0].starts_with("no mass moves when only `spin` changes"),
-            "{found:?}"
-        );
+        assert!(found[0].starts_with("no mass moves when only `spin` changes"), "{found:?}");
     }
 }
 
@@ -151,10 +142,7 @@ fn constraints_stand_for_mass() {
         )
     };
     let found = messages(&text(""));
-    assert!(
-        found[0].starts_with("no mass moves when only `spin` changes"),
-        "{found:?}"
-    );
+    assert!(found[0].starts_with("no mass moves when only `spin` changes"), "{found:?}");
     let geared = text("constraint gear: coupling(of: spin, with: swing, ratio: 3);");
     let mass = &at_nominal(&geared, "linear", &[&[0.2, 0.6, 1.5], &[]])[0];
     // two bars about their ends
@@ -180,9 +168,8 @@ fn one_equation_that_depends_on_a_drive_leaves_no_steady_state() {
     );
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(
-        found[0].starts_with(
-            "the equations of motion depend on the driven coordinate `turn`, so there is no steady state"
-        ),
+        found[0]
+            .starts_with("the equations of motion depend on the driven coordinate `turn`, so there is no steady state"),
         "{found:?}"
     );
 }
@@ -205,10 +192,7 @@ fn a_gliding_body_may_be_placed_anyhow() {
         "box(mass: 3 kg, size: [0.7, 0.2, 0.4] m, center: [1, 0.3, 0.2] m)",
         " at [0, 0, 0], at [0.1, 0.2, 0] m rotated(x, 90 deg) on car",
     );
-    let upright = car(
-        "box(mass: 3 kg, size: [0.7, 0.4, 0.2] m, center: [0.9, 0.2, -0.1] m)",
-        "",
-    );
+    let upright = car("box(mass: 3 kg, size: [0.7, 0.4, 0.2] m, center: [0.9, 0.2, -0.1] m)", "");
     let state: [&[f64]; 4] = [&[0.0; 3], &[0.4, -0.3, 0.9], &[1.2, 0.7, -0.5], &[]];
     let [one, other] = [&turned, &upright].map(|text| at_nominal(text, "motion_residual", &state));
     assert_equal(&one, &other);
@@ -264,11 +248,8 @@ fn loops_of_every_kind_have_a_symmetric_stiffness() {
         "planar(s: x, t: y, r: z)",
         "spherical(s: x, t: y, r: z)",
     ];
-    let joints = kinds.map(|kind| {
-        format!(
-            "joint c: {kind} from left to right at [0, 0, -l], at [0.1, 0.2, -0.3] m on right, cut;"
-        )
-    });
+    let joints = kinds
+        .map(|kind| format!("joint c: {kind} from left to right at [0, 0, -l], at [0.1, 0.2, -0.3] m on right, cut;"));
     let constraints = [
         "coincident(from: eye, to: bolt, along: [x, z])",
         "aligned(from: eye, to: bolt)",
@@ -318,14 +299,8 @@ fn a_gliding_body_turns_its_velocity() {
         force b: damper(on: side, damping: 3 N*s/m);
         force c: damper(on: yaw, damping: 5 N*m*s/rad);
     }";
-    let ([forward, side, yaw], [to_forward, to_side, to_yaw]) =
-        ([1.2, 0.7, -0.5], [0.4, -0.3, 0.9]);
-    let state: [&[f64]; 4] = [
-        &[0.0; 3],
-        &[to_forward, to_side, to_yaw],
-        &[forward, side, yaw],
-        &[],
-    ];
+    let ([forward, side, yaw], [to_forward, to_side, to_yaw]) = ([1.2, 0.7, -0.5], [0.4, -0.3, 0.9]);
+    let state: [&[f64]; 4] = [&[0.0; 3], &[to_forward, to_side, to_yaw], &[forward, side, yaw], &[]];
     let values = at_nominal(text, "motion_residual", &state);
     let expected = [
         3.0 * (to_forward - yaw * side) + 2.0 * forward,
@@ -396,17 +371,14 @@ fn a_body_of_two_pieces_whirls_as_one() {
             + box(mass: 1 kg, size: [0.6, 0.6, 0.2] m, center: [0, 0, 0.4] m)",
     );
     let whirl = |text: &str| {
-        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
-            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let compiled =
+            compile(text.parse().expect("tokens"), Limits::NONE).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let arguments: [&[f64]; 5] = [&[0.0; 2], &[3.0], &[], &[1.0, 0.2], &[0.1, -0.7]];
         let found = compiled.program.evaluate("whirl", &arguments);
         found.expect("it turns")
     };
     let values = whirl(&halves);
-    assert!(
-        values.concat()[..2].iter().all(|x| x.abs() > 0.1),
-        "{values:?}"
-    );
+    assert!(values.concat()[..2].iter().all(|x| x.abs() > 0.1), "{values:?}");
     assert_equal(&values, &whirl(&whole));
 }
 
@@ -465,8 +437,8 @@ fn a_small_asymmetry_is_none_of_rounding() {
                 force thrust: follower(at: tip, force: [0, 0, {thrust}] N);
             }}"
         );
-        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
-            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let compiled =
+            compile(text.parse().expect("tokens"), Limits::NONE).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         compiled.functions.properties.symmetric_stiffness
     };
     assert!(column("0"));
@@ -511,8 +483,8 @@ fn slides_have_no_singular_pose() {
                 {springs}
             }}"
         );
-        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
-            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let compiled =
+            compile(text.parse().expect("tokens"), Limits::NONE).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         compiled.functions.poses.len()
     };
     assert_eq!(poses("planar(s: x, t: y, a: z)", &["s", "t"], &["a"]), 0);
@@ -625,8 +597,8 @@ fn damping_is_of_three_kinds() {
                 {damper}
             }}"
         );
-        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
-            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let compiled =
+            compile(text.parse().expect("tokens"), Limits::NONE).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         compiled.functions.properties.damping
     };
     assert_eq!(damping("0 * speed", ""), Damping::Zero);

@@ -9,13 +9,8 @@ use super::questions::{Question, Range, along_an_input, at_one_state, of_chance,
 /// Stack size of Rust threads, KiB.
 pub(crate) const THREAD: usize = 2048;
 
-pub(crate) const BARS: Range = Range {
-    sweep: [0.0, 0.05, 0.1],
-    branches: [0.0, 0.01],
-    critical: [0.4, 0.6],
-    crossings: [0.2, 0.5],
-    order: 1.0,
-};
+pub(crate) const BARS: Range =
+    Range { sweep: [0.0, 0.05, 0.1], branches: [0.0, 0.01], critical: [0.4, 0.6], crossings: [0.2, 0.5], order: 1.0 };
 /// Puts each question in a separate thread.
 pub(crate) fn ask<M>(study: &Study<M>, range: &Range, stack: usize, questions: &[Question<M>])
 where
@@ -35,8 +30,7 @@ pub(crate) fn few<M: BatchKernels + CurvatureKernels + PictureKernels>(machine: 
     Study::new(machine).threads(2).samples(2).steps(2)
 }
 
-pub(crate) fn everything<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>()
--> Vec<Question<M>> {
+pub(crate) fn everything<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>() -> Vec<Question<M>> {
     let mut questions = at_one_state();
     questions.extend(of_chance());
     questions.extend(along_an_input());

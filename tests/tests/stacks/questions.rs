@@ -30,10 +30,7 @@ pub(crate) struct Range {
 pub(crate) type Question<M> = (&'static str, fn(&Study<M>, &Range));
 
 fn growth<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> Response {
-    Response::Mode {
-        mode: mode(study),
-        quantity: Quantity::Growth,
-    }
+    Response::Mode { mode: mode(study), quantity: Quantity::Growth }
 }
 
 fn answered<T>(answer: Result<T, Error>) {
@@ -52,9 +49,7 @@ fn mode<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -
 }
 
 /// Unit steps in all variables.
-fn direction<M: BatchKernels + CurvatureKernels + PictureKernels>(
-    study: &Study<M>,
-) -> (Vec<f64>, Vec<f64>) {
+fn direction<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> (Vec<f64>, Vec<f64>) {
     let (u, b) = (study.input_values(), study.design_values());
     (vec![1.0; u.len()], vec![1.0; b.len()])
 }
@@ -66,8 +61,7 @@ fn search<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>)
 }
 
 /// Questions about one state.
-pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>()
--> Vec<Question<M>> {
+pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>() -> Vec<Question<M>> {
     vec![
         ("equilibrium", |s, _| answered(s.equilibrium())),
         ("assembly", |s, _| answered(s.assembly())),
@@ -86,9 +80,7 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels +
             let pictures = s.vibration_pictures(Excitation::new(0), 4, 0.1);
             let _ = black_box(pictures);
         }),
-        ("mode_pictures", |s, _| {
-            answered(s.mode_pictures(mode(s), 2, 0.1))
-        }),
+        ("mode_pictures", |s, _| answered(s.mode_pictures(mode(s), 2, 0.1))),
         ("directional_derivatives", |s, _| {
             let (u, b) = direction(s);
             answered(s.directional_derivatives(mode(s), (&u, &b)));
@@ -114,9 +106,7 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels +
         ("clusters", |s, _| answered(s.clusters())),
         ("monte_carlo", |s, _| answered(s.monte_carlo())),
         ("samples_between", |s, _| answered(s.samples_between(0..1))),
-        ("sample_modes", |s, _| {
-            answered(s.sample_modes(&s.sampling()))
-        }),
+        ("sample_modes", |s, _| answered(s.sample_modes(&s.sampling()))),
         ("resume_samples", |s, _| {
             let mut part = s.samples_between(1..2).expect("samples");
             answered(s.resume_samples(&mut part, &s.sampling()));
@@ -129,13 +119,8 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels +
 /// Statistical questions.
 pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>> {
     const SAMPLES: usize = 8;
-    fn wanted<M: BatchKernels + CurvatureKernels + PictureKernels>(
-        study: &Study<M>,
-    ) -> [Requirement; 2] {
-        [
-            Requirement::at_most(growth(study), 1e3),
-            Requirement::Stable,
-        ]
+    fn wanted<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> [Requirement; 2] {
+        [Requirement::at_most(growth(study), 1e3), Requirement::Stable]
     }
     // An answer or an error will do: only the depth of the calls matters for overflow.
     fn replied<T>(answer: Result<T, Error>) {
@@ -164,28 +149,16 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
             replied(s.rare_failure(&wanted(s), &most, 0.05));
         }),
         ("allocation", |s, _| {
-            let widths = HalfWidth {
-                variable: 0,
-                limits: (1e-6, 1e-3),
-                cost: Cost::reciprocal(0.0, 1.0, 1.0),
-            };
-            let choices = Choices {
-                half_widths: vec![widths],
-                nominals: Vec::new(),
-                failure: vec![0.5, 0.5],
-            };
+            let widths = HalfWidth { variable: 0, limits: (1e-6, 1e-3), cost: Cost::reciprocal(0.0, 1.0, 1.0) };
+            let choices = Choices { half_widths: vec![widths], nominals: Vec::new(), failure: vec![0.5, 0.5] };
             replied(s.allocation(&wanted(s), &choices));
         }),
     ]
 }
 
 /// Questions about forced vibration; a machine without excitations has none.
-pub(crate) fn of_vibration<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>>
-{
-    fn told<M: BatchKernels + CurvatureKernels + PictureKernels, T>(
-        study: &Study<M>,
-        answer: Result<T, Error>,
-    ) {
+pub(crate) fn of_vibration<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>> {
+    fn told<M: BatchKernels + CurvatureKernels + PictureKernels, T>(study: &Study<M>, answer: Result<T, Error>) {
         match study.description().excitations.is_empty() {
             true => drop(black_box(answer)),
             false => answered(answer),
@@ -223,8 +196,7 @@ pub(crate) fn of_vibration<M: BatchKernels + CurvatureKernels + PictureKernels>(
 }
 
 /// Questions along the first input.
-pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels>()
--> Vec<Question<M>> {
+pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>> {
     macro_rules! between {
         ($name:ident, $range:ident) => {
             (stringify!($name), |s, range| {
@@ -247,9 +219,7 @@ pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels
             answered(s.sweep_each(input(), &range.sweep, |_| ControlFlow::Continue(())));
         }),
         ("sensitivity_sweep", |s, range| {
-            answered(
-                s.sensitivity_sweep(input(), &range.sweep, |_, slopes| assert!(slopes.is_ok())),
-            );
+            answered(s.sensitivity_sweep(input(), &range.sweep, |_, slopes| assert!(slopes.is_ok())));
         }),
         ("first_order_sweep", |s, range| {
             answered(s.first_order_sweep(input(), &range.sweep));

@@ -12,10 +12,7 @@ use super::Names;
 /// The constants: the length of each array, and the index of each quantity.
 pub(super) fn constants(compilation: &Compilation, names: &Names) -> String {
     let (mechanism, unknowns) = (&compilation.mechanism, &compilation.functions.unknowns);
-    let mut list = Constants {
-        text: String::new(),
-        prefix: &names.shouted,
-    };
+    let mut list = Constants { text: String::new(), prefix: &names.shouted };
     list.size("COORDINATES", "unknowns `q`", unknowns.len());
     list.size("INPUTS", "inputs `u`", mechanism.inputs.len());
     list.size("DESIGN", "design variables `b`", mechanism.design.len());
@@ -70,10 +67,7 @@ struct Constants<'a> {
 impl Constants<'_> {
     fn size(&mut self, name: &str, what: &str, count: usize) {
         let Self { text, prefix } = self;
-        let _ = writeln!(
-            text,
-            "/// Number of {what}.\npub const {prefix}_{name}: usize = {count};"
-        );
+        let _ = writeln!(text, "/// Number of {what}.\npub const {prefix}_{name}: usize = {count};");
     }
 
     /// Names are spelled as declared: `m` and `M` may both exist.
@@ -84,9 +78,6 @@ impl Constants<'_> {
             let line = line.trim().replace("*/", "* /");
             let _ = writeln!(text, "/// {line}");
         }
-        let _ = writeln!(
-            text,
-            "/// `{name}`, {unit}.\npub const {prefix}_{list}_{name}: usize = {k};"
-        );
+        let _ = writeln!(text, "/// `{name}`, {unit}.\npub const {prefix}_{list}_{name}: usize = {k};");
     }
 }

@@ -143,11 +143,7 @@ impl Function {
             Argument::Number(_) => None,
         });
         let answers = self.answers.iter().map(|answer| {
-            let entries: usize = answer
-                .shape
-                .iter()
-                .map(|&size| sizes.number(size))
-                .product();
+            let entries: usize = answer.shape.iter().map(|&size| sizes.number(size)).product();
             Some(format!("{}.cast_const(), {entries}", answer.name))
         });
         let all = arguments.chain(answers).enumerate();
@@ -171,9 +167,7 @@ impl Function {
         });
         let answers = self.answers.iter().map(|answer| {
             let shape = answer.shape.iter();
-            let shape: String = shape
-                .map(|&size| format!("[{}]", sizes.number(size)))
-                .collect();
+            let shape: String = shape.map(|&size| format!("[{}]", sizes.number(size))).collect();
             format!("`{}{shape}`", answer.name)
         });
         let (arguments, answers): (Vec<_>, Vec<_>) = (arguments.collect(), answers.collect());

@@ -24,10 +24,7 @@ impl Interface {
             .with_config(config)
             .with_src(functions)
             .generate()
-            .map_err(|reason| Error::Header {
-                path: declaration.to_owned(),
-                reason: reason.to_string(),
-            })?;
+            .map_err(|reason| Error::Header { path: declaration.to_owned(), reason: reason.to_string() })?;
         let mut text = Vec::new();
         bindings.write(&mut text);
         Ok(String::from_utf8_lossy(&text).into_owned())

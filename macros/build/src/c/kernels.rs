@@ -16,11 +16,7 @@ const fn answer(name: &'static str, shape: &'static [Size], part: Part) -> Answe
 const LINEAR: &[Answer] = &[
     answer("mass", &[N, N], Slice("result.mass.as_flattened()")),
     answer("damping", &[N, N], Slice("result.damping.as_flattened()")),
-    answer(
-        "stiffness",
-        &[N, N],
-        Slice("result.stiffness.as_flattened()"),
-    ),
+    answer("stiffness", &[N, N], Slice("result.stiffness.as_flattened()")),
 ];
 
 const GRADIENT: &[Answer] = &[
@@ -30,43 +26,15 @@ const GRADIENT: &[Answer] = &[
 ];
 
 const PARTIALS: &[Answer] = &[
-    answer(
-        "mass_by_coordinate",
-        &[N, N, N],
-        Matrices("by_coordinate", "mass"),
-    ),
-    answer(
-        "damping_by_coordinate",
-        &[N, N, N],
-        Matrices("by_coordinate", "damping"),
-    ),
-    answer(
-        "stiffness_by_coordinate",
-        &[N, N, N],
-        Matrices("by_coordinate", "stiffness"),
-    ),
+    answer("mass_by_coordinate", &[N, N, N], Matrices("by_coordinate", "mass")),
+    answer("damping_by_coordinate", &[N, N, N], Matrices("by_coordinate", "damping")),
+    answer("stiffness_by_coordinate", &[N, N, N], Matrices("by_coordinate", "stiffness")),
     answer("mass_by_input", &[U, N, N], Matrices("by_input", "mass")),
-    answer(
-        "damping_by_input",
-        &[U, N, N],
-        Matrices("by_input", "damping"),
-    ),
-    answer(
-        "stiffness_by_input",
-        &[U, N, N],
-        Matrices("by_input", "stiffness"),
-    ),
+    answer("damping_by_input", &[U, N, N], Matrices("by_input", "damping")),
+    answer("stiffness_by_input", &[U, N, N], Matrices("by_input", "stiffness")),
     answer("mass_by_design", &[P, N, N], Matrices("by_design", "mass")),
-    answer(
-        "damping_by_design",
-        &[P, N, N],
-        Matrices("by_design", "damping"),
-    ),
-    answer(
-        "stiffness_by_design",
-        &[P, N, N],
-        Matrices("by_design", "stiffness"),
-    ),
+    answer("damping_by_design", &[P, N, N], Matrices("by_design", "damping")),
+    answer("stiffness_by_design", &[P, N, N], Matrices("by_design", "stiffness")),
 ];
 
 fn function(
@@ -75,12 +43,7 @@ fn function(
     [before, after]: [&[Argument]; 2],
     answers: &[Answer],
 ) -> Function {
-    Function {
-        name,
-        about,
-        arguments: [before, &STATE, after].concat(),
-        answers: answers.to_vec(),
-    }
+    Function { name, about, arguments: [before, &STATE, after].concat(), answers: answers.to_vec() }
 }
 
 /// The kernels of a mechanism, in the order of the runtime's contract.
@@ -99,10 +62,7 @@ pub(super) fn kernels(compilation: &Compilation) -> Vec<Function> {
             "residual_parts",
             "Residual at rest in two parts: `residual = inertia - applied`.",
             [&[], &[]],
-            &[
-                answer("inertia", &[N], Slice("&result.inertia")),
-                answer("applied", &[N], Slice("&result.applied")),
-            ],
+            &[answer("inertia", &[N], Slice("&result.inertia")), answer("applied", &[N], Slice("&result.applied"))],
         ),
         function(
             "motion_residual",
@@ -114,10 +74,7 @@ pub(super) fn kernels(compilation: &Compilation) -> Vec<Function> {
             "motion",
             "Mass matrix and force of the nonlinear equations of motion, `mass * acceleration = force`.",
             [&[velocity], &[]],
-            &[
-                answer("mass", &[N, N], Slice("result.0.as_flattened()")),
-                answer("force", &[N], Slice("&result.1")),
-            ],
+            &[answer("mass", &[N, N], Slice("result.0.as_flattened()")), answer("force", &[N], Slice("&result.1"))],
         ),
         function(
             "motion_linear",
@@ -134,12 +91,7 @@ pub(super) fn kernels(compilation: &Compilation) -> Vec<Function> {
                 answer("stiffness", &[N, N], Slice("result.1.as_flattened()")),
             ],
         ),
-        function(
-            "linear",
-            "Mass, damping and stiffness of small motions about an equilibrium.",
-            [&[], &[]],
-            LINEAR,
-        ),
+        function("linear", "Mass, damping and stiffness of small motions about an equilibrium.", [&[], &[]], LINEAR),
         function(
             "residual_partials",
             "Derivatives of the residual at rest by every input and every design variable.",
@@ -203,12 +155,7 @@ pub(super) fn kernels(compilation: &Compilation) -> Vec<Function> {
         ));
     }
     functions.extend([
-        function(
-            "outputs",
-            "The declared outputs, SI.",
-            [&[], &[]],
-            &[answer("outputs", &[O], Slice("&result"))],
-        ),
+        function("outputs", "The declared outputs, SI.", [&[], &[]], &[answer("outputs", &[O], Slice("&result"))]),
         function(
             "output_partials",
             "Derivatives of the outputs by every coordinate, input and design variable.",

@@ -61,20 +61,12 @@ impl Interface {
         items += &special::functions(compilation, &names);
         let conditions = mechanism.attributes.iter();
         let conditions = conditions.filter(|attribute| attribute.path().is_ident("cfg"));
-        Some(Self {
-            items,
-            conditions: conditions
-                .map(|c| quote::quote!(#c).to_string() + "\n")
-                .collect(),
-            names,
-        })
+        Some(Self { items, conditions: conditions.map(|c| quote::quote!(#c).to_string() + "\n").collect(), names })
     }
 
     /// The functions as a module of the crate that includes the generated code.
     pub(crate) fn module(&self) -> String {
-        let Self {
-            items, conditions, ..
-        } = self;
+        let Self { items, conditions, .. } = self;
         let Names { rust, prefix, .. } = &self.names;
         format!(
             "/// Kernels of `{rust}` for C.\n{conditions}\
@@ -89,10 +81,6 @@ impl Names {
         let rust = name.to_string();
         let prefix = rust.to_snake_case();
         let spelt = prefix.is_ascii() && prefix.starts_with(|c: char| c.is_ascii_alphabetic());
-        spelt.then(|| Self {
-            prefix,
-            shouted: rust.to_shouty_snake_case(),
-            rust,
-        })
+        spelt.then(|| Self { prefix, shouted: rust.to_shouty_snake_case(), rust })
     }
 }

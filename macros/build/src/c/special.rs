@@ -44,10 +44,7 @@ fn violation(compilation: &Compilation, names: &Names) -> String {
     for requirement in &compilation.functions.requirements {
         let (quantity, wanted) = (&requirement.quantity, requirement.requirement);
         let words = format!("{quantity} has to be {wanted}");
-        let _ = writeln!(
-            cases,
-            "        ({quantity:?}, {wanted:?}) => c{words:?}.as_ptr(),"
-        );
+        let _ = writeln!(cases, "        ({quantity:?}, {wanted:?}) => c{words:?}.as_ptr(),");
     }
     format!(
         "/// The first physical requirement that inputs and design variables break, as text that lives for ever, null where there

@@ -17,9 +17,7 @@ const BLOCK: usize = 256;
 const INLINE: usize = 6;
 
 /// Names that the emitter itself uses around the statements.
-const RESERVED: [&str; 8] = [
-    "zero", "result", "value", "volume", "margin", "smaller", "least", "known",
-];
+const RESERVED: [&str; 8] = ["zero", "result", "value", "volume", "margin", "smaller", "least", "known"];
 
 /// A method body: statements, and the text of every operand that the results refer to.
 pub(super) struct Body<'a> {
@@ -63,12 +61,8 @@ impl<'a> Body<'a> {
     pub(super) fn text(&self, operand: Operand) -> Text {
         match operand {
             Operand::Constant(value) => Text::constant(value),
-            Operand::Parameter(position, entry) => {
-                Text::atom(self.entries[position][entry].clone())
-            }
-            Operand::Instruction(index) => self.texts[index]
-                .clone()
-                .expect("operands come before their users"),
+            Operand::Parameter(position, entry) => Text::atom(self.entries[position][entry].clone()),
+            Operand::Instruction(index) => self.texts[index].clone().expect("operands come before their users"),
         }
     }
 
@@ -124,22 +118,9 @@ impl<'a> Body<'a> {
     }
 
     fn used_entries(&self) -> Vec<Vec<bool>> {
-        let mut used: Vec<Vec<bool>> = self
-            .kernel
-            .parameters
-            .iter()
-            .map(|p| vec![false; p.entries.len()])
-            .collect();
-        let operands = self
-            .kernel
-            .instructions
-            .iter()
-            .flat_map(|i| i.operation.operands());
-        let results = self
-            .kernel
-            .results
-            .iter()
-            .flat_map(|array| array.values.iter().copied());
+        let mut used: Vec<Vec<bool>> = self.kernel.parameters.iter().map(|p| vec![false; p.entries.len()]).collect();
+        let operands = self.kernel.instructions.iter().flat_map(|i| i.operation.operands());
+        let results = self.kernel.results.iter().flat_map(|array| array.values.iter().copied());
         for operand in operands.chain(results) {
             if let Operand::Parameter(position, entry) = operand {
                 used[position][entry] = true;
@@ -161,13 +142,10 @@ impl<'a> Body<'a> {
                 continue;
             }
             let (text, operations) = match instruction.operation {
-                Operation::Unary(operator, a) => {
-                    (Text::unary(operator, &self.text(a)), self.size(&size, a))
+                Operation::Unary(operator, a) => (Text::unary(operator, &self.text(a)), self.size(&size, a)),
+                Operation::Binary(operator, a, b) => {
+                    (Text::binary(operator, &self.text(a), &self.text(b)), self.size(&size, a) + self.size(&size, b))
                 }
-                Operation::Binary(operator, a, b) => (
-                    Text::binary(operator, &self.text(a), &self.text(b)),
-                    self.size(&size, a) + self.size(&size, b),
-                ),
             };
             let sign = matches!(instruction.operation, Operation::Unary(Unary::Negate, _));
             let least = match self.places[index].is_empty() {
@@ -240,14 +218,10 @@ impl<'a> Body<'a> {
         }
         let (pattern, value) = match (&patterns[..], &angles[..]) {
             ([pattern], [angle]) => (pattern.clone(), Text::sin_cos(angle)),
-            _ => (
-                format!("[{}]", patterns.join(", ")),
-                Text::sin_cos_all(&angles),
-            ),
+            _ => (format!("[{}]", patterns.join(", ")), Text::sin_cos_all(&angles)),
         };
         let variables = named.iter().map(|(_, name)| name.clone()).collect();
-        self.statements
-            .push(Statement::Let(variables, pattern, value.text));
+        self.statements.push(Statement::Let(variables, pattern, value.text));
         for (index, name) in named {
             self.texts[index] = Some(Text::atom(name));
             self.store(index);
@@ -256,8 +230,7 @@ impl<'a> Body<'a> {
 
     fn let_one(&mut self, name: &str, value: String) {
         let name = name.to_owned();
-        self.statements
-            .push(Statement::Let(vec![name.clone()], name, value));
+        self.statements.push(Statement::Let(vec![name.clone()], name, value));
     }
 
     fn size(&self, size: &[usize], operand: Operand) -> usize {

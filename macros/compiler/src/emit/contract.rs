@@ -32,12 +32,8 @@ const INLINED: [KernelName; 9] = [
 
 /// Kernels for which `Real::run` selects the processor's instruction set at any length: their values are needed
 /// repeatedly and take three quarters to nine tenths of the time.
-const CHOSEN: [KernelName; 4] = [
-    KernelName::LinearPartials,
-    KernelName::ModeGradient,
-    KernelName::PencilGradient,
-    KernelName::ResidualGradient,
-];
+const CHOSEN: [KernelName; 4] =
+    [KernelName::LinearPartials, KernelName::ModeGradient, KernelName::PencilGradient, KernelName::ResidualGradient];
 
 /// Number of instructions from which selection pays in any other kernel. With AVX a kernel takes a sixth to a quarter
 /// fewer instructions. That saves up to a third of the time beyond some 2000, which no longer fit the instruction cache;

@@ -10,11 +10,7 @@ use crate::model::mechanism::{Mechanism, Unit};
 use crate::program::Program;
 
 /// `const DESCRIPTION`.
-pub(super) fn description(
-    mechanism: &Mechanism,
-    functions: &Functions,
-    program: &Program,
-) -> TokenStream {
+pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program: &Program) -> TokenStream {
     let name = mechanism.name.to_string();
     let coordinates = functions.unknowns.iter().map(|unknown| {
         let Unknown { name, unit, role } = unknown;
@@ -50,12 +46,7 @@ pub(super) fn description(
         quote! { ::eigentol::OutputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit } }
     });
     let excitations = functions.excitations.iter().map(|excitation| {
-        let mechanics::Excitation {
-            name,
-            kind,
-            with,
-            order,
-        } = excitation;
+        let mechanics::Excitation { name, kind, with, order } = excitation;
         quote! {
             ::eigentol::ExcitationInfo {
                 name: ::eigentol::Shared::Static(#name),
@@ -124,10 +115,7 @@ pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> TokenStre
     for (index, input) in mechanism.inputs.iter().enumerate() {
         let unit = shown(&input.unit);
         let tolerance = tolerance::doc(&input.tolerance, unit, input.unit.scale);
-        let doc = with_docs(
-            &input.docs,
-            format!("Input, declared in {unit}{tolerance}."),
-        );
+        let doc = with_docs(&input.docs, format!("Input, declared in {unit}{tolerance}."));
         handles.extend(handle(&input.name, "Input", index, doc));
     }
     for (index, variable) in mechanism.design.iter().enumerate() {
@@ -161,11 +149,7 @@ fn with_docs(docs: &[String], facts: String) -> String {
 }
 
 fn shown(unit: &Unit) -> &str {
-    if unit.symbol.is_empty() {
-        "1"
-    } else {
-        &unit.symbol
-    }
+    if unit.symbol.is_empty() { "1" } else { &unit.symbol }
 }
 
 fn unit(unit: &Unit) -> TokenStream {
@@ -187,16 +171,11 @@ pub(super) fn warnings(mechanism: &Mechanism) -> TokenStream {
     let hidden = names.iter().map(|name| hide(name));
     let beams: Vec<_> = exchanged.iter().map(|x| &x.beam).collect();
     let constants = beams.iter().map(|name| hide(name));
-    let notes = exchanged
-        .iter()
-        .map(|x| format!("{}; {}", x.message, Exchanged::HELP));
+    let notes = exchanged.iter().map(|x| format!("{}; {}", x.message, Exchanged::HELP));
     let levels = ["allow", "warn", "deny", "forbid"];
     let is_level = |a: &&syn::Attribute| levels.iter().any(|level| a.path().is_ident(level));
     let levels = mechanism.attributes.iter().filter(is_level);
-    let conditions = mechanism
-        .attributes
-        .iter()
-        .filter(|a| a.path().is_ident("cfg"));
+    let conditions = mechanism.attributes.iter().filter(|a| a.path().is_ident("cfg"));
     quote! {
         #(#conditions)*
         #(#levels)*

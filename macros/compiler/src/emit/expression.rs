@@ -27,10 +27,7 @@ pub(super) struct Text {
 impl Text {
     /// A name or a call.
     pub(super) fn atom(text: impl Into<String>) -> Self {
-        Self {
-            text: text.into(),
-            binding: Binding::Atom,
-        }
+        Self { text: text.into(), binding: Binding::Atom }
     }
 
     /// A number.
@@ -39,20 +36,13 @@ impl Text {
     }
 
     fn within(&self, least: Binding) -> String {
-        if self.binding >= least {
-            self.text.clone()
-        } else {
-            format!("({})", self.text)
-        }
+        if self.binding >= least { self.text.clone() } else { format!("({})", self.text) }
     }
 
     /// A unary operator.
     pub(super) fn unary(operator: Unary, a: &Self) -> Self {
         match operator {
-            Unary::Negate => Self {
-                text: format!("-{}", a.within(Binding::Atom)),
-                binding: Binding::Sign,
-            },
+            Unary::Negate => Self { text: format!("-{}", a.within(Binding::Atom)), binding: Binding::Sign },
             Unary::PowerInteger(n) => Self::atom(format!("{}.powi({n})", a.within(Binding::Atom))),
             Unary::Spline(spline, derivative) => {
                 let pieces = pieces_of(spline);

@@ -11,17 +11,9 @@ use super::signature::{documentation, head};
 pub(super) fn method(kernel: &Kernel) -> String {
     let body = Body::new(kernel);
     let head = head(kernel, kernel.name, "values_: &mut [T]", "()", "");
-    let mut text = format!(
-        "#[doc = {:?}]\n{head}{{\n{}",
-        documentation(kernel),
-        body.statements()
-    );
+    let mut text = format!("#[doc = {:?}]\n{head}{{\n{}", documentation(kernel), body.statements());
     let values = kernel.results[0].values.iter();
     let values: Vec<String> = values.map(|&value| body.text(value).text).collect();
-    let _ = writeln!(
-        text,
-        "values_.copy_from_slice(&[{}]);\n}}",
-        values.join(", ")
-    );
+    let _ = writeln!(text, "values_.copy_from_slice(&[{}]);\n}}", values.join(", "));
     text
 }

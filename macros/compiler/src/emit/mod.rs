@@ -70,9 +70,7 @@ pub fn emit<E: Debug>(
         let name = KernelName::named(kernel.name).expect("mechanics names the kernels");
         let method = match form::form(name) {
             Some(form) => contract::method(kernel, form),
-            None if name == KernelName::Violation => {
-                violation::method(kernel, &functions.requirements)
-            }
+            None if name == KernelName::Violation => violation::method(kernel, &functions.requirements),
             None if name == KernelName::HeldValues => held_values::method(kernel),
             None => pose_margin::method(kernel, &functions.poses),
         };
@@ -81,12 +79,7 @@ pub fn emit<E: Debug>(
     let methods = lexer(&methods).expect("the emitter writes well-formed tokens");
     let curves = lexer(&curves::constants(program)).expect("the emitter writes well-formed tokens");
 
-    let Mechanism {
-        name,
-        visibility,
-        attributes,
-        ..
-    } = mechanism;
+    let Mechanism { name, visibility, attributes, .. } = mechanism;
     let handles = description::handles(mechanism, functions);
     let description = description::description(mechanism, functions, program);
     let warnings = description::warnings(mechanism);
@@ -95,10 +88,7 @@ pub fn emit<E: Debug>(
     let (coordinates, inputs) = (functions.unknowns.len(), mechanism.inputs.len());
     let (design, outputs) = (mechanism.design.len(), mechanism.outputs.len());
     let excitations = mechanism.excitations.len();
-    let conditions: Vec<_> = attributes
-        .iter()
-        .filter(|attribute| attribute.path().is_ident("cfg"))
-        .collect();
+    let conditions: Vec<_> = attributes.iter().filter(|attribute| attribute.path().is_ident("cfg")).collect();
     quote! {
         #(#attributes)*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

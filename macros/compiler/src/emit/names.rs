@@ -23,10 +23,7 @@ pub(super) struct Names {
 impl Names {
     /// Starts with the names that a body must not shadow.
     pub(super) fn new<'a>(reserved: impl IntoIterator<Item = &'a str>) -> Self {
-        let taken = reserved
-            .into_iter()
-            .map(|name| (name.to_owned(), 1))
-            .collect();
+        let taken = reserved.into_iter().map(|name| (name.to_owned(), 1)).collect();
         Self { taken }
     }
 
@@ -52,10 +49,7 @@ impl Names {
 }
 
 /// A name for the value of an instruction, built from the names of its operands if these have any.
-pub(super) fn wanted(
-    instruction: &Instruction,
-    operand: impl Fn(Operand) -> Option<String>,
-) -> String {
+pub(super) fn wanted(instruction: &Instruction, operand: impl Fn(Operand) -> Option<String>) -> String {
     if let Some(name) = &instruction.name {
         return name.to_string();
     }
@@ -72,9 +66,7 @@ pub(super) fn wanted(
             (Operator::Multiply, Some(x), Some(y)) if x.len() + y.len() < COMPOUND => {
                 format!("{x}_{y}")
             }
-            (Operator::Multiply, None, Some(x)) | (Operator::Multiply, Some(x), None)
-                if x.len() <= COMPOUND =>
-            {
+            (Operator::Multiply, None, Some(x)) | (Operator::Multiply, Some(x), None) if x.len() <= COMPOUND => {
                 format!("scaled_{x}")
             }
             (Operator::Divide, Some(x), Some(y)) if x.len() + y.len() < COMPOUND => {

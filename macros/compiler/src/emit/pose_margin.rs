@@ -11,11 +11,7 @@ use super::signature::signature;
 /// `fn pose_margin`: the joint or beam with the smallest margin beyond the least.
 pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {
     let body = Body::new(kernel);
-    let mut text = signature(
-        kernel,
-        "::core::option::Option<::eigentol::PoseMargin<T>>",
-        " + ::core::cmp::PartialOrd",
-    );
+    let mut text = signature(kernel, "::core::option::Option<::eigentol::PoseMargin<T>>", " + ::core::cmp::PartialOrd");
     if poses.is_empty() {
         text += "{ ::core::option::Option::None }\n";
         return text;

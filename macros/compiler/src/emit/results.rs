@@ -30,11 +30,7 @@ const BY: [&str; 3] = ["by_coordinate", "by_input", "by_design"];
 impl<'a> Results<'a> {
     pub(super) fn new(kernel: &'a Kernel, form: Form) -> Self {
         let entries: usize = kernel.results.iter().map(|array| array.values.len()).sum();
-        Self {
-            kernel,
-            form,
-            at_once: entries <= MOST_AT_ONCE || !matches!(form, Form::Partials),
-        }
+        Self { kernel, form, at_once: entries <= MOST_AT_ONCE || !matches!(form, Form::Partials) }
     }
 
     /// The type of the result.
@@ -95,9 +91,7 @@ impl<'a> Results<'a> {
                     literal(body, &array.shape[1..], values)
                 })
             });
-            let matrices: Vec<String> = matrices
-                .map(|m| format!("::eigentol::Linear {m}"))
-                .collect();
+            let matrices: Vec<String> = matrices.map(|m| format!("::eigentol::Linear {m}")).collect();
             format!("[{}]", matrices.join(", "))
         })
     }
@@ -112,11 +106,7 @@ impl<'a> Results<'a> {
     }
 
     /// The result, assembled from the text of its arrays or of its lists of matrices.
-    fn put_together(
-        &self,
-        array: impl Fn(&Array) -> String,
-        list: impl Fn(&[Array]) -> String,
-    ) -> String {
+    fn put_together(&self, array: impl Fn(&Array) -> String, list: impl Fn(&[Array]) -> String) -> String {
         let results = &self.kernel.results;
         match self.form {
             Form::Single => array(&results[0]),
@@ -126,11 +116,8 @@ impl<'a> Results<'a> {
             }
             Form::Record(name, _) => format!("::eigentol::{name} {}", fields(results, array)),
             Form::Partials => {
-                let lists: Vec<String> = BY
-                    .iter()
-                    .zip(results.chunks(3))
-                    .map(|(by, arrays)| format!("{by}: {}", list(arrays)))
-                    .collect();
+                let lists: Vec<String> =
+                    BY.iter().zip(results.chunks(3)).map(|(by, arrays)| format!("{by}: {}", list(arrays))).collect();
                 format!("::eigentol::LinearPartials {{ {} }}", lists.join(", "))
             }
         }
@@ -183,10 +170,7 @@ impl<'a> Results<'a> {
 
 /// `{ mass: .., damping: .. }`.
 fn fields(arrays: &[Array], value: impl Fn(&Array) -> String) -> String {
-    let fields: Vec<String> = arrays
-        .iter()
-        .map(|array| format!("{}: {}", array.name, value(array)))
-        .collect();
+    let fields: Vec<String> = arrays.iter().map(|array| format!("{}: {}", array.name, value(array))).collect();
     format!("{{ {} }}", fields.join(", "))
 }
 
@@ -196,18 +180,13 @@ fn literal(body: &Body, shape: &[usize], values: &[Operand]) -> String {
         return body.text(values[0]).text;
     };
     let size = values.len().checked_div(length).unwrap_or(0);
-    let entries: Vec<String> = (0..length)
-        .map(|k| literal(body, inner, &values[k * size..(k + 1) * size]))
-        .collect();
+    let entries: Vec<String> = (0..length).map(|k| literal(body, inner, &values[k * size..(k + 1) * size])).collect();
     format!("[{}]", entries.join(", "))
 }
 
 /// `[[T; 3]; 2]` of `T` and shape 2, 3.
 fn filled(entry: &str, shape: &[usize]) -> String {
-    shape
-        .iter()
-        .rev()
-        .fold(entry.to_owned(), |inner, n| format!("[{inner}; {n}]"))
+    shape.iter().rev().fold(entry.to_owned(), |inner, n| format!("[{inner}; {n}]"))
 }
 
 /// Indices of an entry of a flattened array, outermost first.

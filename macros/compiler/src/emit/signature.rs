@@ -49,17 +49,8 @@ pub(super) fn documentation(kernel: &Kernel) -> String {
         let _ = write!(text, ": {}", stages.join(", "));
     }
     text.push('.');
-    for parameter in kernel
-        .parameters
-        .iter()
-        .filter(|p| !p.scalar && !p.entries.is_empty())
-    {
-        let _ = write!(
-            text,
-            "\n\n`{} = [{}]`",
-            parameter.name,
-            parameter.entries.join(", ")
-        );
+    for parameter in kernel.parameters.iter().filter(|p| !p.scalar && !p.entries.is_empty()) {
+        let _ = write!(text, "\n\n`{} = [{}]`", parameter.name, parameter.entries.join(", "));
     }
     text
 }

@@ -44,10 +44,7 @@ pub(super) fn groups(kernel: &Kernel) -> (Vec<Group>, Vec<Option<usize>>) {
             groups.iter().position(has_angle).unwrap_or(groups.len())
         };
         if groups.len() == group_index {
-            groups.push(Group {
-                angles: Vec::new(),
-                last: index,
-            });
+            groups.push(Group { angles: Vec::new(), last: index });
         }
         let group = &mut groups[group_index];
         group.last = index;
@@ -62,12 +59,7 @@ pub(super) fn groups(kernel: &Kernel) -> (Vec<Group>, Vec<Option<usize>>) {
     }
     let mut membership = vec![None; kernel.instructions.len()];
     for (number, group) in groups.iter().enumerate() {
-        let members: Vec<usize> = group
-            .angles
-            .iter()
-            .flat_map(|(_, f)| *f)
-            .flatten()
-            .collect();
+        let members: Vec<usize> = group.angles.iter().flat_map(|(_, f)| *f).flatten().collect();
         if members.len() > 1 {
             for index in members {
                 membership[index] = Some(number);

@@ -7,12 +7,7 @@ use crate::model::mechanism::{Law, Tolerance};
 
 /// A `ToleranceInfo`.
 pub(super) fn info(tolerance: &Tolerance) -> TokenStream {
-    let Tolerance {
-        lower,
-        upper,
-        relative,
-        law,
-    } = tolerance;
+    let Tolerance { lower, upper, relative, law } = tolerance;
     if !tolerance.varies() {
         return quote!(::eigentol::ToleranceInfo::NONE);
     }
@@ -28,9 +23,7 @@ pub(super) fn info(tolerance: &Tolerance) -> TokenStream {
         Law::Weibull => quote!(Weibull),
         Law::Beta { alpha, beta } => quote!(Beta { alpha: #alpha, beta: #beta }),
         Law::OneOf(values) => {
-            let values = values
-                .iter()
-                .map(|(fraction, weight)| quote!((#fraction, #weight)));
+            let values = values.iter().map(|(fraction, weight)| quote!((#fraction, #weight)));
             quote!(OneOf(::eigentol::List::Static(&[#(#values),*])))
         }
     };

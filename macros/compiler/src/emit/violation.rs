@@ -11,11 +11,7 @@ use super::signature::signature;
 /// `fn violation`: the first requirement whose value is not positive.
 pub(super) fn method(kernel: &Kernel, requirements: &[Requirement]) -> String {
     let body = Body::new(kernel);
-    let mut text = signature(
-        kernel,
-        "::core::option::Option<::eigentol::Violation<T>>",
-        " + ::core::cmp::PartialOrd",
-    );
+    let mut text = signature(kernel, "::core::option::Option<::eigentol::Violation<T>>", " + ::core::cmp::PartialOrd");
     let _ = writeln!(text, "{{\n{}", body.statements());
     for (requirement, &value) in requirements.iter().zip(&kernel.results[0].values) {
         let _ = writeln!(

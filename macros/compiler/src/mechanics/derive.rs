@@ -8,14 +8,12 @@ use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Unsteady, free_directions, notes_on_beams, notes_on_planes, poses, properties,
-    require_determinate_motion, require_harmonic, require_steady_state, requirements,
+    Unsteady, free_directions, notes_on_beams, notes_on_planes, poses, properties, require_determinate_motion,
+    require_harmonic, require_steady_state, requirements,
 };
 use super::equations::{Equations, excited};
 use super::functions::{Functions, Limits, Role, Unknown};
-use super::kernels::{
-    Excitations, forced, held_values, kernels, picture, pose_margin, violation, whirl,
-};
+use super::kernels::{Excitations, forced, held_values, kernels, picture, pose_margin, violation, whirl};
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
 use super::setup::{Context, Excited, Runs, Sections, Symbols, Values};
@@ -23,11 +21,7 @@ use super::setup::{Context, Excited, Runs, Sections, Symbols, Values};
 /// Derives every function of a mechanism. Fails if no steady state exists, if no coordinate affects a constraint, and,
 /// unless only the kernels are wanted, if a motion moves no mass or nothing balances a load: errors that only the
 /// equations reveal. Coasting coordinates that can only stand still become free ones.
-pub fn derive(
-    mechanism: &mut Mechanism,
-    topology: &mut Topology,
-    limits: Limits,
-) -> Result<Functions, Diagnostics> {
+pub fn derive(mechanism: &mut Mechanism, topology: &mut Topology, limits: Limits) -> Result<Functions, Diagnostics> {
     let mut standing = Vec::new();
     let mut functions = loop {
         match derived(mechanism, topology, limits) {
@@ -62,11 +56,7 @@ pub fn derive(
     Ok(functions)
 }
 
-fn derived(
-    mechanism: &Mechanism,
-    topology: &Topology,
-    limits: Limits,
-) -> Result<Functions, Unsteady> {
+fn derived(mechanism: &Mechanism, topology: &Topology, limits: Limits) -> Result<Functions, Unsteady> {
     let mut graph = Graph::new();
     let g = &mut graph;
     let symbols = Symbols::new(g, mechanism, topology);
@@ -164,10 +154,7 @@ fn unknowns(context: &Context) -> Vec<Unknown> {
         }
     };
     let free = topology.free.iter().map(|&id| of(id, "", Role::Position));
-    let coasting = topology
-        .coasting
-        .iter()
-        .map(|&id| of(id, "/s", Role::Speed));
+    let coasting = topology.coasting.iter().map(|&id| of(id, "/s", Role::Speed));
     let reactions = context.rows.iter().map(|row| Unknown {
         name: row.label.clone(),
         unit: row.unit.clone(),

@@ -98,20 +98,13 @@ pub struct Limits {
 
 impl Limits {
     /// No limit: everything is written out.
-    pub const NONE: Self = Self {
-        explicit_partials: usize::MAX,
-        partial_operations: usize::MAX,
-        motion_linear: usize::MAX,
-    };
+    pub const NONE: Self =
+        Self { explicit_partials: usize::MAX, partial_operations: usize::MAX, motion_linear: usize::MAX };
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self {
-            explicit_partials: 8192,
-            partial_operations: 30_000,
-            motion_linear: 50_000,
-        }
+        Self { explicit_partials: 8192, partial_operations: 30_000, motion_linear: 50_000 }
     }
 }
 

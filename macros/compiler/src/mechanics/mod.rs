@@ -19,8 +19,7 @@ mod setup;
 
 pub use derive::derive;
 pub use functions::{
-    Damping, Excitation, FreeDirections, Functions, Limits, Pose, Properties, Requirement, Role,
-    Unknown,
+    Damping, Excitation, FreeDirections, Functions, Limits, Pose, Properties, Requirement, Role, Unknown,
 };
 #[cfg(test)]
 pub(crate) use inertia::compared;

@@ -16,20 +16,12 @@ impl Display for Functions {
             writeln!(f, "{}: {}", requirement.quantity, requirement.requirement)?;
         }
         for pose in &self.poses {
-            writeln!(
-                f,
-                "{}: singular where its axes lie in one plane",
-                pose.joint
-            )?;
+            writeln!(f, "{}: singular where its axes lie in one plane", pose.joint)?;
         }
         for function in &self.functions {
             let cost = function.cost(&self.graph);
             let parameters: Vec<&str> = function.parameters.iter().map(|p| p.name).collect();
-            let results: Vec<String> = function
-                .results
-                .iter()
-                .map(|r| format!("{} {:?}", r.name, r.shape))
-                .collect();
+            let results: Vec<String> = function.results.iter().map(|r| format!("{} {:?}", r.name, r.shape)).collect();
             writeln!(
                 f,
                 "{}({}) -> {}: {} + {}",

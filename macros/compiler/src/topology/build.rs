@@ -44,10 +44,7 @@ pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
             diagnostics.error_with_help(
                 &joint.name,
                 "a planar joint can coast on the ground only",
-                format!(
-                    "declare it `from ground to {}`",
-                    mechanism.bodies[branch.body.index()].name
-                ),
+                format!("declare it `from ground to {}`", mechanism.bodies[branch.body.index()].name),
             );
         }
     }
@@ -102,12 +99,7 @@ fn forest(mechanism: &Mechanism, diagnostics: &mut Diagnostics) -> (Graph, Vec<J
 
 /// Reports bodies that nothing holds to the ground: they have no equilibrium. Bodies joined to each other count as one
 /// mistake.
-fn report_unreached(
-    mechanism: &Mechanism,
-    graph: &Graph,
-    branches: &[Branch],
-    diagnostics: &mut Diagnostics,
-) {
+fn report_unreached(mechanism: &Mechanism, graph: &Graph, branches: &[Branch], diagnostics: &mut Diagnostics) {
     let mut seen = vec![false; mechanism.bodies.len()];
     for branch in branches {
         seen[branch.body.index()] = true;
@@ -126,10 +118,7 @@ fn report_unreached(
         {
             diagnostics.error_with_help(
                 name,
-                format!(
-                    "only the cut joint `{}` leads from body `{name}` to the ground",
-                    joint.name
-                ),
+                format!("only the cut joint `{}` leads from body `{name}` to the ground", joint.name),
                 "a cut joint closes a loop and carries nothing: remove `cut`",
             );
             continue;
@@ -142,17 +131,12 @@ fn report_unreached(
         let message = if others.is_empty() {
             format!("body `{name}` has no path to the ground")
         } else {
-            format!(
-                "body `{name}`, joined to {}, has no path to the ground",
-                others.join(", ")
-            )
+            format!("body `{name}`, joined to {}, has no path to the ground", others.join(", "))
         };
         diagnostics.error_with_help(
             name,
             message,
-            format!(
-                "connect it by a joint, for example `joint j: revolute(z) from ground to {name};`"
-            ),
+            format!("connect it by a joint, for example `joint j: revolute(z) from ground to {name};`"),
         );
     }
 }

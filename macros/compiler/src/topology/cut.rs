@@ -15,15 +15,12 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
     for steady in &mechanism.steady {
         of_coordinate(steady.coordinate);
     }
-    let mut values: Vec<&Expr> = mechanism
-        .outputs
-        .iter()
-        .map(|output| &output.value)
-        .collect();
+    let mut values: Vec<&Expr> = mechanism.outputs.iter().map(|output| &output.value).collect();
     for force in mechanism.forces.iter().filter(|force| !force.of_every) {
         match &force.law {
-            ForceLaw::CoordinateSpring { coordinate, .. }
-            | ForceLaw::CoordinateDamper { coordinate, .. } => of_coordinate(*coordinate),
+            ForceLaw::CoordinateSpring { coordinate, .. } | ForceLaw::CoordinateDamper { coordinate, .. } => {
+                of_coordinate(*coordinate)
+            }
             ForceLaw::Generalized { coordinate, value } => {
                 of_coordinate(*coordinate);
                 values.push(value);
@@ -55,9 +52,10 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
         }
     }
     for (index, joint) in mechanism.joints.iter().enumerate() {
-        let moves_itself = mechanism.coordinates.iter().any(|coordinate| {
-            coordinate.joint.index() == index && coordinate.motion != Motion::Free
-        });
+        let moves_itself = mechanism
+            .coordinates
+            .iter()
+            .any(|coordinate| coordinate.joint.index() == index && coordinate.motion != Motion::Free);
         needed[index] |= moves_itself || joint.closing.is_none();
     }
     needed
@@ -78,16 +76,9 @@ pub(super) fn choose(
     let chosen = free.max_by_key(|id| freedom(id)).copied();
     if chosen.is_none() && joints.is_empty() {
         let message = "a beam hangs on itself: something it carries holds its root";
-        diagnostics.error_with_help(
-            &mechanism.name,
-            message,
-            "let the ground, or a body before it, hold the root",
-        );
+        diagnostics.error_with_help(&mechanism.name, message, "let the ground, or a body before it, hold the root");
     } else if chosen.is_none() {
-        let names: Vec<String> = joints
-            .iter()
-            .map(|id| format!("`{}`", mechanism.joints[id.index()].name))
-            .collect();
+        let names: Vec<String> = joints.iter().map(|id| format!("`{}`", mechanism.joints[id.index()].name)).collect();
         let last = joints.last()?;
         diagnostics.error_with_help(
             &mechanism.joints[last.index()].name,

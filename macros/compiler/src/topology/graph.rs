@@ -30,9 +30,7 @@ fn frame(node: usize) -> Frame {
 impl Graph {
     /// Frames without joints, with the ground and this number of bodies.
     pub(super) fn new(bodies: usize) -> Self {
-        Self {
-            joints: vec![Vec::new(); bodies + 1],
-        }
+        Self { joints: vec![Vec::new(); bodies + 1] }
     }
 
     pub(super) fn add(&mut self, joint: &Joint, id: JointId) {
@@ -51,16 +49,13 @@ impl Graph {
 
     /// The joints on the way between the ends of a joint.
     pub(super) fn between(&self, joint: &Joint) -> Vec<JointId> {
-        self.path(node(joint.from), node(joint.to))
-            .unwrap_or_default()
+        self.path(node(joint.from), node(joint.to)).unwrap_or_default()
     }
 
     /// Number of beams that are carried by their tips.
     pub(super) fn turned(&self, mechanism: &Mechanism) -> usize {
         let branches = self.branches_from(0).into_iter();
-        let turned = |branch: &Branch| {
-            branch.reversed && mechanism.joints[branch.joint.index()].flexure.is_some()
-        };
+        let turned = |branch: &Branch| branch.reversed && mechanism.joints[branch.joint.index()].flexure.is_some();
         branches.filter(turned).count()
     }
 
@@ -109,12 +104,7 @@ impl Graph {
                 seen[other] = true;
                 waiting.push_back(other);
                 if let Frame::Body(body) = frame(other) {
-                    branches.push(Branch {
-                        body,
-                        parent: frame(current),
-                        joint,
-                        reversed,
-                    });
+                    branches.push(Branch { body, parent: frame(current), joint, reversed });
                 }
             }
         }

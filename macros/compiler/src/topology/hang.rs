@@ -15,12 +15,7 @@ type Rank = (usize, Reverse<(usize, JointId)>);
 
 /// Exchanges cut joints for others that are not `needed`, as long as fewer beams are then carried by their tips; of
 /// several the one whose cut leaves the most freedom, in a tie the last declared.
-pub(super) fn by_roots(
-    mechanism: &Mechanism,
-    graph: &mut Graph,
-    cut: &mut [JointId],
-    needed: &[bool],
-) {
+pub(super) fn by_roots(mechanism: &Mechanism, graph: &mut Graph, cut: &mut [JointId], needed: &[bool]) {
     let mut left = graph.turned(mechanism);
     while left > 0 {
         let mut best: Option<(Rank, usize, JointId)> = None;
@@ -35,10 +30,7 @@ pub(super) fn by_roots(
                     continue;
                 }
                 graph.exchange(mechanism, removed, restored);
-                let rank = (
-                    graph.turned(mechanism),
-                    Reverse((other.steps.len(), removed)),
-                );
+                let rank = (graph.turned(mechanism), Reverse((other.steps.len(), removed)));
                 graph.exchange(mechanism, restored, removed);
                 if best.is_none_or(|(least, ..)| rank < least) {
                     best = Some((rank, k, removed));

@@ -22,10 +22,7 @@ pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mu
             continue;
         }
         let joint = &mechanism.joints[branch.joint.index()];
-        let coordinates = joint
-            .steps
-            .iter()
-            .map(|step| &mechanism.coordinates[step.coordinate.index()]);
+        let coordinates = joint.steps.iter().map(|step| &mechanism.coordinates[step.coordinate.index()]);
         let free: Vec<_> = coordinates
             .filter(|coordinate| coordinate.motion == Motion::Free)
             .map(|coordinate| &coordinate.name)
@@ -36,10 +33,7 @@ pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mu
         let names: Vec<String> = free.iter().map(|name| format!("`{name}`")).collect();
         let message = match names.as_slice() {
             [one] => format!("{one} moves no mass: nothing determines its motion"),
-            several => format!(
-                "{} move no mass: nothing determines their motion",
-                several.join(", ")
-            ),
+            several => format!("{} move no mass: nothing determines their motion", several.join(", ")),
         };
         let help = "give a body beyond it a mass, or drive it, or make it `fixed`";
         diagnostics.error_with_help(*first, message, help);

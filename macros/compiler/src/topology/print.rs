@@ -11,11 +11,7 @@ impl Topology {
     pub fn describe(&self, mechanism: &Mechanism) -> String {
         let mut text = String::from("ground\n");
         self.describe_below(mechanism, Frame::Ground, 1, &mut text);
-        let lists = [
-            ("free", &self.free),
-            ("coasting", &self.coasting),
-            ("driven", &self.driven),
-        ];
+        let lists = [("free", &self.free), ("coasting", &self.coasting), ("driven", &self.driven)];
         for (kind, list) in lists {
             if kind == "coasting" && list.is_empty() {
                 continue;

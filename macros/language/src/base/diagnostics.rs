@@ -21,11 +21,7 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// A mistake at `span`.
     pub fn new(span: impl Into<Extent>, message: impl Into<String>) -> Self {
-        Self {
-            span: span.into(),
-            message: message.into(),
-            help: None,
-        }
+        Self { span: span.into(), message: message.into(), help: None }
     }
 
     /// Adds advice on how to fix the mistake.
@@ -63,12 +59,7 @@ impl Diagnostics {
     }
 
     /// Records a mistake with advice on how to fix it.
-    pub fn error_with_help(
-        &mut self,
-        span: impl Into<Extent>,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) {
+    pub fn error_with_help(&mut self, span: impl Into<Extent>, message: impl Into<String>, help: impl Into<String>) {
         self.push(Diagnostic::new(span, message).with_help(help));
     }
 
@@ -95,11 +86,7 @@ impl Diagnostics {
 
     /// The value if there are no mistakes, otherwise the mistakes.
     pub fn into_result<T>(self, value: T) -> Result<T, Diagnostics> {
-        if self.is_empty() {
-            Ok(value)
-        } else {
-            Err(self)
-        }
+        if self.is_empty() { Ok(value) } else { Err(self) }
     }
 
     /// The mistakes in the order found.
@@ -113,11 +100,9 @@ impl Diagnostics {
         self.iter()
             .map(|diagnostic| {
                 // syn marks the range from the first to the last of the tokens it is given.
-                let ends = [diagnostic.span.first, diagnostic.span.last]
-                    .map(|span| Ident::new("end", span));
+                let ends = [diagnostic.span.first, diagnostic.span.last].map(|span| Ident::new("end", span));
                 let [first, last] = ends;
-                syn::Error::new_spanned(quote::quote!(#first #last), diagnostic.text())
-                    .to_compile_error()
+                syn::Error::new_spanned(quote::quote!(#first #last), diagnostic.text()).to_compile_error()
             })
             .collect()
     }

@@ -19,10 +19,7 @@ struct Exponent {
 
 impl Exponent {
     const fn whole(numerator: i16) -> Self {
-        Self {
-            numerator,
-            denominator: 1,
-        }
+        Self { numerator, denominator: 1 }
     }
 
     /// In lowest terms with a positive denominator; `None` if it does not fit.
@@ -94,11 +91,7 @@ impl Dimension {
 
     /// From the exponents of metre, kilogram and second.
     pub const fn new(length: i16, mass: i16, time: i16) -> Self {
-        Self {
-            length: Exponent::whole(length),
-            mass: Exponent::whole(mass),
-            time: Exponent::whole(time),
-        }
+        Self { length: Exponent::whole(length), mass: Exponent::whole(mass), time: Exponent::whole(time) }
     }
 
     /// Whether this is a plain number or an angle.
@@ -159,10 +152,7 @@ impl Dimension {
     }
 
     fn common_name(self) -> Option<(&'static str, &'static str)> {
-        COMMON
-            .iter()
-            .find(|(dimension, ..)| *dimension == self)
-            .map(|&(_, name, unit)| (name, unit))
+        COMMON.iter().find(|(dimension, ..)| *dimension == self).map(|&(_, name, unit)| (name, unit))
     }
 }
 
@@ -185,11 +175,7 @@ const COMMON: [(Dimension, &str, &str); 24] = [
     (Dimension::POWER, "a power", "W"),
     (Dimension::new(2, 0, 0), "an area", "m^2"),
     (Dimension::new(3, 0, 0), "a volume", "m^3"),
-    (
-        Dimension::new(0, 0, -2),
-        "an angular acceleration",
-        "rad/s^2",
-    ),
+    (Dimension::new(0, 0, -2), "an angular acceleration", "rad/s^2"),
     (Dimension::DENSITY, "a density", "kg/m^3"),
     (Dimension::AREA_DENSITY, "a mass per area", "kg/m^2"),
     (Dimension::LINE_DENSITY, "a mass per length", "kg/m"),
@@ -212,11 +198,7 @@ impl fmt::Display for Dimension {
                 }
             }
         }
-        if self.is_none() {
-            f.write_str("1")
-        } else {
-            f.write_str(&factors.join("*"))
-        }
+        if self.is_none() { f.write_str("1") } else { f.write_str(&factors.join("*")) }
     }
 }
 
@@ -231,14 +213,8 @@ mod tests {
         let root = Dimension::LENGTH.power(1, 2).unwrap();
         assert_eq!(root.times(root), Some(Dimension::LENGTH));
         assert_eq!(root.to_string(), "m^(1/2)");
-        assert_eq!(
-            Dimension::MASS.times(Dimension::ACCELERATION),
-            Some(Dimension::FORCE)
-        );
-        assert_eq!(
-            Dimension::FORCE.over(Dimension::FORCE),
-            Some(Dimension::NONE)
-        );
+        assert_eq!(Dimension::MASS.times(Dimension::ACCELERATION), Some(Dimension::FORCE));
+        assert_eq!(Dimension::FORCE.over(Dimension::FORCE), Some(Dimension::NONE));
     }
 
     #[test]
@@ -253,9 +229,6 @@ mod tests {
     fn descriptions() {
         assert_eq!(Dimension::LENGTH.describe(), "a length (m)");
         assert_eq!(Dimension::NONE.describe(), "a plain number or an angle");
-        assert_eq!(
-            Dimension::new(1, 2, -5).describe(),
-            "a quantity in kg^2*m*s^-5"
-        );
+        assert_eq!(Dimension::new(1, 2, -5).describe(), "a quantity in kg^2*m*s^-5");
     }
 }

@@ -113,10 +113,7 @@ mod tests {
             for power in 0..2 * n as i32 {
                 let terms = rule.points.iter().zip(&rule.weights);
                 let sum: f64 = terms.map(|(x, w)| w * x.powi(power)).sum();
-                assert!(
-                    (sum * f64::from(power + 1) - 1.0).abs() < 1e-13,
-                    "{n} {power} {sum}"
-                );
+                assert!((sum * f64::from(power + 1) - 1.0).abs() < 1e-13, "{n} {power} {sum}");
             }
         }
     }

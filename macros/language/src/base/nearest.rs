@@ -10,27 +10,12 @@ const ABSENT: [(&str, &str); 8] = [
         "contact impact stop backlash",
         "forces are smooth: declare the state in contact, by a `spring_damper` or a constraint, or the one without",
     ),
-    (
-        "max min if",
-        "forces are smooth: write the side that acts, or `(x + sqrt(x^2 + d^2)) / 2` with a small `d`",
-    ),
-    (
-        "abs",
-        "forces are smooth: write the side that acts, or `sqrt(x^2 + d^2)` with a small `d`",
-    ),
-    (
-        "sign sgn step tanh",
-        "forces are smooth: write `x / sqrt(x^2 + d^2)` with a small `d`",
-    ),
+    ("max min if", "forces are smooth: write the side that acts, or `(x + sqrt(x^2 + d^2)) / 2` with a small `d`"),
+    ("abs", "forces are smooth: write the side that acts, or `sqrt(x^2 + d^2)` with a small `d`"),
+    ("sign sgn step tanh", "forces are smooth: write `x / sqrt(x^2 + d^2)` with a small `d`"),
     ("pow", "a power is written `x^2`"),
-    (
-        "controller pid feedback",
-        "feedback is a force: `generalized(on: y, value: -kp * y - kd * rate(y))`",
-    ),
-    (
-        "mesh stl",
-        "no file is read: `rigid(mass: 2 kg, inertia: [3, 4, 5] kg*m^2, center: [0, 0, 1] m)`",
-    ),
+    ("controller pid feedback", "feedback is a force: `generalized(on: y, value: -kp * y - kd * rate(y))`"),
+    ("mesh stl", "no file is read: `rigid(mass: 2 kg, inertia: [3, 4, 5] kg*m^2, center: [0, 0, 1] m)`"),
 ];
 
 /// The advice on an unknown word: what to write instead, or the known word that is probably meant.
@@ -40,10 +25,7 @@ pub fn advice<'a>(
     synonyms: &[(&str, &str)],
 ) -> Option<String> {
     let is_named = |word: &str| word.eq_ignore_ascii_case(name);
-    match ABSENT
-        .iter()
-        .find(|(words, _)| words.split(' ').any(is_named))
-    {
+    match ABSENT.iter().find(|(words, _)| words.split(' ').any(is_named)) {
         Some((_, instead)) => Some((*instead).to_string()),
         None => suggestion(name, known, synonyms).map(meant),
     }
@@ -76,11 +58,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     };
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
-        let distance = if candidate.eq_ignore_ascii_case(name) {
-            0
-        } else {
-            distance(name, candidate)
-        };
+        let distance = if candidate.eq_ignore_ascii_case(name) { 0 } else { distance(name, candidate) };
         // If every letter would change, the name is not a misspelling.
         let longest = name.chars().count().max(candidate.chars().count());
         let near = distance <= allowed && distance < longest;
@@ -129,10 +107,7 @@ mod tests {
     #[test]
     fn words_of_other_tools_are_understood() {
         let synonyms = [("ball", "spherical"), ("ball", "sphere")];
-        assert_eq!(
-            suggestion("Ball", ["spherical", "bell"], &synonyms),
-            Some("spherical")
-        );
+        assert_eq!(suggestion("Ball", ["spherical", "bell"], &synonyms), Some("spherical"));
         assert_eq!(suggestion("ball", ["bell"], &synonyms), Some("bell"));
         assert_eq!(suggestion("pin", ["spherical"], &synonyms), None);
     }
@@ -142,10 +117,7 @@ mod tests {
         assert_eq!(nearest("thetal", ["theta2", "theta1"]), Some("theta2"));
         assert_eq!(nearest("OMEGA", ["gamma", "omega"]), Some("omega"));
         assert_eq!(nearest("m", ["k"]), None);
-        assert_eq!(
-            nearest("stiffnes", ["rest", "stiffness"]),
-            Some("stiffness")
-        );
+        assert_eq!(nearest("stiffnes", ["rest", "stiffness"]), Some("stiffness"));
         assert_eq!(nearest("abc", ["pendulum"]), None);
     }
 }

@@ -16,10 +16,7 @@ pub struct Extent {
 impl Extent {
     /// From the start of one run to the end of another.
     pub fn to(self, end: impl Into<Extent>) -> Self {
-        Self {
-            first: self.first,
-            last: end.into().last,
-        }
+        Self { first: self.first, last: end.into().last }
     }
 }
 
@@ -33,10 +30,7 @@ impl Eq for Extent {}
 
 impl From<Span> for Extent {
     fn from(span: Span) -> Self {
-        Self {
-            first: span,
-            last: span,
-        }
+        Self { first: span, last: span }
     }
 }
 

@@ -55,11 +55,7 @@ const PLAIN: [(&str, Dimension, f64); 18] = [
     ("slug", Dimension::MASS, POUND_FORCE / 0.3048),
     ("mil", Dimension::LENGTH, 25.4e-6),
     ("psi", Dimension::PRESSURE, POUND_FORCE / 0.000_645_16),
-    (
-        "ksi",
-        Dimension::PRESSURE,
-        4_448.221_615_260_5 / 0.000_645_16,
-    ),
+    ("ksi", Dimension::PRESSURE, 4_448.221_615_260_5 / 0.000_645_16),
 ];
 
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -87,10 +83,7 @@ pub fn find(name: &str) -> Option<NamedUnit> {
     PREFIXES.iter().find_map(|(prefix, power)| {
         let base = name.strip_prefix(prefix)?;
         let &(_, dimension, factor, exponent) = PREFIXED.iter().find(|entry| entry.0 == base)?;
-        Some(NamedUnit {
-            dimension,
-            scale: factor * power_of_ten(power + exponent),
-        })
+        Some(NamedUnit { dimension, scale: factor * power_of_ten(power + exponent) })
     })
 }
 
@@ -173,10 +166,7 @@ const WORDS: [(&str, &str); 66] = [
 pub fn per_cent(name: &str) -> Option<String> {
     let words = ["percent", "per", "pct", "procent", "percentage"];
     let is_one = words.iter().any(|word| word.eq_ignore_ascii_case(name));
-    is_one.then(|| {
-        "a tolerance in per cent is written `+/- 3%`; elsewhere write the number, `0.03`"
-            .to_string()
-    })
+    is_one.then(|| "a tolerance in per cent is written `+/- 3%`; elsewhere write the number, `0.03`".to_string())
 }
 
 /// The intended unit if a power or a sign is spelt differently in this language: `m3`, `µm`, `N·m`.
@@ -206,17 +196,14 @@ pub fn suggestion(name: &str) -> Option<&'static str> {
         let symbol = PLAIN.iter().find(|pair| pair.0.eq_ignore_ascii_case(name));
         symbol.map(|symbol| symbol.0)
     };
-    [name, singular]
-        .into_iter()
-        .find_map(|name| word(name).or_else(|| plain(name)))
-        .or_else(|| nearest(name, names()))
+    [name, singular].into_iter().find_map(|name| word(name).or_else(|| plain(name))).or_else(|| nearest(name, names()))
 }
 
 /// Names to suggest for a misspelt unit, the most common first.
 fn names() -> impl Iterator<Item = &'static str> {
     const PREFIXED_IN_USE: [&str; 22] = [
-        "kg", "mm", "cm", "um", "km", "mg", "ms", "us", "kN", "mN", "MN", "kPa", "MPa", "GPa",
-        "mJ", "kJ", "mW", "kW", "kHz", "mrad", "dm", "ns",
+        "kg", "mm", "cm", "um", "km", "mg", "ms", "us", "kN", "mN", "MN", "kPa", "MPa", "GPa", "mJ", "kJ", "mW", "kW",
+        "kHz", "mrad", "dm", "ns",
     ];
     let prefixed = PREFIXED.iter().map(|entry| entry.0);
     let plain = PLAIN.iter().map(|entry| entry.0);
@@ -300,12 +287,7 @@ mod tests {
         assert_eq!(suggestion("celsius"), None);
         for (_, symbol) in WORDS {
             let parts = symbol.split(['*', '/', '^']);
-            assert!(
-                parts
-                    .filter(|part| *part != "2")
-                    .all(|part| find(part).is_some()),
-                "{symbol}"
-            );
+            assert!(parts.filter(|part| *part != "2").all(|part| find(part).is_some()), "{symbol}");
         }
     }
 

@@ -59,10 +59,7 @@ impl Beam {
 
     /// The rule of its quadrature, on the length as a fraction.
     pub fn quadrature(&self) -> Gauss {
-        let rule = self
-            .sections
-            .iter()
-            .map(|(fraction, weight, _)| (fraction, weight));
+        let rule = self.sections.iter().map(|(fraction, weight, _)| (fraction, weight));
         let (points, weights) = rule.unzip();
         Gauss { points, weights }
     }

@@ -16,11 +16,7 @@ pub struct Values<'a> {
 impl<'a> Values<'a> {
     /// Computes the named constants from inputs and design variables, all SI.
     pub fn new(constants: &[Constant], inputs: &'a [f64], design: &'a [f64]) -> Self {
-        let mut values = Self {
-            inputs,
-            design,
-            constants: Vec::with_capacity(constants.len()),
-        };
+        let mut values = Self { inputs, design, constants: Vec::with_capacity(constants.len()) };
         for constant in constants {
             let value = values.of(&constant.value);
             values.constants.push(value);
@@ -94,10 +90,7 @@ pub struct Dependence {
 impl Dependence {
     /// Dependence on an input, directly or through a constant.
     pub fn on_inputs(constants: &[Constant]) -> Self {
-        let mut dependence = Self {
-            on_inputs: true,
-            constants: Vec::new(),
-        };
+        let mut dependence = Self { on_inputs: true, constants: Vec::new() };
         for constant in constants {
             let depends = dependence.of(&constant.value);
             dependence.constants.push(depends);
@@ -107,10 +100,7 @@ impl Dependence {
 
     /// Dependence on a constant whose value is not finite.
     pub fn on_constants_without_value(values: &Values) -> Self {
-        Self {
-            on_inputs: false,
-            constants: values.constants.iter().map(|c| !c.is_finite()).collect(),
-        }
+        Self { on_inputs: false, constants: values.constants.iter().map(|c| !c.is_finite()).collect() }
     }
 
     /// Whether the expression depends on one of them.
@@ -126,9 +116,7 @@ impl Dependence {
         match expr {
             Expr::Input(_) => self.on_inputs,
             Expr::Constant(id) => self.constants.get(id.index()).copied().unwrap_or(false),
-            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => {
-                self.shared(a, visited)
-            }
+            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => self.shared(a, visited),
             Expr::Add(a, b)
             | Expr::Subtract(a, b)
             | Expr::Multiply(a, b)

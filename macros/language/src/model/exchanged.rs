@@ -49,10 +49,7 @@ fn contradiction(values: &Values<'_>, beam: &Beam) -> Option<String> {
     let mut sections = beam.sections.iter().map(|(_, _, section)| section);
     sections.find_map(|section| {
         let Section {
-            stiffness: [_, about_y, about_z],
-            inertia: [inertia_y, inertia_z],
-            size: [width, height],
-            ..
+            stiffness: [_, about_y, about_z], inertia: [inertia_y, inertia_z], size: [width, height], ..
         } = section;
         let ratio = |a, b| {
             let (a, b) = (values.of(a), values.of(b));
@@ -70,9 +67,8 @@ fn contradiction(values: &Values<'_>, beam: &Beam) -> Option<String> {
                 true => ('z', y, z),
                 false => ('y', z, y),
             };
-            (is_clear && stiffness * ratio < 0.0).then(|| {
-                format!("is stiffer about {stiffer}, although {larger} is greater than {smaller}")
-            })
+            (is_clear && stiffness * ratio < 0.0)
+                .then(|| format!("is stiffer about {stiffer}, although {larger} is greater than {smaller}"))
         })
     })
 }

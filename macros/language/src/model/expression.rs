@@ -4,9 +4,7 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashSet;
 
-use crate::base::ids::{
-    ConstantId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId,
-};
+use crate::base::ids::{ConstantId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId};
 pub use eigentol_symbolic::base::operators::Unary as Function;
 
 /// A scalar value in SI; dimensions have been checked and are no longer stored.

@@ -72,8 +72,7 @@ impl Mechanism {
     pub fn forget_forces_of(&mut self, cut: &[JointId]) {
         let joint_of = |id: CoordinateId| self.coordinates[id.index()].joint;
         self.forces.retain(|force| match force.law {
-            ForceLaw::CoordinateSpring { coordinate, .. }
-            | ForceLaw::CoordinateDamper { coordinate, .. } => {
+            ForceLaw::CoordinateSpring { coordinate, .. } | ForceLaw::CoordinateDamper { coordinate, .. } => {
                 !force.of_every || !cut.contains(&joint_of(coordinate))
             }
             _ => true,
@@ -82,8 +81,7 @@ impl Mechanism {
 
     /// Whether a joint is planar and coasting, so that its speeds are those along its turned axes.
     pub fn glides(&self, joint: &Joint) -> bool {
-        let coasts =
-            |step: &JointStep| self.coordinates[step.coordinate.index()].motion == Motion::Coasting;
+        let coasts = |step: &JointStep| self.coordinates[step.coordinate.index()].motion == Motion::Coasting;
         joint.closing == Some(Closing::Planar) && joint.steps.iter().all(coasts)
     }
 
@@ -94,10 +92,7 @@ impl Mechanism {
 
     /// Whether a coordinate is a strain of a beam.
     pub fn strains(&self, id: CoordinateId) -> bool {
-        let all = self
-            .beams
-            .iter()
-            .flat_map(|beam| beam.strains.iter().flatten());
+        let all = self.beams.iter().flat_map(|beam| beam.strains.iter().flatten());
         all.into_iter().any(|x| *x == id)
     }
 

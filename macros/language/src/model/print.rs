@@ -10,9 +10,7 @@ mod shape;
 use std::fmt::{self, Display, Formatter};
 
 use super::expression::{Expr, Matrix, Vector};
-use super::mechanism::{
-    Frame, Joint, Law, Mechanism, Motion, Placement, StepMotion, Tolerance, Unit,
-};
+use super::mechanism::{Frame, Joint, Law, Mechanism, Motion, Placement, StepMotion, Tolerance, Unit};
 use super::simplify::diagonal_of;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -51,12 +49,7 @@ impl Display for Mechanism {
             writeln!(f, "curve {}: {}", curve.spline.name(), points.join(", "))?;
         }
         for constant in &self.constants {
-            writeln!(
-                f,
-                "let {} = {}",
-                constant.name,
-                names.scalar(&constant.value)
-            )?;
+            writeln!(f, "let {} = {}", constant.name, names.scalar(&constant.value))?;
         }
         for body in &self.bodies {
             writeln!(f, "body {}: {}", body.name, names.parts(&body.parts))?;
@@ -86,13 +79,9 @@ impl Display for Mechanism {
                 Motion::Coasting => {
                     writeln!(f, "coasting {}: {:?}", coordinate.name, coordinate.quantity)?;
                 }
-                Motion::Driven(speed) => writeln!(
-                    f,
-                    "driven {}: {:?} at {}",
-                    coordinate.name,
-                    coordinate.quantity,
-                    names.scalar(speed)
-                )?,
+                Motion::Driven(speed) => {
+                    writeln!(f, "driven {}: {:?} at {}", coordinate.name, coordinate.quantity, names.scalar(speed))?
+                }
             }
         }
         for point in &self.points {
@@ -114,12 +103,7 @@ impl Display for Mechanism {
             writeln!(f, "constraint {}: {law}", constraint.name)?;
         }
         for steady in &self.steady {
-            writeln!(
-                f,
-                "steady {} = {}",
-                steady.name,
-                names.scalar(&steady.value)
-            )?;
+            writeln!(f, "steady {} = {}", steady.name, names.scalar(&steady.value))?;
         }
         for output in &self.outputs {
             let value = names.scalar(&output.value);
@@ -131,9 +115,7 @@ impl Display for Mechanism {
 
 impl Names<'_> {
     fn scalar(&self, value: &Expr) -> String {
-        let binary = |a: &Expr, sign: &str, b: &Expr| {
-            format!("({} {sign} {})", self.scalar(a), self.scalar(b))
-        };
+        let binary = |a: &Expr, sign: &str, b: &Expr| format!("({} {sign} {})", self.scalar(a), self.scalar(b));
         match value {
             Expr::Number(value) => format!("{value}"),
             Expr::Design(id) => self.0.design[id.index()].name.to_string(),
@@ -209,9 +191,10 @@ impl Names<'_> {
     }
 
     fn rotations(&self, placement: &Placement) -> String {
-        let rotations = placement.rotations.iter().map(|(axis, angle)| {
-            format!(" rotated({}, {})", self.vector(axis), self.scalar(angle))
-        });
+        let rotations = placement
+            .rotations
+            .iter()
+            .map(|(axis, angle)| format!(" rotated({}, {})", self.vector(axis), self.scalar(angle)));
         rotations.collect()
     }
 
@@ -248,9 +231,7 @@ fn tolerance(tolerance: &Tolerance) -> String {
     match &tolerance.law {
         Law::Normal => {}
         Law::OneOf(values) => {
-            let each = values
-                .iter()
-                .map(|(fraction, weight)| format!("{fraction}: {weight}"));
+            let each = values.iter().map(|(fraction, weight)| format!("{fraction}: {weight}"));
             text += &format!(" one of [{}]", each.collect::<Vec<_>>().join(", "));
         }
         law => text += &format!(" {law}"),
@@ -259,9 +240,5 @@ fn tolerance(tolerance: &Tolerance) -> String {
 }
 
 fn unit(unit: &Unit) -> String {
-    if unit.symbol.is_empty() {
-        String::new()
-    } else {
-        format!(" [{}]", unit.symbol)
-    }
+    if unit.symbol.is_empty() { String::new() } else { format!(" [{}]", unit.symbol) }
 }

@@ -43,8 +43,7 @@ use self::resolver::Resolver;
 use self::scope::Scope;
 use super::expression::Vector;
 use super::mechanism::{
-    Beam, Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output,
-    Point, Steady,
+    Beam, Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output, Point, Steady,
 };
 use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;
@@ -116,9 +115,7 @@ pub fn resolve_what_is_right(ast: &Ast, more: usize) -> Resolution {
         // A value was dropped without a message.
         let message = "this declaration cannot be compiled, and eigentol does not know why";
         let help = "this is a bug of eigentol: please report it with the declaration";
-        resolver
-            .diagnostics
-            .error_with_help(&ast.name, message, help);
+        resolver.diagnostics.error_with_help(&ast.name, message, help);
     }
     Resolution {
         is_connected: !resolver.scope.is_ambiguous && is_connected(ast, &mechanism),
@@ -196,12 +193,7 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
         && mechanism.curves.len() == count(ast, |kind| matches!(kind, ItemKind::Curve(_)))
         && mechanism.constants.len() >= count(ast, |kind| matches!(kind, ItemKind::Let(_)))
         && mechanism.points.len() == count(ast, |kind| matches!(kind, ItemKind::Point(_)))
-        && mechanism
-            .forces
-            .iter()
-            .filter(|force| !force.of_every)
-            .count()
-            == count(ast, is_force)
+        && mechanism.forces.iter().filter(|force| !force.of_every).count() == count(ast, is_force)
         && mechanism.excitations.len() == excitations::declared(ast)
         && mechanism.steady.len() == count(ast, |kind| matches!(kind, ItemKind::Steady(_)))
         && mechanism.outputs.len() == count(ast, |kind| matches!(kind, ItemKind::Output(_)))

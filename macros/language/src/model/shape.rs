@@ -186,12 +186,7 @@ impl Shape {
                 spread: Spread::Point,
                 positive: Vec::new(),
             },
-            Self::Rod {
-                mass,
-                length,
-                along,
-                center,
-            } => Reduced {
+            Self::Rod { mass, length, along, center } => Reduced {
                 word: "rod",
                 arguments: vec![
                     ("mass", Scalar(mass)),
@@ -204,12 +199,7 @@ impl Shape {
                 spread: Spread::Line { length, along },
                 positive: vec![("length", length.clone())],
             },
-            Self::Disk {
-                mass,
-                radius,
-                axis,
-                center,
-            } => Reduced {
+            Self::Disk { mass, radius, axis, center } => Reduced {
                 word: "disk",
                 arguments: vec![
                     ("mass", Scalar(mass)),
@@ -219,20 +209,10 @@ impl Shape {
                 ],
                 mass,
                 center,
-                spread: Spread::Round {
-                    axis,
-                    across: vec![(1.0 / 4.0, radius)],
-                    along: Vec::new(),
-                },
+                spread: Spread::Round { axis, across: vec![(1.0 / 4.0, radius)], along: Vec::new() },
                 positive: vec![("radius", radius.clone())],
             },
-            Self::Cylinder {
-                mass,
-                radius,
-                length,
-                axis,
-                center,
-            } => Reduced {
+            Self::Cylinder { mass, radius, length, axis, center } => Reduced {
                 word: "cylinder",
                 arguments: vec![
                     ("mass", Scalar(mass)),
@@ -243,21 +223,10 @@ impl Shape {
                 ],
                 mass,
                 center,
-                spread: Spread::Round {
-                    axis,
-                    across: vec![(1.0 / 4.0, radius)],
-                    along: vec![(1.0 / 12.0, length)],
-                },
+                spread: Spread::Round { axis, across: vec![(1.0 / 4.0, radius)], along: vec![(1.0 / 12.0, length)] },
                 positive: vec![("radius", radius.clone()), ("length", length.clone())],
             },
-            Self::Tube {
-                mass,
-                inner,
-                outer,
-                length,
-                axis,
-                center,
-            } => Reduced {
+            Self::Tube { mass, inner, outer, length, axis, center } => Reduced {
                 word: "tube",
                 arguments: vec![
                     ("mass", Scalar(mass)),
@@ -284,58 +253,31 @@ impl Shape {
                 let [x, y, z] = size.clone();
                 Reduced {
                     word: "box",
-                    arguments: vec![
-                        ("mass", Scalar(mass)),
-                        ("size", Triple(size)),
-                        ("center", Triple(center)),
-                    ],
+                    arguments: vec![("mass", Scalar(mass)), ("size", Triple(size)), ("center", Triple(center))],
                     mass,
                     center,
                     spread: Spread::Box { size },
-                    positive: vec![
-                        ("size along x", x),
-                        ("size along y", y),
-                        ("size along z", z),
-                    ],
+                    positive: vec![("size along x", x), ("size along y", y), ("size along z", z)],
                 }
             }
-            Self::Sphere {
-                mass,
-                radius,
-                center,
-            } => Reduced {
+            Self::Sphere { mass, radius, center } => Reduced {
                 word: "sphere",
-                arguments: vec![
-                    ("mass", Scalar(mass)),
-                    ("radius", Scalar(radius)),
-                    ("center", Triple(center)),
-                ],
+                arguments: vec![("mass", Scalar(mass)), ("radius", Scalar(radius)), ("center", Triple(center))],
                 mass,
                 center,
                 spread: Spread::Ball(vec![(1.0 / 5.0, radius)]),
                 positive: vec![("radius", radius.clone())],
             },
-            Self::Rigid {
-                mass,
-                center,
-                inertia,
-                about,
-            } => {
-                let mut arguments = vec![
-                    ("mass", Scalar(mass)),
-                    ("center", Triple(center)),
-                    ("inertia", Tensor(inertia)),
-                ];
+            Self::Rigid { mass, center, inertia, about } => {
+                let mut arguments =
+                    vec![("mass", Scalar(mass)), ("center", Triple(center)), ("inertia", Tensor(inertia))];
                 arguments.extend(about.as_ref().map(|about| ("about", Triple(about))));
                 Reduced {
                     word: "rigid",
                     arguments,
                     mass,
                     center,
-                    spread: Spread::Tensor {
-                        inertia,
-                        about: about.as_ref(),
-                    },
+                    spread: Spread::Tensor { inertia, about: about.as_ref() },
                     positive: Vec::new(),
                 }
             }

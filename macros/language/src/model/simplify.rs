@@ -119,12 +119,8 @@ pub(super) fn norm(a: &Vector) -> Expr {
 
 /// Vector product.
 pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
-    let entry = |i: usize, j: usize| {
-        subtract(
-            multiply(a[i].clone(), b[j].clone()),
-            multiply(a[j].clone(), b[i].clone()),
-        )
-    };
+    let entry =
+        |i: usize, j: usize| subtract(multiply(a[i].clone(), b[j].clone()), multiply(a[j].clone(), b[i].clone()));
     [entry(1, 2), entry(2, 0), entry(0, 1)]
 }
 

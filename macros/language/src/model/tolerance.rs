@@ -17,12 +17,7 @@ pub struct Tolerance {
 
 impl Tolerance {
     /// A value that does not vary.
-    pub const NONE: Self = Self {
-        lower: 0.0,
-        upper: 0.0,
-        relative: false,
-        law: Law::Normal,
-    };
+    pub const NONE: Self = Self { lower: 0.0, upper: 0.0, relative: false, law: Law::Normal };
 
     /// Whether the value can differ from the nominal one.
     pub fn varies(&self) -> bool {

@@ -14,10 +14,7 @@ pub struct Unit {
 impl Unit {
     /// A unit whose SI value is one.
     pub fn one(symbol: &str) -> Self {
-        Self {
-            symbol: symbol.to_string(),
-            scale: 1.0,
-        }
+        Self { symbol: symbol.to_string(), scale: 1.0 }
     }
 
     /// The SI unit of a dimension.

@@ -36,9 +36,7 @@ impl Mechanism {
         });
         let told = |lints: &[&str]| !is_allowed(&self.attributes, lints);
         let unused = unused.filter(|_| told(&UNUSED));
-        unused
-            .chain(exchanged.filter(|_| told(&DEPRECATED)))
-            .collect()
+        unused.chain(exchanged.filter(|_| told(&DEPRECATED))).collect()
     }
 }
 

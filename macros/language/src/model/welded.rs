@@ -19,10 +19,7 @@ pub struct Member {
 /// All bodies except those welded to the ground, which never move, in groups that move as one: most contain a single
 /// body.
 pub fn groups(bodies: usize, joints: &[Joint]) -> Vec<Vec<Member>> {
-    let welds: Vec<&Joint> = joints
-        .iter()
-        .filter(|joint| joint.steps.is_empty() && joint.flexure.is_none())
-        .collect();
+    let welds: Vec<&Joint> = joints.iter().filter(|joint| joint.steps.is_empty() && joint.flexure.is_none()).collect();
     let mut seen = vec![false; bodies];
     reach(Frame::Ground, &welds, &mut seen);
     let mut groups = Vec::new();
@@ -68,15 +65,10 @@ fn reach(start: Frame, welds: &[&Joint], seen: &mut [bool]) -> Vec<Member> {
 fn inverse(placement: &Placement) -> [Placement; 2] {
     let rotations = placement.rotations.iter().rev();
     [
-        Placement {
-            offset: placement.offset.clone().map(negate),
-            rotations: Vec::new(),
-        },
+        Placement { offset: placement.offset.clone().map(negate), rotations: Vec::new() },
         Placement {
             offset: [0.0; 3].map(Expr::Number),
-            rotations: rotations
-                .map(|(axis, angle)| (axis.clone(), negate(angle.clone())))
-                .collect(),
+            rotations: rotations.map(|(axis, angle)| (axis.clone(), negate(angle.clone()))).collect(),
         },
     ]
 }

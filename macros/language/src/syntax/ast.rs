@@ -117,10 +117,7 @@ impl ItemKind {
             ItemKind::Design(design) => Some(&design.name),
             ItemKind::Let(named) | ItemKind::Output(named) => Some(&named.name),
             ItemKind::Curve(curve) => Some(&curve.name),
-            ItemKind::Gravity(_)
-            | ItemKind::KernelsOnly(_)
-            | ItemKind::Every(_)
-            | ItemKind::Steady(_) => None,
+            ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) | ItemKind::Steady(_) => None,
             ItemKind::Body(body) => Some(&body.name),
             ItemKind::Joint(joint) => Some(&joint.name),
             ItemKind::Point(point) => Some(&point.name),
@@ -199,11 +196,7 @@ pub struct Deviations {
 impl Deviations {
     /// The measure of the upper number: if nothing follows it, the measure of the lower one.
     pub fn upper_measure(&self) -> &Measure {
-        if self.shares_measure() {
-            &self.lower.measure
-        } else {
-            &self.upper.measure
-        }
+        if self.shares_measure() { &self.lower.measure } else { &self.upper.measure }
     }
 
     /// Whether both numbers share one measure: `+0.1 -0.05 mm`.
@@ -600,20 +593,13 @@ impl Value {
     pub fn new(kind: ValueKind, extent: impl Into<Extent>) -> Self {
         let tallest = |values: &[Value]| values.iter().map(|value| value.height).max();
         let below = match &kind {
-            ValueKind::Number(..)
-            | ValueKind::Name(_)
-            | ValueKind::Fraction(_)
-            | ValueKind::Sections(_) => None,
+            ValueKind::Number(..) | ValueKind::Name(_) | ValueKind::Fraction(_) | ValueKind::Sections(_) => None,
             ValueKind::Vector(values, _) | ValueKind::Call(_, values) => tallest(values),
             ValueKind::Negate(of) | ValueKind::Component(of, _) => Some(of.height),
             ValueKind::Parenthesised(of) => Some(of.height),
             ValueKind::Binary(binary) => Some(binary.left.height.max(binary.right.height)),
         };
-        Self {
-            kind,
-            extent: extent.into(),
-            height: below.map_or(0, |height| height.saturating_add(1)),
-        }
+        Self { kind, extent: extent.into(), height: below.map_or(0, |height| height.saturating_add(1)) }
     }
 
     /// Every name in the value that stands for a value, in order.

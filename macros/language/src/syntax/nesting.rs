@@ -43,8 +43,7 @@ pub(crate) fn brackets(text: &str) -> (Option<Place>, Option<(Place, String)>) {
             }
             open.push((here, text));
         } else if ")]}".contains(sign) {
-            let partner =
-                |opening: &str| ["()", "[]", "{}"].contains(&&*format!("{opening}{sign}"));
+            let partner = |opening: &str| ["()", "[]", "{}"].contains(&&*format!("{opening}{sign}"));
             match open.pop() {
                 Some((_, opening)) if partner(opening) => {}
                 Some((at, opening)) if open.iter().any(|x| partner(x.1)) => {
@@ -138,9 +137,6 @@ mod tests {
             assert_eq!(too_deep(&passed), None, "{passed}");
             assert_eq!(too_deep(&format!("({passed})")), None, "{passed}");
         }
-        assert_eq!(
-            too_deep(&format!("/* x */ // y\n\"\\\\\"{open}(")),
-            Some((1, many + 4))
-        );
+        assert_eq!(too_deep(&format!("/* x */ // y\n\"\\\\\"{open}(")), Some((1, many + 4)));
     }
 }

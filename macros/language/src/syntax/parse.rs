@@ -95,18 +95,14 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
     };
     if !tokens.is_empty() {
         let error = tokens.expected::<()>("nothing after the mechanism");
-        diagnostics.extend(error.err().map(|diagnostic| {
-            diagnostic.with_help("declare every mechanism in a file or a `mechanism!` of its own")
-        }));
+        diagnostics.extend(
+            error.err().map(|diagnostic| {
+                diagnostic.with_help("declare every mechanism in a file or a `mechanism!` of its own")
+            }),
+        );
     }
     let (items, unread) = items(&mut content, diagnostics);
-    Ok(Ast {
-        attributes,
-        visibility,
-        name,
-        items,
-        unread,
-    })
+    Ok(Ast { attributes, visibility, name, items, unread })
 }
 
 fn attributes_and_visibility(
@@ -149,9 +145,9 @@ fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<ItemKind> 
                     Some(help) => Box::new(error.with_help(help)),
                     None => error,
                 },
-                ItemKind::Constraint(_) if tokens.peek_word("from") => Box::new(
-                    error.with_help("what connects two bodies is a `joint`; it may close a loop"),
-                ),
+                ItemKind::Constraint(_) if tokens.peek_word("from") => {
+                    Box::new(error.with_help("what connects two bodies is a `joint`; it may close a loop"))
+                }
                 _ => error,
             });
         }
@@ -171,20 +167,16 @@ fn docs(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Vec<String> {
             }
             continue;
         };
-        let text = content
-            .word("doc")
-            .and_then(|_| content.sign('='))
-            .and_then(|_| content.literal())
-            .and_then(|literal| match syn::Lit::new(literal) {
-                syn::Lit::Str(text) => Some(text.value()),
-                _ => None,
+        let text =
+            content.word("doc").and_then(|_| content.sign('=')).and_then(|_| content.literal()).and_then(|literal| {
+                match syn::Lit::new(literal) {
+                    syn::Lit::Str(text) => Some(text.value()),
+                    _ => None,
+                }
             });
         match text {
             Some(text) => docs.push(text),
-            None => diagnostics.error(
-                sign.to(Extent::from(close)),
-                "only doc comments may stand before an item",
-            ),
+            None => diagnostics.error(sign.to(Extent::from(close)), "only doc comments may stand before an item"),
         }
     }
     docs
@@ -192,10 +184,7 @@ fn docs(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Vec<String> {
 
 /// The keyword of an item and the names it declares: its own, and the named coordinates of a joint.
 fn what_is_known(mut tokens: Tokens) -> Unread {
-    let mut item = Unread {
-        keyword: tokens.ident(),
-        names: Vec::new(),
-    };
+    let mut item = Unread { keyword: tokens.ident(), names: Vec::new() };
     if item.is_nameless() {
         return item;
     }
@@ -291,11 +280,7 @@ mod tests {
                 ValueKind::Component(of, axis) => format!("({}.{axis})", grouped(of)),
                 ValueKind::Binary(binary) => {
                     let sign = binary.operator.sign();
-                    format!(
-                        "({}{sign}{})",
-                        grouped(&binary.left),
-                        grouped(&binary.right)
-                    )
+                    format!("({}{sign}{})", grouped(&binary.left), grouped(&binary.right))
                 }
                 other => panic!("{other:?}"),
             }

@@ -6,9 +6,8 @@ use std::fmt::Write as _;
 use quote::ToTokens as _;
 
 use super::ast::{
-    Argument, Ast, Body, Deviation, Deviations, Item, ItemKind, Joint, JointArgument, JointClause,
-    LawKind, Limits, Measure, NamedCall, Operator, Placement, Tolerance, Unit, UnitFactor, Value,
-    ValueKind,
+    Argument, Ast, Body, Deviation, Deviations, Item, ItemKind, Joint, JointArgument, JointClause, LawKind, Limits,
+    Measure, NamedCall, Operator, Placement, Tolerance, Unit, UnitFactor, Value, ValueKind,
 };
 
 /// The canonical text of a declaration.
@@ -47,10 +46,9 @@ fn documentation(attribute: &syn::Attribute) -> Option<String> {
         return None;
     };
     match &pair.value {
-        syn::Expr::Lit(syn::ExprLit {
-            lit: syn::Lit::Str(text),
-            ..
-        }) if pair.path.is_ident("doc") => Some(text.value()),
+        syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(text), .. }) if pair.path.is_ident("doc") => {
+            Some(text.value())
+        }
         _ => None,
     }
 }
@@ -66,25 +64,16 @@ fn doc_line(doc: &str, indent: &str, text: &mut String) {
 
 fn item(kind: &ItemKind) -> String {
     match kind {
-        ItemKind::Input(input) => format!(
-            "input {}: {}{}",
-            input.name,
-            unit(&input.unit),
-            tolerance(input.tolerance.as_ref())
-        ),
-        ItemKind::Design(design) => format!(
-            "design {} = {}{}",
-            design.name,
-            value(&design.nominal),
-            tolerance(design.tolerance.as_ref())
-        ),
+        ItemKind::Input(input) => {
+            format!("input {}: {}{}", input.name, unit(&input.unit), tolerance(input.tolerance.as_ref()))
+        }
+        ItemKind::Design(design) => {
+            format!("design {} = {}{}", design.name, value(&design.nominal), tolerance(design.tolerance.as_ref()))
+        }
         ItemKind::Let(named) => format!("let {} = {}", named.name, value(&named.value)),
-        ItemKind::Curve(curve) => format!(
-            "curve {}: {} -> {}",
-            curve.name,
-            value(&curve.arguments),
-            value(&curve.values)
-        ),
+        ItemKind::Curve(curve) => {
+            format!("curve {}: {} -> {}", curve.name, value(&curve.arguments), value(&curve.values))
+        }
         ItemKind::Steady(named) => format!("steady {} = {}", named.name, value(&named.value)),
         ItemKind::Output(named) => format!("output {} = {}", named.name, value(&named.value)),
         ItemKind::Gravity(gravity) => match &gravity.along {
@@ -106,21 +95,15 @@ fn item(kind: &ItemKind) -> String {
         }
         ItemKind::Material(material) => {
             let properties = material.call.arguments.iter().flatten();
-            let properties: Vec<String> = properties
-                .map(|property| format!("{} {}", property.name, value(&property.value)))
-                .collect();
+            let properties: Vec<String> =
+                properties.map(|property| format!("{} {}", property.name, value(&property.value))).collect();
             format!("material {}: {}", material.name, properties.join(", "))
         }
         ItemKind::Every(every) => format!("every {}: {}", every.quantity, call(&every.law)),
         ItemKind::Constraint(constraint) => {
             format!("constraint {}: {}", constraint.name, call(&constraint.law))
         }
-        ItemKind::Point(point) => format!(
-            "point {}: {}{}",
-            point.name,
-            point.frame,
-            placed(point.placement.as_ref())
-        ),
+        ItemKind::Point(point) => format!("point {}: {}{}", point.name, point.frame, placed(point.placement.as_ref())),
         ItemKind::Joint(item) => joint(item),
     }
 }
@@ -147,9 +130,7 @@ fn tolerance(tolerance: Option<&Tolerance>) -> String {
 
 /// Limits with their signs, the upper one first.
 pub fn deviations(deviations: &Deviations) -> String {
-    let text = |Deviation {
-                    number, measure, ..
-                }: &Deviation| match measure {
+    let text = |Deviation { number, measure, .. }: &Deviation| match measure {
         Measure::Bare => format!("{number:+?}"),
         Measure::Percent => format!("{number:+?}%"),
         Measure::Unit(of) => format!("{number:+?} {}", unit(of)),
@@ -307,16 +288,9 @@ pub fn value(tree: &Value) -> String {
 /// A unit: `m/s^2`, `kg/(m*s)`, `1/s`, and `1` without factors.
 pub fn unit(unit: &Unit) -> String {
     let factors = &unit.factors;
-    let above = factors
-        .iter()
-        .take_while(|factor| factor.exponent > 0)
-        .count();
+    let above = factors.iter().take_while(|factor| factor.exponent > 0).count();
     let (numerator, rest) = factors.split_at(above);
-    let mut text = if numerator.is_empty() {
-        "1".to_string()
-    } else {
-        product(numerator)
-    };
+    let mut text = if numerator.is_empty() { "1".to_string() } else { product(numerator) };
     match rest {
         [] => {}
         [one] => text.push_str(&format!("/{}", product(std::slice::from_ref(one)))),

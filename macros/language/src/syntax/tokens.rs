@@ -26,12 +26,7 @@ pub(super) struct Tokens<'a> {
 impl<'a> Tokens<'a> {
     /// The whole input of the macro.
     pub(super) fn top(cursor: Cursor<'a>) -> Self {
-        Self {
-            cursor,
-            last: cursor.span(),
-            end: None,
-            no_units: &[],
-        }
+        Self { cursor, last: cursor.span(), end: None, no_units: &[] }
     }
 
     /// Whether nothing is left.
@@ -45,11 +40,7 @@ impl<'a> Tokens<'a> {
 
     /// The next token, or the closing delimiter.
     pub(super) fn span(&self) -> Span {
-        if self.cursor.eof() {
-            self.end.unwrap_or(self.last)
-        } else {
-            self.cursor.span()
-        }
+        if self.cursor.eof() { self.end.unwrap_or(self.last) } else { self.cursor.span() }
     }
 
     /// An error at the next token, where something else was expected.
@@ -62,11 +53,7 @@ impl<'a> Tokens<'a> {
     }
 
     fn describe_next(&self) -> Option<String> {
-        let opening = [
-            (Delimiter::Parenthesis, "("),
-            (Delimiter::Bracket, "["),
-            (Delimiter::Brace, "{"),
-        ];
+        let opening = [(Delimiter::Parenthesis, "("), (Delimiter::Bracket, "["), (Delimiter::Brace, "{")];
         for (delimiter, sign) in opening {
             if self.cursor.group(delimiter).is_some() {
                 return Some(sign.to_string());
@@ -88,17 +75,13 @@ impl<'a> Tokens<'a> {
     }
 
     pub(super) fn peek_sign(&self, sign: char) -> bool {
-        self.cursor
-            .punct()
-            .is_some_and(|(punct, _)| punct.as_char() == sign)
+        self.cursor.punct().is_some_and(|(punct, _)| punct.as_char() == sign)
     }
 
     /// Whether the next three signs are `+/-`.
     pub(super) fn peek_plus_minus(&self) -> bool {
         let mut copy = *self;
-        ['+', '/', '-']
-            .into_iter()
-            .all(|sign| copy.sign(sign).is_some())
+        ['+', '/', '-'].into_iter().all(|sign| copy.sign(sign).is_some())
     }
 
     /// Whether `->` is next.
@@ -124,9 +107,7 @@ impl<'a> Tokens<'a> {
         let mut ahead = *self;
         (ahead.sign('+').is_some() || ahead.sign('-').is_some())
             && ahead.ident().is_some()
-            && ahead
-                .group(Delimiter::Parenthesis)
-                .is_some_and(|(_, content, _)| content.peek_named())
+            && ahead.group(Delimiter::Parenthesis).is_some_and(|(_, content, _)| content.peek_named())
     }
 
     pub(super) fn ident(&mut self) -> Option<Ident> {
@@ -167,12 +148,7 @@ impl<'a> Tokens<'a> {
         let (content, span, rest) = self.cursor.group(delimiter)?;
         self.cursor = rest;
         self.last = span.close();
-        let content = Tokens {
-            cursor: content,
-            last: span.open(),
-            end: Some(span.close()),
-            no_units: &[],
-        };
+        let content = Tokens { cursor: content, last: span.open(), end: Some(span.close()), no_units: &[] };
         Some((span.open(), content, span.close()))
     }
 
@@ -181,11 +157,7 @@ impl<'a> Tokens<'a> {
     pub(super) fn fragment(&mut self) -> Option<(Span, Tokens<'a>, Span)> {
         let (content, ..) = self.cursor.group(Delimiter::None)?;
         let (_, rest) = content.token_tree()?;
-        if rest.eof() {
-            None
-        } else {
-            self.group(Delimiter::None)
-        }
+        if rest.eof() { None } else { self.group(Delimiter::None) }
     }
 
     pub(super) fn expect_sign(&mut self, sign: char, what: &str) -> Parsed<Extent> {

@@ -41,16 +41,13 @@ impl Graph {
     /// The sum of some terms, from the first to the last.
     pub fn sum(&mut self, terms: impl IntoIterator<Item = ExprId>) -> ExprId {
         let zero = self.zero();
-        terms
-            .into_iter()
-            .fold(zero, |sum, term| self.add(sum, term))
+        terms.into_iter().fold(zero, |sum, term| self.add(sum, term))
     }
 
     /// A unary operator, simplified.
     pub fn unary(&mut self, operator: Unary, a: ExprId) -> ExprId {
         self.requests += 1;
-        rules::simplify_unary(self, operator, a)
-            .unwrap_or_else(|| self.intern(Node::Unary(operator, a)))
+        rules::simplify_unary(self, operator, a).unwrap_or_else(|| self.intern(Node::Unary(operator, a)))
     }
 
     /// A binary operator, simplified.

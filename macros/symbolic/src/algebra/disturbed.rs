@@ -137,8 +137,7 @@ impl<'a> Evaluator<'a> {
                     (lanes, UNIT_ROUNDOFF * f64::abs(lanes[0]))
                 }
             };
-            let Disturbed(lanes) =
-                Disturbed(lanes).disturbed(rounding, seed << 32 | u64::from(id.0));
+            let Disturbed(lanes) = Disturbed(lanes).disturbed(rounding, seed << 32 | u64::from(id.0));
             values.push(lanes);
         }
         let root = |&root: &ExprId| Disturbed(read(&values, root));

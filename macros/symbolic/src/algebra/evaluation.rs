@@ -18,10 +18,7 @@ pub(super) struct Evaluation {
 
 impl Evaluation {
     /// One.
-    pub(super) const ONE: Self = Self {
-        value: 1.0,
-        error: 0.0,
-    };
+    pub(super) const ONE: Self = Self { value: 1.0, error: 0.0 };
 
     /// A number rounded once.
     pub(super) fn nearest(value: f64) -> Self {
@@ -29,10 +26,7 @@ impl Evaluation {
     }
 
     fn rounded(value: f64, inherited: f64) -> Self {
-        Self {
-            value,
-            error: inherited + UNIT_ROUNDOFF * value.abs(),
-        }
+        Self { value, error: inherited + UNIT_ROUNDOFF * value.abs() }
     }
 }
 
@@ -51,11 +45,7 @@ fn unary(operator: Unary, a: Evaluation) -> Evaluation {
         Unary::PowerInteger(n) => f64::from(n) * a.value.powi(n - 1),
         Unary::Spline(spline, derivative) => spline.at(a.value, derivative + 1),
     };
-    let inherited = if a.error == 0.0 {
-        0.0
-    } else {
-        slope.abs() * a.error
-    };
+    let inherited = if a.error == 0.0 { 0.0 } else { slope.abs() * a.error };
     let error = inherited + rounding_of(operator, a.value, value);
     Evaluation { value, error }
 }
@@ -94,11 +84,7 @@ pub(super) fn combined(operator: Operator, a: Evaluation, b: Evaluation) -> Eval
 /// so that a frame declared as turned by 90 degrees has axes with zeros.
 pub(super) fn folded(operator: Unary, a: Evaluation) -> Evaluation {
     let result = unary(operator, a);
-    let nearly_quarter = (result.value.abs() <= 2.0 * f64::EPSILON * a.value.abs())
-        && matches!(operator, Unary::Sin | Unary::Cos);
-    if nearly_quarter {
-        Evaluation::nearest(0.0)
-    } else {
-        result
-    }
+    let nearly_quarter =
+        (result.value.abs() <= 2.0 * f64::EPSILON * a.value.abs()) && matches!(operator, Unary::Sin | Unary::Cos);
+    if nearly_quarter { Evaluation::nearest(0.0) } else { result }
 }

@@ -19,37 +19,23 @@ pub struct Direction {
 impl Direction {
     /// A direction; `suffix` is appended to the names of differentiated nodes.
     pub fn new(suffix: impl Into<String>, rates: Vec<(SymbolId, ExprId)>) -> Self {
-        Self {
-            rates,
-            suffix: suffix.into(),
-            is_unit: false,
-        }
+        Self { rates, suffix: suffix.into(), is_unit: false }
     }
 
     /// The direction of one symbol.
     pub fn unit(graph: &mut Graph, symbol: SymbolId) -> Self {
         let one = graph.constant(1.0);
         let suffix = format!("_by_{}", graph.symbol_info(symbol).name);
-        Self {
-            is_unit: true,
-            ..Self::new(suffix, vec![(symbol, one)])
-        }
+        Self { is_unit: true, ..Self::new(suffix, vec![(symbol, one)]) }
     }
 
     fn rate(&self, symbol: SymbolId) -> Option<ExprId> {
-        self.rates
-            .iter()
-            .find(|(s, _)| *s == symbol)
-            .map(|(_, rate)| *rate)
+        self.rates.iter().find(|(s, _)| *s == symbol).map(|(_, rate)| *rate)
     }
 }
 
 /// Derivatives of `roots` along `direction`.
-pub fn derivatives_along(
-    graph: &mut Graph,
-    roots: &[ExprId],
-    direction: &Direction,
-) -> Vec<ExprId> {
+pub fn derivatives_along(graph: &mut Graph, roots: &[ExprId], direction: &Direction) -> Vec<ExprId> {
     let mask = Graph::mask(direction.rates.iter().map(|(symbol, _)| *symbol));
     let zero = graph.zero();
     let known = graph.len();
@@ -72,18 +58,12 @@ pub fn derivatives_along(
             Node::Symbol(symbol) => direction.rate(symbol).unwrap_or(zero),
             Node::Unary(operator, a) => {
                 let da = tangents.get(a).unwrap_or(zero);
-                if da == zero {
-                    zero
-                } else {
-                    unary_tangent(graph, operator, id, a, da)
-                }
+                if da == zero { zero } else { unary_tangent(graph, operator, id, a, da) }
             }
-            Node::Binary(operator, a, b) => {
-                match [a, b].map(|operand| tangents.get(operand).unwrap_or(zero)) {
-                    [da, db] if da == zero && db == zero => zero,
-                    [da, db] => binary_tangent(graph, operator, id, (a, da), (b, db)),
-                }
-            }
+            Node::Binary(operator, a, b) => match [a, b].map(|operand| tangents.get(operand).unwrap_or(zero)) {
+                [da, db] if da == zero && db == zero => zero,
+                [da, db] => binary_tangent(graph, operator, id, (a, da), (b, db)),
+            },
         };
         // Nodes that existed before have a meaning of their own.
         if tangent.index() >= known && graph.name(id).is_some() {
@@ -92,10 +72,7 @@ pub fn derivatives_along(
         }
         tangents.set(id, tangent);
     }
-    roots
-        .iter()
-        .map(|&root| tangents.get(root).unwrap_or(zero))
-        .collect()
+    roots.iter().map(|&root| tangents.get(root).unwrap_or(zero)).collect()
 }
 
 fn unary_tangent(g: &mut Graph, operator: Unary, id: ExprId, a: ExprId, da: ExprId) -> ExprId {
@@ -126,11 +103,7 @@ pub(super) fn slope(g: &mut Graph, operator: Unary, id: ExprId, a: ExprId) -> Ex
             let rest = g.sub(one, square);
             let root = g.unary(Unary::Sqrt, rest);
             let slope = g.div(one, root);
-            if operator == Unary::Asin {
-                slope
-            } else {
-                g.neg(slope)
-            }
+            if operator == Unary::Asin { slope } else { g.neg(slope) }
         }
         Unary::Exp => id,
         Unary::Ln => g.div(one, a),
@@ -173,13 +146,7 @@ fn binary_tangent(
 }
 
 /// Derivatives of `a operator b` by `a` and by `b`, where `id` is the node itself.
-pub(super) fn slopes(
-    g: &mut Graph,
-    operator: Operator,
-    id: ExprId,
-    a: ExprId,
-    b: ExprId,
-) -> (ExprId, ExprId) {
+pub(super) fn slopes(g: &mut Graph, operator: Operator, id: ExprId, a: ExprId, b: ExprId) -> (ExprId, ExprId) {
     let one = g.constant(1.0);
     match operator {
         Operator::Add => (one, one),

@@ -40,10 +40,7 @@ pub struct Array {
 impl Function {
     /// All results, one after the other.
     pub fn roots(&self) -> Vec<ExprId> {
-        self.results
-            .iter()
-            .flat_map(|array| array.values.iter().copied())
-            .collect()
+        self.results.iter().flat_map(|array| array.values.iter().copied()).collect()
     }
 
     /// Cost of one evaluation.

@@ -99,9 +99,7 @@ impl Graph {
 
     /// The mask of a set of symbols.
     pub fn mask(symbols: impl IntoIterator<Item = SymbolId>) -> u128 {
-        symbols
-            .into_iter()
-            .fold(0, |mask, symbol| mask | bit(symbol))
+        symbols.into_iter().fold(0, |mask, symbol| mask | bit(symbol))
     }
 
     /// Gives a node a name for readers of the generated code. The first name stays, and constants and symbols keep
@@ -212,10 +210,7 @@ impl Graph {
     /// A new free variable.
     pub fn symbol(&mut self, name: impl Into<String>, stage: Stage) -> (SymbolId, ExprId) {
         let id = SymbolId::new(self.symbols.len());
-        self.symbols.push(Symbol {
-            name: name.into(),
-            stage,
-        });
+        self.symbols.push(Symbol { name: name.into(), stage });
         (id, self.intern(Node::Symbol(id)))
     }
 

@@ -86,10 +86,7 @@ struct Table {
 
 impl Default for Table {
     fn default() -> Self {
-        Self {
-            slots: vec![0; 64],
-            taken: 0,
-        }
+        Self { slots: vec![0; 64], taken: 0 }
     }
 }
 

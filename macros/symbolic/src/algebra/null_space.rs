@@ -69,10 +69,7 @@ impl NullSpace {
                     waiting.push(row);
                 } else if let Some(column) = largest(lead..columns, &any) {
                     hidden += 1;
-                    pivots.push(Pivot {
-                        column,
-                        others: Vec::new(),
-                    });
+                    pivots.push(Pivot { column, others: Vec::new() });
                 }
             }
         }
@@ -86,11 +83,7 @@ impl NullSpace {
             }
             vectors.push(vector.split_off(lead));
         }
-        Self {
-            vectors,
-            hidden,
-            lead_rank: pivots.iter().filter(|pivot| pivot.column < lead).count(),
-        }
+        Self { vectors, hidden, lead_rank: pivots.iter().filter(|pivot| pivot.column < lead).count() }
     }
 }
 
@@ -122,10 +115,7 @@ impl Pivot {
     fn new(column: usize, row: &[Disturbed]) -> Self {
         let present = row.iter().enumerate().filter(|(_, entry)| !entry.is_zero());
         let others = present.filter(|(k, _)| *k != column);
-        Self {
-            column,
-            others: others.map(|(k, &entry)| (k, entry / row[column])).collect(),
-        }
+        Self { column, others: others.map(|(k, &entry)| (k, entry / row[column])).collect() }
     }
 
     fn eliminate_from(&self, row: &mut [Disturbed]) {

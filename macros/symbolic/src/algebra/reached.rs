@@ -30,12 +30,7 @@ impl Reached {
     }
 
     /// The nodes reached from `roots` through `wanted` nodes only.
-    fn through(
-        graph: &Graph,
-        roots: &[ExprId],
-        slopes: bool,
-        wanted: impl Fn(ExprId) -> bool,
-    ) -> Self {
+    fn through(graph: &Graph, roots: &[ExprId], slopes: bool, wanted: impl Fn(ExprId) -> bool) -> Self {
         let mut bits = vec![0_u64; graph.len() / 64 + 1];
         let mut nodes = Vec::new();
         let mut visit = |nodes: &mut Vec<ExprId>, id: ExprId| {
@@ -83,11 +78,7 @@ impl Reached {
                 rest &= rest - 1;
             }
         }
-        Self {
-            nodes,
-            bits,
-            before,
-        }
+        Self { nodes, bits, before }
     }
 
     /// The derivatives that a node has been given, unless one of those that it may depend on is by a node that is not

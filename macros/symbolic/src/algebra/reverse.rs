@@ -34,11 +34,7 @@ pub fn rough(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<[Expr
         Node::Unary(operator @ (Unary::Sqrt | Unary::Asin | Unary::Acos), a) => Some((operator, a)),
         _ => None,
     };
-    if changing
-        .nodes()
-        .iter()
-        .all(|&id| rough(graph, id).is_none())
-    {
+    if changing.nodes().iter().all(|&id| rough(graph, id).is_none()) {
         return Vec::new();
     }
     let adjoints = adjoints(graph, root, &changing, mask);

@@ -45,43 +45,18 @@ const fn rule(
     condition: &'static str,
     apply: fn(&mut Graph, ExprId, ExprId) -> Option<ExprId>,
 ) -> Rule {
-    Rule {
-        name,
-        condition,
-        apply,
-    }
+    Rule { name, condition, apply }
 }
 
 /// Every table, for documentation and tests.
 pub const TABLES: &[Table] = &[
-    Table {
-        operator: TableOperator::Binary(Operator::Add),
-        rules: ADD,
-    },
-    Table {
-        operator: TableOperator::Binary(Operator::Subtract),
-        rules: SUBTRACT,
-    },
-    Table {
-        operator: TableOperator::Binary(Operator::Multiply),
-        rules: MULTIPLY,
-    },
-    Table {
-        operator: TableOperator::Binary(Operator::Divide),
-        rules: DIVIDE,
-    },
-    Table {
-        operator: TableOperator::Negate,
-        rules: NEGATE,
-    },
-    Table {
-        operator: TableOperator::Sin,
-        rules: SIN,
-    },
-    Table {
-        operator: TableOperator::Cos,
-        rules: COS,
-    },
+    Table { operator: TableOperator::Binary(Operator::Add), rules: ADD },
+    Table { operator: TableOperator::Binary(Operator::Subtract), rules: SUBTRACT },
+    Table { operator: TableOperator::Binary(Operator::Multiply), rules: MULTIPLY },
+    Table { operator: TableOperator::Binary(Operator::Divide), rules: DIVIDE },
+    Table { operator: TableOperator::Negate, rules: NEGATE },
+    Table { operator: TableOperator::Sin, rules: SIN },
+    Table { operator: TableOperator::Cos, rules: COS },
 ];
 
 const ADD: &[Rule] = &[
@@ -94,46 +69,34 @@ const ADD: &[Rule] = &[
             None
         }
     }),
-    rule("a + (-b) = a - b", "", |g, a, b| {
-        match (negated(g, a), negated(g, b)) {
-            (Some(a), Some(b)) => {
-                let sum = g.add(a, b);
-                Some(g.neg(sum))
-            }
-            (None, Some(b)) => Some(g.sub(a, b)),
-            (Some(a), None) => Some(g.sub(b, a)),
-            (None, None) => None,
+    rule("a + (-b) = a - b", "", |g, a, b| match (negated(g, a), negated(g, b)) {
+        (Some(a), Some(b)) => {
+            let sum = g.add(a, b);
+            Some(g.neg(sum))
         }
+        (None, Some(b)) => Some(g.sub(a, b)),
+        (Some(a), None) => Some(g.sub(b, a)),
+        (None, None) => None,
     }),
-    rule("a + a = 2 a", "", |g, a, b| {
-        (a == b).then(|| g.scale(2.0, a))
+    rule("a + a = 2 a", "", |g, a, b| (a == b).then(|| g.scale(2.0, a))),
+    rule("(a - b) + b = a", "", |g, a, b| match (difference(g, a), difference(g, b)) {
+        (Some((x, y)), _) if y == b => Some(x),
+        (_, Some((x, y))) if y == a => Some(x),
+        _ => None,
     }),
-    rule("(a - b) + b = a", "", |g, a, b| {
-        match (difference(g, a), difference(g, b)) {
-            (Some((x, y)), _) if y == b => Some(x),
-            (_, Some((x, y))) if y == a => Some(x),
-            _ => None,
+    rule("c a + d a = (c + d) a for constants c, d", "c + d is finite", |g, a, b| {
+        let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
+        let sum = combined(Operator::Add, c, d);
+        (x == y && sum.value.is_finite()).then(|| times(g, sum, x))
+    }),
+    rule("sin(x)^2 + cos(x)^2 = 1", "", |g, a, b| match (square(g, a), square(g, b)) {
+        (Some(Node::Unary(Unary::Sin, x)), Some(Node::Unary(Unary::Cos, y)))
+        | (Some(Node::Unary(Unary::Cos, x)), Some(Node::Unary(Unary::Sin, y)))
+            if x == y =>
+        {
+            Some(g.constant(1.0))
         }
-    }),
-    rule(
-        "c a + d a = (c + d) a for constants c, d",
-        "c + d is finite",
-        |g, a, b| {
-            let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
-            let sum = combined(Operator::Add, c, d);
-            (x == y && sum.value.is_finite()).then(|| times(g, sum, x))
-        },
-    ),
-    rule("sin(x)^2 + cos(x)^2 = 1", "", |g, a, b| {
-        match (square(g, a), square(g, b)) {
-            (Some(Node::Unary(Unary::Sin, x)), Some(Node::Unary(Unary::Cos, y)))
-            | (Some(Node::Unary(Unary::Cos, x)), Some(Node::Unary(Unary::Sin, y)))
-                if x == y =>
-            {
-                Some(g.constant(1.0))
-            }
-            _ => None,
-        }
+        _ => None,
     }),
 ];
 
@@ -141,16 +104,14 @@ const SUBTRACT: &[Rule] = &[
     rule("a - 0 = a", "", |g, a, b| g.is(b, 0.0).then_some(a)),
     rule("0 - a = -a", "", |g, a, b| g.is(a, 0.0).then(|| g.neg(b))),
     rule("a - a = 0", "", |g, a, b| (a == b).then(|| g.zero())),
-    rule("a - (-b) = a + b", "", |g, a, b| {
-        match (negated(g, a), negated(g, b)) {
-            (Some(a), Some(b)) => Some(g.sub(b, a)),
-            (None, Some(b)) => Some(g.add(a, b)),
-            (Some(a), None) => {
-                let sum = g.add(a, b);
-                Some(g.neg(sum))
-            }
-            (None, None) => None,
+    rule("a - (-b) = a + b", "", |g, a, b| match (negated(g, a), negated(g, b)) {
+        (Some(a), Some(b)) => Some(g.sub(b, a)),
+        (None, Some(b)) => Some(g.add(a, b)),
+        (Some(a), None) => {
+            let sum = g.add(a, b);
+            Some(g.neg(sum))
         }
+        (None, None) => None,
     }),
     rule("(a + b) - b = a", "", |g, a, b| match sum(g, a) {
         Some((x, y)) if y == b => Some(x),
@@ -161,15 +122,11 @@ const SUBTRACT: &[Rule] = &[
         Some((x, y)) if x == a => Some(y),
         _ => None,
     }),
-    rule(
-        "c a - d a = (c - d) a for constants c, d",
-        "c - d is finite",
-        |g, a, b| {
-            let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
-            let difference = combined(Operator::Subtract, c, d);
-            (x == y && difference.value.is_finite()).then(|| times(g, difference, x))
-        },
-    ),
+    rule("c a - d a = (c - d) a for constants c, d", "c - d is finite", |g, a, b| {
+        let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
+        let difference = combined(Operator::Subtract, c, d);
+        (x == y && difference.value.is_finite()).then(|| times(g, difference, x))
+    }),
     rule("a - b = -(b - a) where b - a is known", "", |g, a, b| {
         let known = g.find(Node::Binary(Operator::Subtract, b, a))?;
         Some(g.neg(known))
@@ -177,9 +134,7 @@ const SUBTRACT: &[Rule] = &[
 ];
 
 const MULTIPLY: &[Rule] = &[
-    rule("0 a = 0", "a is finite", |g, a, b| {
-        (g.is(a, 0.0) || g.is(b, 0.0)).then(|| g.zero())
-    }),
+    rule("0 a = 0", "a is finite", |g, a, b| (g.is(a, 0.0) || g.is(b, 0.0)).then(|| g.zero())),
     rule("1 a = a", "", |g, a, b| {
         if g.is(a, 1.0) {
             Some(b)
@@ -189,99 +144,69 @@ const MULTIPLY: &[Rule] = &[
             None
         }
     }),
-    rule("(-a) b = -(a b)", "", |g, a, b| {
-        match (negated(g, a), negated(g, b)) {
-            (Some(x), Some(y)) => Some(g.mul(x, y)),
-            (Some(x), None) => {
-                let product = g.mul(x, b);
-                Some(g.neg(product))
-            }
-            (None, Some(y)) => {
-                let product = g.mul(a, y);
-                Some(g.neg(product))
-            }
-            (None, None) => None,
+    rule("(-a) b = -(a b)", "", |g, a, b| match (negated(g, a), negated(g, b)) {
+        (Some(x), Some(y)) => Some(g.mul(x, y)),
+        (Some(x), None) => {
+            let product = g.mul(x, b);
+            Some(g.neg(product))
         }
+        (None, Some(y)) => {
+            let product = g.mul(a, y);
+            Some(g.neg(product))
+        }
+        (None, None) => None,
     }),
-    rule(
-        "c (d a) = (c d) a for constants c, d",
-        "c d is finite",
-        |g, a, b| {
-            let (c, other) = match (g.number(a), g.number(b)) {
-                (Some(c), None) => (c, b),
-                (None, Some(c)) => (c, a),
-                _ => return None,
-            };
-            let (d, x) = scaled(g, other);
-            let product = combined(Operator::Multiply, c, d);
-            (x != other && product.value.is_normal()).then(|| times(g, product, x))
-        },
-    ),
-    rule(
-        "a (1 / a) = 1, a (b / a) = b",
-        "a is not zero",
-        |g, a, b| match (quotient(g, a), quotient(g, b)) {
-            (Some((x, y)), _) if y == b => Some(x),
-            (_, Some((x, y))) if y == a => Some(x),
-            _ => None,
-        },
-    ),
-    rule(
-        "sqrt(a) sqrt(a) = a",
-        "a is not negative",
-        |g, a, b| match g.node(a) {
-            Node::Unary(Unary::Sqrt, x) if a == b => Some(x),
-            _ => None,
-        },
-    ),
+    rule("c (d a) = (c d) a for constants c, d", "c d is finite", |g, a, b| {
+        let (c, other) = match (g.number(a), g.number(b)) {
+            (Some(c), None) => (c, b),
+            (None, Some(c)) => (c, a),
+            _ => return None,
+        };
+        let (d, x) = scaled(g, other);
+        let product = combined(Operator::Multiply, c, d);
+        (x != other && product.value.is_normal()).then(|| times(g, product, x))
+    }),
+    rule("a (1 / a) = 1, a (b / a) = b", "a is not zero", |g, a, b| match (quotient(g, a), quotient(g, b)) {
+        (Some((x, y)), _) if y == b => Some(x),
+        (_, Some((x, y))) if y == a => Some(x),
+        _ => None,
+    }),
+    rule("sqrt(a) sqrt(a) = a", "a is not negative", |g, a, b| match g.node(a) {
+        Node::Unary(Unary::Sqrt, x) if a == b => Some(x),
+        _ => None,
+    }),
 ];
 
 const DIVIDE: &[Rule] = &[
     rule("a / 1 = a", "", |g, a, b| g.is(b, 1.0).then_some(a)),
-    rule("0 / a = 0", "a is not zero", |g, a, b| {
-        (g.is(a, 0.0) && !g.is(b, 0.0)).then(|| g.zero())
+    rule("0 / a = 0", "a is not zero", |g, a, b| (g.is(a, 0.0) && !g.is(b, 0.0)).then(|| g.zero())),
+    rule("a / a = 1", "a is not zero", |g, a, b| (a == b).then(|| g.constant(1.0))),
+    rule("a / c = (1 / c) a for a constant c", "1 / c is finite", |g, a, b| {
+        let reciprocal = combined(Operator::Divide, Evaluation::ONE, g.number(b)?);
+        let is_normal = reciprocal.value.is_normal();
+        is_normal.then(|| times(g, reciprocal, a))
     }),
-    rule("a / a = 1", "a is not zero", |g, a, b| {
-        (a == b).then(|| g.constant(1.0))
-    }),
-    rule(
-        "a / c = (1 / c) a for a constant c",
-        "1 / c is finite",
-        |g, a, b| {
-            let reciprocal = combined(Operator::Divide, Evaluation::ONE, g.number(b)?);
-            let is_normal = reciprocal.value.is_normal();
-            is_normal.then(|| times(g, reciprocal, a))
-        },
-    ),
-    rule("(-a) / b = -(a / b)", "", |g, a, b| {
-        match (negated(g, a), negated(g, b)) {
-            (Some(a), Some(b)) => Some(g.div(a, b)),
-            (Some(a), None) => {
-                let ratio = g.div(a, b);
-                Some(g.neg(ratio))
-            }
-            (None, Some(b)) => {
-                let ratio = g.div(a, b);
-                Some(g.neg(ratio))
-            }
-            (None, None) => None,
+    rule("(-a) / b = -(a / b)", "", |g, a, b| match (negated(g, a), negated(g, b)) {
+        (Some(a), Some(b)) => Some(g.div(a, b)),
+        (Some(a), None) => {
+            let ratio = g.div(a, b);
+            Some(g.neg(ratio))
         }
-    }),
-    rule("(a b) / b = a", "b is not zero", |g, a, b| {
-        match product(g, a) {
-            Some((x, y)) if y == b => Some(x),
-            Some((x, y)) if x == b => Some(y),
-            _ => None,
+        (None, Some(b)) => {
+            let ratio = g.div(a, b);
+            Some(g.neg(ratio))
         }
+        (None, None) => None,
     }),
-    rule(
-        "a / sqrt(a) = sqrt(a)",
-        "a is positive",
-        |g, a, b| match g.node(b) {
-            Node::Unary(Unary::Sqrt, x) if x == a => Some(b),
-            _ => None,
-        },
-    ),
+    rule("(a b) / b = a", "b is not zero", |g, a, b| match product(g, a) {
+        Some((x, y)) if y == b => Some(x),
+        Some((x, y)) if x == b => Some(y),
+        _ => None,
+    }),
+    rule("a / sqrt(a) = sqrt(a)", "a is positive", |g, a, b| match g.node(b) {
+        Node::Unary(Unary::Sqrt, x) if x == a => Some(b),
+        _ => None,
+    }),
 ];
 
 const NEGATE: &[Rule] = &[rule("-(-a) = a", "", |g, a, _| match g.node(a) {
@@ -301,12 +226,7 @@ const COS: &[Rule] = &[rule("cos(-a) = cos(a)", "", |g, a, _| {
 })];
 
 /// Simplifies `a op b`, if a rule applies.
-pub(super) fn simplify_binary(
-    g: &mut Graph,
-    operator: Operator,
-    a: ExprId,
-    b: ExprId,
-) -> Option<ExprId> {
+pub(super) fn simplify_binary(g: &mut Graph, operator: Operator, a: ExprId, b: ExprId) -> Option<ExprId> {
     if let (Some(x), Some(y)) = (g.number(a), g.number(b)) {
         let number = combined(operator, x, y);
         if number.value.is_finite() {
@@ -418,7 +338,5 @@ fn times(g: &mut Graph, factor: Evaluation, a: ExprId) -> ExprId {
 
 /// The node whose square is `a`.
 fn square(g: &Graph, a: ExprId) -> Option<Node> {
-    product(g, a)
-        .filter(|(x, y)| x == y)
-        .map(|(x, _)| g.node(x))
+    product(g, a).filter(|(x, y)| x == y).map(|(x, _)| g.node(x))
 }

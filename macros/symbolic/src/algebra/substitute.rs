@@ -7,11 +7,7 @@ use super::reached::Reached;
 use crate::base::ids::{ExprId, SymbolId};
 
 /// `roots` with each listed symbol replaced.
-pub fn substitute(
-    graph: &mut Graph,
-    roots: &[ExprId],
-    replacements: &[(SymbolId, ExprId)],
-) -> Vec<ExprId> {
+pub fn substitute(graph: &mut Graph, roots: &[ExprId], replacements: &[(SymbolId, ExprId)]) -> Vec<ExprId> {
     let mask = Graph::mask(replacements.iter().map(|(symbol, _)| *symbol));
     let known = graph.len();
     let changing = Reached::dependent_with_slopes(graph, roots, mask);
@@ -19,10 +15,9 @@ pub fn substitute(
     for &id in changing.nodes() {
         let replaced = match graph.node(id) {
             Node::Constant(_) => id,
-            Node::Symbol(symbol) => replacements
-                .iter()
-                .find(|(s, _)| *s == symbol)
-                .map_or(id, |(_, replacement)| *replacement),
+            Node::Symbol(symbol) => {
+                replacements.iter().find(|(s, _)| *s == symbol).map_or(id, |(_, replacement)| *replacement)
+            }
             Node::Unary(operator, a) => {
                 let a = image.get(a).unwrap_or(a);
                 graph.unary(operator, a)
@@ -43,14 +38,9 @@ pub fn substitute(
         let new = image.get(id).filter(|new| new.index() >= known);
         if let (Some(new), Some(slopes)) = (new, graph.given_slopes(id)) {
             let replaced = |id: ExprId| image.get(id).unwrap_or(id);
-            let slopes = slopes
-                .iter()
-                .map(|(by, slope)| (replaced(*by), replaced(*slope)));
+            let slopes = slopes.iter().map(|(by, slope)| (replaced(*by), replaced(*slope)));
             graph.set_slopes(new, slopes.collect());
         }
     }
-    roots
-        .iter()
-        .map(|&root| image.get(root).unwrap_or(root))
-        .collect()
+    roots.iter().map(|&root| image.get(root).unwrap_or(root)).collect()
 }

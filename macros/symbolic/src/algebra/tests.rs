@@ -24,9 +24,7 @@ impl Random {
 }
 
 fn symbols(g: &mut Graph, n: usize) -> (Vec<SymbolId>, Vec<ExprId>) {
-    (0..n)
-        .map(|i| g.symbol(format!("s{i}"), Stage::Design))
-        .unzip()
+    (0..n).map(|i| g.symbol(format!("s{i}"), Stage::Design)).unzip()
 }
 
 /// A random expression that is positive and of moderate size if its symbols are.
@@ -75,13 +73,10 @@ fn every_rule_fires_and_keeps_the_value() {
                 let mut g = Graph::new();
                 let (ids, leaves) = symbols(&mut g, 2);
                 let values = [0.3 + random.unit(), 0.3 + random.unit()];
-                let value =
-                    |g: &Graph, id| evaluate(g, &[id], |s| values[usize::from(s != ids[0])])[0];
+                let value = |g: &Graph, id| evaluate(g, &[id], |s| values[usize::from(s != ids[0])])[0];
                 let depth = 1 + random.below(2);
-                let (mut a, mut b) = (
-                    expression(&mut g, &mut random, &leaves, depth),
-                    expression(&mut g, &mut random, &leaves, depth),
-                );
+                let (mut a, mut b) =
+                    (expression(&mut g, &mut random, &leaves, depth), expression(&mut g, &mut random, &leaves, depth));
                 match random.below(7) {
                     0 => a = g.unary(Unary::Sqrt, b),
                     1 => b = g.unary(Unary::Sqrt, a),
@@ -122,11 +117,7 @@ fn every_rule_fires_and_keeps_the_value() {
                 fired += 1;
                 let got = value(&g, simple);
                 let scale = 1.0 + x.abs() + y.abs() + expected.abs();
-                assert!(
-                    (got - expected).abs() < 1e-12 * scale,
-                    "{}: {got} {expected}",
-                    rule.name
-                );
+                assert!((got - expected).abs() < 1e-12 * scale, "{}: {got} {expected}", rule.name);
                 let after = cost(&g, &[simple]);
                 assert!(after.operations <= nodes + 1, "{} costs more", rule.name);
                 assert!(after.functions <= functions, "{} costs more", rule.name);
@@ -161,10 +152,7 @@ fn derivatives_agree_with_complex_free_differences_and_each_other() {
                 eval(&g, root, &at)
             };
             let difference = (shifted(step) - shifted(-step)) / (2.0 * step);
-            assert!(
-                (forward - difference).abs() <= 1e-4 * (1.0 + forward.abs()),
-                "{forward} {difference}"
-            );
+            assert!((forward - difference).abs() <= 1e-4 * (1.0 + forward.abs()), "{forward} {difference}");
         }
     }
 }
@@ -187,18 +175,12 @@ fn elementary_functions_differentiate() {
         let root = g.unary(operator, leaves[0]);
         let slope = gradient(&mut g, root, &ids)[0];
         let got = evaluate(&g, &[slope], |_| at)[0];
-        assert!(
-            (got - expected).abs() < 1e-13 * expected.abs(),
-            "{operator:?}"
-        );
+        assert!((got - expected).abs() < 1e-13 * expected.abs(), "{operator:?}");
     }
     let mut g = Graph::new();
     let (ids, leaves) = symbols(&mut g, 2);
     for (operator, expected) in [
-        (
-            Operator::Power,
-            [1.3 * 0.7f64.powf(0.3), 0.7f64.powf(1.3) * 0.7f64.ln()],
-        ),
+        (Operator::Power, [1.3 * 0.7f64.powf(0.3), 0.7f64.powf(1.3) * 0.7f64.ln()]),
         (Operator::Atan2, [1.3 / (0.49 + 1.69), -0.7 / (0.49 + 1.69)]),
     ] {
         let root = g.binary(operator, leaves[0], leaves[1]);
@@ -217,10 +199,7 @@ fn substitution_simplifies() {
     let product = g.mul(leaves[0], leaves[1]);
     let root = g.add(product, leaves[1]);
     let zero = g.zero();
-    assert_eq!(
-        substitute(&mut g, &[root], &[(ids[0], zero)]),
-        vec![leaves[1]]
-    );
+    assert_eq!(substitute(&mut g, &[root], &[(ids[0], zero)]), vec![leaves[1]]);
 }
 
 #[test]
@@ -260,16 +239,9 @@ fn rotations_turn_symmetric_matrices() {
             let other = Matrix3::rotation(g, identity[random.below(3)], leaves[1]);
             rotation = rotation.multiply(g, other);
         }
-        let s: [[ExprId; 3]; 3] =
-            std::array::from_fn(|i| std::array::from_fn(|j| leaves[1 + (i + j) + i * j / 2]));
+        let s: [[ExprId; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| leaves[1 + (i + j) + i * j / 2]));
         let turned = rotation.turn_symmetric(g, s);
-        let roots: Vec<ExprId> = rotation
-            .0
-            .iter()
-            .flat_map(|c| c.0)
-            .chain(s.concat())
-            .chain(turned.concat())
-            .collect();
+        let roots: Vec<ExprId> = rotation.0.iter().flat_map(|c| c.0).chain(s.concat()).chain(turned.concat()).collect();
         let values: Vec<f64> = leaves.iter().map(|_| random.unit() + 0.3).collect();
         let all = evaluate(g, &roots, |symbol| values[symbol.index()]);
         let r = |i: usize, j: usize| all[3 * j + i];
@@ -282,10 +254,7 @@ fn rotations_turn_symmetric_matrices() {
                     }
                 }
                 let got = all[18 + 3 * i + j];
-                assert!(
-                    (got - sum).abs() < 1e-13,
-                    "case {case}, {i} {j}: {got} {sum}"
-                );
+                assert!((got - sum).abs() < 1e-13, "case {case}, {i} {j}: {got} {sum}");
             }
         }
     }
@@ -316,17 +285,12 @@ fn regrouping_keeps_values_and_saves_operations() {
     for _ in 0..300 {
         let g = &mut Graph::new();
         let (_, leaves) = symbols(g, 5);
-        let roots: Vec<ExprId> = (0..4)
-            .map(|_| expression(g, &mut random, &leaves, 6))
-            .collect();
+        let roots: Vec<ExprId> = (0..4).map(|_| expression(g, &mut random, &leaves, 6)).collect();
         let values: Vec<f64> = leaves.iter().map(|_| random.unit() + 0.5).collect();
         let regrouped = regroup(g, &roots);
         let at = |g: &Graph, roots: &[ExprId]| evaluate(g, roots, |s| values[s.index()]);
         for (one, other) in at(g, &roots).into_iter().zip(at(g, &regrouped)) {
-            assert!(
-                (one - other).abs() <= 1e-9 * one.abs().max(1.0),
-                "{one} {other}"
-            );
+            assert!((one - other).abs() <= 1e-9 * one.abs().max(1.0), "{one} {other}");
         }
         let (before, after) = (size(g, &roots), size(g, &regrouped));
         assert!(after <= before);
@@ -340,10 +304,7 @@ fn disturbed(g: &Graph, id: ExprId, x: f64) -> (f64, bool) {
     let roots = [id];
     let evaluator = Evaluator::new(g, &roots);
     let disturbed_value = evaluator.at(1, |_| Disturbed::exact(x))[0];
-    (
-        disturbed_value.value(),
-        disturbed_value.is_rounding(evaluator.operations()),
-    )
+    (disturbed_value.value(), disturbed_value.is_rounding(evaluator.operations()))
 }
 
 /// The rounding residue of constants that cancel cannot be recognised by its value alone.

@@ -92,9 +92,7 @@ impl Matrix3 {
     /// The identity.
     pub fn identity(g: &mut Graph) -> Self {
         let (zero, one) = (g.zero(), g.constant(1.0));
-        Self(std::array::from_fn(|j| {
-            Vector3(std::array::from_fn(|i| if i == j { one } else { zero }))
-        }))
+        Self(std::array::from_fn(|j| Vector3(std::array::from_fn(|i| if i == j { one } else { zero }))))
     }
 
     /// `self v`.
@@ -134,11 +132,7 @@ impl Matrix3 {
             }
             return turned;
         };
-        let Plane {
-            rows: [r, first, second],
-            columns: [c, a, b],
-            mirrored,
-        } = plane;
+        let Plane { rows: [r, first, second], columns: [c, a, b], mirrored } = plane;
         taken(|| format!("turn_symmetric: row {r}, column {c}, mirrored {mirrored}"));
         let axis = entry(r, c);
         let (p, q) = (entry(first, a), entry(first, b));
@@ -186,20 +180,14 @@ impl Matrix3 {
             } else {
                 return None;
             };
-            return Some(Plane {
-                rows: [r, first, second],
-                columns: [c, a, b],
-                mirrored,
-            });
+            return Some(Plane { rows: [r, first, second], columns: [c, a, b], mirrored });
         }
         None
     }
 
     /// The transpose, which is the inverse of a rotation.
     pub fn transpose(self) -> Self {
-        Self(std::array::from_fn(|j| {
-            Vector3(std::array::from_fn(|i| self.0[i].0[j]))
-        }))
+        Self(std::array::from_fn(|j| Vector3(std::array::from_fn(|i| self.0[i].0[j]))))
     }
 
     /// Rotation by `angle` about the unit vector `axis` (Rodrigues).

@@ -47,16 +47,8 @@ pub enum Unary {
 }
 
 /// Functions of one argument that have a name in the language.
-const NAMED: [Unary; 8] = [
-    Unary::Sqrt,
-    Unary::Sin,
-    Unary::Cos,
-    Unary::Tan,
-    Unary::Asin,
-    Unary::Acos,
-    Unary::Exp,
-    Unary::Ln,
-];
+const NAMED: [Unary; 8] =
+    [Unary::Sqrt, Unary::Sin, Unary::Cos, Unary::Tan, Unary::Asin, Unary::Acos, Unary::Exp, Unary::Ln];
 
 impl Operator {
     /// `a operator b`.

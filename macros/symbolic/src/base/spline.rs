@@ -70,11 +70,7 @@ impl Spline {
     /// Whether this derivative is zero everywhere.
     pub fn vanishes(self, derivative: u8) -> bool {
         let from = usize::from(derivative) + 1;
-        let mut coefficients = self
-            .0
-            .pieces
-            .iter()
-            .flat_map(|piece| piece.iter().skip(from));
+        let mut coefficients = self.0.pieces.iter().flat_map(|piece| piece.iter().skip(from));
         coefficients.all(|&coefficient| coefficient == 0.0)
     }
 
@@ -190,14 +186,8 @@ mod tests {
         for (&x, &y) in x.iter().zip(&y) {
             assert!((spline.at(x, 0) - y).abs() < 1e-14);
             for derivative in 0..3 {
-                let (before, after) = (
-                    spline.at(x - 1e-9, derivative),
-                    spline.at(x + 1e-9, derivative),
-                );
-                assert!(
-                    (before - after).abs() < 1e-6,
-                    "{x} {derivative}: {before} {after}"
-                );
+                let (before, after) = (spline.at(x - 1e-9, derivative), spline.at(x + 1e-9, derivative));
+                assert!((before - after).abs() < 1e-6, "{x} {derivative}: {before} {after}");
             }
         }
         assert_eq!((spline.at(-1.0, 2), spline.at(9.0, 2)), (0.0, 0.0));
@@ -210,22 +200,13 @@ mod tests {
     #[test]
     fn known_splines_come_back() {
         let spline = Spline::through("hat", &[0.0, 1.0, 2.0], &[0.0, 1.0, 6.0]);
-        let known = [
-            (0.0, 0.0, 0.0),
-            (0.5, 0.125, 0.75),
-            (1.5, 3.125, 5.25),
-            (2.0, 6.0, 6.0),
-            (3.0, 12.0, 6.0),
-        ];
+        let known = [(0.0, 0.0, 0.0), (0.5, 0.125, 0.75), (1.5, 3.125, 5.25), (2.0, 6.0, 6.0), (3.0, 12.0, 6.0)];
         for (x, value, slope) in known {
             assert!((spline.at(x, 0) - value).abs() < 1e-15, "{x}");
             assert!((spline.at(x, 1) - slope).abs() < 1e-15, "{x}");
         }
         let line = Spline::through("line", &[1.0, 3.0], &[2.0, 8.0]);
-        assert_eq!(
-            (line.at(0.0, 0), line.at(2.0, 0), line.at(5.0, 0)),
-            (-1.0, 5.0, 14.0)
-        );
+        assert_eq!((line.at(0.0, 0), line.at(2.0, 0), line.at(5.0, 0)), (-1.0, 5.0, 14.0));
         assert!(line.vanishes(2) && !line.vanishes(1) && !spline.vanishes(3));
     }
 }

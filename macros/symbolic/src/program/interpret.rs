@@ -18,19 +18,9 @@ impl Kernel {
     ///
     /// If the number or the lengths of the arguments do not match [`Kernel::parameters`].
     pub fn evaluate(&self, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
-        assert_eq!(
-            arguments.len(),
-            self.parameters.len(),
-            "arguments of `{}`",
-            self.name
-        );
+        assert_eq!(arguments.len(), self.parameters.len(), "arguments of `{}`", self.name);
         for (argument, parameter) in arguments.iter().zip(&self.parameters) {
-            assert_eq!(
-                argument.len(),
-                parameter.entries.len(),
-                "`{}`",
-                parameter.name
-            );
+            assert_eq!(argument.len(), parameter.entries.len(), "`{}`", parameter.name);
         }
         let mut values: Vec<f64> = Vec::with_capacity(self.instructions.len());
         let read = |values: &[f64], operand| match operand {
@@ -41,21 +31,10 @@ impl Kernel {
         for instruction in &self.instructions {
             let value = match instruction.operation {
                 Operation::Unary(operator, a) => operator.apply(read(&values, a)),
-                Operation::Binary(operator, a, b) => {
-                    operator.apply(read(&values, a), read(&values, b))
-                }
+                Operation::Binary(operator, a, b) => operator.apply(read(&values, a), read(&values, b)),
             };
             values.push(value);
         }
-        self.results
-            .iter()
-            .map(|array| {
-                array
-                    .values
-                    .iter()
-                    .map(|&operand| read(&values, operand))
-                    .collect()
-            })
-            .collect()
+        self.results.iter().map(|array| array.values.iter().map(|&operand| read(&values, operand)).collect()).collect()
     }
 }

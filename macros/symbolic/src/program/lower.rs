@@ -17,11 +17,7 @@ pub fn lower(graph: &Graph, functions: &[Function]) -> Program {
                 .iter()
                 .map(|parameter| Parameter {
                     name: parameter.name,
-                    entries: parameter
-                        .symbols
-                        .iter()
-                        .map(|&symbol| graph.symbol_info(symbol).name.clone())
-                        .collect(),
+                    entries: parameter.symbols.iter().map(|&symbol| graph.symbol_info(symbol).name.clone()).collect(),
                     scalar: parameter.scalar,
                 })
                 .collect();
@@ -29,30 +25,17 @@ pub fn lower(graph: &Graph, functions: &[Function]) -> Program {
             let needed = Reached::below(graph, &roots);
             let order = schedule(graph, &needed, &roots);
             let mut lowering = Lowering::new(graph, &needed, function);
-            let instructions = order
-                .into_iter()
-                .map(|id| lowering.instruction(id, stages[id.index()]))
-                .collect();
+            let instructions = order.into_iter().map(|id| lowering.instruction(id, stages[id.index()])).collect();
             let results = function
                 .results
                 .iter()
                 .map(|array| Array {
                     name: array.name,
                     shape: array.shape.clone(),
-                    values: array
-                        .values
-                        .iter()
-                        .map(|&id| lowering.operand(id))
-                        .collect(),
+                    values: array.values.iter().map(|&id| lowering.operand(id)).collect(),
                 })
                 .collect();
-            Kernel {
-                name: function.name,
-                parameters,
-                instructions,
-                results,
-                cost: function.cost(graph),
-            }
+            Kernel { name: function.name, parameters, instructions, results, cost: function.cost(graph) }
         })
         .collect();
     Program { kernels }
@@ -75,32 +58,20 @@ impl<'a> Lowering<'a> {
                 symbols[symbol.index()] = Some((position, entry));
             }
         }
-        Self {
-            graph,
-            needed,
-            symbols,
-            done: vec![0; needed.len()],
-            count: 0,
-        }
+        Self { graph, needed, symbols, done: vec![0; needed.len()], count: 0 }
     }
 
     fn instruction(&mut self, id: ExprId, stage: crate::algebra::Stage) -> Instruction {
         let operation = match self.graph.node(id) {
             Node::Unary(operator, a) => Operation::Unary(operator, self.operand(a)),
-            Node::Binary(operator, a, b) => {
-                Operation::Binary(operator, self.operand(a), self.operand(b))
-            }
+            Node::Binary(operator, a, b) => Operation::Binary(operator, self.operand(a), self.operand(b)),
             Node::Constant(_) | Node::Symbol(_) => unreachable!("leaves are operands"),
         };
         self.count += 1;
         if let Some(index) = self.needed.place(id) {
             self.done[index] = self.count;
         }
-        Instruction {
-            name: self.graph.given_name(id).cloned(),
-            stage,
-            operation,
-        }
+        Instruction { name: self.graph.given_name(id).cloned(), stage, operation }
     }
 
     fn operand(&self, id: ExprId) -> Operand {
@@ -116,8 +87,8 @@ impl<'a> Lowering<'a> {
     }
 
     fn parameter(&self, symbol: SymbolId) -> Operand {
-        let (position, entry) = self.symbols[symbol.index()]
-            .expect("a function takes every symbol that its results depend on");
+        let (position, entry) =
+            self.symbols[symbol.index()].expect("a function takes every symbol that its results depend on");
         Operand::Parameter(position, entry)
     }
 }

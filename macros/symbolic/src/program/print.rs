@@ -17,11 +17,8 @@ impl fmt::Display for Program {
 
 impl fmt::Display for Kernel {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let parameters: Vec<String> = self
-            .parameters
-            .iter()
-            .map(|p| format!("{}[{}]", p.name, p.entries.join(", ")))
-            .collect();
+        let parameters: Vec<String> =
+            self.parameters.iter().map(|p| format!("{}[{}]", p.name, p.entries.join(", "))).collect();
         writeln!(
             f,
             "{}({}): {} operations, {} functions",
@@ -64,13 +61,7 @@ impl fmt::Display for Kernel {
         }
         for array in &self.results {
             let values: Vec<String> = array.values.iter().map(|&v| text(v)).collect();
-            writeln!(
-                f,
-                "  {} {:?} = [{}]",
-                array.name,
-                array.shape,
-                values.join(", ")
-            )?;
+            writeln!(f, "  {} {:?} = [{}]", array.name, array.shape, values.join(", "))?;
         }
         Ok(())
     }

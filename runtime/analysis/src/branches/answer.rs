@@ -35,17 +35,13 @@ impl Answer for Branch {
     fn findings(&self) -> Findings {
         let (title, count) = (self.title(), self.points.len());
         let [first, last] = &self.ends;
-        let mut said = Findings::titled(format!(
-            "{title}: branch of {count} equilibria; begins: {first}; ends: {last}"
-        ));
+        let mut said =
+            Findings::titled(format!("{title}: branch of {count} equilibria; begins: {first}; ends: {last}"));
         let branches = slice::from_ref(self);
         let (moving, points) = (moving(self, branches), points(1, branches));
         let rows = self.rows_shown();
         let left_out = rows.len() < count;
-        let told = format!(
-            "{} of {count} equilibria are shown: {EVERYTHING}.",
-            rows.len()
-        );
+        let told = format!("{} of {count} equilibria are shown: {EVERYTHING}.", rows.len());
         said.columns(point_columns(self, &points, rows, &moving));
         moving.rest(&mut said);
         if left_out {
@@ -176,15 +172,13 @@ fn moving<'a>(one: &'a Branch, branches: &[Branch]) -> Moving<'a> {
 /// Points with the number of their branch, counted from `first`.
 fn points(first: usize, branches: &[Branch]) -> Vec<(usize, &BranchPoint)> {
     let each = branches.iter().zip(first..);
-    each.flat_map(|(branch, number)| branch.points.iter().map(move |point| (number, point)))
-        .collect()
+    each.flat_map(|(branch, number)| branch.points.iter().map(move |point| (number, point))).collect()
 }
 
 /// Special points with the number of their branch, counted from 1.
 fn special(branches: &[Branch]) -> Vec<(usize, &SpecialPoint)> {
     let each = branches.iter().zip(1..);
-    each.flat_map(|(branch, number)| branch.special.iter().map(move |point| (number, point)))
-        .collect()
+    each.flat_map(|(branch, number)| branch.special.iter().map(move |point| (number, point))).collect()
 }
 
 /// A row for each point; `one` is any branch of the same mechanism.
@@ -201,9 +195,7 @@ fn point_columns<'a>(
     varied(&mut table, d, one.input, number, &|(_, x)| x.value);
     table.unknowns(d, &|(_, x)| Some(&x.equilibrium.coordinates[..]));
     moving.columns(&mut table, &|(_, x)| Some(&x.equilibrium));
-    let stability = table.words("stability", &|(_, item)| {
-        Some(item.equilibrium.stability_word())
-    });
+    let stability = table.words("stability", &|(_, item)| Some(item.equilibrium.stability_word()));
     stability.shown().headed("state");
     table
 }
@@ -245,11 +237,7 @@ impl<'a> Stretch<'a> {
         each.flat_map(|(branch, number)| {
             let runs = branch.stretches().into_iter().enumerate();
             runs.filter_map(move |(i, (stability, run))| {
-                Some(Self {
-                    number: (i == 0).then_some(number),
-                    stability,
-                    ends: [run.first()?, run.last()?],
-                })
+                Some(Self { number: (i == 0).then_some(number), stability, ends: [run.first()?, run.last()?] })
             })
         })
         .collect()

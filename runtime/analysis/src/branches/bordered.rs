@@ -13,12 +13,7 @@ pub(crate) struct Bordered<const B: usize = 1> {
 impl<const B: usize> Bordered<B> {
     /// Factorises the matrix; `None` if it is singular up to rounding. `columns[j]` is the
     /// `j`-th added column, `rows[i]` the `i`-th added row.
-    pub(crate) fn new(
-        core: &Matrix,
-        columns: [&[f64]; B],
-        rows: [&[f64]; B],
-        corner: [[f64; B]; B],
-    ) -> Option<Self> {
+    pub(crate) fn new(core: &Matrix, columns: [&[f64]; B], rows: [&[f64]; B], corner: [[f64; B]; B]) -> Option<Self> {
         let n = core.row_count();
         let whole = Matrix::from_fn(n + B, n + B, |i, j| match (i < n, j < n) {
             (true, true) => core[i][j],
@@ -69,12 +64,7 @@ mod tests {
         ) else {
             panic!("regular")
         };
-        let full = [
-            [1.0, 2.0, 1.0, 0.0],
-            [2.0, 4.0, 0.5, 3.0],
-            [2.0, -1.0, 0.0, 1.0],
-            [0.3, 1.0, 0.5, 0.0],
-        ];
+        let full = [[1.0, 2.0, 1.0, 0.0], [2.0, 4.0, 0.5, 3.0], [2.0, -1.0, 0.0, 1.0], [0.3, 1.0, 0.5, 0.0]];
         let x = [1.0, -2.0, 3.0, 0.7];
         let forward: [f64; 4] = array::from_fn(|i| (0..4).map(|j| full[i][j] * x[j]).sum());
         let backward: [f64; 4] = array::from_fn(|j| (0..4).map(|i| full[i][j] * x[i]).sum());
@@ -94,8 +84,7 @@ mod tests {
     fn the_determinant_has_its_sign() {
         // det [1 2 1; 2 4 0; 0 1 0] = 2.
         let det = |last: f64| {
-            Bordered::new(&CORE.into(), [&[1.0, 0.0]], [&[0.0, last]], [[0.0]])
-                .map(|lu| lu.negative_determinant())
+            Bordered::new(&CORE.into(), [&[1.0, 0.0]], [&[0.0, last]], [[0.0]]).map(|lu| lu.negative_determinant())
         };
         assert_eq!(det(1.0), Some(false));
         assert_eq!(det(-1.0), Some(true));

@@ -49,11 +49,7 @@ struct Borders {
 
 impl Curve<'_> {
     /// Finds the branch point between two stations.
-    pub(crate) fn branch_point(
-        &self,
-        a: &CurvePoint,
-        b: &CurvePoint,
-    ) -> Result<Junction, ContinuationFailure> {
+    pub(crate) fn branch_point(&self, a: &CurvePoint, b: &CurvePoint) -> Result<Junction, ContinuationFailure> {
         let frame = &a.frame;
         let end = frame.local(&b.place);
         let (mut local, borders) = self.saddle(a, &end)?;
@@ -66,19 +62,13 @@ impl Curve<'_> {
         let reduced = self.reduced(frame, &local, 0.0, &borders)?;
         let [first, second] = directions(&reduced)?;
         let incoming_is_first = first.dot(&end).abs() >= second.dot(&end).abs();
-        let (incoming, other) = if incoming_is_first {
-            (first, second)
-        } else {
-            (second, first)
-        };
+        let (incoming, other) = if incoming_is_first { (first, second) } else { (second, first) };
         let incoming = incoming.scaled(if incoming.dot(&end) < 0.0 { -1.0 } else { 1.0 });
         let stationary = |direction: &CurvePosition| direction.p.abs() <= STATIONARY;
         let v = critical(&reduced.tangents).ok_or_else(not_simple)?;
         let pitchfork = |crossed| -> Result<SpecialKind, ContinuationFailure> {
             let known = (&borders, &reduced);
-            Ok(SpecialKind::Pitchfork {
-                supercritical: self.supercritical(frame, &local, known, [crossed, &v])?,
-            })
+            Ok(SpecialKind::Pitchfork { supercritical: self.supercritical(frame, &local, known, [crossed, &v])? })
         };
         let kind = match (stationary(&incoming), stationary(&other)) {
             (true, true) => return Err(not_simple()),
@@ -88,29 +78,16 @@ impl Curve<'_> {
         };
         let critical = frame.stretched(&v);
         // The branches pass each other at a distance of sqrt(mu / H).
-        let size = reduced
-            .hessian
-            .iter()
-            .flatten()
-            .fold(0.0, |most: f64, h| most.max(h.abs()));
+        let size = reduced.hessian.iter().flatten().fold(0.0, |most: f64, h| most.max(h.abs()));
         let gap = reduced.mu.abs() / size;
         let also = ACCEPTED * gap / CROSSING;
         let weights = frame.weights(&reduced.w);
         let special = self.special(kind, &position, (&critical.q, &weights), 1, Some(also))?;
-        Ok(Junction {
-            special,
-            frame: frame.at(position),
-            incoming,
-            other,
-        })
+        Ok(Junction { special, frame: frame.at(position), incoming, other })
     }
 
     /// Finds the saddle of `mu` between the origin of the frame and `end`, both on the branch.
-    fn saddle(
-        &self,
-        a: &CurvePoint,
-        end: &CurvePosition,
-    ) -> Result<(CurvePosition, Borders), ContinuationFailure> {
+    fn saddle(&self, a: &CurvePoint, end: &CurvePosition) -> Result<(CurvePosition, Borders), ContinuationFailure> {
         let frame = &a.frame;
         let mut borders = self.borders(a, end)?;
         let mut local = end.scaled(0.5);
@@ -128,10 +105,7 @@ impl Curve<'_> {
             }
             let [x, y] = reduced.gradient.map(|value| -value);
             let amounts = [(d * x - b * y) / det, (a * y - c * x) / det];
-            let step = reduced
-                .correction
-                .plus(amounts[0], &reduced.tangents[0])
-                .plus(amounts[1], &reduced.tangents[1]);
+            let step = reduced.correction.plus(amounts[0], &reduced.tangents[0]).plus(amounts[1], &reduced.tangents[1]);
             let size = step.norm();
             if !step.finite() {
                 return Err(not_simple());
@@ -168,14 +142,8 @@ impl Curve<'_> {
             let image = CurvePosition { q, p }.unit().ok_or_else(not_simple)?;
             left = (image.q, [image.p]);
         }
-        let second = right
-            .plus(-right.dot(&first), &first)
-            .unit()
-            .ok_or_else(not_simple)?;
-        Ok(Borders {
-            normals: [first, second],
-            column: unit(&left.0).ok_or_else(not_simple)?,
-        })
+        let second = right.plus(-right.dot(&first), &first).unit().ok_or_else(not_simple)?;
+        Ok(Borders { normals: [first, second], column: unit(&left.0).ok_or_else(not_simple)? })
     }
 
     /// `[Khat dg/du; n1^T]` near its sign change between the origin of the frame and `end`. Farther away, another
@@ -245,9 +213,7 @@ impl Curve<'_> {
             mu: mu + change,
             w,
             gradient: core::array::from_fn(|i| slopes[i] - bent[i].dot(&correction)),
-            hessian: bent
-                .each_ref()
-                .map(|bent| tangents.each_ref().map(|tangent| -bent.dot(tangent))),
+            hessian: bent.each_ref().map(|bent| tangents.each_ref().map(|tangent| -bent.dot(tangent))),
             correction,
             tangents,
         })
@@ -291,15 +257,11 @@ impl Curve<'_> {
                 let [x, y] = &reduced.tangents;
                 let rate = reduced.gradient[0] * along[0] + reduced.gradient[1] * along[1];
                 let amount = -reduced.mu / rate;
-                local = local
-                    .plus(1.0, &reduced.correction)
-                    .plus(amount * along[0], x)
-                    .plus(amount * along[1], y);
+                local = local.plus(1.0, &reduced.correction).plus(amount * along[0], x).plus(amount * along[1], y);
             }
             local.finite().then_some(local.p - at.p)
         };
-        let second =
-            |distance: f64| Some((input(distance)? + input(-distance)?) / distance.powi(2));
+        let second = |distance: f64| Some((input(distance)? + input(-distance)?) / distance.powi(2));
         // The fourth order cancels.
         let (Some(far), Some(near)) = (second(PROBE), second(0.5 * PROBE)) else {
             return Ok(None);
@@ -314,11 +276,7 @@ impl Curve<'_> {
         let linear = self.linear(curve_position).ok()?;
         let modes = solve_modes(&linear, Family::General, &self.description, 0.0).ok()?;
         let behaviours = modes.modes.iter().map(|mode| mode.behaviour);
-        Some(
-            behaviours
-                .filter(|behaviour| matches!(behaviour, Behaviour::Divergent(_)))
-                .count(),
-        )
+        Some(behaviours.filter(|behaviour| matches!(behaviour, Behaviour::Divergent(_))).count())
     }
 }
 
@@ -353,9 +311,6 @@ fn critical([x, y]: &[CurvePosition; 2]) -> Option<CurvePosition> {
 }
 
 fn unit(x: &[f64]) -> Option<Vector> {
-    let direction = CurvePosition {
-        q: x.into(),
-        p: 0.0,
-    };
+    let direction = CurvePosition { q: x.into(), p: 0.0 };
     direction.unit().map(|normalised| normalised.q)
 }

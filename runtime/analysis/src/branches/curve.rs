@@ -6,8 +6,7 @@ use super::settings::Continuation;
 use crate::algebra::{Matrix, Vector, add_to, all_finite};
 use crate::constraints::{Structure, redundant_rows};
 use crate::equilibrium::{
-    ACCEPTED, Failure, OperatingPoint, Policy, SolvedState, Verdict, constraint_state, judge,
-    relative_residual, solve,
+    ACCEPTED, Failure, OperatingPoint, Policy, SolvedState, Verdict, constraint_state, judge, relative_residual, solve,
 };
 use crate::error::NotFound;
 use crate::free::{FreeDirections, Held};
@@ -89,9 +88,7 @@ impl<'a> Curve<'a> {
         Ok(Self {
             mechanism,
             structure: Structure::of(&description),
-            large: Vector::from_fn(description.coordinates.len(), |i| {
-                settings.size * description.large(i)
-            }),
+            large: Vector::from_fn(description.coordinates.len(), |i| settings.size * description.large(i)),
             dropped: Vec::new(),
             place: FreeDirections::default(),
             description,
@@ -114,9 +111,7 @@ impl<'a> Curve<'a> {
 
     /// The operating point at these inputs, with all constraints.
     pub(crate) fn operating_point<'b>(&'b self, inputs: &'b [f64]) -> OperatingPoint<'b> {
-        OperatingPoint::unchecked(self.mechanism, inputs, self.design)
-            .held_like(&self.place)
-            .placed(&self.place)
+        OperatingPoint::unchecked(self.mechanism, inputs, self.design).held_like(&self.place).placed(&self.place)
     }
 
     /// The curve prepared for branches near a state. In a singular configuration more constraints look redundant than
@@ -131,16 +126,11 @@ impl<'a> Curve<'a> {
             self.place = beside.map_or_else(|| state.free.clone(), |beside| beside.state.free);
         }
         if self.structure.constraints() > 1 {
-            let redundant =
-                |state: &Equilibrium| redundant_rows(&state.linear.stiffness, self.structure);
+            let redundant = |state: &Equilibrium| redundant_rows(&state.linear.stiffness, self.structure);
             self.dropped = if state.constraints.singular {
-                let beside = NUDGES
-                    .iter()
-                    .filter_map(|&share| self.beside(state, share).ok());
+                let beside = NUDGES.iter().filter_map(|&share| self.beside(state, share).ok());
                 let mut regular = beside.filter(|beside| !beside.state.constraints.singular);
-                regular
-                    .next()
-                    .map_or_else(Vec::new, |beside| redundant(&beside.state))
+                regular.next().map_or_else(Vec::new, |beside| redundant(&beside.state))
             } else {
                 redundant(state)
             };
@@ -168,20 +158,15 @@ impl<'a> Curve<'a> {
 
     /// The mechanism linearised at a point.
     pub(crate) fn linear(&self, at: &CurvePosition) -> Result<Linear, ContinuationFailure> {
-        self.operating_point(&self.inputs_at(at.p))
-            .linear(&at.q)
-            .map_err(ContinuationFailure::Refused)
+        self.operating_point(&self.inputs_at(at.p)).linear(&at.q).map_err(ContinuationFailure::Refused)
     }
 
     pub(crate) fn system(&self, at: &CurvePosition) -> Result<System, ContinuationFailure> {
         let inputs = self.inputs_at(at.p);
         let point = self.operating_point(&inputs).without(&self.dropped);
-        let (residual, stiffness) = point
-            .evaluate(&at.q)
-            .ok_or_else(|| ContinuationFailure::OutsideDomain(at.q.clone()))?;
-        let (by_inputs, _) = point
-            .mechanism
-            .residual_partials(&at.q, &inputs, self.design);
+        let (residual, stiffness) =
+            point.evaluate(&at.q).ok_or_else(|| ContinuationFailure::OutsideDomain(at.q.clone()))?;
+        let (by_inputs, _) = point.mechanism.residual_partials(&at.q, &inputs, self.design);
         let mut by_input = by_inputs.column(self.settings.input.index());
         for (held, column) in point.held.iter().zip(&self.place.columns) {
             if let Some(by_input_of_value) = held.by_input.get(self.settings.input.index()) {
@@ -194,11 +179,7 @@ impl<'a> Curve<'a> {
             }
         }
         if all_finite(&by_input) {
-            Ok(System {
-                residual,
-                stiffness,
-                by_input,
-            })
+            Ok(System { residual, stiffness, by_input })
         } else {
             Err(ContinuationFailure::OutsideDomain(at.q.clone()))
         }
@@ -219,22 +200,10 @@ impl<'a> Curve<'a> {
             &self.inputs_at(at.p),
             self.design,
             w,
-            [
-                &direction.q,
-                &along,
-                &Vector::zeros(self.design.len()),
-                &Vector::zeros(self.size()),
-            ],
+            [&direction.q, &along, &Vector::zeros(self.design.len()), &Vector::zeros(self.size())],
         );
-        let curve_position = CurvePosition {
-            q: gradient.coordinates,
-            p: gradient.inputs[input],
-        };
-        if curve_position.finite() {
-            Ok(curve_position)
-        } else {
-            Err(ContinuationFailure::OutsideDomain(at.q.clone()))
-        }
+        let curve_position = CurvePosition { q: gradient.coordinates, p: gradient.inputs[input] };
+        if curve_position.finite() { Ok(curve_position) } else { Err(ContinuationFailure::OutsideDomain(at.q.clone())) }
     }
 
     /// The equilibrium at a point of the branch. If the usual relative residual is not small, the residual is compared
@@ -262,16 +231,10 @@ impl<'a> Curve<'a> {
         }
         let point = self.operating_point(&inputs);
         let linear = point.linear(&at.q).map_err(ContinuationFailure::Refused)?;
-        let residual = if self.dropped.contains(&true) {
-            point.residual(&at.q)
-        } else {
-            system.residual.clone()
-        };
+        let residual = if self.dropped.contains(&true) { point.residual(&at.q) } else { system.residual.clone() };
         let mut relative = relative_residual(&point, &at.q, &residual, &linear.stiffness);
         if relative.is_nan() || relative > ACCEPTED {
-            relative = self
-                .with_input(&at.q, system)
-                .min(also.unwrap_or(f64::INFINITY));
+            relative = self.with_input(&at.q, system).min(also.unwrap_or(f64::INFINITY));
         }
         if relative > ACCEPTED {
             return Err(ContinuationFailure::Refused(Failure::NotFound {
@@ -281,8 +244,7 @@ impl<'a> Curve<'a> {
                 relative,
             }));
         }
-        let constraints = constraint_state(&point, &at.q, &residual, &linear)
-            .map_err(ContinuationFailure::Refused)?;
+        let constraints = constraint_state(&point, &at.q, &residual, &linear).map_err(ContinuationFailure::Refused)?;
         let verdict = if constraints.singular {
             Verdict::undecided()
         } else {
@@ -292,8 +254,7 @@ impl<'a> Curve<'a> {
                 design: self.design,
                 residual: &residual,
             };
-            judge(self.mechanism, &checked_state, &linear, &[])
-                .map_err(ContinuationFailure::Refused)?
+            judge(self.mechanism, &checked_state, &linear, &[]).map_err(ContinuationFailure::Refused)?
         };
         let mut state = Equilibrium::blank(&self.description, &inputs, self.design);
         state.pose = pose;
@@ -340,26 +301,15 @@ impl<'a> Curve<'a> {
     fn with_input(&self, q: &[f64], system: &System) -> f64 {
         (0..q.len()).fold(0.0, |most: f64, i| {
             let input = system.by_input[i].abs() * self.settings.range();
-            let scale = (0..q.len()).fold(input, |sum, j| {
-                sum + system.stiffness[i][j].abs() * (self.large[j] + q[j].abs())
-            });
+            let scale =
+                (0..q.len()).fold(input, |sum, j| sum + system.stiffness[i][j].abs() * (self.large[j] + q[j].abs()));
             let residual = system.residual[i].abs();
-            most.max(if residual > 0.0 {
-                residual / (SMALL * scale)
-            } else {
-                0.0
-            })
+            most.max(if residual > 0.0 { residual / (SMALL * scale) } else { 0.0 })
         })
     }
 
     pub(crate) fn frame(&self, at: &CurvePosition, system: &System) -> Frame {
-        Frame::new(
-            at.clone(),
-            &self.large,
-            self.settings.range(),
-            system,
-            self.structure.motions(),
-        )
+        Frame::new(at.clone(), &self.large, self.settings.range(), system, self.structure.motions())
     }
 
     /// Solves `g = 0` on the plane through `from` with normal `normal` (both local), no farther than `reach` from it.
@@ -378,12 +328,7 @@ impl<'a> Curve<'a> {
             let position = frame.place(&local);
             let system = self.system(&position)?;
             if last <= LAST_STEP || stalled {
-                return Ok(Corrected {
-                    local,
-                    place: position,
-                    system,
-                    iterations,
-                });
+                return Ok(Corrected { local, place: position, system, iterations });
             }
             if iterations == most {
                 break;
@@ -412,12 +357,7 @@ impl<'a> Curve<'a> {
         if last <= ROUNDING {
             let position = frame.place(&local);
             let system = self.system(&position)?;
-            return Ok(Corrected {
-                local,
-                place: position,
-                system,
-                iterations: most,
-            });
+            return Ok(Corrected { local, place: position, system, iterations: most });
         }
         Err(ContinuationFailure::Missed(NotFound::Diverges))
     }
@@ -425,10 +365,5 @@ impl<'a> Curve<'a> {
 
 /// `[Khat dg/du; normal^T]`.
 pub(crate) fn plane(scaled: &System, normal: &CurvePosition) -> Option<Bordered> {
-    Bordered::new(
-        &scaled.stiffness,
-        [&scaled.by_input],
-        [&normal.q],
-        [[normal.p]],
-    )
+    Bordered::new(&scaled.stiffness, [&scaled.by_input], [&normal.q], [[normal.p]])
 }

@@ -82,11 +82,7 @@ impl Curve<'_> {
                 ^ (oriented && self.flips(&judged.state.free))
                 ^ turned,
             turned,
-            negative: if vertical {
-                None
-            } else {
-                negative(&judged.state.linear, &self.description)
-            },
+            negative: if vertical { None } else { negative(&judged.state.linear, &self.description) },
         };
         // Cramer: sign det Khat = sign t_p sign det [Khat dg/du; t^T].
         let odd = signs.falling != signs.crossed;
@@ -104,15 +100,10 @@ impl Curve<'_> {
     }
 
     /// The first station of a branch, with its tangent towards the high end of the range.
-    pub(crate) fn first_station(
-        &self,
-        judged: SolvedState,
-    ) -> Result<CurvePoint, ContinuationFailure> {
+    pub(crate) fn first_station(&self, judged: SolvedState) -> Result<CurvePoint, ContinuationFailure> {
         let equilibrium = &judged.state;
-        let position = CurvePosition {
-            q: equilibrium.coordinates.clone(),
-            p: equilibrium.inputs[self.settings.input.index()],
-        };
+        let position =
+            CurvePosition { q: equilibrium.coordinates.clone(), p: equilibrium.inputs[self.settings.input.index()] };
         let system = self.system(&position)?;
         let frame = self.frame(&position, &system);
         let scaled = frame.scaled(&system);
@@ -146,8 +137,7 @@ impl Curve<'_> {
     /// `det(K + C R^T) = det(K + W Z^T) det(W^T C) det(R^T Z)` up to positive factors.
     fn flips(&self, free: &FreeDirections) -> bool {
         let place = &self.place;
-        negative_product(&free.balances, &place.columns)
-            ^ negative_product(&place.rows, &free.motions)
+        negative_product(&free.balances, &place.columns) ^ negative_product(&place.rows, &free.motions)
     }
 }
 
@@ -156,17 +146,10 @@ impl Curve<'_> {
 fn turned(state: &Equilibrium, before: Option<&CurvePoint>) -> Result<bool, ContinuationFailure> {
     let (free, mass) = (&state.free, &state.linear.mass);
     let Some(before) = before else {
-        return Ok(negative_product(
-            &free.balances,
-            &moved(mass, &free.motions),
-        ));
+        return Ok(negative_product(&free.balances, &moved(mass, &free.motions)));
     };
     let last = &before.equilibrium.free;
-    let turns = [
-        (&last.balances, &free.balances),
-        (&last.motions, &free.motions),
-    ]
-    .map(|(a, b)| cosine(mass, a, b));
+    let turns = [(&last.balances, &free.balances), (&last.motions, &free.motions)].map(|(a, b)| cosine(mass, a, b));
     if turns.iter().flatten().any(|turn| turn.abs() < TURN) {
         return Err(ContinuationFailure::Missed(NotFound::BendsSharply));
     }
@@ -208,11 +191,7 @@ impl CurvePoint {
     pub(crate) fn reversed(&self) -> Self {
         Self {
             tangent: self.tangent.scaled(-1.0),
-            signs: Signs {
-                falling: !self.signs.falling,
-                crossed: !self.signs.crossed,
-                ..self.signs
-            },
+            signs: Signs { falling: !self.signs.falling, crossed: !self.signs.crossed, ..self.signs },
             ..self.clone()
         }
     }
@@ -220,8 +199,7 @@ impl CurvePoint {
     /// Whether the determinant of `Khat` (reduced by constraints) is positive and, if it is symmetric, every eigenvalue
     /// is.
     pub(crate) fn stiff(&self) -> bool {
-        self.signs.falling == self.signs.crossed
-            && self.signs.negative.is_none_or(|count| count == 0)
+        self.signs.falling == self.signs.crossed && self.signs.negative.is_none_or(|count| count == 0)
     }
 
     /// Tangent in SI units.
@@ -243,8 +221,7 @@ fn negative(linear: &Linear, description: &Description) -> Option<usize> {
 
 /// Whether `Khat` has modes of its own: it is symmetric, and none of it belongs to speeds.
 pub(crate) fn symmetric_to_rounding(linear: &Linear, description: &Description) -> bool {
-    Structure::of(description).holonomic()
-        && (description.symmetric_stiffness || asymmetry(&linear.stiffness) <= 1e-11)
+    Structure::of(description).holonomic() && (description.symmetric_stiffness || asymmetry(&linear.stiffness) <= 1e-11)
 }
 
 #[cfg(test)]

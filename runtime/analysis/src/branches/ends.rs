@@ -40,11 +40,7 @@ impl Curve<'_> {
     }
 
     pub(crate) fn end_at(&self, bound: f64) -> BranchEnd {
-        if bound == self.settings.bounds().0 {
-            BranchEnd::Low
-        } else {
-            BranchEnd::High
-        }
+        if bound == self.settings.bounds().0 { BranchEnd::Low } else { BranchEnd::High }
     }
 
     /// The end of the range at which a station is about to leave it.
@@ -79,20 +75,14 @@ impl Curve<'_> {
         outside: &Corrected,
         bound: f64,
     ) -> Result<Corrected, ContinuationFailure> {
-        let target = at.frame.local(&CurvePosition {
-            p: bound,
-            ..at.place.clone()
-        });
+        let target = at.frame.local(&CurvePosition { p: bound, ..at.place.clone() });
         let share = target.p / outside.local.p;
         // A step that turns back between the points would land on the wrong side of the turn.
         if at.tangent.p * outside.local.p <= 0.0 || !(0.0..=1.0).contains(&share) {
             return Err(ContinuationFailure::Missed(NotFound::TurnsBack));
         }
         let from = outside.local.scaled(share);
-        let input = CurvePosition {
-            q: Vector::zeros(self.size()),
-            p: 1.0,
-        };
+        let input = CurvePosition { q: Vector::zeros(self.size()), p: 1.0 };
         let mut landed = self.correct(&at.frame, &from, &input, 0.5 * outside.local.norm())?;
         landed.place.p = bound;
         landed.system = self.system(&landed.place)?;
@@ -104,11 +94,7 @@ impl Curve<'_> {
     pub(super) fn last_step(&self, at: &CurvePoint) -> Option<LastStep> {
         let (least, most) = self.settings.bounds();
         let away = |bound: f64| (bound - at.place.p) / self.settings.range();
-        let bound = if away(least).abs() < away(most).abs() {
-            least
-        } else {
-            most
-        };
+        let bound = if away(least).abs() < away(most).abs() { least } else { most };
         if away(bound) == 0.0 {
             return Some((None, self.end_at(bound)));
         }
@@ -119,12 +105,7 @@ impl Curve<'_> {
         let mut position = at.frame.place(&step);
         position.p = bound;
         let system = self.system(&position).ok()?;
-        let corrected = Corrected {
-            local: step,
-            place: position,
-            system,
-            iterations: 0,
-        };
+        let corrected = Corrected { local: step, place: position, system, iterations: 0 };
         let station = self.arrive_singular(&corrected, at).ok()?;
         Some((Some(station), self.end_at(bound)))
     }
@@ -137,12 +118,10 @@ impl Curve<'_> {
                 coordinates: q.to_vec(),
             }),
             ContinuationFailure::Unphysical(error) => BranchEnd::Domain(error),
-            ContinuationFailure::Refused(
-                failure @ (Failure::OutsideDomain { .. } | Failure::BentTooFar(_)),
-            ) => BranchEnd::Domain(failure.explain(&self.description)),
-            ContinuationFailure::Refused(failure) => {
-                BranchEnd::Lost(failure.explain(&self.description))
+            ContinuationFailure::Refused(failure @ (Failure::OutsideDomain { .. } | Failure::BentTooFar(_))) => {
+                BranchEnd::Domain(failure.explain(&self.description))
             }
+            ContinuationFailure::Refused(failure) => BranchEnd::Lost(failure.explain(&self.description)),
             ContinuationFailure::Missed(reason) => {
                 let input = &self.description.inputs[self.settings.input.index()];
                 BranchEnd::Lost(Error::BranchLost {

@@ -19,10 +19,7 @@ const NUDGE: f64 = 1e-6;
 
 /// A state without the modes that its judgement may have needed.
 fn unjudged(state: Equilibrium) -> SolvedState {
-    SolvedState {
-        state,
-        modes: Vec::new(),
-    }
+    SolvedState { state, modes: Vec::new() }
 }
 
 /// A branch and its branch points, each with a flag that tells whether the branch is an arm that ends there.
@@ -161,11 +158,10 @@ fn rest_where_the_input_stands(points: &mut [BranchPoint]) {
 impl Curve<'_> {
     /// The station at an equilibrium, or next to it if branches cross there.
     pub(crate) fn begin(&self, state: &Equilibrium) -> Result<CurvePoint, ContinuationFailure> {
-        self.first_station(unjudged(state.clone()))
-            .or_else(|trouble| match self.beside(state, NUDGE) {
-                Ok(beside) => self.first_station(beside),
-                Err(_) => Err(trouble),
-            })
+        self.first_station(unjudged(state.clone())).or_else(|trouble| match self.beside(state, NUDGE) {
+            Ok(beside) => self.first_station(beside),
+            Err(_) => Err(trouble),
+        })
     }
 
     /// The branch through a station, followed in both directions, and its junctions.
@@ -181,12 +177,7 @@ impl Curve<'_> {
 
     /// Joins two walks from one place into a branch.
     fn joined(&self, back: Walk, start: Option<BranchPoint>, front: Walk) -> Followed {
-        let mut points: Vec<_> = back
-            .points
-            .into_iter()
-            .rev()
-            .map(BranchPoint::reversed)
-            .collect();
+        let mut points: Vec<_> = back.points.into_iter().rev().map(BranchPoint::reversed).collect();
         points.extend(start);
         points.extend(front.points);
         rest_where_the_input_stands(&mut points);
@@ -240,10 +231,7 @@ impl Curve<'_> {
                 continue;
             };
             if all_branches.len() >= self.settings.max_branches {
-                return Branches {
-                    branches: all_branches,
-                    truncated: true,
-                };
+                return Branches { branches: all_branches, truncated: true };
             }
             for (junction, ends_arm) in junctions {
                 let near = |known: &CurvePosition| junction.frame.local(known).norm() <= SAME;
@@ -267,16 +255,10 @@ impl Curve<'_> {
             let stopped = branch.ends.contains(&BranchEnd::Stopped);
             all_branches.push(branch);
             if stopped {
-                return Branches {
-                    branches: all_branches,
-                    truncated: true,
-                };
+                return Branches { branches: all_branches, truncated: true };
             }
         }
-        Branches {
-            branches: all_branches,
-            truncated: false,
-        }
+        Branches { branches: all_branches, truncated: false }
     }
 
     /// The branch of a lead; `None` if there is none or it is already known.
@@ -312,28 +294,15 @@ impl Curve<'_> {
                     return None;
                 }
                 let front = ahead.map(|station| from(junction, &station));
-                let closed = front
-                    .as_ref()
-                    .is_some_and(|walk| walk.end == BranchEnd::Closed);
-                let back = behind
-                    .filter(|_| !closed)
-                    .map(|station| from(junction, &station));
+                let closed = front.as_ref().is_some_and(|walk| walk.end == BranchEnd::Closed);
+                let back = behind.filter(|_| !closed).map(|station| from(junction, &station));
                 if front.is_none() && back.is_none() {
                     return None;
                 }
-                let stopped = || {
-                    nothing(if closed {
-                        BranchEnd::Closed
-                    } else {
-                        BranchEnd::BranchPoint
-                    })
-                };
+                let stopped = || nothing(if closed { BranchEnd::Closed } else { BranchEnd::BranchPoint });
                 let index = back.as_ref().map_or(0, |walk| walk.special.len());
-                let (branch, junctions) = self.joined(
-                    back.unwrap_or_else(stopped),
-                    at(junction, direction),
-                    front.unwrap_or_else(stopped),
-                );
+                let (branch, junctions) =
+                    self.joined(back.unwrap_or_else(stopped), at(junction, direction), front.unwrap_or_else(stopped));
                 (branch, junctions, index)
             }
         };
@@ -351,10 +320,5 @@ fn junction_of(lead: &Lead) -> Option<&Junction> {
 }
 
 fn nothing(end: BranchEnd) -> Walk {
-    Walk {
-        points: Vec::new(),
-        special: Vec::new(),
-        junctions: Vec::new(),
-        end,
-    }
+    Walk { points: Vec::new(), special: Vec::new(), junctions: Vec::new(), end }
 }

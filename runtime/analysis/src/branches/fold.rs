@@ -29,11 +29,7 @@ impl Curve<'_> {
         // The input component of the tangent falls to zero on the way.
         let (p_a, p_b) = (a.tangent.p, end_tangent.unit().map_or(0.0, |t| t.p));
         let fraction = p_a / (p_a - p_b);
-        let mut local = end.scaled(if (0.0..=1.0).contains(&fraction) {
-            fraction
-        } else {
-            0.5
-        });
+        let mut local = end.scaled(if (0.0..=1.0).contains(&fraction) { fraction } else { 0.5 });
         let mut v = a.tangent.plus(1.0, &end_tangent).q;
         let mut w = frame.scaled(&self.system(&a.place)?).by_input;
         let zeros = Vector::zeros(self.size());
@@ -41,36 +37,23 @@ impl Curve<'_> {
         for _ in 0..MAX_ITERATIONS {
             let position = frame.place(&local);
             let scaled = frame.scaled(&self.system(&position)?);
-            let (d, c) = (
-                unit(&v).ok_or_else(singular)?,
-                unit(&w).ok_or_else(singular)?,
-            );
-            let bordered =
-                Bordered::new(&scaled.stiffness, [&c], [&d], [[0.0]]).ok_or_else(singular)?;
+            let (d, c) = (unit(&v).ok_or_else(singular)?, unit(&w).ok_or_else(singular)?);
+            let bordered = Bordered::new(&scaled.stiffness, [&c], [&d], [[0.0]]).ok_or_else(singular)?;
             let (right, [h]) = bordered.solve(&zeros, [1.0]);
             let (left, _) = bordered.solve_transposed(&zeros, [1.0]);
             (v, w) = (right, left);
-            let along = frame.stretched(&CurvePosition {
-                q: v.clone(),
-                p: 0.0,
-            });
+            let along = frame.stretched(&CurvePosition { q: v.clone(), p: 0.0 });
             let weights = frame.weights(&w);
             if last <= LAST_STEP {
-                let special =
-                    self.special(SpecialKind::Fold, &position, (&along.q, &weights), 1, None)?;
+                let special = self.special(SpecialKind::Fold, &position, (&along.q, &weights), 1, None)?;
                 let direction = along.scaled(dot(&v, &end.q).signum());
                 return Ok((special, direction));
             }
             let slope = frame.stretched(&self.curvature(&position, &weights, &along)?);
             let slope = slope.scaled(-1.0);
-            let (q, [p]) = Bordered::new(
-                &scaled.stiffness,
-                [&scaled.by_input],
-                [&slope.q],
-                [[slope.p]],
-            )
-            .map(|lu| lu.solve(&scaled.residual.map(|value| -value), [-h]))
-            .ok_or_else(singular)?;
+            let (q, [p]) = Bordered::new(&scaled.stiffness, [&scaled.by_input], [&slope.q], [[slope.p]])
+                .map(|lu| lu.solve(&scaled.residual.map(|value| -value), [-h]))
+                .ok_or_else(singular)?;
             let step = CurvePosition { q, p };
             let size = step.norm();
             if !step.finite() {

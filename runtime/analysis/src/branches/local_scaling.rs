@@ -11,25 +11,16 @@ pub(crate) struct CurvePosition {
 
 impl CurvePosition {
     pub(crate) fn zero(n: usize) -> Self {
-        Self {
-            q: Vector::zeros(n),
-            p: 0.0,
-        }
+        Self { q: Vector::zeros(n), p: 0.0 }
     }
 
     /// `self + factor * other`.
     pub(crate) fn plus(&self, factor: f64, other: &Self) -> Self {
-        Self {
-            q: add_scaled(&self.q, factor, &other.q),
-            p: self.p + factor * other.p,
-        }
+        Self { q: add_scaled(&self.q, factor, &other.q), p: self.p + factor * other.p }
     }
 
     pub(crate) fn scaled(&self, factor: f64) -> Self {
-        Self {
-            q: self.q.map(|value| value * factor),
-            p: self.p * factor,
-        }
+        Self { q: self.q.map(|value| value * factor), p: self.p * factor }
     }
 
     pub(crate) fn dot(&self, other: &Self) -> f64 {
@@ -52,17 +43,11 @@ impl CurvePosition {
     }
 
     fn per(&self, units: &Self) -> Self {
-        Self {
-            q: Vector::from_fn(self.q.len(), |i| self.q[i] / units.q[i]),
-            p: self.p / units.p,
-        }
+        Self { q: Vector::from_fn(self.q.len(), |i| self.q[i] / units.q[i]), p: self.p / units.p }
     }
 
     fn by(&self, units: &Self) -> Self {
-        Self {
-            q: Vector::from_fn(self.q.len(), |i| self.q[i] * units.q[i]),
-            p: self.p * units.p,
-        }
+        Self { q: Vector::from_fn(self.q.len(), |i| self.q[i] * units.q[i]), p: self.p * units.p }
     }
 }
 
@@ -84,13 +69,7 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// The first `motions` unknowns are coordinates and speeds; the rest are reactions.
-    pub(crate) fn new(
-        origin: CurvePosition,
-        large: &[f64],
-        range: f64,
-        system: &System,
-        motions: usize,
-    ) -> Self {
+    pub(crate) fn new(origin: CurvePosition, large: &[f64], range: f64, system: &System, motions: usize) -> Self {
         let units = units(&origin, large, range, system, motions);
         let rows = Vector::from_fn(units.q.len(), |i| {
             let row = system.stiffness[i].iter().zip(&units.q);
@@ -98,11 +77,7 @@ impl Frame {
             let most = most.max((system.by_input[i] * range).abs());
             if most > 0.0 { most } else { 1.0 }
         });
-        Self {
-            origin,
-            units,
-            rows,
-        }
+        Self { origin, units, rows }
     }
 
     /// Length of a direction in SI units.
@@ -111,10 +86,7 @@ impl Frame {
     }
 
     pub(crate) fn at(&self, origin: CurvePosition) -> Self {
-        Self {
-            origin,
-            ..self.clone()
-        }
+        Self { origin, ..self.clone() }
     }
 
     pub(crate) fn place(&self, local: &CurvePosition) -> CurvePosition {
@@ -144,9 +116,7 @@ impl Frame {
         let n = self.rows.len();
         System {
             residual: self.weights(&system.residual),
-            stiffness: Matrix::from_fn(n, n, |i, j| {
-                system.stiffness[i][j] * self.units.q[j] / self.rows[i]
-            }),
+            stiffness: Matrix::from_fn(n, n, |i, j| system.stiffness[i][j] * self.units.q[j] / self.rows[i]),
             by_input: Vector::from_fn(n, |i| system.by_input[i] * self.units.p / self.rows[i]),
         }
     }
@@ -154,17 +124,9 @@ impl Frame {
 
 /// Units of the unknowns and the input. A reaction is measured by the work it does on a unit of the coordinates it
 /// holds, relative to the work of the other forces on all units: it weighs as much as the forces it balances.
-fn units(
-    curve_position: &CurvePosition,
-    large: &[f64],
-    range: f64,
-    system: &System,
-    motions: usize,
-) -> CurvePosition {
+fn units(curve_position: &CurvePosition, large: &[f64], range: f64, system: &System, motions: usize) -> CurvePosition {
     let mut units = CurvePosition {
-        q: Vector::from_fn(curve_position.q.len(), |i| {
-            large[i] + curve_position.q[i].abs()
-        }),
+        q: Vector::from_fn(curve_position.q.len(), |i| large[i] + curve_position.q[i].abs()),
         p: range,
     };
     let n = units.q.len();

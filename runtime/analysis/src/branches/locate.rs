@@ -36,9 +36,7 @@ impl Changes {
     }
 
     fn is(self, falling: bool, crossed: bool, negative: usize) -> bool {
-        self.falling == falling
-            && self.crossed == crossed
-            && self.negative.is_none_or(|count| count == negative)
+        self.falling == falling && self.crossed == crossed && self.negative.is_none_or(|count| count == negative)
     }
 }
 
@@ -83,12 +81,7 @@ impl Curve<'_> {
     }
 
     /// The single event that explains the changes, if one does.
-    fn simple(
-        &self,
-        a: &CurvePoint,
-        b: &CurvePoint,
-        changes: Changes,
-    ) -> Result<Option<Located>, ContinuationFailure> {
+    fn simple(&self, a: &CurvePoint, b: &CurvePoint, changes: Changes) -> Result<Option<Located>, ContinuationFailure> {
         if changes.crossed {
             let junction = match self.branch_point(a, b) {
                 Ok(junction) => junction,
@@ -130,16 +123,9 @@ impl Curve<'_> {
         Err(trouble)
     }
 
-    fn between(
-        &self,
-        a: &CurvePoint,
-        b: &CurvePoint,
-        fraction: f64,
-    ) -> Result<CurvePoint, ContinuationFailure> {
+    fn between(&self, a: &CurvePoint, b: &CurvePoint, fraction: f64) -> Result<CurvePoint, ContinuationFailure> {
         let end = a.frame.local(&b.place);
-        let normal = end
-            .unit()
-            .ok_or(ContinuationFailure::Missed(NotFound::Coincide))?;
+        let normal = end.unit().ok_or(ContinuationFailure::Missed(NotFound::Coincide))?;
         self.across(a, &end.scaled(fraction), &normal, 0.5 * end.norm())
     }
 
@@ -156,21 +142,10 @@ impl Curve<'_> {
     }
 
     /// Several events in one place, located where the mean of the eigenvalues that change sign is zero.
-    fn unresolved(
-        &self,
-        a: &CurvePoint,
-        b: &CurvePoint,
-        changes: Changes,
-    ) -> Result<Located, ContinuationFailure> {
+    fn unresolved(&self, a: &CurvePoint, b: &CurvePoint, changes: Changes) -> Result<Located, ContinuationFailure> {
         let end = a.frame.local(&b.place);
-        let normal = end
-            .unit()
-            .ok_or(ContinuationFailure::Missed(NotFound::Coincide))?;
-        let first = a
-            .signs
-            .negative
-            .zip(b.signs.negative)
-            .map_or(0, |(a, b)| a.min(b));
+        let normal = end.unit().ok_or(ContinuationFailure::Missed(NotFound::Coincide))?;
+        let first = a.signs.negative.zip(b.signs.negative).map_or(0, |(a, b)| a.min(b));
         let zero = changes.negative.unwrap_or(0).max(1);
         let mean = |station: &crate::Equilibrium| {
             let pairs = free_pairs(&station.linear, &self.description).ok()?;
@@ -178,21 +153,13 @@ impl Curve<'_> {
             Some(sum)
         };
         let mut fraction = 0.5;
-        if let (Some(at_low), Some(at_high), Some(2..)) =
-            (mean(&a.equilibrium), mean(&b.equilibrium), changes.negative)
+        if let (Some(at_low), Some(at_high), Some(2..)) = (mean(&a.equilibrium), mean(&b.equilibrium), changes.negative)
             && at_low * at_high < 0.0
         {
-            let bracket = Bracket {
-                low: 0.0,
-                high: 1.0,
-                at_low,
-                at_high,
-            };
+            let bracket = Bracket { low: 0.0, high: 1.0, at_low, at_high };
             fraction = refine(bracket, |trial| {
                 let from = end.scaled(trial);
-                let at = self
-                    .correct(&a.frame, &from, &normal, 0.5 * end.norm())
-                    .ok()?;
+                let at = self.correct(&a.frame, &from, &normal, 0.5 * end.norm()).ok()?;
                 let state = self.equilibrium(&at.place, &at.system, 0, None).ok()?.state;
                 let mean = mean(&state)?;
                 Some((mean, None))
@@ -205,11 +172,6 @@ impl Curve<'_> {
         };
         let shapes = (&*normal.q, &*normal.q);
         let special = self.degenerate(&position, &a.frame, shapes, zero)?;
-        Ok(Located {
-            special,
-            direction: a.frame.stretched(&normal),
-            junction: None,
-            ends_arm: false,
-        })
+        Ok(Located { special, direction: a.frame.stretched(&normal), junction: None, ends_arm: false })
     }
 }

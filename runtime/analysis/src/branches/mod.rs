@@ -164,8 +164,7 @@ impl Branch {
 
     fn is_special(&self, point: &BranchPoint) -> bool {
         self.special.iter().any(|special| {
-            special.value == point.value
-                && special.equilibrium.coordinates == point.equilibrium.coordinates
+            special.value == point.value && special.equilibrium.coordinates == point.equilibrium.coordinates
         })
     }
 }
@@ -184,11 +183,7 @@ pub struct Branches {
 impl Branches {
     /// Stable stretches of all branches, each with its branch.
     pub fn stable(&self) -> impl Iterator<Item = (&Branch, &[BranchPoint])> + '_ {
-        let stretches = |branch| {
-            Branch::stable(branch)
-                .into_iter()
-                .map(move |stretch| (branch, stretch))
-        };
+        let stretches = |branch| Branch::stable(branch).into_iter().map(move |stretch| (branch, stretch));
         self.branches.iter().flat_map(stretches)
     }
 

@@ -97,26 +97,17 @@ impl Continuation {
         } else if !positive(self.min_step) || !positive(self.max_step) {
             ("step", "it must be positive")
         } else if self.min_step > self.max_step || self.max_step > 1.0 {
-            (
-                "step",
-                "the least must not exceed the greatest, nor that the range",
-            )
+            ("step", "the least must not exceed the greatest, nor that the range")
         } else if !positive(self.size) {
             ("size", "it must be positive")
         } else if self.escape.is_nan() || self.escape <= 1.0 {
             ("escape", "it must be greater than one")
         } else if self.max_points == 0 || self.max_corrections < 2 || self.max_branches == 0 {
-            (
-                "limits",
-                "one point, one branch and two corrections are the least",
-            )
+            ("limits", "one point, one branch and two corrections are the least")
         } else {
             return Ok(());
         };
-        Err(Error::Setting {
-            setting,
-            reason: reason.to_owned(),
-        })
+        Err(Error::Setting { setting, reason: reason.to_owned() })
     }
 
     /// Width of the range, SI.

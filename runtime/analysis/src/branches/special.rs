@@ -37,15 +37,9 @@ impl fmt::Display for SpecialKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Fold => "fold",
-            Self::Pitchfork {
-                supercritical: Some(true),
-            } => "supercritical pitchfork",
-            Self::Pitchfork {
-                supercritical: Some(false),
-            } => "subcritical pitchfork",
-            Self::Pitchfork {
-                supercritical: None,
-            } => "pitchfork",
+            Self::Pitchfork { supercritical: Some(true) } => "supercritical pitchfork",
+            Self::Pitchfork { supercritical: Some(false) } => "subcritical pitchfork",
+            Self::Pitchfork { supercritical: None } => "pitchfork",
             Self::Transcritical => "transcritical",
             Self::Degenerate => "degenerate",
         })
@@ -107,25 +101,13 @@ impl Curve<'_> {
         also: Option<f64>,
     ) -> Result<SpecialPoint, ContinuationFailure> {
         let (least, most) = self.settings.bounds();
-        let curve_position = &CurvePosition {
-            q: curve_position.q.clone(),
-            p: curve_position.p.clamp(least, most),
-        };
-        let mut equilibrium = self
-            .equilibrium(curve_position, &self.system(curve_position)?, 0, also)?
-            .state;
+        let curve_position = &CurvePosition { q: curve_position.q.clone(), p: curve_position.p.clamp(least, most) };
+        let mut equilibrium = self.equilibrium(curve_position, &self.system(curve_position)?, 0, also)?.state;
         let (v, w) = normalised(&equilibrium.linear, self.structure, v, w)
             .ok_or(ContinuationFailure::Missed(NotFound::DependentVectors))?;
         equilibrium.free = self.place_at(curve_position);
         make_critical(&mut equilibrium, zero);
-        Ok(SpecialPoint {
-            kind,
-            input: self.settings.input,
-            value: curve_position.p,
-            equilibrium,
-            v,
-            w,
-        })
+        Ok(SpecialPoint { kind, input: self.settings.input, value: curve_position.p, equilibrium, v, w })
     }
 
     /// Like [`Self::special`], for a point that is not resolved further. The critical vector is the softest mode if
@@ -149,13 +131,7 @@ impl Curve<'_> {
             });
         let shapes = softest.as_deref().map_or(shapes, |v| (v, v));
         let residual = largest(&frame.weights(&self.system(curve_position)?.residual));
-        self.special(
-            SpecialKind::Degenerate,
-            curve_position,
-            shapes,
-            zero,
-            Some(residual),
-        )
+        self.special(SpecialKind::Degenerate, curve_position, shapes, zero, Some(residual))
     }
 }
 
@@ -170,18 +146,10 @@ const CHAINED: f64 = 1e-12;
 
 /// Scales the vectors so that `v^T M v = 1`, with the largest component of a motion positive, and `w^T M v = 1`, or
 /// `w^T M w = 1` where the former is zero.
-fn normalised(
-    linear: &Linear,
-    structure: Structure,
-    v: &[f64],
-    w: &[f64],
-) -> Option<(Vector, Vector)> {
+fn normalised(linear: &Linear, structure: Structure, v: &[f64], w: &[f64]) -> Option<(Vector, Vector)> {
     let motion = &v[..structure.motions()];
     let most = largest(motion);
-    let lead = motion
-        .iter()
-        .copied()
-        .find(|value| value.abs() >= most * (1.0 - 1e-9))?;
+    let lead = motion.iter().copied().find(|value| value.abs() >= most * (1.0 - 1e-9))?;
     let mass = critical_inertia(linear, structure, v);
     let length = form(v, &mass, v).sqrt() * lead.signum();
     let v = v.map(|value| value / length);
@@ -212,9 +180,7 @@ pub(crate) fn make_critical(at: &mut Equilibrium, zero: usize) {
     let mut lambda = pairs.lambda;
     lambda.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let (critical, others) = lambda.split_at(zero.min(lambda.len()));
-    at.rounding = critical
-        .iter()
-        .fold(at.rounding, |most, value| most.max(value.abs()));
+    at.rounding = critical.iter().fold(at.rounding, |most, value| most.max(value.abs()));
     let negative = others.iter().filter(|&&value| value < 0.0).count();
     let damped = description.damping != DampingKind::Zero;
     at.stability = match negative {

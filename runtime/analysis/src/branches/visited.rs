@@ -11,24 +11,17 @@ const CLOSE: f64 = 1e-6;
 impl Curve<'_> {
     /// Whether a point, or an equivalent one that differs by full turns, lies on one of the branches.
     pub(super) fn known(&self, branches: &[Branch], curve_position: &CurvePosition) -> bool {
-        branches
-            .iter()
-            .any(|branch| self.on(branch, curve_position))
+        branches.iter().any(|branch| self.on(branch, curve_position))
     }
 
     fn on(&self, branch: &Branch, curve_position: &CurvePosition) -> bool {
-        let at = |k: usize| CurvePosition {
-            q: branch.points[k].equilibrium.coordinates.clone(),
-            p: branch.points[k].value,
-        };
+        let at =
+            |k: usize| CurvePosition { q: branch.points[k].equilibrium.coordinates.clone(), p: branch.points[k].value };
         (1..branch.points.len()).any(|k| {
             let (from, to) = (at(k - 1), at(k));
-            let turned = CurvePosition {
-                q: turned_towards(&curve_position.q, &from.q, &self.description),
-                p: curve_position.p,
-            };
-            self.near(&from, &to, &turned)
-                && (turned == *curve_position || self.same(curve_position, &turned))
+            let turned =
+                CurvePosition { q: turned_towards(&curve_position.q, &from.q, &self.description), p: curve_position.p };
+            self.near(&from, &to, &turned) && (turned == *curve_position || self.same(curve_position, &turned))
         })
     }
 

@@ -54,19 +54,11 @@ impl Curve<'_> {
         mut pass: impl FnMut(&CurvePoint, &CurvePoint, &[Located]) -> Pass,
     ) -> Walk {
         let settings = self.settings;
-        let mut walk = Walk {
-            points: Vec::new(),
-            special: Vec::new(),
-            junctions: Vec::new(),
-            end: BranchEnd::PointLimit,
-        };
+        let mut walk =
+            Walk { points: Vec::new(), special: Vec::new(), junctions: Vec::new(), end: BranchEnd::PointLimit };
         let largest = |curve_position: &CurvePosition| {
-            let q = curve_position.q[..self.structure.motions()]
-                .iter()
-                .zip(&self.large);
-            q.fold(0.0, |most: f64, (value, large)| {
-                most.max((value / large).abs())
-            })
+            let q = curve_position.q[..self.structure.motions()].iter().zip(&self.large);
+            q.fold(0.0, |most: f64, (value, large)| most.max((value / large).abs()))
         };
         let far = settings.escape * (1.0 + largest(home));
         let mut at = start.clone();
@@ -90,15 +82,11 @@ impl Curve<'_> {
                 Err(trouble) => {
                     length *= 0.5;
                     // Near the edge of a domain, Newton's method fails for other reasons too.
-                    let reason = refused
-                        .take()
-                        .filter(ContinuationFailure::at_edge)
-                        .unwrap_or(trouble);
+                    let reason = refused.take().filter(ContinuationFailure::at_edge).unwrap_or(trouble);
                     if length.is_nan() || length < settings.min_step {
                         walk.end = match self.last_step(&at) {
                             Some((station, end)) => {
-                                walk.points
-                                    .extend(station.map(|station| self.point(&station)));
+                                walk.points.extend(station.map(|station| self.point(&station)));
                                 end
                             }
                             None => self.broken_off(reason, &at.equilibrium),
@@ -121,15 +109,10 @@ impl Curve<'_> {
                 }
                 Pass::On | Pass::Shorter => {}
             }
-            let growth = if refused.take().is_some() {
-                step.growth.min(1.0)
-            } else {
-                step.growth
-            };
+            let growth = if refused.take().is_some() { step.growth.min(1.0) } else { step.growth };
             for located in step.located {
                 let special = located.special;
-                walk.points
-                    .push(self.special_point(&special, &located.direction));
+                walk.points.push(self.special_point(&special, &located.direction));
                 walk.special.push(special.clone());
                 if let Some(junction) = located.junction {
                     let frame = at.frame.at(junction.frame.origin.clone());
@@ -167,27 +150,14 @@ impl Curve<'_> {
             // Equilibria form a continuum at one input: the mode along it is neutral.
             make_critical(&mut equilibrium, 1);
         }
-        BranchPoint {
-            value: station.place.p,
-            equilibrium,
-            tangent: direction.q,
-            input_tangent: direction.p,
-        }
+        BranchPoint { value: station.place.p, equilibrium, tangent: direction.q, input_tangent: direction.p }
     }
 
     /// A special point as a branch point of the branch that passes it in this direction (SI units).
-    pub(crate) fn special_point(
-        &self,
-        special: &SpecialPoint,
-        direction: &CurvePosition,
-    ) -> BranchPoint {
-        let curve_position = CurvePosition {
-            q: special.equilibrium.coordinates.clone(),
-            p: special.value,
-        };
-        let length = self.system(&curve_position).map_or(1.0, |system| {
-            self.frame(&curve_position, &system).length(direction)
-        });
+    pub(crate) fn special_point(&self, special: &SpecialPoint, direction: &CurvePosition) -> BranchPoint {
+        let curve_position = CurvePosition { q: special.equilibrium.coordinates.clone(), p: special.value };
+        let length =
+            self.system(&curve_position).map_or(1.0, |system| self.frame(&curve_position, &system).length(direction));
         let tangent = direction.scaled(1.0 / length);
         BranchPoint {
             value: special.value,
@@ -199,11 +169,7 @@ impl Curve<'_> {
 
     /// The first station of the branch that leaves a junction in a local direction; `None` if it leaves the range at
     /// once or cannot be followed.
-    pub(crate) fn depart(
-        &self,
-        junction: &Junction,
-        direction: &CurvePosition,
-    ) -> Option<CurvePoint> {
+    pub(crate) fn depart(&self, junction: &Junction, direction: &CurvePosition) -> Option<CurvePoint> {
         let frame = &junction.frame;
         DEPARTURES.iter().find_map(|share| {
             let length = share * self.settings.max_step;
@@ -211,8 +177,8 @@ impl Curve<'_> {
             let corrected = self.correct(frame, &from, direction, BEND * length).ok()?;
             let towards = frame.stretched(direction);
             let station = self.arrive(&corrected, &towards, None).ok()?;
-            let on = self.beyond(corrected.place.p).is_none()
-                && straight(&frame.direction(&station.direction()), direction);
+            let on =
+                self.beyond(corrected.place.p).is_none() && straight(&frame.direction(&station.direction()), direction);
             on.then_some(station)
         })
     }
@@ -259,12 +225,7 @@ impl Curve<'_> {
         } else {
             1.0
         };
-        Ok(Step {
-            station,
-            located,
-            end,
-            growth,
-        })
+        Ok(Step { station, located, end, growth })
     }
 
     pub(super) fn arrive(

@@ -43,12 +43,7 @@ use crate::{Description, Error, Input};
 /// # Ok::<(), eigentol::Error>(())
 /// ```
 #[must_use]
-pub fn campbell_table(
-    d: &Description,
-    inputs: &[f64],
-    input: Input,
-    points: &[CampbellPoint],
-) -> Table {
+pub fn campbell_table(d: &Description, inputs: &[f64], input: Input, points: &[CampbellPoint]) -> Table {
     let mut table = mode_table(d, input, points);
     table.operating_point(d, inputs, Some(input));
     table
@@ -94,14 +89,8 @@ impl<'a> Row<'a> {
         for point in points {
             let value = point.value;
             match &point.modes {
-                Ok(modes) => rows.extend(modes.iter().map(|mode| Self {
-                    value,
-                    mode: Ok(mode),
-                })),
-                Err(error) => rows.push(Self {
-                    value,
-                    mode: Err(error),
-                }),
+                Ok(modes) => rows.extend(modes.iter().map(|mode| Self { value, mode: Ok(mode) })),
+                Err(error) => rows.push(Self { value, mode: Err(error) }),
             }
         }
         rows
@@ -125,16 +114,12 @@ fn mode_table(d: &Description, input: Input, points: &[CampbellPoint]) -> Table 
     let mut table = Columns::new("Campbell diagram", &rows);
     varied(&mut table, d, input, given, &|row| row.value);
     table.whole("mode", &|row| Some(row.mode()?.label + 1));
-    table.number("frequency", "rad/s", &|row| {
-        row.mode()?.behaviour.frequency()
-    });
+    table.number("frequency", "rad/s", &|row| row.mode()?.behaviour.frequency());
     table.number("sigma of frequency", "rad/s", &|row| {
         let mode = row.mode()?;
         mode.sigma(mode.frequency.as_ref())
     });
-    table.number("damping ratio", "", &|row| {
-        Some(row.mode()?.damping_ratio.as_ref()?.mean)
-    });
+    table.number("damping ratio", "", &|row| Some(row.mode()?.damping_ratio.as_ref()?.mean));
     table.number("sigma of damping ratio", "", &|row| {
         let mode = row.mode()?;
         mode.sigma(mode.damping_ratio.as_ref())
@@ -142,13 +127,9 @@ fn mode_table(d: &Description, input: Input, points: &[CampbellPoint]) -> Table 
     table.number("Re s", "1/s", &|row| Some(row.mode()?.s.re));
     table.number("Im s", "1/s", &|row| Some(row.mode()?.s.im));
     table.words("kind", &|row| Some(row.mode()?.whirl?.kind.to_string()));
-    table.words("whirl", &|row| {
-        Some(row.mode()?.whirl?.sense()?.to_string())
-    });
+    table.words("whirl", &|row| Some(row.mode()?.whirl?.sense()?.to_string()));
     table.number("whirl ratio", "", &|row| row.mode()?.whirl?.ratio);
-    table.words("motion", &|row| {
-        Some(row.mode()?.behaviour.word().to_owned())
-    });
+    table.words("motion", &|row| Some(row.mode()?.behaviour.word().to_owned()));
     table.flag("cluster", &|row| Some(row.mode()?.clustered));
     table.words("error", &|row| row.mode.err().map(ToString::to_string));
     table.finish().0
@@ -168,8 +149,7 @@ impl Motion<'_> {
     /// Where its frequency spreads most, and how far.
     fn widest(&self) -> Option<(f64, f64)> {
         let single = self.points.iter().filter(|(_, x)| !x.clustered);
-        let spreads =
-            single.filter_map(|(value, item)| Some((*value, spread_of(item.frequency.as_ref()?))));
+        let spreads = single.filter_map(|(value, item)| Some((*value, spread_of(item.frequency.as_ref()?))));
         let spreads = spreads.filter(|(_, sigma)| *sigma > 0.0);
         spreads.max_by(|(_, a), (_, b)| a.total_cmp(b))
     }
@@ -177,8 +157,7 @@ impl Motion<'_> {
     /// Where its damping ratio is smallest.
     fn least_damped(&self) -> Option<(f64, &CampbellMode, &Spread)> {
         let damped = self.points.iter();
-        let damped =
-            damped.filter_map(|(value, item)| Some((*value, *item, item.damping_ratio.as_ref()?)));
+        let damped = damped.filter_map(|(value, item)| Some((*value, *item, item.damping_ratio.as_ref()?)));
         damped.min_by(|(.., a), (.., b)| a.mean.total_cmp(&b.mean))
     }
 
@@ -237,30 +216,19 @@ impl Campbell {
         let Some(info) = self.description.inputs.get(self.input.index()) else {
             return;
         };
-        let formatted = |value: Option<f64>| {
-            value.map_or_else(|| "-".to_owned(), |value| given_in(value, &info.unit))
-        };
+        let formatted = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| given_in(value, &info.unit));
         let labels = self.labels().into_iter();
-        let each = labels.map(|label| Motion {
-            label,
-            points: self.branch(label).collect(),
-        });
+        let each = labels.map(|label| Motion { label, points: self.branch(label).collect() });
         let motions: Vec<Motion<'_>> = each.collect();
         let mut table = Columns::new("modes", &motions);
         table.cells("mode", &|row| (row.label + 1).to_string());
-        table.cells("omega [rad/s]", &|row| {
-            optional(row.frequency(row.points.first()))
-        });
+        table.cells("omega [rad/s]", &|row| optional(row.frequency(row.points.first())));
         table.cells("to", &|row| optional(row.frequency(row.points.last())));
-        table.cells("most sigma", &|row| {
-            or_dash(row.widest().map(|pair| pair.1), rough)
-        });
+        table.cells("most sigma", &|row| or_dash(row.widest().map(|pair| pair.1), rough));
         let at = format!("at {}", info.name);
         table.cells(&at, &|row| formatted(row.widest().map(|pair| pair.0)));
         if self.family == Family::General {
-            table.cells("least damping ratio", &|row| {
-                or_dash(row.least_damped().map(|(.., x)| x.mean), rough)
-            });
+            table.cells("least damping ratio", &|row| or_dash(row.least_damped().map(|(.., x)| x.mean), rough));
             table.cells("sigma", &|row| {
                 let separate = row.least_damped().filter(|(_, mode, _)| !mode.clustered);
                 or_dash(separate.map(|(.., x)| spread_of(x)), rough)
@@ -278,9 +246,7 @@ impl Campbell {
         let rows = shown(self.points.len());
         let (count, all) = (rows.len(), self.points.len());
         table.show_rows(rows);
-        varied(&mut table, &self.description, self.input, given, &|x| {
-            x.value
-        });
+        varied(&mut table, &self.description, self.input, given, &|x| x.value);
         for label in self.labels() {
             let frequency = |campbell_point: &CampbellPoint| {
                 let modes = campbell_point.modes.as_ref().ok()?;
@@ -292,11 +258,7 @@ impl Campbell {
                 table.cells(&heading, &|row| optional(frequency(row)));
             }
         }
-        let failed = self
-            .points
-            .iter()
-            .filter(|point| point.modes.is_err())
-            .count();
+        let failed = self.points.iter().filter(|point| point.modes.is_err()).count();
         if failed > 0 {
             table.cells("error", &|row| {
                 let error = row.modes.as_ref().err();
@@ -308,9 +270,7 @@ impl Campbell {
             said.note(format!("{failed} of {all} points have no modes."));
         }
         if count < all {
-            said.note(format!(
-                "{count} of {all} points are shown: {EVERYTHING}, with sigma, damping and kind."
-            ));
+            said.note(format!("{count} of {all} points are shown: {EVERYTHING}, with sigma, damping and kind."));
         }
     }
 }

@@ -49,12 +49,8 @@ fn verdicts(said: &mut Findings, all: &[ClusterTolerance]) {
     let mut table = Columns::new("cluster verdicts", all);
     table.words("modes", &|row| Some(listed(&row.modes)));
     table.number("distance", "sigma", &|row| Some(row.distance));
-    table.number("mean frequency", "rad/s", &|row| {
-        Some(frequency_of_mean(row)?.mean)
-    });
-    table.number("sigma of mean frequency", "rad/s", &|row| {
-        Some(frequency_of_mean(row)?.sigma)
-    });
+    table.number("mean frequency", "rad/s", &|row| Some(frequency_of_mean(row)?.mean));
+    table.number("sigma of mean frequency", "rad/s", &|row| Some(frequency_of_mean(row)?.sigma));
     table.words("error", &|row| Some(row.spread.as_ref().err()?.to_string()));
     said.columns(table);
 }
@@ -88,12 +84,7 @@ impl ClusterTolerance {
         let quantities = quantities.chain(damping.map(|damping| ("damping ratio", damping)));
         let mut rows = Vec::new();
         for (quantity, spreads) in quantities {
-            let member = |name, value| Member {
-                cluster: self,
-                quantity,
-                name,
-                value,
-            };
+            let member = |name, value| Member { cluster: self, quantity, name, value };
             let each = spreads.members.iter().enumerate();
             rows.extend(each.map(|(k, x)| member((k + 1).to_string(), x.value.as_ref())));
             rows.push(member("splitting".to_owned(), spreads.splitting.as_ref()));
@@ -120,10 +111,7 @@ impl ClusterTolerance {
         };
         let are = match self.equal {
             true => "are equal in every design".to_owned(),
-            false => format!(
-                "form a cluster, {} standard deviations apart",
-                short(self.distance)
-            ),
+            false => format!("form a cluster, {} standard deviations apart", short(self.distance)),
         };
         let samples = spread.samples;
         let mut said = Findings::titled(format!("{title}: {modes} {are}; {samples} samples"));
@@ -182,15 +170,11 @@ fn sorted_row(table: &mut Grid, name: &str, value: Option<&Statistics>) {
 fn without(said: &mut Findings, spread: &ClusterSpread) {
     let lowest = spread.frequency.lowest().map_or(0, |member| member.without);
     if lowest > 0 {
-        said.note(format!(
-            "In {lowest} of the samples a member has no frequency."
-        ));
+        said.note(format!("In {lowest} of the samples a member has no frequency."));
     }
     if spread.unsolved > 0 {
         let unsolved = spread.unsolved;
-        said.note(format!(
-            "The eigenvalues of {unsolved} samples were not found."
-        ));
+        said.note(format!("The eigenvalues of {unsolved} samples were not found."));
     }
 }
 
@@ -217,9 +201,8 @@ impl Answer for DirectionalDerivatives {
         re.digits(rough);
         let im = table.number("Im derivative", unit, &|(_, x)| Some(x.im));
         im.digits(rough);
-        let frequency = table.number("derivative of frequency", "rad/s", &|(k, _)| {
-            self.frequencies.as_ref()?.get(*k).copied()
-        });
+        let frequency =
+            table.number("derivative of frequency", "rad/s", &|(k, _)| self.frequencies.as_ref()?.get(*k).copied());
         frequency.digits(rough);
         said.columns(table);
         said

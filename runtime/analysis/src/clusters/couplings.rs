@@ -33,13 +33,7 @@ impl ModalCouplings {
     /// Creates couplings by design variables only, for modes in the order of their eigenvalues.
     #[must_use]
     pub fn new(family: Family, eigenvalues: Vec<Complex>, by_design: Vec<Matrix<Complex>>) -> Self {
-        Self {
-            modes: (0..eigenvalues.len()).collect(),
-            family,
-            eigenvalues,
-            by_input: Vec::new(),
-            by_design,
-        }
+        Self { modes: (0..eigenvalues.len()).collect(), family, eigenvalues, by_input: Vec::new(), by_design }
     }
 
     /// Mean of the eigenvalues.
@@ -76,9 +70,7 @@ impl ModalCouplings {
     /// The couplings among a subset of these modes, given by their places here.
     pub(crate) fn among(&self, places: &[usize]) -> Self {
         let size = places.len();
-        let minor = |matrix: &Matrix<Complex>| {
-            Matrix::from_fn(size, size, |i, j| matrix[places[i]][places[j]])
-        };
+        let minor = |matrix: &Matrix<Complex>| Matrix::from_fn(size, size, |i, j| matrix[places[i]][places[j]]);
         Self {
             modes: places.iter().map(|&i| self.modes[i]).collect(),
             family: self.family,
@@ -180,11 +172,7 @@ impl Undamped {
         let shapes: Vec<Vector> = members.iter().map(|mode| mode.real_shape()).collect();
         let n = shapes.first().map_or(0, |shape| shape.len());
         let rows = Matrix::from_fn(shapes.len(), n, |r, i| shapes[r][i]);
-        Self {
-            lambda: members.iter().map(|mode| mode.lambda).collect(),
-            columns: rows.transpose(),
-            rows,
-        }
+        Self { lambda: members.iter().map(|mode| mode.lambda).collect(), columns: rows.transpose(), rows }
     }
 
     /// `phi_i^T (dK - lambda dM) phi_j`, with the mean of the two eigenvalues to keep it symmetric.
@@ -227,9 +215,7 @@ fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Matrix<Compl
     let moved: Vec<_> = moved.collect();
     let normalisers: Vec<Complex> = members.iter().map(|a| normaliser(at, a)).collect();
     let count = members.len();
-    Matrix::from_fn(count, count, |i, j| {
-        -dot_complex(members[i].left(), &moved[j]) / normalisers[i]
-    })
+    Matrix::from_fn(count, count, |i, j| -dot_complex(members[i].left(), &moved[j]) / normalisers[i])
 }
 
 /// Standard deviations of what moves and mixes each pair of modes.
@@ -279,8 +265,7 @@ impl PairSpreads {
                     let projection = general(at, &members, &change);
                     for i in 0..count {
                         for j in 0..count {
-                            apart[i][j] +=
-                                variance * (projection[i][i] - projection[j][j]).norm_sqr();
+                            apart[i][j] += variance * (projection[i][i] - projection[j][j]).norm_sqr();
                             coupling[i][j] += variance * projection[i][j].norm_sqr();
                         }
                     }
@@ -290,10 +275,7 @@ impl PairSpreads {
         let ordinary = |sum: &f64| *sum == 0.0 || (SMALLEST..LARGEST).contains(sum);
         let sums = apart.as_flattened().iter().chain(coupling.as_flattened());
         let usable = sums.into_iter().all(ordinary);
-        Ok(usable.then(|| Self {
-            apart: apart.map(f64::sqrt),
-            coupling: coupling.map(f64::sqrt),
-        }))
+        Ok(usable.then(|| Self { apart: apart.map(f64::sqrt), coupling: coupling.map(f64::sqrt) }))
     }
 }
 

@@ -103,11 +103,7 @@ pub fn sample_cluster(
             continue;
         }
         let values = &values[..];
-        unstable += usize::from(
-            values
-                .iter()
-                .any(|&value| grows(family, value, of_elements(m) * size)),
-        );
+        unstable += usize::from(values.iter().any(|&value| grows(family, value, of_elements(m) * size)));
         frequency.add(values, |value| frequency_of(family, value));
         let [first, second] = &mut parts;
         first.add(values, |value| Some(value.re));
@@ -163,22 +159,15 @@ fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Erro
     let m = couplings.eigenvalues.len();
     let (count, variables) = (couplings.by_design.len(), tolerances.half_widths().len());
     if count != variables {
-        return Err(refuse(format!(
-            "{count} matrices for {variables} design variables"
-        )));
+        return Err(refuse(format!("{count} matrices for {variables} design variables")));
     }
     for (k, matrix) in couplings.by_design.iter().enumerate() {
         let (rows, columns) = (matrix.row_count(), matrix.column_count());
         if (rows, columns) != (m, m) {
-            return Err(refuse(format!(
-                "matrix {k} is {rows} by {columns} and must be {m} by {m}"
-            )));
+            return Err(refuse(format!("matrix {k} is {rows} by {columns} and must be {m} by {m}")));
         }
     }
-    let mut numbers = couplings
-        .eigenvalues
-        .iter()
-        .chain(couplings.by_design.iter().flat_map(Matrix::as_flattened));
+    let mut numbers = couplings.eigenvalues.iter().chain(couplings.by_design.iter().flat_map(Matrix::as_flattened));
     if let Some(value) = numbers.find(|value| !value.is_finite()) {
         return Err(refuse(format!("an element is {value}")));
     }
@@ -204,10 +193,7 @@ fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Erro
 const SYMMETRIC: f64 = 1e-9;
 
 fn refuse(reason: String) -> Error {
-    Error::Setting {
-        setting: "cluster",
-        reason,
-    }
+    Error::Setting { setting: "cluster", reason }
 }
 
 /// Members from which the reduction to tridiagonal form is cheaper than rotations.
@@ -215,16 +201,8 @@ const MANY: usize = 8;
 
 /// The small matrices, and workspace for one sample of them.
 enum Work<'a> {
-    Undamped {
-        couplings: &'a ModalCouplings,
-        slopes: Vec<Vec<f64>>,
-        matrix: Vec<f64>,
-        room: Tridiagonal,
-    },
-    General {
-        couplings: &'a ModalCouplings,
-        matrix: Vec<Complex>,
-    },
+    Undamped { couplings: &'a ModalCouplings, slopes: Vec<Vec<f64>>, matrix: Vec<f64>, room: Tridiagonal },
+    General { couplings: &'a ModalCouplings, matrix: Vec<Complex> },
 }
 
 impl<'a> Work<'a> {
@@ -232,8 +210,7 @@ impl<'a> Work<'a> {
         let m = couplings.eigenvalues.len();
         match couplings.family {
             Family::Undamped => {
-                let real =
-                    |matrix: &Matrix<Complex>| matrix.as_flattened().iter().map(|x| x.re).collect();
+                let real = |matrix: &Matrix<Complex>| matrix.as_flattened().iter().map(|x| x.re).collect();
                 Self::Undamped {
                     couplings,
                     slopes: couplings.by_design.iter().map(real).collect(),
@@ -241,10 +218,7 @@ impl<'a> Work<'a> {
                     room: Tridiagonal::new(m),
                 }
             }
-            Family::General => Self::General {
-                couplings,
-                matrix: vec![Complex::default(); m * m],
-            },
+            Family::General => Self::General { couplings, matrix: vec![Complex::default(); m * m] },
         }
     }
 
@@ -252,22 +226,13 @@ impl<'a> Work<'a> {
     /// that is beyond [`LARGEST`].
     fn fill(&mut self, x: &[f64]) -> Option<f64> {
         match self {
-            Self::Undamped {
-                couplings,
-                slopes,
-                matrix,
-                ..
-            } => {
+            Self::Undamped { couplings, slopes, matrix, .. } => {
                 let values = couplings.eigenvalues.iter().map(|value| value.re);
                 combine(matrix, values, slopes, x);
                 below_largest(matrix.iter().map(|value| value.abs()))
             }
             Self::General { couplings, matrix } => {
-                let slopes: Vec<&[Complex]> = couplings
-                    .by_design
-                    .iter()
-                    .map(Matrix::as_flattened)
-                    .collect();
+                let slopes: Vec<&[Complex]> = couplings.by_design.iter().map(Matrix::as_flattened).collect();
                 combine(matrix, couplings.eigenvalues.iter().copied(), &slopes, x);
                 below_largest(matrix.iter().map(|value| value.l1_norm()))
             }
@@ -301,18 +266,12 @@ impl<'a> Work<'a> {
 
 /// The largest of these sizes; `None` if one of them is not below [`LARGEST`].
 fn below_largest(mut sizes: impl Iterator<Item = f64>) -> Option<f64> {
-    sizes.try_fold(0.0, |most: f64, size| {
-        (size < LARGEST).then(|| most.max(size))
-    })
+    sizes.try_fold(0.0, |most: f64, size| (size < LARGEST).then(|| most.max(size)))
 }
 
 /// `diag(values) + sum_k x_k slopes[k]`.
-fn combine<T, S: AsRef<[T]>>(
-    matrix: &mut [T],
-    values: impl ExactSizeIterator<Item = T>,
-    slopes: &[S],
-    x: &[f64],
-) where
+fn combine<T, S: AsRef<[T]>>(matrix: &mut [T], values: impl ExactSizeIterator<Item = T>, slopes: &[S], x: &[f64])
+where
     T: Copy + Default + AddAssign + Mul<f64, Output = T>,
 {
     let m = values.len();
@@ -371,11 +330,7 @@ struct Sorted {
 
 impl Sorted {
     fn new(m: usize) -> Self {
-        Self {
-            values: vec![0.0; m],
-            members: vec![Sums::default(); m],
-            splitting: Sums::default(),
-        }
+        Self { values: vec![0.0; m], members: vec![Sums::default(); m], splitting: Sums::default() }
     }
 
     fn add(&mut self, eigenvalues: &[Complex], quantity: impl Fn(Complex) -> Option<f64>) {
@@ -399,14 +354,8 @@ impl Sorted {
         let member = |sums: &Sums| {
             let value = sums.statistics();
             let count = value.as_ref().map_or(0, |value| value.count);
-            MemberSpread {
-                value,
-                without: samples - count as usize,
-            }
+            MemberSpread { value, without: samples - count as usize }
         };
-        SortedSpread {
-            members: self.members.iter().map(member).collect(),
-            splitting: self.splitting.statistics(),
-        }
+        SortedSpread { members: self.members.iter().map(member).collect(), splitting: self.splitting.statistics() }
     }
 }

@@ -153,16 +153,12 @@ pub fn groups(
             }
             if label[i] != label[j] && pair((i, j)).is_some_and(mixes) {
                 let (old, new) = (label[i].max(label[j]), label[i].min(label[j]));
-                label
-                    .iter_mut()
-                    .filter(|x| **x == old)
-                    .for_each(|x| *x = new);
+                label.iter_mut().filter(|x| **x == old).for_each(|x| *x = new);
             }
         }
     }
     let members = |first| (0..count).filter(|&i| label[i] == first).collect();
-    let wanted =
-        |group: &Vec<usize>| group.len() > 1 || group.iter().any(|&mode| merged(modes, mode));
+    let wanted = |group: &Vec<usize>| group.len() > 1 || group.iter().any(|&mode| merged(modes, mode));
     Ok((0..count).map(members).filter(wanted).collect())
 }
 
@@ -233,11 +229,7 @@ fn together(pair: &Pair, modes: &Modes, (i, j): (usize, usize)) -> bool {
     pair.distance() < TRUSTED_DISTANCE
 }
 
-fn tolerance(
-    couplings: &ModalCouplings,
-    modes: &Modes,
-    tolerances: &Tolerances,
-) -> ClusterTolerance {
+fn tolerance(couplings: &ModalCouplings, modes: &Modes, tolerances: &Tolerances) -> ClusterTolerance {
     let mode_at = |index: usize| &modes.modes[couplings.modes[index]];
     let count = couplings.modes.len();
     let mut defective = couplings.modes.iter().any(|&mode| merged(modes, mode));
@@ -254,10 +246,7 @@ fn tolerance(
         }
     }
     let finite = couplings.by_design.iter().chain(&couplings.by_input);
-    defective = defective
-        || !finite
-            .flat_map(Matrix::as_flattened)
-            .all(|value| value.is_finite());
+    defective = defective || !finite.flat_map(Matrix::as_flattened).all(|value| value.is_finite());
     let spread = if defective {
         let modes = couplings.modes.clone();
         Err(Error::Defective { modes })
@@ -284,9 +273,7 @@ impl MeanEigenvalue {
     fn new(couplings: &ModalCouplings, tolerances: &Tolerances) -> Self {
         let (value, family) = (couplings.mean(), couplings.family);
         let by_design = Vector::from(couplings.mean_by_design());
-        let spread = |mean, slope: &dyn Fn(Complex) -> f64| {
-            Spread::new(mean, by_design.map(slope), tolerances)
-        };
+        let spread = |mean, slope: &dyn Fn(Complex) -> f64| Spread::new(mean, by_design.map(slope), tolerances);
         let frequency = frequency_of(family, value);
         Self {
             value,

@@ -21,21 +21,14 @@ impl Answer for Convergence {
     fn findings(&self) -> Findings {
         let d = &self.description;
         let title = title(d, &self.inputs);
-        let mut said = Findings::titled(format!(
-            "{title}: changes with more coordinates of each component of a beam"
-        ));
+        let mut said = Findings::titled(format!("{title}: changes with more coordinates of each component of a beam"));
         let mut table = Columns::new("convergence", &self.changes);
         table.words("answer", &|row| Some(row.answer.name(d)));
         table.words("unit", &|row| Some(row.answer.unit(d).symbol.to_string()));
-        table.cells("answer", &|row| {
-            heading(&row.answer.name(d), &row.answer.unit(d))
-        });
+        table.cells("answer", &|row| heading(&row.answer.name(d), &row.answer.unit(d)));
         let value = |change: &Change| Some(converted(change.value, &change.answer.unit(d)));
         table.number("as declared", "", &value).digits(number);
-        for (k, name) in ["change with 1 more", "change with 2 more"]
-            .into_iter()
-            .enumerate()
-        {
+        for (k, name) in ["change with 1 more", "change with 2 more"].into_iter().enumerate() {
             table.number(name, "", &|row| row.relative[k]).digits(short);
         }
         said.columns(table);
@@ -71,14 +64,8 @@ impl Convergence {
     /// Which outputs, events and peaks are known well, and how far the others change.
     fn of_others(&self) -> Option<String> {
         let outputs = self.changes.iter().filter(|change| change.mode().is_none());
-        let outputs: Vec<(String, f64)> = outputs
-            .map(|output| {
-                (
-                    format!("`{}`", output.answer.name(&self.description)),
-                    output.most(),
-                )
-            })
-            .collect();
+        let outputs: Vec<(String, f64)> =
+            outputs.map(|output| (format!("`{}`", output.answer.name(&self.description)), output.most())).collect();
         verdict(&outputs, |outputs| {
             let texts: Vec<&str> = outputs.iter().map(String::as_str).collect();
             names(&texts, "answers")

@@ -46,10 +46,7 @@ impl Change {
     /// The larger of the changes, without sign; infinite if the answer no longer exists.
     #[must_use]
     pub fn most(&self) -> f64 {
-        largest(
-            self.relative
-                .map(|relative| relative.unwrap_or(f64::INFINITY)),
-        )
+        largest(self.relative.map(|relative| relative.unwrap_or(f64::INFINITY)))
     }
 
     /// The mode it belongs to, from 0; `None` for an output.
@@ -67,22 +64,11 @@ impl Change {
 #[must_use]
 pub fn first_events(found: &Campbell, range: Range) -> Vec<(Response, f64)> {
     let mut answers: Vec<(Response, f64)> = Vec::new();
-    let lists = [
-        &found.critical,
-        &found.crossings,
-        &found.not_excited,
-        &found.flutter_onsets,
-    ];
+    let lists = [&found.critical, &found.crossings, &found.not_excited, &found.flutter_onsets];
     for EventTolerance { event, value, .. } in lists.into_iter().flatten() {
         let answer = match *event {
             Event::Critical => Response::Critical(range),
-            Event::Crossing {
-                mode, condition, ..
-            } => Response::Crossing {
-                mode,
-                condition,
-                range,
-            },
+            Event::Crossing { mode, condition, .. } => Response::Crossing { mode, condition, range },
         };
         if answers.iter().all(|(other, _)| *other != answer) {
             answers.push((answer, *value));
@@ -95,24 +81,14 @@ pub fn first_events(found: &Campbell, range: Range) -> Vec<(Response, f64)> {
 #[must_use]
 pub fn highest_peaks(found: &[Peaks], range: Range) -> Vec<(Response, f64)> {
     let mut answers = Vec::new();
-    for Peaks {
-        vibration, peaks, ..
-    } in found
-    {
+    for Peaks { vibration, peaks, .. } in found {
         let highest = |a: &&Peak, b: &&Peak| a.height.value.total_cmp(&b.height.value);
         let Some(peak) = peaks.iter().max_by(highest) else {
             continue;
         };
-        for (quantity, value) in [
-            (PeakQuantity::Place, peak.place.value),
-            (PeakQuantity::Height, peak.height.value),
-        ] {
+        for (quantity, value) in [(PeakQuantity::Place, peak.place.value), (PeakQuantity::Height, peak.height.value)] {
             let vibration = *vibration;
-            let answer = Response::Peak {
-                vibration,
-                range,
-                quantity,
-            };
+            let answer = Response::Peak { vibration, range, quantity };
             answers.push((answer, value));
         }
     }
@@ -125,13 +101,7 @@ impl Convergence {
     #[must_use]
     pub fn with(mut self, declared: &[(Response, f64)], refined: [&[(Response, f64)]; 2]) -> Self {
         let unnumbered = |answer: Response| match answer {
-            Response::Crossing {
-                condition, range, ..
-            } => Response::Crossing {
-                mode: 0,
-                condition,
-                range,
-            },
+            Response::Crossing { condition, range, .. } => Response::Crossing { mode: 0, condition, range },
             _ => answer,
         };
         let alike = |all: &[(Response, f64)], answer| -> Vec<f64> {
@@ -152,8 +122,7 @@ impl Convergence {
         let mut compared: Vec<usize> = self.changes.iter().filter_map(Change::mode).collect();
         compared.dedup();
         compared.truncate(modes);
-        self.changes
-            .retain(|change| change.mode().is_none_or(|x| compared.contains(&x)));
+        self.changes.retain(|change| change.mode().is_none_or(|x| compared.contains(&x)));
         self
     }
 }
@@ -204,10 +173,7 @@ fn of_modes(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Vec<Change> {
     let refined = refined.map(Solved::oscillating);
     let mut changes = Vec::new();
     for (k, (mode, eigenmode)) in declared.oscillating().into_iter().enumerate() {
-        let damped = matches!(
-            eigenmode.behaviour,
-            Behaviour::Damped(_) | Behaviour::Flutter(_)
-        );
+        let damped = matches!(eigenmode.behaviour, Behaviour::Damped(_) | Behaviour::Flutter(_));
         let ratio = damped.then_some(Quantity::DampingRatio);
         for quantity in [Quantity::Frequency].into_iter().chain(ratio) {
             let Some(value) = quantity.of(eigenmode) else {
@@ -232,11 +198,7 @@ fn of_outputs(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Vec<Change> {
 }
 
 fn change(answer: Response, value: f64, others: [Option<f64>; 2]) -> Change {
-    Change {
-        answer,
-        value,
-        relative: others.map(|other| Some(relative(value, other?))),
-    }
+    Change { answer, value, relative: others.map(|other| Some(relative(value, other?))) }
 }
 
 /// The difference of two values relative to the larger.

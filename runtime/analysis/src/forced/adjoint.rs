@@ -47,22 +47,14 @@ impl Factors {
 impl Vibration {
     pub(super) fn motion(&self) -> Motion {
         let (s, z) = (self.harmonic.s(), &self.harmonic.unknowns);
-        [
-            z.map(|value| s * s * value),
-            z.map(|value| s * value),
-            z.clone(),
-        ]
+        [z.map(|value| s * s * value), z.map(|value| s * value), z.clone()]
     }
 }
 
 impl<'a> OutputAdjoint<'a> {
     /// Of several outputs; `None` for one that is not smooth, and for one that sees a direction in which `D` vanishes:
     /// its derivatives are infinite.
-    pub(super) fn each(
-        solved: &'a Solved<'a>,
-        vibration: &'a Vibration,
-        outputs: Range<usize>,
-    ) -> Vec<Option<Self>> {
+    pub(super) fn each(solved: &'a Solved<'a>, vibration: &'a Vibration, outputs: Range<usize>) -> Vec<Option<Self>> {
         let harmonic = &vibration.harmonic;
         let (s, z) = (harmonic.s(), &harmonic.unknowns);
         let (first, rows) = (outputs.start, &vibration.seen);
@@ -74,16 +66,8 @@ impl<'a> OutputAdjoint<'a> {
             finite.then(|| {
                 let left = lefts.column(output - first);
                 let of_output = solved.seen.slope(output, s, z);
-                let factors = Factors {
-                    slope: Complex::I * (of_output - dot_complex(&left, &of_matrices)),
-                    left,
-                };
-                Self {
-                    solved,
-                    vibration,
-                    output,
-                    factors,
-                }
+                let factors = Factors { slope: Complex::I * (of_output - dot_complex(&left, &of_matrices)), left };
+                Self { solved, vibration, output, factors }
             })
         };
         outputs.map(adjoint).collect()
@@ -94,22 +78,14 @@ impl<'a> OutputAdjoint<'a> {
         gradients(self.solved, self.vibration, &[self]).map(|mut rows| {
             let parts = results(self.solved.at, &mut rows[0]);
             let [coordinates, inputs, design] = parts.map(|part| Vector::from(&*part));
-            Gradient {
-                coordinates,
-                inputs,
-                design,
-            }
+            Gradient { coordinates, inputs, design }
         })
     }
 }
 
 /// The gradients of `-h` at fixed equilibrium, real and imaginary parts: a row for each output, by unknowns, inputs and
 /// design variables.
-pub(super) fn gradients(
-    solved: &Solved<'_>,
-    vibration: &Vibration,
-    outputs: &[&OutputAdjoint<'_>],
-) -> [Matrix; 2] {
+pub(super) fn gradients(solved: &Solved<'_>, vibration: &Vibration, outputs: &[&OutputAdjoint<'_>]) -> [Matrix; 2] {
     let (mechanism, motion) = (solved.mechanism, &vibration.motion());
     let count = outputs.len();
     let lefts = Matrix::from_fn(2 * count, solved.at.coordinates.len(), |k, i| {
@@ -125,10 +101,7 @@ pub(super) fn gradients(
         }
         sum
     };
-    let mut total = [
-        joined(&of_real, &of_imaginary, -1.0),
-        joined(&of_imaginary, &of_real, 1.0),
-    ];
+    let mut total = [joined(&of_real, &of_imaginary, -1.0), joined(&of_imaginary, &of_real, 1.0)];
     let calls = PARTS.map(|part| vibration.calls(part).collect::<Vec<Call>>());
     let sets = count * calls.iter().map(Vec::len).sum::<usize>();
     let mut each = SideBySide::new(mechanism, solved.at, Kernel::ForcedGradient, sets);
@@ -166,9 +139,7 @@ fn forms(solved: &Solved<'_>, lefts: &Matrix, motion: &Motion) -> [Matrix; 2] {
     }
     PARTS.map(|part| {
         let mut each = SideBySide::new(solved.mechanism, solved.at, Kernel::PencilGradient, many);
-        let parts = motion
-            .each_ref()
-            .map(|motion| motion.map(|value| part.of(value)));
+        let parts = motion.each_ref().map(|motion| motion.map(|value| part.of(value)));
         let [acceleration, velocity, position] = &parts;
         each.set(&[&Vector::zeros(n), acceleration, velocity, position]);
         lefts.iter().for_each(|left| each.push(&[(0, left)]));
@@ -218,11 +189,7 @@ impl Vibration {
         let shares = &self.harmonic.shares;
         let turns = [1.0, -1.0].into_iter();
         let turns = turns.filter(|turn| shares.iter().any(|share| share.turn() == *turn));
-        turns.enumerate().map(move |(k, turn)| Call {
-            part,
-            turn,
-            first: k == 0,
-        })
+        turns.enumerate().map(move |(k, turn)| Call { part, turn, first: k == 0 })
     }
 }
 
@@ -254,20 +221,13 @@ impl Weights {
     }
 
     /// Of a call, without output; what does not depend on `motion` is multiplied by `fixed`.
-    pub(super) fn of(
-        sizes: Sizes,
-        vibration: &Vibration,
-        motion: &Motion,
-        (call, fixed): (Call, f64),
-    ) -> Self {
+    pub(super) fn of(sizes: Sizes, vibration: &Vibration, motion: &Motion, (call, fixed): (Call, f64)) -> Self {
         let mut weights = Self::zeros(sizes);
         let shares = vibration.harmonic.shares.iter();
         let members = shares.filter(|share| share.turn() == call.turn);
         members.for_each(|share| weights.share[share.excitation] = fixed);
         if call.first {
-            weights.motion = motion
-                .each_ref()
-                .map(|x| x.map(|value| call.part.of(value)));
+            weights.motion = motion.each_ref().map(|x| x.map(|value| call.part.of(value)));
         }
         weights
     }
@@ -283,11 +243,7 @@ impl Weights {
         self.cosine.set(&factors.left, |p| part.of(*p));
         let quadrature = |p: &Complex| turn * part.of(Complex::new(p.im, -p.re));
         self.sine.set(&factors.left, quadrature);
-        let lists = [
-            &mut self.output,
-            &mut self.direct_cosine,
-            &mut self.direct_sine,
-        ];
+        let lists = [&mut self.output, &mut self.direct_cosine, &mut self.direct_sine];
         lists.into_iter().for_each(|list| list.fill(0.0));
         self.direct_cosine[output_adjoint.output] = fixed * part.of(Complex::ONE);
         self.direct_sine[output_adjoint.output] = fixed * turn * part.of(-Complex::I);
@@ -338,12 +294,7 @@ impl Weights {
         ]
     }
 
-    pub(super) fn gradient_into(
-        &self,
-        mechanism: &dyn Kernels,
-        at: &Equilibrium,
-        mut results: [&mut [f64]; 3],
-    ) {
+    pub(super) fn gradient_into(&self, mechanism: &dyn Kernels, at: &Equilibrium, mut results: [&mut [f64]; 3]) {
         let state: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
         mechanism.evaluate(Kernel::ForcedGradient, &self.after(state), &mut results);
     }

@@ -17,10 +17,7 @@ pub(crate) const CONVENTIONS: &str =
     "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).";
 
 const fn unit(symbol: &'static str) -> Unit {
-    Unit {
-        symbol: Text::Static(symbol),
-        scale: 1.0,
-    }
+    Unit { symbol: Text::Static(symbol), scale: 1.0 }
 }
 
 /// `forced response`: a row for each output of each harmonic; `shares`: a row for each excitation besides; `vibration of
@@ -40,21 +37,13 @@ impl Answer for ForcedResponse {
         of_harmonic(&mut table, d, &|row| row.harmonic);
         of_output(&mut table, d, &|row| row.output, &|row| row.amplitude());
         said.columns(table);
-        let rows: Vec<(&Row<'_>, usize)> = (rows.iter())
-            .flat_map(|row| (0..row.harmonic.shares.len()).map(move |share| (row, share)))
-            .collect();
+        let rows: Vec<(&Row<'_>, usize)> =
+            (rows.iter()).flat_map(|row| (0..row.harmonic.shares.len()).map(move |share| (row, share))).collect();
         let mut table = Columns::new("shares", &rows);
-        let excitation =
-            |row: &_| Some(d.excitations.get(share(row)?.excitation)?.name.to_string());
+        let excitation = |row: &_| Some(d.excitations.get(share(row)?.excitation)?.name.to_string());
         table.words("excitation", &excitation).shown();
-        of_output(&mut table, d, &|row| row.0.output, &|row| {
-            share(row)?.outputs.get(row.0.output).copied().flatten()
-        });
-        match self
-            .harmonics
-            .iter()
-            .any(|harmonic| harmonic.shares.len() > 1)
-        {
+        of_output(&mut table, d, &|row| row.0.output, &|row| share(row)?.outputs.get(row.0.output).copied().flatten());
+        match self.harmonics.iter().any(|harmonic| harmonic.shares.len() > 1) {
             true => said.columns(table),
             false => said.data(table.finish().0),
         }
@@ -72,9 +61,7 @@ impl ForcedResponse {
         let d = &self.description;
         for row in self.rows() {
             let name = row.name(self);
-            let sum = row
-                .harmonic
-                .unknown_phases(Output::new(row.output), Measure::Displacement);
+            let sum = row.harmonic.unknown_phases(Output::new(row.output), Measure::Displacement);
             let several = row.harmonic.shares.len() > 1;
             let (true, Ok(sum)) = (several, sum) else {
                 continue;
@@ -96,8 +83,7 @@ impl ForcedResponse {
     /// Outputs without amplitude.
     fn rough(&self, said: &mut Findings) {
         let first = self.harmonics.iter().take(1);
-        let all =
-            first.flat_map(|harmonic| harmonic.outputs.iter().zip(self.description.outputs.iter()));
+        let all = first.flat_map(|harmonic| harmonic.outputs.iter().zip(self.description.outputs.iter()));
         for (_, info) in all.filter(|(amplitude, _)| amplitude.is_none()) {
             let output = info.name.clone();
             said.note(Error::NotSmooth { output }.to_string());
@@ -108,11 +94,7 @@ impl ForcedResponse {
         let harmonics = self.harmonics.iter().enumerate();
         harmonics
             .flat_map(|(index, harmonic)| {
-                (0..harmonic.outputs.len()).map(move |output| Row {
-                    place: index,
-                    harmonic,
-                    output,
-                })
+                (0..harmonic.outputs.len()).map(move |output| Row { place: index, harmonic, output })
             })
             .collect()
     }
@@ -120,19 +102,15 @@ impl ForcedResponse {
     fn unknowns(&self, said: &mut Findings) {
         let d = &self.description;
         let harmonics = self.harmonics.iter();
-        let rows: Vec<(&Harmonic, usize)> = harmonics
-            .flat_map(|harmonic| (0..harmonic.unknowns.len()).map(move |i| (harmonic, i)))
-            .collect();
+        let rows: Vec<(&Harmonic, usize)> =
+            harmonics.flat_map(|harmonic| (0..harmonic.unknowns.len()).map(move |i| (harmonic, i))).collect();
         let mut table = Columns::new("vibration of unknowns", &rows);
         table.number("frequency", "rad/s", &|row| Some(row.0.frequency));
         let info = |row: &(&Harmonic, usize)| d.coordinates.get(row.1);
         table.words("unknown", &|row| Some(info(row)?.name.to_string()));
         table.words("unit", &|row| Some(info(row)?.unit.symbol.to_string()));
         let value = |row: &(&Harmonic, usize), part: fn(Complex) -> f64| {
-            Some(converted(
-                part(*row.0.unknowns.get(row.1)?),
-                &info(row)?.unit,
-            ))
+            Some(converted(part(*row.0.unknowns.get(row.1)?), &info(row)?.unit))
         };
         table.number("Re", "", &|row| value(row, |x| x.re));
         table.number("Im", "", &|row| value(row, |x| x.im));
@@ -162,10 +140,7 @@ impl Row<'_> {
         let info = of.description.outputs.get(self.output);
         let name = info.map_or("?", |info| &*info.name);
         let frequency = self.harmonic.frequency;
-        let same = of
-            .harmonics
-            .iter()
-            .filter(|harmonic| harmonic.frequency == frequency);
+        let same = of.harmonics.iter().filter(|harmonic| harmonic.frequency == frequency);
         match (of.harmonics.len(), same.count()) {
             (1, _) => name.to_owned(),
             (_, 1) => format!("{name} at {} rad/s", short(frequency)),
@@ -196,12 +171,8 @@ impl Harmonic {
 
 /// Columns of the excitations and the frequency of a harmonic.
 fn of_harmonic<R>(table: &mut Columns<'_, R>, d: &Description, of: &dyn Fn(&R) -> &Harmonic) {
-    table
-        .words("excitations", &|row| Some(of(row).excitations(d)))
-        .shown();
-    table
-        .number("frequency", "rad/s", &|row| Some(of(row).frequency))
-        .digits(number);
+    table.words("excitations", &|row| Some(of(row).excitations(d))).shown();
+    table.number("frequency", "rad/s", &|row| Some(of(row).frequency)).digits(number);
 }
 
 /// Columns of an output and its amplitude, in the text too.
@@ -211,27 +182,11 @@ fn of_output<R>(
     output: &dyn Fn(&R) -> usize,
     of: &dyn Fn(&R) -> Option<Complex>,
 ) {
-    table
-        .words("output", &|row| {
-            Some(d.outputs.get(output(row))?.name.to_string())
-        })
-        .shown();
-    table
-        .words("unit", &|row| {
-            Some(d.outputs.get(output(row))?.unit.symbol.to_string())
-        })
-        .shown();
-    let value = |row: &R, part: fn(Complex) -> f64| {
-        Some(converted(part(of(row)?), &d.outputs.get(output(row))?.unit))
-    };
-    table
-        .number("amplitude", "", &|row| value(row, |x| x.norm()))
-        .digits(number);
-    let phase = |row: &R| {
-        of(row)
-            .filter(|x| *x != Complex::ZERO)
-            .map(|x| x.arg().to_degrees())
-    };
+    table.words("output", &|row| Some(d.outputs.get(output(row))?.name.to_string())).shown();
+    table.words("unit", &|row| Some(d.outputs.get(output(row))?.unit.symbol.to_string())).shown();
+    let value = |row: &R, part: fn(Complex) -> f64| Some(converted(part(of(row)?), &d.outputs.get(output(row))?.unit));
+    table.number("amplitude", "", &|row| value(row, |x| x.norm())).digits(number);
+    let phase = |row: &R| of(row).filter(|x| *x != Complex::ZERO).map(|x| x.arg().to_degrees());
     table.number("phase", "deg", &phase).digits(short);
     table.number("Re", "", &|row| value(row, |x| x.re));
     table.number("Im", "", &|row| value(row, |x| x.im));
@@ -251,9 +206,7 @@ impl Answer for ForcedSensitivities {
         let of = &self.response;
         let variables = variables(&of.description, &of.inputs);
         let rows = of.rows();
-        let list = |slopes: Option<Slopes<f64>>| {
-            slopes.map_or(Vec::new(), |slopes| slopes.iter().collect())
-        };
+        let list = |slopes: Option<Slopes<f64>>| slopes.map_or(Vec::new(), |slopes| slopes.iter().collect());
         let derived = |name: String, unit: Unit, slopes: Option<Slopes<f64>>| Derived {
             name,
             unit,
@@ -265,21 +218,13 @@ impl Answer for ForcedSensitivities {
             let (output, measure) = (Output::new(row.output), Measure::Displacement);
             let name = |what: &str| format!("{what} of {}", row.name(of));
             let modulus = self.modulus(row.place, output, measure);
-            amplitudes.push(derived(
-                name("amplitude"),
-                row.unit(&of.description),
-                modulus,
-            ));
+            amplitudes.push(derived(name("amplitude"), row.unit(&of.description), modulus));
             let phase = self.phase(row.place, output, measure);
             others.push(derived(name("phase"), unit("rad"), phase));
         }
         for (harmonic, sensitivity) in of.harmonics.iter().zip(&self.harmonics) {
             let name = format!("frequency {}", short(harmonic.frequency));
-            others.push(derived(
-                name,
-                unit("rad/s"),
-                Some(sensitivity.frequency.clone()),
-            ));
+            others.push(derived(name, unit("rad/s"), Some(sensitivity.frequency.clone())));
         }
         say(&mut said, &variables, &amplitudes);
         amplitudes.append(&mut others);
@@ -311,16 +256,12 @@ impl Answer for ForcedCurvature {
             (self.complex(row.place, output, measure), modulus)
         };
         let all: Vec<_> = rows.iter().map(|row| (row, second(row))).collect();
-        let rows: Vec<_> = (all.iter())
-            .flat_map(|x| pairs.iter().map(move |pair| (x, pair)))
-            .collect();
+        let rows: Vec<_> = (all.iter()).flat_map(|x| pairs.iter().map(move |pair| (x, pair))).collect();
         let mut table = Columns::new("second derivatives", &rows);
         table.words("output", &|((row, _), _)| Some(row.name(of)));
         table.words("in", &|((row, _), _)| Some(row.unit(d).symbol.to_string()));
         names(&mut table, &|row| row.1);
-        let scaled = |row: &Row<'_>, pair: &Pair<'_>, value: f64| {
-            Some(converted(pair.scaled(value), &row.unit(d)))
-        };
+        let scaled = |row: &Row<'_>, pair: &Pair<'_>, value: f64| Some(converted(pair.scaled(value), &row.unit(d)));
         table.number("Re", "per units", &|((row, (complex, _)), pair)| {
             scaled(row, pair, pair.of(complex.as_ref()?, inputs)?.re)
         });

@@ -10,9 +10,7 @@ use crate::algebra::{Matrix, Vector, dot, dot_complex, times_complex};
 use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_results};
 use crate::modes::{pencil_slope_times, pencil_times, transposed};
 use crate::second_order::{Adjoint, SecondDerivatives, joined, symmetric};
-use crate::sensitivity::{
-    ComplexGradient, Direction, Slopes, directions, form_gradient_along, subtract,
-};
+use crate::sensitivity::{ComplexGradient, Direction, Slopes, directions, form_gradient_along, subtract};
 use crate::{Complex, Equilibrium, Error, Output};
 
 /// A forced response with its total first and second derivatives.
@@ -51,12 +49,7 @@ impl ForcedCurvature {
     /// Second derivatives of the complex amplitude of an output of a harmonic, as a displacement, velocity or
     /// acceleration; `None` if it has none.
     #[must_use]
-    pub fn complex(
-        &self,
-        harmonic: usize,
-        output: Output,
-        measure: Measure,
-    ) -> Option<SecondDerivatives<Complex>> {
+    pub fn complex(&self, harmonic: usize, output: Output, measure: Measure) -> Option<SecondDerivatives<Complex>> {
         let (of, first) = self.first.pair(harmonic)?;
         let second = self.harmonics.get(harmonic)?;
         let o = output.index();
@@ -68,12 +61,7 @@ impl ForcedCurvature {
 
     /// Second derivatives of the modulus `|y|`; `None` also where it is zero.
     #[must_use]
-    pub fn modulus(
-        &self,
-        harmonic: usize,
-        output: Output,
-        measure: Measure,
-    ) -> Option<SecondDerivatives<f64>> {
+    pub fn modulus(&self, harmonic: usize, output: Output, measure: Measure) -> Option<SecondDerivatives<f64>> {
         let y = self.first.value(harmonic, output, measure)?;
         let slopes = self.first.complex(harmonic, output, measure)?;
         let second = self.complex(harmonic, output, measure)?;
@@ -82,12 +70,7 @@ impl ForcedCurvature {
 
     /// Second derivatives of the phase, rad; `None` also where the modulus is zero.
     #[must_use]
-    pub fn phase(
-        &self,
-        harmonic: usize,
-        output: Output,
-        measure: Measure,
-    ) -> Option<SecondDerivatives<f64>> {
+    pub fn phase(&self, harmonic: usize, output: Output, measure: Measure) -> Option<SecondDerivatives<f64>> {
         let y = self.first.value(harmonic, output, measure)?;
         let slopes = self.first.complex(harmonic, output, measure)?;
         let second = self.complex(harmonic, output, measure)?;
@@ -105,36 +88,28 @@ fn modulus_curvature(y: Complex, [a, b]: [Complex; 2], ab: Complex) -> f64 {
 ///
 /// # Errors
 /// Those of [`sensitivities`](super::sensitivities).
-pub fn second_derivatives(
-    mechanism: &dyn CurvatureKernels,
-    at: &Equilibrium,
-) -> Result<ForcedCurvature, Error> {
+pub fn second_derivatives(mechanism: &dyn CurvatureKernels, at: &Equilibrium) -> Result<ForcedCurvature, Error> {
     let solved = Solved::new(mechanism, at)?;
     let slopes = first_derivatives(&solved)?;
     let adjoint = Adjoint::new(mechanism, at)?;
-    let all: Vec<Along<'_>> = directions(mechanism, at)?
-        .map(|direction| Along::new(mechanism, at, direction))
-        .collect();
+    let all: Vec<Along<'_>> =
+        directions(mechanism, at)?.map(|direction| Along::new(mechanism, at, direction)).collect();
     let mut most = 0.0_f64;
     let mut harmonics = Vec::new();
     for (vibration, first) in solved.vibrations.iter().zip(&slopes) {
-        let moved = all
-            .iter()
-            .zip(first.frequency.iter())
-            .map(|(along, dw)| along.of(vibration, dw));
+        let moved = all.iter().zip(first.frequency.iter()).map(|(along, dw)| along.of(vibration, dw));
         let moved: Vec<Moved<'_>> = moved.collect();
         let (_, frequency) = frequency_rows(mechanism, at, &adjoint, vibration, &all);
         let adjoints = OutputAdjoint::each(&solved, vibration, 0..mechanism.sizes().outputs);
-        let of_output =
-            |(slopes, output_adjoint): (&Option<Slopes<Complex>>, Option<OutputAdjoint<'_>>)| {
-                slopes.as_ref()?;
-                let (curved, _) = Curved::new(output_adjoint?, &adjoint);
-                let rows = moved.iter().map(|moved| curved.along(mechanism, moved));
-                let rows: Option<Vec<Slopes<Complex>>> = rows.collect();
-                let (second, asymmetry) = symmetric(&rows?, at.inputs.len(), Complex::norm);
-                most = most.max(asymmetry);
-                Some(second)
-            };
+        let of_output = |(slopes, output_adjoint): (&Option<Slopes<Complex>>, Option<OutputAdjoint<'_>>)| {
+            slopes.as_ref()?;
+            let (curved, _) = Curved::new(output_adjoint?, &adjoint);
+            let rows = moved.iter().map(|moved| curved.along(mechanism, moved));
+            let rows: Option<Vec<Slopes<Complex>>> = rows.collect();
+            let (second, asymmetry) = symmetric(&rows?, at.inputs.len(), Complex::norm);
+            most = most.max(asymmetry);
+            Some(second)
+        };
         let harmonic_curvature = HarmonicCurvature {
             frequency: symmetric(&frequency, at.inputs.len(), f64::abs).0,
             outputs: first.outputs.iter().zip(adjoints).map(of_output).collect(),
@@ -145,10 +120,7 @@ pub fn second_derivatives(
         harmonics.push(harmonic_curvature);
     }
     Ok(ForcedCurvature {
-        first: ForcedSensitivities {
-            response: solved.response(),
-            harmonics: slopes,
-        },
+        first: ForcedSensitivities { response: solved.response(), harmonics: slopes },
         harmonics,
         asymmetry: most,
     })
@@ -165,11 +137,7 @@ pub(super) struct Along<'a> {
 }
 
 impl<'a> Along<'a> {
-    pub(super) fn new(
-        mechanism: &dyn CurvatureKernels,
-        at: &'a Equilibrium,
-        direction: Direction,
-    ) -> Self {
+    pub(super) fn new(mechanism: &dyn CurvatureKernels, at: &'a Equilibrium, direction: Direction) -> Self {
         let linear = direction.linear(mechanism, at);
         Self {
             at,
@@ -199,11 +167,7 @@ impl<'a> Along<'a> {
             along: self,
             vibration,
             ds,
-            dz: finite.then(|| {
-                stiffness
-                    .solve(&Matrix::from_rows(1, right.into()))
-                    .column(0)
-            }),
+            dz: finite.then(|| stiffness.solve(&Matrix::from_rows(1, right.into())).column(0)),
         }
     }
 }
@@ -242,29 +206,15 @@ pub(super) struct Curved<'a> {
 
 impl<'a> Curved<'a> {
     /// With the total gradient of `-h`.
-    pub(super) fn new(
-        output_adjoint: OutputAdjoint<'a>,
-        adjoint: &'a Adjoint<'a>,
-    ) -> (Self, ComplexGradient) {
+    pub(super) fn new(output_adjoint: OutputAdjoint<'a>, adjoint: &'a Adjoint<'a>) -> (Self, ComplexGradient) {
         let mut room = Gradient::zeros(output_adjoint.solved.mechanism.sizes());
         let mut total = output_adjoint.gradient();
         let w = (total.each_mut()).map(|part| adjoint.total(part, &mut room));
-        (
-            Self {
-                output_adjoint,
-                adjoint,
-                w,
-            },
-            total,
-        )
+        (Self { output_adjoint, adjoint, w }, total)
     }
 
     /// The derivatives of the total gradient along a direction; `None` if they are infinite.
-    pub(super) fn along(
-        &self,
-        mechanism: &dyn CurvatureKernels,
-        moved: &Moved<'_>,
-    ) -> Option<Slopes<Complex>> {
+    pub(super) fn along(&self, mechanism: &dyn CurvatureKernels, moved: &Moved<'_>) -> Option<Slopes<Complex>> {
         let (at, along) = (self.output_adjoint.solved.at, moved.along);
         let (vibration, fixed) = (self.output_adjoint.vibration, &self.output_adjoint.factors);
         let motion = &vibration.motion();
@@ -272,14 +222,7 @@ impl<'a> Curved<'a> {
         let zeros = || Gradient::zeros(mechanism.sizes());
         let (mut total, mut room) = ([zeros(), zeros()], zeros());
         let forms = (&fixed.form(motion), &change.form(motion_change));
-        form_gradient_along(
-            mechanism,
-            at,
-            forms,
-            &along.direction,
-            &mut room,
-            &mut total,
-        );
+        form_gradient_along(mechanism, at, forms, &along.direction, &mut room, &mut total);
         let weights = |motion, factors, of| {
             let mut weights = Weights::of(mechanism.sizes(), vibration, motion, of);
             weights.set_output(&self.output_adjoint, factors, of);
@@ -304,23 +247,15 @@ impl<'a> Curved<'a> {
     fn change(&self, moved: &Moved<'_>) -> Option<(Factors, Motion)> {
         let Moved { along, ds, dz, .. } = moved;
         let (dz, ds) = (dz.as_ref()?, *ds);
-        let (vibration, seen, o) = (
-            self.output_adjoint.vibration,
-            &self.output_adjoint.solved.seen,
-            self.output_adjoint.output,
-        );
+        let (vibration, seen, o) =
+            (self.output_adjoint.vibration, &self.output_adjoint.solved.seen, self.output_adjoint.output);
         let (s, z) = (vibration.harmonic.s(), &vibration.harmonic.unknowns);
-        let (p, linear) = (
-            &self.output_adjoint.factors.left,
-            &self.output_adjoint.solved.at.linear,
-        );
+        let (p, linear) = (&self.output_adjoint.factors.left, &self.output_adjoint.solved.at.linear);
         let n = z.len();
         let (dc, slope) = (along.seen.row(o, s), seen.row_slope(o, s));
         let of_matrices = pencil_times(&along.transposed, s, p);
         let of_frequency = pencil_slope_times(&transposed(linear), s, p);
-        let right = Vector::from_fn(n, |i| {
-            dc[i] + ds * (slope[i] - of_frequency[i]) - of_matrices[i]
-        });
+        let right = Vector::from_fn(n, |i| dc[i] + ds * (slope[i] - of_frequency[i]) - of_matrices[i]);
         let stiffness = &vibration.stiffness;
         if stiffness.seen_by(&right) {
             return None;
@@ -373,14 +308,8 @@ pub(super) fn frequency_along(
     let mut gradient = Gradient::zeros(mechanism.sizes());
     let weights = Weights::of_frequency(mechanism.sizes(), vibration);
     weights.gradient_into(mechanism, at, gradient_results(&mut gradient));
-    let Direction {
-        coordinates,
-        inputs,
-        design,
-    } = &along.direction;
-    dot(&gradient.coordinates, coordinates)
-        + dot(&gradient.inputs, inputs)
-        + dot(&gradient.design, design)
+    let Direction { coordinates, inputs, design } = &along.direction;
+    dot(&gradient.coordinates, coordinates) + dot(&gradient.inputs, inputs) + dot(&gradient.design, design)
 }
 
 /// The total gradient of a frequency, and its derivatives along each direction.
@@ -396,10 +325,7 @@ pub(super) fn frequency_rows(
     let weights = Weights::of_frequency(sizes, vibration);
     weights.gradient_into(mechanism, at, gradient_results(&mut partial));
     let w = adjoint.total(&mut partial, &mut room);
-    let slopes = |gradient: &Gradient| Slopes {
-        by_input: gradient.inputs.clone(),
-        by_design: gradient.design.clone(),
-    };
+    let slopes = |gradient: &Gradient| Slopes { by_input: gradient.inputs.clone(), by_design: gradient.design.clone() };
     let first = slopes(&partial);
     let still = Weights::zeros(sizes);
     let row = |along: &Along<'_>| {

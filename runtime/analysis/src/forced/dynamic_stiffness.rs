@@ -44,28 +44,16 @@ struct Vanishing {
 impl DynamicStiffness {
     /// At `s = i w`; `None` if it is singular beyond what single modes explain.
     pub(super) fn new(linear: &Linear, s: Complex) -> Option<Self> {
-        let Scaled {
-            rows,
-            columns,
-            mut matrix,
-        } = Scaled::new(linear, s);
+        let Scaled { rows, columns, mut matrix } = Scaled::new(linear, s);
         let n = rows.len();
         let mut vanishing = Vec::new();
         for _ in 0..=n {
             let (factors, regular) = factored(&matrix)?;
             let Some(direction) = vanishing_direction(&factors, regular, n) else {
-                return Some(Self {
-                    rows,
-                    columns,
-                    matrix,
-                    factors,
-                    vanishing,
-                });
+                return Some(Self { rows, columns, matrix, factors, vanishing });
             };
             let (c, m) = (&linear.damping, &linear.mass);
-            let slope = Matrix::from_fn(n, n, |i, j| {
-                (2.0 * s * m[i][j] + c[i][j]) * (rows[i] * columns[j])
-            });
+            let slope = Matrix::from_fn(n, n, |i, j| (2.0 * s * m[i][j] + c[i][j]) * (rows[i] * columns[j]));
             let column = unit(&times(&slope, &direction.right))?;
             let row = unit(&times(&slope.transpose(), &direction.left))?;
             for i in 0..n {
@@ -144,11 +132,7 @@ impl Scaled {
                 *value *= by_row * by_column;
             }
         }
-        Self {
-            rows,
-            columns,
-            matrix,
-        }
+        Self { rows, columns, matrix }
     }
 }
 
@@ -302,8 +286,7 @@ struct Numbers(u64);
 impl Numbers {
     fn next(&mut self) -> Complex {
         let mut part = || {
-            self.0 = (self.0.wrapping_mul(6_364_136_223_846_793_005))
-                .wrapping_add(1_442_695_040_888_963_407);
+            self.0 = (self.0.wrapping_mul(6_364_136_223_846_793_005)).wrapping_add(1_442_695_040_888_963_407);
             (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
         };
         Complex::new(part(), part())

@@ -20,11 +20,7 @@ impl Forces {
         })
     }
 
-    pub(super) fn along(
-        mechanism: &dyn CurvatureKernels,
-        at: &Equilibrium,
-        direction: &Direction,
-    ) -> Self {
+    pub(super) fn along(mechanism: &dyn CurvatureKernels, at: &Equilibrium, direction: &Direction) -> Self {
         let arguments: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
         let (kernel, direction) = (Curvature::Forcing, direction.parts());
         Self::filled(mechanism.sizes(), |results| {
@@ -99,11 +95,7 @@ impl Seen {
         })
     }
 
-    pub(super) fn along(
-        mechanism: &dyn CurvatureKernels,
-        at: &Equilibrium,
-        direction: &Direction,
-    ) -> Self {
+    pub(super) fn along(mechanism: &dyn CurvatureKernels, at: &Equilibrium, direction: &Direction) -> Self {
         let arguments: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
         let (kernel, direction) = (Curvature::OutputMotion, direction.parts());
         Self::filled(mechanism.sizes(), |results| {
@@ -121,9 +113,7 @@ impl Seen {
     pub(super) fn without_rough(&mut self, forces: &Forces) -> Vec<bool> {
         let of_motion = |o: usize| self.0.iter().all(|matrix| all_finite(&matrix[o]));
         let outputs = 0..self.0[0].row_count();
-        let smooth: Vec<bool> = outputs
-            .map(|o| of_motion(o) && forces.finite_in(o))
-            .collect();
+        let smooth: Vec<bool> = outputs.map(|o| of_motion(o) && forces.finite_in(o)).collect();
         let rough = smooth.iter().enumerate().filter(|(_, smooth)| !**smooth);
         for (o, _) in rough {
             self.0.iter_mut().for_each(|matrix| matrix[o].fill(0.0));
@@ -165,8 +155,6 @@ impl Seen {
     fn combined(&self, output: usize, [a, v, x]: [Complex; 3]) -> Vector<Complex> {
         let [acceleration, velocity, position] = &self.0;
         let rows = [&acceleration[output], &velocity[output], &position[output]];
-        Vector::from_fn(rows[0].len(), |i| {
-            a * rows[0][i] + v * rows[1][i] + x * rows[2][i]
-        })
+        Vector::from_fn(rows[0].len(), |i| a * rows[0][i] + v * rows[1][i] + x * rows[2][i])
     }
 }

@@ -56,30 +56,18 @@ pub(crate) struct Lines<'a> {
 pub(crate) type Wanted = (usize, Output, Measure);
 
 impl<'a> Lines<'a> {
-    pub(crate) fn new(
-        mechanism: &'a dyn CurvatureKernels,
-        at: &'a Equilibrium,
-        input: usize,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(mechanism: &'a dyn CurvatureKernels, at: &'a Equilibrium, input: usize) -> Result<Self, Error> {
         let direction = directions(mechanism, at)?.nth(input);
-        let direction = direction.ok_or(Error::NoSensitivity {
-            reason: NoDerivative::UnknownInput,
-        })?;
-        Ok(Self {
-            solved: Solved::new(mechanism, at)?,
-            along: Along::new(mechanism, at, direction),
-            mechanism,
-            input,
-        })
+        let direction = direction.ok_or(Error::NoSensitivity { reason: NoDerivative::UnknownInput })?;
+        Ok(Self { solved: Solved::new(mechanism, at)?, along: Along::new(mechanism, at, direction), mechanism, input })
     }
 
     /// The vibration that an output is asked of, and its adjoint.
     fn of(&self, (harmonic, output, _): Wanted) -> Result<(&Vibration, OutputAdjoint<'_>), Error> {
         let (solved, at) = (&self.solved, self.solved.at);
-        let (Some(vibration), true) = (
-            solved.vibrations.get(harmonic),
-            output.index() < self.mechanism.sizes().outputs,
-        ) else {
+        let (Some(vibration), true) =
+            (solved.vibrations.get(harmonic), output.index() < self.mechanism.sizes().outputs)
+        else {
             return Err(Error::UnknownHandle {
                 kind: "output",
                 index: output.index(),
@@ -107,17 +95,9 @@ impl<'a> Lines<'a> {
         let dw = frequency_along(mechanism, at, vibration, &self.along);
         let moved = self.along.of(vibration, dw);
         let dy = moved.output(&self.solved, output).ok_or(NOT_SMOOTH)?;
-        let terms = terms(
-            &at.linear,
-            w,
-            &output_adjoint.factors.left,
-            &harmonic.unknowns,
-        );
+        let terms = terms(&at.linear, w, &output_adjoint.factors.left, &harmonic.unknowns);
         let seen = &vibration.seen[output];
-        let (forces, mut force) = (
-            Forces::of(mechanism, at),
-            Vector::zeros(at.coordinates.len()),
-        );
+        let (forces, mut force) = (Forces::of(mechanism, at), Vector::zeros(at.coordinates.len()));
         for share in &harmonic.shares {
             add(&mut force, &forces.force(share.excitation, share.turn()));
         }
@@ -143,10 +123,7 @@ impl<'a> Lines<'a> {
         let y = harmonic.outputs[wanted.1.index()].ok_or(NOT_SMOOTH)?;
         let along = slice::from_ref(&self.along);
         let (slopes, rows) = frequency_rows(mechanism, at, &adjoint, vibration, along);
-        let w = Curving {
-            slopes,
-            along: rows.into_iter().next().ok_or(NOT_SMOOTH)?,
-        };
+        let w = Curving { slopes, along: rows.into_iter().next().ok_or(NOT_SMOOTH)? };
         let (curved, total) = Curved::new(output_adjoint, &adjoint);
         let moved = self.along.of(vibration, w.slopes.by_input[self.input]);
         let row = curved.along(mechanism, &moved).ok_or(NOT_SMOOTH)?;
@@ -170,9 +147,7 @@ impl<'a> Lines<'a> {
 }
 
 /// What depends on a place that nothing determines, or is infinite.
-const NOT_SMOOTH: Error = Error::NoSensitivity {
-    reason: NoDerivative::NotSmooth,
-};
+const NOT_SMOOTH: Error = Error::NoSensitivity { reason: NoDerivative::NotSmooth };
 
 /// `|(c . phi) (psi . f) / psi^T (2 s M + C) phi|`: the size of the residue of `c . D^-1 f` at the pole of a mode; zero
 /// where rounding alone makes it differ from that.
@@ -180,11 +155,7 @@ fn residue(linear: &Linear, mode: &Mode, seen: &[Complex], force: &[Complex]) ->
     let product = |x: &[Complex], y: &[Complex]| {
         let terms: f64 = x.iter().zip(y).map(|(x, y)| (x * y).norm()).sum();
         let product = dot_complex(x, y).norm();
-        if product > ROUNDING * terms {
-            product
-        } else {
-            0.0
-        }
+        if product > ROUNDING * terms { product } else { 0.0 }
     };
     let (right, left) = (&mode.shape, mode.left());
     match product(seen, right) * product(left, force) {
@@ -201,9 +172,7 @@ fn terms(linear: &Linear, w: f64, p: &[Complex], z: &[Complex]) -> f64 {
     let row = |i: usize| {
         let each = z.iter().enumerate();
         let (k, c, m) = (&linear.stiffness[i], &linear.damping[i], &linear.mass[i]);
-        each.fold(0.0, |sum, (j, z)| {
-            sum + (k[j].abs() + w * (c[j].abs() + w * m[j].abs())) * z.norm()
-        })
+        each.fold(0.0, |sum, (j, z)| sum + (k[j].abs() + w * (c[j].abs() + w * m[j].abs())) * z.norm())
     };
     let each = p.iter().enumerate();
     each.map(|(i, p)| p.norm() * row(i)).sum()

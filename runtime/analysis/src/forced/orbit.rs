@@ -35,10 +35,7 @@ impl Orbit {
     #[must_use]
     pub fn of(x: Complex, y: Complex) -> Self {
         let turned = Complex::I * y;
-        Self {
-            forward: (x + turned) / 2.0,
-            backward: (x - turned) / 2.0,
-        }
+        Self { forward: (x + turned) / 2.0, backward: (x - turned) / 2.0 }
     }
 
     /// Half of the longest and of the shortest diameter, `|f| + |b|` and `||f| - |b||`.

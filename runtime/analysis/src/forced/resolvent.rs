@@ -82,9 +82,7 @@ impl<'a> Resolvent<'a> {
         let turn = forces.frequency(first).signum();
         let s = Complex::new(0.0, forces.frequency(first).abs());
         if s == Complex::ZERO {
-            return Err(Error::NoFrequency {
-                excitation: infos[first].name.clone(),
-            });
+            return Err(Error::NoFrequency { excitation: infos[first].name.clone() });
         }
         let scaled = Scaled::new(&at.linear, s);
         let bordered = Bordered::new(&scaled.matrix).ok_or_else(|| outside_domain(at))?;
@@ -93,16 +91,9 @@ impl<'a> Resolvent<'a> {
         let rows = |row: &dyn Fn(usize) -> Vector<Complex>| scaled.outputs(outputs, row);
         let c = rows(&|o| seen.row(o, s));
         let Bordered { g, r, l, e } = &bordered;
-        let [mut small, mut left, mut right, mut rest] = [
-            e.clone(),
-            scaled.forced(l.clone()),
-            product_complex(&c, r),
-            scaled.forced(product_complex(&c, g)),
-        ]
-        .map(|value| Linearised {
-            value,
-            slopes: Vec::new(),
-        });
+        let [mut small, mut left, mut right, mut rest] =
+            [e.clone(), scaled.forced(l.clone()), product_complex(&c, r), scaled.forced(product_complex(&c, g))]
+                .map(|value| Linearised { value, slopes: Vec::new() });
         for &variable in &variables {
             let along = Direction {
                 coordinates: shift.column(variable),
@@ -112,24 +103,18 @@ impl<'a> Resolvent<'a> {
             let rate = turn * Forces::along(mechanism, at, &along).frequency(first);
             let ds = Complex::new(0.0, rate);
             let change = scaled.change(&at.linear, &along.linear(mechanism, at), s, ds);
-            let (changed_right, changed_left) =
-                (product_complex(&change, r), product_complex(l, &change));
+            let (changed_right, changed_left) = (product_complex(&change, r), product_complex(l, &change));
             let moved = Seen::along(mechanism, at, &along);
             let dc = rows(&|o| {
                 let (row, slope) = (moved.row(o, s), seen.row_slope(o, s));
                 Vector::from_fn(row.len(), |i| row[i] + slope[i] * ds)
             });
             small.slopes.push(product_complex(l, &changed_right));
-            left.slopes
-                .push(scaled.forced(negated(product_complex(&changed_left, g))));
+            left.slopes.push(scaled.forced(negated(product_complex(&changed_left, g))));
             let cg = product_complex(&c, g);
-            right.slopes.push(difference(
-                product_complex(&dc, r),
-                &product_complex(&cg, &changed_right),
-            ));
+            right.slopes.push(difference(product_complex(&dc, r), &product_complex(&cg, &changed_right)));
             let through = product_complex(&product_complex(&cg, &change), g);
-            rest.slopes
-                .push(scaled.forced(difference(product_complex(&dc, g), &through)));
+            rest.slopes.push(scaled.forced(difference(product_complex(&dc, g), &through)));
         }
         Ok(Self {
             mechanism,
@@ -138,9 +123,7 @@ impl<'a> Resolvent<'a> {
                 .filter(|&k| infos[k].with == first)
                 .map(|k| (k, forces.frequency(k).signum()))
                 .collect(),
-            shift: Matrix::from_fn(shift.row_count(), variables.len(), |i, k| {
-                shift[i][variables[k]]
-            }),
+            shift: Matrix::from_fn(shift.row_count(), variables.len(), |i, k| shift[i][variables[k]]),
             variables,
             small,
             left,
@@ -152,20 +135,14 @@ impl<'a> Resolvent<'a> {
     /// The frequency, rad/s, and the amplitude of every output at a design, SI; `None` where there is no response, and
     /// for an output that has no derivative.
     pub fn amplitudes(&self, design: &[f64]) -> Option<(f64, Vec<Option<Complex>>)> {
-        let changes: Vector = self
-            .variables
-            .iter()
-            .map(|&k| design[k] - self.at.design[k])
-            .collect();
+        let changes: Vector = self.variables.iter().map(|&k| design[k] - self.at.design[k]).collect();
         let mut coordinates = self.at.coordinates.clone();
         for (coordinate, row) in coordinates.iter_mut().zip(self.shift.iter()) {
             *coordinate += row.iter().zip(&changes).map(|(a, b)| a * b).sum::<f64>();
         }
         let forces = Forces::at(self.mechanism, &coordinates, &self.at.inputs, design);
-        let (mut force, mut amplitudes): (Vector<Complex>, Vector<Complex>) = (
-            Vector::zeros(coordinates.len()),
-            Vector::zeros(self.mechanism.sizes().outputs),
-        );
+        let (mut force, mut amplitudes): (Vector<Complex>, Vector<Complex>) =
+            (Vector::zeros(coordinates.len()), Vector::zeros(self.mechanism.sizes().outputs));
         for &(member, turn) in &self.members {
             add(&mut force, &forces.force(member, turn));
             add(&mut amplitudes, &forces.direct(member, turn));
@@ -195,9 +172,7 @@ impl Scaled {
     /// Rows of outputs, in terms of scaled unknowns.
     fn outputs(&self, count: usize, row: &dyn Fn(usize) -> Vector<Complex>) -> Matrix<Complex> {
         let rows: Vec<Vector<Complex>> = (0..count).map(row).collect();
-        Matrix::from_fn(count, self.columns.len(), |o, i| {
-            rows[o][i] * self.columns[i]
-        })
+        Matrix::from_fn(count, self.columns.len(), |o, i| rows[o][i] * self.columns[i])
     }
 
     /// A matrix that acts on forces, in terms of forces that are not scaled.
@@ -247,9 +222,7 @@ impl Bordered {
 /// Orthonormal left and right singular vectors of the smallest singular values, by inverse iteration; all unit vectors
 /// of a small matrix.
 #[expect(clippy::type_complexity, reason = "two lists of vectors")]
-fn near_null_space(
-    matrix: &Matrix<Complex>,
-) -> Option<(Vec<Vector<Complex>>, Vec<Vector<Complex>>)> {
+fn near_null_space(matrix: &Matrix<Complex>) -> Option<(Vec<Vector<Complex>>, Vec<Vector<Complex>>)> {
     let n = matrix.row_count();
     let unit = |k: usize| Vector::from_fn(n, |i| Complex::from(f64::from(u8::from(i == k))));
     if n <= MOST {
@@ -258,9 +231,8 @@ fn near_null_space(
     }
     let (factors, _) = factored(matrix)?;
     // Start vectors without symmetry: the sum of one cosine and a unit vector for each.
-    let mut right: Vec<Vector<Complex>> = (0..MOST)
-        .map(|k| Vector::from_fn(n, |i| Complex::from(((i * (k + 1)) as f64 + 0.5).cos())))
-        .collect();
+    let mut right: Vec<Vector<Complex>> =
+        (0..MOST).map(|k| Vector::from_fn(n, |i| Complex::from(((i * (k + 1)) as f64 + 0.5).cos()))).collect();
     let mut left = right.clone();
     for _ in 0..STEPS {
         let adjoint = right.iter().map(|vector| {

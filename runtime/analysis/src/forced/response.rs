@@ -70,9 +70,7 @@ impl ForcedResponse {
     #[must_use]
     pub fn harmonic<M>(&self, excitation: Excitation<M>) -> Option<&Harmonic> {
         let drives = |share: &Share| share.excitation == excitation.index();
-        self.harmonics
-            .iter()
-            .find(|harmonic| harmonic.shares.iter().any(drives))
+        self.harmonics.iter().find(|harmonic| harmonic.shares.iter().any(drives))
     }
 }
 
@@ -126,18 +124,14 @@ impl<'a> Solved<'a> {
         at.regular()?;
         let infos = &at.description.excitations;
         if infos.is_empty() {
-            return Err(Error::NoExcitation {
-                mechanism: at.description.name.clone(),
-            });
+            return Err(Error::NoExcitation { mechanism: at.description.name.clone() });
         }
         let forces = Forces::of(mechanism, at);
         for (k, info) in infos.iter().enumerate() {
             let frequency = forces.frequency(k).abs();
             // At zero, the amplitude that belongs to a velocity is infinite too.
             if frequency == 0.0 {
-                return Err(Error::NoFrequency {
-                    excitation: info.name.clone(),
-                });
+                return Err(Error::NoFrequency { excitation: info.name.clone() });
             }
             if let Some(value) = forces.infinite(k) {
                 return Err(Error::Unphysical {
@@ -157,8 +151,7 @@ impl<'a> Solved<'a> {
             let stiffness = match vibrations.iter().find(same) {
                 Some(vibration) => vibration.stiffness.clone(),
                 None => {
-                    let dynamic_stiffness =
-                        DynamicStiffness::new(&at.linear, Complex::new(0.0, frequency));
+                    let dynamic_stiffness = DynamicStiffness::new(&at.linear, Complex::new(0.0, frequency));
                     Rc::new(dynamic_stiffness.ok_or_else(|| resonance(at, first, frequency))?)
                 }
             };
@@ -166,28 +159,16 @@ impl<'a> Solved<'a> {
             let rows = seen.rows(Complex::new(0.0, frequency));
             let shares = shares(at, &forces, members.collect(), (&stiffness, &rows, &smooth));
             let shares = shares.map_err(|driven| resonance(at, driven, frequency))?;
-            vibrations.push(Vibration {
-                harmonic: superposed(mechanism, frequency, shares),
-                stiffness,
-                seen: rows,
-            });
+            vibrations.push(Vibration { harmonic: superposed(mechanism, frequency, shares), stiffness, seen: rows });
         }
-        Ok(Self {
-            mechanism,
-            at,
-            seen,
-            smooth,
-            vibrations,
-        })
+        Ok(Self { mechanism, at, seen, smooth, vibrations })
     }
 
     /// Why derivatives are not finite: an output that has none by the value of the state is in the way of all.
     pub(super) fn not_finite(&self) -> Error {
         let mut outputs = self.at.description.outputs.iter().zip(&self.smooth);
         match outputs.find(|(_, smooth)| !**smooth) {
-            Some((info, _)) => Error::NotSmooth {
-                output: info.name.clone(),
-            },
+            Some((info, _)) => Error::NotSmooth { output: info.name.clone() },
             None => outside_domain(self.at),
         }
     }
@@ -251,9 +232,7 @@ fn shares(
         true => -1.0,
         false => 1.0,
     };
-    let each = members
-        .iter()
-        .map(|&member| forces.force(member, turn(member)));
+    let each = members.iter().map(|&member| forces.force(member, turn(member)));
     let each: Vec<Vector<Complex>> = each.collect();
     if let Some(driven) = each.iter().position(|force| stiffness.driven_by(force)) {
         return Err(members[driven]);
@@ -285,12 +264,7 @@ fn superposed(mechanism: &dyn Kernels, frequency: f64, shares: Vec<Share>) -> Ha
         }
         add(&mut unknowns, &share.unknowns);
     }
-    Harmonic {
-        frequency,
-        outputs,
-        unknowns,
-        shares,
-    }
+    Harmonic { frequency, outputs, unknowns, shares }
 }
 
 pub(super) fn add(sum: &mut [Complex], values: &[Complex]) {
@@ -310,9 +284,5 @@ pub(crate) fn resonance(at: &Equilibrium, excitation: usize, frequency: f64) -> 
         let nearest = away.min_by(|a, b| a.1.total_cmp(&b.1))?;
         (nearest.1 <= NEAR * frequency).then_some(nearest.0)
     });
-    Error::Resonance {
-        excitation: at.description.excitations[excitation].name.clone(),
-        frequency,
-        mode,
-    }
+    Error::Resonance { excitation: at.description.excitations[excitation].name.clone(), frequency, mode }
 }

@@ -43,12 +43,7 @@ impl ForcedSensitivities {
     /// Derivatives of the complex amplitude of an output of a harmonic, as a displacement, velocity or acceleration;
     /// `None` if it has none.
     #[must_use]
-    pub fn complex(
-        &self,
-        harmonic: usize,
-        output: Output,
-        measure: Measure,
-    ) -> Option<Slopes<Complex>> {
+    pub fn complex(&self, harmonic: usize, output: Output, measure: Measure) -> Option<Slopes<Complex>> {
         let (of, sensitivity) = self.pair(harmonic)?;
         let slopes = sensitivity.outputs.get(output.index())?.as_ref()?;
         let value = (of.frequency, (*of.outputs.get(output.index())?)?);
@@ -58,12 +53,7 @@ impl ForcedSensitivities {
 
     /// Derivatives of the modulus `|y|`; `None` also where it is zero.
     #[must_use]
-    pub fn modulus(
-        &self,
-        harmonic: usize,
-        output: Output,
-        measure: Measure,
-    ) -> Option<Slopes<f64>> {
+    pub fn modulus(&self, harmonic: usize, output: Output, measure: Measure) -> Option<Slopes<f64>> {
         let y = self.value(harmonic, output, measure)?;
         let slopes = self.complex(harmonic, output, measure)?;
         Some(slopes.map(|dy| modulus_slope(y, dy)))
@@ -78,12 +68,7 @@ impl ForcedSensitivities {
     }
 
     /// The complex amplitude, unless it is zero.
-    pub(super) fn value(
-        &self,
-        harmonic: usize,
-        output: Output,
-        measure: Measure,
-    ) -> Option<Complex> {
+    pub(super) fn value(&self, harmonic: usize, output: Output, measure: Measure) -> Option<Complex> {
         let (of, _) = self.pair(harmonic)?;
         let amplitude = of.amplitude(output, measure)?;
         (amplitude != Complex::ZERO).then_some(amplitude)
@@ -105,15 +90,9 @@ pub(super) fn modulus_slope(y: Complex, dy: Complex) -> f64 {
 /// # Errors
 /// Those of [`response`](super::response), [`Error::CriticalState`] if `Khat` is singular, and those of
 /// [`equilibrium_shift`].
-pub fn sensitivities(
-    mechanism: &dyn Kernels,
-    at: &Equilibrium,
-) -> Result<ForcedSensitivities, Error> {
+pub fn sensitivities(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<ForcedSensitivities, Error> {
     let solved = Solved::new(mechanism, at)?;
-    Ok(ForcedSensitivities {
-        harmonics: first_derivatives(&solved)?,
-        response: solved.response(),
-    })
+    Ok(ForcedSensitivities { harmonics: first_derivatives(&solved)?, response: solved.response() })
 }
 
 pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensitivity>, Error> {
@@ -126,9 +105,7 @@ pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensi
         let finite: Vec<&OutputAdjoint<'_>> = adjoints.iter().flatten().collect();
         let mut rows = gradients(solved, vibration, &finite);
         let placed = |rows: &Matrix, k: usize| depends(at, &rows[k][..n]);
-        let placed: Vec<bool> = (0..finite.len())
-            .map(|k| rows.iter().any(|rows| placed(rows, k)))
-            .collect();
+        let placed: Vec<bool> = (0..finite.len()).map(|k| rows.iter().any(|rows| placed(rows, k))).collect();
         rows.iter_mut().for_each(|rows| add_shift(rows, &shift));
         let [re, im] = &rows;
         let mut places = 0..finite.len();
@@ -142,10 +119,7 @@ pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensi
         let of_frequency = Weights::of_frequency(mechanism.sizes(), vibration);
         of_frequency.gradient_into(mechanism, at, results(at, &mut row[0]));
         add_shift(&mut row, &shift);
-        let harmonic_sensitivity = HarmonicSensitivity {
-            outputs,
-            frequency: slopes(at, |j| row[0][j]),
-        };
+        let harmonic_sensitivity = HarmonicSensitivity { outputs, frequency: slopes(at, |j| row[0][j]) };
         if !harmonic_sensitivity.finite() {
             return Err(solved.not_finite());
         }

@@ -11,18 +11,12 @@ use crate::{Equilibrium, Error};
 ///
 /// # Errors
 /// As [`sensitivities`](super::sensitivities).
-pub fn share_sensitivities(
-    mechanism: &dyn Kernels,
-    at: &Equilibrium,
-) -> Result<ForcedSensitivities, Error> {
+pub fn share_sensitivities(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<ForcedSensitivities, Error> {
     let mut solved = Solved::new(mechanism, at)?;
     let mut each: Vec<Vibration> = solved.vibrations.iter().flat_map(alone).collect();
     each.sort_by_key(|x| x.harmonic.shares[0].excitation);
     solved.vibrations = each;
-    Ok(ForcedSensitivities {
-        harmonics: first_derivatives(&solved)?,
-        response: solved.response(),
-    })
+    Ok(ForcedSensitivities { harmonics: first_derivatives(&solved)?, response: solved.response() })
 }
 
 /// The vibrations that the excitations of a harmonic cause by themselves.

@@ -23,12 +23,7 @@ pub(super) struct SideBySide<'a> {
 
 impl<'a> SideBySide<'a> {
     /// For `count` sets of factors.
-    pub(super) fn new(
-        mechanism: &'a dyn Kernels,
-        at: &'a Equilibrium,
-        kernel: Kernel,
-        count: usize,
-    ) -> Self {
+    pub(super) fn new(mechanism: &'a dyn Kernels, at: &'a Equilibrium, kernel: Kernel, count: usize) -> Self {
         let state = [&at.coordinates, &at.inputs, &at.design];
         let variables = state.iter().map(|list| list.len()).sum();
         Self {
@@ -75,8 +70,7 @@ impl<'a> SideBySide<'a> {
         let (coordinates, rest) = self.found.split_at_mut(self.at.coordinates.len());
         let (inputs, design) = rest.split_at_mut(self.at.inputs.len());
         let results = &mut [coordinates, inputs, design];
-        self.mechanism
-            .evaluate_batch(self.kernel, &arguments, results);
+        self.mechanism.evaluate_batch(self.kernel, &arguments, results);
         for lane in 0..lanes {
             let row = &mut self.gradients[self.count - lanes + lane];
             for (to, from) in row.iter_mut().zip(&self.found) {

@@ -24,11 +24,7 @@ impl Vibration {
     /// The output as a displacement.
     #[must_use]
     pub fn new<M>(output: Output<M>, excitation: Excitation<M>) -> Self {
-        Self {
-            output: output.any(),
-            excitation: excitation.any(),
-            measure: Measure::Displacement,
-        }
+        Self { output: output.any(), excitation: excitation.any(), measure: Measure::Displacement }
     }
 
     /// Every output under every harmonic, as a displacement.
@@ -52,10 +48,7 @@ impl Vibration {
     /// The amplitude in a response.
     pub(crate) fn of(&self, response: &ForcedResponse) -> Option<f64> {
         let harmonic = self.place(&response.description)?;
-        let amplitude = response
-            .harmonics
-            .get(harmonic)?
-            .amplitude(self.output, self.measure)?;
+        let amplitude = response.harmonics.get(harmonic)?.amplitude(self.output, self.measure)?;
         Some(amplitude.norm()).filter(|value| value.is_finite())
     }
 
@@ -84,12 +77,7 @@ impl Vibration {
         let (index, count) = (self.excitation.index(), of.excitations.len());
         match index < count {
             true => Ok(()),
-            false => Err(Error::UnknownHandle {
-                kind: "excitation",
-                index,
-                mechanism: of.name.clone(),
-                count,
-            }),
+            false => Err(Error::UnknownHandle { kind: "excitation", index, mechanism: of.name.clone(), count }),
         }
     }
 
@@ -97,19 +85,13 @@ impl Vibration {
     pub(crate) fn place(&self, of: &Description) -> Option<usize> {
         let with = of.excitations.get(self.excitation.index())?.with;
         let firsts = of.excitations.iter().enumerate().take(with + 1);
-        firsts
-            .filter(|(k, info)| info.with == *k)
-            .count()
-            .checked_sub(1)
+        firsts.filter(|(k, info)| info.with == *k).count().checked_sub(1)
     }
 
     pub(crate) fn name(&self, of: &Description) -> String {
         let output = of.outputs.get(self.output.index());
         let output = output.map_or("?", |info| &*info.name);
-        let with = of
-            .excitations
-            .get(self.excitation.index())
-            .map(|info| info.with);
+        let with = of.excitations.get(self.excitation.index()).map(|info| info.with);
         let members = of.excitations.iter().filter(|info| Some(info.with) == with);
         let names: Vec<&str> = members.map(|info| &*info.name).collect();
         let measure = match self.measure {
@@ -131,10 +113,7 @@ impl Vibration {
             "" => format!("1{per}"),
             symbol => format!("{symbol}{per}"),
         };
-        Some(Unit {
-            symbol: Text::from(symbol),
-            scale: unit.scale,
-        })
+        Some(Unit { symbol: Text::from(symbol), scale: unit.scale })
     }
 }
 
@@ -143,10 +122,5 @@ pub(crate) fn check_output(output: Output, description: &Description) -> Result<
     if index < count {
         return Ok(());
     }
-    Err(Error::UnknownHandle {
-        kind: "output",
-        index,
-        mechanism: description.name.clone(),
-        count,
-    })
+    Err(Error::UnknownHandle { kind: "output", index, mechanism: description.name.clone(), count })
 }

@@ -76,9 +76,7 @@ fn derivatives(all: &[Row<'_>]) -> Table {
         for (what, unit, moving) in all {
             let Some(moving) = moving else { continue };
             let design = of.description.design.iter().enumerate();
-            rows.extend(
-                design.map(|(k, by)| (row, what, unit.clone(), (by, moving.by_design.get(k)))),
-            );
+            rows.extend(design.map(|(k, by)| (row, what, unit.clone(), (by, moving.by_design.get(k)))));
         }
     }
     let mut table = Columns::new("derivatives of peaks", &rows);
@@ -88,19 +86,15 @@ fn derivatives(all: &[Row<'_>]) -> Table {
     table.words("unit", &|row| Some(row.2.symbol.to_string()));
     table.words("by", &|row| Some(row.3.0.name.to_string()));
     table.words("per", &|row| Some(row.3.0.unit.symbol.to_string()));
-    table.number("derivative", "", &|(_, _, unit, (by, slope))| {
-        Some(converted(*slope.as_ref()? * by.unit.scale, unit))
-    });
+    table
+        .number("derivative", "", &|(_, _, unit, (by, slope))| Some(converted(*slope.as_ref()? * by.unit.scale, unit)));
     table.finish().0
 }
 
 impl Peaks {
     /// The units of place, frequency, height and amplification factor.
     fn units(&self) -> [Unit; 4] {
-        let plain = |symbol| Unit {
-            symbol: Text::Static(symbol),
-            scale: 1.0,
-        };
+        let plain = |symbol| Unit { symbol: Text::Static(symbol), scale: 1.0 };
         let d = &self.description;
         let input = d.inputs.get(self.range.input.index());
         [
@@ -123,10 +117,7 @@ impl Peaks {
     /// The text about the peaks of one vibration.
     fn say(&self, said: &mut Findings) {
         let title = title_along(&self.description, &self.inputs, self.range.input);
-        said.join(Findings::titled(format!(
-            "{title}: peaks of the vibration, {}",
-            self.name()
-        )));
+        said.join(Findings::titled(format!("{title}: peaks of the vibration, {}", self.name())));
         let rows: Vec<Row<'_>> = self.rows().collect();
         said.text(self.columns(&rows).finish().1);
         if self.peaks.is_empty() {
@@ -153,9 +144,7 @@ impl Peaks {
             if is_height {
                 table.words("unit", &|row| Some(row.0.units()[k].symbol.to_string()));
             }
-            let mut add = |name: &str,
-                           form: Option<fn(f64) -> String>,
-                           value: &dyn Fn(&Moving) -> Option<f64>| {
+            let mut add = |name: &str, form: Option<fn(f64) -> String>, value: &dyn Fn(&Moving) -> Option<f64>| {
                 let value = |row: &Row<'_>| Some(converted(value(of(row.2)?)?, &row.0.units()[k]));
                 let unit = if is_height { "" } else { &units[k].symbol };
                 let column = table.number(name, unit, &value);
@@ -167,25 +156,16 @@ impl Peaks {
                 add(what, Some(number), &|x| Some(x.value));
             }
             let form = self.sigma_level.map(|_| rough as fn(f64) -> String);
-            add(&format!("sigma of {what}"), form, &|item| {
-                Some(item.spread.as_ref()?.sigma)
-            });
+            add(&format!("sigma of {what}"), form, &|item| Some(item.spread.as_ref()?.sigma));
         }
         let phase = |row: &Row<'_>| Some(row.2.phase.to_degrees());
         table.number("phase", "deg", &phase).digits(short);
-        for (k, what) in ["half power before", "half power after"]
-            .into_iter()
-            .enumerate()
-        {
+        for (k, what) in ["half power before", "half power after"].into_iter().enumerate() {
             let location = |row: &Row<'_>| Some(row.2.half_power[k].place()?.value);
             table.measured(what, &units[0], &location).digits(number);
-            table.words(&format!("{what} missing"), &|row| {
-                Some(missing(&row.2.half_power[k])?.to_owned())
-            });
+            table.words(&format!("{what} missing"), &|row| Some(missing(&row.2.half_power[k])?.to_owned()));
         }
-        table.words("stable", &|row| {
-            Some(if row.2.stable { "yes" } else { "no" }.to_owned())
-        });
+        table.words("stable", &|row| Some(if row.2.stable { "yes" } else { "no" }.to_owned()));
         table
     }
 
@@ -195,19 +175,12 @@ impl Peaks {
         for peak in &self.peaks {
             if !peak.stable {
                 let value = place(d, input, peak.place.value);
-                said.note(format!(
-                    "Unstable at {value}: nothing settles in this vibration."
-                ));
+                said.note(format!("Unstable at {value}: nothing settles in this vibration."));
             }
-            for (side, word) in [
-                (&peak.half_power[0], "before"),
-                (&peak.half_power[1], "after"),
-            ] {
+            for (side, word) in [(&peak.half_power[0], "before"), (&peak.half_power[1], "after")] {
                 if let Some(reason) = missing(side) {
                     let value = value_of(d, input, peak.place.value);
-                    said.note(format!(
-                        "No half-power point {word} the peak at {value}: {reason}."
-                    ));
+                    said.note(format!("No half-power point {word} the peak at {value}: {reason}."));
                 }
             }
         }

@@ -32,25 +32,14 @@ pub(crate) fn highest(
 ) -> Result<(f64, Option<Vector>), Error> {
     let vibrations = [vibration];
     let of = (&range, &vibrations[..]);
-    let along = Along::new(
-        mechanism,
-        values,
-        Following::default(),
-        of,
-        Watch::default(),
-    )?;
+    let along = Along::new(mechanism, values, Following::default(), of, Watch::default())?;
     let scanned = scan(&along, &range, start)?;
     if let Some(gap) = scanned.gaps.first() {
         return Err(gap.reason.clone());
     }
     let none = || range.without("peak", &mechanism.description());
-    let search = Search {
-        along: &along,
-        scan: &scanned,
-        ascending: range.high > range.low,
-        tolerances: None,
-        which: 0,
-    };
+    let search =
+        Search { along: &along, scan: &scanned, ascending: range.high > range.low, tolerances: None, which: 0 };
     let tops = search.tops()?.into_iter().map(|top| top.1);
     let (value, slopes) = match quantity {
         PeakQuantity::Height => {
@@ -62,10 +51,7 @@ pub(crate) fn highest(
             let ends = ends.into_iter().map(|end| (end.square_by_design(), end));
             let greatest = all.chain(ends).max_by(|a, b| lower(&a.1, &b.1));
             let (slopes, greatest) = greatest.ok_or_else(none)?;
-            (
-                greatest.heard().square().value.sqrt(),
-                greatest.modulus_by_design(&slopes),
-            )
+            (greatest.heard().square().value.sqrt(), greatest.modulus_by_design(&slopes))
         }
         PeakQuantity::Place => {
             let top = tops.max_by(lower).ok_or_else(none)?;

@@ -122,11 +122,7 @@ impl Moving {
 
     fn new(value: f64, by_design: Vector, tolerances: Option<&Tolerances>) -> Self {
         let spread = tolerances.map(|tolerance| Spread::new(value, by_design.clone(), tolerance));
-        Self {
-            value,
-            by_design,
-            spread,
-        }
+        Self { value, by_design, spread }
     }
 }
 
@@ -157,13 +153,7 @@ pub fn peaks(
     let along = Along::new(mechanism, (u, b), following.into(), of, watch)?;
     let scanned = scan(&along, &range, start)?;
     let each = vibrations.iter().enumerate().map(|(which, vibration)| {
-        let search = Search {
-            along: &along,
-            scan: &scanned,
-            ascending: range.high > range.low,
-            tolerances,
-            which,
-        };
+        let search = Search { along: &along, scan: &scanned, ascending: range.high > range.low, tolerances, which };
         let tops = search.tops()?.into_iter();
         let peaks = tops.map(|(k, top)| search.peak(k, top));
         Ok(Peaks {
@@ -205,11 +195,7 @@ impl Search<'_> {
     /// Whether the amplitude rises along the range.
     fn rises(&self, state: Heard<'_>) -> bool {
         let slope = state.square().slope;
-        if self.ascending {
-            slope > 0.0
-        } else {
-            slope < 0.0
-        }
+        if self.ascending { slope > 0.0 } else { slope < 0.0 }
     }
 
     /// A state of the scan.
@@ -303,10 +289,7 @@ impl Search<'_> {
         });
         Ok(Peak {
             place: moving(top.point.value, place),
-            height: moving(
-                square.value.sqrt(),
-                top.modulus_by_design(&top.top_by_design()),
-            ),
+            height: moving(square.value.sqrt(), top.modulus_by_design(&top.top_by_design())),
             frequency: moving(frequency, by_design),
             phase: line.amplitude[0].arg(),
             half_power,
@@ -317,11 +300,7 @@ impl Search<'_> {
     }
 
     /// The half-power point on the way from a peak along these states, or why there is none.
-    fn half_power(
-        &self,
-        top: &Curve,
-        way: impl Iterator<Item = usize>,
-    ) -> Result<Result<Half, HalfPower>, Error> {
+    fn half_power(&self, top: &Curve, way: impl Iterator<Item = usize>) -> Result<Result<Half, HalfPower>, Error> {
         let half = 0.5 * top.heard().square().value;
         let mut last = top.heard();
         for (count, k) in way.enumerate() {
@@ -356,15 +335,11 @@ impl Search<'_> {
             let coordinates = state.equilibrium.coordinates.clone();
             Ok((state, [value - half, slope, value / slope], coordinates))
         })?;
-        let zero = self
-            .along
-            .curve(zero.value, &zero.equilibrium.coordinates, self.which)?;
+        let zero = self.along.curve(zero.value, &zero.equilibrium.coordinates, self.which)?;
         let slope = zero.heard().square().slope;
         let (at_peak, at_half) = (top.top_by_design(), zero.square_by_design());
         let pairs = at_peak.iter().zip(&at_half);
-        let by_design: Vector = pairs
-            .map(|(peak, half)| (0.5 * peak - half) / slope)
-            .collect();
+        let by_design: Vector = pairs.map(|(peak, half)| (0.5 * peak - half) / slope).collect();
         let [frequency, _] = zero.heard().line.frequency;
         Ok(Half {
             frequency: (frequency, zero.frequency_by_design(&by_design)),

@@ -51,8 +51,7 @@ pub(super) fn scan(along: &Along<'_>, range: &Range, start: &[f64]) -> Result<Sc
         return Err(first.map_or(Error::CriticalState, |gap| gap.reason));
     }
     // An end at which the frequency is zero has no vibration, but everything beside it has.
-    scan.gaps
-        .retain(|gap| !matches!(gap.reason, Error::NoFrequency { .. }));
+    scan.gaps.retain(|gap| !matches!(gap.reason, Error::NoFrequency { .. }));
     Ok(scan)
 }
 
@@ -152,11 +151,7 @@ impl Scan {
     fn gap(&mut self, from: f64, to: f64, reason: &Error) {
         match self.gaps.last_mut() {
             Some(gap) if gap.to == from => gap.to = to,
-            _ => self.gaps.push(Gap {
-                from,
-                to,
-                reason: reason.clone(),
-            }),
+            _ => self.gaps.push(Gap { from, to, reason: reason.clone() }),
         }
     }
 }
@@ -190,11 +185,7 @@ fn division_of(a: Heard<'_>, b: Heard<'_>) -> Option<f64> {
                 // From the pole outwards, or to either side of it.
                 let beside = (1.2 * NEAR * width).copysign(there - here);
                 let outwards = (beside - here) / (there - here);
-                return share(if outwards > f64::EPSILON && outwards < 0.5 {
-                    outwards
-                } else {
-                    0.5
-                });
+                return share(if outwards > f64::EPSILON && outwards < 0.5 { outwards } else { 0.5 });
             }
             approached += 1;
         }

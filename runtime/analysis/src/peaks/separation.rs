@@ -54,11 +54,7 @@ impl Peaks {
     pub fn separation(self, operating: [f64; 2]) -> Separation {
         let [low, high] = operating;
         let margins = self.peaks.iter().map(|peak| margin(peak, [low, high]));
-        Separation {
-            margins: margins.collect(),
-            operating,
-            peaks: self,
-        }
+        Separation { margins: margins.collect(), operating, peaks: self }
     }
 }
 
@@ -76,10 +72,7 @@ fn margin(peak: &Peak, [low, high]: [f64; 2]) -> SeparationMargin {
             false => extra + 0.17 * (1.0 - 1.0 / (factor - 1.5)),
         }
     });
-    SeparationMargin {
-        actual: location.scaled(slope, value),
-        required,
-    }
+    SeparationMargin { actual: location.scaled(slope, value), required }
 }
 
 /// `separation margins`: a row for each peak, amplitudes in `unit`.
@@ -145,19 +138,13 @@ impl Separation {
         table.words("vibration", &|row| Some(row.0.name()));
         varied(&mut table, d, input, number, &|row| row.1.place.value);
         let factor = |row: &Row<'_>| Some(row.1.amplification.as_ref()?.value);
-        table
-            .number("amplification factor", "", &factor)
-            .digits(number);
+        table.number("amplification factor", "", &factor).digits(number);
         let margin = |row: &Row<'_>| Some(row.2.actual.value);
-        table
-            .number("separation margin", "", &margin)
-            .digits(percent);
+        table.number("separation margin", "", &margin).digits(percent);
         let sigma = |row: &Row<'_>| Some(row.2.actual.spread.as_ref()?.sigma);
         table.number("sigma of margin", "", &sigma).digits(percent);
         let required = |row: &Row<'_>| row.2.required;
-        table
-            .number("required margin", "", &required)
-            .digits(percent);
+        table.number("required margin", "", &required).digits(percent);
         table.flag("sufficient", &|row| row.2.sufficient()).shown();
         if self.peaks.vibration.measure == Measure::Displacement {
             let unit = |row: &Row<'_>| row.0.vibration.unit(&row.0.description);

@@ -55,9 +55,8 @@ impl<'a> Along<'a> {
         range.check(&description)?;
         let wanted = vibrations.iter().map(|vibration| {
             vibration.check(&description)?;
-            let harmonic = vibration.place(&description).ok_or(Error::NoExcitation {
-                mechanism: description.name.clone(),
-            })?;
+            let harmonic =
+                vibration.place(&description).ok_or(Error::NoExcitation { mechanism: description.name.clone() })?;
             Ok((harmonic, vibration.output, vibration.measure))
         });
         Ok(Self {
@@ -87,12 +86,7 @@ impl<'a> Along<'a> {
     }
 
     /// The state with one vibration and without poles.
-    pub(super) fn vibration(
-        &self,
-        value: f64,
-        from: &[f64],
-        which: usize,
-    ) -> Result<ResponsePoint, Error> {
+    pub(super) fn vibration(&self, value: f64, from: &[f64], which: usize) -> Result<ResponsePoint, Error> {
         let changing = |_: &Lines<'_>, _| Ok(());
         Ok(self.solved(value, from, which, changing)?.0)
     }
@@ -101,11 +95,7 @@ impl<'a> Along<'a> {
     pub(super) fn curve(&self, value: f64, from: &[f64], which: usize) -> Result<Curve, Error> {
         let changing = |lines: &Lines<'_>, wanted| lines.curving(wanted);
         let (point, curving) = self.solved(value, from, which, changing)?;
-        Ok(Curve {
-            point,
-            curving,
-            input: self.input.index(),
-        })
+        Ok(Curve { point, curving, input: self.input.index() })
     }
 
     fn solved<T>(
@@ -120,12 +110,7 @@ impl<'a> Along<'a> {
         let wanted = self.wanted[which];
         let line = lines.line(wanted, &[])?;
         let changes = changing(&lines, wanted)?;
-        let point = ResponsePoint {
-            value,
-            lines: vec![line],
-            poles: Vec::new(),
-            equilibrium,
-        };
+        let point = ResponsePoint { value, lines: vec![line], poles: Vec::new(), equilibrium };
         Ok((point, changes))
     }
 
@@ -136,12 +121,7 @@ impl<'a> Along<'a> {
         resonance(&state.equilibrium, with, frequency)
     }
 
-    fn equilibrium(
-        &self,
-        value: f64,
-        from: &[f64],
-        poles: bool,
-    ) -> Result<(Equilibrium, Modes), Error> {
+    fn equilibrium(&self, value: f64, from: &[f64], poles: bool) -> Result<(Equilibrium, Modes), Error> {
         if self.watch.stopped() {
             return Err(Error::Stopped);
         }
@@ -172,10 +152,7 @@ pub(super) struct Square {
 impl ResponsePoint {
     /// One of its vibrations.
     pub(super) fn heard(&self, which: usize) -> Heard<'_> {
-        Heard {
-            point: self,
-            line: &self.lines[which],
-        }
+        Heard { point: self, line: &self.lines[which] }
     }
 }
 
@@ -202,13 +179,8 @@ impl Curve {
     pub(super) fn bend_by_design(&self) -> Vector {
         let [y, along] = self.heard().line.amplitude.map(|y| y.conj());
         let curving = &self.curving.amplitude;
-        let each = curving
-            .slopes
-            .by_design
-            .iter()
-            .zip(&curving.along.by_design);
-        each.map(|(dy, ddy)| 2.0 * (along * dy + y * ddy).re)
-            .collect()
+        let each = curving.slopes.by_design.iter().zip(&curving.along.by_design);
+        each.map(|(dy, ddy)| 2.0 * (along * dy + y * ddy).re).collect()
     }
 
     /// The derivatives of the modulus by the design, of those of its square.
@@ -221,10 +193,7 @@ impl Curve {
     /// peak leaves nothing of the digits of its place.
     pub(super) fn top_by_design(&self) -> Vector {
         let off = self.heard().square().slope / self.bend();
-        let pairs = self
-            .square_by_design()
-            .into_iter()
-            .zip(self.bend_by_design());
+        let pairs = self.square_by_design().into_iter().zip(self.bend_by_design());
         pairs.map(|(here, bend)| here - off * bend).collect()
     }
 
@@ -245,10 +214,7 @@ impl Curve {
 impl<'a> Heard<'a> {
     pub(super) fn square(&self) -> Square {
         let [y, dy] = self.line.amplitude;
-        Square {
-            value: y.norm_sqr(),
-            slope: 2.0 * (y.conj() * dy).re,
-        }
+        Square { value: y.norm_sqr(), slope: 2.0 * (y.conj() * dy).re }
     }
 
     /// How the poles that are heard here pass `i w` on the way to another state.
@@ -289,10 +255,8 @@ const QUIET: f64 = 1e-6;
 fn nearest(s: Complex, poles: &[Complex]) -> Complex {
     let mut poles = poles.iter().copied();
     let first = poles.next().unwrap_or(s);
-    poles.fold(first, |best, pole| {
-        match (pole - s).norm() < (best - s).norm() {
-            true => pole,
-            false => best,
-        }
+    poles.fold(first, |best, pole| match (pole - s).norm() < (best - s).norm() {
+        true => pole,
+        false => best,
     })
 }

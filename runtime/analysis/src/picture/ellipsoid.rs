@@ -8,12 +8,7 @@ use crate::eigenproblem::diagonalise;
 /// is written.
 ///
 /// With semi-axes `a`: `J_1 = m (a_2^2 + a_3^2) / 5`, so that `a_1^2 = 5 (J_2 + J_3 - J_1) / (2 m)`.
-pub(super) fn ellipsoid(
-    frame: [[f64; 3]; 3],
-    mass: f64,
-    inertia: [f64; 6],
-    about: [f64; 3],
-) -> Shape {
+pub(super) fn ellipsoid(frame: [[f64; 3]; 3], mass: f64, inertia: [f64; 6], about: [f64; 3]) -> Shape {
     let [xx, yy, zz, xy, yz, xz] = inertia;
     let square: f64 = about.iter().map(|component| component.powi(2)).sum();
     // About the centre of mass: J - m (|d|^2 1 - d d^T).
@@ -37,15 +32,9 @@ pub(super) fn ellipsoid(
     let semi_axes = moments.map(|moment| {
         let square = 2.5 * (sum - 2.0 * moment) / mass;
         // Zero for a body without mass, and for a flat body, whose square may be negative due to rounding.
-        if square > 0.0 && square.is_finite() {
-            square.sqrt()
-        } else {
-            0.0
-        }
+        if square > 0.0 && square.is_finite() { square.sqrt() } else { 0.0 }
     });
-    let axes = core::array::from_fn(|k| {
-        core::array::from_fn(|x| (0..3).map(|i| rows[i][k] * frame[i][x]).sum())
-    });
+    let axes = core::array::from_fn(|k| core::array::from_fn(|x| (0..3).map(|i| rows[i][k] * frame[i][x]).sum()));
     Shape::Ellipsoid { axes, semi_axes }
 }
 
@@ -63,14 +52,7 @@ mod tests {
             central[i] + 12.0 * (square - about[i] * about[i])
         };
         let product = |i: usize, j: usize| -12.0 * about[i] * about[j];
-        let inertia = [
-            shifted(0),
-            shifted(1),
-            shifted(2),
-            product(0, 1),
-            product(1, 2),
-            product(0, 2),
-        ];
+        let inertia = [shifted(0), shifted(1), shifted(2), product(0, 1), product(1, 2), product(0, 2)];
         let frame = [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
         let Shape::Ellipsoid { axes, semi_axes } = ellipsoid(frame, 12.0, inertia, about) else {
             panic!("it is an ellipsoid");
@@ -78,8 +60,7 @@ mod tests {
         // m a^2 / 5 = m edge^2 / 12
         for (edge, direction) in [1.0, 2.0, 3.0_f64].iter().zip(frame) {
             let expected = (5.0 / 12.0_f64).sqrt() * edge;
-            let along =
-                |axis: &[f64; 3]| -> f64 { axis.iter().zip(direction).map(|(a, d)| a * d).sum() };
+            let along = |axis: &[f64; 3]| -> f64 { axis.iter().zip(direction).map(|(a, d)| a * d).sum() };
             let pairs = axes.iter().zip(semi_axes);
             let parallel = pairs.filter(|(axis, _)| along(axis).abs() > 1.0 - 1e-12);
             let values: Vec<f64> = parallel.map(|(_, semi_axis)| semi_axis).collect();
@@ -114,11 +95,10 @@ mod tests {
     #[test]
     fn bodies_that_no_ellipsoid_has_are_flat_or_points() {
         let frame = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let semi_axes =
-            |mass: f64, inertia: [f64; 6]| match ellipsoid(frame, mass, inertia, [0.0; 3]) {
-                Shape::Ellipsoid { semi_axes, .. } => semi_axes,
-                other => panic!("{other:?}"),
-            };
+        let semi_axes = |mass: f64, inertia: [f64; 6]| match ellipsoid(frame, mass, inertia, [0.0; 3]) {
+            Shape::Ellipsoid { semi_axes, .. } => semi_axes,
+            other => panic!("{other:?}"),
+        };
         let plate = semi_axes(1.0, [1.0, 1.0, 2.0, 0.0, 0.0, 0.0]);
         assert_eq!(plate[2], 0.0);
         assert!((plate[0] - 5.0_f64.sqrt()).abs() < 1e-15);

@@ -17,22 +17,11 @@ impl Solid {
         let along = |axis: [f64; 3]| dot(axis, direction).abs();
         match &self.shape {
             Shape::Point { .. } => 0.0,
-            Shape::Rod {
-                along: axis,
-                length,
-            } => along(*axis) * length / 2.0,
+            Shape::Rod { along: axis, length } => along(*axis) * length / 2.0,
             Shape::Disk { axis, radius } => across(*axis, direction) * radius,
-            Shape::Cylinder {
-                axis,
-                radius,
-                length,
+            Shape::Cylinder { axis, radius, length } | Shape::Tube { axis, outer: radius, length, .. } => {
+                across(*axis, direction) * radius + along(*axis) * length / 2.0
             }
-            | Shape::Tube {
-                axis,
-                outer: radius,
-                length,
-                ..
-            } => across(*axis, direction) * radius + along(*axis) * length / 2.0,
             Shape::Box { edges, size } => {
                 let edges = edges.iter().zip(size);
                 edges.map(|(edge, size)| along(*edge) * size / 2.0).sum()
@@ -79,10 +68,7 @@ pub(super) fn bounds(scene: &Scene) -> [[f64; 3]; 2] {
     }
     for section in scene.beams.iter().flat_map(|beam| &beam.sections) {
         let [width, height] = section.size;
-        let reach = section
-            .pose
-            .rotation
-            .map(|[_, across, up]| (width * across.abs() + height * up.abs()) / 2.0);
+        let reach = section.pose.rotation.map(|[_, across, up]| (width * across.abs() + height * up.abs()) / 2.0);
         include(section.pose.position, reach);
     }
     let seats = scene.joints.iter().flat_map(|joint| [joint.from, joint.to]);

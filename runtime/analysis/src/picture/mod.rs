@@ -9,7 +9,7 @@ mod vibration;
 
 pub use read::scene;
 pub use scene::{
-    Beam, Body, Element, Joint, Link, ModePictures, Point, Pose, Scene, Seat, Section, Shape,
-    Solid, VibrationPictures, Wheel,
+    Beam, Body, Element, Joint, Link, ModePictures, Point, Pose, Scene, Seat, Section, Shape, Solid, VibrationPictures,
+    Wheel,
 };
 pub use vibration::{mode_pictures, vibration_pictures};

@@ -2,9 +2,7 @@
 
 use super::ellipsoid::ellipsoid;
 use super::extent::bounds;
-use super::scene::{
-    Beam, Body, Element, Joint, Link, Point, Pose, Scene, Seat, Section, Shape, Solid, Wheel,
-};
+use super::scene::{Beam, Body, Element, Joint, Link, Point, Pose, Scene, Seat, Section, Shape, Solid, Wheel};
 use crate::algebra::all_finite;
 use crate::arguments::check_count;
 use crate::kernels::PictureKernels;
@@ -38,40 +36,21 @@ use crate::{Description, Error, PictureInfo, SolidInfo, SolidKind};
 ///
 /// # Errors
 /// [`Error::WrongLength`]; [`Error::OutsideDomain`] if a number is not finite.
-pub fn scene(
-    mechanism: &dyn PictureKernels,
-    q: &[f64],
-    u: &[f64],
-    b: &[f64],
-) -> Result<Scene, Error> {
+pub fn scene(mechanism: &dyn PictureKernels, q: &[f64], u: &[f64], b: &[f64]) -> Result<Scene, Error> {
     let info = &*mechanism.picture_info();
     let mut numbers = Numbers::new(mechanism, info, q, u, b)?;
     let mut poses = numbers.poses(info).into_iter();
-    let bodies = info
-        .bodies
-        .iter()
-        .zip(poses.by_ref().take(info.bodies.len()));
+    let bodies = info.bodies.iter().zip(poses.by_ref().take(info.bodies.len()));
     let bodies = bodies.map(|(body, pose)| Body {
         name: body.name.clone(),
         pose,
-        solids: body
-            .solids
-            .iter()
-            .map(|&solid| numbers.solid(solid))
-            .collect(),
+        solids: body.solids.iter().map(|&solid| numbers.solid(solid)).collect(),
     });
     let bodies = bodies.collect();
     let beams = info.beams.iter().map(|beam| {
         let sections = poses.by_ref().take(beam.sections as usize);
-        let sections = sections.map(|pose| Section {
-            pose,
-            size: numbers.take(),
-        });
-        Beam {
-            name: beam.name.clone(),
-            round: beam.round,
-            sections: sections.collect(),
-        }
+        let sections = sections.map(|pose| Section { pose, size: numbers.take() });
+        Beam { name: beam.name.clone(), round: beam.round, sections: sections.collect() }
     });
     let beams = beams.collect();
     let joints = info.joints.iter().map(|joint| {
@@ -131,12 +110,7 @@ pub fn scene(
 }
 
 /// The poses of all bodies, then of the sections of all beams, at one state.
-pub(super) fn poses(
-    mechanism: &dyn PictureKernels,
-    q: &[f64],
-    u: &[f64],
-    b: &[f64],
-) -> Result<Vec<Pose>, Error> {
+pub(super) fn poses(mechanism: &dyn PictureKernels, q: &[f64], u: &[f64], b: &[f64]) -> Result<Vec<Pose>, Error> {
     let info = &*mechanism.picture_info();
     let mut numbers = Numbers::new(mechanism, info, q, u, b)?;
     Ok(numbers.poses(info))
@@ -148,13 +122,7 @@ struct Numbers {
 }
 
 impl Numbers {
-    fn new(
-        mechanism: &dyn PictureKernels,
-        info: &PictureInfo,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-    ) -> Result<Self, Error> {
+    fn new(mechanism: &dyn PictureKernels, info: &PictureInfo, q: &[f64], u: &[f64], b: &[f64]) -> Result<Self, Error> {
         let description: &Description = &mechanism.description();
         check_count("coordinates", q, description.coordinates.len())?;
         check_count("inputs", u, description.inputs.len())?;
@@ -195,18 +163,11 @@ impl Numbers {
     }
 
     fn pose(&mut self) -> Pose {
-        Pose {
-            position: self.take(),
-            rotation: self.three(),
-        }
+        Pose { position: self.take(), rotation: self.three() }
     }
 
     fn seat(&mut self, body: Option<u32>) -> Seat {
-        Seat {
-            body: place(body),
-            place: self.take(),
-            axis: direction(self.take()),
-        }
+        Seat { body: place(body), place: self.take(), axis: direction(self.take()) }
     }
 
     fn solid(&mut self, solid: SolidInfo) -> Solid {
@@ -226,25 +187,13 @@ impl Numbers {
             }
             SolidKind::Cylinder => {
                 let (axis, [radius, length]) = (self.take(), self.take());
-                Shape::Cylinder {
-                    axis,
-                    radius,
-                    length,
-                }
+                Shape::Cylinder { axis, radius, length }
             }
             SolidKind::Tube => {
                 let (axis, [inner, outer, length]) = (self.take(), self.take());
-                Shape::Tube {
-                    axis,
-                    inner,
-                    outer,
-                    length,
-                }
+                Shape::Tube { axis, inner, outer, length }
             }
-            SolidKind::Box => Shape::Box {
-                edges: self.three(),
-                size: self.take(),
-            },
+            SolidKind::Box => Shape::Box { edges: self.three(), size: self.take() },
             SolidKind::Sphere => {
                 let [radius] = self.take();
                 Shape::Sphere { radius }
@@ -255,11 +204,7 @@ impl Numbers {
                 ellipsoid(frame, mass, inertia, about)
             }
         };
-        Solid {
-            center,
-            shape,
-            hole: solid.hole,
-        }
+        Solid { center, shape, hole: solid.hole }
     }
 }
 

@@ -54,15 +54,9 @@ impl Scene {
         }
         let on_ground = |joint: &&Joint| joint.driven && joint.from.body.is_none();
         let driven = self.joints.iter().find(on_ground);
-        let axis = driven
-            .and_then(|joint| joint.from.axis)
-            .unwrap_or([0.0, 0.0, 1.0]);
+        let axis = driven.and_then(|joint| joint.from.axis).unwrap_or([0.0, 0.0, 1.0]);
         let largest = axis.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let sign = if largest.is_some_and(|largest| largest < 0.0) {
-            -1.0
-        } else {
-            1.0
-        };
+        let sign = if largest.is_some_and(|largest| largest < 0.0) { -1.0 } else { 1.0 };
         axis.map(|component| sign * component + 0.0)
     }
 
@@ -111,8 +105,7 @@ impl Pose {
     /// Transforms a direction to the common frame.
     #[must_use]
     pub fn direction(&self, direction: [f64; 3]) -> [f64; 3] {
-        self.rotation
-            .map(|row| row.iter().zip(direction).map(|(r, d)| r * d).sum())
+        self.rotation.map(|row| row.iter().zip(direction).map(|(r, d)| r * d).sum())
     }
 }
 

@@ -37,17 +37,10 @@ pub fn mode_pictures(
     amplitude: f64,
 ) -> Result<ModePictures, Error> {
     let Some(chosen) = modes.modes.get(mode) else {
-        return Err(Error::NoSuchMode {
-            mode,
-            count: modes.modes.len(),
-        });
+        return Err(Error::NoSuchMode { mode, count: modes.modes.len() });
     };
     let (amplitude, frames) = over_a_period(mechanism, at, &chosen.shape, phases, amplitude)?;
-    Ok(ModePictures {
-        mode,
-        amplitude,
-        frames,
-    })
+    Ok(ModePictures { mode, amplitude, frames })
 }
 
 /// Poses of all bodies, then of the sections of all beams, over one period of a forced vibration: the operating
@@ -65,11 +58,7 @@ pub fn vibration_pictures(
 ) -> Result<VibrationPictures, Error> {
     let shape = &harmonic.unknowns;
     let (enlargement, frames) = over_a_period(mechanism, at, shape, phases, amplitude)?;
-    Ok(VibrationPictures {
-        frequency: harmonic.frequency,
-        enlargement,
-        frames,
-    })
+    Ok(VibrationPictures { frequency: harmonic.frequency, enlargement, frames })
 }
 
 /// The factor of a shape and the poses over one period of its motion.
@@ -93,11 +82,7 @@ fn over_a_period(
             false => Complex::ZERO,
         })
         .collect();
-    let motion = Motion {
-        mechanism,
-        at,
-        closes: structure.position_constraints > 0,
-    };
+    let motion = Motion { mechanism, at, closes: structure.position_constraints > 0 };
     let factor = motion.factor(&shape, amplitude)?;
     let frames = (0..phases).map(|k| {
         let angle = core::f64::consts::TAU * k as f64 / phases as f64;
@@ -116,12 +101,7 @@ struct Motion<'a> {
 impl Motion<'_> {
     /// Poses at `q* + Re(factor shape)`.
     fn poses(&self, shape: &[Complex], factor: Complex) -> Result<Vec<Pose>, Error> {
-        let Equilibrium {
-            coordinates,
-            inputs,
-            design,
-            ..
-        } = self.at;
+        let Equilibrium { coordinates, inputs, design, .. } = self.at;
         let moved = coordinates.iter().zip(shape);
         let moved: Vec<f64> = moved.map(|(q, phi)| q + (factor * phi).re).collect();
         let closed = match self.closes {
@@ -138,29 +118,18 @@ impl Motion<'_> {
         if largest == 0.0 || share == 0.0 {
             return Ok(0.0);
         }
-        let scene = scene(
-            self.mechanism,
-            &self.at.coordinates,
-            &self.at.inputs,
-            &self.at.design,
-        )?;
+        let scene = scene(self.mechanism, &self.at.coordinates, &self.at.inputs, &self.at.design)?;
         let size = match scene.size() {
             0.0 => 1.0,
             size => size,
         };
         let step = STEP / largest;
-        let open = Self {
-            closes: false,
-            ..*self
-        };
+        let open = Self { closes: false, ..*self };
         let either = |factor: Complex| -> Result<[Vec<Pose>; 2], Error> {
             Ok([open.poses(shape, factor)?, open.poses(shape, -factor)?])
         };
         // Re(h phi) and Re(i h phi) are the displacements a quarter of a period apart.
-        let (first, second) = (
-            either(Complex::new(step, 0.0))?,
-            either(Complex::new(0.0, step))?,
-        );
+        let (first, second) = (either(Complex::new(step, 0.0))?, either(Complex::new(0.0, step))?);
         let travel = farthest(&scene, |body, point| {
             [&first, &second].map(|[ahead, behind]| {
                 let (ahead, behind) = (ahead[body].place(point), behind[body].place(point));
@@ -191,14 +160,10 @@ fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2])
     let seats = scene.joints.iter().flat_map(|joint| [joint.from, joint.to]);
     let seats = seats.map(|seat| (seat.body, seat.place));
     let points = scene.points.iter().map(|point| (point.body, point.place));
-    let fixed = seats
-        .chain(points)
-        .filter_map(|(body, point)| Some((body?, point)));
+    let fixed = seats.chain(points).filter_map(|(body, point)| Some((body?, point)));
     let sections = (scene.bodies.len()..scene.poses()).map(|section| (section, [0.0; 3]));
     let places = solids.chain(fixed).chain(sections);
-    places
-        .map(|(body, point)| semi_major(displaced(body, point)))
-        .fold(0.0, f64::max)
+    places.map(|(body, point)| semi_major(displaced(body, point))).fold(0.0, f64::max)
 }
 
 /// Half of the rotation from one pose to the other, as a vector, to second order.

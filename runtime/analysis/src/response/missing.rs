@@ -12,12 +12,7 @@ impl Responses<'_> {
     #[doc(hidden)]
     #[must_use]
     pub fn nominal_flutter(&self, response: Response) -> Option<Vec<(usize, f64)>> {
-        let Response::Crossing {
-            condition: Condition::FlutterOnset,
-            range,
-            ..
-        } = response
-        else {
+        let Response::Crossing { condition: Condition::FlutterOnset, range, .. } = response else {
             return None;
         };
         let at = self.nominal();
@@ -50,32 +45,18 @@ impl Responses<'_> {
                 let kernels: &dyn Kernels = mechanism;
                 let outputs = kernels.outputs(&at.coordinates, &at.inputs, &at.design);
                 let finite = outputs.get(output.index())?.is_finite();
-                (!finite).then(|| Error::InfiniteOutput {
-                    output: name(output),
-                    coordinates: at.coordinates.to_vec(),
-                })
+                (!finite).then(|| Error::InfiniteOutput { output: name(output), coordinates: at.coordinates.to_vec() })
             }
             Response::Vibration(vibration) => match forced::response(mechanism, at) {
-                Ok(forced_response) => {
-                    (vibration.of(&forced_response).is_none()).then(|| Error::NotSmooth {
-                        output: name(vibration.output),
-                    })
-                }
+                Ok(forced_response) => (vibration.of(&forced_response).is_none())
+                    .then(|| Error::NotSmooth { output: name(vibration.output) }),
                 Err(error) => Some(error),
             },
-            Response::Peak {
-                vibration,
-                range,
-                quantity,
-            } => peaks::highest(mechanism, values, start, (vibration, range, quantity)).err(),
-            Response::Critical(range) => {
-                critical_state(mechanism, values.0, values.1, start, range).err()
+            Response::Peak { vibration, range, quantity } => {
+                peaks::highest(mechanism, values, start, (vibration, range, quantity)).err()
             }
-            Response::Crossing {
-                mode,
-                condition,
-                range,
-            } => {
+            Response::Critical(range) => critical_state(mechanism, values.0, values.1, start, range).err(),
+            Response::Crossing { mode, condition, range } => {
                 let (following, what) = (Following::default(), (mode, condition));
                 match first_crossing(mechanism, values, start, following, range, what, None) {
                     Ok(Some(_)) => None,

@@ -15,16 +15,9 @@ pub(crate) struct Adjoint<'a> {
 }
 
 impl<'a> Adjoint<'a> {
-    pub(crate) fn new(
-        mechanism: &'a dyn CurvatureKernels,
-        at: &'a Equilibrium,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(mechanism: &'a dyn CurvatureKernels, at: &'a Equilibrium) -> Result<Self, Error> {
         let factors = Lu::new(&at.held_stiffness().transpose()).ok_or(Error::CriticalState)?;
-        Ok(Self {
-            mechanism,
-            at,
-            factors,
-        })
+        Ok(Self { mechanism, at, factors })
     }
 
     /// Makes a gradient total and returns `w`.
@@ -55,8 +48,7 @@ impl<'a> Adjoint<'a> {
             [dq, du, db, &still]
         });
         let along: Vec<[&[f64]; 4]> = along.collect();
-        self.mechanism
-            .residual_gradients_along_into(q, u, b, w, &along, room);
+        self.mechanism.residual_gradients_along_into(q, u, b, w, &along, room);
         for ((change, room), direction) in changes.iter_mut().zip(room).zip(directions) {
             self.add_held(w, direction, room);
             subtract(change, room);
@@ -76,18 +68,11 @@ impl<'a> Adjoint<'a> {
 
     /// Turns the derivative of a partial gradient along a direction into that of the total gradient; `w` is the result
     /// of [`Self::total`].
-    pub(crate) fn total_along(
-        &self,
-        change: &mut Gradient,
-        w: &[f64],
-        direction: &Direction,
-        room: &mut Gradient,
-    ) {
+    pub(crate) fn total_along(&self, change: &mut Gradient, w: &[f64], direction: &Direction, room: &mut Gradient) {
         let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
         let [dq, du, db] = direction.parts();
         let still = Vector::zeros(q.len());
-        self.mechanism
-            .residual_gradient_along_into(q, u, b, w, [dq, du, db, &still], room);
+        self.mechanism.residual_gradient_along_into(q, u, b, w, [dq, du, db, &still], room);
         self.add_held(w, direction, room);
         subtract(change, room);
         self.total(change, room);

@@ -23,33 +23,20 @@ use crate::sweep::{CriticalState, Crossed, bordered, critical_sensitivity};
 /// # Errors
 /// As [`critical_sensitivity`](crate::sweep::critical_sensitivity); [`Error::NoSensitivity`] at a transcritical branch
 /// point, which needs third derivatives of the residual, and at a cusp.
-pub fn critical_curvature(
-    mechanism: &dyn CurvatureKernels,
-    critical: &CriticalState,
-) -> Result<EventCurvature, Error> {
+pub fn critical_curvature(mechanism: &dyn CurvatureKernels, critical: &CriticalState) -> Result<EventCurvature, Error> {
     let at = &critical.equilibrium;
     let first = critical_sensitivity(mechanism, critical)?;
     if !at.free.held.is_empty() {
         return Err(none(NoDerivative::Family));
     }
-    let context = CriticalContext {
-        mechanism,
-        critical,
-        first: &first,
-    };
+    let context = CriticalContext { mechanism, critical, first: &first };
     let rows = match critical.kind {
         SpecialKind::Fold => context.limit_point()?,
         SpecialKind::Pitchfork { .. } => context.pitchfork()?,
         SpecialKind::Transcritical => return Err(none(NoDerivative::Transcritical)),
         SpecialKind::Degenerate => return Err(Error::ClusteredMode { mode: 0 }),
     };
-    let rows: Vec<_> = rows
-        .into_iter()
-        .map(|by_design| Slopes {
-            by_input: Vector::default(),
-            by_design,
-        })
-        .collect();
+    let rows: Vec<_> = rows.into_iter().map(|by_design| Slopes { by_input: Vector::default(), by_design }).collect();
     let (second, asymmetry) = symmetric(&rows, 0, f64::abs);
     EventCurvature {
         input: critical.input,
@@ -97,8 +84,7 @@ impl CriticalContext<'_> {
             subtract(&mut change, &self.residual_gradient(&dw));
             let by_input = change.inputs[input];
             let each = change.design.iter().zip(self.first);
-            each.map(|(x, rate)| -(x + by_input * rate) / push)
-                .collect()
+            each.map(|(x, rate)| -(x + by_input * rate) / push).collect()
         });
         Ok(rows.collect())
     }
@@ -112,11 +98,7 @@ impl CriticalContext<'_> {
         let CriticalState { v, w, .. } = self.critical;
         let along = self.direction(v.clone(), 0.0, None);
         let aside = [-SMALL_MOTION, SMALL_MOTION].map(|motion| {
-            let q = add_scaled(
-                &self.critical.equilibrium.coordinates,
-                motion / largest(v),
-                v,
-            );
+            let q = add_scaled(&self.critical.equilibrium.coordinates, motion / largest(v), v);
             dot(&self.bend_at(&q, w, &along).coordinates, v).abs()
         });
         curved.abs() <= UNCERTAIN * aside[0].max(aside[1])
@@ -146,19 +128,14 @@ impl CriticalContext<'_> {
         let change = |direction: &Direction| self.stiffness_change(&crossed.factors, &z, direction);
         let by_input = change(&input);
         let curved = product(&by_input, &input);
-        let mixed: Vector = directions
-            .iter()
-            .map(|direction| product(&by_input, direction))
-            .collect();
+        let mixed: Vector = directions.iter().map(|direction| product(&by_input, direction)).collect();
         let rates = self.first;
         let rows = directions.iter().enumerate().map(|(k, direction)| {
             let by_design = change(direction);
             let rate = product(&by_design, &input) + curved * rates[k];
             let each = directions.iter().enumerate();
-            each.map(|(j, other)| {
-                -(product(&by_design, other) + mixed[j] * rates[k] + rate * rates[j]) / slope
-            })
-            .collect()
+            each.map(|(j, other)| -(product(&by_design, other) + mixed[j] * rates[k] + rate * rates[j]) / slope)
+                .collect()
         });
         Ok(rows.collect())
     }
@@ -166,12 +143,7 @@ impl CriticalContext<'_> {
     /// Derivative along a direction of the total gradient of `w^T Khat v`; `z` is `Khat^-T` times its derivative with
     /// respect to the coordinates.
     fn stiffness_change(&self, factors: &Bordered, z: &[f64], along: &Direction) -> Gradient {
-        let CriticalState {
-            equilibrium: at,
-            v,
-            w,
-            ..
-        } = self.critical;
+        let CriticalState { equilibrium: at, v, w, .. } = self.critical;
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
         let stiffness = along.linear(self.mechanism, at).stiffness;
         let (dv, _) = factors.solve(&times(&stiffness, v).map(|value| -value), [0.0]);
@@ -180,9 +152,7 @@ impl CriticalContext<'_> {
         let zero = Vector::zeros(q.len());
         let vectors: [&[f64]; 4] = [w, &zero, &zero, v];
         let changes: [&[f64]; 4] = [&dw, &zero, &zero, &dv];
-        let mut change =
-            self.mechanism
-                .pencil_gradient_along(q, u, b, vectors, along.parts(), changes);
+        let mut change = self.mechanism.pencil_gradient_along(q, u, b, vectors, along.parts(), changes);
         subtract(&mut change, &self.bend(z, along));
         change
     }
@@ -226,12 +196,8 @@ impl CriticalContext<'_> {
     fn forces(&self) -> Forces {
         let at = &self.critical.equilibrium;
         let kernels: &dyn Kernels = self.mechanism;
-        let (by_input, by_design) =
-            kernels.residual_partials(&at.coordinates, &at.inputs, &at.design);
-        Forces {
-            of_input: by_input.column(self.critical.input.index()),
-            by_design,
-        }
+        let (by_input, by_design) = kernels.residual_partials(&at.coordinates, &at.inputs, &at.design);
+        Forces { of_input: by_input.column(self.critical.input.index()), by_design }
     }
 }
 

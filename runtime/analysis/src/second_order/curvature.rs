@@ -11,9 +11,8 @@ use crate::kernels::{CurvatureKernels, Gradient, Kernels, Linear};
 use crate::modes::{Family, pencil_slope_times};
 use crate::scalar::Real as _;
 use crate::sensitivity::{
-    BilinearForm, ComplexGradient, Direction, ModeSensitivity, Quantity, Slopes, directions,
-    eigenvalue_curvature, eigenvalue_slope, form_gradient, form_gradient_along, normaliser,
-    outside_domain,
+    BilinearForm, ComplexGradient, Direction, ModeSensitivity, Quantity, Slopes, directions, eigenvalue_curvature,
+    eigenvalue_slope, form_gradient, form_gradient_along, normaliser, outside_domain,
 };
 use crate::shapes::Shapes;
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
@@ -79,10 +78,7 @@ pub fn mode_curvature(
     mode: usize,
 ) -> Result<ModeCurvature, Error> {
     let mut mode_curvatures = mode_curvatures(mechanism, at, modes, mode..mode + 1);
-    mode_curvatures.pop().unwrap_or(Err(Error::NoSuchMode {
-        mode,
-        count: modes.modes.len(),
-    }))
+    mode_curvatures.pop().unwrap_or(Err(Error::NoSuchMode { mode, count: modes.modes.len() }))
 }
 
 /// Directions along which the gradients of several modes are differentiated together.
@@ -110,9 +106,7 @@ pub(super) fn mode_curvatures(
                 let shift = Matrix::from_fn(all.len(), n, |k, i| all[k].coordinates[i]);
                 let mut ready: Vec<&mut PendingMode<'_>> = pending.iter_mut().flatten().collect();
                 for directions in all.chunks(TOGETHER) {
-                    let changes = directions
-                        .iter()
-                        .map(|direction| direction.linear(mechanism, at));
+                    let changes = directions.iter().map(|direction| direction.linear(mechanism, at));
                     let changes: Vec<Linear> = changes.collect();
                     match modes.family {
                         Family::Undamped => {
@@ -131,10 +125,7 @@ pub(super) fn mode_curvatures(
                     }
                 }
             }
-            Err(error) => pending
-                .iter_mut()
-                .filter(|x| x.is_ok())
-                .for_each(|x| *x = Err(error.clone())),
+            Err(error) => pending.iter_mut().filter(|x| x.is_ok()).for_each(|x| *x = Err(error.clone())),
         }
     }
     let each = pending.into_iter().zip(positions);
@@ -224,10 +215,7 @@ fn undamped_along(
     (directions, shift): (&[Direction], &Matrix),
     changes: &[Linear],
 ) {
-    let shapes: Vec<Vector> = modes
-        .iter()
-        .map(|pending| pending.mode.real_shape())
-        .collect();
+    let shapes: Vec<Vector> = modes.iter().map(|pending| pending.mode.real_shape()).collect();
     let n = shapes.first().map_or(0, |shape| shape.len());
     let columns = Matrix::from_fn(n, shapes.len(), |i, r| shapes[r][i]);
     let products = changes.iter().map(|change| {
@@ -244,16 +232,12 @@ fn undamped_along(
         let each = products.iter();
         let each = each.map(|[k, m]| (k.column(r), m.column(r)));
         let each: Vec<(Vector, Vector)> = each.collect();
-        let rates = each
-            .iter()
-            .map(|(k, m)| dot(phi, k) - pending.mode.lambda * dot(phi, m));
+        let rates = each.iter().map(|(k, m)| dot(phi, k) - pending.mode.lambda * dot(phi, m));
         let rates: Vec<f64> = rates.collect();
         let Some(moved) = pending.shapes.undamped_along(&each, &rates) else {
             continue;
         };
-        let rows = pending
-            .gradient
-            .undamped_along((directions, shift), &moved, &rates);
+        let rows = pending.gradient.undamped_along((directions, shift), &moved, &rates);
         pending.rows.extend(rows);
     }
 }
@@ -338,8 +322,7 @@ impl<'a> AdjointGradient<'a> {
         let (mut changes, mut room) = (zeros(), zeros());
         mechanism.mode_gradients_along_into(q, u, b, &phi, mode.lambda, &along, &mut changes);
         for w in &self.w {
-            self.adjoint
-                .total_along_each(&mut changes, w, directions, (shift, &mut room));
+            self.adjoint.total_along_each(&mut changes, w, directions, (shift, &mut room));
         }
         let slopes = |change: Gradient| Slopes {
             by_input: change.inputs.iter().map(|input| (*input).into()).collect(),
@@ -349,12 +332,7 @@ impl<'a> AdjointGradient<'a> {
     }
 
     /// The derivatives of [`Self::slopes`] of a general mode along a direction in which the matrices change by `change`.
-    fn along(
-        &self,
-        direction: &Direction,
-        change: &Linear,
-        shapes: &Shapes<'_>,
-    ) -> Slopes<Complex> {
+    fn along(&self, direction: &Direction, change: &Linear, shapes: &Shapes<'_>) -> Slopes<Complex> {
         let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
         let rate = shapes.rate.along(change);
         let (dphi, dpsi) = shapes.along(change, rate);
@@ -377,13 +355,7 @@ impl<'a> AdjointGradient<'a> {
 
     /// Derivative of `d` when the matrices change by `change`, the eigenvalue by `ds` and the shapes by `dphi` and
     /// `dpsi`.
-    fn denominator_along(
-        &self,
-        change: &Linear,
-        ds: Complex,
-        dphi: &[Complex],
-        dpsi: &[Complex],
-    ) -> Complex {
+    fn denominator_along(&self, change: &Linear, ds: Complex, dphi: &[Complex], dpsi: &[Complex]) -> Complex {
         let linear = &self.at.linear;
         let (s, phi, psi) = (self.mode.s, &self.mode.shape, self.mode.left());
         dot_complex(dpsi, &pencil_slope_times(linear, s, phi))
@@ -409,10 +381,7 @@ pub(crate) fn joined([re, im]: &ComplexGradient) -> Slopes<Complex> {
         let parts = re.iter().zip(im);
         parts.map(|(&re, &im)| Complex { re, im }).collect()
     };
-    Slopes {
-        by_input: join(&re.inputs, &im.inputs),
-        by_design: join(&re.design, &im.design),
-    }
+    Slopes { by_input: join(&re.inputs, &im.inputs), by_design: join(&re.design, &im.design) }
 }
 
 /// Number of real components of an eigenvalue.

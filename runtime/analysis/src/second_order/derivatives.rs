@@ -9,10 +9,7 @@ use crate::sensitivity::Slopes;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default")
-)]
+#[cfg_attr(feature = "serde", serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default"))]
 pub struct SecondDerivatives<T> {
     /// With respect to two inputs.
     pub by_input: Matrix<T>,
@@ -40,9 +37,7 @@ impl<T: Copy> SecondDerivatives<T> {
         f: impl Fn(F, F, T) -> R,
     ) -> SecondDerivatives<R> {
         let block = |matrix: &Matrix<T>, rows: &[F], columns: &[F]| {
-            Matrix::from_fn(rows.len(), columns.len(), |i, j| {
-                f(rows[i], columns[j], matrix[i][j])
-            })
+            Matrix::from_fn(rows.len(), columns.len(), |i, j| f(rows[i], columns[j], matrix[i][j]))
         };
         let (inputs, design) = (&first.by_input, &first.by_design);
         SecondDerivatives {
@@ -58,9 +53,7 @@ impl<T: Copy> SecondDerivatives<T> {
         (T, S): Default,
     {
         let pairs = |matrix: &Matrix<T>, other: &Matrix<S>| {
-            Matrix::from_fn(matrix.row_count(), matrix.column_count(), |i, j| {
-                (matrix[i][j], other[i][j])
-            })
+            Matrix::from_fn(matrix.row_count(), matrix.column_count(), |i, j| (matrix[i][j], other[i][j]))
         };
         SecondDerivatives {
             by_input: pairs(&self.by_input, &other.by_input),
@@ -76,11 +69,7 @@ impl<T: Copy> SecondDerivatives<T> {
 }
 
 /// Averages mirrored elements, and returns their largest relative difference; the first `inputs` rows belong to inputs.
-pub(crate) fn symmetric<T>(
-    rows: &[Slopes<T>],
-    inputs: usize,
-    size: impl Fn(T) -> f64,
-) -> (SecondDerivatives<T>, f64)
+pub(crate) fn symmetric<T>(rows: &[Slopes<T>], inputs: usize, size: impl Fn(T) -> f64) -> (SecondDerivatives<T>, f64)
 where
     T: Copy + Default + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
 {

@@ -32,11 +32,7 @@ pub struct EventCurvature {
 
 impl EventCurvature {
     pub(super) fn finite(self, at: &Equilibrium) -> Result<Self, Error> {
-        if all_finite(&self.first) && all_finite_matrix(&self.second) {
-            Ok(self)
-        } else {
-            Err(outside_domain(at))
-        }
+        if all_finite(&self.first) && all_finite_matrix(&self.second) { Ok(self) } else { Err(outside_domain(at)) }
     }
 }
 
@@ -45,20 +41,14 @@ impl EventCurvature {
 ///
 /// # Errors
 /// As [`crossing_sensitivity`] and [`mode_curvature`].
-pub fn crossing_curvature(
-    mechanism: &dyn CurvatureKernels,
-    crossing: &Crossing,
-) -> Result<EventCurvature, Error> {
+pub fn crossing_curvature(mechanism: &dyn CurvatureKernels, crossing: &Crossing) -> Result<EventCurvature, Error> {
     let at = &crossing.equilibrium;
     let first = crossing_sensitivity(mechanism, crossing)?;
     let curvature = mode_curvature(mechanism, at, &crossing.modes, crossing.mode)?;
     let (quantity, ratio) = crossing.condition.sides();
     let i = crossing.input.index();
-    let (Some(slopes), Some(second)) = (curvature.first.of(quantity), curvature.of(quantity))
-    else {
-        return Err(Error::NoSensitivity {
-            reason: NoDerivative::NotSmooth,
-        });
+    let (Some(slopes), Some(second)) = (curvature.first.of(quantity), curvature.of(quantity)) else {
+        return Err(Error::NoSensitivity { reason: NoDerivative::NotSmooth });
     };
     let slope = slopes.by_input[i] - ratio;
     let (mixed, curved) = (&second.by_input_and_design[i], second.by_input[i][i]);

@@ -75,11 +75,7 @@ impl MarginDerivatives {
 /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances differ
 /// in the number of design variables, [`Error::Setting`] for a band whose ends are NaN or in the wrong order, or a
 /// spread beyond the range of a double.
-pub fn margin(
-    quadratic: &Quadratic,
-    tolerances: &Tolerances,
-    bands: &[(f64, f64)],
-) -> Result<Margin, Error> {
+pub fn margin(quadratic: &Quadratic, tolerances: &Tolerances, bands: &[(f64, f64)]) -> Result<Margin, Error> {
     bands.iter().copied().try_for_each(check_interval)?;
     let sigma = quadratic.sigma(tolerances)?;
     let value = quadratic.value;
@@ -141,26 +137,16 @@ fn derivatives(
             .collect(),
         by_half_width: sigma_by_half_width.map(|slope| by_sigma * slope),
     };
-    let finite = all_finite(&[
-        by_mean,
-        by_sigma,
-        margin_derivatives.by_low,
-        margin_derivatives.by_high,
-    ]) && all_finite(&margin_derivatives.by_design)
+    let finite = all_finite(&[by_mean, by_sigma, margin_derivatives.by_low, margin_derivatives.by_high])
+        && all_finite(&margin_derivatives.by_design)
         && all_finite(&margin_derivatives.by_half_width);
     finite.then_some(margin_derivatives)
 }
 
 /// Derivatives of `sigma = sqrt(S Sigma S^T)` with respect to the nominal design, `H Sigma S / sigma`, and to the
 /// half-widths.
-fn sigma_derivatives(
-    quadratic: &Quadratic,
-    tolerances: &Tolerances,
-    sigma: f64,
-) -> (Vector, Vector) {
-    let Quadratic {
-        slopes, curvature, ..
-    } = quadratic;
+fn sigma_derivatives(quadratic: &Quadratic, tolerances: &Tolerances, sigma: f64) -> (Vector, Vector) {
+    let Quadratic { slopes, curvature, .. } = quadratic;
     let sigmas = tolerances.sigmas();
     let n = sigmas.len();
     let parts = Vector::from_fn(n, |k| (slopes[k] / sigma) * sigmas[k]);

@@ -28,10 +28,6 @@ impl Quadratic {
             moments.skewness = skewness;
             moments.excess_kurtosis = kurtosis;
         }
-        if moments.mean.is_finite() && moments.sigma.is_finite() {
-            Ok(moments)
-        } else {
-            Err(beyond_range())
-        }
+        if moments.mean.is_finite() && moments.sigma.is_finite() { Ok(moments) } else { Err(beyond_range()) }
     }
 }

@@ -27,11 +27,7 @@ impl Nonlinearity {
     pub fn sigma_error(&self) -> f64 {
         let ratio = 1.0_f64.hypot(self.spread);
         // 1 - 1 / ratio without cancellation.
-        if ratio.is_finite() {
-            self.spread / ratio * (self.spread / (1.0 + ratio))
-        } else {
-            1.0
-        }
+        if ratio.is_finite() { self.spread / ratio * (self.spread / (1.0 + ratio)) } else { 1.0 }
     }
 
     /// The larger of the two ratios.
@@ -56,15 +52,8 @@ impl ModelMoments {
     #[must_use]
     pub fn nonlinearity(&self) -> Nonlinearity {
         let ratio = |part: f64| {
-            if part == 0.0 {
-                0.0
-            } else {
-                part.abs() / self.first_order_sigma
-            }
+            if part == 0.0 { 0.0 } else { part.abs() / self.first_order_sigma }
         };
-        Nonlinearity {
-            mean_shift: ratio(self.mean_shift),
-            spread: ratio(self.curvature_sigma),
-        }
+        Nonlinearity { mean_shift: ratio(self.mean_shift), spread: ratio(self.curvature_sigma) }
     }
 }

@@ -69,33 +69,17 @@ pub fn output_curvature(
     let first = slopes(gradient);
     let finite = all_finite(&first.by_input) && all_finite(&first.by_design);
     if !(value.is_finite() && finite && second.iter().all(|value| value.is_finite())) {
-        return Err(Error::NoSensitivity {
-            reason: NoDerivative::NotSmooth,
-        });
+        return Err(Error::NoSensitivity { reason: NoDerivative::NotSmooth });
     }
-    Ok(OutputCurvature {
-        output,
-        value,
-        first,
-        second,
-        asymmetry,
-        description: at.description.clone(),
-    })
+    Ok(OutputCurvature { output, value, first, second, asymmetry, description: at.description.clone() })
 }
 
 /// The partial derivatives of one output.
 fn row(output: usize, partials: [Matrix; 3]) -> Gradient {
     let [coordinates, inputs, design] = partials.each_ref().map(|matrix| (&matrix[output]).into());
-    Gradient {
-        coordinates,
-        inputs,
-        design,
-    }
+    Gradient { coordinates, inputs, design }
 }
 
 fn slopes(gradient: Gradient) -> Slopes<f64> {
-    Slopes {
-        by_input: gradient.inputs,
-        by_design: gradient.design,
-    }
+    Slopes { by_input: gradient.inputs, by_design: gradient.design }
 }

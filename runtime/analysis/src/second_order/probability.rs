@@ -24,21 +24,13 @@ pub struct Probability {
 
 impl Probability {
     fn of_model(value: f64, error: f64) -> Self {
-        Self {
-            value,
-            error,
-            model_error: None,
-        }
+        Self { value, error, model_error: None }
     }
 
     /// The same with the error of the model.
     #[doc(hidden)]
     pub fn with_model_error(self, error: f64) -> Self {
-        Self {
-            error: self.error + error,
-            model_error: Some(error),
-            ..self
-        }
+        Self { error: self.error + error, model_error: Some(error), ..self }
     }
 }
 
@@ -62,18 +54,11 @@ impl Quadratic {
     /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] if the model and the tolerances
     /// differ in the number of design variables, [`Error::Setting`] for ends that are NaN or in the wrong order or a
     /// spread beyond the range of a double.
-    pub fn probability_first_order(
-        &self,
-        tolerances: &Tolerances,
-        (low, high): (f64, f64),
-    ) -> Result<f64, Error> {
+    pub fn probability_first_order(&self, tolerances: &Tolerances, (low, high): (f64, f64)) -> Result<f64, Error> {
         check_interval((low, high))?;
         let sigma = self.sigma(tolerances)?;
         if let Some((joint, about)) = tolerances.joint() {
-            let linear = Self {
-                curvature: self.curvature.map(|_| 0.0),
-                ..self.clone()
-            };
+            let linear = Self { curvature: self.curvature.map(|_| 0.0), ..self.clone() };
             let sampled = Sampled::new(&linear, joint, about)?;
             let estimate = sampled.between(low - self.value, high - self.value);
             return Ok(estimate.value);
@@ -95,11 +80,7 @@ impl Quadratic {
     ///
     /// # Errors
     /// As [`probability_first_order`](Self::probability_first_order).
-    pub fn probability(
-        &self,
-        tolerances: &Tolerances,
-        (low, high): (f64, f64),
-    ) -> Result<Probability, Error> {
+    pub fn probability(&self, tolerances: &Tolerances, (low, high): (f64, f64)) -> Result<Probability, Error> {
         check_interval((low, high))?;
         self.check(tolerances)?;
         if let Some((joint, about)) = tolerances.joint() {
@@ -121,11 +102,7 @@ impl Quadratic {
     pub(super) fn sigma(&self, tolerances: &Tolerances) -> Result<f64, Error> {
         self.check(tolerances)?;
         let sigma = tolerances.sigma(&self.slopes);
-        if sigma.is_finite() {
-            Ok(sigma)
-        } else {
-            Err(super::quadratic::beyond_range())
-        }
+        if sigma.is_finite() { Ok(sigma) } else { Err(super::quadratic::beyond_range()) }
     }
 }
 

@@ -61,9 +61,7 @@ impl Quadratic {
     pub fn change(&self, x: &[f64]) -> f64 {
         let bent = self.curvature.iter().map(|row| dot(row, x));
         let parts = x.iter().zip(&self.slopes).zip(bent);
-        parts.fold(0.0, |sum, ((x, slope), bent)| {
-            sum + x * (slope + 0.5 * bent)
-        })
+        parts.fold(0.0, |sum, ((x, slope), bent)| sum + x * (slope + 0.5 * bent))
     }
 
     /// The same model expanded about the means of the variables.
@@ -86,11 +84,7 @@ impl Quadratic {
 
     /// Rejects a model that is not finite or does not match the tolerances.
     pub(super) fn check(&self, tolerances: &Tolerances) -> Result<(), Error> {
-        for count in [
-            self.slopes.len(),
-            self.curvature.row_count(),
-            self.curvature.column_count(),
-        ] {
+        for count in [self.slopes.len(), self.curvature.row_count(), self.curvature.column_count()] {
             tolerances.check_count(count)?;
         }
         let parts = [
@@ -100,11 +94,7 @@ impl Quadratic {
         ];
         for (name, numbers) in parts {
             if let Some(&value) = numbers.iter().find(|number| !number.is_finite()) {
-                return Err(Error::NotFinite {
-                    kind: "second-order model",
-                    name: Text::Static(name),
-                    value,
-                });
+                return Err(Error::NotFinite { kind: "second-order model", name: Text::Static(name), value });
             }
         }
         Ok(())
@@ -112,8 +102,5 @@ impl Quadratic {
 }
 
 pub(super) fn beyond_range() -> Error {
-    Error::Setting {
-        setting: "tolerance",
-        reason: "it spreads the quantity beyond the range of a double".to_owned(),
-    }
+    Error::Setting { setting: "tolerance", reason: "it spreads the quantity beyond the range of a double".to_owned() }
 }

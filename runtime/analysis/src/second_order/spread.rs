@@ -114,8 +114,7 @@ fn blocks<'a>(
     starts.map(move |start| {
         let block = start..count.min(start + TOGETHER);
         let mode_curvatures = mode_curvatures(mechanism, at, modes, block).into_iter();
-        let each =
-            mode_curvatures.map(|item| mode_second_order(&item?, modes, tolerances, &mut undamped));
+        let each = mode_curvatures.map(|item| mode_second_order(&item?, modes, tolerances, &mut undamped));
         each.collect()
     })
 }
@@ -126,14 +125,9 @@ fn of_each(
     all: Vec<Result<ModeSecondOrder, Error>>,
     tolerances: &Tolerances,
 ) -> SecondOrder {
-    let first = sensitivities(mechanism, at, modes)
-        .and_then(|slopes| first_order(modes, &slopes, tolerances));
+    let first = sensitivities(mechanism, at, modes).and_then(|slopes| first_order(modes, &slopes, tolerances));
     // Without derivatives there is no second order either, and each mode says why.
-    let doubts = |mode| {
-        first
-            .as_ref()
-            .map_or_else(|_| Vec::new(), |first| first.doubts(mode))
-    };
+    let doubts = |mode| first.as_ref().map_or_else(|_| Vec::new(), |first| first.doubts(mode));
     SecondOrder {
         doubts: (0..all.len()).map(doubts).collect(),
         modes: all,
@@ -170,11 +164,7 @@ fn mode_second_order(
         Some(known) => known.clone(),
         None => undamped.insert(spread(Quantity::DampingRatio)?).clone(),
     };
-    Ok(ModeSecondOrder {
-        natural_frequency: frequency.clone(),
-        frequency,
-        damping_ratio,
-    })
+    Ok(ModeSecondOrder { natural_frequency: frequency.clone(), frequency, damping_ratio })
 }
 
 /// The spread of one quantity; `None` if the mode has no such quantity.
@@ -187,9 +177,5 @@ fn second_order_spread(
         return Ok(None);
     };
     let moments = model.moments(tolerances)?;
-    Ok(Some(SecondOrderSpread {
-        nonlinearity: moments.nonlinearity(),
-        moments,
-        model: model.into(),
-    }))
+    Ok(Some(SecondOrderSpread { nonlinearity: moments.nonlinearity(), moments, model: model.into() }))
 }

@@ -23,12 +23,7 @@ impl Answer for ShapeSensitivity {
         let mut rows = Vec::new();
         for (unknown, info) in d.coordinates.iter().enumerate() {
             let each = variables.iter().enumerate();
-            rows.extend(each.map(|(column, by)| Row {
-                unknown,
-                name: &info.name,
-                place: column,
-                by: *by,
-            }));
+            rows.extend(each.map(|(column, by)| Row { unknown, name: &info.name, place: column, by: *by }));
         }
         let inputs = d.inputs.len();
         let mut table = Columns::new("shape sensitivities", &rows);
@@ -61,11 +56,7 @@ struct Row<'a> {
 
 impl Row<'_> {
     /// The derivative per SI unit.
-    fn slope(
-        &self,
-        [by_input, by_design]: [&Matrix<Complex>; 2],
-        inputs: usize,
-    ) -> Option<Complex> {
+    fn slope(&self, [by_input, by_design]: [&Matrix<Complex>; 2], inputs: usize) -> Option<Complex> {
         match self.place.checked_sub(inputs) {
             None => entry(by_input, self.place, self.unknown),
             Some(column) => entry(by_design, column, self.unknown),

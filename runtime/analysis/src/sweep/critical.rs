@@ -34,10 +34,7 @@ pub fn critical_state(
         range,
         held: Vec::new(),
     };
-    let sought = Sought {
-        critical: true,
-        ..Sought::default()
-    };
+    let sought = Sought { critical: true, ..Sought::default() };
     let mut first_state = None;
     let (events, _) = search(&along, &sought, |event| match event {
         Met::Critical(state, true) => {

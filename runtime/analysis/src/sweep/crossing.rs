@@ -26,11 +26,7 @@ pub fn events(
     range: Range,
     lines: &[Line],
 ) -> Result<Events, Error> {
-    let sought = Sought {
-        lines: lines.to_vec(),
-        flutter: true,
-        critical: true,
-    };
+    let sought = Sought { lines: lines.to_vec(), flutter: true, critical: true };
     let along = along(mechanism, (u, b), start, following.into(), range);
     Ok(search(&along, &sought, |_| false)?.0)
 }
@@ -122,22 +118,14 @@ fn meetings(
         Condition::FlutterOnset => (Vec::new(), Family::General),
         Condition::Line(line) => (vec![line], along.family),
     };
-    let sought = Sought {
-        flutter: lines.is_empty(),
-        lines,
-        critical: false,
-    };
-    let along = Along {
-        family,
-        ..along.clone()
-    };
+    let sought = Sought { flutter: lines.is_empty(), lines, critical: false };
+    let along = Along { family, ..along.clone() };
     let (events, _) = search(&along, &sought, |event| match event {
         Met::Crossing(crossing) => enough(crossing),
         _ => false,
     })?;
     match events.searched.states {
-        0 => Err((events.searched.gaps.into_iter().next())
-            .map_or(Error::CriticalState, |gap| gap.reason)),
+        0 => Err((events.searched.gaps.into_iter().next()).map_or(Error::CriticalState, |gap| gap.reason)),
         _ => Ok(events.crossings),
     }
 }

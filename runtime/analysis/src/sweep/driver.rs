@@ -29,8 +29,7 @@ pub(crate) fn follow(
 ) {
     let mut rest = values;
     let mut memory = Vec::new();
-    let mut workspace =
-        (tracker.side_by_side()).then(|| tracker.workspace(&mut memory, with_slopes));
+    let mut workspace = (tracker.side_by_side()).then(|| tracker.workspace(&mut memory, with_slopes));
     let mut adjoint = with_slopes.then(|| Adjoint::new(tracker.mechanism, tracker.family()));
     let mut slopes = None;
     // Number of values to solve one by one before the next block; three define a path.
@@ -57,10 +56,7 @@ pub(crate) fn follow(
             if let Some(adjoint) = &mut adjoint {
                 slopes = Some(slopes_at(point, adjoint, slopes.take()));
             }
-            let shown = each(Station {
-                point,
-                slopes: slopes.as_ref(),
-            });
+            let shown = each(Station { point, slopes: slopes.as_ref() });
             if shown.is_break() {
                 return;
             }
@@ -113,10 +109,7 @@ fn show(
             }
         }
         point.value = value;
-        each(Station {
-            point,
-            slopes: slopes.as_deref(),
-        })?;
+        each(Station { point, slopes: slopes.as_deref() })?;
     }
     ControlFlow::Continue(())
 }

@@ -25,57 +25,41 @@ const MERGED: f64 = 1e5;
 pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Result<Vector, Error> {
     let all = sensitivities(mechanism, &crossing.equilibrium, &crossing.modes)?;
     let mode = crossing.mode;
-    let (Some(sensitivity), Some(there)) = (all.modes.get(mode), crossing.modes.modes.get(mode))
-    else {
+    let (Some(sensitivity), Some(there)) = (all.modes.get(mode), crossing.modes.modes.get(mode)) else {
         let count = all.modes.len();
         return Err(Error::NoSuchMode { mode, count });
     };
     let merges = crossing.merging || there.condition > MERGED;
     if crossing.condition == Condition::FlutterOnset && merges {
-        return Err(Error::NoSensitivity {
-            reason: NoDerivative::Merge,
-        });
+        return Err(Error::NoSensitivity { reason: NoDerivative::Merge });
     }
     if sensitivity.clustered {
         return Err(Error::ClusteredMode { mode });
     }
     let (quantity, other) = crossing.condition.sides();
-    let Some(slopes) = sensitivity
-        .of(quantity)
-        .filter(|_| there.frequency().is_some())
-    else {
+    let Some(slopes) = sensitivity.of(quantity).filter(|_| there.frequency().is_some()) else {
         let lambda = there.lambda;
         return Err(Error::NotOscillating { mode, lambda });
     };
     let Some(&by_input) = slopes.by_input.get(crossing.input.index()) else {
-        return Err(Error::NoSensitivity {
-            reason: NoDerivative::UnknownInput,
-        });
+        return Err(Error::NoSensitivity { reason: NoDerivative::UnknownInput });
     };
     let rate = by_input - other;
     let touches = crossing.change == Change::Touch;
     if touches || rate.abs() <= 1e-12 * other.abs().max(by_input.abs()) || rate == 0.0 {
-        return Err(Error::NoSensitivity {
-            reason: NoDerivative::Touch,
-        });
+        return Err(Error::NoSensitivity { reason: NoDerivative::Touch });
     }
     let moved = |design: usize| match mechanism.input_of_deviation(design) {
         Some(input) if input == crossing.input.index() => other,
         _ => 0.0,
     };
     let by_design = slopes.by_design.iter().enumerate();
-    let slopes = by_design
-        .map(|(design, value)| -(value - moved(design)) / rate)
-        .collect();
+    let slopes = by_design.map(|(design, value)| -(value - moved(design)) / rate).collect();
     finite(slopes, &crossing.equilibrium)
 }
 
 fn finite(slopes: Vector, at: &Equilibrium) -> Result<Vector, Error> {
-    if all_finite(&slopes) {
-        Ok(slopes)
-    } else {
-        Err(outside_domain(at))
-    }
+    if all_finite(&slopes) { Ok(slopes) } else { Err(outside_domain(at)) }
 }
 
 /// Components of the residual along the critical mode count as zero below this fraction of what a unit of motion there
@@ -95,18 +79,13 @@ const UNFORCED: f64 = 1e-6;
 /// [`Error::NoSensitivity`] if a design variable acts along the mode at a branch point (it destroys the crossing: its
 /// effect is not differentiable) or the branches do not cross; [`Error::ClusteredMode`] if several modes are critical
 /// at once; [`Error::OutsideDomain`] if a derivative is not finite.
-pub fn critical_sensitivity(
-    mechanism: &dyn DirectionalKernels,
-    critical: &CriticalState,
-) -> Result<Vector, Error> {
+pub fn critical_sensitivity(mechanism: &dyn DirectionalKernels, critical: &CriticalState) -> Result<Vector, Error> {
     let at = &critical.equilibrium;
     let input = critical.input.index();
     let kernels: &dyn Kernels = mechanism;
     check_state(kernels, at)?;
     if input >= at.inputs.len() {
-        return Err(Error::NoSensitivity {
-            reason: NoDerivative::UnknownInput,
-        });
+        return Err(Error::NoSensitivity { reason: NoDerivative::UnknownInput });
     }
     let mut partials = kernels.residual_partials(&at.coordinates, &at.inputs, &at.design);
     at.free.add_to_partials(&mut partials);
@@ -117,9 +96,7 @@ pub fn critical_sensitivity(
         SpecialKind::Degenerate => Err(Error::ClusteredMode { mode: 0 }),
         SpecialKind::Fold => {
             let push = dot(&critical.w, &force_input);
-            let slopes = forces_design
-                .iter()
-                .map(|force| -dot(&critical.w, force) / push);
+            let slopes = forces_design.iter().map(|force| -dot(&critical.w, force) / push);
             finite(slopes.collect(), at)
         }
         SpecialKind::Pitchfork { .. } | SpecialKind::Transcritical => {
@@ -132,10 +109,7 @@ pub fn critical_sensitivity(
 pub(crate) fn bordered(critical: &CriticalState) -> Result<Bordered, Error> {
     let linear = &critical.equilibrium.linear;
     let structure = Structure::of(&critical.equilibrium.description);
-    let border = times(
-        &critical_inertia(linear, structure, &critical.v),
-        &critical.v,
-    );
+    let border = times(&critical_inertia(linear, structure, &critical.v), &critical.v);
     let stiffness = critical.equilibrium.held_stiffness();
     Bordered::new(&stiffness, [&border], [&border], [[0.0]]).ok_or(Error::ClusteredMode { mode: 0 })
 }
@@ -162,10 +136,7 @@ impl Crossed {
         let factors = bordered(critical)?;
         let (along, _) = factors.solve(&force_input.map(|value| -value), [0.0]);
         let bend = |dq: &[f64], share: f64| {
-            let (mut du, db) = (
-                Vector::zeros(at.inputs.len()),
-                Vector::zeros(at.design.len()),
-            );
+            let (mut du, db) = (Vector::zeros(at.inputs.len()), Vector::zeros(at.design.len()));
             du[critical.input.index()] = share;
             let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
             let direction = [dq, &du, &db, &Vector::zeros(q.len())];
@@ -175,17 +146,9 @@ impl Crossed {
         let by_along = bend(&along, 1.0);
         let row = |bend: &Gradient| {
             let input = bend.inputs[critical.input.index()];
-            [
-                dot(&bend.coordinates, &critical.v),
-                dot(&bend.coordinates, &along) + input,
-            ]
+            [dot(&bend.coordinates, &critical.v), dot(&bend.coordinates, &along) + input]
         };
-        Ok(Self {
-            factors,
-            hessian: [row(&by_v), row(&by_along)],
-            along,
-            second: [by_v, by_along],
-        })
+        Ok(Self { factors, hessian: [row(&by_v), row(&by_along)], along, second: [by_v, by_along] })
     }
 
     fn shifts(&self, critical: &CriticalState, forces: &Matrix) -> Result<Vector, Error> {
@@ -193,25 +156,18 @@ impl Crossed {
         let [[a, b], [c, d]] = self.hessian;
         let det = a * d - b * c;
         if det.is_nan() || det.abs() <= 1e-12 * b * b {
-            return Err(Error::NoSensitivity {
-                reason: NoDerivative::IndependentOfInput,
-            });
+            return Err(Error::NoSensitivity { reason: NoDerivative::IndependentOfInput });
         }
         let motions = Structure::of(&at.description).motions();
         let motion = 1.0 / largest(&critical.v[..motions]);
         let mut result = Vector::zeros(at.design.len());
         for (j, force) in forces.iter().enumerate() {
             let (shift, _) = self.factors.solve(&force.map(|value| -value), [0.0]);
-            let rates = self
-                .second
-                .each_ref()
-                .map(|bend| dot(&bend.coordinates, &shift) + bend.design[j]);
+            let rates = self.second.each_ref().map(|bend| dot(&bend.coordinates, &shift) + bend.design[j]);
             let share = (critical.value / at.design[j]).abs();
             let scale = rates[0].abs() + b.abs() * if share.is_finite() { share } else { 0.0 };
             if dot(&critical.w, force).abs() > UNFORCED * scale * motion {
-                return Err(Error::NoSensitivity {
-                    reason: NoDerivative::Imperfection,
-                });
+                return Err(Error::NoSensitivity { reason: NoDerivative::Imperfection });
             }
             result[j] = (c * rates[0] - a * rates[1]) / det;
         }

@@ -62,12 +62,7 @@ impl EventTolerance {
     #[must_use]
     pub fn is_excited(&self) -> bool {
         match self.event {
-            Event::Crossing {
-                s,
-                whirl: Some(whirl),
-                condition: Condition::Line(_),
-                ..
-            } => whirl.is_excited_at(s.im),
+            Event::Crossing { s, whirl: Some(whirl), condition: Condition::Line(_), .. } => whirl.is_excited_at(s.im),
             _ => true,
         }
     }
@@ -98,8 +93,7 @@ pub fn critical_tolerance(
         change: critical.change,
         input: critical.input,
         value: critical.value,
-        spread: critical_sensitivity(mechanism, critical)
-            .and_then(|slopes| spread(critical.value, slopes, tolerances)),
+        spread: critical_sensitivity(mechanism, critical).and_then(|slopes| spread(critical.value, slopes, tolerances)),
         sigma_level: tolerances.sigma_level(),
         family: Family::General,
         inputs: critical.equilibrium.inputs.clone(),
@@ -108,30 +102,18 @@ pub fn critical_tolerance(
 }
 
 /// First-order spread of a crossing ([`crossing_sensitivity`]).
-pub fn crossing_tolerance(
-    mechanism: &dyn Kernels,
-    crossing: &Crossing,
-    tolerances: &Tolerances,
-) -> EventTolerance {
+pub fn crossing_tolerance(mechanism: &dyn Kernels, crossing: &Crossing, tolerances: &Tolerances) -> EventTolerance {
     EventTolerance {
         event: Event::Crossing {
             mode: crossing.mode,
             condition: crossing.condition,
-            s: crossing
-                .modes
-                .modes
-                .get(crossing.mode)
-                .map_or_else(Complex::default, |mode| mode.s),
-            whirl: whirls(mechanism, &crossing.equilibrium, &crossing.modes)
-                .get(crossing.mode)
-                .copied()
-                .flatten(),
+            s: crossing.modes.modes.get(crossing.mode).map_or_else(Complex::default, |mode| mode.s),
+            whirl: whirls(mechanism, &crossing.equilibrium, &crossing.modes).get(crossing.mode).copied().flatten(),
         },
         change: crossing.change,
         input: crossing.input,
         value: crossing.value,
-        spread: crossing_sensitivity(mechanism, crossing)
-            .and_then(|slopes| spread(crossing.value, slopes, tolerances)),
+        spread: crossing_sensitivity(mechanism, crossing).and_then(|slopes| spread(crossing.value, slopes, tolerances)),
         sigma_level: tolerances.sigma_level(),
         family: crossing.modes.family,
         inputs: crossing.equilibrium.inputs.clone(),

@@ -12,10 +12,7 @@ mod points;
 mod range;
 mod search;
 mod sensitivity_sweep;
-#[expect(
-    clippy::module_inception,
-    reason = "the question that gives the room its name"
-)]
+#[expect(clippy::module_inception, reason = "the question that gives the room its name")]
 mod sweep;
 mod track;
 

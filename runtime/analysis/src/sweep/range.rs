@@ -27,23 +27,13 @@ impl<M> Range<M> {
     /// Creates a range from `low` to `high`, SI.
     #[must_use]
     pub fn new(input: Input<M>, low: f64, high: f64) -> Self {
-        Self {
-            input,
-            low,
-            high,
-            steps: 10,
-        }
+        Self { input, low, high, steps: 10 }
     }
 
     /// The range without the type of its mechanism.
     #[must_use]
     pub fn any(&self) -> Range {
-        Range {
-            input: self.input.any(),
-            low: self.low,
-            high: self.high,
-            steps: self.steps,
-        }
+        Range { input: self.input.any(), low: self.low, high: self.high, steps: self.steps }
     }
 }
 
@@ -51,13 +41,7 @@ impl Range {
     /// The error of a range in which there is no such thing.
     pub(crate) fn without(&self, what: &'static str, description: &Description) -> Error {
         let input = &description.inputs[self.input.index()];
-        Error::NotInRange {
-            what,
-            input: input.name.clone(),
-            low: self.low,
-            high: self.high,
-            unit: input.unit.clone(),
-        }
+        Error::NotInRange { what, input: input.name.clone(), low: self.low, high: self.high, unit: input.unit.clone() }
     }
 
     pub(crate) fn check(&self, description: &Description) -> Result<(), Error> {
@@ -71,9 +55,6 @@ impl Range {
         } else {
             return Ok(());
         };
-        Err(Error::Setting {
-            setting: "range",
-            reason: refused.to_owned(),
-        })
+        Err(Error::Setting { setting: "range", reason: refused.to_owned() })
     }
 }

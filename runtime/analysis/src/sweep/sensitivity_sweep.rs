@@ -30,16 +30,10 @@ pub fn sensitivity_sweep(
 ) -> Result<(), Error> {
     check_input(input, &mechanism.description())?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following.into(), input);
-    follow(
-        &mut tracker,
-        mechanism,
-        values,
-        true,
-        |station| match station.slopes {
-            Some(slopes) => each(station.point, slopes),
-            None => ControlFlow::Continue(()),
-        },
-    );
+    follow(&mut tracker, mechanism, values, true, |station| match station.slopes {
+        Some(slopes) => each(station.point, slopes),
+        None => ControlFlow::Continue(()),
+    });
     Ok(())
 }
 
@@ -55,8 +49,6 @@ pub fn states_each(
 ) -> Result<(), Error> {
     check_input(input, &mechanism.description())?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
-    follow(&mut tracker, mechanism, values, false, |station| {
-        each(station.point)
-    });
+    follow(&mut tracker, mechanism, values, false, |station| each(station.point));
     Ok(())
 }

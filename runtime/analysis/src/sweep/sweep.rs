@@ -55,11 +55,7 @@ pub fn sweep_each(
     let description = mechanism.description();
     check_input(input, &description)?;
     let following = following.into();
-    let sought = Sought {
-        flutter: true,
-        critical: true,
-        ..Sought::default()
-    };
+    let sought = Sought { flutter: true, critical: true, ..Sought::default() };
     let way = (mechanism as &dyn DirectionalKernels, (u, b), start);
     let (all_events, _) = between(way, &following, (input, values), &sought)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
@@ -95,24 +91,16 @@ pub fn sweep_each(
 }
 
 /// The events between the first and the last of some values, if these ascend or descend, and the way along them.
-#[expect(
-    clippy::type_complexity,
-    reason = "a way: mechanism, operating point, start"
-)]
+#[expect(clippy::type_complexity, reason = "a way: mechanism, operating point, start")]
 pub(crate) fn between(
     (mechanism, values, start): (&dyn DirectionalKernels, (&[f64], &[f64]), &[f64]),
     following: &Following,
     (input, along): (Input, &[f64]),
     sought: &Sought,
 ) -> Result<(Option<Events>, Route), Error> {
-    let finite: Vec<f64> = along
-        .iter()
-        .copied()
-        .filter(|value| value.is_finite())
-        .collect();
+    let finite: Vec<f64> = along.iter().copied().filter(|value| value.is_finite()).collect();
     let ascends = finite.is_sorted_by(|a, b| a < b);
-    let (true, [low, .., high]) = (ascends || finite.is_sorted_by(|a, b| a > b), &finite[..])
-    else {
+    let (true, [low, .., high]) = (ascends || finite.is_sorted_by(|a, b| a > b), &finite[..]) else {
         return Ok((None, Route::default()));
     };
     let along = Along {
@@ -120,9 +108,7 @@ pub(crate) fn between(
         values,
         start,
         policy: following.policy,
-        family: following
-            .family
-            .unwrap_or_else(|| Family::of(&mechanism.description())),
+        family: following.family.unwrap_or_else(|| Family::of(&mechanism.description())),
         range: Range::new(input, *low, *high),
         held: following.held.clone(),
     };

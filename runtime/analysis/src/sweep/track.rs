@@ -55,12 +55,7 @@ impl Default for Following {
 
 impl From<Policy> for Following {
     fn from(policy: Policy) -> Self {
-        Self {
-            policy,
-            family: None,
-            vectors: Some(Instructions::best()),
-            held: Vec::new(),
-        }
+        Self { policy, family: None, vectors: Some(Instructions::best()), held: Vec::new() }
     }
 }
 
@@ -153,12 +148,10 @@ impl<'a> Tracker<'a> {
         point.check_start(from)?;
         state.inputs.clone_from(&inputs);
         let predicted = predicted.filter(|_| policy == Policy::Stable && !point.of_family());
-        if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state))
-        {
+        if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state)) {
             return Ok(modes);
         }
-        solve_into(&point, from, policy, state)
-            .map_err(|failure| failure.explain(&point.description))
+        solve_into(&point, from, policy, state).map_err(|failure| failure.explain(&point.description))
     }
 
     /// An empty state and its modes, to be overwritten.
@@ -177,11 +170,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// The workspace for solving blocks of values.
-    pub(super) fn workspace<'m>(
-        &self,
-        memory: &'m mut Vec<Batch>,
-        with_slopes: bool,
-    ) -> Workspace<'m> {
+    pub(super) fn workspace<'m>(&self, memory: &'m mut Vec<Batch>, with_slopes: bool) -> Workspace<'m> {
         let values = (&*self.inputs, &*self.design);
         *memory = Workspace::memory(self.mechanism.sizes(), with_slopes);
         Workspace::new(memory, self.mechanism, values, with_slopes)
@@ -195,9 +184,7 @@ impl<'a> Tracker<'a> {
         workspace: &mut Workspace<'_>,
         values: &[f64],
     ) -> usize {
-        let (Some(vectors), Some(last), Some(past)) =
-            (self.vectors, &self.last, self.path.last_three())
-        else {
+        let (Some(vectors), Some(last), Some(past)) = (self.vectors, &self.last, self.path.last_three()) else {
             return 0;
         };
         let sound = |(state, modes): &(&Equilibrium, &Modes)| {
@@ -237,11 +224,7 @@ impl<'a> Tracker<'a> {
             Ok(Some((point, error))) => (point.equilibrium, error),
             Err(error) => (Err(error.clone()), error),
         };
-        Some(SweepPoint {
-            value,
-            equilibrium,
-            modes: Err(error),
-        })
+        Some(SweepPoint { value, equilibrium, modes: Err(error) })
     }
 
     /// Goes to the state of the route nearest to a value, unless the last point is as near to that value as the states of
@@ -292,11 +275,7 @@ impl<'a> Tracker<'a> {
         let predicted = self.path.at(value);
         let mut point = self.spare.take().unwrap_or_else(|| {
             let (equilibrium, modes) = self.blank();
-            Box::new(SweepPoint {
-                value,
-                equilibrium: Ok(equilibrium),
-                modes: Ok(modes),
-            })
+            Box::new(SweepPoint { value, equilibrium: Ok(equilibrium), modes: Ok(modes) })
         });
         point.value = value;
         let (state, point_modes) = point.solved_mut().map_err(|error| error.clone())?;
@@ -312,12 +291,9 @@ impl<'a> Tracker<'a> {
         {
             let order = match_with_assurance(modes, point_modes, &state.linear);
             // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
-            let repeated =
-                |r: usize| merged(point_modes, r) || near_another(point_modes, r, CLUSTER_GAP);
-            let doubtful = order
-                .iter()
-                .flatten()
-                .any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
+            let repeated = |r: usize| merged(point_modes, r) || near_another(point_modes, r, CLUSTER_GAP);
+            let doubtful =
+                order.iter().flatten().any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
             let middle = 0.5 * (last.value + value);
             let between = (middle - last.value) * (value - middle) > 0.0;
             if doubtful && halvings > 0 && between {

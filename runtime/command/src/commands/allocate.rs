@@ -63,11 +63,7 @@ impl Allocate {
             item.failure.ok_or_else(|| Failure::usage(message(), help))
         });
         let failure = allowed.collect::<Result<Vec<_>, _>>()?;
-        let mut choices = Choices {
-            half_widths: Vec::new(),
-            nominals: Vec::new(),
-            failure,
-        };
+        let mut choices = Choices { half_widths: Vec::new(), nominals: Vec::new(), failure };
         for choice in &file.choose {
             choose(&study, choice, &mut choices)?;
         }
@@ -78,9 +74,7 @@ impl Allocate {
         self.output.write(&answer)?;
         if allocation.stopped {
             let tried = allocation.evaluations;
-            return Ok(Verdict::Stopped(format!(
-                "after {tried} choices: there may be cheaper tolerances"
-            )));
+            return Ok(Verdict::Stopped(format!("after {tried} choices: there may be cheaper tolerances")));
         }
         let (samples, planned) = (allocation.chances.all.samples(), allocation.chances.planned);
         if samples < planned {
@@ -93,16 +87,9 @@ impl Allocate {
     }
 }
 
-fn choose(
-    study: &Study<Interpreted>,
-    choose: &Choose,
-    choices: &mut Choices<'_>,
-) -> Result<(), Failure> {
+fn choose(study: &Study<Interpreted>, choose: &Choose, choices: &mut Choices<'_>) -> Result<(), Failure> {
     let limits = |unit: &Unit| -> Result<(f64, f64), Failure> {
-        Ok((
-            written("least", &choose.least, unit)?,
-            written("most", &choose.most, unit)?,
-        ))
+        Ok((written("least", &choose.least, unit)?, written("most", &choose.most, unit)?))
     };
     match (&choose.tolerance, &choose.nominal, choose.cost) {
         (Some(name), None, Some(cost)) => {
@@ -116,38 +103,25 @@ fn choose(
         }
         (None, Some(name), None) => {
             let (variable, unit) = design(study, name)?;
-            choices.nominals.push(Nominal {
-                variable: variable.index(),
-                limits: limits(&unit)?,
-            });
+            choices.nominals.push(Nominal { variable: variable.index(), limits: limits(&unit)? });
         }
         _ => {
             let help = "write `tolerance = \"l\"` with a `cost`, or `nominal = \"l\"` without one";
-            return Err(Failure::usage(
-                "a choice is a tolerance or a nominal value",
-                help,
-            ));
+            return Err(Failure::usage("a choice is a tolerance or a nominal value", help));
         }
     }
     Ok(())
 }
 
 /// Index among the design variables, followed by the input tolerances.
-fn place(
-    study: &Study<Interpreted>,
-    name: &str,
-    parameter: Parameter<Interpreted>,
-) -> Result<usize, Failure> {
+fn place(study: &Study<Interpreted>, name: &str, parameter: Parameter<Interpreted>) -> Result<usize, Failure> {
     let input = match parameter {
         Parameter::Design(variable) => return Ok(variable.index()),
         Parameter::Input(input) => input,
     };
     let position = study.deviating_inputs().iter().position(|x| *x == input);
-    position
-        .map(|k| study.design_values().len() + k)
-        .ok_or_else(|| {
-            let help =
-                format!("give `{name}` any tolerance: it says how the variable is distributed");
-            Failure::usage(format!("`{name}` has no tolerance"), help)
-        })
+    position.map(|k| study.design_values().len() + k).ok_or_else(|| {
+        let help = format!("give `{name}` any tolerance: it says how the variable is distributed");
+        Failure::usage(format!("`{name}` has no tolerance"), help)
+    })
 }

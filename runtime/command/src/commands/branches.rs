@@ -43,9 +43,7 @@ impl Branches {
         let branches = study.branches_each(&settings, None, |branch| {
             number += 1;
             if let (Some(rows), Ok(())) = (&mut rows, &written) {
-                written = rows
-                    .add(branch_table(number, branch))
-                    .and_then(|()| rows.write());
+                written = rows.add(branch_table(number, branch)).and_then(|()| rows.write());
             }
         })?;
         written?;
@@ -62,11 +60,7 @@ impl Branches {
         }
         let ends = branches.branches.iter().flat_map(|branch| &branch.ends);
         if ends.into_iter().any(|end| *end == BranchEnd::Stopped) {
-            let points: usize = branches
-                .branches
-                .iter()
-                .map(|branch| branch.points.len())
-                .sum();
+            let points: usize = branches.branches.iter().map(|branch| branch.points.len()).sum();
             return Ok(Verdict::Stopped(format!("after {points} points")));
         }
         if branches.stable().next().is_some() {

@@ -43,9 +43,7 @@ impl Campbell {
         self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
         let range = self.sweep.range(&question)?;
-        let values = self
-            .points
-            .values(&range, &question, !self.output.streams())?;
+        let values = self.points.values(&range, &question, !self.output.streams())?;
         let orders = self.orders.along(Some(&range), &question)?;
         let bar = progress::bar("values", Some(values.len() as u64));
         question.study = progress::watched(question.study, &bar);

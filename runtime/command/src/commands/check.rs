@@ -34,9 +34,7 @@ impl Check {
             print(&format!("{}: {overview}\n", declaration.name))?;
             for steady in &compilation.mechanism.steady {
                 let name = &steady.name;
-                print(&format!(
-                    "  steady: the value of `{name}` selects one of a family of steady motions\n"
-                ))?;
+                print(&format!("  steady: the value of `{name}` selects one of a family of steady motions\n"))?;
             }
             let free = &compilation.functions.free;
             for note in free.notes.iter().chain(&free.unbalanced) {
@@ -58,11 +56,8 @@ fn summary(of: &Description) -> String {
         (of.excitations.len(), "excitation", "excitations"),
         (of.outputs.len(), "output", "outputs"),
     ];
-    let mentioned = counts
-        .iter()
-        .filter(|(count, one, _)| *count > 0 || *one != "excitation");
-    let counts: Vec<String> = mentioned
-        .map(|(count, one, many)| format!("{count} {}", plural(*count, one, many)))
-        .collect();
+    let mentioned = counts.iter().filter(|(count, one, _)| *count > 0 || *one != "excitation");
+    let counts: Vec<String> =
+        mentioned.map(|(count, one, many)| format!("{count} {}", plural(*count, one, many))).collect();
     format!("mechanism `{}`, {}", of.name, counts.join(", "))
 }

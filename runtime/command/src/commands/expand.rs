@@ -72,18 +72,11 @@ fn dump(compilation: &Compilation, stage: &str) -> String {
 
 /// A line for each kernel: arithmetic operations, and functions such as sines.
 fn operations(compilation: &Compilation) -> String {
-    let mut text = format!(
-        "{:<24} {:>10} {:>10}\n",
-        "kernel", "operations", "functions"
-    );
+    let mut text = format!("{:<24} {:>10} {:>10}\n", "kernel", "operations", "functions");
     for kernel in &compilation.program.kernels {
         let cost = &kernel.cost;
         // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{:<24} {:>10} {:>10}",
-            kernel.name, cost.operations, cost.functions
-        );
+        let _ = writeln!(text, "{:<24} {:>10} {:>10}", kernel.name, cost.operations, cost.functions);
     }
     text
 }

@@ -79,8 +79,7 @@ impl Import {
         self.place.check()?;
         let file = Declaration::read(&self.file)?;
         let robot = eigentol_urdf::import(&file.text, &self.options()?);
-        let robot = robot
-            .map_err(|error| file.refused(error.mistakes.iter().map(Mistake::from).collect()))?;
+        let robot = robot.map_err(|error| file.refused(error.mistakes.iter().map(Mistake::from).collect()))?;
         self.place.write(&robot.declaration)?;
         if !self.quiet {
             robot.notes.iter().for_each(diagnostics::note);
@@ -111,28 +110,12 @@ impl Import {
 
     fn springs(&self) -> Result<Resistance, Failure> {
         let mut springs = Resistance::default();
-        if let Resistance::Springs {
-            stiffness,
-            damping,
-            linear_stiffness,
-            linear_damping,
-        } = &mut springs
-        {
+        if let Resistance::Springs { stiffness, damping, linear_stiffness, linear_damping } = &mut springs {
             for (slot, option, text, unit) in [
                 (stiffness, "stiffness", &self.stiffness, "N*m/rad"),
                 (damping, "damping", &self.damping, "N*m*s/rad"),
-                (
-                    linear_stiffness,
-                    "linear-stiffness",
-                    &self.linear_stiffness,
-                    "N/m",
-                ),
-                (
-                    linear_damping,
-                    "linear-damping",
-                    &self.linear_damping,
-                    "N*s/m",
-                ),
+                (linear_stiffness, "linear-stiffness", &self.linear_stiffness, "N/m"),
+                (linear_damping, "linear-damping", &self.linear_damping, "N*s/m"),
             ] {
                 if let Some(text) = text {
                     *slot = si(option, text, unit)?;
@@ -144,10 +127,7 @@ impl Import {
 }
 
 fn si(option: &str, text: &str, symbol: &str) -> Result<f64, Failure> {
-    let unit = Unit {
-        symbol: symbol.to_owned().into(),
-        scale: 1.0,
-    };
+    let unit = Unit { symbol: symbol.to_owned().into(), scale: 1.0 };
     let parsed = value(text, &unit, &format!("`{option}`"));
     parsed.map_err(|mistakes| Failure::value(format!("--{option} {text}"), &mistakes))
 }

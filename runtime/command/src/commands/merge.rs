@@ -35,10 +35,7 @@ impl Merge {
             }
         }
         let Some(all) = all else {
-            return Err(Failure::usage(
-                "there is nothing to merge",
-                "name partial results",
-            ));
+            return Err(Failure::usage("there is nothing to merge", "name partial results"));
         };
         if self.partial {
             self.output.write_text(&parts::text(&all)?)?;

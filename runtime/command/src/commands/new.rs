@@ -31,28 +31,21 @@ impl New {
             let message = format!("`{}` is not a valid package name", self.folder.display());
             Failure::usage(message, help)
         };
-        let name = name.filter(|name| is_package(name)).ok_or_else(|| {
-            refused("a name has letters, digits, `-` and `_`, and starts with a letter")
-        })?;
+        let name = name
+            .filter(|name| is_package(name))
+            .ok_or_else(|| refused("a name has letters, digits, `-` and `_`, and starts with a letter"))?;
         if let Some(why) = reserved(name) {
-            return Err(refused(&format!(
-                "{why}; choose another, such as `{name}-study`"
-            )));
+            return Err(refused(&format!("{why}; choose another, such as `{name}-study`")));
         }
         let version = env!("CARGO_PKG_VERSION");
         let dependency = match &self.path {
             None => format!("\"{version}\""),
             Some(path) => {
                 let path = fs::canonicalize(path).map_err(|source| Failure::read(path, source))?;
-                format!(
-                    "{{ version = \"{version}\", path = {:?} }}",
-                    path.display().to_string()
-                )
+                format!("{{ version = \"{version}\", path = {:?} }}", path.display().to_string())
             }
         };
-        let manifest = MANIFEST
-            .replace("NAME", name)
-            .replace("DEPENDENCY", &dependency);
+        let manifest = MANIFEST.replace("NAME", name).replace("DEPENDENCY", &dependency);
         let files = [
             ("Cargo.toml", manifest.as_str()),
             ("src/main.rs", PROGRAM),
@@ -72,9 +65,7 @@ impl New {
 
     fn create(&self, folder: &Path) -> Result<(), Failure> {
         fs::create_dir(folder).map_err(|source| match source.kind() {
-            io::ErrorKind::AlreadyExists => Failure::Exists {
-                exists: folder.display().to_string(),
-            },
+            io::ErrorKind::AlreadyExists => Failure::Exists { exists: folder.display().to_string() },
             _ => Failure::write(folder, source),
         })
     }
@@ -99,16 +90,15 @@ fn reserved(name: &str) -> Option<&'static str> {
 /// The names that `cargo new` refuses or warns of (`restricted_names.rs` of cargo).
 const FOLDERS: [&str; 4] = ["build", "deps", "examples", "incremental"];
 const KEYWORDS: [&str; 51] = [
-    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue",
-    "crate", "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "if", "impl",
-    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
-    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
-    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "if", "impl", "in", "let", "loop", "macro", "match",
+    "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait",
+    "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 const LIBRARIES: [&str; 6] = ["alloc", "core", "eigentol", "proc_macro", "std", "test"];
 const DEVICES: [&str; 22] = [
-    "aux", "com1", "com2", "com3", "com4", "com5", "com6", "com7", "com8", "com9", "con", "lpt1",
-    "lpt2", "lpt3", "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9", "nul", "prn",
+    "aux", "com1", "com2", "com3", "com4", "com5", "com6", "com7", "com8", "com9", "con", "lpt1", "lpt2", "lpt3",
+    "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9", "nul", "prn",
 ];
 
 fn is_package(name: &str) -> bool {

@@ -64,8 +64,7 @@ impl Probability {
             false => &self.require,
         };
         if required.is_empty() {
-            let help =
-                format!("state one by `--require`: {HELP}; or by `[[require]]` in a study file");
+            let help = format!("state one by `--require`: {HELP}; or by `[[require]]` in a study file");
             return Err(Failure::usage("nothing is required", help));
         }
         let bar = progress::bar("designs", None);
@@ -78,10 +77,7 @@ impl Probability {
             true => Some(SEARCHES),
             false => {
                 question.note_unset();
-                study
-                    .modes()
-                    .ok()
-                    .map(|modes| judge::affordable(&modes, 100.0).max(SEARCHES))
+                study.modes().ok().map(|modes| judge::affordable(&modes, 100.0).max(SEARCHES))
             }
         };
         let count = samples(self.samples.or(file.samples).or(usual), file)?;
@@ -110,9 +106,7 @@ impl Probability {
 fn verdict(required: &[Require], probabilities: &Probabilities) -> Verdict {
     let all = required.iter().zip(&probabilities.each).enumerate();
     let mut exceeded = all.filter_map(|(k, (item, probability))| {
-        let allowed = item
-            .failure
-            .filter(|allowed| probability.value > *allowed)?;
+        let allowed = item.failure.filter(|allowed| probability.value > *allowed)?;
         Some(format!(
             "requirement {} fails with a probability of {:.3e}, and {allowed} is allowed",
             k + 1,

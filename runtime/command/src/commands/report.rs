@@ -46,10 +46,7 @@ impl Report {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         if self.place.is_terminal() {
             let message = "a report is a file for a browser, and standard output is a terminal";
-            return Err(Failure::usage(
-                message,
-                "write it to a file: `-o report.html`",
-            ));
+            return Err(Failure::usage(message, "write it to a file: `-o report.html`"));
         }
         self.place.check()?;
         let question = self.point.question()?;

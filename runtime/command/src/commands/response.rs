@@ -74,10 +74,7 @@ impl Response {
         question.study = question.study.samples(number);
         if self.orbit.is_some() && self.sweep.range_if_any(&question)?.is_some() {
             let message = "an orbit is drawn at one operating point, not along an input";
-            return Err(Failure::usage(
-                message,
-                "leave out the sweep, and set the input",
-            ));
+            return Err(Failure::usage(message, "leave out the sweep, and set the input"));
         }
         let Some(range) = self.sweep.range_alone(&question)? else {
             self.points.refuse_without_sweep()?;
@@ -102,12 +99,9 @@ impl Response {
         question.study = progress::watched(question.study, &bar);
         let (study, input) = (&question.study, range.input);
         let bode = match self.bands {
-            true => study.bode_bands(
-                input,
-                &values,
-                &wanted,
-                self.checked.unwrap_or((number / 12).clamp(8, CHECKED)),
-            )?,
+            true => {
+                study.bode_bands(input, &values, &wanted, self.checked.unwrap_or((number / 12).clamp(8, CHECKED)))?
+            }
             false => study.bode(input, &values)?,
         };
         drop(bar);
@@ -126,18 +120,10 @@ impl Response {
         })
     }
 
-    fn peaks_in(
-        &self,
-        study: &Study<Interpreted>,
-        along: &Range,
-        wanted: &[Vibration],
-    ) -> Result<Verdict, Failure> {
+    fn peaks_in(&self, study: &Study<Interpreted>, along: &Range, wanted: &[Vibration]) -> Result<Verdict, Failure> {
         let operating = self.operating.as_ref().map(|text| range(study, text));
         let operating = operating.transpose()?;
-        if operating
-            .as_ref()
-            .is_some_and(|operating| operating.input != along.input)
-        {
+        if operating.as_ref().is_some_and(|operating| operating.input != along.input) {
             let help = "state it for the input of `--sweep`";
             let message = "the range of operation is of another input";
             return Err(Failure::usage(message, help));
@@ -148,17 +134,12 @@ impl Response {
         drop(bar);
         let mut answer = self.output.answer();
         answer.add(&peaks)?;
-        let peaked: Vec<Peaks> = (peaks.into_iter())
-            .filter(|x| !x.peaks.is_empty())
-            .collect();
+        let peaked: Vec<Peaks> = (peaks.into_iter()).filter(|x| !x.peaks.is_empty()).collect();
         let any = !peaked.is_empty();
         let mut tops = peaked.iter().flat_map(|peaks| &peaks.peaks);
         let stable = tops.any(|peak| peak.stable);
         if let (Some(operating), true) = (&operating, any) {
-            let ends = [
-                operating.low.min(operating.high),
-                operating.low.max(operating.high),
-            ];
+            let ends = [operating.low.min(operating.high), operating.low.max(operating.high)];
             let margins: Vec<_> = peaked.into_iter().map(|x| x.separation(ends)).collect();
             answer.add(&margins)?;
         }
@@ -171,13 +152,7 @@ impl Response {
     }
 
     /// The Bode plot or the polar plot of a vibration; `None` without outputs or excitations, which the analysis refuses.
-    fn figure(
-        &self,
-        question: &Question,
-        range: &Range,
-        bode: &Bode,
-        drawn: Option<Vibration>,
-    ) -> Result<(), Failure> {
+    fn figure(&self, question: &Question, range: &Range, bode: &Bode, drawn: Option<Vibration>) -> Result<(), Failure> {
         self.picture.draw(|| {
             let none = || figures::Error::Nothing("the mechanism has no output".to_owned());
             let drawn = drawn.ok_or_else(none)?;

@@ -75,12 +75,7 @@ impl Sample {
         let range = self.shard.unwrap_or(Shard::WHOLE).range(samples as u64);
         let bar = progress::bar("samples", Some(range.end - range.start));
         let study = progress::watched(study, &bar);
-        let run = Run {
-            study: &study,
-            sampling: study.sampling(),
-            range: &range,
-            bar: &bar,
-        };
+        let run = Run { study: &study, sampling: study.sampling(), range: &range, bar: &bar };
         // An empty part, to reject a partial result of another run before any work.
         let mut part = run.take(range.start..range.start)?;
         if let Some(path) = &self.resume {
@@ -103,9 +98,7 @@ impl Sample {
         if interrupt::stopped() && !missing.is_empty() {
             let wanted = range.end - range.start;
             let done = wanted - length(&missing);
-            return Ok(Verdict::Stopped(format!(
-                "after {done} of {wanted} samples"
-            )));
+            return Ok(Verdict::Stopped(format!("after {done} of {wanted} samples")));
         }
         Ok(Verdict::of(&study)?)
     }
@@ -115,10 +108,7 @@ impl Sample {
         let whole = part.result();
         let make = |all: &[(u64, Solution)]| numbered_samples_table(&whole, all);
         let Some(mut rows) = self.output.rows(("Monte Carlo", "samples"), make)? else {
-            return Err(Failure::usage(
-                "samples belong to the result `Monte Carlo`",
-                "leave `--result` out",
-            ));
+            return Err(Failure::usage("samples belong to the result `Monte Carlo`", "leave `--result` out"));
         };
         run.complete(part, TOGETHER, |part| {
             let mut samples = part.take_samples().into_iter();
@@ -157,8 +147,7 @@ impl Run<'_> {
     ) -> Result<(), Failure> {
         each(done)?;
         let missing = within(&done.missing(), self.range);
-        self.bar
-            .set_position(self.range.end - self.range.start - length(&missing));
+        self.bar.set_position(self.range.end - self.range.start - length(&missing));
         for range in missing {
             let mut start = range.start;
             while start < range.end && !interrupt::stopped() {

@@ -24,15 +24,9 @@ impl Sensitivities {
         let question = self.point.question()?;
         question.note_unset();
         let has_outputs = !question.study.description().outputs.is_empty();
-        let kinds = [
-            eigentol::Sensitivities::KIND,
-            EquilibriumShift::KIND,
-            OutputSensitivities::KIND,
-        ];
+        let kinds = [eigentol::Sensitivities::KIND, EquilibriumShift::KIND, OutputSensitivities::KIND];
         let kinds = kinds.map(|kind| (kind, false));
-        let shown = self
-            .output
-            .shown(&kinds[..if has_outputs { 3 } else { 2 }])?;
+        let shown = self.output.shown(&kinds[..if has_outputs { 3 } else { 2 }])?;
         let study = &question.study;
         let verdict = Verdict::of(study)?;
         let mut answer = self.output.answer();

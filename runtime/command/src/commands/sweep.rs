@@ -32,9 +32,7 @@ impl Follow {
         self.output.check()?;
         let question = self.point.question()?;
         let range = self.sweep.range(&question)?;
-        let values = self
-            .points
-            .values(&range, &question, !self.output.streams())?;
+        let values = self.points.values(&range, &question, !self.output.streams())?;
         let bar = progress::bar("values", Some(values.len() as u64));
         let study = progress::watched(question.study, &bar);
         let (d, inputs, input) = (study.description(), study.input_values(), range.input);
@@ -48,10 +46,7 @@ impl Follow {
             done += 1;
             if let Ok(modes) = &point.modes {
                 solved += 1;
-                labels = modes
-                    .modes
-                    .iter()
-                    .fold(labels, |most, mode| most.max(mode.label + 1));
+                labels = modes.modes.iter().fold(labels, |most, mode| most.max(mode.label + 1));
             }
             match &mut rows {
                 Some(rows) => written = rows.add(point.clone()),
@@ -73,9 +68,7 @@ impl Follow {
                 }
                 if labels > motions {
                     let more = labels - motions;
-                    diagnostics::note(&format!(
-                        "{more} motions are left out: there are columns for {motions}"
-                    ));
+                    diagnostics::note(&format!("{more} motions are left out: there are columns for {motions}"));
                 }
             }
             None => {

@@ -43,12 +43,7 @@ impl Tolerance {
         ];
         let kinds = &kinds[..if has_outputs { 3 } else { 2 }];
         let shown = self.output.shown(kinds)?;
-        let of = |kind: &str| {
-            kinds
-                .iter()
-                .zip(&shown)
-                .any(|(x, shown)| x.0 == kind && *shown)
-        };
+        let of = |kind: &str| kinds.iter().zip(&shown).any(|(x, shown)| x.0 == kind && *shown);
         let modes = study.modes()?;
         let mut answer = self.output.answer();
         let summary = of(Summary::KIND).then(|| study.summary());

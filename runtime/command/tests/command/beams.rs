@@ -20,25 +20,11 @@ fn a_straight_beam_between_walls_is_told_what_it_needs() {
     for length in ["0.3", "0.33", "0.4", "0.7", "0.9", "1", "1.3", "1.7", "2.3"] {
         let found = modes(&clamped(length, ""));
         assert_eq!(found.code, 1);
-        assert!(
-            found.err.contains("singular configuration"),
-            "{length}: {}",
-            found.err
-        );
-        assert!(
-            found
-                .err
-                .contains("needs coordinates of `stretch`, and `b`"),
-            "{}",
-            found.err
-        );
+        assert!(found.err.contains("singular configuration"), "{length}: {}", found.err);
+        assert!(found.err.contains("needs coordinates of `stretch`, and `b`"), "{}", found.err);
     }
     let heavy = modes(&clamped("0.7", "gravity 9.81 m/s^2 along -z;"));
-    assert!(
-        heavy.code == 1 && heavy.err.contains("`stretch: 2`"),
-        "{}",
-        heavy.err
-    );
+    assert!(heavy.code == 1 && heavy.err.contains("`stretch: 2`"), "{}", heavy.err);
     let stretched = clamped("0.7", "").replace("material: steel)", "material: steel, stretch: 2)");
     assert_eq!(modes(&stretched).code, 0);
 }
@@ -71,29 +57,17 @@ fn check_notes_what_is_worth_knowing_about_beams() {
             "mechanism A {{ body arm: {plane}; joint clamp: fixed from ground to arm; point tip: arm at tip; {rest} }}"
         ))
     };
-    let sideways =
-        "`arm` stays straight where a load would bend it: it has no coordinates of `bending_z`";
+    let sideways = "`arm` stays straight where a load would bend it: it has no coordinates of `bending_z`";
     let nothing: [&str; 0] = [];
     assert_eq!(arm(""), nothing);
     assert_eq!(arm("gravity 9.81 m/s^2 along -z;"), nothing);
     assert_eq!(arm("gravity 9.81 m/s^2 along y;"), [sideways]);
     assert_eq!(arm("force f: load(at: tip, force: [1, 0, 1] N);"), nothing);
+    assert_eq!(arm("force f: load(at: tip, force: [0, 1, 0] N);"), [sideways]);
+    assert_eq!(arm("force f: follower(at: tip, moment: [0, 1, 0] N*m);"), nothing);
+    assert_eq!(arm("force f: follower(at: tip, moment: [0, 0, 1] N*m);"), [sideways]);
     assert_eq!(
-        arm("force f: load(at: tip, force: [0, 1, 0] N);"),
-        [sideways]
-    );
-    assert_eq!(
-        arm("force f: follower(at: tip, moment: [0, 1, 0] N*m);"),
-        nothing
-    );
-    assert_eq!(
-        arm("force f: follower(at: tip, moment: [0, 0, 1] N*m);"),
-        [sideways]
-    );
-    assert_eq!(
-        arm(
-            "body pod: point(mass: 1 kg); joint seat: fixed from arm at 0.5 length to pod; gravity 1 m/s^2 along y;"
-        ),
+        arm("body pod: point(mass: 1 kg); joint seat: fixed from arm at 0.5 length to pod; gravity 1 m/s^2 along y;"),
         [
             sideways,
             "`arm` carries loads between its ends, so it is split there: `arm_1` starts at `arm`",
@@ -120,14 +94,8 @@ fn check_notes_what_is_worth_knowing_about_beams() {
         ))
     };
     let still = "`wheel` is fixed to `shaft` and does not spin with its material; what does is held by a joint driven at the same speed";
-    assert_eq!(
-        shaft("joint seat: fixed from shaft at tip to wheel;"),
-        [still]
-    );
-    assert_eq!(
-        shaft("joint seat: revolute(x) from shaft at tip to wheel, driven at speed;"),
-        nothing
-    );
+    assert_eq!(shaft("joint seat: fixed from shaft at tip to wheel;"), [still]);
+    assert_eq!(shaft("joint seat: revolute(x) from shaft at tip to wheel, driven at speed;"), nothing);
 
     let twisting = notes(
         "mechanism D { body bar: beam(length: 1 m, along: x, up: z, mass_per_length: 1 kg/m, stiffness_y: 2 N*m^2,
@@ -135,9 +103,5 @@ fn check_notes_what_is_worth_knowing_about_beams() {
             joint clamp: fixed from ground to bar; }",
     );
     let one = "`bar` twists and bends in one plane only: right as long as it is nearly straight";
-    assert_eq!(
-        twisting.first().map(String::as_str),
-        Some(one),
-        "{twisting:?}"
-    );
+    assert_eq!(twisting.first().map(String::as_str), Some(one), "{twisting:?}");
 }

@@ -28,19 +28,14 @@ fn of_example(name: &str) -> Vec<String> {
 
 fn of_file(name: &str) -> String {
     let text = fs::read_to_string(examples().join(name).with_extension("mechanism")).unwrap();
-    text.parse::<proc_macro2::TokenStream>()
-        .unwrap()
-        .to_string()
+    text.parse::<proc_macro2::TokenStream>().unwrap().to_string()
 }
 
 #[test]
 fn files_declare_what_the_examples_declare() {
     for (example, files) in [
         ("rotating_pendulum", &["rotating_pendulum"][..]),
-        (
-            "rotating_double_pendulum",
-            &["rotating_double_pendulum", "independent_bars"],
-        ),
+        ("rotating_double_pendulum", &["rotating_double_pendulum", "independent_bars"]),
         ("jeffcott_rotor", &["jeffcott_rotor"]),
         ("whipple_bicycle", &["whipple_bicycle"]),
         ("practice/rotor_bearings", &["rotor_bearings"]),

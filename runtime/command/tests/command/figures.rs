@@ -15,30 +15,12 @@ fn every_command_draws_its_figure_beside_the_same_answer() {
     let shaken = shaken(&folder);
     for (name, arguments, words) in [
         ("modes", pendulum("modes", &[]), "mode shapes"),
-        (
-            "tolerance",
-            pendulum("tolerance", &[]),
-            "share in the variance",
-        ),
-        (
-            "campbell",
-            [&campbell[..], &sweep].concat(),
-            "Campbell diagram",
-        ),
+        ("tolerance", pendulum("tolerance", &[]), "share in the variance"),
+        ("campbell", [&campbell[..], &sweep].concat(), "Campbell diagram"),
         ("branches", [&branches[..], &sweep].concat(), "theta [rad]"),
         (
             "response",
-            vec![
-                "response",
-                &shaken,
-                "--sweep",
-                "omega=60..140rad/s",
-                "--points",
-                "9",
-                "--bands",
-                "--samples",
-                "100",
-            ],
+            vec!["response", &shaken, "--sweep", "omega=60..140rad/s", "--points", "9", "--bands", "--samples", "100"],
             "shake under u",
         ),
     ] {
@@ -55,8 +37,7 @@ fn every_command_draws_its_figure_beside_the_same_answer() {
 /// The file of a machine with two outputs that an unbalance shakes.
 fn shaken(folder: &Path) -> String {
     let path = folder.join("shaken.mechanism");
-    let text =
-        "mechanism Shaken { input omega: rad/s; design k = 40 kN/m +/- 5%; body plate: massless;
+    let text = "mechanism Shaken { input omega: rad/s; design k = 40 kN/m +/- 5%; body plate: massless;
         body disk: cylinder(mass: 4 kg, radius: 0.1 m, length: 0.02 m, axis: z);
         joint x: prismatic(x) from ground to plate;
         joint spin: revolute(z) from plate to disk, driven at omega;
@@ -84,11 +65,7 @@ fn a_bode_plot_is_of_the_vibration_asked_for() {
     assert!(still.err.contains("--sweep"), "{}", still.err);
     let wrong = ["--figure", &path, "--of", "thrice"];
     let wrong = run(&[&["response", &file][..], &sweep, &wrong].concat());
-    assert!(
-        wrong.code == 2 && wrong.err.contains("twice"),
-        "{}",
-        wrong.err
-    );
+    assert!(wrong.code == 2 && wrong.err.contains("twice"), "{}", wrong.err);
 }
 
 #[test]
@@ -100,18 +77,11 @@ fn a_requirement_limits_a_peak() {
     let place = format!("peak shake {along} away from omega by 60%");
     let both = ["--require", &height, "--require", &place];
     let text = run(&[&at[..], &both].concat()).out;
-    for words in [
-        "greatest shake under u along omega",
-        "omega at the peak of shake under u",
-    ] {
+    for words in ["greatest shake under u along omega", "omega at the peak of shake under u"] {
         assert!(text.contains(words), "{text}");
     }
     let wrong = run(&[&at[..], &["--require", "peak shake under u <= 1 rad/s"]].concat());
-    assert!(
-        wrong.code == 2 && wrong.err.contains("peak shake along"),
-        "{}",
-        wrong.err
-    );
+    assert!(wrong.code == 2 && wrong.err.contains("peak shake along"), "{}", wrong.err);
 }
 
 #[test]
@@ -133,10 +103,7 @@ fn an_orbit_is_drawn_at_one_operating_point() {
     for (wrong, word) in [
         (drawn("shake"), "--orbit shake,lift"),
         (drawn("shake,twise"), "twice"),
-        (
-            [&same[..], &["--sweep", "omega=60..140rad/s"]].concat(),
-            "one operating point",
-        ),
+        ([&same[..], &["--sweep", "omega=60..140rad/s"]].concat(), "one operating point"),
         ([&at[..], &["--orbit", "shake,twice"]].concat(), "--figure"),
     ] {
         let wrong = run(&wrong);
@@ -155,11 +122,7 @@ fn the_ending_says_whether_it_is_a_picture() {
     let other = run(&["modes", "missing.mechanism", "--figure", "modes.pdf"]);
     assert_eq!(other.code, 2);
     assert!(other.err.contains("`.svg` or `.png`"), "{}", other.err);
-    let missing = folder
-        .join("missing")
-        .join("modes.svg")
-        .display()
-        .to_string();
+    let missing = folder.join("missing").join("modes.svg").display().to_string();
     let other = run(&["modes", "missing.mechanism", "--figure", &missing]);
     assert_eq!(other.code, 3);
 }
@@ -168,10 +131,7 @@ fn the_ending_says_whether_it_is_a_picture() {
 fn nothing_to_draw_is_said() {
     let path = folder("no_figure").join("tolerance.svg");
     let place = path.display().to_string();
-    let none = run(&pendulum(
-        "tolerance",
-        &["--tol", "l=0%", "--figure", &place],
-    ));
+    let none = run(&pendulum("tolerance", &["--tol", "l=0%", "--figure", &place]));
     assert_eq!(none.code, 1);
     assert!(none.err.contains("nothing to draw"), "{}", none.err);
     assert!(!path.exists());
@@ -185,15 +145,7 @@ fn figures_call_modes_and_units_what_the_user_calls_them() {
         let place = path.display().to_string();
         let sweep = ["--sweep", "speed=2000..4000rpm", "--points", "3"];
         let figure = ["--figure", &place];
-        answer(
-            &[
-                &["campbell", "jeffcott_rotor.mechanism"],
-                &sweep[..],
-                &figure,
-                more,
-            ]
-            .concat(),
-        );
+        answer(&[&["campbell", "jeffcott_rotor.mechanism"], &sweep[..], &figure, more].concat());
         fs::read_to_string(path).unwrap()
     };
     let plain = draw("plain.svg", &[]);

@@ -26,38 +26,19 @@ fn the_command_prints_what_the_library_gives() {
         let name = path.display().to_string();
         for (arguments, options) in [
             (&[][..], Options::default()),
-            (
-                &["--base", "floating"],
-                Options::default().base(Base::Floating),
-            ),
-            (
-                &["--joints", "free"],
-                Options::default().resistance(Resistance::KernelsOnly),
-            ),
-            (
-                &["--joints", "driven", "--no-damping"],
-                Options::default()
-                    .resistance(Resistance::Drives)
-                    .damping(false),
-            ),
+            (&["--base", "floating"], Options::default().base(Base::Floating)),
+            (&["--joints", "free"], Options::default().resistance(Resistance::KernelsOnly)),
+            (&["--joints", "driven", "--no-damping"], Options::default().resistance(Resistance::Drives).damping(false)),
         ] {
             let found = run(&[&["import", &name, "--quiet"], arguments].concat());
             match eigentol_urdf::import(&text, &options) {
                 Ok(robot) => {
-                    assert_eq!(
-                        (found.code, found.err.as_str()),
-                        (0, ""),
-                        "{name} {arguments:?}"
-                    );
+                    assert_eq!((found.code, found.err.as_str()), (0, ""), "{name} {arguments:?}");
                     assert_eq!(found.out, robot.declaration, "{name} {arguments:?}");
                     imported += 1;
                 }
                 Err(error) => {
-                    assert_eq!(
-                        (found.code, found.out.as_str()),
-                        (3, ""),
-                        "{name} {arguments:?}"
-                    );
+                    assert_eq!((found.code, found.out.as_str()), (3, ""), "{name} {arguments:?}");
                     let reason = error.mistakes[0].reason.to_string();
                     assert!(found.err.contains(&reason), "{reason}: {}", found.err);
                 }
@@ -72,10 +53,7 @@ fn an_imported_robot_can_be_studied() {
     let panda = robots().join("panda.urdf").display().to_string();
     let Run { code, out, err } = run(&["import", &panda, "--stiffness", "3 kN*m/rad"]);
     assert_eq!(code, 0, "{err}");
-    assert!(
-        err.starts_with("note: ") && err.contains("has no meaning in a mechanism"),
-        "{err}"
-    );
+    assert!(err.starts_with("note: ") && err.contains("has no meaning in a mechanism"), "{err}");
     let modes = run_with_input(&["modes", "-"], &out);
     assert_eq!(modes.code, 0, "{}", modes.err);
     assert!(modes.out.contains("panda_joint7") && modes.out.contains("equilibrium, stable"));
@@ -92,22 +70,15 @@ fn what_cannot_be_imported_is_drawn() {
     let path = file(&folder("urdf"), "wrong.urdf", text);
     let run = run(&["import", &path]);
     assert_eq!((run.code, run.out.as_str()), (3, ""));
-    for part in [
-        "error: `contnuous` is not a type of joint",
-        "wrong.urdf:4:3",
-        "did you mean `continuous`?",
-        "has 1 mistake",
-    ] {
+    for part in
+        ["error: `contnuous` is not a type of joint", "wrong.urdf:4:3", "did you mean `continuous`?", "has 1 mistake"]
+    {
         assert!(run.err.contains(part), "{part}: {}", run.err);
     }
     for end in (0..text.trim_end().len()).step_by(17) {
         let run = run_with_input(&["import", "-"], &text[..end]);
         assert_eq!((run.code, run.out.as_str()), (3, ""), "{end}");
-        assert!(
-            run.err.starts_with("error: ") && !run.err.contains("panicked"),
-            "{}",
-            run.err
-        );
+        assert!(run.err.starts_with("error: ") && !run.err.contains("panicked"), "{}", run.err);
     }
 }
 
@@ -116,9 +87,5 @@ fn a_wrong_stiffness_is_refused() {
     let panda = robots().join("panda.urdf").display().to_string();
     let run = run(&["import", &panda, "--linear-stiffness", "3 kN"]);
     assert_eq!((run.code, run.out.as_str()), (2, ""));
-    assert!(
-        run.err.contains("`linear-stiffness` must be a stiffness"),
-        "{}",
-        run.err
-    );
+    assert!(run.err.contains("`linear-stiffness` must be a stiffness"), "{}", run.err);
 }

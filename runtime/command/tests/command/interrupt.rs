@@ -30,9 +30,7 @@ pub(crate) fn interrupt(child: &Child) {
 }
 
 fn send(signal: &str, child: &Child) {
-    let sent = Command::new("kill")
-        .args([signal, &child.id().to_string()])
-        .status();
+    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
     assert!(sent.unwrap().success());
 }
 
@@ -40,11 +38,7 @@ fn send(signal: &str, child: &Child) {
 fn endless(more: &[&str]) -> Child {
     let samples = ["--samples", "2000000000", "--threads", "1"];
     let mut command = command(&pendulum("sample", &[&samples[..], more].concat()));
-    command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
 #[test]
@@ -74,17 +68,11 @@ fn kept_after(signal: &str) {
         assert!(!path.exists());
         return;
     }
-    assert!(
-        err.starts_with("stopped: after ") && err.contains("of 2000000000 samples"),
-        "{err}"
-    );
+    assert!(err.starts_with("stopped: after ") && err.contains("of 2000000000 samples"), "{err}");
     let merged = run(&["merge", &name]);
     assert_eq!(merged.code, 1);
     assert!(merged.err.contains("samples are missing"), "{}", merged.err);
-    assert_eq!(
-        answer(&["merge", "--partial", &name]),
-        fs::read_to_string(&path).unwrap()
-    );
+    assert_eq!(answer(&["merge", "--partial", &name]), fs::read_to_string(&path).unwrap());
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
 }
 
@@ -116,17 +104,11 @@ fn an_answer_says_that_it_is_not_complete() {
     sleep(Duration::from_millis(1500));
     interrupt(&child);
     let output = child.wait_with_output().unwrap();
-    let (out, err) = (
-        String::from_utf8(output.stdout).unwrap(),
-        String::from_utf8(output.stderr).unwrap(),
-    );
+    let (out, err) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
     assert_eq!(output.status.code(), Some(130), "{err}");
     assert!(err.starts_with("stopped: "), "{err}");
     if !err.starts_with("stopped: nothing was written") {
-        assert!(
-            out.contains("Not complete: 2000000000 samples were asked for"),
-            "{out}"
-        );
+        assert!(out.contains("Not complete: 2000000000 samples were asked for"), "{out}");
     }
 }
 
@@ -143,10 +125,7 @@ fn what_has_no_half_leaves_the_old_file() {
     interrupt(&child);
     let output = child.wait_with_output().unwrap();
     let err = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(
-        (output.status.code(), err.as_str()),
-        (Some(130), "stopped: nothing was written\n")
-    );
+    assert_eq!((output.status.code(), err.as_str()), (Some(130), "stopped: nothing was written\n"));
     assert_eq!(fs::read_to_string(&path).unwrap(), "old");
     assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
 }
@@ -156,11 +135,7 @@ fn what_has_no_half_leaves_the_old_file() {
 fn stopped(arguments: &[&str]) -> (String, String) {
     for seconds in [1, 4, 12, 36] {
         let mut command = command(arguments);
-        let child = (command
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn())
-        .unwrap();
+        let child = (command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()).unwrap();
         listens(&child);
         sleep(Duration::from_secs(seconds));
         interrupt(&child);
@@ -184,10 +159,7 @@ fn a_report_says_how_far_it_came() {
     assert!(err.starts_with("stopped: "), "{err}");
     let html = fs::read_to_string(&path).unwrap();
     assert!(html.starts_with("<!doctype html>") && html.contains("</html>"));
-    assert!(
-        html.contains("2000000000"),
-        "what was asked for is not said"
-    );
+    assert!(html.contains("2000000000"), "what was asked for is not said");
 }
 
 #[test]
@@ -201,14 +173,8 @@ fn an_allocation_is_checked_by_the_samples_that_are_done() {
     );
     let study = file(&folder, "study.toml", &study);
     let (out, err) = stopped(&["allocate", "--study", &study]);
-    assert!(
-        err.starts_with("stopped: after ") && err.contains("of 100000000 samples"),
-        "{err}"
-    );
-    assert!(
-        out.contains("Not complete: 100000000 samples were asked for"),
-        "{out}"
-    );
+    assert!(err.starts_with("stopped: after ") && err.contains("of 100000000 samples"), "{err}");
+    assert!(out.contains("Not complete: 100000000 samples were asked for"), "{out}");
 }
 
 /// The file of a chain of bars that hangs from a turning axis.
@@ -269,20 +235,11 @@ fn every_subcommand_ends_soon() {
         ask("check", &long),
         ask("expand", &long),
         ask("converge", &long),
-        ask(
-            "campbell",
-            &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv"),
-        ),
-        ask(
-            "sweep",
-            &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv"),
-        ),
+        ask("campbell", &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv")),
+        ask("sweep", &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv")),
         ask("branches", &format!("{short} --sweep omega=0..60rad/s")),
         ask("sample", &format!("{pendulum} --samples 2000000000")),
-        ask(
-            "report",
-            &format!("{pendulum} --set omega=5rad/s --samples 2000000000 -o {report}"),
-        ),
+        ask("report", &format!("{pendulum} --set omega=5rad/s --samples 2000000000 -o {report}")),
         ask("allocate", &format!("--study {study}")),
         ask(
             "probability",
@@ -296,30 +253,18 @@ fn every_subcommand_ends_soon() {
         let words = format!("{rotor} --sweep speed=0..6000rpm --points 1e5 {detail}");
         all.push(ask("response", words.trim()));
     }
-    all.push(ask(
-        "response",
-        &format!("{long} --sweep omega=1..6rad/s --peaks"),
-    ));
+    all.push(ask("response", &format!("{long} --sweep omega=1..6rad/s --peaks")));
     let named = |name: &&str| all.iter().any(|words| words[0] == **name);
     let help = answer(&["--help"]);
-    let commands = help
-        .lines()
-        .filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let commands = help.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
     let commands = commands.filter_map(|line| line.split_whitespace().next());
     for name in commands.filter(|word| word.chars().all(|c| c.is_ascii_lowercase())) {
-        assert!(
-            named(&name) || AT_ONCE.contains(&name),
-            "{name} is not tried"
-        );
+        assert!(named(&name) || AT_ONCE.contains(&name), "{name} is not tried");
     }
     let start = |words: &Vec<String>| {
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
         let mut command = command(&words);
-        let run = command
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let run = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         std::thread::spawn(move || {
             listens(&run);
             sleep(Duration::from_secs(3));
@@ -347,25 +292,12 @@ fn branches_are_kept_as_far_as_they_came() {
     let chain = chain(&folder, 32);
     let path = folder.join("rows.csv");
     let name = path.display().to_string();
-    let arguments = [
-        "branches",
-        &chain,
-        "--sweep",
-        "omega=0..60 rad/s",
-        "-o",
-        &name,
-    ];
+    let arguments = ["branches", &chain, "--sweep", "omega=0..60 rad/s", "-o", &name];
     let (_, err) = stopped(&arguments);
-    let points = err
-        .strip_prefix("stopped: after ")
-        .and_then(|x| x.strip_suffix(" points\n"));
+    let points = err.strip_prefix("stopped: after ").and_then(|x| x.strip_suffix(" points\n"));
     let points: usize = points.unwrap_or_else(|| panic!("{err}")).parse().unwrap();
     let table = csv::read("branches", fs::File::open(path).unwrap()).unwrap();
-    assert!(
-        points > 0 && table.rows() == points,
-        "{points} {}",
-        table.rows()
-    );
+    assert!(points > 0 && table.rows() == points, "{points} {}", table.rows());
 }
 
 /// A command's output on a terminal, which the program `script` emulates.
@@ -393,22 +325,13 @@ fn long_work_shows_how_far_it_is() {
     let speeds = ["--sweep", "omega=4..8 rad/s", "-o", &file];
     let rows = [&speeds[..], &["--points", "20000"]].concat();
     for (arguments, what) in [
-        (
-            pendulum("sample", &["--samples", "20000", "-o", &file]),
-            "samples",
-        ),
+        (pendulum("sample", &["--samples", "20000", "-o", &file]), "samples"),
         (pendulum("equilibria", &["-o", &file]), "starts"),
         (swept("campbell", &rows), "values"),
         (swept("sweep", &rows), "values"),
         (swept("branches", &speeds), "points of branches"),
-        (
-            pendulum("report", &["--samples", "20000", "-o", &file]),
-            "samples, values",
-        ),
-        (
-            pendulum("tolerance", &["--result", "summary", "-o", &file]),
-            "samples",
-        ),
+        (pendulum("report", &["--samples", "20000", "-o", &file]), "samples, values"),
+        (pendulum("tolerance", &["--result", "summary", "-o", &file]), "samples"),
     ] {
         match on_a_terminal(&arguments) {
             Some(shown) => assert!(shown.contains(what), "{arguments:?}: {shown}"),
@@ -422,11 +345,6 @@ fn long_work_shows_how_far_it_is() {
 fn progress_is_for_terminals() {
     let run = run(&pendulum("sample", &["--samples", "500"]));
     assert_eq!((run.code, run.err.as_str()), (0, ""));
-    let diagram = [
-        "campbell",
-        "jeffcott_rotor.mechanism",
-        "--sweep",
-        "speed=0..6000rpm",
-    ];
+    let diagram = ["campbell", "jeffcott_rotor.mechanism", "--sweep", "speed=0..6000rpm"];
     assert_eq!(crate::program::run(&diagram).err, "");
 }

@@ -14,10 +14,7 @@ fn script(name: &str, folder: &Path) -> Command {
     let others = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths(std::iter::once(own).chain(std::env::split_paths(&others)));
     let mut command = Command::new("bash");
-    command
-        .arg(examples().join("many_machines").join(name))
-        .current_dir(folder)
-        .env("PATH", path.unwrap());
+    command.arg(examples().join("many_machines").join(name)).current_dir(folder).env("PATH", path.unwrap());
     command
 }
 

@@ -10,10 +10,7 @@ fn refused(arguments: &[&str], expected: i32, parts: &[&str]) {
     let Run { code, out, err } = run(arguments);
     assert_eq!((code, out.as_str()), (expected, ""), "{arguments:?}: {err}");
     for part in parts {
-        assert!(
-            err.contains(part),
-            "{arguments:?}: `{part}` is not in\n{err}"
-        );
+        assert!(err.contains(part), "{arguments:?}: `{part}` is not in\n{err}");
     }
     assert!(!err.contains("panicked"), "{err}");
 }
@@ -51,8 +48,7 @@ fn unused_design_variables_are_warned_of() {
     let text = "mechanism A {\n    design l = 1 m;\n    /// of the bar\n    design µ_bar = 5 cm +/- 1 mm;\n    design _depth = 5 cm;\n    \
                 gravity 9.81 m/s^2 along -z;\n    body bar: rod(mass: 3 kg, length: l, along: -z);\n    \
                 joint t: revolute(y) from ground to bar;\n}\n";
-    let declared =
-        "standard input: mechanism `A`, 1 coordinate, 0 inputs, 3 design variables, 0 outputs\n";
+    let declared = "standard input: mechanism `A`, 1 coordinate, 0 inputs, 3 design variables, 0 outputs\n";
     let Run { code, out, err } = run_with_input(&["check", "-"], text);
     assert_eq!((code, out.as_str()), (0, declared));
     let expected = "\
@@ -70,10 +66,7 @@ warning: unused variable: `µ_bar`
         ("#[allow(unused_variables)]", ""),
         ("#[allow(dead_code, unused)]", ""),
         ("#[allow(dead_code)]", expected),
-        (
-            "#[warn(unused_variables)] #[allow(unused, reason = \"later\")]",
-            "",
-        ),
+        ("#[warn(unused_variables)] #[allow(unused, reason = \"later\")]", ""),
         ("#[allow(unused)] #[warn(unused_variables)]", expected),
     ] {
         let run = run_with_input(&["check", "-"], &format!("{attributes} {text}"));
@@ -155,17 +148,9 @@ fn a_truncated_declaration_is_refused_wherever_it_ends() {
 fn files_that_cannot_be_read() {
     let missing = ["cannot read `missing.mechanism`: No such file"];
     refused(&["modes", "missing.mechanism"], 3, &missing);
-    refused(
-        &["check", PENDULUM.trim_end_matches("pendulum.mechanism")],
-        3,
-        &["cannot read"],
-    );
+    refused(&["check", PENDULUM.trim_end_matches("pendulum.mechanism")], 3, &["cannot read"]);
     refused(&["check", "."], 3, &["cannot read `.`"]);
-    refused(
-        &["modes", "--study", "missing.toml"],
-        3,
-        &["cannot read `missing.toml`"],
-    );
+    refused(&["modes", "--study", "missing.toml"], 3, &["cannot read `missing.toml`"]);
     let folder = folder("unreadable");
     fs::write(folder.join("binary.mechanism"), [0xff, 0xfe, 0]).unwrap();
     let binary = folder.join("binary.mechanism").display().to_string();
@@ -174,10 +159,7 @@ fn files_that_cannot_be_read() {
 
 #[test]
 fn names_that_do_not_exist_offer_the_nearest() {
-    let unknown = [
-        "has no input or design variable `omeag`",
-        "did you mean `omega`?",
-    ];
+    let unknown = ["has no input or design variable `omeag`", "did you mean `omega`?"];
     refused(&["modes", PENDULUM, "--set", "omeag=5rad/s"], 2, &unknown);
     let start = ["has no coordinate `thta`", "did you mean `theta`?"];
     refused(&["modes", PENDULUM, "--start", "thta=1rad"], 2, &start);
@@ -185,15 +167,8 @@ fn names_that_do_not_exist_offer_the_nearest() {
     refused(&["branches", PENDULUM, "--sweep", "l=0..1m"], 2, &sweep);
     let table = ["the answer has no table `mods`", "did you mean `modes`?"];
     refused(&pendulum("modes", &["--csv", "--table", "mods"]), 2, &table);
-    let result = [
-        "the answer has no result `shapes`",
-        "there are `modes`, `equilibrium`",
-    ];
-    refused(
-        &pendulum("modes", &["--json", "--result", "shapes"]),
-        2,
-        &result,
-    );
+    let result = ["the answer has no result `shapes`", "there are `modes`, `equilibrium`"];
+    refused(&pendulum("modes", &["--json", "--result", "shapes"]), 2, &result);
     refused(&["mods"], 2, &["unrecognized subcommand", "'modes'"]);
 }
 
@@ -201,14 +176,8 @@ fn names_that_do_not_exist_offer_the_nearest() {
 fn values_with_wrong_units() {
     for (value, parts) in [
         ("omega=5", &["set omega=5: `5` has no unit"][..]),
-        (
-            "omega=5 m",
-            &["`omega` must be an angular speed", "this is a length"],
-        ),
-        (
-            "omega=5 rmp",
-            &["unknown unit `rmp`", "did you mean `rpm`?"],
-        ),
+        ("omega=5 m", &["`omega` must be an angular speed", "this is a length"]),
+        ("omega=5 rmp", &["unknown unit `rmp`", "did you mean `rpm`?"]),
         ("omega=fast", &["unknown name `fast`"]),
         ("omega=(5 rpm", &["brackets and quotes come in pairs"]),
         ("omega", &["write a name, `=` and a value"]),
@@ -222,11 +191,7 @@ fn values_with_wrong_units() {
     }
     for count in ["many", "1.5", "-3", "1e99"] {
         let arguments = ["--samples", count];
-        refused(
-            &pendulum("sample", &arguments),
-            2,
-            &[if count == "-3" { "-3" } else { "`1e4`" }],
-        );
+        refused(&pendulum("sample", &arguments), 2, &[if count == "-3" { "-3" } else { "`1e4`" }]);
     }
     for (tolerance, part) in [
         ("l=3 kg", "this tolerance must be a length"),
@@ -253,18 +218,10 @@ fn sweeps_that_make_no_sense() {
     ] {
         refused(&["branches", PENDULUM, "--sweep", sweep], 2, &[part]);
     }
-    refused(
-        &["branches", PENDULUM],
-        2,
-        &["no input to sweep", "--sweep speed=0..6000rpm"],
-    );
+    refused(&["branches", PENDULUM], 2, &["no input to sweep", "--sweep speed=0..6000rpm"]);
     let sweep = ["--sweep", "omega=0..8rad/s", "--points"];
     for points in ["0", "1"] {
-        refused(
-            &[&["campbell", PENDULUM], &sweep[..], &[points]].concat(),
-            2,
-            &["no sweep"],
-        );
+        refused(&[&["campbell", PENDULUM], &sweep[..], &[points]].concat(), 2, &["no sweep"]);
     }
     let many = [&["campbell", PENDULUM], &sweep[..], &["1e12", "--csv"]].concat();
     refused(&many, 2, &["1000000000000 points", "divide the range"]);
@@ -283,11 +240,7 @@ fn inputs_that_nothing_gives() {
     let why = "the loads along `q` balance for some values of the inputs only";
     let checked = run(&["check", &loaded]);
     assert!(checked.out.contains(why), "{}", checked.out);
-    refused(
-        &["modes", &loaded],
-        1,
-        &["`pull` was not given: 0 N", "no equilibrium found", why],
-    );
+    refused(&["modes", &loaded], 1, &["`pull` was not given: 0 N", "no equilibrium found", why]);
     let given = run(&["modes", &loaded, "--set", "pull=3N"]);
     assert!(!given.err.contains("not given"), "{}", given.err);
     let shaken = file(
@@ -299,25 +252,15 @@ fn inputs_that_nothing_gives() {
             joint base: prismatic(x) from ground to table, shaken(velocity: 1 mm/s, order: 1 of spin);
             joint q: prismatic(x) from table to b; force k: spring(on: q, stiffness: 1 N/m); output x = q; }",
     );
-    refused(
-        &["response", &shaken],
-        1,
-        &["`speed` was not given: 0 rpm", "excitation `base`"],
-    );
+    refused(&["response", &shaken], 1, &["`speed` was not given: 0 rpm", "excitation `base`"]);
 }
 
 /// Brackets and comments are marked where they begin, numbers and robots have an end.
 #[test]
 fn what_never_ends() {
     for (text, message) in [
-        (
-            "mechanism A { body b: rod(mass: 3 kg;\n }",
-            "this `(` is never closed\n --> standard input:1:26",
-        ),
-        (
-            "mechanism A {\n /* b }",
-            "this `/*` is never closed\n --> standard input:2:2",
-        ),
+        ("mechanism A { body b: rod(mass: 3 kg;\n }", "this `(` is never closed\n --> standard input:1:26"),
+        ("mechanism A {\n /* b }", "this `/*` is never closed\n --> standard input:2:2"),
         (
             &format!("mechanism A {{ let a = 3{} }}", "0".repeat(100_000)),
             "this number has 100001 characters; 400 are the most",
@@ -328,24 +271,10 @@ fn what_never_ends() {
     }
     let folder = folder("many_mistakes");
     let many: String = (0..60).map(|k| format!("let a{k} = b{k};\n")).collect();
-    let many = file(
-        &folder,
-        "many.mechanism",
-        &format!("mechanism A {{\n{many}}}"),
-    );
-    refused(
-        &["check", &many],
-        3,
-        &["These are the first 50 mistakes.", "61 mistakes"],
-    );
-    let links: String = (0..20_000)
-        .map(|k| format!("<link name=\"l{k}\"/>"))
-        .collect();
-    let robot = file(
-        &folder,
-        "many.urdf",
-        &format!("<robot name=\"r\">{links}</robot>"),
-    );
+    let many = file(&folder, "many.mechanism", &format!("mechanism A {{\n{many}}}"));
+    refused(&["check", &many], 3, &["These are the first 50 mistakes.", "61 mistakes"]);
+    let links: String = (0..20_000).map(|k| format!("<link name=\"l{k}\"/>")).collect();
+    let robot = file(&folder, "many.urdf", &format!("<robot name=\"r\">{links}</robot>"));
     refused(&["import", &robot], 3, &["20000 links and joints"]);
 }
 
@@ -354,9 +283,7 @@ fn what_never_ends() {
 fn results_by_their_headings() {
     for question in ["modes", "sensitivities", "tolerance"] {
         let text = run(&pendulum(question, &[])).out;
-        let headings = text
-            .lines()
-            .filter(|line| line.starts_with("RotatingPendulum at"));
+        let headings = text.lines().filter(|line| line.starts_with("RotatingPendulum at"));
         let headings: Vec<&str> = headings.collect();
         assert!(headings.len() > 1, "{text}");
         for heading in headings {
@@ -370,41 +297,12 @@ fn results_by_their_headings() {
 fn study_files_with_mistakes() {
     let folder = folder("wrong_studies");
     for (name, text, code, parts) in [
-        (
-            "key",
-            "mechanisn = \"a\"",
-            3,
-            &[
-                "not a valid study file",
-                "unknown field `mechanisn`",
-                "expected",
-            ][..],
-        ),
-        (
-            "toml",
-            "[set\nomega = 1",
-            3,
-            &["not a valid study file", "line 1"],
-        ),
-        (
-            "type",
-            "samples = \"many\"",
-            3,
-            &["not a valid study file", "expected usize"],
-        ),
-        (
-            "correlation",
-            "correlation = [[\"l\", \"m\"]]",
-            3,
-            &["`correlation = [[\"l\", \"k\", 0.5]]`"],
-        ),
+        ("key", "mechanisn = \"a\"", 3, &["not a valid study file", "unknown field `mechanisn`", "expected"][..]),
+        ("toml", "[set\nomega = 1", 3, &["not a valid study file", "line 1"]),
+        ("type", "samples = \"many\"", 3, &["not a valid study file", "expected usize"]),
+        ("correlation", "correlation = [[\"l\", \"m\"]]", 3, &["`correlation = [[\"l\", \"k\", 0.5]]`"]),
         ("none", "", 2, &["no mechanism is given"]),
-        (
-            "file",
-            "mechanism = \"missing.mechanism\"",
-            3,
-            &["cannot read", "missing.mechanism"],
-        ),
+        ("file", "mechanism = \"missing.mechanism\"", 3, &["cannot read", "missing.mechanism"]),
     ] {
         let path = file(&folder, name, text);
         refused(&["modes", "--study", &path], code, parts);
@@ -417,10 +315,7 @@ fn study_files_with_mistakes() {
     let choose = "[[choose]]\ntolerance = \"l\"\nleast = \"1 mm\"\nmost = \"9 mm\"\ncost = { factor = 1.0 }\n";
     let with = |require: &str| format!("[[require]]\nfailure = 0.1\n{require}\n{choose}");
     allocate(&with("mode = 1"), &["a requirement has limits"]);
-    allocate(
-        &with("at_least = \"1 Hz\""),
-        &["a requirement states one thing"],
-    );
+    allocate(&with("at_least = \"1 Hz\""), &["a requirement states one thing"]);
     for two in [
         "mode = 1\noutput = \"angle\"",
         "mode = 1\ncritical = \"omega=0..8\"",
@@ -429,70 +324,30 @@ fn study_files_with_mistakes() {
         let text = with(&format!("{two}\nat_least = 1.0"));
         allocate(&text, &["a requirement states one thing"]);
     }
-    allocate(
-        &with("mode = 1\nstable = true"),
-        &["a requirement states one thing"],
-    );
+    allocate(&with("mode = 1\nstable = true"), &["a requirement states one thing"]);
     for (unused, message) in [
-        (
-            "mode = 1\norder = 2.0\nat_least = 1.0",
-            "`order` belongs to a resonance",
-        ),
-        (
-            "mode = 1\nflutter = \"omega=0..8\"\norder = 2.0\nat_least = 1.0",
-            "`order` belongs to a resonance",
-        ),
-        (
-            "output = \"angle\"\nquantity = \"growth\"\nat_least = 1.0",
-            "`quantity` belongs to a mode",
-        ),
-        (
-            "mode = 1\nresonance = \"omega=0..8\"\nquantity = \"growth\"\nat_least = 1.0",
-            "`quantity` belongs to a mode",
-        ),
-        (
-            "stable = true\nquantity = \"growth\"",
-            "`quantity` belongs to a mode",
-        ),
+        ("mode = 1\norder = 2.0\nat_least = 1.0", "`order` belongs to a resonance"),
+        ("mode = 1\nflutter = \"omega=0..8\"\norder = 2.0\nat_least = 1.0", "`order` belongs to a resonance"),
+        ("output = \"angle\"\nquantity = \"growth\"\nat_least = 1.0", "`quantity` belongs to a mode"),
+        ("mode = 1\nresonance = \"omega=0..8\"\nquantity = \"growth\"\nat_least = 1.0", "`quantity` belongs to a mode"),
+        ("stable = true\nquantity = \"growth\"", "`quantity` belongs to a mode"),
         ("stable = true\nat_most = 1.0", "`stable` takes no limits"),
-        (
-            "mode = 1\nstable = true\noutside = [1.0, 2.0]",
-            "`stable` takes no limits",
-        ),
+        ("mode = 1\nstable = true\noutside = [1.0, 2.0]", "`stable` takes no limits"),
     ] {
         allocate(&with(unused), &[message]);
     }
-    allocate(
-        &with("flutter = \"omega=0..8\"\nat_least = 1.0"),
-        &["there is no such mode", "mode = 1"],
-    );
-    allocate(
-        &with("critical = \"omega\"\nat_least = 1.0"),
-        &["`omega` is not a range"],
-    );
+    allocate(&with("flutter = \"omega=0..8\"\nat_least = 1.0"), &["there is no such mode", "mode = 1"]);
+    allocate(&with("critical = \"omega\"\nat_least = 1.0"), &["`omega` is not a range"]);
     allocate(&with("mode = 0\nat_least = \"1 Hz\""), &["counted from 1"]);
-    allocate(
-        &with("mode = 1\nat_least = \"1 m\""),
-        &["at_least = \"1 m\"", "this is a length"],
-    );
-    allocate(
-        &with("output = \"angel\"\nat_most = 1.0"),
-        &["did you mean `angle`?"],
-    );
+    allocate(&with("mode = 1\nat_least = \"1 m\""), &["at_least = \"1 m\"", "this is a length"]);
+    allocate(&with("output = \"angel\"\nat_most = 1.0"), &["did you mean `angle`?"]);
 }
 
 #[test]
 fn requirements_in_words() {
-    refused(
-        &pendulum("probability", &[]),
-        2,
-        &["nothing is required", "--require", "[[require]]"],
-    );
+    refused(&pendulum("probability", &[]), 2, &["nothing is required", "--require", "[[require]]"]);
     for (text, parts) in [
-        (
-            "frequency 1",
-            &["`frequency 1` is not a requirement", "frequency 1 >= 20 Hz"][..],
-        ),
+        ("frequency 1", &["`frequency 1` is not a requirement", "frequency 1 >= 20 Hz"][..]),
         ("frequency one >= 4 rad/s", &["is not a requirement"]),
         ("frequency 1 outside 4 rad/s", &["is not a requirement"]),
         ("the frequency 1 >= 4 rad/s", &["is not a requirement"]),
@@ -507,11 +362,7 @@ fn requirements_in_words() {
         refused(&pendulum("probability", &["--require", text]), 2, parts);
     }
     let exact = ["--require", "stable", "--tol", "l=0%"];
-    refused(
-        &pendulum("probability", &exact),
-        2,
-        &["no tolerance is declared"],
-    );
+    refused(&pendulum("probability", &exact), 2, &["no tolerance is declared"]);
 }
 
 #[test]
@@ -522,11 +373,7 @@ fn no_equilibrium_is_an_answer() {
         force push: generalized(on: x, value: 9 N - (1 N/m^2) * x^2); }";
     let run = run_with_input(&["modes", "-"], heavy);
     assert_eq!((run.code, run.out.as_str()), (1, ""));
-    assert!(
-        run.err.starts_with("error: no equilibrium found"),
-        "{}",
-        run.err
-    );
+    assert!(run.err.starts_with("error: no equilibrium found"), "{}", run.err);
 }
 
 #[test]
@@ -543,50 +390,28 @@ fn colours_only_where_they_are_wanted() {
 /// Brackets in brackets overflow no stack, wherever they are written.
 #[test]
 fn brackets_are_nested_only_so_deep() {
-    let nested =
-        |depth: usize, value: &str| format!("{}{value}{}", "(".repeat(depth), ")".repeat(depth));
+    let nested = |depth: usize, value: &str| format!("{}{value}{}", "(".repeat(depth), ")".repeat(depth));
     let folder = folder("nested");
-    let parts = [
-        "this expression is too large",
-        "name parts of it with `let`",
-    ];
+    let parts = ["this expression is too large", "name parts of it with `let`"];
     for depth in [100, 10_000, 40_000, 60_000] {
         let value = nested(depth, "1 m");
         let text = format!("mechanism A {{\n    design l = {value};\n}}\n");
         let path = file(&folder, "nested.mechanism", &text);
         refused(&["check", &path], 3, &parts);
-        refused(
-            &["modes", PENDULUM, "--set", &format!("l={value}")],
-            2,
-            &parts,
-        );
+        refused(&["modes", PENDULUM, "--set", &format!("l={value}")], 2, &parts);
         let start = format!("theta={}", nested(depth, "1 rad"));
         refused(&["modes", PENDULUM, "--start", &start], 2, &parts);
-        refused(
-            &["tolerance", PENDULUM, "--tol", &format!("l={value}")],
-            2,
-            &parts,
-        );
+        refused(&["tolerance", PENDULUM, "--tol", &format!("l={value}")], 2, &parts);
         let study = file(&folder, "nested.toml", &format!("[set]\nl = \"{value}\"\n"));
         refused(&["modes", PENDULUM, "--study", &study], 2, &parts);
     }
     // The message does not repeat all of it.
     let value = format!("l={}", nested(10_000, "1 m"));
     let message = run(&["modes", PENDULUM, "--set", &value]).err;
-    assert!(
-        message.contains("set l=(((") && message.len() < 300,
-        "{message}"
-    );
+    assert!(message.contains("set l=(((") && message.len() < 300, "{message}");
     let brackets = "[".repeat(60_000);
-    let run = run_with_input(
-        &["check", "-"],
-        &format!("// {brackets}\nmechanism A {{ }}"),
-    );
-    assert!(
-        !run.err.contains("too large") && run.code == 3,
-        "{}",
-        run.err
-    );
+    let run = run_with_input(&["check", "-"], &format!("// {brackets}\nmechanism A {{ }}"));
+    assert!(!run.err.contains("too large") && run.code == 3, "{}", run.err);
 }
 
 #[test]
@@ -599,11 +424,7 @@ fn orders_that_cross_no_mode() {
     let wrong = ["nan", "inf", "1e400", "0", "-0", "-1", "1,-2"];
     for order in wrong {
         let given = ["--order", order];
-        refused(
-            &along(&speeds, &given),
-            2,
-            &["crosses no mode", "`--order 1"],
-        );
+        refused(&along(&speeds, &given), 2, &["crosses no mode", "`--order 1"]);
         let report = folder.join("report.html").display().to_string();
         let report = ["report", PENDULUM, "-o", &report];
         let given = [&report[..], &speeds, &given].concat();
@@ -612,11 +433,7 @@ fn orders_that_cross_no_mode() {
     }
     for order in ["nan", "inf", "0", "-1.5"] {
         let study = file(&folder, "orders.toml", &format!("orders = [1, {order}]"));
-        refused(
-            &along(&speeds, &["--study", &study]),
-            2,
-            &["crosses no mode"],
-        );
+        refused(&along(&speeds, &["--study", &study]), 2, &["crosses no mode"]);
         let allocation = format!(
             "[[require]]\nmode = 1\nresonance = \"omega=4..8rad/s\"\norder = {order}\nat_least = 1.0\nfailure = 0.1\n\
              [[choose]]\nnominal = \"l\"\nleast = \"1 m\"\nmost = \"2 m\"\n"
@@ -625,7 +442,8 @@ fn orders_that_cross_no_mode() {
         let parts = ["crosses no mode"];
         refused(&["allocate", PENDULUM, "--study", &study], 2, &parts);
     }
-    let pushed = "mechanism A { input push: N; body block: point(mass: 1 kg); joint x: prismatic(x) from ground to block;
+    let pushed =
+        "mechanism A { input push: N; body block: point(mass: 1 kg); joint x: prismatic(x) from ground to block;
         force s: spring(on: x, stiffness: 9 N/m); force f: generalized(on: x, value: push); }";
     let pushed = file(&folder, "pushed.mechanism", pushed);
     let campbell = ["campbell", &pushed, "--sweep", "push=0..1N"];
@@ -639,11 +457,7 @@ fn orders_that_cross_no_mode() {
 fn a_sweep_sets_its_input_alone() {
     for question in ["campbell", "sweep", "branches"] {
         let along = pendulum(question, &["--sweep", "omega=4..8rad/s"]);
-        refused(
-            &along,
-            2,
-            &["the sweep sets `omega`", "leave one of them out"],
-        );
+        refused(&along, 2, &["the sweep sets `omega`", "leave one of them out"]);
     }
 }
 
@@ -657,23 +471,16 @@ fn counts_and_levels_that_make_no_sense() {
     }
     let folder = folder("levels");
     let study = file(&folder, "level.toml", "sigma_level = 0");
-    refused(
-        &pendulum("modes", &["--study", &study]),
-        2,
-        &["sigma level"],
-    );
+    refused(&pendulum("modes", &["--study", &study]), 2, &["sigma level"]);
     let study = file(&folder, "samples.toml", "samples = 0");
     let report = folder.join("report.html").display().to_string();
     for more in [["--samples", "0"], ["--study", &study]] {
         refused(&pendulum("sample", &more), 2, &["at least 1"]);
         let place = ["-o", &report];
-        refused(
-            &pendulum("report", &[&place[..], &more].concat()),
-            2,
-            &["at least 1"],
-        );
+        refused(&pendulum("report", &[&place[..], &more].concat()), 2, &["at least 1"]);
     }
-    let choose = "[[require]]\nstable = true\nfailure = 0.1\n[[choose]]\nnominal = \"l\"\nleast = \"1 m\"\nmost = \"2 m\"\n";
+    let choose =
+        "[[require]]\nstable = true\nfailure = 0.1\n[[choose]]\nnominal = \"l\"\nleast = \"1 m\"\nmost = \"2 m\"\n";
     let study = file(&folder, "choose.toml", choose);
     let none = ["--study", &study, "--samples", "0"];
     refused(&pendulum("allocate", &none), 2, &["at least 1"]);
@@ -700,11 +507,7 @@ fn tolerances_whose_ends_are_impossible() {
     let declared = fs::read_to_string(examples().join(PENDULUM)).unwrap();
     let start = declared.find("design l").unwrap();
     let end = start + declared[start..].find(';').unwrap();
-    let wide = format!(
-        "{}design l = 1 m +/- 300%{}",
-        &declared[..start],
-        &declared[end..]
-    );
+    let wide = format!("{}design l = 1 m +/- 300%{}", &declared[..start], &declared[end..]);
     refused(&["check", &file(&folder, "wide", &wide)], 3, &words);
     for given in ["300%", "3 m", "+1 -3 m uniform", "one of [-2, 1] m"] {
         let option = format!("l={given}");
@@ -714,11 +517,7 @@ fn tolerances_whose_ends_are_impossible() {
     }
     // About the value that is set, not the declared one.
     let shorter = ["--tol", "l=0.7m", "--set", "l=0.5m"];
-    refused(
-        &pendulum("modes", &shorter),
-        2,
-        &["the length of `bar` is -0.2 m"],
-    );
+    refused(&pendulum("modes", &shorter), 2, &["the length of `bar` is -0.2 m"]);
     let wider = ["--tol", "l=1.5m", "--set", "l=2m"];
     assert_eq!(run(&pendulum("modes", &wider)).code, 0);
     let zero = "mechanism A { design x0 = 0 m; design k = 9 N/m; body b: point(mass: 1 kg);
@@ -736,11 +535,7 @@ fn answers_and_figures_that_overwrite_each_other() {
     let (one, other) = (place("a.svg"), place("./a.svg"));
     for figure in [&one, &other] {
         let both = ["--json", "-o", &one, "--figure", figure];
-        refused(
-            &pendulum("modes", &both),
-            2,
-            &["the answer and its figure", "files of their own"],
-        );
+        refused(&pendulum("modes", &both), 2, &["the answer and its figure", "files of their own"]);
     }
     #[cfg(unix)]
     {
@@ -750,11 +545,7 @@ fn answers_and_figures_that_overwrite_each_other() {
     }
     for name in ["answer.svg", "answer.png"] {
         let file = place(name);
-        refused(
-            &pendulum("modes", &["-o", &file]),
-            2,
-            &["is a picture", "`--figure FILE`"],
-        );
+        refused(&pendulum("modes", &["-o", &file]), 2, &["is a picture", "`--figure FILE`"]);
         assert!(!folder.join(name).exists());
     }
     assert!(!folder.join("a.svg").exists());
@@ -767,47 +558,25 @@ fn names_of_modes_that_do_not_exist() {
     let figure = folder.join("modes.svg");
     let place = figure.display().to_string();
     let with = ["--figure", &place, "--mode-names"];
-    let parts = [
-        "2 names of modes are given, and there is 1 mode",
-        "leave out `pitch`",
-    ];
+    let parts = ["2 names of modes are given, and there is 1 mode", "leave out `pitch`"];
     let two = [&with[..], &["swing,pitch"]].concat();
     refused(&pendulum("modes", &two), 2, &parts);
     refused(&pendulum("tolerance", &two), 2, &parts);
     let speeds = ["--sweep", "omega=4..8rad/s", "--points", "3"];
     refused(&swept("campbell", &[&two[..], &speeds].concat()), 2, &parts);
     let study = file(&folder, "names.toml", "mode_names = [\"swing\", \"pitch\"]");
-    refused(
-        &pendulum("modes", &["--figure", &place, "--study", &study]),
-        2,
-        &parts,
-    );
+    refused(&pendulum("modes", &["--figure", &place, "--study", &study]), 2, &parts);
     assert!(!figure.exists());
     // The names in a study file are for the questions that draw modes.
     assert_eq!(run(&pendulum("modes", &["--study", &study])).code, 0);
     let html = folder.join("report.html").display().to_string();
-    let report = [
-        "-o",
-        &html,
-        "--samples",
-        "10",
-        "--mode-names",
-        "swing,pitch",
-    ];
+    let report = ["-o", &html, "--samples", "10", "--mode-names", "swing,pitch"];
     refused(&pendulum("report", &report), 2, &parts);
-    let rotor = [
-        "modes",
-        "jeffcott_rotor.mechanism",
-        "--set",
-        "speed=1000rpm",
-    ];
+    let rotor = ["modes", "jeffcott_rotor.mechanism", "--set", "speed=1000rpm"];
     let fewer = [&rotor[..], &with, &["first,second"]].concat();
     assert_eq!(run(&fewer).code, 0);
     let drawn = fs::read_to_string(&figure).unwrap();
-    assert!(
-        drawn.contains("second") && drawn.contains("mode 3"),
-        "{drawn}"
-    );
+    assert!(drawn.contains("second") && drawn.contains("mode 3"), "{drawn}");
 }
 
 #[test]
@@ -826,17 +595,8 @@ fn a_defective_pair_in_plain_words() {
         joint x: prismatic(x) from ground to b; force s: spring(on: x, stiffness: k); force d: damper(on: x, damping: c); }";
     let path = file(&folder, "crit.mechanism", text);
     let run = run(&["sensitivities", &path]);
-    assert!(
-        run.out.contains("of a defective eigenvalue have none"),
-        "{}",
-        run.out
-    );
-    assert!(
-        !run.out.contains('_') && !run.err.contains('_'),
-        "{}{}",
-        run.out,
-        run.err
-    );
+    assert!(run.out.contains("of a defective eigenvalue have none"), "{}", run.out);
+    assert!(!run.out.contains('_') && !run.err.contains('_'), "{}{}", run.out, run.err);
 }
 
 #[test]
@@ -860,10 +620,7 @@ fn an_output_without_a_value_is_named() {
                 output fine = t; output inverse = 1 / t; }\n";
     let Run { code, out, err } = run_with_input(&["tolerance", "-"], text);
     assert_eq!(code, 1);
-    assert!(
-        out.contains("what tolerances do to the frequencies"),
-        "{out}"
-    );
+    assert!(out.contains("what tolerances do to the frequencies"), "{out}");
     let expected = "error: output `inverse` has no finite value at q = [0.0]: it divides by zero, or leaves the domain of a \
                     function\n";
     assert_eq!(err, expected);

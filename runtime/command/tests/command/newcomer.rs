@@ -11,10 +11,7 @@ use crate::walkthrough::{Part, parts, walked, words};
 /// A shared build folder for these tests, so that the newcomer need not rebuild existing packages.
 fn target() -> (PathBuf, bool) {
     let profile = Path::new(env!("CARGO_BIN_EXE_eigentol")).parent().unwrap();
-    (
-        profile.parent().unwrap().to_owned(),
-        profile.ends_with("release"),
-    )
+    (profile.parent().unwrap().to_owned(), profile.ends_with("release"))
 }
 
 fn succeed(command: &mut Command) -> String {
@@ -98,9 +95,6 @@ fn a_newcomer_gets_from_a_clone_to_his_own_rotor() {
             _ => {}
         }
     }
-    assert!(
-        output.contains("2316") && output.contains("2933"),
-        "{output}"
-    );
+    assert!(output.contains("2316") && output.contains("2933"), "{output}");
     fs::remove_dir_all(&folder).unwrap();
 }

@@ -31,10 +31,7 @@ fn parts_merge_to_the_same_bits_in_any_order() {
             assert_eq!(answer(&[&["merge"], &order[..], form].concat()), whole);
         }
     }
-    let both = folder("merged_twice")
-        .join("both.json")
-        .display()
-        .to_string();
+    let both = folder("merged_twice").join("both.json").display().to_string();
     answer(&["merge", "--partial", three, one, "-o", &both]);
     assert_eq!(answer(&["merge", two, &both]), sample(&[]));
 }
@@ -55,11 +52,7 @@ fn gaps_are_named() {
     assert_eq!(run.code, 1);
     let drawn = "1000 samples, seed 7, numbers 0 to 499 and 1500 to 1999: 1000 stable";
     assert!(run.out.contains(drawn), "{}", run.out);
-    assert!(
-        run.err.contains("samples are missing: 500 to below 1500"),
-        "{}",
-        run.err
-    );
+    assert!(run.err.contains("samples are missing: 500 to below 1500"), "{}", run.err);
 }
 
 #[track_caller]
@@ -75,36 +68,22 @@ fn refused(arguments: &[&str], parts: &[&str]) {
 fn what_does_not_belong_together_is_refused() {
     let files = parts("refused", 2);
     let [one, two] = [files[0].as_str(), files[1].as_str()];
-    let again =
-        format!("`{two}` cannot be merged: its samples 1000 to below 2000 are already included");
+    let again = format!("`{two}` cannot be merged: its samples 1000 to below 2000 are already included");
     refused(&["merge", two, one, two], &[&again]);
 
     let folder = folder("other_runs");
     let other = |name: &str, more: &[&str]| {
         let shard = ["--shard", "2/2"];
-        file(
-            &folder,
-            name,
-            &answer(&pendulum("sample", &[&shard[..], more].concat())),
-        )
+        file(&folder, name, &answer(&pendulum("sample", &[&shard[..], more].concat())))
     };
     let seed = other("seed", &["--samples", "2000", "--seed", "8"]);
-    refused(
-        &["merge", one, &seed],
-        &[&seed, "another run: its seed is 8, that of the others 7"],
-    );
+    refused(&["merge", one, &seed], &[&seed, "another run: its seed is 8, that of the others 7"]);
     let total = other("total", &["--samples", "3000", "--seed", "7"]);
     refused(&["merge", one, &total], &[&total, "another run"]);
     let length = other("length", &[&SAMPLES[..], &["--set", "l=1.1m"]].concat());
-    refused(
-        &["merge", one, &length],
-        &["its design variable `l` is 1.1, that of the others 1"],
-    );
+    refused(&["merge", one, &length], &["its design variable `l` is 1.1, that of the others 1"]);
     let resumed = pendulum("sample", &[&SAMPLES[..], &["--resume", &seed]].concat());
-    refused(
-        &resumed,
-        &["another run: its seed is 8, that of the others 7"],
-    );
+    refused(&resumed, &["another run: its seed is 8, that of the others 7"]);
 }
 
 #[test]
@@ -114,25 +93,13 @@ fn damaged_files_are_refused() {
     let folder = folder("damages");
     let with = |text: &str| file(&folder, "damaged.json", text);
     for end in [0, 1, 100, whole.len() / 2, whole.len() - 2] {
-        refused(
-            &["merge", &files[0], &with(&whole[..end])],
-            &["cannot be merged: the file is cut off"],
-        );
+        refused(&["merge", &files[0], &with(&whole[..end])], &["cannot be merged: the file is cut off"]);
     }
     let newer = whole.replace("{\"format\":2,", "{\"format\":99,");
     assert_ne!(newer, whole);
-    refused(
-        &["merge", &files[0], &with(&newer)],
-        &["version 99", "version 2 can be read"],
-    );
-    refused(
-        &["merge", &files[0], &with("{}")],
-        &["cannot be merged", "missing field"],
-    );
-    refused(
-        &["merge", &files[0], &with(&sample(&["--json"]))],
-        &["cannot be merged"],
-    );
+    refused(&["merge", &files[0], &with(&newer)], &["version 99", "version 2 can be read"]);
+    refused(&["merge", &files[0], &with("{}")], &["cannot be merged", "missing field"]);
+    refused(&["merge", &files[0], &with(&sample(&["--json"]))], &["cannot be merged"]);
     refused(&["merge", "missing.json"], &["cannot read `missing.json`"]);
 }
 

@@ -61,39 +61,18 @@ fn required<'a>(wanted: &'a str, more: &'a [&'a str]) -> Vec<&'a str> {
 fn requirements_in_words() {
     let longest = |angle: f64| 1.5 * 9.81 / (SPEED * SPEED * angle.cos());
     for (wanted, exact) in [
-        (
-            "frequency 1 >= 4 rad/s",
-            length_between(0.0, length_at(4.0)),
-        ),
-        (
-            "natural_frequency 1>=4rad/s",
-            length_between(0.0, length_at(4.0)),
-        ),
-        (
-            "frequency 1 <= 4.15 rad/s",
-            length_between(length_at(4.15), 9.0),
-        ),
-        (
-            "frequency 1 outside 4.08..4.1 rad/s",
-            length_between(length_at(4.08), length_at(4.1)),
-        ),
+        ("frequency 1 >= 4 rad/s", length_between(0.0, length_at(4.0))),
+        ("natural_frequency 1>=4rad/s", length_between(0.0, length_at(4.0))),
+        ("frequency 1 <= 4.15 rad/s", length_between(length_at(4.15), 9.0)),
+        ("frequency 1 outside 4.08..4.1 rad/s", length_between(length_at(4.08), length_at(4.1))),
         (
             "frequency 1 away from 0.82 omega by 0.5%",
             length_between(length_at(0.8159 * SPEED), length_at(0.8241 * SPEED)),
         ),
-        (
-            "frequency 1 within 3.95 rad/s..4.1 rad/s",
-            1.0 - length_between(length_at(3.95), length_at(4.1)),
-        ),
-        (
-            "angle <= 55 deg",
-            length_between(longest(55_f64.to_radians()), 9.0),
-        ),
+        ("frequency 1 within 3.95 rad/s..4.1 rad/s", 1.0 - length_between(length_at(3.95), length_at(4.1))),
+        ("angle <= 55 deg", length_between(longest(55_f64.to_radians()), 9.0)),
         // (1.5 g / l)^(1/2) falls below 3.8 rad/s.
-        (
-            "critical omega=0..8rad/s >= 3.8 rad/s",
-            length_between(1.5 * 9.81 / (3.8 * 3.8), 9.0),
-        ),
+        ("critical omega=0..8rad/s >= 3.8 rad/s", length_between(1.5 * 9.81 / (3.8 * 3.8), 9.0)),
         ("stable", 0.0),
     ] {
         let table = answer(&required(wanted, &["--csv"]));
@@ -101,14 +80,8 @@ fn requirements_in_words() {
         // The requirement, and any.
         assert_eq!(found.len(), 2, "{table}");
         for (found, upper) in found.iter().zip(numbers(&table, "95 % to")) {
-            assert!(
-                (found - exact).abs() <= 1e-6 * exact + 1e-14,
-                "{wanted}: {found} {exact}"
-            );
-            assert!(
-                exact <= upper * (1.0 + 1e-6) + 1e-14,
-                "{wanted}: {upper} {exact}"
-            );
+            assert!((found - exact).abs() <= 1e-6 * exact + 1e-14, "{wanted}: {found} {exact}");
+            assert!(exact <= upper * (1.0 + 1e-6) + 1e-14, "{wanted}: {upper} {exact}");
         }
     }
 }
@@ -118,54 +91,29 @@ fn requirements_in_words() {
 #[test]
 fn the_method_is_chosen() {
     let near = |speed: &str, more: &[&str]| {
-        let place = [
-            "probability",
-            PENDULUM,
-            "--set",
-            speed,
-            "--tol",
-            "l=10%",
-            "--require",
-            "frequency 1 >= 0.1 rad/s",
-        ];
+        let place =
+            ["probability", PENDULUM, "--set", speed, "--tol", "l=10%", "--require", "frequency 1 >= 0.1 rad/s"];
         answer(&[&place, more].concat())
     };
     let by = |table: &str| column(table, "found by")[0].clone();
-    assert_eq!(
-        by(&answer(&required("frequency 1 >= 4 rad/s", &["--csv"]))),
-        "design point"
-    );
+    assert_eq!(by(&answer(&required("frequency 1 >= 4 rad/s", &["--csv"]))), "design point");
     assert_eq!(by(&near("omega=3.7rad/s", &["--csv"])), "lines");
     // A length of one of three kinds.
-    let classes = [
-        "--tol",
-        "l=one of [0.9, 1.0, 1.1] m weighted [1, 2, 1]",
-        "--csv",
-    ];
+    let classes = ["--tol", "l=one of [0.9, 1.0, 1.1] m weighted [1, 2, 1]", "--csv"];
     let table = answer(&required("frequency 1 >= 4 rad/s", &classes));
     assert_eq!(by(&table), "samples");
     let [low, high] = ["95 % from", "95 % to"].map(|name| numbers(&table, name)[0]);
     assert!(low < 0.25 && 0.25 < high && high - low < 0.04, "{table}");
     let text = near("omega=3.7rad/s", &[]);
-    assert!(
-        text.contains("lines") && !text.contains("importance"),
-        "{text}"
-    );
+    assert!(text.contains("lines") && !text.contains("importance"), "{text}");
 }
 
 #[test]
 fn every_form_and_every_result() {
     let wanted = "frequency 1 >= 4 rad/s";
     let json = answer(&required(wanted, &["--json"]));
-    for part in [
-        "\"kind\": \"probabilities of failure\"",
-        "\"95 % from\"",
-        "design points",
-    ] {
-        assert!(
-            json.replace("\":\"", "\": \"").contains(part),
-            "{part}: {json}"
-        );
+    for part in ["\"kind\": \"probabilities of failure\"", "\"95 % from\"", "design points"] {
+        assert!(json.replace("\":\"", "\": \"").contains(part), "{part}: {json}");
     }
     let table = answer(&required(wanted, &["--csv", "--result", "reliability"]));
     assert_eq!(column(&table, "verified"), ["true"]);
@@ -191,13 +139,7 @@ fn a_study_file_says_how_much_is_allowed() {
     let few = study(0.9 * exact);
     let found = run(&["probability", "--study", &few, "--csv"]);
     assert_eq!(found.code, 1, "{}", found.err);
-    assert!(
-        found
-            .err
-            .contains("requirement 1 fails with a probability of"),
-        "{}",
-        found.err
-    );
+    assert!(found.err.contains("requirement 1 fails with a probability of"), "{}", found.err);
     let values = numbers(&found.out, "probability of failure");
     assert_eq!(values.len(), 3);
     assert!((values[0] / exact - 1.0).abs() < 1e-6 && values[1] < 1e-14);
@@ -229,35 +171,19 @@ fn a_requirement_and_its_opposite_sum_to_one() {
             body b: point(mass: m); joint q: prismatic(x) from ground to b; force ks: spring(on: q, stiffness: k); }",
     );
     // The exact values are those of twenty million draws.
-    for (machine, of, limit, exact) in [
-        (&small, "damping_ratio 1", "0.018", 0.9959),
-        (&middle, "frequency 1", "154 rad/s", 0.5330),
-    ] {
+    for (machine, of, limit, exact) in
+        [(&small, "damping_ratio 1", "0.018", 0.9959), (&middle, "frequency 1", "154 rad/s", 0.5330)]
+    {
         for seed in ["0", "5"] {
             let failed = |sign: &str| {
                 let require = format!("{of} {sign} {limit}");
-                let table = answer(&[
-                    "probability",
-                    machine,
-                    "--require",
-                    &require,
-                    "--seed",
-                    seed,
-                    "--csv",
-                ]);
+                let table = answer(&["probability", machine, "--require", &require, "--seed", seed, "--csv"]);
                 let of = |name: &str| numbers(&table, name)[0];
                 (of("probability of failure"), of("95 % from"), of("95 % to"))
             };
             let (low, from, to) = failed(">=");
-            let exact = if machine == &small {
-                exact
-            } else {
-                1.0 - exact
-            };
-            assert!(
-                from - 1e-3 <= exact && exact <= to + 1e-3 && to <= 1.0,
-                "{low} {from} {to}"
-            );
+            let exact = if machine == &small { exact } else { 1.0 - exact };
+            assert!(from - 1e-3 <= exact && exact <= to + 1e-3 && to <= 1.0, "{low} {from} {to}");
             let (high, other, end) = failed("<=");
             let error = (to - from).hypot(end - other);
             assert!((low + high - 1.0).abs() <= error, "{low} {high}");
@@ -282,9 +208,7 @@ fn the_mode_that_flutters_is_named() {
         run(&["probability", &band, "--set", "p=1", "--require", &require])
     };
     let errors = [1, 2].map(|mode| flutters(mode).err);
-    let named = errors
-        .iter()
-        .filter(|err| err.contains("flutters from 1.50 on"));
+    let named = errors.iter().filter(|err| err.contains("flutters from 1.50 on"));
     assert_eq!(named.count(), 1, "{errors:?}");
 }
 
@@ -305,19 +229,9 @@ fn outputs_of_a_held_family_have_a_spread() {
             constraint contact: rolling(wheel: hub, axis: y, radius: r, on: road);
             output high = height; }",
     );
-    let held = [
-        "--guess",
-        "height=50cm",
-        "--hold",
-        "lean=20deg",
-        "--hold",
-        "yaw=-1.2rad/s",
-    ];
+    let held = ["--guess", "height=50cm", "--hold", "lean=20deg", "--hold", "yaw=-1.2rad/s"];
     let text = answer(&[&["tolerance", &coin][..], &held].concat());
-    let row = text
-        .lines()
-        .find(|line| line.trim_start().starts_with("high "))
-        .unwrap();
+    let row = text.lines().find(|line| line.trim_start().starts_with("high ")).unwrap();
     let sigma: f64 = row.split_whitespace().nth(3).unwrap().parse().unwrap();
     let exact = 0.5 * 0.01 / 3.0 * 20_f64.to_radians().cos();
     assert!((sigma / exact - 1.0).abs() < 1e-3, "{text}");

@@ -55,10 +55,7 @@ fn the_guide_shows_what_commands_print() {
     let (mut commands, mut all) = (0, Vec::new());
     for entry in fs::read_dir(&chapters).unwrap() {
         let chapter = entry.unwrap().path();
-        if chapter
-            .extension()
-            .is_some_and(|extension| extension == "md")
-        {
+        if chapter.extension().is_some_and(|extension| extension == "md") {
             let name = chapter.file_stem().unwrap().to_string_lossy().into_owned();
             let path = folder(&format!("guide_{name}"));
             let (count, changed) = check(&chapter, &path, &path);

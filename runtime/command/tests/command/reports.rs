@@ -31,10 +31,7 @@ fn a_report_is_one_file_with_the_declaration_and_what_was_asked() {
         path,
     ];
     let done = run(&pendulum("report", &more));
-    assert_eq!(
-        (done.code, done.out.as_str(), done.err.as_str()),
-        (0, "", "")
-    );
+    assert_eq!((done.code, done.out.as_str(), done.err.as_str()), (0, "", ""));
     let html = fs::read_to_string(path).unwrap();
     for wanted in [
         "<h1>A bar &amp; a shaft</h1>",
@@ -69,8 +66,7 @@ fn an_unstable_equilibrium_is_reported_and_is_no() {
     assert_eq!(done.code, 1, "{}", done.err);
     let html = fs::read_to_string(path).unwrap();
     assert!(
-        html.contains("The equilibrium is unstable in one direction (divergence)")
-            || html.contains("No equilibrium")
+        html.contains("The equilibrium is unstable in one direction (divergence)") || html.contains("No equilibrium")
     );
 }
 
@@ -103,7 +99,5 @@ fn a_rigid_motion_in_a_sentence() {
     let place = folder.join("two.html");
     answer(&["report", &path, "-o", &place.display().to_string()]);
     let html = fs::read_to_string(place).unwrap();
-    assert!(html.contains(
-        "does not oscillate: it is a motion that nothing resists, wherever the mechanism stands."
-    ));
+    assert!(html.contains("does not oscillate: it is a motion that nothing resists, wherever the mechanism stands."));
 }

@@ -26,8 +26,7 @@ use whipple_bicycle::WhippleBicycle;
 
 /// The document that a question gives, run in the folder of the declarations.
 fn document(question: &[&str], more: &[&str]) -> Value {
-    let document: Value =
-        serde_json::from_str(&answer(&[question, &["--json"], more].concat())).unwrap();
+    let document: Value = serde_json::from_str(&answer(&[question, &["--json"], more].concat())).unwrap();
     assert_eq!(document["format"], "eigentol");
     document
 }
@@ -36,9 +35,7 @@ fn document(question: &[&str], more: &[&str]) -> Value {
 fn column(document: &Value, name: &str) -> Vec<Option<f64>> {
     let columns = document["tables"][0]["columns"].as_array().unwrap();
     let column = columns.iter().find(|column| column["name"] == name);
-    let values = column.unwrap_or_else(|| panic!("no column `{name}`"))["values"]
-        .as_array()
-        .unwrap();
+    let values = column.unwrap_or_else(|| panic!("no column `{name}`"))["values"].as_array().unwrap();
     values.iter().map(Value::as_f64).collect()
 }
 
@@ -46,14 +43,8 @@ fn column(document: &Value, name: &str) -> Vec<Option<f64>> {
 #[track_caller]
 fn same(values: &[Option<f64>], expected: &[Option<f64>], what: &str) {
     assert_eq!(values.len(), expected.len(), "{what}");
-    assert!(
-        expected.iter().flatten().count() > 0,
-        "{what}: nothing to compare"
-    );
-    let size = expected
-        .iter()
-        .flatten()
-        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    assert!(expected.iter().flatten().count() > 0, "{what}: nothing to compare");
+    let size = expected.iter().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
     for (k, pair) in values.iter().zip(expected).enumerate() {
         match pair {
             (Some(a), Some(b)) => {
@@ -73,46 +64,23 @@ fn compare<M: SummaryKernels>(study: &Study<M>, point: &[&str]) {
     let d = study.description();
 
     let found = ask("modes", &[]);
-    let of =
-        |pick: &dyn Fn(&eigentol::Mode) -> Option<f64>| modes.iter().map(pick).collect::<Vec<_>>();
-    same(
-        &column(&found, "Re s"),
-        &of(&|mode| Some(mode.s.re)),
-        "Re s",
-    );
-    same(
-        &column(&found, "Im s"),
-        &of(&|mode| Some(mode.s.im)),
-        "Im s",
-    );
+    let of = |pick: &dyn Fn(&eigentol::Mode) -> Option<f64>| modes.iter().map(pick).collect::<Vec<_>>();
+    same(&column(&found, "Re s"), &of(&|mode| Some(mode.s.re)), "Re s");
+    same(&column(&found, "Im s"), &of(&|mode| Some(mode.s.im)), "Im s");
     if modes.iter().any(|mode| mode.frequency().is_some()) {
-        same(
-            &column(&found, "frequency"),
-            &of(&|mode| mode.frequency()),
-            "frequency",
-        );
+        same(&column(&found, "frequency"), &of(&|mode| mode.frequency()), "frequency");
     }
 
     let found = ask("modes", &["--result", "equilibrium"]);
     let state = &equilibrium.coordinates;
-    let values: Vec<_> = d
-        .coordinates
-        .iter()
-        .map(|info| column(&found, &info.name)[0])
-        .collect();
+    let values: Vec<_> = d.coordinates.iter().map(|info| column(&found, &info.name)[0]).collect();
     let expected: Vec<_> = state.iter().map(|&value| Some(value)).collect();
     same(&values, &expected, "equilibrium");
 
     let spreads = study.first_order().unwrap();
     let found = ask("tolerance", &[]);
-    let expected: Vec<_> = (spreads.modes.iter())
-        .map(|mode| mode.frequency().map(|spread| spread.sigma))
-        .collect();
-    same(
-        &column(&found, "sigma of frequency"),
-        &expected,
-        "sigma of frequency",
-    );
+    let expected: Vec<_> = (spreads.modes.iter()).map(|mode| mode.frequency().map(|spread| spread.sigma)).collect();
+    same(&column(&found, "sigma of frequency"), &expected, "sigma of frequency");
 }
 
 #[test]
@@ -120,55 +88,31 @@ fn the_single_pendulum() {
     let study = Study::new(RotatingPendulum)
         .input(RotatingPendulum::omega, 5.0)
         .start(RotatingPendulum::theta, 60f64.to_radians());
-    let point = [
-        "rotating_pendulum.mechanism",
-        "--set",
-        "omega=5rad/s",
-        "--start",
-        "theta=60deg",
-    ];
+    let point = ["rotating_pendulum.mechanism", "--set", "omega=5rad/s", "--start", "theta=60deg"];
     compare(&study, &point);
 }
 
 #[test]
 fn the_double_pendulum() {
     type Pendulum = RotatingDoublePendulum;
-    let study = Study::new(RotatingDoublePendulum)
-        .input(Pendulum::omega, 5.0)
-        .start(Pendulum::theta1, 60f64.to_radians());
-    let point = [
-        "rotating_double_pendulum.mechanism",
-        "--set",
-        "omega=5rad/s",
-        "--start",
-        "theta1=60deg",
-    ];
+    let study =
+        Study::new(RotatingDoublePendulum).input(Pendulum::omega, 5.0).start(Pendulum::theta1, 60f64.to_radians());
+    let point = ["rotating_double_pendulum.mechanism", "--set", "omega=5rad/s", "--start", "theta1=60deg"];
     compare(&study, &point);
 }
 
 #[test]
 fn the_independent_bars() {
     type Bars = IndependentBars;
-    let study = Study::new(IndependentBars)
-        .input(Bars::omega, 5.0)
-        .start(Bars::theta1, 60f64.to_radians());
-    let point = [
-        "independent_bars.mechanism",
-        "--set",
-        "omega=5rad/s",
-        "--start",
-        "theta1=60deg",
-    ];
+    let study = Study::new(IndependentBars).input(Bars::omega, 5.0).start(Bars::theta1, 60f64.to_radians());
+    let point = ["independent_bars.mechanism", "--set", "omega=5rad/s", "--start", "theta1=60deg"];
     compare(&study, &point);
 }
 
 #[test]
 fn the_rotor() {
     let study = Study::new(JeffcottRotor).input(JeffcottRotor::speed, InDeclaredUnit(3000.0));
-    compare(
-        &study,
-        &["jeffcott_rotor.mechanism", "--set", "speed=3000rpm"],
-    );
+    compare(&study, &["jeffcott_rotor.mechanism", "--set", "speed=3000rpm"]);
 }
 
 #[test]
@@ -183,45 +127,22 @@ fn the_rotor_along_its_speed() {
     let rpm = |value: f64| InDeclaredUnit(value);
     let speeds: Vec<_> = (0..7).map(|k| rpm(1000.0 * f64::from(k))).collect();
     let study = Study::new(JeffcottRotor);
-    let expected = study
-        .campbell(JeffcottRotor::speed, &speeds, &[1.0, 2.0])
-        .unwrap();
-    let sweep = [
-        "--sweep",
-        "speed=0..6000rpm",
-        "--points",
-        "7",
-        "--order",
-        "1",
-        "--order",
-        "2",
-    ];
-    let value = document(
-        &[&["campbell", "jeffcott_rotor.mechanism"], &sweep[..]].concat(),
-        &[],
-    );
+    let expected = study.campbell(JeffcottRotor::speed, &speeds, &[1.0, 2.0]).unwrap();
+    let sweep = ["--sweep", "speed=0..6000rpm", "--points", "7", "--order", "1", "--order", "2"];
+    let value = document(&[&["campbell", "jeffcott_rotor.mechanism"], &sweep[..]].concat(), &[]);
     let frequencies: Vec<Option<f64>> = (expected.points.iter())
         .flat_map(|point| point.modes.as_ref().unwrap())
         .map(|mode| mode.behaviour.frequency())
         .collect();
     same(&column(&value, "frequency"), &frequencies, "frequency");
     let unit = &JeffcottRotor::DESCRIPTION.inputs[0].unit;
-    let events = value["tables"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .skip(1)
-        .flat_map(|table| {
-            let columns = table["columns"].as_array().unwrap();
-            let speeds = columns.iter().find(|column| column["name"] == "speed");
-            let speeds = speeds.unwrap()["values"].as_array().unwrap();
-            speeds.iter().map(Value::as_f64).collect::<Vec<_>>()
-        });
-    let all = expected
-        .crossings
-        .iter()
-        .chain(&expected.critical)
-        .chain(&expected.flutter_onsets);
+    let events = value["tables"].as_array().unwrap().iter().skip(1).flat_map(|table| {
+        let columns = table["columns"].as_array().unwrap();
+        let speeds = columns.iter().find(|column| column["name"] == "speed");
+        let speeds = speeds.unwrap()["values"].as_array().unwrap();
+        speeds.iter().map(Value::as_f64).collect::<Vec<_>>()
+    });
+    let all = expected.crossings.iter().chain(&expected.critical).chain(&expected.flutter_onsets);
     let all: Vec<_> = all.map(|event| Some(unit.from_si(event.value))).collect();
     same(&events.collect::<Vec<_>>(), &all, "events");
 }

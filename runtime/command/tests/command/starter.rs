@@ -24,10 +24,7 @@ fn the_starter_project_builds() {
     let output = Command::new(env!("CARGO"))
         .args(["run", "--offline", "--quiet"])
         .current_dir(&project)
-        .env(
-            "CARGO_TARGET_DIR",
-            Path::new(env!("CARGO_TARGET_TMPDIR")).join("starter"),
-        )
+        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("starter"))
         .output()
         .unwrap();
     let err = String::from_utf8_lossy(&output.stderr);
@@ -35,10 +32,7 @@ fn the_starter_project_builds() {
     let out = String::from_utf8_lossy(&output.stdout);
     assert!(out.contains("4.04212"), "{out}");
     assert!(out.contains("probability of failure"), "{out}");
-    let checked = run(&[
-        "check",
-        &project.join("pendulum.mechanism").display().to_string(),
-    ]);
+    let checked = run(&["check", &project.join("pendulum.mechanism").display().to_string()]);
     assert_eq!(checked.code, 0, "{}", checked.err);
 
     let again = run(&["new", &project.display().to_string()]);
@@ -54,10 +48,7 @@ fn the_published_version_is_the_default() {
     let manifest = fs::read_to_string(project.join("Cargo.toml")).unwrap();
     let version = env!("CARGO_PKG_VERSION");
     assert!(manifest.contains("name = \"rotor_2\"\n"), "{manifest}");
-    assert!(
-        manifest.contains(&format!("eigentol = \"{version}\"\n")),
-        "{manifest}"
-    );
+    assert!(manifest.contains(&format!("eigentol = \"{version}\"\n")), "{manifest}");
 }
 
 #[test]
@@ -65,11 +56,7 @@ fn names_that_no_package_can_have() {
     for name in ["1st", "a b", "..", "-x/..", "é"] {
         let run = run(&["new", "--", name]);
         assert_eq!(run.code, 2, "{name}");
-        assert!(
-            run.err.contains("is not a valid package name"),
-            "{}",
-            run.err
-        );
+        assert!(run.err.contains("is not a valid package name"), "{}", run.err);
     }
     for (name, why) in [
         ("build", "cargo keeps this name"),
@@ -83,20 +70,12 @@ fn names_that_no_package_can_have() {
         let place = folder("reserved").join(name);
         let run = run(&["new", &place.display().to_string()]);
         assert_eq!(run.code, 2, "{name}");
-        for part in [
-            "is not a valid package name",
-            why,
-            &format!("`{name}-study`"),
-        ] {
+        for part in ["is not a valid package name", why, &format!("`{name}-study`")] {
             assert!(run.err.contains(part), "{}", run.err);
         }
         assert!(!place.exists());
     }
     let run = run(&["new", "fine", "--path", "/missing/folder"]);
     assert_eq!(run.code, 3);
-    assert!(
-        run.err.contains("cannot read `/missing/folder`"),
-        "{}",
-        run.err
-    );
+    assert!(run.err.contains("cannot read `/missing/folder`"), "{}", run.err);
 }

@@ -67,12 +67,7 @@ impl Case {
             let run = self.run(&["--csv"]);
             for (name, expected) in &self.columns {
                 column(&run.out, name)
-                    .map(|found| {
-                        found
-                            .into_iter()
-                            .filter(|x| x.abs() >= self.ignore)
-                            .collect()
-                    })
+                    .map(|found| found.into_iter().filter(|x| x.abs() >= self.ignore).collect())
                     .and_then(|found: Vec<f64>| self.compare(&found, expected))
                     .and_then(|()| self.hold(&run.out, expected))
                     .map_err(|what| format!("{name}: {what}\n{}{}", run.out, run.err))?;
@@ -110,9 +105,7 @@ impl Case {
     fn compare(&self, values: &[f64], expected: &[f64]) -> Result<(), String> {
         let near = |a: f64, b: f64| (a - b).abs() <= self.relative * b.abs();
         let right = if self.among {
-            expected
-                .iter()
-                .all(|x| values.iter().any(|other| near(*other, *x)))
+            expected.iter().all(|x| values.iter().any(|other| near(*other, *x)))
         } else {
             let all = values.len() == expected.len() || self.first && values.len() > expected.len();
             all && values.iter().zip(expected).all(|(a, b)| near(*a, *b))
@@ -128,9 +121,8 @@ impl Case {
 fn machines_of_strangers_give_what_they_expect() {
     let cases = std::fs::read_to_string(folder().join("cases.json")).unwrap();
     let cases: Vec<Case> = serde_json::from_str(&cases).unwrap();
-    let failed: Vec<String> = (cases.iter())
-        .filter_map(|case| Some(format!("{}: {}", case.name, case.check().err()?)))
-        .collect();
+    let failed: Vec<String> =
+        (cases.iter()).filter_map(|case| Some(format!("{}: {}", case.name, case.check().err()?))).collect();
     assert!(failed.is_empty(), "{}", failed.join("\n\n"));
 }
 
@@ -168,10 +160,7 @@ fn modes_equal_by_symmetry_share_a_spread() {
         force ka: spring(on: a, stiffness: k); force kb: spring(on: b, stiffness: k); }";
     let out = declared("stalk", text, &["tolerance"]);
     assert!(out.contains("no tolerance splits modes 1 and 2"), "{out}");
-    assert!(
-        out.contains("modes 1 and 2 are equal in every design"),
-        "{out}"
-    );
+    assert!(out.contains("modes 1 and 2 are equal in every design"), "{out}");
     assert!(!out.contains("standard deviations apart"), "{out}");
 }
 
@@ -194,20 +183,9 @@ fn nodding(w: f64) -> f64 {
 /// A tolerance of an input acts through the steady value that the input sets.
 #[test]
 fn tolerances_of_inputs_act_through_steady_values() {
-    let arguments = [
-        "--set",
-        "w=4rad/s",
-        "--start",
-        "tilt=0.9rad",
-        "--tol",
-        "w=5%",
-    ];
+    let arguments = ["--set", "w=4rad/s", "--start", "tilt=0.9rad", "--tol", "w=5%"];
     let more = ["--result", "first-order tolerances", "--csv"];
-    let out = declared(
-        "steady_tol",
-        CONICAL,
-        &[&["tolerance"], &arguments[..], &more].concat(),
-    );
+    let out = declared("steady_tol", CONICAL, &[&["tolerance"], &arguments[..], &more].concat());
     let sigma = column(&out, "sigma of frequency [rad/s]").unwrap();
     let slope = (nodding(4.0 + 1e-4) - nodding(4.0 - 1e-4)) / 2e-4;
     let expected = slope.abs() * 4.0 * 0.05 / 3.0;
@@ -218,13 +196,7 @@ fn tolerances_of_inputs_act_through_steady_values() {
 /// A free motion is named once, not by numbers that it does not have.
 #[test]
 fn free_modes_are_named_once() {
-    let arguments = [
-        "sensitivities",
-        "--set",
-        "w=4rad/s",
-        "--start",
-        "tilt=0.9rad",
-    ];
+    let arguments = ["sensitivities", "--set", "w=4rad/s", "--start", "tilt=0.9rad"];
     let out = declared("free_once", CONICAL, &arguments);
     assert!(out.contains("Mode 1 is free"), "{out}");
     assert!(!out.contains("growth1"), "{out}");
@@ -259,14 +231,11 @@ fn modes_are_sorted_as_their_numbers_say() {
              force dy: damper(on: y, damping: {damping} N*s/m); }}"
         );
         let out = declared(&format!("damped_{damping}_{stiffness}"), &text, &["modes"]);
-        let cells =
-            |row: &str| -> Vec<String> { row.split_whitespace().map(str::to_owned).collect() };
+        let cells = |row: &str| -> Vec<String> { row.split_whitespace().map(str::to_owned).collect() };
         let rows = out.lines().skip(2).map(cells);
         let numbered = rows.take_while(|row| row.first().is_some_and(|cell| cell.len() == 1));
         let number = |cell: &String| cell.parse().unwrap_or(0.0);
-        numbered
-            .map(|row| [number(&row[1]), number(&row[3])])
-            .collect()
+        numbered.map(|row| [number(&row[1]), number(&row[3])]).collect()
     };
     let close = |values: Vec<[f64; 2]>, expected: &[[f64; 2]]| {
         assert_eq!(values.len(), expected.len(), "{values:?}");
@@ -281,10 +250,7 @@ fn modes_are_sorted_as_their_numbers_say() {
     close(modes(90.0, 103_000.0), &[damped(90.0, 103_000.0), undamped]);
     close(modes(90.0, 103_658.0), &[undamped, damped(90.0, 103_658.0)]);
     let root = (350.0_f64.powi(2) - 103_000.0).sqrt();
-    close(
-        modes(700.0, 103_000.0),
-        &[[0.0, root - 350.0], [0.0, -root - 350.0], undamped],
-    );
+    close(modes(700.0, 103_000.0), &[[0.0, root - 350.0], [0.0, -root - 350.0], undamped]);
 }
 
 /// The standard normal distribution, by Simpson's rule.
@@ -304,10 +270,7 @@ fn normal(z: f64) -> f64 {
 /// A sleeping top that was asked to stay falls where `C^2 w^2 < 4 A m g l`.
 #[test]
 fn probability_that_a_sleeping_top_falls() {
-    for (name, spin) in [
-        ("driven", "driven at w;"),
-        ("coasting", "coasting; steady spin = w;"),
-    ] {
+    for (name, spin) in [("driven", "driven at w;"), ("coasting", "coasting; steady spin = w;")] {
         let text = format!(
             "mechanism Top {{ input w: rad/s; design C = 6e-4 kg*m^2 +/- 6%; gravity 9.81 m/s^2 along -z;
              body shaft: massless;
@@ -317,15 +280,7 @@ fn probability_that_a_sleeping_top_falls() {
         );
         let least = (4.0 * (2e-3 + 0.3 * 0.0025) * 0.3 * 9.81 * 0.05_f64).sqrt() / 68.0;
         let expected = normal((least / 6e-4 - 1.0) / 0.02);
-        let arguments = [
-            "probability",
-            "--set",
-            "w=68rad/s",
-            "--stay",
-            "--require",
-            "stable",
-            "--csv",
-        ];
+        let arguments = ["probability", "--set", "w=68rad/s", "--stay", "--require", "stable", "--csv"];
         let out = declared(&format!("top_{name}"), &text, &arguments);
         let found = column(&out, "probability of failure").unwrap()[0];
         assert!((found / expected - 1.0).abs() < 0.01, "{expected}\n{out}");
@@ -342,14 +297,7 @@ fn first_events_and_units_of_limits() {
     let expected = normal((9.9 - 10.0) / 0.1);
     for range in ["u=0..30rad/s", "u=30..0rad/s"] {
         let wanted = format!("flutter 1 {range} >= 9.9 rad/s");
-        let arguments = [
-            "probability",
-            "--set",
-            "u=1rad/s",
-            "--require",
-            &wanted,
-            "--csv",
-        ];
+        let arguments = ["probability", "--set", "u=1rad/s", "--require", &wanted, "--csv"];
         let out = declared("band", text, &arguments);
         let found = column(&out, "probability of failure").unwrap()[0];
         assert!((found / expected - 1.0).abs() < 0.01, "{expected}\n{out}");
@@ -357,10 +305,7 @@ fn first_events_and_units_of_limits() {
     for (limit, words) in [
         ("frequency 1 >= 4.5 Hz", "frequency 1 at least 4.5 Hz"),
         ("frequency 1 >= 28 rad/s", "frequency 1 at least 28 rad/s"),
-        (
-            "frequency 1 outside 1..2 Hz",
-            "frequency 1 outside 1 Hz to 2 Hz",
-        ),
+        ("frequency 1 outside 1..2 Hz", "frequency 1 outside 1 Hz to 2 Hz"),
     ] {
         let arguments = ["probability", "--set", "u=1rad/s", "--require", limit];
         let out = declared("band_unit", text, &arguments);
@@ -376,9 +321,7 @@ fn pull_in_across_two_micrometres() {
         force field: generalized(on: x, value: (8.8541878128e-12 N) * (1e-8 m^2) * v^2 / (2 * (2 um - x)^2)); }";
     let out = declared("pull_in", text, &["branches", "--sweep", "v=0..20"]);
     let snap = (8.0 * 8e-18 / (27.0 * 8.8541878128e-20_f64)).sqrt();
-    let fold = out
-        .lines()
-        .find(|line| line.trim_start().starts_with("fold"));
+    let fold = out.lines().find(|line| line.trim_start().starts_with("fold"));
     let fold: Vec<&str> = fold.unwrap().split_whitespace().collect();
     let near = |text: &str, value: f64| (text.parse::<f64>().unwrap() / value - 1.0).abs() < 1e-5;
     assert!(near(fold[1], snap), "{out}");

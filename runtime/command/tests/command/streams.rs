@@ -31,16 +31,10 @@ fn documented(arguments: &[&str], name: &str) -> Table {
 fn streams_what_is_documented(arguments: &[&str], streamed: &[&str], name: &str) {
     let whole = documented(arguments, name);
     let text = answer(&[streamed, &["--csv", "--table", name]].concat());
-    assert!(
-        text == csv::to_string(&whole).unwrap(),
-        "{name}: other rows"
-    );
+    assert!(text == csv::to_string(&whole).unwrap(), "{name}: other rows");
     let path = folder(&format!("streamed {name}")).join("rows.parquet");
     let file = path.display().to_string();
-    assert_eq!(
-        answer(&[streamed, &["--table", name, "--output", &file]].concat()),
-        ""
-    );
+    assert_eq!(answer(&[streamed, &["--table", name, "--output", &file]].concat()), "");
     assert!(table_of_file(&path) == whole, "{name}: other rows");
     assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
 }
@@ -56,12 +50,7 @@ fn samples_are_those_that_are_kept_otherwise() {
 fn diagrams_and_branches_are_those_of_documents() {
     let diagram = [&["campbell", ROTOR], &SPEEDS[..]].concat();
     streams_what_is_documented(&diagram, &diagram, "Campbell diagram");
-    let branches = [
-        "branches",
-        "rotating_pendulum.mechanism",
-        "--sweep",
-        "omega=0..8 rad/s",
-    ];
+    let branches = ["branches", "rotating_pendulum.mechanism", "--sweep", "omega=0..8 rad/s"];
     streams_what_is_documented(&branches, &branches, "branches");
 }
 
@@ -124,11 +113,7 @@ fn one_table_is_of_csv_and_parquet() {
     for form in [&[][..], &["--json"]] {
         let run = run(&pendulum("modes", &[&["--table", "modes"], form].concat()));
         assert_eq!(run.code, 2);
-        assert!(
-            run.err.contains("add `--csv` or `--parquet`"),
-            "{}",
-            run.err
-        );
+        assert!(run.err.contains("add `--csv` or `--parquet`"), "{}", run.err);
     }
 }
 
@@ -139,10 +124,7 @@ fn a_full_disk_is_reported_while_rows_come() {
     let run = run(&pendulum("sample", &rows));
     assert_eq!(
         (run.code, run.err.as_str()),
-        (
-            3,
-            "error: cannot write `/dev/full`: No space left on device (os error 28)\n"
-        )
+        (3, "error: cannot write `/dev/full`: No space left on device (os error 28)\n")
     );
 }
 
@@ -166,14 +148,7 @@ impl Endless {
         let path = folder(&format!("endless {name}")).join(name);
         fs::write(&path, "old").unwrap();
         let file = path.display().to_string();
-        let sweep = [
-            "--sweep",
-            "omega=4..8 rad/s",
-            "--points",
-            "5000000",
-            "-o",
-            &file,
-        ];
+        let sweep = ["--sweep", "omega=4..8 rad/s", "--points", "5000000", "-o", &file];
         let mut command = command(&swept("campbell", &sweep));
         let child = command.stderr(Stdio::piped()).spawn().unwrap();
         listens(&child);
@@ -215,15 +190,10 @@ impl Endless {
         let output = self.child.wait_with_output().unwrap();
         let err = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(130), "{err}");
-        let done = err
-            .strip_prefix("stopped: after ")
-            .and_then(|x| x.split_once(' '));
+        let done = err.strip_prefix("stopped: after ").and_then(|x| x.split_once(' '));
         let (done, rest) = done.unwrap_or_else(|| panic!("{err}"));
         assert_eq!(rest.trim(), "of 5000000 values");
-        assert_eq!(
-            fs::read_dir(self.path.parent().unwrap()).unwrap().count(),
-            1
-        );
+        assert_eq!(fs::read_dir(self.path.parent().unwrap()).unwrap().count(), 1);
         (self.path, done.parse().unwrap())
     }
 }

@@ -18,20 +18,14 @@ fn a_declaration_may_come_from_standard_input() {
         gravity 9.81 m/s^2 along -z; joint t: revolute(y) from ground to bar; }";
     let run = run_with_input(&["check", "-"], text);
     assert_eq!(run.code, 0, "{}", run.err);
-    assert!(
-        run.out
-            .starts_with("standard input: mechanism `A`, 1 coordinate")
-    );
+    assert!(run.out.starts_with("standard input: mechanism `A`, 1 coordinate"));
 }
 
 #[test]
 fn modes() {
     let text = answer(&pendulum("modes", &[]));
     // sqrt(25 - (14.715 / 5)^2)
-    assert!(
-        text.contains("4.04212") && text.contains("equilibrium, stable"),
-        "{text}"
-    );
+    assert!(text.contains("4.04212") && text.contains("equilibrium, stable"), "{text}");
 }
 
 /// Both signs of the angle are equilibria: the start value selects one.
@@ -39,14 +33,7 @@ fn modes() {
 fn a_start_value_chooses_the_equilibrium() {
     let angle = |start: &str| {
         let start = format!("theta={start}");
-        let point = [
-            "modes",
-            PENDULUM,
-            "--set",
-            "omega=5rad/s",
-            "--start",
-            &start,
-        ];
+        let point = ["modes", PENDULUM, "--set", "omega=5rad/s", "--start", &start];
         answer(&point).contains("theta [rad]  -0.941470")
     };
     assert!(angle("-1rad") && angle("-pi / 3") && angle("-60 deg") && !angle("1 rad"));
@@ -88,14 +75,9 @@ fn beams_with_more_coordinates() {
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
-    let rows = answer(&[
-        "converge", &file, "--set", "push=2N", "--modes", "2", "--csv",
-    ]);
+    let rows = answer(&["converge", &file, "--set", "push=2N", "--modes", "2", "--csv"]);
     let heads = "answer,unit,as declared,change with 1 more,change with 2 more,push [N]";
-    assert_eq!(
-        (rows.lines().next(), rows.lines().count()),
-        (Some(heads), 4)
-    );
+    assert_eq!((rows.lines().next(), rows.lines().count()), (Some(heads), 4));
 }
 
 #[test]
@@ -103,11 +85,7 @@ fn more_modes_than_beams_have_coordinates_for_are_noted() {
     let file = file(&folder("noted"), "cantilever.mechanism", CANTILEVER);
     let found = run(&["modes", &file, "--set", "push=2N"]);
     assert_eq!(found.code, 0, "{}", found.err);
-    assert!(
-        found.err.starts_with("note: ") && found.err.contains("enough for 2 modes"),
-        "{}",
-        found.err
-    );
+    assert!(found.err.starts_with("note: ") && found.err.contains("enough for 2 modes"), "{}", found.err);
 }
 
 /// A column with two coordinates: its buckling load is 2.4859 `E I / l^2`, and `pi^2 / 4` with more.
@@ -122,32 +100,18 @@ fn loads_along_an_input_are_compared_and_noted() {
     let sweep = ["--sweep", "push=0..4N"];
     let found = answer(&[["converge", &file].as_slice(), &sweep].concat());
     assert!(found.contains("critical push [N]"), "{found}");
-    assert!(
-        found.contains("`critical push` changes by 0.746 %"),
-        "{found}"
-    );
+    assert!(found.contains("`critical push` changes by 0.746 %"), "{found}");
     for command in ["campbell", "sweep"] {
         let noted = run(&[[command, &file].as_slice(), &sweep, &["--points", "3"]].concat());
         assert!(noted.err.contains("enough for 0 modes"), "{}", noted.err);
     }
     let refined = text.replace("bending_y: 2", "bending_y: 8");
     let file = crate::program::file(&folder("buckling"), "refined.mechanism", &refined);
-    let table = [
-        "--result",
-        "campbell",
-        "--table",
-        "critical states",
-        "--csv",
-    ];
+    let table = ["--result", "campbell", "--table", "critical states", "--csv"];
     let noted = run(&[["campbell", &file].as_slice(), &sweep, &table].concat());
     let load = std::f64::consts::PI.powi(2) / 4.0;
     let row = noted.out.lines().nth(1).expect("a load");
-    let found: f64 = row
-        .split(',')
-        .next()
-        .expect("a number")
-        .parse()
-        .expect("a number");
+    let found: f64 = row.split(',').next().expect("a number").parse().expect("a number");
     assert!((found / load - 1.0).abs() < 1e-6, "{row}");
 }
 
@@ -155,21 +119,13 @@ fn loads_along_an_input_are_compared_and_noted() {
 fn a_mechanism_without_beams_has_no_coordinates_to_add() {
     let found = run(&pendulum("converge", &[]));
     assert_eq!((found.code, &*found.out), (2, ""));
-    assert!(
-        found.err.contains("`RotatingPendulum` has no beam"),
-        "{}",
-        found.err
-    );
+    assert!(found.err.contains("`RotatingPendulum` has no beam"), "{}", found.err);
 }
 
 #[test]
 fn sensitivities_of_equilibrium_modes_and_outputs() {
     let text = answer(&pendulum("sensitivities", &[]));
-    for part in [
-        "shift of the equilibrium",
-        "sensitivities of the frequencies",
-        "outputs",
-    ] {
+    for part in ["shift of the equilibrium", "sensitivities of the frequencies", "outputs"] {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
@@ -179,17 +135,8 @@ fn tolerances_are_given_as_declarations_give_them() {
     let sigma = |tolerance: &str| {
         let text = answer(&pendulum("tolerance", &["--tol", tolerance, "--csv"]));
         let mut lines = text.lines();
-        let place = lines
-            .next()
-            .unwrap()
-            .split(',')
-            .position(|name| name == "sigma of frequency [rad/s]");
-        let cell = lines
-            .next()
-            .unwrap()
-            .split(',')
-            .nth(place.unwrap())
-            .unwrap();
+        let place = lines.next().unwrap().split(',').position(|name| name == "sigma of frequency [rad/s]");
+        let cell = lines.next().unwrap().split(',').nth(place.unwrap()).unwrap();
         cell.parse::<f64>().unwrap()
     };
     let of_declaration = sigma("l=3%");
@@ -213,10 +160,9 @@ fn unequal_limits_move_means_away_from_nominal_values() {
         joint x: prismatic(x) from ground to block; force s: spring(on: x, stiffness: k); output stiff = k; }";
     let path = file(&folder("unequal"), "block.mechanism", text);
     let said = answer(&["tolerance", &path]);
-    for part in [
-        "Mode 1: the mean frequency is 10.2250 rad/s, 1.80 sigma above the nominal one",
-        "stiff [N/m]  104.500  2.500",
-    ] {
+    for part in
+        ["Mode 1: the mean frequency is 10.2250 rad/s, 1.80 sigma above the nominal one", "stiff [N/m]  104.500  2.500"]
+    {
         assert!(said.contains(part), "{said}");
     }
     let first = ["tolerance", &path, "--result", "first-order tolerances"];
@@ -256,28 +202,15 @@ fn counts_may_have_a_power_of_ten() {
 
 #[test]
 fn campbell() {
-    let sweep = [
-        "--sweep",
-        "speed=0..6000rpm",
-        "--points",
-        "5",
-        "--order",
-        "1",
-    ];
+    let sweep = ["--sweep", "speed=0..6000rpm", "--points", "5", "--order", "1"];
     let text = answer(&[&["campbell", "jeffcott_rotor.mechanism"], &sweep[..]].concat());
-    for part in [
-        "  4500  ",
-        "frequency 1 is 1 times speed",
-        "onset of flutter",
-    ] {
+    for part in ["  4500  ", "frequency 1 is 1 times speed", "onset of flutter"] {
         assert!(text.contains(part), "{part}: {text}");
     }
     let weave = ["whipple_bicycle.mechanism", "--sweep", "v=2..8m/s"];
     let text = answer(&[&["campbell"], &weave[..]].concat());
-    for part in [
-        "end of flutter of mode 3 (mixed forward)",
-        "mixed forward, then mixed backward  flutter, then damped",
-    ] {
+    for part in ["end of flutter of mode 3 (mixed forward)", "mixed forward, then mixed backward  flutter, then damped"]
+    {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
@@ -288,10 +221,7 @@ fn branches_of_a_bicycle_are_free_of_noise() {
     let sweep = ["--sweep", "v=4..8m/s"];
     let text = answer(&[&["branches", "whipple_bicycle.mechanism"], &sweep[..]].concat());
     assert!(text.contains("subcritical pitchfork"), "{text}");
-    let noise = |word: &str| {
-        word.split_once("e-")
-            .is_some_and(|(_, power)| power.len() > 1)
-    };
+    let noise = |word: &str| word.split_once("e-").is_some_and(|(_, power)| power.len() > 1);
     assert!(!text.split_whitespace().any(noise), "{text}");
     assert!(text.lines().all(|line| line.len() <= 150), "{text}");
 }
@@ -299,16 +229,12 @@ fn branches_of_a_bicycle_are_free_of_noise() {
 #[test]
 fn branches() {
     let text = answer(&["branches", PENDULUM, "--sweep", "omega=0..8 rad/s"]);
-    assert!(
-        text.contains("supercritical pitchfork        3.83601"),
-        "{text}"
-    );
+    assert!(text.contains("supercritical pitchfork        3.83601"), "{text}");
 }
 
 #[test]
 fn samples_are_a_function_of_seed_and_stream() {
-    let sample =
-        |more: &[&str]| answer(&pendulum("sample", &[&["--samples", "200"], more].concat()));
+    let sample = |more: &[&str]| answer(&pendulum("sample", &[&["--samples", "200"], more].concat()));
     let first = sample(&["--seed", "7"]);
     assert!(first.contains("200 samples, seed 7: 200 stable"), "{first}");
     assert_eq!(first, sample(&["--seed", "7", "--threads", "1"]));
@@ -317,10 +243,7 @@ fn samples_are_a_function_of_seed_and_stream() {
     assert!(!numbers(&first).is_empty());
     assert_ne!(numbers(&first), numbers(&sample(&["--seed", "8"])));
     let stream = sample(&["--seed", "7", "--stream", "1"]);
-    assert!(
-        stream.contains("200 samples, seed 7, stream 1: 200 stable"),
-        "{stream}"
-    );
+    assert!(stream.contains("200 samples, seed 7, stream 1: 200 stable"), "{stream}");
     assert_ne!(numbers(&first), numbers(&stream));
 }
 
@@ -352,34 +275,18 @@ fn study(name: &str) -> (String, String) {
     let folder = folder(name);
     let declaration = std::fs::read_to_string(crate::program::examples().join(PENDULUM)).unwrap();
     file(&folder, "pendulum.mechanism", &declaration);
-    (
-        file(&folder, "study.toml", STUDY),
-        folder.display().to_string(),
-    )
+    (file(&folder, "study.toml", STUDY), folder.display().to_string())
 }
 
 #[test]
 fn a_study_file_says_what_is_asked_again() {
     let (study, _) = study("asked_again");
-    assert_eq!(
-        answer(&["modes", "--study", &study]),
-        answer(&pendulum("modes", &[]))
-    );
+    assert_eq!(answer(&["modes", "--study", &study]), answer(&pendulum("modes", &[])));
     let faster = ["modes", "--study", &study, "--set", "omega=6rad/s"];
-    let direct = [
-        "modes",
-        PENDULUM,
-        "--set",
-        "omega=6rad/s",
-        "--start",
-        "theta=60deg",
-    ];
+    let direct = ["modes", PENDULUM, "--set", "omega=6rad/s", "--start", "theta=60deg"];
     assert_eq!(answer(&faster), answer(&direct));
     let direct = ["--samples", "2000", "--seed", "7"];
-    assert_eq!(
-        answer(&["sample", "--study", &study]),
-        answer(&pendulum("sample", &direct))
-    );
+    assert_eq!(answer(&["sample", "--study", &study]), answer(&pendulum("sample", &direct)));
 }
 
 /// Bars whose lengths are equal in every sample are equivalent to a double pendulum with one length.
@@ -398,28 +305,16 @@ fn correlations_of_a_study_file() {
         let text = answer(&[&["tolerance"], question, &csv].concat());
         let mut lines = text.lines().map(|line| line.split(','));
         let mut heading = lines.next().unwrap();
-        let place = heading
-            .position(|name| name == "sigma of frequency [rad/s]")
-            .unwrap();
-        lines
-            .map(|mut line| line.nth(place).unwrap().parse().unwrap())
-            .collect()
+        let place = heading.position(|name| name == "sigma of frequency [rad/s]").unwrap();
+        lines.map(|mut line| line.nth(place).unwrap().parse().unwrap()).collect()
     };
-    let one_length = [
-        "rotating_double_pendulum.mechanism",
-        "--set",
-        "omega=5rad/s",
-        "--start",
-        "theta1=60deg",
-    ];
+    let one_length = ["rotating_double_pendulum.mechanism", "--set", "omega=5rad/s", "--start", "theta1=60deg"];
     let (propagations, expected) = (spreads(&["--study", &study]), spreads(&one_length));
     assert_eq!(expected.len(), 2);
     for (found, expected) in propagations.iter().zip(&expected) {
         assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
     }
-    let apart = std::fs::read_to_string(&study)
-        .unwrap()
-        .replace("1.0]]", "0.0]]");
+    let apart = std::fs::read_to_string(&study).unwrap().replace("1.0]]", "0.0]]");
     let apart = spreads(&["--study", &file(&folder, "apart.toml", &apart)]);
     assert!(apart[0] < expected[0]);
 }
@@ -440,10 +335,7 @@ fn allocation_finds_the_widest_tolerance() {
     let text = answer(&["allocate", "--study", &study, "--csv"]);
     let mut lines = text.lines();
     let heading = lines.next().unwrap().to_owned();
-    let place = heading
-        .split(',')
-        .position(|name| name.starts_with("half-width"))
-        .unwrap();
+    let place = heading.split(',').position(|name| name.starts_with("half-width")).unwrap();
     let row = lines.find(|line| line.starts_with("l,")).unwrap();
     let value: f64 = row.split(',').nth(place).unwrap().parse().unwrap();
     // omega^2 = 25 - (14.715 / (5 l))^2 = 16 at l = 0.981.
@@ -457,16 +349,8 @@ fn allocation_finds_the_widest_tolerance() {
 fn allocation_for_values_of_an_input() {
     let folder = folder("events");
     for (require, limit, factor) in [
-        (
-            "critical = \"omega=0..8rad/s\"\nat_least = \"3.8 rad/s\"",
-            3.8_f64,
-            1.0,
-        ),
-        (
-            "mode = 1\nresonance = \"omega=4..8rad/s\"\norder = 0.8\nat_least = \"4.9 rad/s\"",
-            4.9,
-            0.6,
-        ),
+        ("critical = \"omega=0..8rad/s\"\nat_least = \"3.8 rad/s\"", 3.8_f64, 1.0),
+        ("mode = 1\nresonance = \"omega=4..8rad/s\"\norder = 0.8\nat_least = \"4.9 rad/s\"", 4.9, 0.6),
     ] {
         let text = format!(
             "mechanism = \"{}\"\n[set]\nomega = \"5 rad/s\"\n[start]\ntheta = \"60 deg\"\n[[require]]\nfailure = 0.001\n{require}\n\
@@ -476,9 +360,7 @@ fn allocation_for_values_of_an_input() {
         let study = file(&folder, "event.toml", &text);
         let text = answer(&["allocate", "--study", &study, "--samples", "300", "--csv"]);
         let heading = text.lines().next().unwrap();
-        let place = heading
-            .split(',')
-            .position(|name| name.starts_with("half-width"));
+        let place = heading.split(',').position(|name| name.starts_with("half-width"));
         let row = text.lines().find(|line| line.starts_with("l,")).unwrap();
         let value: f64 = row.split(',').nth(place.unwrap()).unwrap().parse().unwrap();
         let longest = 1.5 * 9.81 / (factor * limit * limit);
@@ -501,19 +383,14 @@ fn expansions_at_every_stage() {
         let text = answer(&["expand", PENDULUM, "--stage", stage]);
         assert!(text.contains(part), "{stage}: {text}");
     }
-    assert_eq!(
-        answer(&["expand", PENDULUM]),
-        answer(&["expand", PENDULUM, "--stage", "rust"])
-    );
+    assert_eq!(answer(&["expand", PENDULUM]), answer(&["expand", PENDULUM, "--stage", "rust"]));
 }
 
 #[test]
 fn completions_of_three_shells() {
-    for (shell, part) in [
-        ("bash", "complete -F _eigentol"),
-        ("zsh", "#compdef eigentol"),
-        ("fish", "complete -c eigentol"),
-    ] {
+    for (shell, part) in
+        [("bash", "complete -F _eigentol"), ("zsh", "#compdef eigentol"), ("fish", "complete -c eigentol")]
+    {
         assert!(answer(&["completions", shell]).contains(part), "{shell}");
     }
 }
@@ -539,10 +416,7 @@ fn every_subcommand_has_help_with_its_values() {
         "completions",
     ] {
         assert!(help.contains(command), "{command}: {help}");
-        assert!(
-            answer(&[command, "--help"]).contains("Usage: eigentol"),
-            "{command}"
-        );
+        assert!(answer(&[command, "--help"]).contains("Usage: eigentol"), "{command}");
     }
     assert_eq!(run(&[]).code, 2);
 }
@@ -562,24 +436,14 @@ fn orders_are_counted_once() {
         let crossing = "frequency 1 is -1 times speed";
         assert!(backwards.contains(crossing), "{backwards}");
         assert!(!backwards.contains("is 1 times"), "{backwards}");
-        assert!(
-            both.contains(crossing) && both.contains("frequency 1 is 1 times speed"),
-            "{both}"
-        );
+        assert!(both.contains(crossing) && both.contains("frequency 1 is 1 times speed"), "{both}");
     }
 }
 
 #[test]
 fn help_about_study_files_lists_their_keys() {
     let help = answer(&["help", "allocate"]);
-    for key in [
-        "[[require]]",
-        "failure =",
-        "damping_ratio",
-        "resonance =",
-        "[[choose]]",
-        "cost = {",
-    ] {
+    for key in ["[[require]]", "failure =", "damping_ratio", "resonance =", "[[choose]]", "cost = {"] {
         assert!(help.contains(key), "{key}");
     }
 }
@@ -594,18 +458,12 @@ fn equilibria_that_are_missing_are_announced() {
         let note = found.lines().last().unwrap_or_default();
         let starts = note.strip_prefix("  From ").and_then(|x| x.split_once(' '));
         let (starts, rest) = starts.unwrap_or_else(|| panic!("{note}"));
-        assert_eq!(
-            rest,
-            "starts; more equilibria are to be expected from more starts."
-        );
+        assert_eq!(rest, "starts; more equilibria are to be expected from more starts.");
         starts.parse::<usize>().unwrap()
     };
     let usual = search(&[]);
     assert!(usual > 33, "{usual}");
     assert_eq!(search(&["--starts", "1000"]), usual + 1000 - 32);
     let few = run(&pendulum("equilibria", &[])).out;
-    assert!(
-        few.contains("4 equilibria") && !few.contains("starts"),
-        "{few}"
-    );
+    assert!(few.contains("4 equilibria") && !few.contains("starts"), "{few}");
 }

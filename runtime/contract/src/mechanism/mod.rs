@@ -12,17 +12,13 @@ mod tolerance;
 
 pub use array::Array;
 pub use description::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo,
-    OutputInfo, Role, Unit,
+    CoordinateInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, OutputInfo, Role, Unit,
 };
 pub use handles::{Any, Coordinate, DesignVariable, Excitation, Input, Output};
 pub use picture::{
-    BeamInfo, BodyInfo, ElementInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo,
-    SolidKind, WheelInfo,
+    BeamInfo, BodyInfo, ElementInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind, WheelInfo,
 };
-pub use results::{
-    Forcing, Gradient, Linear, LinearPartials, PoseMargin, RestParts, Sizes, Violation, Zeros,
-};
+pub use results::{Forcing, Gradient, Linear, LinearPartials, PoseMargin, RestParts, Sizes, Violation, Zeros};
 pub use shared::{List, Shared, Text};
 pub use tolerance::{Law, ToleranceInfo};
 
@@ -43,11 +39,8 @@ pub type ResidualPartialsOf<M, T> = (
     <M as Mechanism>::Coordinates<<M as Mechanism>::Design<T>>,
 );
 /// [`Gradient`] of a mechanism.
-pub type GradientOf<M, T> = Gradient<
-    <M as Mechanism>::Coordinates<T>,
-    <M as Mechanism>::Inputs<T>,
-    <M as Mechanism>::Design<T>,
->;
+pub type GradientOf<M, T> =
+    Gradient<<M as Mechanism>::Coordinates<T>, <M as Mechanism>::Inputs<T>, <M as Mechanism>::Design<T>>;
 
 /// [`Forcing`] of a mechanism.
 pub type ForcingOf<M, T> = Forcing<
@@ -149,10 +142,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         let (u, b) = (fixed(u), fixed(b));
         let columns = |of_velocity: bool| -> Square<Self, T> {
             Array::from_fn(|k| {
-                let (mut velocity, mut q): (
-                    Self::Coordinates<Dual<T>>,
-                    Self::Coordinates<Dual<T>>,
-                ) = (velocity, q);
+                let (mut velocity, mut q): (Self::Coordinates<Dual<T>>, Self::Coordinates<Dual<T>>) = (velocity, q);
                 let moved = if of_velocity { &mut velocity } else { &mut q };
                 moved.as_mut()[k].slope = T::constant(1.0);
                 let residual = self.motion_residual(&acceleration, &velocity, &q, &u, &b);
@@ -160,9 +150,7 @@ pub trait Mechanism: Clone + Sync + Sized {
             })
         };
         Linear {
-            mass: self
-                .motion(&values(&velocity), &values(&q), &values(&u), &values(&b))
-                .0,
+            mass: self.motion(&values(&velocity), &values(&q), &values(&u), &values(&b)).0,
             damping: transposed::<Self, T>(&columns(true)),
             stiffness: transposed::<Self, T>(&columns(false)),
         }
@@ -325,10 +313,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         dlambda: T,
     ) -> GradientOf<Self, T> {
         let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
-        let lambda = Dual {
-            value: lambda,
-            slope: dlambda,
-        };
+        let lambda = Dual { value: lambda, slope: dlambda };
         gradient_slopes::<Self, T>(&self.mode_gradient(&q, &u, &b, &along(phi, dphi), lambda))
     }
 
@@ -431,11 +416,7 @@ pub trait Mechanism: Clone + Sync + Sized {
 
     /// The first physical requirement that the inputs and design variables violate: a mass or a length that is not
     /// positive, or an inertia that no body can have. NaN violates every requirement.
-    fn violation<T: Real + PartialOrd>(
-        &self,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> Option<Violation<T>>;
+    fn violation<T: Real + PartialOrd>(&self, u: &Self::Inputs<T>, b: &Self::Design<T>) -> Option<Violation<T>>;
 
     /// The joint of three turns or the beam closest to its singular pose; `None` if there is none. The generated equations
     /// stay finite in that pose, but two coordinates have the same effect, and the mass matrix becomes singular.
@@ -453,12 +434,7 @@ pub trait Mechanism: Clone + Sync + Sized {
     fn held_values<T: Real>(&self, _u: &Self::Inputs<T>, _b: &Self::Design<T>, _values: &mut [T]) {}
 
     /// The declared outputs.
-    fn outputs<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> Self::Outputs<T>;
+    fn outputs<T: Real>(&self, q: &Self::Coordinates<T>, u: &Self::Inputs<T>, b: &Self::Design<T>) -> Self::Outputs<T>;
 
     /// Explicit partial derivatives of the outputs with respect to every coordinate, input and design variable.
     #[allow(clippy::type_complexity)]
@@ -467,11 +443,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         q: &Self::Coordinates<T>,
         u: &Self::Inputs<T>,
         b: &Self::Design<T>,
-    ) -> (
-        Self::Outputs<Self::Coordinates<T>>,
-        Self::Outputs<Self::Inputs<T>>,
-        Self::Outputs<Self::Design<T>>,
-    );
+    ) -> (Self::Outputs<Self::Coordinates<T>>, Self::Outputs<Self::Inputs<T>>, Self::Outputs<Self::Design<T>>);
 
     /// Directional derivative of [`Mechanism::output_partials`] along (`dq`, `du`, `db`).
     #[allow(clippy::type_complexity)]
@@ -483,11 +455,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         dq: &Self::Coordinates<T>,
         du: &Self::Inputs<T>,
         db: &Self::Design<T>,
-    ) -> (
-        Self::Outputs<Self::Coordinates<T>>,
-        Self::Outputs<Self::Inputs<T>>,
-        Self::Outputs<Self::Design<T>>,
-    ) {
+    ) -> (Self::Outputs<Self::Coordinates<T>>, Self::Outputs<Self::Inputs<T>>, Self::Outputs<Self::Design<T>>) {
         let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
         let matrices = self.output_partials::<Dual<T>>(&q, &u, &b);
         (
@@ -552,11 +520,7 @@ pub trait Mechanism: Clone + Sync + Sized {
         _direct_sine: &Self::Outputs<T>,
         _frequency: &Self::Excitations<T>,
     ) -> GradientOf<Self, T> {
-        Gradient {
-            coordinates: zeros(),
-            inputs: zeros(),
-            design: zeros(),
-        }
+        Gradient { coordinates: zeros(), inputs: zeros(), design: zeros() }
     }
 
     /// Directional derivative of [`Mechanism::forcing`] along (`dq`, `du`, `db`).
@@ -777,12 +741,7 @@ fn fixed<T: Real, D: Array<Dual<T>>>(values: &impl Array<T>) -> D {
 /// Values that change along a direction.
 fn along<T: Real, A: Array<T>, D: Array<Dual<T>>>(values: &A, direction: &A) -> D {
     let mut duals = D::filled(Dual::fixed(T::constant(0.0)));
-    for ((dual, value), slope) in duals
-        .as_mut()
-        .iter_mut()
-        .zip(values.as_ref())
-        .zip(direction.as_ref())
-    {
+    for ((dual, value), slope) in duals.as_mut().iter_mut().zip(values.as_ref()).zip(direction.as_ref()) {
         (dual.value, dual.slope) = (*value, *slope);
     }
     duals

@@ -54,11 +54,7 @@ pub struct Linear<A> {
 impl<A> Linear<A> {
     /// Applies a function to each matrix.
     pub fn map<B>(self, mut matrix: impl FnMut(A) -> B) -> Linear<B> {
-        Linear {
-            mass: matrix(self.mass),
-            damping: matrix(self.damping),
-            stiffness: matrix(self.stiffness),
-        }
+        Linear { mass: matrix(self.mass), damping: matrix(self.damping), stiffness: matrix(self.stiffness) }
     }
 }
 
@@ -130,11 +126,7 @@ pub trait Zeros {
 impl<A: Zeros> Zeros for Linear<A> {
     #[inline]
     fn zeros(n: usize) -> Self {
-        Self {
-            mass: A::zeros(n),
-            damping: A::zeros(n),
-            stiffness: A::zeros(n),
-        }
+        Self { mass: A::zeros(n), damping: A::zeros(n), stiffness: A::zeros(n) }
     }
 }
 
@@ -152,10 +144,7 @@ impl<V: Zeros> RestParts<V> {
     #[must_use]
     #[inline]
     pub fn zeros(n: usize) -> Self {
-        Self {
-            inertia: V::zeros(n),
-            applied: V::zeros(n),
-        }
+        Self { inertia: V::zeros(n), applied: V::zeros(n) }
     }
 }
 
@@ -176,15 +165,7 @@ impl<L: IntoIterator<Item: Zeros> + FromIterator<L::Item>> LinearPartials<L> {
     /// Zeros.
     #[must_use]
     pub fn zeros(sizes: Sizes) -> Self {
-        let list = |count: usize| {
-            (0..count)
-                .map(|_| L::Item::zeros(sizes.coordinates))
-                .collect()
-        };
-        Self {
-            by_coordinate: list(sizes.coordinates),
-            by_input: list(sizes.inputs),
-            by_design: list(sizes.design),
-        }
+        let list = |count: usize| (0..count).map(|_| L::Item::zeros(sizes.coordinates)).collect();
+        Self { by_coordinate: list(sizes.coordinates), by_input: list(sizes.inputs), by_design: list(sizes.design) }
     }
 }

@@ -23,12 +23,7 @@ impl ToleranceInfo {
     /// Normally distributed, with the same limit on either side, SI.
     #[must_use]
     pub const fn half_width(half_width: f64) -> Self {
-        Self {
-            lower: -half_width,
-            upper: half_width,
-            relative: false,
-            law: Law::Normal,
-        }
+        Self { lower: -half_width, upper: half_width, relative: false, law: Law::Normal }
     }
 
     /// The half-width, SI, of a normal variable about this value; `None` for asymmetric limits and other distributions.

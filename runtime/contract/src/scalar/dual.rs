@@ -28,27 +28,18 @@ impl<T: Real> Dual<T> {
     /// A value that is constant.
     #[inline(always)]
     pub fn fixed(value: T) -> Self {
-        Self {
-            value,
-            slope: T::constant(0.0),
-        }
+        Self { value, slope: T::constant(0.0) }
     }
 
     /// Values that change along a direction.
     #[inline]
     pub fn along<const K: usize>(values: &[T; K], direction: &[T; K]) -> [Self; K] {
-        from_fn(|k| Self {
-            value: values[k],
-            slope: direction[k],
-        })
+        from_fn(|k| Self { value: values[k], slope: direction[k] })
     }
 
     #[inline(always)]
     fn through(self, value: T, by_self: T) -> Self {
-        Self {
-            value,
-            slope: by_self * self.slope,
-        }
+        Self { value, slope: by_self * self.slope }
     }
 }
 
@@ -56,10 +47,7 @@ impl<T: Real> Add for Dual<T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self {
-            value: self.value + other.value,
-            slope: self.slope + other.slope,
-        }
+        Self { value: self.value + other.value, slope: self.slope + other.slope }
     }
 }
 
@@ -67,10 +55,7 @@ impl<T: Real> Sub for Dual<T> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self {
-            value: self.value - other.value,
-            slope: self.slope - other.slope,
-        }
+        Self { value: self.value - other.value, slope: self.slope - other.slope }
     }
 }
 
@@ -78,10 +63,7 @@ impl<T: Real> Mul for Dual<T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self {
-            value: self.value * other.value,
-            slope: self.slope * other.value + self.value * other.slope,
-        }
+        Self { value: self.value * other.value, slope: self.slope * other.value + self.value * other.slope }
     }
 }
 
@@ -90,10 +72,7 @@ impl<T: Real> Div for Dual<T> {
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
-        Self {
-            value,
-            slope: (self.slope - value * other.slope) / other.value,
-        }
+        Self { value, slope: (self.slope - value * other.slope) / other.value }
     }
 }
 
@@ -101,10 +80,7 @@ impl<T: Real> Neg for Dual<T> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self {
-            value: -self.value,
-            slope: -self.slope,
-        }
+        Self { value: -self.value, slope: -self.slope }
     }
 }
 
@@ -128,10 +104,7 @@ impl<T: Real> Real for Dual<T> {
         let values = T::sin_cos_all(angles.map(|angle| angle.value));
         from_fn(|k| {
             let (sine, cosine) = values[k];
-            (
-                angles[k].through(sine, cosine),
-                angles[k].through(cosine, -sine),
-            )
+            (angles[k].through(sine, cosine), angles[k].through(cosine, -sine))
         })
     }
     #[inline(always)]
@@ -156,10 +129,7 @@ impl<T: Real> Real for Dual<T> {
     #[inline]
     fn atan2(self, x: Self) -> Self {
         let square = self.value * self.value + x.value * x.value;
-        Self {
-            value: self.value.atan2(x.value),
-            slope: (x.value * self.slope - self.value * x.slope) / square,
-        }
+        Self { value: self.value.atan2(x.value), slope: (x.value * self.slope - self.value * x.slope) / square }
     }
     #[inline]
     fn exp(self) -> Self {
@@ -189,9 +159,6 @@ impl<T: Real> Real for Dual<T> {
     fn powf(self, exponent: Self) -> Self {
         let value = self.value.powf(exponent.value);
         let by_base = exponent.value * self.value.powf(exponent.value - T::constant(1.0));
-        Self {
-            value,
-            slope: by_base * self.slope + value * self.value.ln() * exponent.slope,
-        }
+        Self { value, slope: by_base * self.slope + value * self.value.ln() * exponent.slope }
     }
 }

@@ -107,19 +107,7 @@ macro_rules! float {
     };
 }
 
-float!(
-    f64,
-    sin_cos,
-    sin_cos_all,
-    sqrt,
-    tan,
-    asin,
-    acos,
-    atan2,
-    exp,
-    log,
-    pow
-);
+float!(f64, sin_cos, sin_cos_all, sqrt, tan, asin, acos, atan2, exp, log, pow);
 float!(
     f32,
     libm::sincosf,

@@ -42,10 +42,7 @@ impl Instructions {
     /// All sets that this processor supports, the narrowest first.
     pub fn available() -> impl Iterator<Item = Self> {
         #[cfg(target_arch = "x86_64")]
-        let vectors = [
-            Avx2::detect().map(Set::Four),
-            Avx512::detect().map(Set::Eight),
-        ];
+        let vectors = [Avx2::detect().map(Set::Four), Avx512::detect().map(Set::Eight)];
         #[cfg(not(target_arch = "x86_64"))]
         let vectors: [Option<Set>; 0] = [];
         let vectors = vectors.into_iter().flatten().map(Self);

@@ -109,15 +109,8 @@ impl Lanes for f64 {
     #[inline(always)]
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self) {
         let turns = self.to_bits();
-        let (s, c) = if turns & 1 == 0 {
-            (sine, cosine)
-        } else {
-            (cosine, sine)
-        };
+        let (s, c) = if turns & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
         let sign = |bits: u64| (bits & 2) << 62;
-        (
-            Self::from_bits(s.to_bits() ^ sign(turns)),
-            Self::from_bits(c.to_bits() ^ sign(turns.wrapping_add(1))),
-        )
+        (Self::from_bits(s.to_bits() ^ sign(turns)), Self::from_bits(c.to_bits() ^ sign(turns.wrapping_add(1))))
     }
 }

@@ -6,12 +6,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// Generated kernels are generic over it and use no other operations. Angles are in radians.
 pub trait Real:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// The number `value`, exact or rounded to nearest.
     fn constant(value: f64) -> Self;
@@ -78,9 +73,5 @@ pub fn integer_power<T: Real>(base: T, exponent: i32) -> T {
         square = square * square;
         rest >>= 1;
     }
-    if exponent < 0 {
-        T::constant(1.0) / power
-    } else {
-        power
-    }
+    if exponent < 0 { T::constant(1.0) / power } else { power }
 }

@@ -11,11 +11,7 @@ pub(crate) const LIMIT: f64 = 1e5;
 
 /// pi/2 in three parts, the first two of 36 bits: their products with an integer up to 2^16 are exact. The missing
 /// remainder is below 2^-130.
-const PI_2: [f64; 3] = [
-    1.5707963267923333,
-    2.5633441515839558e-12,
-    1.0562999066987428e-23,
-];
+const PI_2: [f64; 3] = [1.5707963267923333, 2.5633441515839558e-12, 1.0562999066987428e-23];
 
 /// 1.5 * 2^52: adding and subtracting it rounds to an integer, and the last bits of the sum are those of the integer.
 const ROUND: f64 = 6755399441055744.0;
@@ -89,8 +85,7 @@ pub fn sin_cos_of_turns<V: Lanes>(turns: V) -> (V, V) {
 #[inline(always)]
 fn sine_terms<V: Lanes>(z: V, w: V) -> V {
     let number = V::constant;
-    (number(SINE[1]) + z * number(SINE[2]))
-        + w * ((number(SINE[3]) + z * number(SINE[4])) + w * number(SINE[5]))
+    (number(SINE[1]) + z * number(SINE[2])) + w * ((number(SINE[3]) + z * number(SINE[4])) + w * number(SINE[5]))
 }
 
 /// `C0 + C1 z + ..`.

@@ -21,22 +21,12 @@ pub(super) struct PlotArea {
 impl PlotArea {
     pub(super) fn of(panel: &Panel, frame: &Frame) -> Self {
         let (x, y) = (panel.x.range, panel.y.range);
-        Self {
-            x,
-            y,
-            frame: *frame,
-        }
+        Self { x, y, frame: *frame }
     }
 
     pub(super) fn pixel(&self, point: Point) -> (i32, i32) {
-        let Frame {
-            left,
-            right,
-            top,
-            bottom,
-        } = self.frame;
-        let share =
-            |value: f64, [low, high]: [f64; 2]| ((value - low) / (high - low)).clamp(0.0, 1.0);
+        let Frame { left, right, top, bottom } = self.frame;
+        let share = |value: f64, [low, high]: [f64; 2]| ((value - low) / (high - low)).clamp(0.0, 1.0);
         let x = f64::from(left) + share(point[0], self.x) * f64::from(right - left);
         let y = f64::from(bottom) - share(point[1], self.y) * f64::from(bottom - top);
         (x.round() as i32, y.round() as i32)
@@ -50,12 +40,7 @@ impl PlotArea {
 /// Draws grid lines, ticks with their numbers, and headings.
 pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &Frame) -> Outcome {
     let area = PlotArea::of(panel, frame);
-    let Frame {
-        left,
-        right,
-        top,
-        bottom,
-    } = *frame;
+    let Frame { left, right, top, bottom } = *frame;
     let hanging = hanging(panel);
     for (value, text) in ticks(&panel.x, 9.0) {
         let (x, _) = area.pixel([value, panel.y.range[0]]);
@@ -64,13 +49,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
             pen.hair([(x, bottom), (x, bottom + px(5))], 1.0)?;
         }
         match hanging {
-            true => pen.fitted(
-                &text,
-                (x, bottom + px(10)),
-                TICK,
-                Anchor::Below,
-                px(HANGING),
-            )?,
+            true => pen.fitted(&text, (x, bottom + px(10)), TICK, Anchor::Below, px(HANGING))?,
             false => pen.text(&text, (x, bottom + px(16)), TICK, Anchor::Middle)?,
         }
     }
@@ -87,13 +66,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
     pen.hair([(left, top), (left, bottom)], 1.0)?;
     let middle = ((left + right) / 2, (top + bottom) / 2);
     let heading = (middle.0, bottom + px(below(panel) - 17));
-    pen.fitted(
-        &panel.x.heading(),
-        heading,
-        17,
-        Anchor::Middle,
-        right - left,
-    )?;
+    pen.fitted(&panel.x.heading(), heading, 17, Anchor::Middle, right - left)?;
     if panel.y.categories.is_empty() {
         let (heading, point) = (panel.y.heading(), (px(18), middle.1));
         pen.fitted(&heading, point, 17, Anchor::Upwards, bottom - top)?;
@@ -140,11 +113,7 @@ fn number(value: f64, step: f64) -> String {
     let size = value.abs().max(step);
     if !(1e-4..1e7).contains(&size) || step < 1e-6 {
         let digits = (size.log10().floor() - step.log10().floor()).clamp(0.0, 6.0) as usize + 1;
-        return if value.abs() < 0.5 * step {
-            "0".to_owned()
-        } else {
-            format!("{value:.digits$e}")
-        };
+        return if value.abs() < 0.5 * step { "0".to_owned() } else { format!("{value:.digits$e}") };
     }
     let decimals = (1.0 - step.log10().floor()).clamp(0.0, 9.0) as usize;
     let text = format!("{value:.decimals$}");
@@ -170,11 +139,7 @@ mod tests {
         assert_eq!(words(0.0, 6000.0), ["0", "2000", "4000", "6000"]);
         assert_eq!(words(-0.1, 0.11), ["-0.1", "-0.05", "0", "0.05", "0.1"]);
         assert_eq!(words(0.0, 10.0), ["0", "2", "4", "6", "8", "10"]);
-        assert!(
-            words(0.0, 3e-7)
-                .iter()
-                .all(|own| own == "0" || own.contains("e-"))
-        );
+        assert!(words(0.0, 3e-7).iter().all(|own| own == "0" || own.contains("e-")));
         assert!(words(1.0, 1.0).is_empty());
         let mut turn = Axis::new("phase", "deg");
         turn.range = [-195.0, 195.0];

@@ -4,8 +4,7 @@ use crate::figure::Point;
 
 /// The parts of a curve within the ranges of a panel, with new end points on its edges.
 pub(super) fn clip(curve: &[Point], x: [f64; 2], y: [f64; 2]) -> Vec<Vec<Point>> {
-    let turned =
-        |piece: Vec<Point>| -> Vec<Point> { piece.into_iter().map(|[x, y]| [y, x]).collect() };
+    let turned = |piece: Vec<Point>| -> Vec<Point> { piece.into_iter().map(|[x, y]| [y, x]).collect() };
     let within = within(curve, y);
     let turned_parts = within.into_iter().map(turned);
     let parts = turned_parts.flat_map(|part| self::within(&part, x));
@@ -23,11 +22,7 @@ pub(super) fn clip_band(edges: &[[f64; 3]], [left, right]: [f64; 2]) -> Vec<[f64
     let mut clipped: Vec<[f64; 3]> = edges.first().copied().filter(inside).into_iter().collect();
     for pair in edges.windows(2) {
         let (from, to) = (pair[0][0], pair[1][0]);
-        let ends = if from < to {
-            [left, right]
-        } else {
-            [right, left]
-        };
+        let ends = if from < to { [left, right] } else { [right, left] };
         let between = |x: &f64| (from < *x && *x < to) || (to < *x && *x < from);
         clipped.extend(ends.into_iter().filter(between).map(|x| at(pair, x)));
         if inside(&pair[1]) {
@@ -61,12 +56,7 @@ fn within(curve: &[Point], [bottom, top]: [f64; 2]) -> Vec<Vec<Point>> {
 
 /// The part of a segment between two limits, if any.
 fn between(from: Point, to: Point, bottom: f64, top: f64) -> Option<(Point, Point)> {
-    let at = |part: f64| {
-        [
-            from[0] + part * (to[0] - from[0]),
-            (from[1] + part * (to[1] - from[1])).clamp(bottom, top),
-        ]
-    };
+    let at = |part: f64| [from[0] + part * (to[0] - from[0]), (from[1] + part * (to[1] - from[1])).clamp(bottom, top)];
     let rise = to[1] - from[1];
     if rise == 0.0 {
         return (bottom..=top).contains(&from[1]).then_some((from, to));
@@ -108,10 +98,7 @@ mod tests {
     #[test]
     fn a_band_is_cut_where_the_range_ends() {
         let band = [[0.0, 0.0, 1.0], [4.0, 4.0, 5.0]];
-        assert_eq!(
-            clip_band(&band, [1.0, 2.0]),
-            [[1.0, 1.0, 2.0], [2.0, 2.0, 3.0]]
-        );
+        assert_eq!(clip_band(&band, [1.0, 2.0]), [[1.0, 1.0, 2.0], [2.0, 2.0, 3.0]]);
         assert_eq!(clip_band(&band, [-1.0, 5.0]), band);
         assert!(clip_band(&band, [6.0, 7.0]).is_empty());
     }

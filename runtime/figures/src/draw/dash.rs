@@ -21,10 +21,7 @@ pub(super) fn dashes(line: &[Pixel], pattern: &[f64]) -> Vec<Vec<Pixel>> {
         while length - done > left {
             done += left;
             let t = done / length;
-            let at = (
-                (x + t * (to_x - x)).round() as i32,
-                (y + t * (to_y - y)).round() as i32,
-            );
+            let at = ((x + t * (to_x - x)).round() as i32, (y + t * (to_y - y)).round() as i32);
             if turn % 2 == 0 {
                 dash.push(at);
                 dashes.push(std::mem::take(&mut dash));
@@ -53,11 +50,7 @@ mod tests {
     fn dashes_go_round_corners() {
         let line = [(0, 0), (10, 0), (10, 10)];
         let pixels = dashes(&line, &[6.0, 3.0]);
-        let expected = [
-            vec![(0, 0), (6, 0)],
-            vec![(9, 0), (10, 0), (10, 5)],
-            vec![(10, 8), (10, 10)],
-        ];
+        let expected = [vec![(0, 0), (6, 0)], vec![(9, 0), (10, 0), (10, 5)], vec![(10, 8), (10, 10)]];
         assert_eq!(pixels, expected);
         assert!(dashes(&[], &[6.0, 3.0]).is_empty());
     }

@@ -38,35 +38,19 @@ pub(super) fn entries(figure: &Figure) -> Vec<Entry> {
 fn symbols(panel: &Panel) -> Vec<(&str, Symbol)> {
     let curves = panel.curves.iter();
     let curves = curves.map(|curve| (&*curve.label, Symbol::Line(curve.colour, curve.stroke)));
-    let bands = panel
-        .bands
-        .iter()
-        .map(|band| (&*band.label, Symbol::Area(band.colour)));
-    let bars = panel
-        .bars
-        .iter()
-        .map(|bar| (&*bar.label, Symbol::Bar(bar.colour)));
+    let bands = panel.bands.iter().map(|band| (&*band.label, Symbol::Area(band.colour)));
+    let bars = panel.bars.iter().map(|bar| (&*bar.label, Symbol::Bar(bar.colour)));
     let errors = panel.error_bars.iter();
     let errors = errors.map(|error| (&*error.label, Symbol::Interval(error.colour, error.shape)));
     let markers = panel.markers.iter();
-    let markers =
-        markers.map(|marker| (&*marker.label, Symbol::Point(marker.colour, marker.shape)));
+    let markers = markers.map(|marker| (&*marker.label, Symbol::Point(marker.colour, marker.shape)));
     let marks = panel.marks.iter().map(|mark| (&*mark.label, Symbol::Mark));
-    curves
-        .chain(bands)
-        .chain(bars)
-        .chain(errors)
-        .chain(markers)
-        .chain(marks)
-        .collect()
+    curves.chain(bands).chain(bars).chain(errors).chain(markers).chain(marks).collect()
 }
 
 /// The largest number of columns in which the labels fit.
 pub(super) fn columns(entries: &[Entry]) -> usize {
-    let longest = entries
-        .iter()
-        .map(|entry| entry.label.chars().count())
-        .max();
+    let longest = entries.iter().map(|entry| entry.label.chars().count()).max();
     match longest.unwrap_or(0) {
         0..=16 => 4,
         17..=SHORT => 3,

@@ -23,10 +23,7 @@ pub(super) struct Labels {
 
 impl Labels {
     pub(super) fn within(frame: &Frame) -> Self {
-        Self {
-            frame: *frame,
-            taken: Vec::new(),
-        }
+        Self { frame: *frame, taken: Vec::new() }
     }
 
     /// Keeps labels out of this area.
@@ -47,12 +44,7 @@ impl Labels {
     }
 
     /// Writes a label above and to the right of a point, or elsewhere near it if that place is taken.
-    pub(super) fn write<B: DrawingBackend>(
-        &mut self,
-        pen: &Pen<'_, B>,
-        at: (i32, i32),
-        text: &str,
-    ) -> Outcome {
+    pub(super) fn write<B: DrawingBackend>(&mut self, pen: &Pen<'_, B>, at: (i32, i32), text: &str) -> Outcome {
         let width = length(text, SIZE);
         let (side, half) = (px(7), px(SIZE) / 2);
         let rises = [-px(10), px(10), 0, -px(22), px(22), -px(34), px(34)];
@@ -63,19 +55,14 @@ impl Labels {
             })
         });
         let places: Vec<Box> = places.collect();
-        let free =
-            |item: &&Box| self.inside(item) && !self.taken.iter().any(|other| meet(item, other));
+        let free = |item: &&Box| self.inside(item) && !self.taken.iter().any(|other| meet(item, other));
         let inside = |x: &&Box| self.inside(x);
         let place = places.iter().find(free);
-        let chosen = place
-            .or_else(|| places.iter().find(inside))
-            .or(places.first());
+        let chosen = place.or_else(|| places.iter().find(inside)).or(places.first());
         if let Some(&[left, right, top, bottom]) = chosen {
             // If no place is inside the panel, the label is nearly as long as the panel is wide, or longer.
             let room = self.frame.right + BEYOND - self.frame.left;
-            let left = left
-                .min(self.frame.right + BEYOND - width)
-                .max(self.frame.left);
+            let left = left.min(self.frame.right + BEYOND - width).max(self.frame.left);
             self.taken.push([left, right, top, bottom]);
             pen.fitted(text, (left, (top + bottom) / 2), SIZE, Anchor::Left, room)?;
         }
@@ -84,10 +71,7 @@ impl Labels {
 
     fn inside(&self, &[left, right, top, bottom]: &Box) -> bool {
         let frame = &self.frame;
-        left >= frame.left
-            && right <= frame.right + BEYOND
-            && top >= frame.top - px(8)
-            && bottom <= frame.bottom
+        left >= frame.left && right <= frame.right + BEYOND && top >= frame.top - px(8) && bottom <= frame.bottom
     }
 }
 

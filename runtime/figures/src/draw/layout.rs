@@ -77,11 +77,7 @@ impl Layout {
 
 /// Room for the labels below the horizontal axis; categories that do not fit side by side hang vertically.
 pub(super) fn below(panel: &Panel) -> i32 {
-    let names = panel
-        .x
-        .categories
-        .iter()
-        .map(|category| category.chars().count());
+    let names = panel.x.categories.iter().map(|category| category.chars().count());
     match names.max() {
         Some(longest) if hanging(panel) => BELOW + (9 * longest as i32).min(HANGING),
         _ => BELOW,
@@ -90,22 +86,14 @@ pub(super) fn below(panel: &Panel) -> i32 {
 
 /// Whether the categories of the horizontal axis do not fit side by side.
 pub(super) fn hanging(panel: &Panel) -> bool {
-    let names = panel
-        .x
-        .categories
-        .iter()
-        .map(|category| category.chars().count());
+    let names = panel.x.categories.iter().map(|category| category.chars().count());
     let slot = (WIDTH - left(panel) - RIGHT) / panel.x.categories.len().max(1) as i32;
     names.max().is_some_and(|longest| 9 * longest as i32 > slot)
 }
 
 /// Room for the labels beside the vertical axis.
 fn left(panel: &Panel) -> i32 {
-    let names = panel
-        .y
-        .categories
-        .iter()
-        .map(|category| category.chars().count());
+    let names = panel.y.categories.iter().map(|category| category.chars().count());
     match names.max() {
         Some(longest) => (24 + 10 * longest as i32).clamp(LEFT, WIDTH / 3),
         None => LEFT,
@@ -151,10 +139,7 @@ mod tests {
     fn long_lines_are_wrapped_at_spaces() {
         let text = "word ".repeat(60);
         let lines = wrapped(text.trim());
-        assert!(
-            lines.len() == 3 && lines.iter().all(|line| line.len() <= LINE),
-            "{lines:?}"
-        );
+        assert!(lines.len() == 3 && lines.iter().all(|line| line.len() <= LINE), "{lines:?}");
         assert_eq!(lines.join(" "), text.trim());
     }
 }

@@ -22,12 +22,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, layout: &Layout) -> Outc
         match entry.symbol {
             Symbol::Line(colour, stroke) => pen.curve(vec![(x, y), (end, y)], colour, stroke)?,
             Symbol::Area(colour) => {
-                let corners = vec![
-                    (x, y - half),
-                    (end, y - half),
-                    (end, y + half),
-                    (x, y + half),
-                ];
+                let corners = vec![(x, y - half), (end, y - half), (end, y + half), (x, y + half)];
                 pen.shade(corners, colour)?;
             }
             Symbol::Bar(colour) => pen.bar([(x, y - half), (end, y + half)], colour)?,

@@ -18,10 +18,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
     for band in &panel.bands {
         let edges = clip_band(&band.edges, panel.x.range);
         let lower = edges.iter().map(|&[x, low, _]| area.pixel([x, low]));
-        let upper = edges
-            .iter()
-            .rev()
-            .map(|&[x, _, high]| area.pixel([x, high]));
+        let upper = edges.iter().rev().map(|&[x, _, high]| area.pixel([x, high]));
         let outline: Vec<_> = lower.chain(upper).collect();
         if outline.len() > 3 {
             pen.shade(outline, band.colour)?;
@@ -35,11 +32,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
             }
         }
     }
-    for mark in panel
-        .marks
-        .iter()
-        .filter(|mark| (left..=right).contains(&mark.at))
-    {
+    for mark in panel.marks.iter().filter(|mark| (left..=right).contains(&mark.at)) {
         let ends = [low, high].map(|y| area.pixel([mark.at, y]));
         pen.hair(ends, 0.6)?;
     }

@@ -71,26 +71,12 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
 
     /// Draws a text into a room of this length, in drawing pixels, with smaller letters or, if these would be
     /// unreadable, truncated.
-    pub(super) fn fitted(
-        &self,
-        text: &str,
-        at: Pixel,
-        size: i32,
-        anchor: Anchor,
-        room: i32,
-    ) -> Outcome {
+    pub(super) fn fitted(&self, text: &str, at: Pixel, size: i32, anchor: Anchor, room: i32) -> Outcome {
         let (size, text) = fit(text, size, room);
         self.text(&text, at, size, anchor)
     }
 
-    pub(super) fn coloured(
-        &self,
-        text: &str,
-        at: Pixel,
-        size: i32,
-        anchor: Anchor,
-        tint: Colour,
-    ) -> Outcome {
+    pub(super) fn coloured(&self, text: &str, at: Pixel, size: i32, anchor: Anchor, tint: Colour) -> Outcome {
         let (horizontal, turn) = match anchor {
             Anchor::Left => (HPos::Left, FontTransform::None),
             Anchor::Middle => (HPos::Center, FontTransform::None),
@@ -124,17 +110,13 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     /// A solid line of this width, as shown.
     pub(super) fn line(&self, points: Vec<Pixel>, tint: Colour, width: i32) -> Outcome {
         let style = colour(tint).stroke_width(px(width) as u32);
-        self.area
-            .draw(&PathElement::new(points, style))
-            .map_err(words)
+        self.area.draw(&PathElement::new(points, style)).map_err(words)
     }
 
     /// A thin faint line.
     pub(super) fn hair(&self, ends: [Pixel; 2], strength: f64) -> Outcome {
         let style = BLACK.mix(strength).stroke_width(SCALE as u32);
-        self.area
-            .draw(&PathElement::new(ends, style))
-            .map_err(words)
+        self.area.draw(&PathElement::new(ends, style)).map_err(words)
     }
 
     /// A faint area.
@@ -168,10 +150,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
 
     /// A marker.
     pub(super) fn marker(&self, (x, y): Pixel, tint: Colour, shape: Shape) -> Outcome {
-        let (thin, filled) = (
-            colour(tint).stroke_width(px(4) as u32 / 3),
-            colour(tint).filled(),
-        );
+        let (thin, filled) = (colour(tint).stroke_width(px(4) as u32 / 3), colour(tint).filled());
         let size = px(4);
         let drawn = match shape {
             Shape::Ring => self.area.draw(&Circle::new((x, y), size, thin)),

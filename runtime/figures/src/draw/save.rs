@@ -59,9 +59,6 @@ impl Figure {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let path = path.as_ref();
         let file = self.file(Form::of(path)?)?;
-        fs::write(path, file).map_err(|source| Error::Write {
-            path: path.to_owned(),
-            source,
-        })
+        fs::write(path, file).map_err(|source| Error::Write { path: path.to_owned(), source })
     }
 }

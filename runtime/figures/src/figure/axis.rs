@@ -19,22 +19,13 @@ impl Axis {
     /// An axis of numbers whose range is still to be determined.
     #[must_use]
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            unit: unit.into(),
-            ..Self::default()
-        }
+        Self { name: name.into(), unit: unit.into(), ..Self::default() }
     }
 
     /// An axis of categories, with half a category of room at either end.
     #[must_use]
     pub fn of_categories(name: impl Into<String>, categories: Vec<String>) -> Self {
-        Self {
-            name: name.into(),
-            range: [-0.5, categories.len() as f64 - 0.5],
-            categories,
-            ..Self::default()
-        }
+        Self { name: name.into(), range: [-0.5, categories.len() as f64 - 0.5], categories, ..Self::default() }
     }
 
     /// Name and unit: `speed [rpm]`.

@@ -1,8 +1,7 @@
 //! Building figures: non-finite numbers are dropped, and the axes are fitted to the content.
 
 use super::{
-    Axis, Band, Bars, Colour, Curve, ErrorBar, ErrorBars, Figure, Label, Markers, Panel, Point,
-    Shape, Stroke,
+    Axis, Band, Bars, Colour, Curve, ErrorBar, ErrorBars, Figure, Label, Markers, Panel, Point, Shape, Stroke,
 };
 
 /// Margin around the content, as a fraction of its extent.
@@ -11,11 +10,7 @@ const ROOM: f64 = 0.05;
 impl Curve {
     /// A solid line through points, interrupted where a point is missing or not finite.
     #[must_use]
-    pub fn new(
-        label: impl Into<String>,
-        colour: Colour,
-        points: impl IntoIterator<Item = Option<Point>>,
-    ) -> Self {
+    pub fn new(label: impl Into<String>, colour: Colour, points: impl IntoIterator<Item = Option<Point>>) -> Self {
         let mut pieces = vec![Vec::new()];
         for point in points {
             match (point.filter(finite), pieces.last_mut()) {
@@ -24,12 +19,7 @@ impl Curve {
             }
         }
         pieces.retain(|piece| !piece.is_empty());
-        Self {
-            label: label.into(),
-            colour,
-            stroke: Stroke::Solid,
-            pieces,
-        }
+        Self { label: label.into(), colour, stroke: Stroke::Solid, pieces }
     }
 
     /// Returns the curve with another stroke.
@@ -44,21 +34,13 @@ impl ErrorBar {
     /// A point with a vertical interval of this half-width.
     #[must_use]
     pub fn upright(at: Point, half: f64) -> Self {
-        Self {
-            at,
-            low: [at[0], at[1] - half],
-            high: [at[0], at[1] + half],
-        }
+        Self { at, low: [at[0], at[1] - half], high: [at[0], at[1] + half] }
     }
 
     /// A point with a horizontal interval of this half-width.
     #[must_use]
     pub fn level(at: Point, half: f64) -> Self {
-        Self {
-            at,
-            low: [at[0] - half, at[1]],
-            high: [at[0] + half, at[1]],
-        }
+        Self { at, low: [at[0] - half, at[1]], high: [at[0] + half, at[1]] }
     }
 }
 
@@ -66,21 +48,13 @@ impl Panel {
     /// An empty panel.
     #[must_use]
     pub fn new(x: Axis, y: Axis) -> Self {
-        Self {
-            x,
-            y,
-            ..Self::default()
-        }
+        Self { x, y, ..Self::default() }
     }
 
     /// Adds a line; a piece of one point becomes a marker.
     pub fn curve(&mut self, curve: Curve) {
-        let (lines, alone): (Vec<_>, Vec<_>) =
-            (curve.pieces.into_iter()).partition(|piece| piece.len() > 1);
-        let lines: Vec<Vec<Point>> = lines
-            .into_iter()
-            .filter(|piece| piece.iter().all(finite))
-            .collect();
+        let (lines, alone): (Vec<_>, Vec<_>) = (curve.pieces.into_iter()).partition(|piece| piece.len() > 1);
+        let lines: Vec<Vec<Point>> = lines.into_iter().filter(|piece| piece.iter().all(finite)).collect();
         if !alone.is_empty() {
             let label = match lines.is_empty() {
                 true => curve.label.clone(),
@@ -90,10 +64,7 @@ impl Panel {
             self.markers(label, curve.colour, Shape::Disc, points);
         }
         if !lines.is_empty() {
-            self.curves.push(Curve {
-                pieces: lines,
-                ..curve
-            });
+            self.curves.push(Curve { pieces: lines, ..curve });
         }
     }
 
@@ -107,12 +78,7 @@ impl Panel {
     ) {
         let points: Vec<Point> = points.into_iter().filter(finite).collect();
         if !points.is_empty() {
-            self.markers.push(Markers {
-                label: label.into(),
-                colour,
-                shape,
-                points,
-            });
+            self.markers.push(Markers { label: label.into(), colour, shape, points });
         }
     }
 
@@ -127,48 +93,25 @@ impl Panel {
         let whole = |bar: &ErrorBar| [bar.at, bar.low, bar.high].iter().all(finite);
         let bars: Vec<ErrorBar> = bars.into_iter().filter(whole).collect();
         if !bars.is_empty() {
-            self.error_bars.push(ErrorBars {
-                label: label.into(),
-                colour,
-                shape,
-                bars,
-            });
+            self.error_bars.push(ErrorBars { label: label.into(), colour, shape, bars });
         }
     }
 
     /// Adds a shaded area; non-finite edges are left out.
-    pub fn band(
-        &mut self,
-        label: impl Into<String>,
-        colour: Colour,
-        edges: impl IntoIterator<Item = [f64; 3]>,
-    ) {
+    pub fn band(&mut self, label: impl Into<String>, colour: Colour, edges: impl IntoIterator<Item = [f64; 3]>) {
         let whole = |edge: &[f64; 3]| edge.iter().all(|value| value.is_finite());
         let edges: Vec<[f64; 3]> = edges.into_iter().filter(whole).collect();
         if edges.len() > 1 {
-            self.bands.push(Band {
-                label: label.into(),
-                colour,
-                edges,
-            });
+            self.bands.push(Band { label: label.into(), colour, edges });
         }
     }
 
     /// Adds the bars that are finite.
-    pub fn bars(
-        &mut self,
-        label: impl Into<String>,
-        colour: Colour,
-        bars: impl IntoIterator<Item = [f64; 4]>,
-    ) {
+    pub fn bars(&mut self, label: impl Into<String>, colour: Colour, bars: impl IntoIterator<Item = [f64; 4]>) {
         let whole = |bar: &[f64; 4]| bar.iter().all(|value| value.is_finite());
         let bars: Vec<[f64; 4]> = bars.into_iter().filter(whole).collect();
         if !bars.is_empty() {
-            self.bars.push(Bars {
-                label: label.into(),
-                colour,
-                bars,
-            });
+            self.bars.push(Bars { label: label.into(), colour, bars });
         }
     }
 
@@ -184,8 +127,7 @@ impl Panel {
     pub fn level_line(&mut self, at: f64) {
         let [low, high] = self.x.range;
         let line = [Some([low, at]), Some([high, at])];
-        self.curves
-            .insert(0, Curve::new("", Colour::Grey, line).stroke(Stroke::Dotted));
+        self.curves.insert(0, Curve::new("", Colour::Grey, line).stroke(Stroke::Dotted));
     }
 
     /// Fits axes that have no range to the content, bands and intervals included, with some margin above and below.
@@ -226,11 +168,7 @@ impl Panel {
         let bands = bands.flat_map(|&[x, low, high]| [[x, low], [x, high]]);
         let bars = self.bars.iter().flat_map(|bar| &bar.bars);
         let bars = bars.flat_map(|&[left, right, low, high]| [[left, low], [right, high]]);
-        (curves.chain(markers).copied())
-            .chain(errors)
-            .chain(bands)
-            .chain(bars)
-            .collect()
+        (curves.chain(markers).copied()).chain(errors).chain(bands).chain(bars).collect()
     }
 }
 
@@ -241,14 +179,7 @@ impl Figure {
         for panel in &mut panels {
             panel.fit();
         }
-        Self {
-            title: title.into(),
-            caption: caption
-                .into_iter()
-                .filter(|line| !line.is_empty())
-                .collect(),
-            panels,
-        }
+        Self { title: title.into(), caption: caption.into_iter().filter(|line| !line.is_empty()).collect(), panels }
     }
 }
 
@@ -289,13 +220,7 @@ mod tests {
 
     #[test]
     fn a_gap_cuts_a_curve_and_a_lone_point_is_a_marker() {
-        let points = [
-            Some([0.0, 1.0]),
-            Some([1.0, 2.0]),
-            None,
-            Some([3.0, f64::NAN]),
-            Some([4.0, 5.0]),
-        ];
+        let points = [Some([0.0, 1.0]), Some([1.0, 2.0]), None, Some([3.0, f64::NAN]), Some([4.0, 5.0])];
         let mut panel = Panel::new(Axis::new("x", "m"), Axis::new("y", ""));
         panel.curve(Curve::new("a", Colour::Series(0), points));
         assert_eq!(panel.curves[0].pieces, [[[0.0, 1.0], [1.0, 2.0]]]);

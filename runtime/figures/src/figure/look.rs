@@ -15,14 +15,8 @@ pub enum Colour {
     Black,
 }
 
-const SERIES: [[u8; 3]; 6] = [
-    [0, 114, 178],
-    [230, 159, 0],
-    [120, 40, 100],
-    [0, 158, 115],
-    [86, 180, 233],
-    [213, 94, 0],
-];
+const SERIES: [[u8; 3]; 6] =
+    [[0, 114, 178], [230, 159, 0], [120, 40, 100], [0, 158, 115], [86, 180, 233], [213, 94, 0]];
 
 impl Colour {
     /// Red, green and blue.
@@ -88,14 +82,7 @@ impl Shape {
     /// The shape of series 0, 1, 2, ...
     #[must_use]
     pub fn of(series: usize) -> Self {
-        let all = [
-            Self::Ring,
-            Self::Triangle,
-            Self::Square,
-            Self::Diamond,
-            Self::Cross,
-            Self::Disc,
-        ];
+        let all = [Self::Ring, Self::Triangle, Self::Square, Self::Diamond, Self::Cross, Self::Disc];
         all[series % all.len()]
     }
 }
@@ -119,11 +106,7 @@ mod tests {
         ),
         (
             "deuteranopes",
-            [
-                [0.367_322, 0.860_646, -0.227_968],
-                [0.280_085, 0.672_501, 0.047_413],
-                [-0.011_820, 0.042_940, 0.968_881],
-            ],
+            [[0.367_322, 0.860_646, -0.227_968], [0.280_085, 0.672_501, 0.047_413], [-0.011_820, 0.042_940, 0.968_881]],
         ),
         (
             "tritanopes",
@@ -136,11 +119,7 @@ mod tests {
     ];
     const UNIT: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     /// Linear sRGB to CIE XYZ (IEC 61966-2-1); white is at the row sums.
-    const XYZ: Matrix = [
-        [0.412_4, 0.357_6, 0.180_5],
-        [0.212_6, 0.715_2, 0.072_2],
-        [0.019_3, 0.119_2, 0.950_5],
-    ];
+    const XYZ: Matrix = [[0.412_4, 0.357_6, 0.180_5], [0.212_6, 0.715_2, 0.072_2], [0.019_3, 0.119_2, 0.950_5]];
 
     fn apply(matrix: &Matrix, values: [f64; 3]) -> [f64; 3] {
         matrix.map(|row| row.iter().zip(values).map(|(a, b)| a * b).sum())
@@ -191,10 +170,7 @@ mod tests {
     fn lines_of_one_stroke_differ_in_grey() {
         for (a, b) in (0..SERIES.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
             let apart = difference_in_grey(a, b);
-            assert!(
-                Stroke::of(a) != Stroke::of(b) || apart > 11.0,
-                "{a} {b}: {apart}"
-            );
+            assert!(Stroke::of(a) != Stroke::of(b) || apart > 11.0, "{a} {b}: {apart}");
         }
     }
 
@@ -217,10 +193,7 @@ mod tests {
         // Every reader sees white as white: the rows of the matrix sum to one.
         for (name, matrix) in &BLIND {
             let white = apply(matrix, [1.0; 3]);
-            assert!(
-                near(white, [1.0; 3]) && white.iter().all(|own| (own - 1.0).abs() < 1e-5),
-                "{name}"
-            );
+            assert!(near(white, [1.0; 3]) && white.iter().all(|own| (own - 1.0).abs() < 1e-5), "{name}");
         }
         let red = [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
         let full = Colour::Series(1).rgb()[0];

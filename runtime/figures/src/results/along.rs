@@ -32,10 +32,7 @@ pub(crate) struct Station {
 }
 
 pub(crate) mod sealed {
-    use super::{
-        Campbell, Character, Complex, Description, Equilibrium, Error, Input, SpecialKind, Sweep,
-        Whirl,
-    };
+    use super::{Campbell, Character, Complex, Description, Equilibrium, Error, Input, SpecialKind, Sweep, Whirl};
 
     type ModeAt = (usize, Complex, Option<f64>, Option<Character>);
 
@@ -73,12 +70,9 @@ pub(crate) mod sealed {
         }
 
         fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)> {
-            let soft = SpecialKind::Pitchfork {
-                supercritical: Some(true),
-            };
+            let soft = SpecialKind::Pitchfork { supercritical: Some(true) };
             let each = self.critical.iter();
-            each.map(|item| (item.value, (item.kind == soft).then_some(&item.equilibrium)))
-                .collect()
+            each.map(|item| (item.value, (item.kind == soft).then_some(&item.equilibrium))).collect()
         }
     }
 
@@ -134,23 +128,17 @@ impl<'a> Course<'a> {
         };
         let (mut stations, mut equilibria) = (Vec::new(), Vec::new());
         for (value, equilibrium, modes) in result.points() {
-            let sample =
-                |(label, s, frequency, character): (usize, Complex, Option<f64>, _)| Sample {
-                    label,
-                    s,
-                    oscillates: frequency.is_some(),
-                    character,
-                };
-            stations.push(Station {
-                value: to_unit(value),
-                modes: modes.into_iter().map(sample).collect(),
-            });
+            let sample = |(label, s, frequency, character): (usize, Complex, Option<f64>, _)| Sample {
+                label,
+                s,
+                oscillates: frequency.is_some(),
+                character,
+            };
+            stations.push(Station { value: to_unit(value), modes: modes.into_iter().map(sample).collect() });
             equilibria.push((to_unit(value), equilibrium.ok()));
         }
         let critical = result.critical();
-        let soft = critical
-            .iter()
-            .filter_map(|(value, state)| Some((*value, (*state)?)));
+        let soft = critical.iter().filter_map(|(value, state)| Some((*value, (*state)?)));
         Self {
             description,
             input,
@@ -175,11 +163,7 @@ impl<'a> Course<'a> {
 
     /// The first lines of the caption: operating point and design, then the user's notes.
     pub(crate) fn caption(&self, style: &Style) -> Vec<String> {
-        let mut lines = vec![operating_point(
-            self.description,
-            self.inputs,
-            Some(self.input),
-        )];
+        let mut lines = vec![operating_point(self.description, self.inputs, Some(self.input))];
         let equilibrium = self.equilibria.iter().find_map(|(_, x)| *x);
         if let Some(equilibrium) = equilibrium {
             lines.push(design(self.description, &equilibrium.design, &[]));
@@ -190,11 +174,7 @@ impl<'a> Course<'a> {
 
 /// Adds the user's notes; a note that lists the design variables replaces the line without tolerances.
 pub(crate) fn with_notes(mut lines: Vec<String>, style: &Style, d: &Description) -> Vec<String> {
-    let first = d
-        .design
-        .iter()
-        .next()
-        .map(|info| format!("{} = ", info.name));
+    let first = d.design.iter().next().map(|info| format!("{} = ", info.name));
     let is_design = |line: &String| {
         let first = first.as_deref();
         first.is_some_and(|first| line.starts_with(first))
@@ -217,17 +197,12 @@ pub(crate) fn input_axis(d: &Description, input: Input) -> Axis {
 /// The least and the greatest of the finite values.
 pub(crate) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let finite = values.filter(|value| value.is_finite());
-    finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-        [low.min(value), high.max(value)]
-    })
+    finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
 
 /// The unit of an input; a pure number if the input is unknown.
 pub(crate) fn input_unit(d: &Description, input: Input) -> Unit {
-    let pure = || Unit {
-        symbol: "".into(),
-        scale: 1.0,
-    };
+    let pure = || Unit { symbol: "".into(), scale: 1.0 };
     let input = d.inputs.get(input.index());
     input.map_or_else(pure, |info| info.unit.clone())
 }

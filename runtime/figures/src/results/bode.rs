@@ -54,12 +54,7 @@ const STRETCHES: usize = 8;
 ///
 /// # Errors
 /// [`Error::Nothing`] if there is no such vibration at any of the values.
-pub fn bode(
-    result: &Bode,
-    vibration: Vibration,
-    peaks: &[Peaks],
-    style: &Style,
-) -> Result<Figure, Error> {
+pub fn bode(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result, vibration, peaks)?;
     let name = "nominal design";
     let mut upper = Panel::new(course.axis(), Axis::new("amplitude", &*course.unit.symbol));
@@ -81,20 +76,13 @@ pub fn bode(
     let mut caption = course.caption();
     if !upper.bands.is_empty() {
         let [low, high] = course.quantiles().unwrap_or(BAND).map(|p| 100.0 * p);
-        caption.push(format!(
-            "Shaded: from {low:.1} to {high:.1} % of the designs within tolerances."
-        ));
+        caption.push(format!("Shaded: from {low:.1} to {high:.1} % of the designs within tolerances."));
     }
-    let bars = upper
-        .error_bars
-        .iter()
-        .flat_map(|error_bar| &error_bar.bars);
+    let bars = upper.error_bars.iter().flat_map(|error_bar| &error_bar.bars);
     let wide = bars.into_iter().any(|bar| bar.low != bar.high);
     let sigmas = peaks.iter().find_map(|peak| peak.sigma_level);
     if let Some(sigmas) = sigmas.filter(|_| wide) {
-        caption.push(format!(
-            "Bars at peaks: {sigmas} standard deviations to either side."
-        ));
+        caption.push(format!("Bars at peaks: {sigmas} standard deviations to either side."));
     }
     let caption = course.finished(caption, lines, style);
     let mut panels = vec![upper, lower];
@@ -113,24 +101,14 @@ pub fn bode(
 ///
 /// # Errors
 /// [`Error::Nothing`] if there is no such vibration at any of the values.
-pub fn polar(
-    result: &Bode,
-    vibration: Vibration,
-    peaks: &[Peaks],
-    style: &Style,
-) -> Result<Figure, Error> {
+pub fn polar(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result, vibration, peaks)?;
     let symbol = &*course.unit.symbol;
     let mut panel = Panel::new(Axis::new("Re", symbol), Axis::new("Im", symbol));
     panel.equal_scales = true;
-    let path: Vec<(f64, Option<Point>)> = (course.values.iter())
-        .map(|(value, x)| (*value, x.map(|x| course.point(x))))
-        .collect();
-    panel.curve(Curve::new(
-        "",
-        Colour::Series(0),
-        path.iter().map(|pair| pair.1),
-    ));
+    let path: Vec<(f64, Option<Point>)> =
+        (course.values.iter()).map(|(value, x)| (*value, x.map(|x| course.point(x)))).collect();
+    panel.curve(Curve::new("", Colour::Series(0), path.iter().map(|pair| pair.1)));
     panel.markers("", Colour::Grey, Shape::Cross, [[0.0, 0.0]]);
     let is_peak = |value: f64| course.places().any(|peak| peak == value);
     let known: Vec<(f64, Point)> = (path.iter())
@@ -146,9 +124,7 @@ pub fn polar(
     for (k, &(value, point)) in marked.iter().enumerate() {
         let (label, shape) = match k {
             0 => (format!("{} = {}", axis.name, words(value)), Shape::Ring),
-            _ if k + 1 == marked.len() => {
-                (format!("{} = {}", axis.name, words(value)), Shape::Disc)
-            }
+            _ if k + 1 == marked.len() => (format!("{} = {}", axis.name, words(value)), Shape::Disc),
             _ => (String::new(), Shape::Square),
         };
         if label.is_empty() {
@@ -170,34 +146,22 @@ pub fn polar(
     let room = 0.05 * (high - low);
     panel.x.range = [low - room, high + room];
     let mut caption = course.caption();
-    caption.push(format!(
-        "Beside the path: {}.",
-        axis.heading().replace(" [", " in ").replace(']', "")
-    ));
+    caption.push(format!("Beside the path: {}.", axis.heading().replace(" [", " in ").replace(']', "")));
     let caption = course.finished(caption, lines, style);
-    let title = format!(
-        "{}: polar plot of {}",
-        result.description.name,
-        course.name()
-    );
+    let title = format!("{}: polar plot of {}", result.description.name, course.name());
     Ok(Figure::new(style.titled(title), caption, vec![panel]))
 }
 
 /// The whole eighths of a turn about angles, deg, and a little more.
 fn eighths(angles: impl Iterator<Item = f64>) -> [f64; 2] {
     let [low, high] = ends(angles);
-    let [low, high] = [
-        (low / 45.0 + ROUNDING).floor(),
-        (high / 45.0 - ROUNDING).ceil(),
-    ];
+    let [low, high] = [(low / 45.0 + ROUNDING).floor(), (high / 45.0 - ROUNDING).ceil()];
     [45.0 * low - 5.0, 45.0 * high + 5.0]
 }
 
 /// First, last, and between them those after each further share of the length of the path.
 fn spaced(path: &[(f64, Point)]) -> Vec<(f64, Point)> {
-    let steps = path
-        .windows(2)
-        .map(|pair| (pair[1].1[0] - pair[0].1[0]).hypot(pair[1].1[1] - pair[0].1[1]));
+    let steps = path.windows(2).map(|pair| (pair[1].1[0] - pair[0].1[0]).hypot(pair[1].1[1] - pair[0].1[1]));
     let mut gone = 0.0;
     let lengths: Vec<f64> = std::iter::once(0.0)
         .chain(steps.map(|step| {
@@ -240,30 +204,18 @@ impl<'a> Course<'a> {
             let harmonic = response.harmonic(vibration.excitation)?;
             harmonic.amplitude(vibration.output, vibration.measure)
         };
-        let mut values: Vec<(f64, Option<Complex>)> = (result.points.iter())
-            .map(|point| (in_unit(point.value, &unit), amplitude(point)))
-            .collect();
+        let mut values: Vec<(f64, Option<Complex>)> =
+            (result.points.iter()).map(|point| (in_unit(point.value, &unit), amplitude(point))).collect();
         if values.iter().all(|value| value.1.is_none()) {
-            return Err(Error::nothing(
-                "there is no such vibration at any of the values",
-            ));
+            return Err(Error::nothing("there is no such vibration at any of the values"));
         }
-        let belongs =
-            |peaks: &&Peaks| peaks.vibration == vibration && peaks.range.input == result.input;
-        let peaks: Vec<&Peak> = (peaks.iter().filter(belongs))
-            .flat_map(|peak| &peak.peaks)
-            .collect();
+        let belongs = |peaks: &&Peaks| peaks.vibration == vibration && peaks.range.input == result.input;
+        let peaks: Vec<&Peak> = (peaks.iter().filter(belongs)).flat_map(|peak| &peak.peaks).collect();
         for peak in &peaks {
             let amplitude = Complex::from_polar(peak.height.value, peak.phase);
             insert(&mut values, in_unit(peak.place.value, &unit), amplitude);
         }
-        Ok(Self {
-            result,
-            vibration,
-            peaks,
-            unit: Response::Vibration(vibration).unit(d),
-            values,
-        })
+        Ok(Self { result, vibration, peaks, unit: Response::Vibration(vibration).unit(d), values })
     }
 
     fn name(&self) -> String {
@@ -282,14 +234,12 @@ impl<'a> Course<'a> {
 
     fn curve(&self, height: impl Fn(Complex) -> Option<f64>) -> Vec<Option<Point>> {
         let each = self.values.iter();
-        each.map(|(value, x)| Some([*value, height((*x)?)?]))
-            .collect()
+        each.map(|(value, x)| Some([*value, height((*x)?)?])).collect()
     }
 
     /// Phases, deg, each within half a turn of the one before; a vibration that vanishes has none.
     fn phases(&self) -> Vec<Option<Point>> {
-        let mut phases =
-            self.curve(|item| (item != Complex::ZERO).then(|| item.arg().to_degrees()));
+        let mut phases = self.curve(|item| (item != Complex::ZERO).then(|| item.arg().to_degrees()));
         let mut last: Option<f64> = None;
         for [_, phase] in phases.iter_mut().flatten() {
             if let Some(last) = last {
@@ -310,9 +260,7 @@ impl<'a> Course<'a> {
         };
         let unit = input_unit(&self.result.description, self.result.input);
         let points = self.result.points.iter();
-        points
-            .map(|point| (in_unit(point.value, &unit), spread(point)))
-            .collect()
+        points.map(|point| (in_unit(point.value, &unit), spread(point))).collect()
     }
 
     /// The probabilities at the ends of the bands.
@@ -399,15 +347,8 @@ impl<'a> Course<'a> {
 
     fn caption(&self) -> Vec<String> {
         vec![
-            operating_point(
-                &self.result.description,
-                &self.result.inputs,
-                Some(self.result.input),
-            ),
-            format!(
-                "{}: amplitude from 0 to peak; a positive phase is ahead of cos(w t).",
-                self.name()
-            ),
+            operating_point(&self.result.description, &self.result.inputs, Some(self.result.input)),
+            format!("{}: amplitude from 0 to peak; a positive phase is ahead of cos(w t).", self.name()),
         ]
     }
 
@@ -433,9 +374,7 @@ fn insert(values: &mut Vec<(f64, Option<Complex>)>, value: f64, amplitude: Compl
 
 /// The quantiles at the ends of the band.
 fn outer(spread: &ResponseSpread) -> Option<[&eigentol::propagation::Quantile; 2]> {
-    let inner = |quantile: &&eigentol::propagation::Quantile| {
-        (BAND[0]..=BAND[1]).contains(&quantile.probability)
-    };
+    let inner = |quantile: &&eigentol::propagation::Quantile| (BAND[0]..=BAND[1]).contains(&quantile.probability);
     let mut all = spread.quantiles.iter().filter(inner);
     let first = all.next()?;
     Some([first, all.next_back()?])

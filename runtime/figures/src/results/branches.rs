@@ -19,10 +19,7 @@ const MOST: usize = 4;
 /// # Errors
 /// [`Error::Nothing`] without a branch, or if the mechanism has no coordinates at rest.
 pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
-    let first = result
-        .branches
-        .iter()
-        .find(|branch| !branch.points.is_empty());
+    let first = result.branches.iter().find(|branch| !branch.points.is_empty());
     let Some(first) = first else {
         return Err(Error::nothing("no branch was found"));
     };
@@ -61,11 +58,9 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
                 add(&mut panel, label, Colour::Series(number), stroke, points);
             }
         }
-        for (word, shape) in [
-            ("fold", Shape::Triangle),
-            ("branch point", Shape::Square),
-            ("stiffness is lost", Shape::Cross),
-        ] {
+        for (word, shape) in
+            [("fold", Shape::Triangle), ("branch point", Shape::Square), ("stiffness is lost", Shape::Cross)]
+        {
             let here = special.iter().filter(|x| kind(x).0 == word);
             let points = here.filter_map(|point| place(point.value, &point.equilibrium));
             panel.markers(word, Colour::Black, shape, points);
@@ -110,12 +105,7 @@ fn holds(point: &BranchPoint) -> bool {
 }
 
 /// A stretch of a branch and, if it begins or ends between two points, those two points.
-type Joined<'a> = (
-    Stability,
-    &'a [BranchPoint],
-    Option<[&'a BranchPoint; 2]>,
-    Option<[&'a BranchPoint; 2]>,
-);
+type Joined<'a> = (Stability, &'a [BranchPoint], Option<[&'a BranchPoint; 2]>, Option<[&'a BranchPoint; 2]>);
 
 /// The stretches of a branch. Where stability changes away from special points, as at a flutter onset, no point belongs
 /// to both stretches.
@@ -140,13 +130,7 @@ fn between(a: Point, b: Point) -> Point {
 }
 
 /// Adds a stretch to the curve with the same look, so that the legend lists it once.
-fn add(
-    panel: &mut Panel,
-    label: String,
-    colour: Colour,
-    stroke: Stroke,
-    points: Vec<Option<Point>>,
-) {
+fn add(panel: &mut Panel, label: String, colour: Colour, stroke: Stroke, points: Vec<Option<Point>>) {
     let curve = Curve::new(label, colour, points).stroke(stroke);
     let known = |x: &&mut Curve| x.label == curve.label && x.stroke == stroke;
     match panel.curves.iter_mut().find(known) {
@@ -158,17 +142,12 @@ fn add(
 }
 
 fn about(d: &Description, result: &Branches) -> Vec<String> {
-    let first = result
-        .branches
-        .iter()
-        .flat_map(|branch| &branch.points)
-        .next();
+    let first = result.branches.iter().flat_map(|branch| &branch.points).next();
     let input = result.branches.first().map(|branch| branch.input);
     match first {
-        Some(point) => vec![
-            operating_point(d, &point.equilibrium.inputs, input),
-            design(d, &point.equilibrium.design, &[]),
-        ],
+        Some(point) => {
+            vec![operating_point(d, &point.equilibrium.inputs, input), design(d, &point.equilibrium.design, &[])]
+        }
         None => Vec::new(),
     }
 }
@@ -177,12 +156,8 @@ fn about(d: &Description, result: &Branches) -> Vec<String> {
 fn kind(point: &SpecialPoint) -> (&'static str, &'static str) {
     match point.kind {
         SpecialKind::Fold => ("fold", "fold"),
-        SpecialKind::Pitchfork {
-            supercritical: Some(true),
-        } => ("branch point", "pitchfork, supercritical"),
-        SpecialKind::Pitchfork {
-            supercritical: Some(false),
-        } => ("branch point", "pitchfork, subcritical"),
+        SpecialKind::Pitchfork { supercritical: Some(true) } => ("branch point", "pitchfork, supercritical"),
+        SpecialKind::Pitchfork { supercritical: Some(false) } => ("branch point", "pitchfork, subcritical"),
         SpecialKind::Pitchfork { .. } => ("branch point", "pitchfork"),
         SpecialKind::Transcritical => ("branch point", "transcritical"),
         _ => ("stiffness is lost", "stiffness is lost"),

@@ -58,36 +58,23 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
             panel.curve(curve);
         }
     }
-    let curves = panel
-        .curves
-        .iter()
-        .flat_map(|curve| &curve.pieces)
-        .flatten();
+    let curves = panel.curves.iter().flat_map(|curve| &curve.pieces).flatten();
     let markers = panel.markers.iter().flat_map(|marker| &marker.points);
-    let highest = curves
-        .chain(markers)
-        .fold(0.0, |most: f64, p| most.max(p[1]));
+    let highest = curves.chain(markers).fold(0.0, |most: f64, p| most.max(p[1]));
     if panel.is_empty() {
         return Err(Error::nothing("no mode oscillates at any of the values"));
     }
-    let top =
-        style
-            .top()
-            .unwrap_or_else(|| match (1.05 * highest, reached(&panel, result, scale)) {
-                (all, Some(reached)) if reached < all => reached,
-                (all, _) if all > 0.0 => all,
-                _ => 1.0,
-            });
+    let top = style.top().unwrap_or_else(|| match (1.05 * highest, reached(&panel, result, scale)) {
+        (all, Some(reached)) if reached < all => reached,
+        (all, _) if all > 0.0 => all,
+        _ => 1.0,
+    });
     let bottom = style.bottom().min(0.99 * top);
     panel.y.range = [bottom, top];
-    let times = bands(&mut panel, result, (style, top - bottom), scale, |x| {
-        x.frequency.as_ref()
-    });
+    let times = bands(&mut panel, result, (style, top - bottom), scale, |x| x.frequency.as_ref());
     let seen = |point: &Point| (bottom..=top).contains(&point[1]);
     let all = panel.curves.len();
-    panel
-        .curves
-        .retain(|curve| curve.pieces.iter().flatten().any(seen));
+    panel.curves.retain(|curve| curve.pieces.iter().flatten().any(seen));
     let beyond = all - panel.curves.len();
     orders(&mut panel, result, scale);
     panel.marks.extend(style.marks());
@@ -106,11 +93,7 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     caption.extend(lines);
     caption.extend(result.left_out());
     if beyond > 0 && style.top().is_none() {
-        let lines = if beyond == 1 {
-            "line lies"
-        } else {
-            "lines lie"
-        };
+        let lines = if beyond == 1 { "line lies" } else { "lines lie" };
         caption.push(format!("{beyond} more {lines} above the diagram"));
     }
     let title = style.titled(format!("{}: Campbell diagram", result.description.name));
@@ -134,11 +117,7 @@ fn reached(panel: &Panel, result: &Campbell, scale: f64) -> Option<f64> {
 
 /// Draws a motion in the colour of its mode; backward whirl is dashed, and if nothing whirls every mode has its own
 /// stroke.
-pub(super) fn oscillation(
-    track: &Track,
-    style: &Style,
-    height: impl Fn(&super::tracks::TrackPoint) -> f64,
-) -> Curve {
+pub(super) fn oscillation(track: &Track, style: &Style, height: impl Fn(&super::tracks::TrackPoint) -> f64) -> Curve {
     let character = match track.motion {
         Motion::Oscillation(character) => character,
         Motion::Real => None,
@@ -168,15 +147,9 @@ pub(super) fn bands(
     let unit = input_unit(&result.description, result.input);
     let quantity = |mode: &CampbellMode| {
         let spread = quantity(mode).filter(|_| !mode.clustered)?;
-        spread
-            .band
-            .is_finite()
-            .then_some((scale * spread.mean, scale * spread.band))
+        spread.band.is_finite().then_some((scale * spread.mean, scale * spread.band))
     };
-    let modes = result
-        .points
-        .iter()
-        .flat_map(|point| point.modes.iter().flatten());
+    let modes = result.points.iter().flat_map(|point| point.modes.iter().flatten());
     let times = match style.has_true_width() {
         true => 1.0,
         false => factor(modes.filter_map(quantity).map(|pair| pair.1), length),
@@ -220,11 +193,5 @@ fn orders(panel: &mut Panel, result: &Campbell, scale: f64) {
 
 /// Whether an event is a stability limit rather than a crossing of a line.
 pub(super) fn changes_stability(event: &Event) -> bool {
-    !matches!(
-        event,
-        Event::Crossing {
-            condition: Condition::Line(_),
-            ..
-        }
-    )
+    !matches!(event, Event::Crossing { condition: Condition::Line(_), .. })
 }

@@ -33,13 +33,9 @@ pub fn damping_ratios(result: &Campbell, style: &Style) -> Result<Figure, Error>
     let mut fitted = panel.clone();
     fitted.fit();
     let length = fitted.y.range[1] - fitted.y.range[0];
-    let times = bands(&mut panel, result, (style, length), 100.0, |x| {
-        x.damping_ratio.as_ref()
-    });
+    let times = bands(&mut panel, result, (style, length), 100.0, |x| x.damping_ratio.as_ref());
     panel.marks.extend(style.marks());
-    let lines = events::draw(&mut panel, result, style, |event| {
-        changes_stability(event).then_some(0.0)
-    });
+    let lines = events::draw(&mut panel, result, style, |event| changes_stability(event).then_some(0.0));
     panel.fit();
     if let Some(top) = style.top() {
         panel.y.range[1] = top;

@@ -54,9 +54,7 @@ pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
         panel.y.range = [-top, top];
     }
     panel.marks.extend(style.marks());
-    let lines = events::draw(&mut panel, result, style, |event| {
-        changes_stability(event).then_some(0.0)
-    });
+    let lines = events::draw(&mut panel, result, style, |event| changes_stability(event).then_some(0.0));
     panel.fit();
     panel.level_line(0.0);
     ends.write(&mut panel, style);
@@ -96,9 +94,7 @@ pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
         false => format!("{} {unit}", number(value)),
     };
     for (value, shape) in [(first, Shape::Ring), (last, Shape::Disc)] {
-        let states = all
-            .iter()
-            .flat_map(|track: &Track| track.pieces.iter().flatten());
+        let states = all.iter().flat_map(|track: &Track| track.pieces.iter().flatten());
         let here = states.filter(|state| state.value == value);
         let points: Vec<_> = here.map(|state| [state.s.re, state.s.im]).collect();
         let label = format!("{} = {}", course.axis().name, words(value));
@@ -112,10 +108,7 @@ pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
     if let Some(top) = style.top() {
         panel.y.range[1] = top;
     }
-    panel.marks.push(crate::figure::Mark {
-        label: "motions to the right grow".to_owned(),
-        at: 0.0,
-    });
+    panel.marks.push(crate::figure::Mark { label: "motions to the right grow".to_owned(), at: 0.0 });
     let caption = course.caption(style);
     let title = style.titled(format!("{}: root locus", course.description.name));
     Ok(Figure::new(title, caption, vec![panel]))

@@ -23,9 +23,7 @@ impl Ends {
         }
         let [low, high] = panel.y.range;
         for (label, points) in self.0 {
-            let seen = points
-                .into_iter()
-                .filter(|point| (low..=high).contains(&point[1]));
+            let seen = points.into_iter().filter(|point| (low..=high).contains(&point[1]));
             if let Some(last) = seen.max_by(|a, b| a[0].total_cmp(&b[0])) {
                 panel.label(last, style.mode(label));
             }

@@ -31,37 +31,20 @@ pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
             panels.len() - 1
         });
         let panel = &mut panels[index];
-        let value = |equilibrium: &Equilibrium| {
-            equilibrium
-                .coordinates
-                .get(k)
-                .map(|q| in_unit(*q, &info.unit))
-        };
-        for (stable, label) in [
-            (true, info.name.to_string()),
-            (false, format!("{}, unstable", info.name)),
-        ] {
-            let stroke = if stable {
-                Stroke::of(k % 3)
-            } else {
-                Stroke::Dotted
-            };
+        let value = |equilibrium: &Equilibrium| equilibrium.coordinates.get(k).map(|q| in_unit(*q, &info.unit));
+        for (stable, label) in [(true, info.name.to_string()), (false, format!("{}, unstable", info.name))] {
+            let stroke = if stable { Stroke::of(k % 3) } else { Stroke::Dotted };
             let points = stretch(&course, stable, value);
             panel.curve(Curve::new(label, Colour::Series(k), points).stroke(stroke));
         }
     }
     panels.retain(|panel| !panel.is_empty());
     if panels.is_empty() {
-        return Err(Error::nothing(
-            "there is no equilibrium at any of the values",
-        ));
+        return Err(Error::nothing("there is no equilibrium at any of the values"));
     }
     for panel in &mut panels {
         panel.marks.extend(style.marks());
-        panel.marks.extend(course.critical.iter().map(|&at| Mark {
-            label: format!("critical {}", number(at)),
-            at,
-        }));
+        panel.marks.extend(course.critical.iter().map(|&at| Mark { label: format!("critical {}", number(at)), at }));
     }
     let title = style.titled(format!("{}: equilibrium", course.description.name));
     Ok(Figure::new(title, course.caption(style), panels))
@@ -69,11 +52,7 @@ pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
 
 /// The stable or the unstable points; each stretch includes the first point of the next, so that they meet. At a
 /// critical value where the equilibrium does not jump, the curve leaves like a square root.
-fn stretch(
-    course: &Course<'_>,
-    stable: bool,
-    value: impl Fn(&Equilibrium) -> Option<f64>,
-) -> Vec<Option<Point>> {
+fn stretch(course: &Course<'_>, stable: bool, value: impl Fn(&Equilibrium) -> Option<f64>) -> Vec<Option<Point>> {
     let mut points = Vec::new();
     let mut before: Option<(Point, bool)> = None;
     for (at, state) in &course.equilibria {

@@ -14,22 +14,14 @@ const MOST: usize = 14;
 
 /// Events in the order of their numbers: crossings, critical values, flutter onsets, each ascending.
 pub(crate) fn events(campbell: &Campbell) -> Vec<&EventTolerance> {
-    let lists = [
-        &campbell.crossings,
-        &campbell.critical,
-        &campbell.flutter_onsets,
-    ];
+    let lists = [&campbell.crossings, &campbell.critical, &campbell.flutter_onsets];
     lists.into_iter().flatten().collect()
 }
 
 /// How an event is drawn.
 fn look(event: &Event) -> (&'static str, Shape) {
     match event {
-        Event::Crossing {
-            condition: Condition::Line(_),
-            whirl,
-            ..
-        } => match whirl.and_then(Whirl::sense) {
+        Event::Crossing { condition: Condition::Line(_), whirl, .. } => match whirl.and_then(Whirl::sense) {
             Some(Sense::Forward) => ("crossing, forward whirl", Shape::Ring),
             Some(Sense::Backward) => ("crossing, backward whirl", Shape::Triangle),
             _ => ("crossing", Shape::Square),
@@ -79,12 +71,7 @@ pub(crate) fn draw(
 
 fn line(index: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> String {
     let what = match event.event {
-        Event::Crossing {
-            mode,
-            condition: Condition::Line(line),
-            whirl,
-            ..
-        } => {
+        Event::Crossing { mode, condition: Condition::Line(line), whirl, .. } => {
             let name = style.whirling(mode, whirl.map(Whirl::character));
             let order = match line.ratio == 0.0 {
                 true => format!("{} rad/s", number(line.offset)),
@@ -97,10 +84,7 @@ fn line(index: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> Str
     };
     let value = with_unit(event.value, unit);
     match event.sigma() {
-        Some(sigma) => format!(
-            "({index}) {what} at {value}, sigma {}",
-            with_unit(sigma, unit)
-        ),
+        Some(sigma) => format!("({index}) {what} at {value}, sigma {}", with_unit(sigma, unit)),
         None => format!("({index}) {what} at {value}, without a derivative"),
     }
 }

@@ -56,12 +56,7 @@ impl<'a> Histogram<'a> {
     /// The histogram of the frequency of mode `mode`, from 0.
     #[must_use]
     pub fn new(sampled: &'a MonteCarlo, mode: usize) -> Self {
-        Self {
-            sampled,
-            mode,
-            first_order: None,
-            second_order: None,
-        }
+        Self { sampled, mode, first_order: None, second_order: None }
     }
 
     /// Adds the normal density with the first-order mean and standard deviation.
@@ -109,21 +104,13 @@ impl<'a> Histogram<'a> {
         });
         let label = format!("Monte Carlo, {} samples", statistics.count);
         panel.bars(label, Colour::Grey, bars.collect::<Vec<_>>());
-        let first = self
-            .first_order
-            .and_then(|first_order| first_order.modes.get(mode));
+        let first = self.first_order.and_then(|first_order| first_order.modes.get(mode));
         if let Some(spread) = first.and_then(ModeTolerance::frequency) {
             let points = normal(scale * spread.mean, scale * spread.sigma);
-            let curve = Curve::new(
-                "normal, mean and sigma of first order",
-                Colour::Series(0),
-                points,
-            );
+            let curve = Curve::new("normal, mean and sigma of first order", Colour::Series(0), points);
             panel.curve(curve);
         }
-        let second = self
-            .second_order
-            .map(|(x, tolerances)| (x.modes.get(mode), tolerances));
+        let second = self.second_order.map(|(x, tolerances)| (x.modes.get(mode), tolerances));
         if let Some((Some(Ok(expansion)), tolerances)) = second {
             let (model, moments) = (&expansion.frequency.model, &expansion.frequency.moments);
             let points = quadratic(model, tolerances, (moments.mean, moments.sigma), scale)?;
@@ -131,28 +118,17 @@ impl<'a> Histogram<'a> {
             panel.curve(curve.stroke(Stroke::Dashed));
         }
         let mut lines = vec![operating_point(d, &self.sampled.inputs, None), {
-            let (mean, sigma) = (
-                scale * statistics.mean,
-                statistics.sigma.map(|sigma| scale * sigma),
-            );
-            let sigma = sigma.map_or_else(String::new, |sigma| {
-                format!(", sigma {} {symbol}", number(sigma))
-            });
+            let (mean, sigma) = (scale * statistics.mean, statistics.sigma.map(|sigma| scale * sigma));
+            let sigma = sigma.map_or_else(String::new, |sigma| format!(", sigma {} {symbol}", number(sigma)));
             {
                 let samples = self.sampled.drawn();
-                format!(
-                    "Monte Carlo, {samples}: mean {} {symbol}{sigma}.",
-                    number(mean)
-                )
+                format!("Monte Carlo, {samples}: mean {} {symbol}{sigma}.", number(mean))
             }
         }];
         let counts = &self.sampled.counts;
         let lost = counts.total() - counts.stable;
         if lost > 0 {
-            lines.push(format!(
-                "{lost} of {} samples are not stable and not shown.",
-                counts.total()
-            ));
+            lines.push(format!("{lost} of {} samples are not stable and not shown.", counts.total()));
         }
         panel.fit();
         panel.y.range[0] = 0.0;
@@ -181,45 +157,30 @@ pub fn second_order_failure(result: &SecondOrderFailure, style: &Style) -> Resul
     }
     let unit = response.unit(d);
     let (scale, symbol) = match response {
-        Response::Mode {
-            quantity: Quantity::Frequency | Quantity::NaturalFrequency,
-            ..
-        } => style.frequency(None),
+        Response::Mode { quantity: Quantity::Frequency | Quantity::NaturalFrequency, .. } => style.frequency(None),
         _ => (unit.scale.recip(), &*unit.symbol),
     };
     let mut panel = density_panel(&name, symbol);
     panel.x.name.clone_from(&name);
     let (value, sigma) = (scale * margin.value, scale * margin.sigma);
     let points = normal(value, sigma);
-    panel.curve(Curve::new(
-        "normal, sigma of first order",
-        Colour::Series(0),
-        points,
-    ));
+    panel.curve(Curve::new("normal, sigma of first order", Colour::Series(0), points));
     panel.fit();
     panel.y.range[0] = 0.0;
     let bands = result.bands.iter();
     let bands: Vec<[f64; 2]> = bands.map(|band| [scale * band.0, scale * band.1]).collect();
     let near = |end: &&f64| end.is_finite() && (*end - value).abs() < 40.0 * sigma;
     for end in bands.as_flattened().iter().filter(near) {
-        panel.x.range = [
-            panel.x.range[0].min(end - sigma),
-            panel.x.range[1].max(end + sigma),
-        ];
+        panel.x.range = [panel.x.range[0].min(end - sigma), panel.x.range[1].max(end + sigma)];
     }
     let [left, right] = panel.x.range;
     let top = panel.y.range[1];
-    let bands = bands
-        .iter()
-        .map(|ends| ends.map(|end| end.clamp(left, right)));
+    let bands = bands.iter().map(|ends| ends.map(|end| end.clamp(left, right)));
     let bands: Vec<[f64; 2]> = bands.collect();
     for ends in &bands {
         panel.band("fails", Colour::Series(5), ends.map(|end| [end, 0.0, top]));
     }
-    panel.marks.push(Mark {
-        label: "nominal value".to_owned(),
-        at: value,
-    });
+    panel.marks.push(Mark { label: "nominal value".to_owned(), at: value });
     let chance = |value: f64| match value < NEGLIGIBLE {
         true => format!("below {} %", number(100.0 * NEGLIGIBLE)),
         false => format!("{} %", number(100.0 * value)),
@@ -237,10 +198,7 @@ pub fn second_order_failure(result: &SecondOrderFailure, style: &Style) -> Resul
         true => format!("; {} sigma away", number(margin.distance)),
         false => String::new(),
     };
-    let lines = vec![
-        operating_point(d, &result.inputs, None),
-        format!("{text}{distance}."),
-    ];
+    let lines = vec![operating_point(d, &result.inputs, None), format!("{text}{distance}.")];
     let title = style.titled(format!("{}: {}", d.name, result.wanted.text(d)));
     Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
 }
@@ -251,10 +209,7 @@ fn density_panel(name: &str, symbol: &str) -> Panel {
         "" => String::new(),
         other => format!("1/{}", other.trim_start_matches("1/")),
     };
-    Panel::new(
-        Axis::new(format!("frequency of {name}"), symbol),
-        Axis::new("density", per),
-    )
+    Panel::new(Axis::new(format!("frequency of {name}"), symbol), Axis::new("density", per))
 }
 
 fn normal(mean: f64, sigma: f64) -> Vec<Option<Point>> {

@@ -51,10 +51,7 @@ pub fn orbit<M>(
         let turn = Complex::from_polar(1.0, TAU * share);
         [across, up].map(|x| in_unit((x * turn).re, unit))
     };
-    let mut panel = Panel::new(
-        Axis::new(&*first.name, &*unit.symbol),
-        Axis::new(&*second.name, &*unit.symbol),
-    );
+    let mut panel = Panel::new(Axis::new(&*first.name, &*unit.symbol), Axis::new(&*second.name, &*unit.symbol));
     panel.equal_scales = true;
     let points = (0..=POINTS).map(|k| Some(at(k as f64 / POINTS as f64)));
     panel.curve(Curve::new("", Colour::Series(0), points));

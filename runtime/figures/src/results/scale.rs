@@ -8,12 +8,9 @@ const WIDEST: f64 = 0.12;
 /// The smallest factor of 1, 2, 5, 10, 20, 50, ..., 1000 that makes the typical half-width visible on an axis of this
 /// length, unless the widest band would then hide its surroundings.
 pub(crate) fn factor(half_widths: impl Iterator<Item = f64>, length: f64) -> f64 {
-    let mut all: Vec<f64> = half_widths
-        .filter(|half_width| half_width.is_finite() && *half_width > 0.0)
-        .collect();
+    let mut all: Vec<f64> = half_widths.filter(|half_width| half_width.is_finite() && *half_width > 0.0).collect();
     all.sort_by(f64::total_cmp);
-    let (Some(typical), Some(widest)) = (all.get(all.len() / 2), all.get(all.len() * 9 / 10))
-    else {
+    let (Some(typical), Some(widest)) = (all.get(all.len() / 2), all.get(all.len() * 9 / 10)) else {
         return 1.0;
     };
     let steps = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];

@@ -27,40 +27,22 @@ const WIDEST: f64 = 0.25;
 pub fn mode_shapes(result: &Modes, style: &Style) -> Result<Figure, Error> {
     let shown = shown(result)?;
     let real = |mode: &&Mode| {
-        let whole = mode
-            .shape
-            .iter()
-            .map(|component| component.norm())
-            .fold(0.0, f64::max);
-        mode.shape
-            .iter()
-            .all(|component| component.im.abs() <= 1e-9 * whole)
+        let whole = mode.shape.iter().map(|component| component.norm()).fold(0.0, f64::max);
+        mode.shape.iter().all(|component| component.im.abs() <= 1e-9 * whole)
     };
     let real = shown.iter().all(real);
     let mut upper = panel(result, if real { "shape" } else { "magnitude" }, "");
     let mut lower = panel(result, "phase", "deg");
     for (r, mode) in shown.iter().enumerate() {
         let components = relative(result, mode);
-        let heights = components
-            .iter()
-            .map(|x| if real { x.re } else { x.norm() });
+        let heights = components.iter().map(|x| if real { x.re } else { x.norm() });
         let bars: Vec<[f64; 4]> = columns(heights, r, shown.len()).collect();
         upper.bars(label(mode, style), Colour::Series(r), bars);
-        let phases = columns(
-            components.iter().map(|x| x.arg().to_degrees()),
-            r,
-            shown.len(),
-        );
+        let phases = columns(components.iter().map(|x| x.arg().to_degrees()), r, shown.len());
         let phases = phases.zip(&components).filter(|(_, x)| x.norm() >= VISIBLE);
-        let points = phases.map(|([left, right, low, high], _)| {
-            [0.5 * (left + right), if low < 0.0 { low } else { high }]
-        });
-        lower.markers(
-            "",
-            Colour::Series(r),
-            Shape::of(r),
-            points.collect::<Vec<_>>(),
-        );
+        let points =
+            phases.map(|([left, right, low, high], _)| [0.5 * (left + right), if low < 0.0 { low } else { high }]);
+        lower.markers("", Colour::Series(r), Shape::of(r), points.collect::<Vec<_>>());
     }
     let panels = if real {
         upper.fit();
@@ -72,9 +54,7 @@ pub fn mode_shapes(result: &Modes, style: &Style) -> Result<Figure, Error> {
         vec![upper, lower]
     };
     let mut caption = caption(result);
-    let mut units: Vec<&str> = resting(result)
-        .map(|k| &*result.description.coordinates[k].unit.symbol)
-        .collect();
+    let mut units: Vec<&str> = resting(result).map(|k| &*result.description.coordinates[k].unit.symbol).collect();
     units.dedup();
     if units.len() > 1 {
         caption.push("Coordinates in rad and in m do not compare.".to_owned());
@@ -97,16 +77,11 @@ pub fn participation(result: &Modes, at: &Equilibrium, style: &Style) -> Result<
     for (r, mode) in shown.iter().enumerate() {
         let product = |i: usize| -> Option<f64> {
             let row = mass.iter().nth(i)?;
-            let complex: Complex = row
-                .iter()
-                .zip(mode.shape.iter())
-                .map(|(m, phi)| phi * *m)
-                .sum();
+            let complex: Complex = row.iter().zip(mode.shape.iter()).map(|(m, phi)| phi * *m).sum();
             Some((mode.shape.get(i)?.conj() * complex).re)
         };
         let all: Option<Vec<f64>> = (0..mode.shape.len()).map(product).collect();
-        let all =
-            all.ok_or_else(|| Error::nothing("the equilibrium is that of another mechanism"))?;
+        let all = all.ok_or_else(|| Error::nothing("the equilibrium is that of another mechanism"))?;
         let whole: f64 = all.iter().sum();
         let percentages = resting(result).map(|k| 100.0 * all[k] / whole);
         let bars: Vec<[f64; 4]> = columns(percentages, r, shown.len()).collect();
@@ -118,10 +93,7 @@ pub fn participation(result: &Modes, at: &Equilibrium, style: &Style) -> Result<
     let mut caption = caption(result);
     caption.insert(1, design(&result.description, &at.design, &[]));
     let caption = with_notes(caption, style, &result.description);
-    let title = style.titled(format!(
-        "{}: what moves in each mode",
-        result.description.name
-    ));
+    let title = style.titled(format!("{}: what moves in each mode", result.description.name));
     Ok(Figure::new(title, caption, vec![panel]))
 }
 
@@ -136,28 +108,18 @@ fn shown(result: &Modes) -> Result<Vec<&Mode>, Error> {
 /// Coordinates and speeds; reactions are not part of the motion.
 fn resting(result: &Modes) -> impl Iterator<Item = usize> + '_ {
     let infos = result.description.coordinates.iter().enumerate();
-    infos
-        .filter(|(_, info)| matches!(info.role, Role::Position | Role::Speed))
-        .map(|(k, _)| k)
+    infos.filter(|(_, info)| matches!(info.role, Role::Position | Role::Speed)).map(|(k, _)| k)
 }
 
 fn panel(result: &Modes, name: &str, unit: &str) -> Panel {
     let names = resting(result).map(|k| result.description.coordinates[k].name.to_string());
-    Panel::new(
-        Axis::of_categories("", names.collect()),
-        Axis::new(name, unit),
-    )
+    Panel::new(Axis::of_categories("", names.collect()), Axis::new(name, unit))
 }
 
 /// Components divided by the largest one, whose phase is zero.
 fn relative(result: &Modes, mode: &Mode) -> Vec<Complex> {
-    let complexes: Vec<Complex> = resting(result)
-        .filter_map(|k| mode.shape.get(k).copied())
-        .collect();
-    let largest = complexes
-        .iter()
-        .copied()
-        .max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let complexes: Vec<Complex> = resting(result).filter_map(|k| mode.shape.get(k).copied()).collect();
+    let largest = complexes.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm()));
     match largest.filter(|largest| largest.norm() > 0.0) {
         Some(largest) => complexes.iter().map(|x| x / largest).collect(),
         None => complexes,
@@ -165,11 +127,7 @@ fn relative(result: &Modes, mode: &Mode) -> Vec<Complex> {
 }
 
 /// Bars of mode `r` of `modes`, side by side with the others, one for each coordinate.
-fn columns(
-    heights: impl Iterator<Item = f64>,
-    r: usize,
-    modes: usize,
-) -> impl Iterator<Item = [f64; 4]> {
+fn columns(heights: impl Iterator<Item = f64>, r: usize, modes: usize) -> impl Iterator<Item = [f64; 4]> {
     let width = (2.0 * HALF / modes as f64).min(WIDEST);
     heights.enumerate().map(move |(k, height)| {
         let left = k as f64 + width * (r as f64 - 0.5 * modes as f64);

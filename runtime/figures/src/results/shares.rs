@@ -27,15 +27,9 @@ const PANELS: usize = 4;
 pub fn shares(result: &FirstOrder, mode: usize, style: &Style) -> Result<Figure, Error> {
     let panel = panel(result, mode, "")?;
     let name = style.mode(mode);
-    let lines = vec![
-        operating_point(&result.description, &result.inputs, None),
-        spread(result, mode, style),
-    ];
+    let lines = vec![operating_point(&result.description, &result.inputs, None), spread(result, mode, style)];
     let d = &*result.description;
-    let title = style.titled(format!(
-        "{}: where the variance of {name} comes from",
-        d.name
-    ));
+    let title = style.titled(format!("{}: where the variance of {name} comes from", d.name));
     Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
 }
 
@@ -49,10 +43,7 @@ pub fn shares_of_all(result: &FirstOrder, style: &Style) -> Result<Figure, Error
     let mut panels = Vec::new();
     for mode in 0..result.modes.len() {
         if panels.len() == PANELS {
-            lines.push(format!(
-                "The first {PANELS} modes of {}.",
-                result.modes.len()
-            ));
+            lines.push(format!("The first {PANELS} modes of {}.", result.modes.len()));
             break;
         }
         let name = style.mode(mode);
@@ -75,19 +66,11 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
     let modes = result.modes.len();
     let this_mode = result.modes.get(mode);
     let this_mode = this_mode.ok_or(Error::UnknownMode { mode, modes })?;
-    let shares = this_mode
-        .variance_shares()
-        .iter()
-        .zip(result.description.design.iter());
+    let shares = this_mode.variance_shares().iter().zip(result.description.design.iter());
     let shares = shares.map(|(share, info)| (info.name.to_string(), 100.0 * share));
-    let mut all: Vec<(String, f64)> = shares
-        .filter(|(_, share)| share.is_finite() && *share != 0.0)
-        .collect();
+    let mut all: Vec<(String, f64)> = shares.filter(|(_, share)| share.is_finite() && *share != 0.0).collect();
     if all.is_empty() {
-        return Err(Error::nothing(format!(
-            "no tolerance moves mode {}",
-            mode + 1
-        )));
+        return Err(Error::nothing(format!("no tolerance moves mode {}", mode + 1)));
     }
     all.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
     if all.len() > MOST {
@@ -117,9 +100,7 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
         panel.label([share.max(0.0), k as f64], text);
     }
     let ends = all.iter().map(|pair| pair.1);
-    let [low, high] = ends.fold([0.0_f64, 0.0_f64], |[low, high], share| {
-        [low.min(share), high.max(share)]
-    });
+    let [low, high] = ends.fold([0.0_f64, 0.0_f64], |[low, high], share| [low.min(share), high.max(share)]);
     panel.x.range = [1.1 * low, high + 0.12 * (high - low)];
     Ok(panel)
 }

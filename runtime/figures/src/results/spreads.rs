@@ -57,11 +57,7 @@ impl<'a> Spreads<'a> {
     /// The spread of the frequency of mode `mode`, from 0, along `input`.
     #[must_use]
     pub fn new(input: Input, mode: usize) -> Self {
-        Self {
-            input,
-            mode,
-            series: Vec::new(),
-        }
+        Self { input, mode, series: Vec::new() }
     }
 
     /// Adds the results for one set of tolerances, labelled `label`.
@@ -69,17 +65,8 @@ impl<'a> Spreads<'a> {
     /// First order is a line, samples are points with their standard errors. Either list may be empty; the input values
     /// are taken from the results.
     #[must_use]
-    pub fn under(
-        mut self,
-        label: impl Into<String>,
-        first_order: &'a [FirstOrder],
-        sampled: &'a [MonteCarlo],
-    ) -> Self {
-        self.series.push(Series {
-            label: label.into(),
-            first_order,
-            sampled,
-        });
+    pub fn under(mut self, label: impl Into<String>, first_order: &'a [FirstOrder], sampled: &'a [MonteCarlo]) -> Self {
+        self.series.push(Series { label: label.into(), first_order, sampled });
         self
     }
 
@@ -108,22 +95,14 @@ impl<'a> Spreads<'a> {
         }
         let mut caption = vec![operating_point(d, inputs, Some(self.input))];
         let highest = |points: Vec<f64>| points.into_iter().fold(0.0, f64::max);
-        let drawn = highest(
-            upper
-                .error_bars
-                .iter()
-                .flat_map(|error_bar| &error_bar.bars)
-                .map(|bar| bar.high[1])
-                .collect(),
-        );
+        let drawn =
+            highest(upper.error_bars.iter().flat_map(|error_bar| &error_bar.bars).map(|bar| bar.high[1]).collect());
         upper.fit();
         lower.fit();
         upper.y.range[0] = 0.0;
         if drawn > 0.0 && 1.3 * drawn < upper.y.range[1] {
             upper.y.range[1] = 1.3 * drawn;
-            caption.push(
-                "First order grows without bound at the critical value and is cut off.".to_owned(),
-            );
+            caption.push("First order grows without bound at the critical value and is cut off.".to_owned());
         }
         lower.x.range = upper.x.range;
         if let Some(monte_carlo) = self.series.iter().find_map(|x| x.sampled.first()) {
@@ -141,13 +120,7 @@ impl<'a> Spreads<'a> {
         Ok(Figure::new(title, with_notes(caption, style, d), panels))
     }
 
-    fn add(
-        &self,
-        series: &Series<'_>,
-        k: usize,
-        (d, scale): (&Description, f64),
-        [upper, lower]: [&mut Panel; 2],
-    ) {
+    fn add(&self, series: &Series<'_>, k: usize, (d, scale): (&Description, f64), [upper, lower]: [&mut Panel; 2]) {
         let unit = input_unit(d, self.input);
         let value = |inputs: &[f64]| Some(in_unit(*inputs.get(self.input.index())?, &unit));
         let nominal = |inputs: &[f64]| self.nominal(series, inputs);
@@ -155,11 +128,7 @@ impl<'a> Spreads<'a> {
             let spread = item.modes.get(self.mode)?.frequency()?;
             Some([value(&item.inputs)?, scale * spread.sigma])
         });
-        let curve = Curve::new(
-            format!("first order, {}", series.label),
-            Colour::Series(k),
-            points,
-        );
+        let curve = Curve::new(format!("first order, {}", series.label), Colour::Series(k), points);
         upper.curve(curve.stroke(Stroke::of(k)));
         let sampled = || {
             series.sampled.iter().filter_map(|item| {
@@ -172,25 +141,12 @@ impl<'a> Spreads<'a> {
             Some(ErrorBar::upright([at, scale * item.sigma?], half))
         });
         let label = format!("Monte Carlo, {}", series.label);
-        upper.error_bars(
-            label.clone(),
-            Colour::Series(k),
-            Shape::of(k),
-            sigmas.collect::<Vec<_>>(),
-        );
+        upper.error_bars(label.clone(), Colour::Series(k), Shape::of(k), sigmas.collect::<Vec<_>>());
         let means = sampled().filter_map(|(at, item, nominal)| {
             let half = scale * item.standard_error.unwrap_or(0.0);
-            Some(ErrorBar::upright(
-                [at, scale * (item.mean - nominal?)],
-                half,
-            ))
+            Some(ErrorBar::upright([at, scale * (item.mean - nominal?)], half))
         });
-        lower.error_bars(
-            label,
-            Colour::Series(k),
-            Shape::of(k),
-            means.collect::<Vec<_>>(),
-        );
+        lower.error_bars(label, Colour::Series(k), Shape::of(k), means.collect::<Vec<_>>());
     }
 
     /// The nominal frequency at these input values.

@@ -86,11 +86,7 @@ impl Lines {
         let known = |track: &Track| track.label == label && track.motion == motion;
         let existing = self.tracks.iter().position(known);
         let index = existing.unwrap_or_else(|| {
-            self.tracks.push(Track {
-                label,
-                motion,
-                pieces: Vec::new(),
-            });
+            self.tracks.push(Track { label, motion, pieces: Vec::new() });
             self.tracks.len() - 1
         });
         let pieces = &mut self.tracks[index].pieces;
@@ -103,14 +99,8 @@ impl Lines {
     /// Adds a mode that belongs to no line yet as a single point.
     fn alone(&mut self, station: &Station) {
         for sample in &station.modes {
-            let state = TrackPoint {
-                value: station.value,
-                s: sample.s,
-            };
-            let mut tracks = self
-                .tracks
-                .iter()
-                .filter(|track| track.label == sample.label);
+            let state = TrackPoint { value: station.value, s: sample.s };
+            let mut tracks = self.tracks.iter().filter(|track| track.label == sample.label);
             if !tracks.any(|item| item.pieces.iter().flatten().any(|known| *known == state)) {
                 self.stretch(sample.label, motion(sample, sample), &[state]);
             }
@@ -122,10 +112,8 @@ impl Lines {
             return;
         }
         let same = |a: &Sample, b: &Sample| a.label == b.label && a.oscillates == b.oscillates;
-        let turn = |value: &&f64| {
-            (from.value < **value && **value < to.value)
-                || (to.value < **value && **value < from.value)
-        };
+        let turn =
+            |value: &&f64| (from.value < **value && **value < to.value) || (to.value < **value && **value < from.value);
         let turn = critical.iter().find(turn).copied();
         // Undamped modes lose their stiffness where the softest frequency vanishes.
         let softest = turn.and_then(|_| softest(from));
@@ -179,14 +167,9 @@ impl Lines {
                     _ => continue,
                 },
             };
-            let share = if last > first {
-                first / (first - last)
-            } else {
-                0.5
-            };
-            let value = critical
-                .filter(|_| sample.s.re == 0.0)
-                .unwrap_or(pair.value + share * (single.value - pair.value));
+            let share = if last > first { first / (first - last) } else { 0.5 };
+            let value =
+                critical.filter(|_| sample.s.re == 0.0).unwrap_or(pair.value + share * (single.value - pair.value));
             let at = Complex::new(sample.s.re + share * (mean - sample.s.re), 0.0);
             self.half(&[sample], pair.value, value, at, backwards);
             self.half(&partners, single.value, value, at, !backwards);
@@ -209,16 +192,10 @@ impl Lines {
                     let t = k as f64 / STEPS as f64;
                     let middle = mean + t * (at.re - mean);
                     let root = (sample.s - mean) * (1.0 - t).sqrt();
-                    TrackPoint {
-                        value: station + t * (turn - station),
-                        s: Complex::new(middle + root.re, root.im),
-                    }
+                    TrackPoint { value: station + t * (turn - station), s: Complex::new(middle + root.re, root.im) }
                 })
                 .collect();
-            states[0] = TrackPoint {
-                value: station,
-                s: sample.s,
-            };
+            states[0] = TrackPoint { value: station, s: sample.s };
             if reverse {
                 states.reverse();
             }
@@ -228,10 +205,7 @@ impl Lines {
 }
 
 fn state(station: &Station, sample: &Sample) -> TrackPoint {
-    TrackPoint {
-        value: station.value,
-        s: sample.s,
-    }
+    TrackPoint { value: station.value, s: sample.s }
 }
 
 /// A step takes the kind and sense at its end or, if nothing spins there, at its beginning.
@@ -253,15 +227,9 @@ fn softest(station: &Station) -> Option<usize> {
 }
 
 /// Modes of `station` that continue in no mode of `other`.
-fn unmatched(
-    station: &Station,
-    other: &Station,
-    same: impl Fn(&Sample, &Sample) -> bool,
-) -> Vec<Sample> {
+fn unmatched(station: &Station, other: &Station, same: impl Fn(&Sample, &Sample) -> bool) -> Vec<Sample> {
     let modes = station.modes.iter().copied();
-    modes
-        .filter(|a| !other.modes.iter().any(|b| same(a, b)))
-        .collect()
+    modes.filter(|a| !other.modes.iter().any(|b| same(a, b))).collect()
 }
 
 fn middle(pair: &[&Sample]) -> f64 {
@@ -273,12 +241,7 @@ mod tests {
     use super::*;
 
     fn sample(label: usize, re: f64, im: f64) -> Sample {
-        Sample {
-            label,
-            s: Complex::new(re, im),
-            oscillates: im != 0.0,
-            character: None,
-        }
+        Sample { label, s: Complex::new(re, im), oscillates: im != 0.0, character: None }
     }
 
     fn station(value: f64, modes: Vec<Sample>) -> Station {
@@ -290,25 +253,16 @@ mod tests {
         // s = -1 +- sqrt(0.5 - v)
         let root = 0.5_f64.sqrt();
         let stations = [
-            station(
-                0.0,
-                vec![sample(0, -1.0 - root, 0.0), sample(1, -1.0 + root, 0.0)],
-            ),
+            station(0.0, vec![sample(0, -1.0 - root, 0.0), sample(1, -1.0 + root, 0.0)]),
             station(1.0, vec![sample(0, -1.0, root)]),
         ];
         let tracks = tracks(&stations, &[]);
         assert_eq!(tracks.len(), 3);
         for track in &tracks {
             let ends = [track.pieces[0].first(), track.pieces[0].last()];
-            let at_turn = ends
-                .into_iter()
-                .flatten()
-                .filter(|x| (x.value - 0.5).abs() < 1e-12);
+            let at_turn = ends.into_iter().flatten().filter(|x| (x.value - 0.5).abs() < 1e-12);
             let s: Vec<Complex> = at_turn.map(|at_turn| at_turn.s).collect();
-            assert!(
-                s.len() == 1 && (s[0] - Complex::new(-1.0, 0.0)).norm() < 1e-12,
-                "{track:?}"
-            );
+            assert!(s.len() == 1 && (s[0] - Complex::new(-1.0, 0.0)).norm() < 1e-12, "{track:?}");
             for state in &track.pieces[0] {
                 let exact = Complex::new(0.5 - state.value, 0.0).sqrt();
                 let (a, b) = (exact - 1.0, -exact - 1.0);
@@ -320,10 +274,7 @@ mod tests {
 
     #[test]
     fn an_undamped_frequency_reaches_zero_at_the_critical_value() {
-        let stations = [
-            station(0.0, vec![sample(0, 0.0, 2.0)]),
-            station(4.0, vec![sample(0, 0.0, 3.0)]),
-        ];
+        let stations = [station(0.0, vec![sample(0, 0.0, 2.0)]), station(4.0, vec![sample(0, 0.0, 3.0)])];
         let tracks = tracks(&stations, &[1.0]);
         let [track] = &tracks[..] else {
             panic!("{tracks:?}");
@@ -335,11 +286,8 @@ mod tests {
 
     #[test]
     fn a_failed_point_leaves_a_gap() {
-        let stations = [
-            station(0.0, vec![sample(0, 0.0, 2.0)]),
-            station(1.0, vec![]),
-            station(2.0, vec![sample(0, 0.0, 2.0)]),
-        ];
+        let stations =
+            [station(0.0, vec![sample(0, 0.0, 2.0)]), station(1.0, vec![]), station(2.0, vec![sample(0, 0.0, 2.0)])];
         let tracks = tracks(&stations, &[]);
         assert_eq!(tracks[0].pieces.len(), 2);
         assert!(tracks[0].pieces.iter().all(|piece| piece.len() == 1));

@@ -1,8 +1,8 @@
 //! Results with gaps, with a single point, and without content.
 
 use eigentol_figures::{
-    Error, Histogram, Style, branches, campbell, damping_ratios, eigenvalues, equilibria,
-    frequencies, mode_shapes, root_locus, shares,
+    Error, Histogram, Style, branches, campbell, damping_ratios, eigenvalues, equilibria, frequencies, mode_shapes,
+    root_locus, shares,
 };
 
 use crate::machines::{Pendulum, pendulum, rotor_diagram, save, values};
@@ -21,10 +21,7 @@ fn one_value_is_drawn_as_points() {
     ];
     for (k, figure) in drawn.into_iter().enumerate() {
         let figure = figure.unwrap();
-        assert!(
-            figure.panels.iter().any(|panel| !panel.markers.is_empty()),
-            "{k}"
-        );
+        assert!(figure.panels.iter().any(|panel| !panel.markers.is_empty()), "{k}");
         save(&figure, &format!("one_point_{k}"));
     }
 }
@@ -37,10 +34,7 @@ fn a_point_that_fails_leaves_a_gap() {
     let figure = frequencies(&sweep, &Style::default()).unwrap();
     assert_eq!(figure.panels[0].curves[0].pieces.len(), 2);
     save(&figure, "gap");
-    save(
-        &equilibria(&sweep, &Style::default()).unwrap(),
-        "gap_of_equilibrium",
-    );
+    save(&equilibria(&sweep, &Style::default()).unwrap(), "gap_of_equilibrium");
 }
 
 #[test]
@@ -79,8 +73,6 @@ fn a_mode_that_does_not_exist_is_an_error() {
     let error = shares(&study.first_order().unwrap(), 7, &Style::default()).unwrap_err();
     assert_eq!(error.to_string(), "there is no mode 8: the result has 1");
     let sampled = study.monte_carlo().unwrap();
-    let error = Histogram::new(&sampled, 1)
-        .figure(&Style::default())
-        .unwrap_err();
+    let error = Histogram::new(&sampled, 1).figure(&Style::default()).unwrap_err();
     assert!(matches!(error, Error::UnknownMode { mode: 1, modes: 1 }));
 }

@@ -6,37 +6,23 @@ use eigentol_figures::{Error, Figure, Style, campbell};
 use crate::machines::{rotor_diagram, save};
 
 fn line(slope: f64) -> Vec<Option<Point>> {
-    (0..=10)
-        .map(f64::from)
-        .map(|x| Some([x, slope * x]))
-        .collect()
+    (0..=10).map(f64::from).map(|x| Some([x, slope * x])).collect()
 }
 
 fn figure(curves: usize) -> Figure {
     let mut panel = Panel::new(Axis::new("speed", "rpm"), Axis::new("a < b & c", ""));
     for k in 0..curves {
-        panel.curve(Curve::new(
-            format!("curve {k}"),
-            Colour::Series(k),
-            line(k as f64),
-        ));
+        panel.curve(Curve::new(format!("curve {k}"), Colour::Series(k), line(k as f64)));
     }
-    panel.marks.push(Mark {
-        label: "here".to_owned(),
-        at: 3.0,
-    });
+    panel.marks.push(Mark { label: "here".to_owned(), at: 3.0 });
     Figure::new("lines", vec!["a caption".to_owned()], vec![panel])
 }
 
 /// Counts lines as thick as curves.
 fn thick_lines(text: &str) -> usize {
     let document = roxmltree::Document::parse(text).expect("the file is XML");
-    let lines = document
-        .descendants()
-        .filter(|node| node.has_tag_name("polyline"));
-    lines
-        .filter(|node| node.attribute("stroke-width") == Some("6"))
-        .count()
+    let lines = document.descendants().filter(|node| node.has_tag_name("polyline"));
+    lines.filter(|node| node.attribute("stroke-width") == Some("6")).count()
 }
 
 #[test]
@@ -51,19 +37,8 @@ fn a_solid_curve_is_one_line_and_one_in_the_legend() {
 fn words_are_text_of_the_file() {
     let text = figure(1).svg().unwrap();
     let document = roxmltree::Document::parse(&text).unwrap();
-    let words: Vec<&str> = document
-        .descendants()
-        .filter_map(|node| node.text())
-        .map(str::trim)
-        .collect();
-    for expected in [
-        "lines",
-        "curve 0",
-        "here",
-        "a caption",
-        "speed [rpm]",
-        "a < b & c",
-    ] {
+    let words: Vec<&str> = document.descendants().filter_map(|node| node.text()).map(str::trim).collect();
+    for expected in ["lines", "curve 0", "here", "a caption", "speed [rpm]", "a < b & c"] {
         assert!(words.contains(&expected), "{expected}: {words:?}");
     }
 }
@@ -80,10 +55,7 @@ fn a_figure_is_data() {
 
 #[test]
 fn an_empty_figure_can_be_drawn() {
-    for figure in [
-        Figure::default(),
-        Figure::new("", vec![], vec![Panel::default()]),
-    ] {
+    for figure in [Figure::default(), Figure::new("", vec![], vec![Panel::default()])] {
         let text = figure.svg().unwrap();
         assert!(roxmltree::Document::parse(&text).is_ok());
     }
@@ -109,22 +81,14 @@ fn the_ending_of_a_file_decides() {
 #[test]
 fn a_png_file_has_dark_letters_on_white() {
     let bytes = figure(2).png().unwrap();
-    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-        .read_info()
-        .unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut pixels).unwrap();
     assert_eq!(info.width, 2880);
     let row = 3 * info.width as usize;
     // The title is in the top 48 rows of pixels as shown, each three rows of the file.
     let title = &pixels[..144 * row];
-    let dark = title
-        .chunks(3)
-        .filter(|chunk| chunk.iter().all(|c| *c < 80))
-        .count();
-    let white = title
-        .chunks(3)
-        .filter(|chunk| chunk.iter().all(|c| *c == 255))
-        .count();
+    let dark = title.chunks(3).filter(|chunk| chunk.iter().all(|c| *c < 80)).count();
+    let white = title.chunks(3).filter(|chunk| chunk.iter().all(|c| *c == 255)).count();
     assert!(dark > 300 && white > 100 * dark / 2, "{dark} {white}");
 }

@@ -15,9 +15,7 @@ use crate::machines::{Unbalanced, save, values};
 const RPM: f64 = TAU / 60.0;
 
 fn study() -> Study<Unbalanced> {
-    Study::new(Unbalanced)
-        .input(Unbalanced::speed, 1100.0 * RPM)
-        .samples(500)
+    Study::new(Unbalanced).input(Unbalanced::speed, 1100.0 * RPM).samples(500)
 }
 
 fn right() -> Vibration {
@@ -25,10 +23,7 @@ fn right() -> Vibration {
 }
 
 fn swept(count: usize) -> Bode {
-    let speeds: Vec<f64> = values(400.0, 1800.0, count)
-        .iter()
-        .map(|value| value * RPM)
-        .collect();
+    let speeds: Vec<f64> = values(400.0, 1800.0, count).iter().map(|value| value * RPM).collect();
     let found = study().bode(Unbalanced::speed, &speeds);
     found.expect("it vibrates at every speed")
 }
@@ -47,24 +42,13 @@ fn line(panel: &Panel) -> Vec<Point> {
 #[test]
 fn a_bode_plot_has_amplitude_and_unwrapped_phase() {
     let figure = bode(&swept(141), right(), &[], &Style::default()).unwrap();
-    let [upper, lower] = &figure.panels[..] else {
-        panic!("two panels")
-    };
-    assert_eq!(
-        (&*upper.x.unit, &*upper.y.unit, &*lower.y.unit),
-        ("rpm", "m", "deg")
-    );
+    let [upper, lower] = &figure.panels[..] else { panic!("two panels") };
+    assert_eq!((&*upper.x.unit, &*upper.y.unit, &*lower.y.unit), ("rpm", "m", "deg"));
     assert_eq!(upper.y.range[0], 0.0);
     for (amplitude, phase) in line(upper).iter().zip(line(lower)) {
         let own = expected(amplitude[0]);
-        assert!(
-            (amplitude[1] / own.norm() - 1.0).abs() < 1e-9,
-            "{amplitude:?}"
-        );
-        assert!(
-            (phase[1] - own.arg().to_degrees()).abs() < 1e-6,
-            "{phase:?}"
-        );
+        assert!((amplitude[1] / own.norm() - 1.0).abs() < 1e-9, "{amplitude:?}");
+        assert!((phase[1] - own.arg().to_degrees()).abs() < 1e-6, "{phase:?}");
     }
     assert_eq!(line(upper).len(), 141);
     assert!(figure.caption.iter().any(|own| own.contains("0 to peak")));
@@ -75,18 +59,11 @@ fn a_bode_plot_has_amplitude_and_unwrapped_phase() {
 #[test]
 fn a_phase_does_not_jump_by_a_turn() {
     let result = swept(141);
-    let figure = bode(
-        &result,
-        right().measure(Measure::Acceleration),
-        &[],
-        &Style::default(),
-    );
+    let figure = bode(&result, right().measure(Measure::Acceleration), &[], &Style::default());
     let figure = figure.unwrap();
     assert_eq!(figure.panels[0].y.unit, "m/s^2");
     let phases = line(&figure.panels[1]);
-    let steps = phases
-        .windows(2)
-        .map(|pair| (pair[1][1] - pair[0][1]).abs());
+    let steps = phases.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs());
     assert!(steps.fold(0.0, f64::max) < 90.0);
     let travel = phases[140][1] - phases[0][1];
     let turned = (expected(1800.0) / expected(400.0)).arg().to_degrees();
@@ -96,16 +73,9 @@ fn a_phase_does_not_jump_by_a_turn() {
 
 #[test]
 fn bands_and_peaks_are_those_of_the_results() {
-    let speeds: Vec<f64> = values(800.0, 1200.0, 21)
-        .iter()
-        .map(|value| value * RPM)
-        .collect();
-    let result = study()
-        .bode_bands(Unbalanced::speed, &speeds, &[right()], 0)
-        .unwrap();
-    let found = study()
-        .peaks(right(), Unbalanced::speed, 400.0 * RPM, 1800.0 * RPM)
-        .unwrap();
+    let speeds: Vec<f64> = values(800.0, 1200.0, 21).iter().map(|value| value * RPM).collect();
+    let result = study().bode_bands(Unbalanced::speed, &speeds, &[right()], 0).unwrap();
+    let found = study().peaks(right(), Unbalanced::speed, 400.0 * RPM, 1800.0 * RPM).unwrap();
     let peaks = [found];
     let style = Style::of(&study()).mark(1100.0, "running speed");
     let figure = bode(&result, right(), &peaks, &style).unwrap();
@@ -128,29 +98,12 @@ fn bands_and_peaks_are_those_of_the_results() {
     assert!((bar.high[0] - bar.at[0] - half).abs() < 1e-9);
     let sides = &upper.markers[0];
     assert_eq!((&*sides.label, sides.points.len()), ("half power", 2));
-    assert!(
-        figure
-            .caption
-            .iter()
-            .any(|peak| peak.starts_with("(1) peak of "))
-    );
-    assert!(
-        figure
-            .caption
-            .iter()
-            .any(|peak| peak.contains("2.3 to 97.7 %")),
-        "{:?}",
-        figure.caption
-    );
+    assert!(figure.caption.iter().any(|peak| peak.starts_with("(1) peak of ")));
+    assert!(figure.caption.iter().any(|peak| peak.contains("2.3 to 97.7 %")), "{:?}", figure.caption);
     save(&figure, "bode_bands");
     let figure = polar(&swept(281), right(), &peaks, &style).unwrap();
     assert!(figure.panels[0].equal_scales);
-    assert!(
-        figure
-            .caption
-            .iter()
-            .any(|peak| peak.starts_with("(1) peak of "))
-    );
+    assert!(figure.caption.iter().any(|peak| peak.starts_with("(1) peak of ")));
     save(&figure, "polar");
     // Those of another vibration do not belong here.
     let up = Vibration::new(Unbalanced::up, Unbalanced::residual);
@@ -174,12 +127,7 @@ fn a_polar_plot_is_the_path_of_the_complex_amplitude() {
 fn an_orbit_is_passed_in_its_sense() {
     let style = Style::default();
     let found = study().forced_response().unwrap();
-    let figure = orbit(
-        &found,
-        [Unbalanced::right, Unbalanced::up],
-        Unbalanced::residual,
-        &style,
-    );
+    let figure = orbit(&found, [Unbalanced::right, Unbalanced::up], Unbalanced::residual, &style);
     let figure = figure.unwrap();
     let points = line(&figure.panels[0]);
     let [x, y] = [0, 1].map(|k| found.harmonics[0].outputs[k].expect("an amplitude"));
@@ -188,24 +136,12 @@ fn an_orbit_is_passed_in_its_sense() {
     let turn = Complex::from_polar(1.0, FRAC_PI_2);
     assert!((points[45][0] - (x * turn).re).abs() < 1e-15);
     let word = |figure: &eigentol_figures::Figure, word: &str| {
-        assert!(
-            figure.caption.iter().any(|own| own.contains(word)),
-            "{:?}",
-            figure.caption
-        );
+        assert!(figure.caption.iter().any(|own| own.contains(word)), "{:?}", figure.caption);
     };
     word(&figure, "passed backward, from up to right");
     save(&figure, "orbit");
-    let slow = study()
-        .input(Unbalanced::speed, 400.0 * RPM)
-        .forced_response()
-        .unwrap();
-    let figure = orbit(
-        &slow,
-        [Unbalanced::right, Unbalanced::up],
-        Unbalanced::residual,
-        &style,
-    );
+    let slow = study().input(Unbalanced::speed, 400.0 * RPM).forced_response().unwrap();
+    let figure = orbit(&slow, [Unbalanced::right, Unbalanced::up], Unbalanced::residual, &style);
     word(&figure.unwrap(), "passed forward, from right to up");
     let mixed = [Unbalanced::right, Unbalanced::turned];
     let error = orbit(&found, mixed, Unbalanced::residual, &style).unwrap_err();
@@ -216,8 +152,7 @@ fn an_orbit_is_passed_in_its_sense() {
 fn a_point_without_a_vibration_leaves_a_gap() {
     let speeds = [800.0, 850.0, f64::NAN, 900.0, 950.0].map(|x| x * RPM);
     let result = study().bode(Unbalanced::speed, &speeds).unwrap();
-    for figure in [bode, polar].map(|draw| draw(&result, right(), &[], &Style::default()).unwrap())
-    {
+    for figure in [bode, polar].map(|draw| draw(&result, right(), &[], &Style::default()).unwrap()) {
         for panel in &figure.panels {
             assert_eq!(panel.curves[0].pieces.len(), 2);
         }

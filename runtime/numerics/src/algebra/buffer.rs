@@ -15,11 +15,7 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     /// `count` copies of `value`.
     #[inline]
     pub(super) fn filled(count: usize, value: T) -> Self {
-        if count <= FEW {
-            Self::Few(count, [value; FEW])
-        } else {
-            Self::Many(vec![value; count])
-        }
+        if count <= FEW { Self::Few(count, [value; FEW]) } else { Self::Many(vec![value; count]) }
     }
 
     #[inline]
@@ -99,11 +95,7 @@ impl<T: Copy + Default, const FEW: usize> FromIterator<T> for Buffer<T, FEW> {
             return Self::Few(count, few);
         }
         let values: Vec<T> = values.collect();
-        if values.len() <= FEW {
-            Self::from_slice(&values)
-        } else {
-            Self::Many(values)
-        }
+        if values.len() <= FEW { Self::from_slice(&values) } else { Self::Many(values) }
     }
 }
 

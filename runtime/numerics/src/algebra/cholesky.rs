@@ -95,12 +95,7 @@ impl Cholesky {
 
 /// [`Cholesky::factor_of`] for matrices given row by row.
 #[inline(always)]
-pub fn factor_rows(
-    n: usize,
-    matrix: &[f64],
-    lower: &mut [f64],
-    pivots: &mut [f64],
-) -> Result<(), usize> {
+pub fn factor_rows(n: usize, matrix: &[f64], lower: &mut [f64], pivots: &mut [f64]) -> Result<(), usize> {
     let threshold = 8.0 * n as f64 * f64::EPSILON;
     let (matrix, lower, pivots) = (&matrix[..n * n], &mut lower[..n * n], &mut pivots[..n]);
     for i in 0..n {
@@ -158,9 +153,7 @@ mod tests {
     fn it_solves() {
         let matrix = Matrix::from([[4.0, 1.0, 0.5], [1.0, 3.0, -1.0], [0.5, -1.0, 5.0]]);
         let x = [1.0, -2.0, 3.0];
-        let Ok(factors) = Cholesky::new(&matrix) else {
-            panic!("positive definite")
-        };
+        let Ok(factors) = Cholesky::new(&matrix) else { panic!("positive definite") };
         let solution = factors.solve(&times(&matrix, &x));
         assert!(largest(&add_scaled(&solution, -1.0, &x)) < 1e-14);
     }

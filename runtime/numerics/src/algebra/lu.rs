@@ -52,11 +52,7 @@ impl<T: Field> Lu<T> {
     /// Like [`Self::new`], in place.
     pub fn of(matrix: Matrix<T>) -> Option<Self> {
         let n = matrix.row_count();
-        let mut lu = Self {
-            factors: matrix,
-            order: (0..n).collect(),
-            odd: false,
-        };
+        let mut lu = Self { factors: matrix, order: (0..n).collect(), odd: false };
         let regular = for_size(
             n,
             #[inline(always)]
@@ -215,9 +211,7 @@ fn minus<T: Field>(sum: T, factor: T, value: T) -> T {
 fn pivot_row<T: Field>(n: usize, k: usize, factors: &[T], size: &[f64]) -> Option<usize> {
     let threshold = 8.0 * n as f64 * f64::EPSILON;
     let known = |i: usize| {
-        let subtracted = (0..k).fold(0.0, |sum, m| {
-            sum + factors[i * n + m].size() * factors[m * n + k].size()
-        });
+        let subtracted = (0..k).fold(0.0, |sum, m| sum + factors[i * n + m].size() * factors[m * n + k].size());
         factors[i * n + k].size() > threshold * subtracted
     };
     let (mut best, mut most) = (k, 0.0);
@@ -248,9 +242,7 @@ impl Lu<f64> {
 
     /// Whether the determinant is negative.
     pub fn negative_determinant(&self) -> bool {
-        (0..self.order.len()).fold(self.odd, |negative, i| {
-            negative != (self.factors[i][i] < 0.0)
-        })
+        (0..self.order.len()).fold(self.odd, |negative, i| negative != (self.factors[i][i] < 0.0))
     }
 }
 
@@ -264,9 +256,7 @@ mod tests {
     fn it_solves() {
         let matrix = Matrix::from([[4.0, 1.0, 0.5], [1.0, 3.0, -1.0], [0.5, -1.0, 5.0]]);
         let x = [1.0, -2.0, 3.0];
-        let Some(lu) = Lu::new(&matrix) else {
-            panic!("regular")
-        };
+        let Some(lu) = Lu::new(&matrix) else { panic!("regular") };
         let solution = lu.solve(&times(&matrix, &x));
         assert!(largest(&add_scaled(&solution, -1.0, &x)) < 1e-14);
         assert!(!lu.negative_determinant());
@@ -289,9 +279,7 @@ mod tests {
         for exponent in [-200, -60, 0, 60, 200] {
             let unit = 2f64.powi(exponent);
             let matrix = tied(unit, 3.0 * unit);
-            let Some(lu) = Lu::new(&matrix) else {
-                panic!("regular at {exponent}")
-            };
+            let Some(lu) = Lu::new(&matrix) else { panic!("regular at {exponent}") };
             let x = [1.0, -1.0, unit];
             let solution = lu.solve(&times(&matrix, &x));
             for (solved, expected) in solution.iter().zip(x) {
@@ -307,22 +295,15 @@ mod tests {
     fn a_pivot_of_rounding_gives_way_to_a_small_one() {
         // What is left at the second place of the second row is rounding, yet it is the larger share of its row.
         let small = 2f64.powi(-80);
-        let matrix = Matrix::from([
-            [1.0, 1.0, 0.0],
-            [1.0, 1.0 + f64::EPSILON, 0.5 * f64::EPSILON],
-            [0.0, small, 2f64.powi(40)],
-        ]);
-        let Some(lu) = Lu::new(&matrix) else {
-            panic!("regular")
-        };
+        let matrix =
+            Matrix::from([[1.0, 1.0, 0.0], [1.0, 1.0 + f64::EPSILON, 0.5 * f64::EPSILON], [0.0, small, 2f64.powi(40)]]);
+        let Some(lu) = Lu::new(&matrix) else { panic!("regular") };
         assert_eq!(&lu.order[..], [0, 2, 1]);
     }
 
     #[test]
     fn sign_of_determinant_follows_exchanges() {
-        let Some(swap) = Lu::new(&Matrix::from([[0.0, 1.0], [1.0, 0.0]])) else {
-            panic!("regular")
-        };
+        let Some(swap) = Lu::new(&Matrix::from([[0.0, 1.0], [1.0, 0.0]])) else { panic!("regular") };
         assert!(swap.negative_determinant());
     }
 }

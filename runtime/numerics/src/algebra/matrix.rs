@@ -42,11 +42,7 @@ pub struct Matrix<T = f64> {
 impl<T: Copy + Default> Default for Matrix<T> {
     #[inline]
     fn default() -> Self {
-        Self {
-            rows: 0,
-            columns: 0,
-            entries: Buffer::default(),
-        }
+        Self { rows: 0, columns: 0, entries: Buffer::default() }
     }
 }
 
@@ -55,11 +51,7 @@ impl<T: Copy + Default> Matrix<T> {
     #[must_use]
     #[inline]
     pub fn zeros(rows: usize, columns: usize) -> Self {
-        Self {
-            rows,
-            columns,
-            entries: Buffer::filled(rows * columns, T::default()),
-        }
+        Self { rows, columns, entries: Buffer::filled(rows * columns, T::default()) }
     }
 }
 
@@ -87,20 +79,12 @@ impl<T: Copy + Default> Matrix<T> {
     /// The matrix with the given entries, row by row, as many full rows as they make.
     #[must_use]
     pub fn from_rows(columns: usize, entries: Vec<T>) -> Self {
-        Self {
-            rows: entries.len().checked_div(columns).unwrap_or(0),
-            columns,
-            entries: entries.into(),
-        }
+        Self { rows: entries.len().checked_div(columns).unwrap_or(0), columns, entries: entries.into() }
     }
 
     /// Applies `f` to every entry.
     pub fn map<R: Copy + Default>(&self, f: impl FnMut(T) -> R) -> Matrix<R> {
-        Matrix {
-            rows: self.rows,
-            columns: self.columns,
-            entries: self.entries.iter().copied().map(f).collect(),
-        }
+        Matrix { rows: self.rows, columns: self.columns, entries: self.entries.iter().copied().map(f).collect() }
     }
 
     /// The transposed matrix.
@@ -156,8 +140,7 @@ impl<T> Matrix<T> {
     #[inline]
     pub fn swap(&mut self, i: usize, k: usize) {
         for j in 0..self.columns {
-            self.entries
-                .swap(i * self.columns + j, k * self.columns + j);
+            self.entries.swap(i * self.columns + j, k * self.columns + j);
         }
     }
 }
@@ -180,11 +163,7 @@ impl<T> IndexMut<usize> for Matrix<T> {
 
 impl<T: Copy + Default, const R: usize, const C: usize> From<[[T; C]; R]> for Matrix<T> {
     fn from(rows: [[T; C]; R]) -> Self {
-        Self {
-            rows: R,
-            columns: C,
-            entries: Buffer::from_slice(rows.as_flattened()),
-        }
+        Self { rows: R, columns: C, entries: Buffer::from_slice(rows.as_flattened()) }
     }
 }
 
@@ -283,11 +262,7 @@ fn combine_chunks<T: Copy, const W: usize>(
 
 /// `matrix x` for a complex vector.
 pub fn times_complex(matrix: &Matrix, x: &[Complex]) -> Vector<Complex> {
-    let row = |row: &[f64]| {
-        row.iter()
-            .zip(x)
-            .fold(Complex::default(), |sum, (a, b)| sum + b * a)
-    };
+    let row = |row: &[f64]| row.iter().zip(x).fold(Complex::default(), |sum, (a, b)| sum + b * a);
     matrix.iter().map(row).collect()
 }
 

@@ -10,10 +10,7 @@
 //! to copy. Partial derivatives of the matrices are one block (`kernels/partial_matrices.rs`). Inner loops take the
 //! size as an argument of inlined functions, and `for_size` calls them with small sizes as constants; where processor
 //! vectors make size matter more (`batched`), `for_size!` compiles them with arrays of that size.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 mod buffer;
 mod cholesky;
@@ -30,12 +27,10 @@ pub use vector::Vector;
 pub use cholesky::{Cholesky, factor_rows, solve_rows};
 pub use lu::{Field, Lu};
 pub use matrix::{
-    all_finite_matrix, asymmetry, form, is_symmetric, largest_element, product_complex, times,
-    times_columns, times_complex,
+    all_finite_matrix, asymmetry, form, is_symmetric, largest_element, product_complex, times, times_columns,
+    times_complex,
 };
-pub use vector::{
-    Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,
-};
+pub use vector::{Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite};
 
 /// Calls `work` with the size, as a constant if it is small, so that code inlined into `work` is compiled for that
 /// size: without loop counters and bounds checks.

@@ -53,9 +53,7 @@ impl<'de, T: Exact + Copy + Default> Deserialize<'de> for Matrix<T> {
                 Rows::Rows(all) => {
                     let columns = all.first().map_or(0, Vec::len);
                     if all.iter().any(|row| row.len() != columns) {
-                        return Err(D::Error::custom(
-                            "the rows of a matrix are not equally long",
-                        ));
+                        return Err(D::Error::custom("the rows of a matrix are not equally long"));
                     }
                     (all.len(), columns, all.into_iter().flatten().collect())
                 }
@@ -71,9 +69,7 @@ impl<'de, T: Exact + Copy + Default> Deserialize<'de> for Matrix<T> {
         }
         let mut matrix = Self::zeros(rows, columns);
         let places = matrix.as_flattened_mut().iter_mut();
-        places
-            .zip(entries)
-            .for_each(|(slot, entry)| *slot = T::read(entry));
+        places.zip(entries).for_each(|(slot, entry)| *slot = T::read(entry));
         Ok(matrix)
     }
 }

@@ -19,9 +19,7 @@ pub struct Vector<T = f64> {
 impl<T: Copy + Default> Default for Vector<T> {
     #[inline]
     fn default() -> Self {
-        Self {
-            entries: Buffer::default(),
-        }
+        Self { entries: Buffer::default() }
     }
 }
 
@@ -30,9 +28,7 @@ impl<T: Copy + Default> Vector<T> {
     #[must_use]
     #[inline]
     pub fn zeros(n: usize) -> Self {
-        Self {
-            entries: Buffer::filled(n, T::default()),
-        }
+        Self { entries: Buffer::filled(n, T::default()) }
     }
 }
 
@@ -40,9 +36,7 @@ impl<T: Copy + Default> Vector<T> {
     /// `value(k)` at position `k`.
     #[inline]
     pub fn from_fn(n: usize, value: impl FnMut(usize) -> T) -> Self {
-        Self {
-            entries: Buffer::from_fn(n, value),
-        }
+        Self { entries: Buffer::from_fn(n, value) }
     }
 }
 
@@ -56,9 +50,7 @@ impl<T: Copy + Default> Vector<T> {
     /// `n` copies of `value`.
     #[inline]
     pub fn filled(n: usize, value: T) -> Self {
-        Self {
-            entries: Buffer::filled(n, value),
-        }
+        Self { entries: Buffer::filled(n, value) }
     }
 }
 
@@ -121,18 +113,14 @@ impl<T, I: SliceIndex<[T]>> IndexMut<I> for Vector<T> {
 impl<T: Copy + Default> FromIterator<T> for Vector<T> {
     #[inline]
     fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
-        Self {
-            entries: values.into_iter().collect(),
-        }
+        Self { entries: values.into_iter().collect() }
     }
 }
 
 impl<T: Copy + Default> From<&[T]> for Vector<T> {
     #[inline]
     fn from(values: &[T]) -> Self {
-        Self {
-            entries: Buffer::from_slice(values),
-        }
+        Self { entries: Buffer::from_slice(values) }
     }
 }
 
@@ -146,9 +134,7 @@ impl<T: Copy + Default, const N: usize> From<[T; N]> for Vector<T> {
 impl<T> From<Vec<T>> for Vector<T> {
     #[inline]
     fn from(entries: Vec<T>) -> Self {
-        Self {
-            entries: entries.into(),
-        }
+        Self { entries: entries.into() }
     }
 }
 
@@ -165,10 +151,7 @@ impl<T: Copy> IntoIterator for Vector<T> {
 
     #[inline]
     fn into_iter(self) -> IntoIter<T> {
-        IntoIter {
-            left: 0..self.len(),
-            vector: self,
-        }
+        IntoIter { left: 0..self.len(), vector: self }
     }
 }
 
@@ -255,9 +238,7 @@ pub fn dot(x: &[f64], y: &[f64]) -> f64 {
 
 /// `x^T y`, without conjugation.
 pub fn dot_complex(x: &[Complex], y: &[Complex]) -> Complex {
-    x.iter()
-        .zip(y)
-        .fold(Complex::default(), |sum, (x, y)| sum + x * y)
+    x.iter().zip(y).fold(Complex::default(), |sum, (x, y)| sum + x * y)
 }
 
 /// `a + factor * b`.

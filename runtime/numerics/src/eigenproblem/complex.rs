@@ -1,8 +1,5 @@
 //! Eigenvalues of a small complex matrix, in place, with bounded effort and no allocation: QR with one shift at a time.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use crate::Complex;
 
@@ -13,9 +10,7 @@ const STEPS: usize = 40;
 /// matrix. Returns `false` if the iteration did not converge. Elements must be finite.
 pub fn eigenvalues(matrix: &mut [Complex], values: &mut [Complex]) -> bool {
     let n = values.len();
-    let size = matrix
-        .iter()
-        .fold(0.0_f64, |most, x| most.max(x.re.abs()).max(x.im.abs()));
+    let size = matrix.iter().fold(0.0_f64, |most, x| most.max(x.re.abs()).max(x.im.abs()));
     if size == 0.0 {
         values.fill(Complex::default());
         return true;
@@ -127,17 +122,8 @@ fn active_start(a: &mut [Complex], n: usize, last: usize) -> usize {
 fn wilkinson(a: &[Complex], n: usize, last: usize) -> Complex {
     let at = |i: usize, j: usize| a[i * n + j];
     let corner = at(last, last);
-    let [one, other] = two(
-        at(last - 1, last - 1),
-        at(last - 1, last),
-        at(last, last - 1),
-        corner,
-    );
-    if (one - corner).norm() <= (other - corner).norm() {
-        one
-    } else {
-        other
-    }
+    let [one, other] = two(at(last - 1, last - 1), at(last - 1, last), at(last, last - 1), corner);
+    if (one - corner).norm() <= (other - corner).norm() { one } else { other }
 }
 
 /// `A - shift = Q R`, then `R Q + shift`, on the block of rows and columns `start..end`.
@@ -179,11 +165,8 @@ mod tests {
         assert_eq!(complexes.len(), wanted.len());
         for want in wanted {
             let apart = |value: &Complex| (value - want).norm();
-            let nearest = (0..complexes.len())
-                .min_by(|&a, &b| apart(&complexes[a]).total_cmp(&apart(&complexes[b])));
-            let Some(nearest) = nearest else {
-                panic!("none left")
-            };
+            let nearest = (0..complexes.len()).min_by(|&a, &b| apart(&complexes[a]).total_cmp(&apart(&complexes[b])));
+            let Some(nearest) = nearest else { panic!("none left") };
             let value = complexes.swap_remove(nearest);
             assert!(apart(&value) <= tolerance, "{value} is not {want}");
         }
@@ -192,9 +175,7 @@ mod tests {
     /// A random number in the square of side 2 about zero, from this test's own generator.
     fn random(seed: &mut u64) -> Complex {
         let mut next = || {
-            *seed = seed
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
+            *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
         };
         Complex::new(next(), next())

@@ -67,13 +67,7 @@ pub(super) fn multiply(inner: usize, columns: usize, a: &[f64], b: &[f64], into:
 }
 
 #[inline(always)]
-fn multiply_rows<const R: usize>(
-    inner: usize,
-    columns: usize,
-    a: &[f64],
-    b: &[f64],
-    into: &mut [f64],
-) {
+fn multiply_rows<const R: usize>(inner: usize, columns: usize, a: &[f64], b: &[f64], into: &mut [f64]) {
     let whole = columns - columns % PARTS;
     for from in (0..whole).step_by(PARTS) {
         let mut sums = [[0.0; PARTS]; R];

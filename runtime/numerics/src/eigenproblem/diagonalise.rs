@@ -1,9 +1,6 @@
 //! Eigenvalues of a symmetric matrix, with one vector rotated along: by rotations if it is small, which needs no
 //! allocation and always converges, otherwise from its tridiagonal form, which is many times faster.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use super::tridiagonal::decompose;
 
@@ -31,11 +28,7 @@ fn tridiagonal(matrix: &mut [f64], n: usize, vector: &mut [f64]) -> bool {
     let (whole, turned) = (&mut matrix.to_vec(), &mut vector.to_vec());
     let converged = decompose(whole, turned, [&mut *values, beside, product]);
     if converged {
-        matrix
-            .iter_mut()
-            .step_by(n + 1)
-            .zip(values)
-            .for_each(|(to, value)| *to = *value);
+        matrix.iter_mut().step_by(n + 1).zip(values).for_each(|(to, value)| *to = *value);
         vector.copy_from_slice(turned);
     }
     converged
@@ -43,9 +36,7 @@ fn tridiagonal(matrix: &mut [f64], n: usize, vector: &mut [f64]) -> bool {
 
 /// By cyclic rotations (Golub and Van Loan, Matrix Computations, section 8.5).
 fn jacobi(matrix: &mut [f64], n: usize, vector: &mut [f64]) {
-    let size = matrix
-        .iter()
-        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let size = matrix.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let negligible = size * f64::EPSILON / 64.0;
     for _ in 0..SWEEPS {
         let mut rotated = false;
@@ -128,10 +119,7 @@ mod tests {
     fn both_ways_carry_the_same_vector() {
         const N: usize = 12;
         let matrix: Vec<f64> = (0..N * N)
-            .map(|k| {
-                ((k / N + 1) as f64 * (k % N + 1) as f64).sin()
-                    + if k / N == k % N { 3.0 } else { 0.0 }
-            })
+            .map(|k| ((k / N + 1) as f64 * (k % N + 1) as f64).sin() + if k / N == k % N { 3.0 } else { 0.0 })
             .collect();
         let vector: Vec<f64> = (0..N).map(|i| 1.0 / (1.0 + i as f64)).collect();
         let [one, other] = [jacobi, |a: &mut [f64], n, v: &mut [f64]| {
@@ -140,9 +128,7 @@ mod tests {
         .map(|way| {
             let (mut work, mut turned) = (matrix.clone(), vector.clone());
             way(&mut work, N, &mut turned);
-            let mut pairs: Vec<_> = (0..N)
-                .map(|i| (work[i * (N + 1)], turned[i].powi(2)))
-                .collect();
+            let mut pairs: Vec<_> = (0..N).map(|i| (work[i * (N + 1)], turned[i].powi(2))).collect();
             pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
             pairs
         });
@@ -158,19 +144,10 @@ mod tests {
         let vector = [1.0, -2.0, 0.5];
         let (mut work, mut turned) = (matrix, vector);
         diagonalise(&mut work, 3, &mut turned);
-        let once: f64 = (0..9)
-            .map(|e| vector[e / 3] * matrix[e] * vector[e % 3])
-            .sum();
+        let once: f64 = (0..9).map(|e| vector[e / 3] * matrix[e] * vector[e % 3]).sum();
         let again: f64 = (0..3).map(|i| turned[i].powi(2) * work[4 * i]).sum();
         assert!((once - again).abs() < 1e-13);
-        let twice: f64 = (0..3)
-            .map(|i| {
-                (0..3)
-                    .map(|j| matrix[3 * i + j] * vector[j])
-                    .sum::<f64>()
-                    .powi(2)
-            })
-            .sum();
+        let twice: f64 = (0..3).map(|i| (0..3).map(|j| matrix[3 * i + j] * vector[j]).sum::<f64>().powi(2)).sum();
         let again: f64 = (0..3).map(|i| (turned[i] * work[4 * i]).powi(2)).sum();
         assert!((twice - again).abs() < 1e-12);
     }

@@ -3,10 +3,7 @@
 //!
 //! One function for every size and both uses. nalgebra's `SymmetricEigen` is generic over the size and was a seventh of the
 //! instructions that the solvers hand to the optimiser.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use super::dense::{add, dot};
 
@@ -28,11 +25,7 @@ pub struct Tridiagonal {
 
 impl Tridiagonal {
     pub fn new(n: usize) -> Self {
-        Self {
-            diagonal: vec![0.0; n],
-            beside: vec![0.0; n],
-            product: vec![0.0; n],
-        }
+        Self { diagonal: vec![0.0; n], beside: vec![0.0; n], product: vec![0.0; n] }
     }
 
     /// The eigenvalues, in no particular order, of a symmetric matrix, row by row, of which the lower triangle is read
@@ -42,11 +35,7 @@ impl Tridiagonal {
     /// Householder's reduction and QL with implicit shifts (Golub and Van Loan, Matrix Computations, sections 8.3.1 and
     /// 8.3.3).
     pub fn eigenvalues(&mut self, matrix: &mut [f64]) -> Option<&[f64]> {
-        let converged = decompose(
-            matrix,
-            &mut [],
-            [&mut self.diagonal, &mut self.beside, &mut self.product],
-        );
+        let converged = decompose(matrix, &mut [], [&mut self.diagonal, &mut self.beside, &mut self.product]);
         converged.then_some(&self.diagonal[..])
     }
 }
@@ -54,11 +43,7 @@ impl Tridiagonal {
 /// The eigenvalues, to the first of three lists of room for a number for each row; whether they were found. `carried`,
 /// with as many rows as the matrix, row by row, becomes `Q^T` times itself, where the columns of `Q` are the
 /// eigenvectors in the order of the eigenvalues.
-pub(super) fn decompose(
-    matrix: &mut [f64],
-    carried: &mut [f64],
-    [diagonal, beside, product]: [&mut [f64]; 3],
-) -> bool {
+pub(super) fn decompose(matrix: &mut [f64], carried: &mut [f64], [diagonal, beside, product]: [&mut [f64]; 3]) -> bool {
     let size = matrix.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     if size == 0.0 {
         diagonal.fill(0.0);
@@ -220,9 +205,7 @@ mod tests {
     fn eigenvalues_are_those_of_rotations() {
         let mut state = 1_u64;
         let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 33) as f64 / f64::from(1 << 30) - 1.0
         };
         for n in [1, 2, 3, 5, 8, 13, 40] {
@@ -252,10 +235,7 @@ mod tests {
                 let eigenvalues = sorted_values.unwrap_or_default();
                 assert_eq!(eigenvalues.len(), n);
                 for (a, b) in eigenvalues.iter().zip(sorted(&expected)) {
-                    assert!(
-                        (a - b).abs() <= 1e-13 * size * n as f64,
-                        "{n} {kind}: {a} {b}"
-                    );
+                    assert!((a - b).abs() <= 1e-13 * size * n as f64, "{n} {kind}: {a} {b}");
                 }
             }
         }
@@ -282,8 +262,7 @@ mod tests {
                 let size = matrix.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
                 let mut vectors = vec![0.0; n * n];
                 vectors.iter_mut().step_by(n + 1).for_each(|x| *x = 1.0);
-                let (mut values, mut beside, mut product) =
-                    (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+                let (mut values, mut beside, mut product) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
                 let room = [&mut values[..], &mut beside, &mut product];
                 assert!(decompose(&mut matrix.clone(), &mut vectors, room));
                 let rows = || vectors.chunks_exact(n);
@@ -294,10 +273,7 @@ mod tests {
                     }
                     for (row, x) in matrix.chunks_exact(n).zip(v) {
                         let rest = dot(row, v) - value * x;
-                        assert!(
-                            rest.abs() <= 1e-14 * size * (n + 4) as f64,
-                            "{n} {kind}: {rest:e}"
-                        );
+                        assert!(rest.abs() <= 1e-14 * size * (n + 4) as f64, "{n} {kind}: {rest:e}");
                     }
                 }
             }
@@ -315,10 +291,7 @@ mod tests {
             }
         }
         let mut room = Tridiagonal::new(n);
-        let eigenvalues = room
-            .eigenvalues(&mut matrix)
-            .map(sorted)
-            .unwrap_or_default();
+        let eigenvalues = room.eigenvalues(&mut matrix).map(sorted).unwrap_or_default();
         for (k, value) in eigenvalues.iter().enumerate() {
             let angle = std::f64::consts::PI * (k + 1) as f64 / (2.0 * (n + 1) as f64);
             assert!((value - (2.0 * angle.sin()).powi(2)).abs() < 1e-13);

@@ -30,11 +30,7 @@ impl Bode {
     }
 
     /// Numbers that belong to each value, `count` of them.
-    fn each<'a, T: Copy>(
-        &'a self,
-        (count, none): (usize, T),
-        of: impl Fn(&'a Sensitivities) -> Vec<T>,
-    ) -> Vec<T> {
+    fn each<'a, T: Copy>(&'a self, (count, none): (usize, T), of: impl Fn(&'a Sensitivities) -> Vec<T>) -> Vec<T> {
         let points = self.0.points.iter();
         let all = points.map(|point| point.vibration.as_ref().ok().map(&of));
         filled(all, (count, none))
@@ -44,9 +40,7 @@ impl Bode {
         let [harmonics, outputs] = self.counts();
         let all = self.each((harmonics * outputs, NONE), |item| {
             let harmonics = item.response.harmonics.iter();
-            harmonics
-                .flat_map(|harmonic| amplitudes(harmonic, measure))
-                .collect()
+            harmonics.flat_map(|harmonic| amplitudes(harmonic, measure)).collect()
         });
         vector(py, all).reshape([self.0.points.len(), harmonics, outputs])
     }
@@ -78,10 +72,7 @@ impl Bode {
         none: T,
         of: impl Fn(&Sensitivities, usize, Output) -> Option<Slopes<T>>,
     ) -> PyResult<AlongOf<'py, T>> {
-        let (inputs, design) = (
-            self.0.description.inputs.len(),
-            self.0.description.design.len(),
-        );
+        let (inputs, design) = (self.0.description.inputs.len(), self.0.description.design.len());
         Ok((
             self.slopes(py, (inputs, none), &of, |x| &x.by_input)?,
             self.slopes(py, (design, none), &of, |x| &x.by_design)?,
@@ -89,11 +80,7 @@ impl Bode {
     }
 
     /// A number of each band at each value.
-    fn bands<'py>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&BodePoint, usize) -> Option<f64>,
-    ) -> PyResult<Array2<'py>> {
+    fn bands<'py>(&self, py: Python<'py>, of: impl Fn(&BodePoint, usize) -> Option<f64>) -> PyResult<Array2<'py>> {
         let count = self.0.banded.len();
         let row = |item| (0..count).map(|band| or_nan(of(item, band))).collect();
         rows(py, count, self.0.points.iter().map(row))

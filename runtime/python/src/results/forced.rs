@@ -24,10 +24,7 @@ result! {
 }
 
 /// The complex amplitudes of all outputs of a harmonic, NaN for one that has none.
-pub(super) fn amplitudes(
-    of: &Harmonic,
-    measure: Measure,
-) -> impl Iterator<Item = Complex> + use<'_> {
+pub(super) fn amplitudes(of: &Harmonic, measure: Measure) -> impl Iterator<Item = Complex> + use<'_> {
     let each = of.outputs.iter();
     each.map(move |y| y.map_or(NONE, |y| measure.of(of.frequency, y)))
 }
@@ -39,9 +36,7 @@ fn or_none(outputs: &[Option<Complex>]) -> Vec<Complex> {
 impl ForcedResponse {
     /// What each excitation contributes, in the order of their declaration.
     fn contributions(&self) -> Vec<&Share> {
-        let mut all: Vec<&Share> = (self.0.harmonics.iter())
-            .flat_map(|harmonic| &harmonic.shares)
-            .collect();
+        let mut all: Vec<&Share> = (self.0.harmonics.iter()).flat_map(|harmonic| &harmonic.shares).collect();
         all.sort_by_key(|x| x.excitation);
         all
     }
@@ -106,11 +101,7 @@ impl ForcedResponse {
                 kind: "output",
                 name: name.to_owned(),
                 mechanism: of.name.clone(),
-                known: of
-                    .outputs
-                    .iter()
-                    .map(|output| output.name.clone())
-                    .collect(),
+                known: of.outputs.iter().map(|output| output.name.clone()).collect(),
             };
             raise(py, error)
         })
@@ -160,12 +151,7 @@ impl ForcedResponse {
     }
 
     /// Half of the longest and half of the shortest diameters of the orbits of two outputs, SI, shape (h,) each.
-    fn orbit_semi_axes<'py>(
-        &self,
-        py: Python<'py>,
-        x: &str,
-        y: &str,
-    ) -> PyResult<(Array1<'py>, Array1<'py>)> {
+    fn orbit_semi_axes<'py>(&self, py: Python<'py>, x: &str, y: &str) -> PyResult<(Array1<'py>, Array1<'py>)> {
         let all = self.orbits(py, [x, y])?;
         let axis = |k: usize| vector(py, all.iter().map(|x| x.semi_axes()[k]));
         Ok((axis(0), axis(1)))
@@ -179,12 +165,7 @@ impl ForcedResponse {
 
     /// How the orbits of two outputs are passed in each harmonic: "forward", from `x` to `y`, "backward", or None on a
     /// straight line.
-    fn orbit_turnings(
-        &self,
-        py: Python<'_>,
-        x: &str,
-        y: &str,
-    ) -> PyResult<Vec<Option<&'static str>>> {
+    fn orbit_turnings(&self, py: Python<'_>, x: &str, y: &str) -> PyResult<Vec<Option<&'static str>>> {
         let word = |orbit: &Orbit| match orbit.turning()? {
             Turning::Forward => Some("forward"),
             Turning::Backward => Some("backward"),
@@ -207,11 +188,7 @@ impl ForcedResponse {
 
     /// Roots of the mean squares of the amplitudes of the outputs under unknown phases, shape (h, o).
     #[pyo3(signature = (measure="displacement"))]
-    fn unknown_phases_root_mean_square<'py>(
-        &self,
-        py: Python<'py>,
-        measure: &hints::Measure,
-    ) -> PyResult<Array2<'py>> {
+    fn unknown_phases_root_mean_square<'py>(&self, py: Python<'py>, measure: &hints::Measure) -> PyResult<Array2<'py>> {
         self.of_unknown_phases(py, measure, |x| Ok(x.root_mean_square()))
     }
 
@@ -253,17 +230,10 @@ type FirstComplex<'py> = (Array3<'py, Complex>, Array3<'py, Complex>);
 /// output of each harmonic.
 type SecondOf<'py, T> = (Array4<'py, T>, Array4<'py, T>, Array4<'py, T>);
 type Second<'py> = (Array4<'py>, Array4<'py>, Array4<'py>);
-type SecondComplex<'py> = (
-    Array4<'py, Complex>,
-    Array4<'py, Complex>,
-    Array4<'py, Complex>,
-);
+type SecondComplex<'py> = (Array4<'py, Complex>, Array4<'py, Complex>, Array4<'py, Complex>);
 
 /// A row of numbers for each output, `none` where an output has none.
-pub(super) fn filled<T: Copy>(
-    all: impl IntoIterator<Item = Option<Vec<T>>>,
-    (columns, none): (usize, T),
-) -> Vec<T> {
+pub(super) fn filled<T: Copy>(all: impl IntoIterator<Item = Option<Vec<T>>>, (columns, none): (usize, T)) -> Vec<T> {
     let row = |x: Option<Vec<T>>| x.unwrap_or_else(|| vec![none; columns]);
     all.into_iter().flat_map(row).collect()
 }
@@ -296,17 +266,12 @@ impl ForcedSensitivities {
             let all = all.map(|(harmonic, output)| Some(part(&of(harmonic, output)?).to_vec()));
             vector(py, filled(all, (columns, none))).reshape([harmonics, outputs, columns])
         };
-        Ok((
-            part(inputs, |x| &x.by_input)?,
-            part(design, |x| &x.by_design)?,
-        ))
+        Ok((part(inputs, |x| &x.by_input)?, part(design, |x| &x.by_design)?))
     }
 
     fn as_declared<'py>(&self, py: Python<'py>) -> PyResult<FirstComplex<'py>> {
         let measure = Measure::Displacement;
-        self.both(py, NONE, |harmonic, output| {
-            self.0.complex(harmonic, output, measure)
-        })
+        self.both(py, NONE, |harmonic, output| self.0.complex(harmonic, output, measure))
     }
 }
 
@@ -322,9 +287,7 @@ impl ForcedSensitivities {
         let harmonics = 0..self.0.harmonics.len();
         let both: Vec<_> = harmonics.map(|k| self.0.orbit_squares(k, x, y)).collect();
         let of = |which: usize| {
-            let each = both
-                .iter()
-                .map(|x| Some(part(&x.as_ref()?[which]).to_vec()));
+            let each = both.iter().map(|x| Some(part(&x.as_ref()?[which]).to_vec()));
             optional_rows(py, count, each)
         };
         Ok((of(0)?, of(1)?))
@@ -379,23 +342,13 @@ attributes! {
 impl ForcedSensitivities {
     /// Derivatives of `|f|^2` and of `|b|^2`, the squares of `response.orbit_parts(x, y)`, by inputs, shape (h, inputs)
     /// each, SI.
-    fn orbit_squares_by_input<'py>(
-        &self,
-        py: Python<'py>,
-        x: &str,
-        y: &str,
-    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
+    fn orbit_squares_by_input<'py>(&self, py: Python<'py>, x: &str, y: &str) -> PyResult<(Array2<'py>, Array2<'py>)> {
         let count = self.0.response.description.inputs.len();
         self.orbit_squares(py, [x, y], (count, |x| &x.by_input))
     }
 
     /// The same by design variables, shape (h, design) each.
-    fn orbit_squares_by_design<'py>(
-        &self,
-        py: Python<'py>,
-        x: &str,
-        y: &str,
-    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
+    fn orbit_squares_by_design<'py>(&self, py: Python<'py>, x: &str, y: &str) -> PyResult<(Array2<'py>, Array2<'py>)> {
         let count = self.0.response.description.design.len();
         self.orbit_squares(py, [x, y], (count, |x| &x.by_design))
     }
@@ -418,9 +371,8 @@ impl ForcedCurvature {
         let (inputs, design) = counts(description);
         let (harmonics, outputs) = (self.0.harmonics.len(), description.outputs.len());
         let part = |rows: usize, columns: usize, part: fn(&SecondDerivatives<T>) -> &Matrix<T>| {
-            let all = places(harmonics, outputs).map(|(harmonic, output)| {
-                Some(part(&of(harmonic, output)?).as_flattened().to_vec())
-            });
+            let all = places(harmonics, outputs)
+                .map(|(harmonic, output)| Some(part(&of(harmonic, output)?).as_flattened().to_vec()));
             let shape = [harmonics, outputs, rows, columns];
             vector(py, filled(all, (rows * columns, none))).reshape(shape)
         };
@@ -433,9 +385,7 @@ impl ForcedCurvature {
 
     fn as_declared<'py>(&self, py: Python<'py>) -> PyResult<SecondComplex<'py>> {
         let measure = Measure::Displacement;
-        self.three(py, NONE, |harmonic, output| {
-            self.0.complex(harmonic, output, measure)
-        })
+        self.three(py, NONE, |harmonic, output| self.0.complex(harmonic, output, measure))
     }
 
     /// Second derivatives of the frequencies.
@@ -445,11 +395,7 @@ impl ForcedCurvature {
         of: fn(&SecondDerivatives<f64>) -> &Matrix,
         [rows, columns]: [usize; 2],
     ) -> PyResult<Array3<'py>> {
-        let all = self
-            .0
-            .harmonics
-            .iter()
-            .map(|harmonic| of(&harmonic.frequency));
+        let all = self.0.harmonics.iter().map(|harmonic| of(&harmonic.frequency));
         let all = all.flat_map(|x| x.as_flattened().iter().copied());
         vector(py, all).reshape([self.0.harmonics.len(), rows, columns])
     }

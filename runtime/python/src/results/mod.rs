@@ -19,8 +19,7 @@ pub(crate) use forced::{ForcedCurvature, ForcedResponse, ForcedSensitivities};
 pub(crate) use modes::{Modes, family};
 pub(crate) use peaks::{Peaks, Separation};
 pub(crate) use sensitivities::{
-    EventCurvature, ModeCurvature, OutputCurvature, OutputSensitivities, Sensitivities,
-    ShapeSensitivity, quantity,
+    EventCurvature, ModeCurvature, OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, quantity,
 };
 pub(crate) use shared::{attributes, html, json_schema, operating_point, refused, result, table};
 pub(crate) use sweep::{Campbell, Sweep};

@@ -94,12 +94,7 @@ attributes! {
 impl Peaks {
     /// How far the peaks keep from a range of operation of the input, in the manner of API 617. Values are SI or texts
     /// with units.
-    fn separation(
-        &self,
-        py: Python<'_>,
-        low: &hints::Value<'_>,
-        high: &hints::Value<'_>,
-    ) -> PyResult<Separation> {
+    fn separation(&self, py: Python<'_>, low: &hints::Value<'_>, high: &hints::Value<'_>) -> PyResult<Separation> {
         let input = &self.0.description.inputs[self.0.range.input.index()];
         let end = |value| number(value, &input.unit, &input.name);
         let operating = [end(low)?, end(high)?];

@@ -89,23 +89,12 @@ impl Sensitivities {
     /// Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s),
     /// by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
     /// none.
-    fn of<'py>(
-        &self,
-        py: Python<'py>,
-        name: &hints::Quantity,
-    ) -> PyResult<(Array2<'py>, Array2<'py>)> {
+    fn of<'py>(&self, py: Python<'py>, name: &hints::Quantity) -> PyResult<(Array2<'py>, Array2<'py>)> {
         let wanted = quantity(py, name)?;
         let (inputs, design) = self.counts();
-        let by_input = |mode_sensitivity: &ModeSensitivity| {
-            Some(mode_sensitivity.of(wanted)?.by_input.to_vec())
-        };
-        let by_design = |mode_sensitivity: &ModeSensitivity| {
-            Some(mode_sensitivity.of(wanted)?.by_design.to_vec())
-        };
-        Ok((
-            self.rows(py, inputs, by_input)?,
-            self.rows(py, design, by_design)?,
-        ))
+        let by_input = |mode_sensitivity: &ModeSensitivity| Some(mode_sensitivity.of(wanted)?.by_input.to_vec());
+        let by_design = |mode_sensitivity: &ModeSensitivity| Some(mode_sensitivity.of(wanted)?.by_design.to_vec());
+        Ok((self.rows(py, inputs, by_input)?, self.rows(py, design, by_design)?))
     }
 }
 

@@ -161,9 +161,7 @@ pub(crate) fn operating_point(of: Option<Subject<'_>>) -> BTreeMap<String, f64> 
     let varied = of.varied.map(Input::index);
     let each = of.description.inputs.iter().zip(of.inputs).enumerate();
     let fixed = each.filter(|(k, _)| Some(*k) != varied);
-    fixed
-        .map(|(_, (info, value))| (info.name.to_string(), *value))
-        .collect()
+    fixed.map(|(_, (info, value))| (info.name.to_string(), *value)).collect()
 }
 
 /// The JSON Schema of the documents that `to_json` gives, as a text.
@@ -173,11 +171,7 @@ pub(crate) fn json_schema() -> &'static str {
 }
 
 /// The table with this name, or the first, as a dictionary.
-pub(crate) fn table<'py>(
-    py: Python<'py>,
-    all: &[Table],
-    name: Option<&str>,
-) -> PyResult<hints::Table<'py>> {
+pub(crate) fn table<'py>(py: Python<'py>, all: &[Table], name: Option<&str>) -> PyResult<hints::Table<'py>> {
     let found = match name {
         None => all.first(),
         Some(name) => all.iter().find(|x| x.name == name),
@@ -188,10 +182,7 @@ pub(crate) fn table<'py>(
     let name = name.unwrap_or_default();
     let known: Vec<&str> = all.iter().map(|x| x.name.as_str()).collect();
     let near = did_you_mean(name, known.iter().copied());
-    let message = format!(
-        "there is no table `{name}`: there are {}{near}",
-        known.join(", ")
-    );
+    let message = format!("there is no table `{name}`: there are {}{near}", known.join(", "));
     Err(new(py, Kind::UnknownName, message))
 }
 
@@ -222,11 +213,7 @@ fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict
 pub(crate) fn html(report: &str, all: &[Table]) -> String {
     let mut text = format!("<pre>{}</pre>", escaped(report));
     for table in all.iter().filter(|x| x.rows() > 0) {
-        let _ = write!(
-            text,
-            "<details><summary>{}</summary><table><thead><tr>",
-            escaped(&table.name)
-        );
+        let _ = write!(text, "<details><summary>{}</summary><table><thead><tr>", escaped(&table.name));
         for column in &table.columns {
             let _ = write!(text, "<th>{}</th>", escaped(&column.heading()));
         }
@@ -255,7 +242,5 @@ fn cell(column: &Column, row: usize) -> String {
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -18,11 +18,7 @@ result! {
 
 impl Sweep {
     fn labels(&self) -> usize {
-        let modes = self
-            .0
-            .points
-            .iter()
-            .filter_map(|point| point.modes.as_ref().ok());
+        let modes = self.0.points.iter().filter_map(|point| point.modes.as_ref().ok());
         let labels = modes.flat_map(|x| x.modes.iter().map(|mode| mode.label + 1));
         labels.max().unwrap_or(0)
     }
@@ -82,10 +78,7 @@ impl Campbell {
         let row = |campbell_point: &eigentol::campbell::CampbellPoint| {
             let modes = campbell_point.modes.as_ref().map_or(&[][..], Vec::as_slice);
             let mode = |label: &usize| modes.iter().find(|mode| mode.label == *label);
-            labels
-                .iter()
-                .map(|label| mode(label).and_then(of))
-                .collect()
+            labels.iter().map(|label| mode(label).and_then(of)).collect()
         };
         self.0.points.iter().map(row).collect()
     }

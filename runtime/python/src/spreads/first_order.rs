@@ -16,12 +16,7 @@ result! {
 }
 
 impl FirstOrder {
-    fn each<T>(
-        &self,
-        py: Python<'_>,
-        name: &str,
-        of: impl Fn(&Spread) -> T,
-    ) -> PyResult<Vec<Option<T>>> {
+    fn each<T>(&self, py: Python<'_>, name: &str, of: impl Fn(&Spread) -> T) -> PyResult<Vec<Option<T>>> {
         let wanted = match name {
             "lambda" => None,
             other => Some(quantity(py, other)?),
@@ -97,10 +92,7 @@ result! {
 
 impl OutputTolerances {
     fn each<T>(&self, of: impl Fn(&Spread) -> T) -> impl Iterator<Item = Option<T>> {
-        self.0
-            .spreads
-            .iter()
-            .map(move |spread| spread.as_ref().map(&of))
+        self.0.spreads.iter().map(move |spread| spread.as_ref().map(&of))
     }
 }
 

@@ -40,11 +40,7 @@ impl MonteCarlo {
         })
     }
 
-    fn of_samples<'py>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&Sample) -> &[Option<f64>],
-    ) -> PyResult<Array2<'py>> {
+    fn of_samples<'py>(&self, py: Python<'py>, of: impl Fn(&Sample) -> &[Option<f64>]) -> PyResult<Array2<'py>> {
         let row = |x| of(x).iter().copied().map(or_nan).collect();
         rows(py, self.0.modes.len(), self.kept(py)?.iter().map(row))
     }
@@ -129,12 +125,7 @@ impl MonteCarlo {
     /// Quantiles of "frequency" (rad/s) or "damping_ratio" over the stable samples for a probability between 0 and 1,
     /// shape (m,).
     #[pyo3(signature = (probability, quantity="frequency"))]
-    fn quantile<'py>(
-        &self,
-        py: Python<'py>,
-        probability: f64,
-        quantity: &hints::Quantity,
-    ) -> PyResult<Array1<'py>> {
+    fn quantile<'py>(&self, py: Python<'py>, probability: f64, quantity: &hints::Quantity) -> PyResult<Array1<'py>> {
         if !(0.0..=1.0).contains(&probability) {
             let message = format!("`probability` is {probability}: give one between 0 and 1");
             return Err(invalid(py, message));

@@ -2,8 +2,8 @@
 
 use eigentol::Matrix;
 use eigentol::propagation::{
-    self, Estimated, Extreme, MissingCorner, QUANTILES, ResponseInfluence, ResponseLimits,
-    ResponseSpread, VariableInfluence,
+    self, Estimated, Extreme, MissingCorner, QUANTILES, ResponseInfluence, ResponseLimits, ResponseSpread,
+    VariableInfluence,
 };
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
@@ -28,20 +28,12 @@ result! {
 }
 
 impl Propagation {
-    fn quantile_rows<'py>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&propagation::Quantile) -> f64,
-    ) -> PyResult<Array2<'py>> {
+    fn quantile_rows<'py>(&self, py: Python<'py>, of: impl Fn(&propagation::Quantile) -> f64) -> PyResult<Array2<'py>> {
         let row = |response_spread: &ResponseSpread| {
             let all: Vec<f64> = response_spread.quantiles.iter().map(&of).collect();
             (all.len() == QUANTILES.len()).then_some(all)
         };
-        let all = self
-            .0
-            .spreads
-            .iter()
-            .map(|spread| spread.as_ref().and_then(row));
+        let all = self.0.spreads.iter().map(|spread| spread.as_ref().and_then(row));
         optional_rows(py, QUANTILES.len(), all)
     }
 
@@ -52,9 +44,7 @@ impl Propagation {
 }
 
 fn optional_matrix<'py>(py: Python<'py>, of: &Matrix<Option<f64>>) -> PyResult<Array2<'py>> {
-    let all = of
-        .iter()
-        .map(|row| row.iter().copied().map(or_nan).collect());
+    let all = of.iter().map(|row| row.iter().copied().map(or_nan).collect());
     rows(py, of.column_count(), all)
 }
 
@@ -120,26 +110,14 @@ impl Influence {
         py: Python<'py>,
         of: impl Fn(&VariableInfluence) -> Option<&propagation::Estimate>,
     ) -> PyResult<Array3<'py>> {
-        let all = self
-            .0
-            .responses
-            .iter()
-            .flat_map(|response| &response.variables);
+        let all = self.0.responses.iter().flat_map(|response| &response.variables);
         let ends = all.flat_map(|item| of(item).map_or([f64::NAN; 2], |x| [x.lower, x.upper]));
         vector(py, ends).reshape([self.0.responses.len(), self.columns(), 2])
     }
 
-    fn each<'py>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&VariableInfluence) -> Option<f64>,
-    ) -> PyResult<Array2<'py>> {
+    fn each<'py>(&self, py: Python<'py>, of: impl Fn(&VariableInfluence) -> Option<f64>) -> PyResult<Array2<'py>> {
         let row = |response_influence: &ResponseInfluence| {
-            response_influence
-                .variables
-                .iter()
-                .map(|variable| or_nan(of(variable)))
-                .collect()
+            response_influence.variables.iter().map(|variable| or_nan(of(variable))).collect()
         };
         rows(py, self.columns(), self.0.responses.iter().map(row))
     }
@@ -191,23 +169,12 @@ result! {
 }
 
 impl WorstCase {
-    fn values<'py>(
-        &self,
-        py: Python<'py>,
-        of: fn(&ResponseLimits) -> &Option<Extreme>,
-    ) -> Array1<'py> {
+    fn values<'py>(&self, py: Python<'py>, of: fn(&ResponseLimits) -> &Option<Extreme>) -> Array1<'py> {
         let all = self.0.responses.iter();
-        optional(
-            py,
-            all.map(|response| of(response).as_ref().map(|extreme| extreme.value)),
-        )
+        optional(py, all.map(|response| of(response).as_ref().map(|extreme| extreme.value)))
     }
 
-    fn designs<'py>(
-        &self,
-        py: Python<'py>,
-        of: fn(&ResponseLimits) -> &Option<Extreme>,
-    ) -> PyResult<Array2<'py>> {
+    fn designs<'py>(&self, py: Python<'py>, of: fn(&ResponseLimits) -> &Option<Extreme>) -> PyResult<Array2<'py>> {
         let all = self.0.responses.iter();
         let all = all.map(|response| {
             let extreme = of(response).as_ref();

@@ -17,12 +17,7 @@ result! {
 }
 
 impl SecondOrder {
-    fn each<'py>(
-        &self,
-        py: Python<'py>,
-        name: &str,
-        of: impl Fn(&SecondOrderSpread) -> f64,
-    ) -> PyResult<Array1<'py>> {
+    fn each<'py>(&self, py: Python<'py>, name: &str, of: impl Fn(&SecondOrderSpread) -> f64) -> PyResult<Array1<'py>> {
         let spread: fn(&ModeSecondOrder) -> &SecondOrderSpread = match quantity(py, name)? {
             Quantity::Frequency => |x| &x.frequency,
             Quantity::NaturalFrequency => |x| &x.natural_frequency,
@@ -30,10 +25,7 @@ impl SecondOrder {
             _ => return Err(invalid(py, format!("there is no second order of `{name}`"))),
         };
         let all = self.0.modes.iter();
-        Ok(optional(
-            py,
-            all.map(|mode| mode.as_ref().ok().map(|mode| of(spread(mode)))),
-        ))
+        Ok(optional(py, all.map(|mode| mode.as_ref().ok().map(|mode| of(spread(mode))))))
     }
 }
 

@@ -10,8 +10,7 @@ use crate::hints;
 /// How many samples became what, by name.
 pub(crate) fn counts<'py>(py: Python<'py>, tally: &Counts) -> PyResult<hints::Counts<'py>> {
     let all = Outcome::ALL.into_iter();
-    all.map(|outcome| (format!("{outcome:?}"), tally.of(outcome)))
-        .into_py_dict(py)
+    all.map(|outcome| (format!("{outcome:?}"), tally.of(outcome))).into_py_dict(py)
 }
 
 /// What designs solved anew say.

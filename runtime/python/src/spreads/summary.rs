@@ -61,12 +61,7 @@ attributes! {
 }
 
 impl Summary {
-    fn checks<'py>(
-        &self,
-        py: Python<'py>,
-        name: &str,
-        of: impl Fn(&Check) -> Option<f64>,
-    ) -> PyResult<Array1<'py>> {
+    fn checks<'py>(&self, py: Python<'py>, name: &str, of: impl Fn(&Check) -> Option<f64>) -> PyResult<Array1<'py>> {
         let wanted = quantity(py, name)?;
         let all = self.0.trust.iter();
         Ok(optional(py, all.map(|x| x.check(wanted).and_then(&of))))

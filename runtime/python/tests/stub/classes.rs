@@ -5,20 +5,15 @@ use std::collections::BTreeMap;
 use quote::ToTokens;
 use syn::parse::{ParseStream, Parser};
 use syn::{
-    Attribute, Expr, Fields, FnArg, Ident, ImplItem, ImplItemFn, Item, ItemStruct, Lit, Meta, Pat,
-    ReturnType, Signature, Token, Type,
+    Attribute, Expr, Fields, FnArg, Ident, ImplItem, ImplItemFn, Item, ItemStruct, Lit, Meta, Pat, ReturnType,
+    Signature, Token, Type,
 };
 
 use super::source::{Source, docs, is};
 use super::types::Types;
 
 /// Methods that every object has.
-const OF_OBJECTS: [&str; 4] = [
-    "__repr__",
-    "__reduce__",
-    "__getnewargs__",
-    "__getnewargs_ex__",
-];
+const OF_OBJECTS: [&str; 4] = ["__repr__", "__reduce__", "__getnewargs__", "__getnewargs_ex__"];
 
 pub(crate) struct Class {
     pub(crate) name: String,
@@ -73,12 +68,7 @@ impl Contents {
             let mut members = fields(own, options, &types);
             members.extend(methods(source, name, false, &types));
             members.sort_by_key(|member| member.kind != Kind::New);
-            Some(Class {
-                name: names[name].clone(),
-                docs: docs(&own.attrs),
-                result: *result,
-                members,
-            })
+            Some(Class { name: names[name].clone(), docs: docs(&own.attrs), result: *result, members })
         };
         let result = structs.iter().find(|(_, shared, _)| *shared);
         let result = result.map(|(x, ..)| x.ident.to_string());
@@ -122,10 +112,7 @@ fn fields(of: &ItemStruct, options: &Options, types: &Types) -> Vec<Member> {
     let Fields::Named(fields) = &of.fields else {
         return Vec::new();
     };
-    let fields = fields
-        .named
-        .iter()
-        .filter_map(|x| Some((x.ident.as_ref()?, x)));
+    let fields = fields.named.iter().filter_map(|x| Some((x.ident.as_ref()?, x)));
     let mut members = Vec::new();
     if options.contains_key("new") {
         let arguments = fields.clone();
@@ -153,21 +140,15 @@ fn fields(of: &ItemStruct, options: &Options, types: &Types) -> Vec<Member> {
 /// The methods of a class: its own, or those that all results share.
 fn methods(source: &Source, class: &str, shared: bool, types: &Types) -> Vec<Member> {
     let blocks = source.items.iter().filter_map(|(item, of_all)| match item {
-        Item::Impl(own)
-            if *of_all == shared && own.attrs.iter().any(|attr| is(attr, "pymethods")) =>
-        {
+        Item::Impl(own) if *of_all == shared && own.attrs.iter().any(|attr| is(attr, "pymethods")) => {
             (own.self_ty.to_token_stream().to_string() == class).then_some(own)
         }
         _ => None,
     });
-    let functions = blocks
-        .flat_map(|block| &block.items)
-        .filter_map(|items| match items {
-            ImplItem::Fn(own) if !OF_OBJECTS.contains(&own.sig.ident.to_string().as_str()) => {
-                Some(own)
-            }
-            _ => None,
-        });
+    let functions = blocks.flat_map(|block| &block.items).filter_map(|items| match items {
+        ImplItem::Fn(own) if !OF_OBJECTS.contains(&own.sig.ident.to_string().as_str()) => Some(own),
+        _ => None,
+    });
     functions.map(|function| method(function, types)).collect()
 }
 

@@ -41,10 +41,9 @@ type Values = BTreeMap<String, Value>;
 pub(crate) fn rules(definition: &ItemMacro) -> Vec<Rule> {
     let tokens: Vec<TokenTree> = definition.mac.tokens.clone().into_iter().collect();
     let rule = |parts: &[TokenTree]| match parts {
-        [TokenTree::Group(pattern), _, _, TokenTree::Group(body), ..] => Rule {
-            pattern: patterns(pattern.stream()),
-            body: body.stream(),
-        },
+        [TokenTree::Group(pattern), _, _, TokenTree::Group(body), ..] => {
+            Rule { pattern: patterns(pattern.stream()), body: body.stream() }
+        }
         _ => panic!("a rule: {parts:?}"),
     };
     // Pattern, `=>`, body, `;`
@@ -76,19 +75,12 @@ fn patterns(tokens: TokenStream) -> Vec<Pattern> {
             TokenTree::Punct(dollar) if dollar.as_char() == '$' => match tokens.next() {
                 Some(TokenTree::Group(repeated)) => {
                     let (separator, at_most_once) = repetition(&mut tokens);
-                    Pattern::Repeated(Repetition {
-                        pattern: patterns(repeated.stream()),
-                        separator,
-                        at_most_once,
-                    })
+                    Pattern::Repeated(Repetition { pattern: patterns(repeated.stream()), separator, at_most_once })
                 }
                 name => {
                     let kind = tokens.nth(1);
                     let (name, kind) = (name.expect("a name"), kind.expect("a kind"));
-                    Pattern::Fragment {
-                        name: name.to_string(),
-                        kind: kind.to_string(),
-                    }
+                    Pattern::Fragment { name: name.to_string(), kind: kind.to_string() }
                 }
             },
             TokenTree::Group(group) => Pattern::Group(group.delimiter(), patterns(group.stream())),
@@ -153,27 +145,16 @@ fn fragment(kind: &str, input: ParseStream<'_>) -> syn::Result<TokenStream> {
     })
 }
 
-fn repeated(
-    repetition: &Repetition,
-    input: ParseStream<'_>,
-    values: &mut Values,
-) -> syn::Result<()> {
+fn repeated(repetition: &Repetition, input: ParseStream<'_>, values: &mut Values) -> syn::Result<()> {
     let mut rounds: Vec<Values> = Vec::new();
-    let most = if repetition.at_most_once {
-        1
-    } else {
-        usize::MAX
-    };
+    let most = if repetition.at_most_once { 1 } else { usize::MAX };
     while !input.is_empty() && rounds.len() < most {
         let (fork, mut round) = (input.fork(), Values::new());
         let separated = match &repetition.separator {
             Some(separator) if !rounds.is_empty() => this(separator, &fork),
             _ => Ok(()),
         };
-        if separated
-            .and_then(|()| read(&repetition.pattern, &fork, &mut round))
-            .is_err()
-        {
+        if separated.and_then(|()| read(&repetition.pattern, &fork, &mut round)).is_err() {
             break;
         }
         input.advance_to(&fork);
@@ -236,11 +217,7 @@ fn rounds(group: &Group, separator: Option<&str>, values: &Values) -> TokenStrea
             out.extend(separator.parse::<TokenStream>().expect("a separator"));
         }
         let mut values = values.clone();
-        values.extend(
-            lists
-                .iter()
-                .map(|(name, all)| ((*name).clone(), all[k].clone())),
-        );
+        values.extend(lists.iter().map(|(name, all)| ((*name).clone(), all[k].clone())));
         out.extend(written(group.stream(), &values));
     }
     out

@@ -5,9 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use proc_macro2::{TokenStream, TokenTree};
-use syn::{
-    Attribute, Expr, ExprLit, Item, ItemConst, ItemMod, ItemType, Lit, LitStr, Meta, UseTree,
-};
+use syn::{Attribute, Expr, ExprLit, Item, ItemConst, ItemMod, ItemType, Lit, LitStr, Meta, UseTree};
 
 use super::macros::{Rule, expanded, rules};
 
@@ -26,14 +24,10 @@ impl Source {
         let files = files(folder).into_iter().flat_map(|path| {
             let text = fs::read_to_string(&path).expect("a file of the source");
             let file = syn::parse_file(&text);
-            file.unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-                .items
+            file.unwrap_or_else(|error| panic!("{}: {error}", path.display())).items
         });
         let items: Vec<Item> = files.collect();
-        let mut source = Self {
-            items: Vec::new(),
-            macros: items.iter().filter_map(definition).collect(),
-        };
+        let mut source = Self { items: Vec::new(), macros: items.iter().filter_map(definition).collect() };
         for item in items {
             source.add(item, false);
         }
@@ -45,12 +39,7 @@ impl Source {
             self.items.push((item, shared));
             return;
         };
-        let name = call
-            .mac
-            .path
-            .segments
-            .last()
-            .map(|segment| segment.ident.to_string());
+        let name = call.mac.path.segments.last().map(|segment| segment.ident.to_string());
         let name = name.unwrap_or_default();
         let Some(rules) = self.macros.get(&name) else {
             return;
@@ -65,9 +54,7 @@ impl Source {
     /// The module of Python.
     pub(crate) fn module(&self) -> &ItemMod {
         let module = self.items.iter().find_map(|(item, _)| match item {
-            Item::Mod(module) if module.attrs.iter().any(|attr| is(attr, "pymodule")) => {
-                Some(module)
-            }
+            Item::Mod(module) if module.attrs.iter().any(|attr| is(attr, "pymodule")) => Some(module),
             _ => None,
         });
         module.expect("a module of Python")
@@ -117,10 +104,7 @@ fn texts(expression: &Expr) -> Vec<String> {
         Expr::Tuple(tuple) => tuple.elems.iter().flat_map(texts).collect(),
         Expr::Array(array) => array.elems.iter().flat_map(texts).collect(),
         Expr::Reference(reference) => texts(&reference.expr),
-        Expr::Lit(ExprLit {
-            lit: Lit::Str(text),
-            ..
-        }) => vec![text.value()],
+        Expr::Lit(ExprLit { lit: Lit::Str(text), .. }) => vec![text.value()],
         Expr::Macro(expression) => vec![joined(expression.mac.tokens.clone())],
         _ => Vec::new(),
     }
@@ -130,9 +114,7 @@ fn texts(expression: &Expr) -> Vec<String> {
 fn joined(tokens: TokenStream) -> String {
     let each = tokens.into_iter().filter_map(|token| match token {
         TokenTree::Ident(name) => Some(name.to_string()),
-        TokenTree::Literal(literal) => syn::parse_str::<LitStr>(&literal.to_string())
-            .ok()
-            .map(|x| x.value()),
+        TokenTree::Literal(literal) => syn::parse_str::<LitStr>(&literal.to_string()).ok().map(|x| x.value()),
         _ => None,
     });
     each.collect::<String>().trim_start().to_owned()
@@ -172,9 +154,7 @@ pub(crate) fn is(attribute: &Attribute, name: &str) -> bool {
 /// The lines of a documentation.
 pub(crate) fn docs(attributes: &[Attribute]) -> Vec<String> {
     let line = |attribute: &Attribute| match &attribute.meta {
-        Meta::NameValue(name_value) if name_value.path.is_ident("doc") => {
-            texts(&name_value.value).pop()
-        }
+        Meta::NameValue(name_value) if name_value.path.is_ident("doc") => texts(&name_value.value).pop(),
         _ => None,
     };
     let lines = attributes.iter().filter_map(line);

@@ -60,10 +60,7 @@ fn aliases(source: &Source) -> String {
                 let _ = writeln!(simple, "{name}: TypeAlias = {python}");
             }
             Some(table) => {
-                let _ = write!(
-                    dictionaries,
-                    "\n@type_check_only\nclass {name}(TypedDict, total=False):\n"
-                );
+                let _ = write!(dictionaries, "\n@type_check_only\nclass {name}(TypedDict, total=False):\n");
                 dictionaries += &documentation(&docs[..1], "    ");
                 dictionaries += "\n";
                 for row in source.table(table) {
@@ -100,11 +97,7 @@ fn errors(source: &Source) -> String {
 }
 
 fn class(own: &Class, decorator: &str) -> String {
-    let base = if own.result {
-        format!("({RESULT})")
-    } else {
-        String::new()
-    };
+    let base = if own.result { format!("({RESULT})") } else { String::new() };
     let mut out = format!("\n{decorator}class {}{base}:\n", own.name);
     out += &documentation(&own.docs, "    ");
     for (k, own) in own.members.iter().enumerate() {
@@ -129,15 +122,10 @@ fn member(own: &Member, indent: &str) -> String {
     if !decorator.is_empty() {
         let _ = writeln!(out, "{indent}{decorator}");
     }
-    let arguments = first
-        .into_iter()
-        .chain(own.arguments.iter().map(String::as_str));
+    let arguments = first.into_iter().chain(own.arguments.iter().map(String::as_str));
     let arguments: Vec<&str> = arguments.collect();
     let (name, returned) = (&own.name, &own.returned);
-    let line = format!(
-        "{indent}def {name}({}) -> {returned}:",
-        arguments.join(", ")
-    );
+    let line = format!("{indent}def {name}({}) -> {returned}:", arguments.join(", "));
     match line.len() <= 120 {
         true => out += &line,
         false => {

@@ -36,10 +36,7 @@ impl Types {
             let rust = (*item_type.ty).clone();
             (item_type.ident.to_string(), Alias { python, rust })
         };
-        Self {
-            classes,
-            aliases: source.aliases().map(alias).collect(),
-        }
+        Self { classes, aliases: source.aliases().map(alias).collect() }
     }
 
     /// The Python type of an argument, which may be more than what the function gets.
@@ -98,13 +95,8 @@ impl Types {
             return class.clone();
         }
         match self.aliases.get(name) {
-            Some(Alias {
-                python: Some(python),
-                ..
-            }) if is_name(python) => python.clone(),
-            Some(Alias {
-                python: Some(_), ..
-            }) => name.to_owned(),
+            Some(Alias { python: Some(python), .. }) if is_name(python) => python.clone(),
+            Some(Alias { python: Some(_), .. }) => name.to_owned(),
             Some(alias) => self.of(&alias.rust, argument),
             None => panic!("no Python type is known for `{name}`"),
         }
@@ -136,11 +128,7 @@ fn arguments(path_segment: &PathSegment) -> Vec<Type> {
 
 fn array(of: Option<&Type>) -> String {
     let name = match of {
-        Some(Type::Path(path)) => path
-            .path
-            .segments
-            .last()
-            .map(|segment| segment.ident.to_string()),
+        Some(Type::Path(path)) => path.path.segments.last().map(|segment| segment.ident.to_string()),
         _ => None,
     };
     let name = name.unwrap_or_else(|| "f64".to_owned());

@@ -32,13 +32,7 @@ fn states(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error
             return Ok(());
         }
     };
-    chart(
-        html,
-        &branches(
-            all_branches,
-            &content.style.clone().title("Branches of equilibria"),
-        ),
-    )?;
+    chart(html, &branches(all_branches, &content.style.clone().title("Branches of equilibria")))?;
     if all_branches.truncated {
         html.paragraph("There are more branches than were followed.");
     }
@@ -58,37 +52,18 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
             return Ok(());
         }
     };
-    let failed = diagram
-        .points
-        .iter()
-        .filter(|point| point.modes.is_err())
-        .count();
+    let failed = diagram.points.iter().filter(|point| point.modes.is_err()).count();
     if failed > 0 {
-        let text = format!(
-            "At {failed} of {} values there are no modes: the table says why.",
-            diagram.points.len()
-        );
+        let text = format!("At {failed} of {} values there are no modes: the table says why.", diagram.points.len());
         html.leaf("p", &[("class", "refused")], &text);
     }
-    chart(
-        html,
-        &campbell(diagram, &content.style.clone().title("Campbell diagram")),
-    )?;
-    let damped = diagram
-        .points
-        .iter()
-        .flat_map(|point| point.modes.iter().flatten());
+    chart(html, &campbell(diagram, &content.style.clone().title("Campbell diagram")))?;
+    let damped = diagram.points.iter().flat_map(|point| point.modes.iter().flatten());
     let is_damped = |spread: &Spread| spread.mean != 0.0;
     let mut damped = damped.filter_map(|mode| mode.damping_ratio.as_ref());
     if damped.any(is_damped) {
-        chart(
-            html,
-            &damping_ratios(diagram, &content.style.clone().title("Damping ratios")),
-        )?;
-        chart(
-            html,
-            &root_locus(diagram, &content.style.clone().title("Root locus")),
-        )?;
+        chart(html, &damping_ratios(diagram, &content.style.clone().title("Damping ratios")))?;
+        chart(html, &root_locus(diagram, &content.style.clone().title("Root locus")))?;
     }
     for listing in diagram.tables() {
         let caption = match &*listing.name {
@@ -107,7 +82,5 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
 fn on_a_page(table: &Table) -> Vec<&str> {
     let left_out = ["sigma level", "Re s", "Im s", "whirl ratio"];
     let names = table.columns.iter().map(|column| &*column.name);
-    names
-        .filter(|name| !name.starts_with("variance share of ") && !left_out.contains(name))
-        .collect()
+    names.filter(|name| !name.starts_with("variance share of ") && !left_out.contains(name)).collect()
 }

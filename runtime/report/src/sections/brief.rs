@@ -42,10 +42,7 @@ fn all(content: &Content) -> Vec<Line> {
         None => lines.push((None, NOTHING_VARIES.to_owned())),
         Some(spread) => lines.extend(tolerances(spread, &content.brief_style)),
     }
-    let along = content
-        .along
-        .as_ref()
-        .map(|x| along(x, &content.brief_style));
+    let along = content.along.as_ref().map(|x| along(x, &content.brief_style));
     lines.extend(along.unwrap_or_default());
     lines
 }
@@ -53,15 +50,11 @@ fn all(content: &Content) -> Vec<Line> {
 fn equilibrium(content: &Content) -> Line {
     match &content.equilibrium {
         Err(error) => (Some(false), sentence(&format!("no equilibrium: {error}"))),
-        Ok(state) if state.constraints.singular => (
-            Some(false),
-            "The configuration is singular: stability is not decided.".to_owned(),
-        ),
+        Ok(state) if state.constraints.singular => {
+            (Some(false), "The configuration is singular: stability is not decided.".to_owned())
+        }
         Ok(state) => {
-            let text = sentence(&format!(
-                "the equilibrium is {}",
-                state.stability.predicate()
-            ));
+            let text = sentence(&format!("the equilibrium is {}", state.stability.predicate()));
             (Some(state.stability.holds()), text)
         }
     }
@@ -69,9 +62,7 @@ fn equilibrium(content: &Content) -> Line {
 
 /// Each mode with its spread and the main source of that spread.
 fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
-    let first = (content.spread.as_ref())
-        .and_then(|spread| spread.summary.as_ref().ok())
-        .map(|summary| &summary.first);
+    let first = (content.spread.as_ref()).and_then(|spread| spread.summary.as_ref().ok()).map(|summary| &summary.first);
     let style = &content.brief_style;
     let (scale, unit) = style.frequency(None);
     let each = modes.modes.iter().enumerate().take(MODES);
@@ -81,11 +72,7 @@ fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
             let text = match mode.frequency() {
                 Some(omega) => {
                     let spread = first.map_or_else(String::new, |first| spread_of(first, r, scale));
-                    format!(
-                        "{name} at {} {unit}{spread}: it {}",
-                        number(scale * omega),
-                        mode.behaviour
-                    )
+                    format!("{name} at {} {unit}{spread}: it {}", number(scale * omega), mode.behaviour)
                 }
                 None => format!("{name} does not oscillate: it {}", moves(mode.behaviour)),
             };
@@ -95,10 +82,7 @@ fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
         .collect();
     if modes.modes.len() > MODES {
         let more = modes.modes.len() - MODES;
-        lines.push((
-            None,
-            format!("{more} more modes are in the table of modes."),
-        ));
+        lines.push((None, format!("{more} more modes are in the table of modes.")));
     }
     lines
 }
@@ -106,12 +90,8 @@ fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
 /// What a mode without a frequency does, after "it".
 fn moves(behaviour: Behaviour) -> String {
     match behaviour {
-        Behaviour::Free => {
-            "is a motion that nothing resists, wherever the mechanism stands".to_owned()
-        }
-        Behaviour::Neutral => {
-            "is not resisted here: its stiffness vanishes at this operating point".to_owned()
-        }
+        Behaviour::Free => "is a motion that nothing resists, wherever the mechanism stands".to_owned(),
+        Behaviour::Neutral => "is not resisted here: its stiffness vanishes at this operating point".to_owned(),
         other => other.to_string(),
     }
 }
@@ -121,20 +101,13 @@ fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
     let Some(this_mode) = first.modes.get(mode).filter(|mode| !mode.clustered) else {
         return String::new();
     };
-    let Some(spread) = this_mode
-        .frequency()
-        .filter(|x| !is_rounding(x.sigma, x.mean))
-    else {
+    let Some(spread) = this_mode.frequency().filter(|x| !is_rounding(x.sigma, x.mean)) else {
         return String::new();
     };
-    let shares = spread
-        .variance_shares
-        .iter()
-        .zip(first.description.design.iter());
+    let shares = spread.variance_shares.iter().zip(first.description.design.iter());
     let greatest = shares.max_by(|a, b| a.0.total_cmp(b.0));
-    let cause = greatest.map_or_else(String::new, |(share, info)| {
-        format!(", mostly from {} ({:.0} %)", info.name, 100.0 * share)
-    });
+    let cause = greatest
+        .map_or_else(String::new, |(share, info)| format!(", mostly from {} ({:.0} %)", info.name, 100.0 * share));
     // The band lies about the mean, which unequal limits move away from the nominal frequency.
     let nominal = first.modes[mode].behaviour.frequency();
     let moved = nominal.is_some_and(|nominal| (spread.mean - nominal).abs() > 0.03 * spread.band);
@@ -142,29 +115,20 @@ fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
         true => format!(" about a mean of {}", number(scale * spread.mean)),
         false => String::new(),
     };
-    format!(
-        " \u{b1} {}{about} ({} sigma){cause}",
-        digits(scale * spread.band, 3),
-        first.sigma_level
-    )
+    format!(" \u{b1} {}{about} ({} sigma){cause}", digits(scale * spread.band, 3), first.sigma_level)
 }
 
 fn tolerances(spread: &Spreads, style: &Style) -> Vec<Line> {
     let mut lines = Vec::new();
     match &spread.summary {
         Ok(summary) if summary.trusted() => {
-            lines.push((
-                Some(true),
-                "The first-order spread of every mode can be trusted.".to_owned(),
-            ));
+            lines.push((Some(true), "The first-order spread of every mode can be trusted.".to_owned()));
         }
         Ok(summary) => {
             let doubted = summary.trust.iter().filter(|x| !x.trusted());
             let doubted: Vec<String> = doubted.map(|doubted| style.mode(doubted.mode)).collect();
-            let text = format!(
-                "The first-order spread of {} is not to be trusted. See Tolerances.",
-                doubted.join(", ")
-            );
+            let text =
+                format!("The first-order spread of {} is not to be trusted. See Tolerances.", doubted.join(", "));
             lines.push((Some(false), text));
         }
         Err(error) => lines.push((Some(false), sentence(&format!("no spread: {error}")))),
@@ -186,13 +150,7 @@ pub(super) fn stable_samples(monte_carlo: &MonteCarlo) -> Line {
         count => Some(format!("{count} {}", word(outcome))),
     });
     let others: Vec<String> = others.collect();
-    (
-        Some(false),
-        format!(
-            "{stable} of {all} samples are stable; {}.",
-            others.join(", ")
-        ),
-    )
+    (Some(false), format!("{stable} of {all} samples are stable; {}.", others.join(", ")))
 }
 
 fn word(outcome: Outcome) -> &'static str {
@@ -213,25 +171,17 @@ fn along(along: &Along, style: &Style) -> Vec<Line> {
         return Vec::new();
     };
     let bad = campbell.critical.iter().chain(&campbell.flutter_onsets);
-    let bad: Vec<Line> = bad
-        .map(|event| (Some(false), happening(campbell, event, style)))
-        .collect();
+    let bad: Vec<Line> = bad.map(|event| (Some(false), happening(campbell, event, style))).collect();
     let (d, input) = (&campbell.description, campbell.input);
     let searched = campbell.searched.iter();
     let unresolved = searched.flat_map(|x| x.sentences(d, input));
     let unresolved = unresolved.map(|sentence| (None, format!("{sentence}.")));
-    let met = campbell
-        .crossings
-        .iter()
-        .map(|event| (None, happening(campbell, event, style)));
+    let met = campbell.crossings.iter().map(|event| (None, happening(campbell, event, style)));
     let mut lines: Vec<Line> = bad.into_iter().chain(unresolved).chain(met).collect();
     let more = lines.len().saturating_sub(EVENTS);
     lines.truncate(EVENTS);
     if more > 0 {
-        lines.push((
-            None,
-            format!("{more} more events are in the tables along the input."),
-        ));
+        lines.push((None, format!("{more} more events are in the tables along the input.")));
     }
     lines
 }
@@ -243,27 +193,16 @@ fn happening(campbell: &Campbell, event: &EventTolerance, style: &Style) -> Stri
         return String::new();
     };
     let what = match event.event {
-        Event::Crossing {
-            mode,
-            condition: Condition::Line(line),
-            ..
-        } => {
-            format!(
-                "the frequency of {} is {} times {}",
-                style.mode(mode),
-                line.ratio,
-                info.name
-            )
+        Event::Crossing { mode, condition: Condition::Line(line), .. } => {
+            format!("the frequency of {} is {} times {}", style.mode(mode), line.ratio, info.name)
         }
         Event::Crossing { mode, .. } => format!("{} begins or ceases to grow", style.mode(mode)),
         _ => "the equilibrium loses its stiffness".to_owned(),
     };
     let spread = match &event.spread {
-        Ok(spread) if spread.sigma > 0.0 => format!(
-            " \u{b1} {} ({} sigma)",
-            digits(info.unit.from_si(spread.band), 3),
-            event.sigma_level
-        ),
+        Ok(spread) if spread.sigma > 0.0 => {
+            format!(" \u{b1} {} ({} sigma)", digits(info.unit.from_si(spread.band), 3), event.sigma_level)
+        }
         _ => String::new(),
     };
     let value = with_unit(event.value, &info.unit);

@@ -18,11 +18,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             return Ok(());
         }
     };
-    let class = if state.stability.holds() {
-        "good"
-    } else {
-        "bad"
-    };
+    let class = if state.stability.holds() { "good" } else { "bad" };
     let stability = match state.constraints.singular {
         true => "not decided in a singular configuration".to_owned(),
         false => state.stability.to_string(),
@@ -34,10 +30,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     match &content.outputs {
         _ if d.outputs.is_empty() => {}
         Ok(outputs) => {
-            let caption = format!(
-                "Outputs; a band holds {} standard deviations",
-                outputs.sigma_level
-            );
+            let caption = format!("Outputs; a band holds {} standard deviations", outputs.sigma_level);
             let columns = ["output", "unit", "mean", "sigma", "band"];
             for listing in outputs.tables() {
                 table(html, &caption, &listing, &columns)?;
@@ -52,25 +45,15 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 fn unknowns(state: &Equilibrium) -> Table {
     let infos = state.description.coordinates.iter();
     let mut table = Table::new("equilibrium");
-    table.texts(
-        "unknown",
-        infos.clone().map(|info| Some(info.name.to_string())),
-    );
+    table.texts("unknown", infos.clone().map(|info| Some(info.name.to_string())));
     let kind = |role| match role {
         Role::Position => "coordinate",
         Role::Speed => "speed",
         Role::PositionReaction | Role::VelocityReaction => "reaction",
     };
-    table.texts(
-        "kind",
-        infos.clone().map(|info| Some(kind(info.role).to_owned())),
-    );
+    table.texts("kind", infos.clone().map(|info| Some(kind(info.role).to_owned())));
     let values = infos.clone().zip(&state.coordinates);
-    table.numbers(
-        "value",
-        "",
-        values.map(|(info, &value)| info.unit.from_si(value)),
-    );
+    table.numbers("value", "", values.map(|(info, &value)| info.unit.from_si(value)));
     table.texts("unit", infos.map(|info| Some(info.unit.symbol.to_string())));
     table
 }

@@ -40,9 +40,7 @@ pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) 
     ));
     if varying.len() > MOST {
         let more = varying.len() - MOST;
-        html.paragraph(&format!(
-            "{more} more variables vary: they are in the table."
-        ));
+        html.paragraph(&format!("{more} more variables vary: they are in the table."));
     }
 }
 
@@ -50,20 +48,14 @@ pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) 
 fn words(variable: &Variable<'_>, law: &Distribution, sigma_level: f64) -> String {
     let mean = number(variable.unit.from_si(law.mean()));
     let band = digits(variable.unit.from_si(sigma_level * law.sigma()), 3);
-    let text = format!(
-        "{}, {mean} \u{b1} {band} {}",
-        law.name(),
-        variable.unit.symbol
-    );
+    let text = format!("{}, {mean} \u{b1} {band} {}", law.name(), variable.unit.symbol);
     text.trim_end().to_owned()
 }
 
 fn drawing(html: &mut Html, variable: &Variable<'_>, law: &Distribution) {
     let points = density(law);
     let xs = points.iter().map(|point| point[0]);
-    let (low, high) = xs.fold((variable.value, variable.value), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
+    let (low, high) = xs.fold((variable.value, variable.value), |(low, high), x| (low.min(x), high.max(x)));
     let top = points.iter().fold(0.0, |top: f64, point| top.max(point[1]));
     if !(high > low && top > 0.0 && (high - low).is_finite() && top.is_finite()) {
         return;
@@ -78,23 +70,13 @@ fn drawing(html: &mut Html, variable: &Variable<'_>, law: &Distribution) {
     }
     let view = format!("0 0 {WIDTH} {HEIGHT}");
     let label = format!("Density of {}", variable.name);
-    let attributes = [
-        ("viewBox", &*view),
-        ("role", "img"),
-        ("aria-label", &*label),
-    ];
+    let attributes = [("viewBox", &*view), ("role", "img"), ("aria-label", &*label)];
     html.element("svg", &attributes, |html| {
         let ends = [-1.0, 1.0].map(|side| law.mean() + side * variable.half_width);
         let [left, right] = ends.map(x);
         let numbers = [left, 0.0, right - left, base].map(|x| format!("{x:.1}"));
         let [left, top, width, height] = &numbers;
-        let shade = [
-            ("class", "shade"),
-            ("x", left),
-            ("y", top),
-            ("width", width),
-            ("height", height),
-        ];
+        let shade = [("class", "shade"), ("x", left), ("y", top), ("width", width), ("height", height)];
         html.leaf("rect", &shade, "");
         html.leaf("path", &[("class", "density"), ("d", &path)], "");
         let line = format!("M0 {base}H{WIDTH}M{:.1} 0V{HEIGHT}", x(variable.value));
@@ -121,11 +103,7 @@ fn density(law: &Distribution) -> Vec<[f64; 2]> {
                 _ => counted.push([value, 1.0]),
             }
         }
-        points.extend(
-            counted
-                .into_iter()
-                .flat_map(|[x, times]| [[x, 0.0], [x, times], [x, 0.0]]),
-        );
+        points.extend(counted.into_iter().flat_map(|[x, times]| [[x, 0.0], [x, times], [x, 0.0]]));
     }
     let ends = points.first().zip(points.last());
     if let Some(([first, _], [last, _])) = ends.map(|(a, b)| (*a, *b)) {

@@ -10,12 +10,7 @@ use crate::tables::table;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     let d = &content.description;
-    let count = |role: Role| {
-        d.coordinates
-            .iter()
-            .filter(|coordinate| coordinate.role == role)
-            .count()
-    };
+    let count = |role: Role| d.coordinates.iter().filter(|coordinate| coordinate.role == role).count();
     let reactions = count(Role::PositionReaction) + count(Role::VelocityReaction);
     let parts = [
         counted(count(Role::Position), "coordinate"),

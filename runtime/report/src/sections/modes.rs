@@ -27,19 +27,9 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         }
     };
     if modes.damping_ignored {
-        html.paragraph(
-            "Damping and gyroscopic forces are not zero here and are ignored: undamped modes.",
-        );
+        html.paragraph("Damping and gyroscopic forces are not zero here and are ignored: undamped modes.");
     }
-    let columns = [
-        "mode",
-        "frequency",
-        "damping ratio",
-        "Re s",
-        "kind",
-        "whirl",
-        "motion",
-    ];
+    let columns = ["mode", "frequency", "damping ratio", "Re s", "kind", "whirl", "motion"];
     for listing in modes.tables() {
         table(html, "Natural modes", &listing, &columns)?;
     }
@@ -48,15 +38,9 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         return Ok(());
     }
     let style = content.brief_style.clone();
-    chart(
-        html,
-        &mode_shapes(modes, &style.clone().title("Mode shapes")),
-    )?;
+    chart(html, &mode_shapes(modes, &style.clone().title("Mode shapes")))?;
     if let Ok(state) = &content.equilibrium {
-        chart(
-            html,
-            &participation(modes, state, &style.title("What moves in each mode")),
-        )?;
+        chart(html, &participation(modes, state, &style.title("What moves in each mode")))?;
     }
     Ok(())
 }
@@ -64,12 +48,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 /// The 3-D view of the mechanism.
 fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), Error> {
     let modes = content.modes.as_ref().ok();
-    let json = serde_json::to_string(&View::new(
-        pictures,
-        &content.description,
-        modes,
-        &content.brief_style,
-    ))?;
+    let json = serde_json::to_string(&View::new(pictures, &content.description, modes, &content.brief_style))?;
     html.element("div", &[("class", "mechanism")], |html| {
         html.leaf("div", &[("class", "drawing")], "");
         html.data("scene", &json);
@@ -81,19 +60,13 @@ fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), E
     html.paragraph(&upwards(&pictures.scene));
     for (mode, picture) in pictures.modes.iter().enumerate() {
         if let Err(error) = picture {
-            refused(
-                html,
-                &format!("{} is not shown in motion", content.brief_style.mode(mode)),
-                error,
-            );
+            refused(html, &format!("{} is not shown in motion", content.brief_style.mode(mode)), error);
         }
     }
     let count = modes.map_or(0, |modes| modes.modes.len());
     if count > pictures.modes.len() {
         let shown = pictures.modes.len();
-        html.paragraph(&format!(
-            "The first {shown} of {count} modes are shown in motion."
-        ));
+        html.paragraph(&format!("The first {shown} of {count} modes are shown in motion."));
     }
     Ok(())
 }

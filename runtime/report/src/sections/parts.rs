@@ -10,10 +10,7 @@ pub(super) fn tables(scene: &Scene) -> Vec<(&'static str, Table)> {
     let all = [
         ("Bodies; lengths in m, masses in kg", bodies(scene)),
         ("Joints", joints(scene)),
-        (
-            "Gravity, drives, forces, constraints and curves; numbers in SI",
-            elements(scene),
-        ),
+        ("Gravity, drives, forces, constraints and curves; numbers in SI", elements(scene)),
         ("What rolls", wheels(scene)),
     ];
     all.into_iter().filter(|(_, x)| x.rows() > 0).collect()
@@ -56,11 +53,7 @@ fn beam(member: &Beam) -> String {
 
 fn solid(part: &Solid) -> String {
     let text = shape(&part.shape);
-    if part.hole {
-        format!("less a {text}")
-    } else {
-        text
-    }
+    if part.hole { format!("less a {text}") } else { text }
 }
 
 fn shape(shape: &Shape) -> String {
@@ -69,23 +62,11 @@ fn shape(shape: &Shape) -> String {
         Shape::Rod { length, .. } => format!("rod, length {}", number(*length)),
         Shape::Disk { radius, .. } => format!("disk, radius {}", number(*radius)),
         Shape::Cylinder { radius, length, .. } => {
-            format!(
-                "cylinder, radius {}, length {}",
-                number(*radius),
-                number(*length)
-            )
+            format!("cylinder, radius {}, length {}", number(*radius), number(*length))
         }
-        Shape::Tube {
-            inner,
-            outer,
-            length,
-            ..
-        } => format!(
-            "tube, radii {} and {}, length {}",
-            number(*inner),
-            number(*outer),
-            number(*length)
-        ),
+        Shape::Tube { inner, outer, length, .. } => {
+            format!("tube, radii {} and {}, length {}", number(*inner), number(*outer), number(*length))
+        }
         Shape::Box { size, .. } => format!("box, {}", size.map(number).join(" x ")),
         Shape::Sphere { radius } => format!("sphere, radius {}", number(*radius)),
         Shape::Ellipsoid { semi_axes, .. } => format!(

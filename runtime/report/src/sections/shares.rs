@@ -36,20 +36,9 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     };
     charts(html, (0..count.min(MODES)).map(of))?;
     beyond(html, count, "contributions of");
-    table(
-        html,
-        "Shares in the variance of each frequency",
-        &by_variable(first, &content.brief_style),
-        &[],
-    )?;
+    table(html, "Shares in the variance of each frequency", &by_variable(first, &content.brief_style), &[])?;
     for listing in first.tables() {
-        let columns = [
-            "mode",
-            "frequency",
-            "sigma of frequency",
-            "band of frequency",
-            "cluster",
-        ];
+        let columns = ["mode", "frequency", "sigma of frequency", "band of frequency", "cluster"];
         table(html, "First order, mode by mode", &listing, &columns)?;
     }
     Ok(())
@@ -60,18 +49,10 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 fn by_variable(first: &FirstOrder, style: &Style) -> Table {
     let design = first.description.design.iter();
     let mut table = Table::new("shares");
-    table.texts(
-        "variable",
-        design.clone().map(|info| Some(info.name.to_string())),
-    );
+    table.texts("variable", design.clone().map(|info| Some(info.name.to_string())));
     for (r, mode) in first.modes.iter().enumerate() {
         let shares = mode.variance_shares();
-        let share = |k: usize| {
-            shares
-                .get(k)
-                .filter(|_| !mode.clustered)
-                .map(|share| 100.0 * share)
-        };
+        let share = |k: usize| shares.get(k).filter(|_| !mode.clustered).map(|share| 100.0 * share);
         table.numbers(&style.mode(r), "%", (0..design.len()).map(share));
     }
     table

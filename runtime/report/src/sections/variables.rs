@@ -36,30 +36,18 @@ pub(super) fn variables(content: &Content) -> Vec<Variable<'_>> {
         }
     };
     let inputs = d.inputs.iter().zip(&setup.inputs).enumerate();
-    let inputs = inputs.map(|(k, (info, &value))| {
-        variable(
-            &*info.name,
-            "input",
-            &info.unit,
-            value,
-            setup.place_of_input(k),
-        )
-    });
+    let inputs =
+        inputs.map(|(k, (info, &value))| variable(&*info.name, "input", &info.unit, value, setup.place_of_input(k)));
     let design = d.design.iter().zip(&setup.design).enumerate();
-    let design = design.map(|(k, (info, &value))| {
-        variable(&*info.name, "design variable", &info.unit, value, Some(k))
-    });
+    let design = design.map(|(k, (info, &value))| variable(&*info.name, "design variable", &info.unit, value, Some(k)));
     inputs.chain(design).collect()
 }
 
 /// A row for each variable, in its own unit.
 pub(super) fn table(all: &[Variable<'_>]) -> Table {
     let of = |pick: fn(&Variable<'_>, &Distribution) -> f64| -> Vec<Option<f64>> {
-        let one =
-            |variable: &Variable<'_>| Some(variable.unit.from_si(pick(variable, variable.law?)));
-        all.iter()
-            .map(|x| one(x).filter(|value| *value != 0.0))
-            .collect()
+        let one = |variable: &Variable<'_>| Some(variable.unit.from_si(pick(variable, variable.law?)));
+        all.iter().map(|x| one(x).filter(|value| *value != 0.0)).collect()
     };
     let mut table = Table::new("variables");
     table.texts("name", all.iter().map(|x| Some(x.name.to_owned())));
@@ -68,12 +56,7 @@ pub(super) fn table(all: &[Variable<'_>]) -> Table {
     table.numbers("half-width", "", of(|x, _| x.half_width));
     table.numbers("sigma", "", of(|_, law| law.sigma()));
     table.numbers("mean less value", "", of(|x, _| x.shift));
-    let law = |variable: &Variable<'_>| {
-        variable
-            .law
-            .filter(|law| law.sigma() > 0.0)
-            .map(Distribution::name)
-    };
+    let law = |variable: &Variable<'_>| variable.law.filter(|law| law.sigma() > 0.0).map(Distribution::name);
     table.texts("law", all.iter().map(|x| law(x).map(str::to_owned)));
     let symbols = all.iter().map(|x| Some(x.unit.symbol.to_string()));
     table.texts("unit", symbols);

@@ -34,16 +34,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             html.leaf("li", &[("class", class)], &sentence.text);
         }
     });
-    let columns = [
-        "mode",
-        "frequency",
-        "sigma, first order",
-        "sigma, second order",
-        "sigma, sampled",
-        "band",
-        "trusted",
-        "use",
-    ];
+    let columns =
+        ["mode", "frequency", "sigma, first order", "sigma, second order", "sigma, sampled", "band", "trusted", "use"];
     let caption = format!(
         "Spread of the frequencies; a band holds {} standard deviations of first order",
         summary.first.sigma_level
@@ -51,10 +43,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     if let Some(listing) = summary.tables().first() {
         table(html, &caption, listing, &columns)?;
     }
-    let mixed = summary
-        .trust
-        .iter()
-        .any(|x| summary.cluster_of(x.mode).is_some());
+    let mixed = summary.trust.iter().any(|x| summary.cluster_of(x.mode).is_some());
     if mixed {
         let captions = [
             "Modes that tolerances mix, and the mean of each group",

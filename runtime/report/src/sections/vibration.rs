@@ -33,25 +33,13 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
             return Ok(());
         }
     };
-    html.paragraph(
-        "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).",
-    );
+    html.paragraph("Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).");
     motion(html, content);
-    let several = response
-        .harmonics
-        .iter()
-        .any(|harmonic| harmonic.shares.len() > 1);
+    let several = response.harmonics.iter().any(|harmonic| harmonic.shares.len() > 1);
     for listing in response.tables() {
         match &*listing.name {
             "forced response" => {
-                let columns = [
-                    "excitations",
-                    "frequency",
-                    "output",
-                    "unit",
-                    "amplitude",
-                    "phase",
-                ];
+                let columns = ["excitations", "frequency", "output", "unit", "amplitude", "phase"];
                 table(html, "Vibration at the operating point", &listing, &columns)?;
             }
             "shares" if several => table(html, "What each excitation contributes", &listing, &[])?,
@@ -64,12 +52,7 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
             let columns = ["response", "unit", "nominal", "mean", "sigma", "skewness"];
             for listing in spread.tables() {
                 if listing.name == "spreads" {
-                    table(
-                        html,
-                        "How tolerances spread the amplitudes",
-                        &listing,
-                        &columns,
-                    )?;
+                    table(html, "How tolerances spread the amplitudes", &listing, &columns)?;
                 }
             }
         }
@@ -80,11 +63,7 @@ fn at_point(html: &mut Html, content: &Content, forced: &Forced) -> Result<(), E
 }
 
 /// The orbits that were asked for, under each harmonic that moves them.
-fn orbits(
-    html: &mut Html,
-    content: &Content,
-    forced_response: &ForcedResponse,
-) -> Result<(), Error> {
+fn orbits(html: &mut Html, content: &Content, forced_response: &ForcedResponse) -> Result<(), Error> {
     for &[x, y] in &content.orbits {
         let moves = |harmonic: &Harmonic| {
             let orbit = harmonic.orbit(x, y);
@@ -94,8 +73,7 @@ fn orbits(
             .into_iter()
             .map(Excitation::<Any>::new)
             .filter(|x| forced_response.harmonic(*x).is_some_and(moves));
-        let figures =
-            moved.map(|harmonic| orbit(forced_response, [x, y], harmonic, &content.brief_style));
+        let figures = moved.map(|harmonic| orbit(forced_response, [x, y], harmonic, &content.brief_style));
         charts(html, figures)?;
     }
     Ok(())
@@ -109,11 +87,7 @@ fn motion(html: &mut Html, content: &Content) {
     if pictures.vibrations.iter().any(Result::is_ok) {
         html.paragraph("The view of the modes in 3-D shows the vibration of the whole mechanism too, about the equilibrium: what turns with a drive is seen standing still.");
     }
-    for error in pictures
-        .vibrations
-        .iter()
-        .filter_map(|vibration| vibration.as_ref().err())
-    {
+    for error in pictures.vibrations.iter().filter_map(|vibration| vibration.as_ref().err()) {
         refused(html, "a vibration is not shown in motion", error);
     }
 }
@@ -126,15 +100,10 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
             return Ok(());
         }
     };
-    let failed = course
-        .points
-        .iter()
-        .filter(|point| point.vibration.is_err())
-        .count();
+    let failed = course.points.iter().filter(|point| point.vibration.is_err()).count();
     if failed > 0 {
         let all = course.points.len();
-        let text =
-            format!("At {failed} of {all} values there is no vibration: the table says why.");
+        let text = format!("At {failed} of {all} values there is no vibration: the table says why.");
         html.leaf("p", &[("class", "refused")], &text);
     }
     let wanted = Vibration::all(&content.description);
@@ -153,11 +122,7 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
         let more = wanted.len() - MODES;
         html.paragraph(&format!("The other {more} vibrations are in the table."));
     }
-    for (_, error) in along
-        .peaks
-        .iter()
-        .filter_map(|(x, answer)| Some((x, answer.as_ref().err()?)))
-    {
+    for (_, error) in along.peaks.iter().filter_map(|(x, answer)| Some((x, answer.as_ref().err()?))) {
         refused(html, "peaks are not known", error);
     }
     for listing in course.tables() {

@@ -9,12 +9,7 @@ use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 /// Browser executables to look for.
-const PROGRAMS: [&str; 4] = [
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "google-chrome-stable",
-];
+const PROGRAMS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
 /// A browser with one page.
 pub(crate) struct Chrome {
@@ -32,8 +27,7 @@ pub(crate) struct Chrome {
 impl Chrome {
     /// Starts a browser; `None` if there is none.
     pub(crate) fn start(name: &str) -> Option<Self> {
-        let profile = Path::new(env!("CARGO_TARGET_TMPDIR"))
-            .join(format!("chrome-{name}-{}", std::process::id()));
+        let profile = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("chrome-{name}-{}", std::process::id()));
         let mut process = PROGRAMS.iter().find_map(|program| {
             Command::new(program)
                 .args([
@@ -76,14 +70,8 @@ impl Chrome {
             requests: Vec::new(),
         };
         let target = own.ask("Target.createTarget", json!({ "url": "about:blank" }));
-        let attached = own.ask(
-            "Target.attachToTarget",
-            json!({ "targetId": target["targetId"], "flatten": true }),
-        );
-        own.session = attached["sessionId"]
-            .as_str()
-            .expect("a session")
-            .to_owned();
+        let attached = own.ask("Target.attachToTarget", json!({ "targetId": target["targetId"], "flatten": true }));
+        own.session = attached["sessionId"].as_str().expect("a session").to_owned();
         for domain in ["Page", "Runtime", "Log", "Network"] {
             own.ask(&format!("{domain}.enable"), json!({}));
         }
@@ -97,9 +85,7 @@ impl Chrome {
         if !self.session.is_empty() {
             message["sessionId"] = json!(self.session);
         }
-        self.socket
-            .send(Message::text(message.to_string()))
-            .expect("the browser listens");
+        self.socket.send(Message::text(message.to_string())).expect("the browser listens");
         loop {
             let answer = self.receive();
             if answer["id"] == json!(self.number) {
@@ -118,8 +104,7 @@ impl Chrome {
             }
             Some("Network.requestWillBeSent") => {
                 let address = &value["params"]["request"]["url"];
-                self.requests
-                    .push(address.as_str().unwrap_or_default().to_owned());
+                self.requests.push(address.as_str().unwrap_or_default().to_owned());
             }
             _ => {}
         }
@@ -130,12 +115,10 @@ impl Chrome {
     pub(crate) fn open(&mut self, file: &Path) {
         self.complaints.clear();
         self.requests.clear();
-        self.ask(
-            "Page.navigate",
-            json!({ "url": format!("file://{}", file.display()) }),
-        );
+        self.ask("Page.navigate", json!({ "url": format!("file://{}", file.display()) }));
         loop {
-            let done = self.evaluate("document.readyState === 'complete' && document.documentElement?.dataset.drawn === 'yes'");
+            let done = self
+                .evaluate("document.readyState === 'complete' && document.documentElement?.dataset.drawn === 'yes'");
             if done == json!(true) || !self.complaints.is_empty() {
                 return;
             }
@@ -145,12 +128,10 @@ impl Chrome {
 
     /// The value of an expression in the page; promises are awaited.
     pub(crate) fn evaluate(&mut self, expression: &str) -> Value {
-        let asked = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true, "userGesture": true });
+        let asked =
+            json!({ "expression": expression, "returnByValue": true, "awaitPromise": true, "userGesture": true });
         let answer = self.ask("Runtime.evaluate", asked);
-        assert!(
-            answer["exceptionDetails"].is_null(),
-            "{expression}: {answer}"
-        );
+        assert!(answer["exceptionDetails"].is_null(), "{expression}: {answer}");
         answer["result"]["value"].clone()
     }
 
@@ -168,17 +149,12 @@ impl Chrome {
 
     pub(crate) fn number(&mut self, expression: &str) -> f64 {
         let value = self.evaluate(expression);
-        value
-            .as_f64()
-            .unwrap_or_else(|| panic!("{expression} is {value}"))
+        value.as_f64().unwrap_or_else(|| panic!("{expression} is {value}"))
     }
 
     pub(crate) fn text(&mut self, expression: &str) -> String {
         let value = self.evaluate(expression);
-        value
-            .as_str()
-            .unwrap_or_else(|| panic!("{expression} is {value}"))
-            .to_owned()
+        value.as_str().unwrap_or_else(|| panic!("{expression} is {value}")).to_owned()
     }
 
     /// Moves, presses or releases the mouse as a user would.
@@ -208,7 +184,8 @@ impl Chrome {
                 key if key.chars().count() == 1 => key,
                 _ => "",
             };
-            let event = json!({ "type": kind, "key": key, "code": key, "text": if kind == "keyDown" { text } else { "" } });
+            let event =
+                json!({ "type": kind, "key": key, "code": key, "text": if kind == "keyDown" { text } else { "" } });
             self.ask("Input.dispatchKeyEvent", event);
         }
     }
@@ -216,9 +193,7 @@ impl Chrome {
 
 fn bytes(data: &Value) -> Vec<u8> {
     let text = data.as_str().expect("data");
-    data_encoding::BASE64
-        .decode(text.as_bytes())
-        .expect("base 64")
+    data_encoding::BASE64.decode(text.as_bytes()).expect("base 64")
 }
 
 impl Drop for Chrome {

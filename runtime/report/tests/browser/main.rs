@@ -26,9 +26,7 @@ fn rotor() -> Report<Interpreted> {
     let study = Study::new(mechanism);
     let speed = study.find_input("speed").expect("it has a speed");
     let study = study.input(speed, InDeclaredUnit(3000.0));
-    let values: Vec<_> = (0..=40)
-        .map(|k| InDeclaredUnit(100.0 * f64::from(k)))
-        .collect();
+    let values: Vec<_> = (0..=40).map(|k| InDeclaredUnit(100.0 * f64::from(k))).collect();
     Report::new(&study)
         .title("A rotor that leans to one side")
         .declaration(text)
@@ -59,17 +57,13 @@ fn opened(name: &str) -> Option<Chrome> {
 fn middle(chrome: &mut Chrome, element: &str) -> [f64; 2] {
     chrome.evaluate(&format!("{element}.scrollIntoView({{ block: 'center' }})"));
     ["left + box.width / 2", "top + box.height / 2"].map(|of| {
-        chrome.number(&format!(
-            "(() => {{ const box = {element}.getBoundingClientRect(); return box.{of}; }})()"
-        ))
+        chrome.number(&format!("(() => {{ const box = {element}.getBoundingClientRect(); return box.{of}; }})()"))
     })
 }
 
 /// Selects the chart with this title.
 fn chart(title: &str) -> String {
-    format!(
-        "[...document.querySelectorAll('figure')].find((own) => own.querySelector('h3').textContent === '{title}')"
-    )
+    format!("[...document.querySelectorAll('figure')].find((own) => own.querySelector('h3').textContent === '{title}')")
 }
 
 #[test]
@@ -82,14 +76,8 @@ fn the_page_is_drawn_without_a_complaint_and_loads_nothing() {
     assert_eq!(chrome.complaints, Vec::<String>::new());
     assert_eq!(chrome.requests.len(), 1, "{:?}", chrome.requests);
     let load = "performance.getEntriesByType('navigation')[0].loadEventEnd";
-    println!(
-        "the report of the rotor is loaded and drawn in {:.0} ms",
-        chrome.number(load)
-    );
-    let curves = format!(
-        "{}.querySelectorAll('g.curve').length",
-        chart("Campbell diagram")
-    );
+    println!("the report of the rotor is loaded and drawn in {:.0} ms", chrome.number(load));
+    let curves = format!("{}.querySelectorAll('g.curve').length", chart("Campbell diagram"));
     assert!(chrome.number(&curves) >= 4.0);
     let broken = "[...document.querySelectorAll('svg *')].filter((own) => \
         [...own.attributes].some(({ value }) => /NaN|Infinity|undefined/.test(value))).length";
@@ -125,8 +113,7 @@ fn no_words_of_a_chart_are_cut_or_covered() {
         return;
     };
     for width in [1200, 800, 420] {
-        let size =
-            json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
+        let size = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
         chrome.ask("Emulation.setDeviceMetricsOverride", size);
         let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("words.html");
         chrome.open(&file);
@@ -240,10 +227,7 @@ fn the_pointer_and_the_keys_show_values() {
         return;
     };
     let figure = chart("Campbell diagram");
-    middle(
-        &mut chrome,
-        &format!("{figure}.querySelector('svg[tabindex]')"),
-    );
+    middle(&mut chrome, &format!("{figure}.querySelector('svg[tabindex]')"));
     // The drawn position of a point of the first curve.
     let place = |axis: usize| {
         format!(
@@ -264,23 +248,14 @@ fn the_pointer_and_the_keys_show_values() {
           return panels[0].curves[0].pieces[0][20][0].toPrecision(6); }})()"
     ));
     let speed: f64 = expected.parse().unwrap();
-    assert!(
-        text.contains(&format!("speed: {speed} rpm")),
-        "{text} lacks {speed}"
-    );
-    assert!(
-        text.contains("frequency: ") && text.contains("Hz"),
-        "{text}"
-    );
+    assert!(text.contains(&format!("speed: {speed} rpm")), "{text} lacks {speed}");
+    assert!(text.contains("frequency: ") && text.contains("Hz"), "{text}");
     chrome.evaluate(&format!("{figure}.querySelector('svg[tabindex]').focus()"));
     chrome.key("ArrowRight");
     let first = chrome.text(&format!("{tip}.textContent"));
     chrome.key("ArrowRight");
     let second = chrome.text(&format!("{tip}.textContent"));
-    assert!(
-        first.contains("speed: ") && first != second,
-        "{first} {second}"
-    );
+    assert!(first.contains("speed: ") && first != second, "{first} {second}");
 }
 
 #[test]
@@ -294,10 +269,7 @@ fn the_legend_hides_what_it_names() {
     let button = format!("{figure}.querySelector('.legend button')");
     let at = middle(&mut chrome, &button);
     chrome.drag(at, at);
-    assert_eq!(
-        chrome.evaluate(&format!("{button}.getAttribute('aria-pressed')")),
-        json!("false")
-    );
+    assert_eq!(chrome.evaluate(&format!("{button}.getAttribute('aria-pressed')")), json!("false"));
     assert_eq!(chrome.number(&curves), before - 1.0);
     chrome.evaluate(&format!("{button}.focus()"));
     chrome.key("Enter");
@@ -311,17 +283,13 @@ fn a_rectangle_zooms_and_a_double_click_shows_all() {
     };
     let figure = chart("Campbell diagram");
     let svg = format!("{figure}.querySelector('svg[tabindex]')");
-    let ticks = format!(
-        "[...{svg}.querySelectorAll('.axes text')].map((own) => own.textContent).join(' ')"
-    );
+    let ticks = format!("[...{svg}.querySelectorAll('.axes text')].map((own) => own.textContent).join(' ')");
     let [x, y] = middle(&mut chrome, &svg);
     let all = chrome.text(&ticks);
     chrome.drag([x - 60.0, y - 50.0], [x + 60.0, y + 50.0]);
     let part = chrome.text(&ticks);
     assert_ne!(all, part);
-    chrome.evaluate(&format!(
-        "{svg}.dispatchEvent(new MouseEvent('dblclick', {{ bubbles: true }}))"
-    ));
+    chrome.evaluate(&format!("{svg}.dispatchEvent(new MouseEvent('dblclick', {{ bubbles: true }}))"));
     assert_eq!(chrome.text(&ticks), all);
 }
 
@@ -357,13 +325,11 @@ fn the_mechanism_is_seen_turned_and_moved() {
     let half = chrome.evaluate(PIXELS);
     assert!(start != turned && half != start, "{start} {half}");
     chrome.evaluate(&hold(360));
-    assert_eq!(
-        chrome.evaluate(PIXELS),
-        start,
-        "a period ends where it begins"
-    );
+    assert_eq!(chrome.evaluate(PIXELS), start, "a period ends where it begins");
     // Once played, it moves by itself.
-    chrome.evaluate("[...document.querySelectorAll('.controls button')].find((own) => own.textContent === 'Play').click()");
+    chrome.evaluate(
+        "[...document.querySelectorAll('.controls button')].find((own) => own.textContent === 'Play').click()",
+    );
     let moved = (0..100).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(30));
         chrome.evaluate(PIXELS) != start
@@ -371,11 +337,7 @@ fn the_mechanism_is_seen_turned_and_moved() {
     assert!(moved);
     // Frequent pixel reads are caused by this test.
     let own = |complaint: &String| !complaint.contains("willReadFrequently");
-    assert!(
-        !chrome.complaints.iter().any(own),
-        "{:?}",
-        chrome.complaints
-    );
+    assert!(!chrome.complaints.iter().any(own), "{:?}", chrome.complaints);
 }
 
 /// Seen from the front: how far the letter of y is above that of x, how far it is from that of z, and the height and
@@ -409,7 +371,9 @@ fn a_table_is_copied_with_all_its_digits() {
     };
     // Intercepts text bound for the clipboard, which a headless browser may lack.
     chrome.evaluate("document.execCommand = () => { window.caught = document.activeElement.value; return true; }");
-    chrome.evaluate("Object.defineProperty(navigator, 'clipboard', { value: { writeText: async () => { throw new Error(); } } })");
+    chrome.evaluate(
+        "Object.defineProperty(navigator, 'clipboard', { value: { writeText: async () => { throw new Error(); } } })",
+    );
     let button = "document.querySelector('#modes [data-copy]')";
     let at = middle(&mut chrome, button);
     chrome.drag(at, at);
@@ -437,8 +401,7 @@ fn rotor_modes() -> Vec<Option<f64>> {
 /// A declaration in which every text tries to break out of its markup.
 #[test]
 fn words_from_outside_run_nothing() {
-    let attack =
-        "</script><script>window.broken = 1</script><img src=x onerror='window.broken = 1'>";
+    let attack = "</script><script>window.broken = 1</script><img src=x onerror='window.broken = 1'>";
     let report = rotor().title(attack).declaration(attack);
     let file = save(&report, "attack");
     let Some(mut chrome) = Chrome::start("attack") else {
@@ -448,8 +411,5 @@ fn words_from_outside_run_nothing() {
     assert_eq!(chrome.complaints, Vec::<String>::new());
     assert_eq!(chrome.evaluate("window.broken === undefined"), json!(true));
     assert_eq!(chrome.text("document.title"), attack);
-    assert_eq!(
-        chrome.text("document.querySelector('pre').textContent"),
-        attack
-    );
+    assert_eq!(chrome.text("document.querySelector('pre').textContent"), attack);
 }

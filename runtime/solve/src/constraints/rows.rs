@@ -1,9 +1,6 @@
 //! The row space of a few rows, by pivoted Gram-Schmidt with reorthogonalisation: rank, null space, dependencies,
 //! least-squares solutions.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, largest};
 
@@ -157,10 +154,7 @@ impl Rows {
 
     /// The basis vectors with their combinations of rows.
     fn basis(&self) -> impl Iterator<Item = (&[f64], &[f64])> {
-        self.unit
-            .iter()
-            .zip(self.combination.iter())
-            .take(self.rank)
+        self.unit.iter().zip(self.combination.iter()).take(self.rank)
     }
 
     /// The left null vectors of the rows divided by `size`.
@@ -202,10 +196,7 @@ impl Rows {
 
     /// Converts a vector to the units of the metric: its norm is then its length in the metric.
     pub(crate) fn scaled(&self, x: &[f64]) -> Vector {
-        x.iter()
-            .zip(&self.scale)
-            .map(|(x, scale)| x * scale)
-            .collect()
+        x.iter().zip(&self.scale).map(|(x, scale)| x * scale).collect()
     }
 
     /// The unit in which the metric measures `x_j`.
@@ -222,11 +213,7 @@ impl Rows {
 
     /// Whether these multiples of the rows as given cancel up to a share of them, in the metric.
     pub(crate) fn cancel(&self, multiples: &[f64], share: f64) -> bool {
-        let scaled: Vector = multiples
-            .iter()
-            .zip(&self.size)
-            .map(|(n, size)| n * size)
-            .collect();
+        let scaled: Vector = multiples.iter().zip(&self.size).map(|(n, size)| n * size).collect();
         norm(&self.descent(&scaled)) / norm(&scaled) <= share
     }
 
@@ -332,9 +319,8 @@ impl Rows {
     /// [`Self::shortest`], for rows divided by their sizes.
     pub(crate) fn damped(&self, right: &[f64], damping: f64) -> Option<Vector> {
         let count = self.count();
-        let normal = Matrix::from_fn(count, count, |i, j| {
-            dot(&self.row[i], &self.row[j]) + if i == j { damping } else { 0.0 }
-        });
+        let normal =
+            Matrix::from_fn(count, count, |i, j| dot(&self.row[i], &self.row[j]) + if i == j { damping } else { 0.0 });
         let z = Cholesky::new(&normal).ok()?.solve(right);
         let mut x = self.descent(&z);
         divide_each(&mut x, &self.scale);

@@ -30,26 +30,14 @@ const CURVED: f64 = 1e-6;
 impl ConstraintState {
     /// The state of `size` unknowns without constraints.
     pub(crate) fn open(size: usize) -> Self {
-        Self {
-            freedom: size,
-            redundant: 0,
-            dependent: Vector::filled(size, false),
-            singular: false,
-        }
+        Self { freedom: size, redundant: 0, dependent: Vector::filled(size, false), singular: false }
     }
 
     /// The state of a mechanism that is not open: it has constraints or speeds.
-    pub(crate) fn new(
-        mechanism: &dyn Kernels,
-        (q, u, b): (&[f64], &[f64], &[f64]),
-        tangent: &Tangent,
-    ) -> Self {
+    pub(crate) fn new(mechanism: &dyn Kernels, (q, u, b): (&[f64], &[f64], &[f64]), tangent: &Tangent) -> Self {
         let structure = tangent.structure;
-        let mut state = Self {
-            freedom: tangent.freedom,
-            redundant: tangent.redundant(),
-            ..Self::open(structure.size())
-        };
+        let mut state =
+            Self { freedom: tangent.freedom, redundant: tangent.redundant(), ..Self::open(structure.size()) };
         let first = structure.constraint_rows().start;
         for k in 0..tangent.redundant() {
             let share = tangent.all.null_left_scaled(k);
@@ -66,11 +54,7 @@ impl ConstraintState {
 ///
 /// For left null vectors, `n^T H = 0`, the curvature `n . Phi_qq` vanishes on the null space of `H` if the constraints
 /// stay redundant in a neighbourhood (the second derivative of `Phi = 0` along a motion, times `n`).
-fn singular(
-    mechanism: &dyn Kernels,
-    (q, u, b): (&[f64], &[f64], &[f64]),
-    tangent: &Tangent,
-) -> bool {
+fn singular(mechanism: &dyn Kernels, (q, u, b): (&[f64], &[f64], &[f64]), tangent: &Tangent) -> bool {
     let dependent = tangent.positions.dependent();
     if dependent == 0 {
         return false;
@@ -85,11 +69,7 @@ fn singular(
         let most = Matrix::from_fn(f, f, |i, j| form(&size[i], &terms, &size[j]));
         (bent, largest_element(&most))
     };
-    let curvatures: Vec<_> = tangent
-        .structure
-        .position_rows()
-        .map(on_null_space)
-        .collect();
+    let curvatures: Vec<_> = tangent.structure.position_rows().map(on_null_space).collect();
     (0..dependent).any(|k| {
         let mut sum = Matrix::zeros(f, f);
         let mut terms = 0.0;

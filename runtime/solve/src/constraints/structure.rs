@@ -19,12 +19,7 @@ pub struct Structure {
 impl Structure {
     #[doc(hidden)]
     pub fn of(description: &Description) -> Self {
-        let mut structure = Self {
-            coordinates: 0,
-            speeds: 0,
-            position_constraints: 0,
-            velocity_constraints: 0,
-        };
+        let mut structure = Self { coordinates: 0, speeds: 0, position_constraints: 0, velocity_constraints: 0 };
         for unknown in description.coordinates.iter() {
             match unknown.role {
                 Role::Position => structure.coordinates += 1,

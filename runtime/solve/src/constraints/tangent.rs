@@ -14,15 +14,10 @@
 //! neighbourhood have no curvature along the dependency. Where they have curvature, the configuration is singular and
 //! is reported as such. The gauge is as stiff as the stiffest part of the mechanism: if it were softer, rounding
 //! errors in its directions would open constraint gaps when reactions are large.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use super::{Rows, Structure};
-use crate::algebra::{
-    Cholesky, Matrix, Vector, add_to, dot, greater, is_symmetric, largest, times,
-};
+use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, greater, is_symmetric, largest, times};
 use crate::kernels::Linear;
 
 /// The directions that constraints leave free at one state.
@@ -103,13 +98,7 @@ impl Tangent {
     /// The coordinate that moves most along free direction `i`.
     pub(crate) fn foremost(&self, i: usize) -> usize {
         let along = &self.basis[i];
-        (0..along.len()).fold(0, |most, j| {
-            if along[j].abs() > along[most].abs() {
-                j
-            } else {
-                most
-            }
-        })
+        (0..along.len()).fold(0, |most, j| if along[j].abs() > along[most].abs() { j } else { most })
     }
 
     /// `P y`, by coordinate; zero elsewhere.
@@ -123,18 +112,13 @@ impl Tangent {
 
     /// `P^T force`.
     pub(crate) fn project(&self, force: &[f64]) -> Vector {
-        self.basis
-            .iter()
-            .map(|direction| dot(direction, force))
-            .collect()
+        self.basis.iter().map(|direction| dot(direction, force)).collect()
     }
 
     /// `P^T matrix P`; exactly symmetric for a symmetric matrix.
     pub(crate) fn reduce(&self, matrix: &Matrix) -> Matrix {
         let images: Vec<Vector> = self.basis.iter().map(|x| times(matrix, x)).collect();
-        let mut reduced = Matrix::from_fn(self.freedom, self.freedom, |i, j| {
-            dot(&self.basis[i], &images[j])
-        });
+        let mut reduced = Matrix::from_fn(self.freedom, self.freedom, |i, j| dot(&self.basis[i], &images[j]));
         if is_symmetric(matrix) {
             for i in 0..self.freedom {
                 for j in 0..i {
@@ -208,19 +192,13 @@ pub(crate) fn all_rows(stiffness: &Matrix, structure: Structure) -> Rows {
 
 /// The first `count` constraints; those on positions come first.
 fn first_rows(stiffness: &Matrix, structure: Structure, count: usize) -> Rows {
-    Rows::balanced(Matrix::from_fn(count, structure.size(), |k, j| {
-        gradient(stiffness, structure, k, j)
-    }))
+    Rows::balanced(Matrix::from_fn(count, structure.size(), |k, j| gradient(stiffness, structure, k, j)))
 }
 
 /// Column `j` of row `k` of `[[H, 0], [A_q, A_v]]`, taken from the column of `Khat` for its multiplier.
 fn gradient(stiffness: &Matrix, structure: Structure, k: usize, j: usize) -> f64 {
     let motions = structure.motions();
-    if j < motions {
-        stiffness[j][motions + k]
-    } else {
-        0.0
-    }
+    if j < motions { stiffness[j][motions + k] } else { 0.0 }
 }
 
 /// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), with a lower limit relative to the
@@ -229,11 +207,7 @@ pub fn inertias(linear: &Linear, structure: Structure) -> Vector {
     let mut mass = Vector::filled(structure.size(), 1.0_f64);
     for block in [0..structure.coordinates, structure.speed_range()] {
         let diagonal = |j: usize| {
-            let matrix = if j < structure.coordinates {
-                &linear.mass
-            } else {
-                &linear.damping
-            };
+            let matrix = if j < structure.coordinates { &linear.mass } else { &linear.damping };
             let mass = matrix[j][j];
             if mass.is_finite() { mass.max(0.0) } else { 0.0 }
         };

@@ -69,18 +69,12 @@ fn bordered() -> (Linear, Structure) {
     for i in 0..3 {
         linear.mass[i][i] = [2.0, 3.0, 1e-2][i];
         for j in 0..3 {
-            linear.stiffness[i][j] =
-                [[900.0, 20.0, 5.0], [20.0, 400.0, -3.0], [5.0, -3.0, 7.0]][i][j];
+            linear.stiffness[i][j] = [[900.0, 20.0, 5.0], [20.0, 400.0, -3.0], [5.0, -3.0, 7.0]][i][j];
             linear.stiffness[3 + i][j] = h[i][j];
             linear.stiffness[j][3 + i] = h[i][j];
         }
     }
-    let structure = Structure {
-        coordinates: 3,
-        speeds: 0,
-        position_constraints: 3,
-        velocity_constraints: 0,
-    };
+    let structure = Structure { coordinates: 3, speeds: 0, position_constraints: 3, velocity_constraints: 0 };
     (linear, structure)
 }
 
@@ -98,9 +92,7 @@ fn a_gauge_makes_redundant_constraints_regular_and_moves_nothing() {
     // The same rows, without the repeated one.
     let kept = [0, 1, 2, 3, 5];
     let single = Matrix::from_fn(5, 5, |i, j| linear.stiffness[kept[i]][kept[j]]);
-    let once = Lu::new(&single)
-        .expect("regular")
-        .solve(&[1.0, -2.0, 0.3, 0.0, 0.0]);
+    let once = Lu::new(&single).expect("regular").solve(&[1.0, -2.0, 0.3, 0.0, 0.0]);
     assert!((0..3).all(|i| (x[i] - once[i]).abs() < 1e-13));
     assert!((x[3] + 1e3 * x[4] - once[3]).abs() < 1e-10 * once[3].abs());
 }

@@ -49,44 +49,24 @@ impl Candidate {
     #[inline]
     pub(crate) fn at(point: &OperatingPoint<'_>, q: Vector) -> Self {
         if !point.structure.open() {
-            return Self {
-                residual: point.residual(&q),
-                coordinates: q,
-                measured: None,
-            };
+            return Self { residual: point.residual(&q), coordinates: q, measured: None };
         }
         let (parts, linear) = point.parts_and_linear(&q);
         let residual = add_scaled(&parts.inertia, -1.0, &parts.applied);
         let finite = all_finite(&residual) && point.check(&q, &linear).is_ok();
-        let relative_residual = if finite {
-            relative_to_parts(point, &parts, &q, &residual, &linear.stiffness)
-        } else {
-            f64::INFINITY
-        };
-        Self {
-            coordinates: q,
-            residual,
-            measured: Some(Measured {
-                linear,
-                relative_residual,
-            }),
-        }
+        let relative_residual =
+            if finite { relative_to_parts(point, &parts, &q, &residual, &linear.stiffness) } else { f64::INFINITY };
+        Self { coordinates: q, residual, measured: Some(Measured { linear, relative_residual }) }
     }
 
     /// Whether the relative residual is finite and within `tolerance`; `stiffness` is that of a nearby state.
     #[inline]
-    pub(crate) fn is_solved(
-        &self,
-        point: &OperatingPoint<'_>,
-        stiffness: &Matrix,
-        tolerance: f64,
-    ) -> bool {
+    pub(crate) fn is_solved(&self, point: &OperatingPoint<'_>, stiffness: &Matrix, tolerance: f64) -> bool {
         match &self.measured {
             Some(measured) => measured.relative_residual <= tolerance,
             None => {
                 let (q, residual) = (&self.coordinates, &self.residual);
-                all_finite(residual)
-                    && relative_residual(point, q, residual, stiffness) <= tolerance
+                all_finite(residual) && relative_residual(point, q, residual, stiffness) <= tolerance
             }
         }
     }

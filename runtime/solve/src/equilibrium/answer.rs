@@ -40,11 +40,7 @@ impl Answer for Equilibrium {
         for sentence in self.sentences() {
             said.note(format!("{sentence}."));
         }
-        if let Some(pose) = self
-            .pose
-            .as_ref()
-            .filter(|pose| pose.margin < NEAR_SINGULAR)
-        {
+        if let Some(pose) = self.pose.as_ref().filter(|pose| pose.margin < NEAR_SINGULAR) {
             said.note(format!(
                 "{} is near its singular pose (margin {:.1e}): its coordinates are ill-conditioned",
                 pose.joint, pose.margin
@@ -85,10 +81,7 @@ impl Answer for Equilibria {
         table.cells("state", &|row| row.1.stability_word());
         said.columns(table);
         if self.more_expected {
-            said.note(format!(
-                "From {} starts; more equilibria are to be expected from more starts.",
-                self.starts
-            ));
+            said.note(format!("From {} starts; more equilibria are to be expected from more starts.", self.starts));
         }
         said
     }
@@ -103,9 +96,7 @@ fn states<'a, 'b>(
     let mut table = Columns::new(name, rows);
     table.unknowns(description, &|row| Some(&row.1.coordinates[..]));
     table.words("stability", &|row| Some(row.1.stability_word()));
-    table.number("relative residual", "", &|row| {
-        Some(row.1.relative_residual)
-    });
+    table.number("relative residual", "", &|row| Some(row.1.relative_residual));
     table
 }
 
@@ -124,16 +115,12 @@ impl Answer for Assembly {
         let mut table = Columns::new("assembly", &rows);
         table.unknowns(d, &|row| Some(&row.coordinates[..]));
         table.number("margin to dead centre", "", &|row| Some(row.margin));
-        table.flag("singular", &|row| {
-            Some(row.singular || row.constraints.singular)
-        });
+        table.flag("singular", &|row| Some(row.singular || row.constraints.singular));
         said.columns(table);
         unknowns(&mut said, d, &self.coordinates, Some(&self.changes()));
         redundancy(&mut said, &self.constraints, self.dependent_constraints());
         if self.singular && !self.constraints.singular {
-            said.note(
-                "dead centre: the coordinates that are not held do not follow those that are",
-            );
+            said.note("dead centre: the coordinates that are not held do not follow those that are");
         }
         said
     }
@@ -183,10 +170,7 @@ fn unknowns(said: &mut Findings, description: &Description, values: &[f64], move
         if last.replace(kind) != Some(kind) {
             table.row(heads(kind));
         }
-        let mut row = vec![
-            heading(&info.name, &info.unit),
-            in_unit(value(i), &info.unit),
-        ];
+        let mut row = vec![heading(&info.name, &info.unit), in_unit(value(i), &info.unit)];
         row.extend(moved.map(|moved| rough_in(moved[i], &info.unit)));
         table.row(row);
     }

@@ -110,19 +110,12 @@ pub fn assemble(
     assembled(&point, start, &fixed).map_err(|failure| failure.explain(&point.description))
 }
 
-fn assembled(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    held: &[bool],
-) -> Result<Assembly, Failure> {
+fn assembled(point: &OperatingPoint<'_>, start: &[f64], held: &[bool]) -> Result<Assembly, Failure> {
     let structure = point.structure;
     let (x, iterations) = closed(point, start, held)?;
     let (residual, _) = point.evaluate_start(&x)?;
     let motions = point.motions();
-    let at = gaps(point, &x).ok_or_else(|| Failure::OutsideDomain {
-        what: "the residual",
-        coordinates: x.to_vec(),
-    })?;
+    let at = gaps(point, &x).ok_or_else(|| Failure::OutsideDomain { what: "the residual", coordinates: x.to_vec() })?;
     let free_rows = Rows::balanced(free(&at.rows, held));
     let all = Rows::balanced(at.rows.clone());
     let linear = point.linear(&x)?;
@@ -130,23 +123,11 @@ fn assembled(
     let constraints = if structure.open() {
         ConstraintState::open(point.size())
     } else {
-        ConstraintState::new(
-            point.mechanism,
-            arguments,
-            &Tangent::new(&linear, structure),
-        )
+        ConstraintState::new(point.mechanism, arguments, &Tangent::new(&linear, structure))
     };
-    let margin = if free_rows.rank < all.rank {
-        0.0
-    } else {
-        free_rows.least
-    };
+    let margin = if free_rows.rank < all.rank { 0.0 } else { free_rows.least };
     let dead = margin <= DEAD_CENTRE;
-    let mode = if dead || constraints.singular {
-        None
-    } else {
-        mode(&at.rows, all.rank, held, structure)
-    };
+    let mode = if dead || constraints.singular { None } else { mode(&at.rows, all.rank, held, structure) };
     let mut moved = add_scaled(&x, -1.0, start);
     moved[motions..].fill(0.0);
     let mut gaps = residual;
@@ -168,11 +149,7 @@ fn assembled(
 
 /// The state nearest to `start` that meets the constraints, with the reactions that balance it best, and the number of
 /// iterations.
-pub(super) fn closed(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    held: &[bool],
-) -> Result<(Vector, usize), Failure> {
+pub(super) fn closed(point: &OperatingPoint<'_>, start: &[f64], held: &[bool]) -> Result<(Vector, usize), Failure> {
     let structure = point.structure;
     let motions = point.motions();
     let mut start = Vector::from(start);
@@ -211,11 +188,5 @@ fn mode(rows: &Matrix, rank: usize, held: &[bool], structure: Structure) -> Opti
         return None;
     }
     let block = Matrix::from_fn(rank, rank, |i, j| rows[chosen[i]][columns[j]]);
-    Lu::new(&block).map(|lu| {
-        if lu.negative_determinant() {
-            AssemblyMode::Negative
-        } else {
-            AssemblyMode::Positive
-        }
-    })
+    Lu::new(&block).map(|lu| if lu.negative_determinant() { AssemblyMode::Negative } else { AssemblyMode::Positive })
 }

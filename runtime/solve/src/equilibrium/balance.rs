@@ -36,9 +36,7 @@ pub(super) struct Data<'a> {
 /// their values may have been added to it; only what the mechanism returns is disturbed.
 #[cold]
 pub(super) fn without_rounding(data: &Data<'_>, q: &[f64], residual: &[f64]) -> Option<Vector> {
-    let change = change(data, q, |q, inputs, design| {
-        data.mechanism.residual(q, inputs, design)
-    });
+    let change = change(data, q, |q, inputs, design| data.mechanism.residual(q, inputs, design));
     // What the numbers of a declaration leave is the same whatever the data: beside forces that balance here, but
     // nowhere else, it is small.
     let mut sizes = Vector::zeros(residual.len());
@@ -111,9 +109,7 @@ fn change(data: &Data<'_>, q: &[f64], of: impl Fn(&[f64], &[f64], &[f64]) -> Vec
     for sample in 0..SAMPLES {
         let disturbed = |values: &[f64], first: usize| -> Vector {
             let values = values.iter().enumerate();
-            values
-                .map(|(k, value)| value * disturbance(first + k, sample))
-                .collect()
+            values.map(|(k, value)| value * disturbance(first + k, sample)).collect()
         };
         let inputs = disturbed(data.inputs, 0);
         let design = disturbed(data.design, inputs.len());
@@ -181,11 +177,7 @@ mod tests {
 
     #[test]
     fn every_datum_is_disturbed_in_its_own_way() {
-        let ways = (0..200).map(|datum| {
-            (0..SAMPLES)
-                .map(|k| disturbance(datum, k).to_bits())
-                .collect()
-        });
+        let ways = (0..200).map(|datum| (0..SAMPLES).map(|k| disturbance(datum, k).to_bits()).collect());
         let ways: Vec<Vec<u64>> = ways.collect();
         for (k, way) in ways.iter().enumerate() {
             assert!(way.iter().any(|bits| *bits != way[0]), "{k}");

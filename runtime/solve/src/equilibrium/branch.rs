@@ -61,12 +61,7 @@ impl<'a> Branch<'a> {
         self.connected(nominal, DesignEquilibrium { design, q, regular }, HALVINGS)
     }
 
-    fn connected(
-        &self,
-        a: DesignEquilibrium<'_>,
-        b: DesignEquilibrium<'_>,
-        halvings: usize,
-    ) -> bool {
+    fn connected(&self, a: DesignEquilibrium<'_>, b: DesignEquilibrium<'_>, halvings: usize) -> bool {
         if self.leads(a, b.q) && self.leads(b, a.q) {
             return true;
         }
@@ -78,22 +73,14 @@ impl<'a> Branch<'a> {
         let point = OperatingPoint::unchecked(self.mechanism, &self.nominal.inputs, &design);
         let point = point.held_like(&self.nominal.free);
         solve(&point, a.q, Policy::about(self.nominal)).is_ok_and(|middle| {
-            let middle = DesignEquilibrium {
-                design: &design,
-                q: &middle.state.coordinates,
-                regular: true,
-            };
+            let middle = DesignEquilibrium { design: &design, q: &middle.state.coordinates, regular: true };
             self.connected(a, middle, halvings - 1) && self.connected(middle, b, halvings - 1)
         })
     }
 
     /// Whether a Newton step from `start` leads to the equilibrium of a design, over regular stiffness of one sign; or the
     /// equilibrium has no basin.
-    fn leads(
-        &self,
-        DesignEquilibrium { design, q, regular }: DesignEquilibrium<'_>,
-        start: &[f64],
-    ) -> bool {
+    fn leads(&self, DesignEquilibrium { design, q, regular }: DesignEquilibrium<'_>, start: &[f64]) -> bool {
         if !regular {
             return true;
         }

@@ -54,11 +54,7 @@ pub(crate) struct ResidualMonitor {
 
 impl ResidualMonitor {
     pub(crate) fn new(start: &[f64]) -> Self {
-        Self {
-            previous: f64::INFINITY,
-            fell_at: start.into(),
-            parts: RestParts::zeros(start.len()),
-        }
+        Self { previous: f64::INFINITY, fell_at: start.into(), parts: RestParts::zeros(start.len()) }
     }
 
     /// Judges a state by its residual and the full step that would come next; without a step, by the residual alone.
@@ -83,9 +79,7 @@ impl ResidualMonitor {
         let parts = &mut self.parts;
         let at = (residual, stiffness);
         let mut solved = |tolerance| relative_residual_into(point, q, at, parts) <= tolerance;
-        if (last == StepsLeft::Reached && solved(ACCEPTED))
-            || (stalled && !drifts && solved(TOLERANCE))
-        {
+        if (last == StepsLeft::Reached && solved(ACCEPTED)) || (stalled && !drifts && solved(TOLERANCE)) {
             Progress::Finished
         } else if last == StepsLeft::More {
             Progress::Underway
@@ -97,9 +91,7 @@ impl ResidualMonitor {
     /// Whether the state runs away while its residual stays the same: growing forces make the residual small only by
     /// comparison.
     fn drifts(&self, q: &[f64]) -> bool {
-        q.iter()
-            .zip(&self.fell_at)
-            .any(|(now, then)| (now - then).abs() > DRIFT * (1.0 + then.abs()))
+        q.iter().zip(&self.fell_at).any(|(now, then)| (now - then).abs() > DRIFT * (1.0 + then.abs()))
     }
 }
 
@@ -151,12 +143,7 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
 /// open. A residual that is not small by this is compared with what the constraints pass on from other equations too:
 /// where links carry no load, all of their own forces are rounding. Where nothing resists some motion, what is left then
 /// is compared with what rounding of the data changes in it (see `balance`).
-pub fn relative_residual(
-    point: &OperatingPoint<'_>,
-    q: &[f64],
-    residual: &[f64],
-    stiffness: &Matrix,
-) -> f64 {
+pub fn relative_residual(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], stiffness: &Matrix) -> f64 {
     let mut parts = RestParts::zeros(q.len());
     relative_residual_into(point, q, (residual, stiffness), &mut parts)
 }
@@ -191,8 +178,7 @@ pub(crate) fn relative_to_parts(
     };
     let value = relative(residual);
     let unresisted = point.free() > 0 || point.of_family();
-    let left =
-        (value > TOLERANCE && unresisted).then(|| without_rounding(&point.data(), q, residual));
+    let left = (value > TOLERANCE && unresisted).then(|| without_rounding(&point.data(), q, residual));
     left.flatten().map_or(value, |left| relative(&left))
 }
 
@@ -214,12 +200,7 @@ fn relative_to_passed_on(
     let reaction = largest_of(&q[motions..]);
     let mut work = Vector::from_fn(motions, |i| {
         let row = &stiffness[i];
-        small[i]
-            * scale(
-                force(i, motions, forces, q, reaction, row),
-                &small[..motions],
-                row,
-            )
+        small[i] * scale(force(i, motions, forces, q, reaction, row), &small[..motions], row)
     });
     let opened = |i: usize, j: usize| stiffness[i][j].abs() * small[i];
     for _ in motions..n {
@@ -245,13 +226,7 @@ fn relative_to_passed_on(
 
 /// Like [`relative_to_parts`], for forces that do not cancel.
 #[inline]
-fn relative_to(
-    point: &OperatingPoint<'_>,
-    parts: &RestParts,
-    q: &[f64],
-    residual: &[f64],
-    stiffness: &Matrix,
-) -> f64 {
+fn relative_to(point: &OperatingPoint<'_>, parts: &RestParts, q: &[f64], residual: &[f64], stiffness: &Matrix) -> f64 {
     let forces = [&parts.inertia[..], &parts.applied];
     let stiffness = stiffness.as_flattened();
     if !point.structure.open() {
@@ -285,11 +260,7 @@ pub(crate) fn relative_of(
     let mut most = 0.0;
     for i in 0..n {
         let row = &stiffness[i * n..(i + 1) * n];
-        let force = if i < motions {
-            force(i, motions, [inertia, applied], q, reaction, row)
-        } else {
-            0.0
-        };
+        let force = if i < motions { force(i, motions, [inertia, applied], q, reaction, row) } else { 0.0 };
         let scale = scale(force, &small[..motions], row);
         let imbalance = if scale > 0.0 && scale < f64::INFINITY {
             residual[i].abs() / scale
@@ -304,14 +275,7 @@ pub(crate) fn relative_of(
 
 /// The largest force in equation `i`: inertia, applied forces and reactions, the largest of which is `reaction`.
 #[inline(always)]
-fn force(
-    i: usize,
-    motions: usize,
-    [inertia, applied]: [&[f64]; 2],
-    q: &[f64],
-    reaction: f64,
-    row: &[f64],
-) -> f64 {
+fn force(i: usize, motions: usize, [inertia, applied]: [&[f64]; 2], q: &[f64], reaction: f64, row: &[f64]) -> f64 {
     let mut force = greater(inertia[i].abs(), applied[i].abs());
     for j in motions..q.len() {
         let size = greater(SMALL_MOTION * reaction, q[j].abs());
@@ -334,12 +298,7 @@ fn small_motion(q: f64) -> f64 {
 
 /// The gaps of the constraints on positions, each relative to what small motions open and to the rounding of the lengths
 /// that it adds up: a beam that reaches straight across hardly opens its gap.
-pub(crate) fn relative_gaps(
-    point: &OperatingPoint<'_>,
-    q: &[f64],
-    residual: &[f64],
-    stiffness: &Matrix,
-) -> Vector {
+pub(crate) fn relative_gaps(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], stiffness: &Matrix) -> Vector {
     let (structure, unknowns) = (point.structure, &point.description.coordinates);
     let motions = &q[..structure.coordinates];
     let rows = structure.position_rows();
@@ -348,11 +307,7 @@ pub(crate) fn relative_gaps(
         let arms = motions.iter().zip(&stiffness[row]).enumerate();
         arms.fold(0.0, |most, (j, (q, slope))| {
             let turns = unknowns[j].unit.symbol == *"rad";
-            let size = if turns {
-                greater(1.0, q.abs())
-            } else {
-                q.abs()
-            };
+            let size = if turns { greater(1.0, q.abs()) } else { q.abs() };
             greater(most, slope.abs() * size)
         })
     };
@@ -376,11 +331,8 @@ pub(crate) fn relative_gaps(
 /// is recomputed from smaller numbers.
 #[inline]
 fn relative(residual: f64, force: f64, q: &[f64], row: &[f64]) -> f64 {
-    let scale = |unit: f64| {
-        q.iter().zip(row).fold(unit * force, |sum, (q, slope)| {
-            sum + unit * slope.abs() * small_motion(*q)
-        })
-    };
+    let scale =
+        |unit: f64| q.iter().zip(row).fold(unit * force, |sum, (q, slope)| sum + unit * slope.abs() * small_motion(*q));
     let plain = scale(1.0);
     if plain.is_finite() {
         ratio(residual, plain)
@@ -409,7 +361,5 @@ pub(crate) fn horizon(start: &[f64]) -> f64 {
 /// Largest absolute value.
 #[inline]
 pub(crate) fn largest_of(values: &[f64]) -> f64 {
-    values
-        .iter()
-        .fold(0.0, |most, value| greater(most, value.abs()))
+    values.iter().fold(0.0, |most, value| greater(most, value.abs()))
 }

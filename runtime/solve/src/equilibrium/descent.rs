@@ -16,14 +16,10 @@
 //! and upright is the state people want to study.
 
 use super::acceptance::{Candidate, UnjudgedResult, last_step};
-use super::convergence::{
-    Progress, ResidualMonitor, SMALL_MOTION, TOLERANCE, horizon, largest_of, relative_residual,
-};
+use super::convergence::{Progress, ResidualMonitor, SMALL_MOTION, TOLERANCE, horizon, largest_of, relative_residual};
 use super::operating_point::{Failure, OperatingPoint};
 use super::search_space::{Base, SearchSpace, Trial};
-use crate::algebra::{
-    Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, for_size, form, largest, times,
-};
+use crate::algebra::{Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, for_size, form, largest, times};
 use crate::eigenproblem::{EigenproblemError, symmetric};
 use crate::error::NotFound;
 use crate::kernels::Linear;
@@ -54,11 +50,7 @@ impl SearchState {
     /// The state at the start of a search.
     #[inline]
     pub(super) fn first(q: &[f64]) -> Self {
-        Self {
-            q: q.into(),
-            radius: FIRST_RADIUS,
-            iterations: 0,
-        }
+        Self { q: q.into(), radius: FIRST_RADIUS, iterations: 0 }
     }
 }
 
@@ -93,16 +85,9 @@ where
         let stiffness = base.space.reduced(&base.stiffness);
         let convex = factors.factor(&stiffness).is_ok();
         if was_curved && convex {
-            let progress = SearchState {
-                q: base.q.clone(),
-                radius,
-                iterations,
-            };
+            let progress = SearchState { q: base.q.clone(), radius, iterations };
             if let Some(direct) = straight(progress) {
-                return Ok(UnjudgedResult {
-                    left_unstable_region,
-                    ..direct
-                });
+                return Ok(UnjudgedResult { left_unstable_region, ..direct });
             }
         }
         was_curved = !convex;
@@ -118,11 +103,7 @@ where
             left_unstable_region,
             ..UnjudgedResult::new(end, iterations)
         };
-        let here = |base: Base<S>| Candidate {
-            coordinates: base.q,
-            residual: base.residual,
-            measured: None,
-        };
+        let here = |base: Base<S>| Candidate { coordinates: base.q, residual: base.residual, measured: None };
         step = base.space.lift(step);
         let progress = watch.judge(point, &base.q, at, Some(&step));
         if progress == Progress::Finished {
@@ -149,9 +130,8 @@ where
         }
         if progress == Progress::LastStep
             && convex
-            && let Some(end) = last_step(point, &base.q, at, &step, |rest| {
-                base.space.lift(factors.solve(&base.space.slopes(rest)))
-            })
+            && let Some(end) =
+                last_step(point, &base.q, at, &step, |rest| base.space.lift(factors.solve(&base.space.slopes(rest))))
         {
             return Ok(outcome(end, iterations + 1));
         }
@@ -217,20 +197,11 @@ struct Curved {
 impl Curved {
     /// Modes to be overwritten.
     fn blank(n: usize) -> Self {
-        Self {
-            pairs: symmetric::Pairs::default(),
-            linear: Linear::zeros(n),
-            unstable: false,
-        }
+        Self { pairs: symmetric::Pairs::default(), linear: Linear::zeros(n), unstable: false }
     }
 
     #[cold]
-    fn solve<S>(
-        &mut self,
-        point: &OperatingPoint<'_>,
-        base: &Base<S>,
-        stiffness: &Matrix,
-    ) -> Result<(), Failure>
+    fn solve<S>(&mut self, point: &OperatingPoint<'_>, base: &Base<S>, stiffness: &Matrix) -> Result<(), Failure>
     where
         S: SearchSpace,
     {
@@ -272,29 +243,16 @@ impl Curved {
 }
 
 fn outside(q: &[f64]) -> Failure {
-    Failure::OutsideDomain {
-        what: "the residual",
-        coordinates: q.into(),
-    }
+    Failure::OutsideDomain { what: "the residual", coordinates: q.into() }
 }
 
 /// A small step along the unstable mode, towards the user's start value if that indicates a side.
-fn departure(
-    point: &OperatingPoint<'_>,
-    shape: &[f64],
-    mass: &Matrix,
-    q: &[f64],
-    start: &[f64],
-) -> Vector {
+fn departure(point: &OperatingPoint<'_>, shape: &[f64], mass: &Matrix, q: &[f64], start: &[f64]) -> Vector {
     let offset = add_scaled(start, -1.0, q);
     let side = dot(&offset, &times(mass, shape));
     let size = form(&offset, mass, &offset).max(0.0).sqrt();
     // Below a thousandth of the distance the projection does not indicate a side.
-    let sign = if side.abs() > 1e-3 * size && point.size_of(&offset) > 1e-9 {
-        side.signum()
-    } else {
-        1.0
-    };
+    let sign = if side.abs() > 1e-3 * size && point.size_of(&offset) > 1e-9 { side.signum() } else { 1.0 };
     let scale = sign * DEPARTURE / point.size_of(shape);
     shape.map(|value| value * scale)
 }
@@ -320,8 +278,7 @@ impl LineModel {
     #[inline]
     pub(super) fn falls(&self, length: f64, slope: f64, curvature: f64) -> bool {
         let near = slope.abs() <= 0.5 * self.slope.abs() && curvature >= 0.0;
-        let change = 0.5 * length * (self.slope + slope)
-            + length * length / 12.0 * (self.curvature - curvature);
+        let change = 0.5 * length * (self.slope + slope) + length * length / 12.0 * (self.curvature - curvature);
         near || change <= 1e-4 * length * self.slope
     }
 
@@ -334,19 +291,11 @@ impl LineModel {
 }
 
 /// Line search based on the change of the potential; writes the end of the accepted share to `trial`.
-fn search<S>(
-    point: &OperatingPoint<'_>,
-    base: &Base<S>,
-    step: &[f64],
-    trial: &mut Trial,
-) -> Option<Next>
+fn search<S>(point: &OperatingPoint<'_>, base: &Base<S>, step: &[f64], trial: &mut Trial) -> Option<Next>
 where
     S: SearchSpace,
 {
-    let way = LineModel {
-        slope: dot(step, &base.residual),
-        curvature: form(step, &base.stiffness, step),
-    };
+    let way = LineModel { slope: dot(step, &base.residual), curvature: form(step, &base.stiffness, step) };
     if way.slope.is_nan() || way.slope >= 0.0 {
         return None;
     }
@@ -359,16 +308,9 @@ where
         let slope = dot(step, &trial.residual);
         let curvature = form(&trial.direction, &trial.stiffness, &trial.direction);
         if way.falls(length, slope, curvature) {
-            return Some(Next {
-                length,
-                predicted: way.predicts(length, slope),
-            });
+            return Some(Next { length, predicted: way.predicts(length, slope) });
         }
-        length *= if slope > 0.0 {
-            (way.slope / (way.slope - slope)).clamp(0.1, 0.7)
-        } else {
-            0.5
-        };
+        length *= if slope > 0.0 { (way.slope / (way.slope - slope)).clamp(0.1, 0.7) } else { 0.5 };
     }
     None
 }
@@ -377,13 +319,6 @@ where
 fn failure(point: &OperatingPoint<'_>, reason: NotFound, q: &[f64], iterations: usize) -> Failure {
     let relative = point
         .evaluate(q)
-        .map_or(f64::INFINITY, |(residual, stiffness)| {
-            relative_residual(point, q, &residual, &stiffness)
-        });
-    Failure::NotFound {
-        reason,
-        coordinates: q.into(),
-        iterations,
-        relative,
-    }
+        .map_or(f64::INFINITY, |(residual, stiffness)| relative_residual(point, q, &residual, &stiffness));
+    Failure::NotFound { reason, coordinates: q.into(), iterations, relative }
 }

@@ -28,14 +28,8 @@ pub(super) fn finished(point: &OperatingPoint<'_>, q: Vector) -> Result<SolvedSt
     finish(point, UnjudgedResult::new(Candidate::at(point, q), 0))
 }
 
-pub(super) fn finish(
-    point: &OperatingPoint<'_>,
-    mut unjudged: UnjudgedResult,
-) -> Result<SolvedState, Failure> {
-    let Measured {
-        linear,
-        relative_residual: relative,
-    } = match unjudged.measured.take() {
+pub(super) fn finish(point: &OperatingPoint<'_>, mut unjudged: UnjudgedResult) -> Result<SolvedState, Failure> {
+    let Measured { linear, relative_residual: relative } = match unjudged.measured.take() {
         Some(measured) => measured,
         None => measure(point, &mut unjudged)?,
     };
@@ -71,13 +65,8 @@ pub(super) fn finish(
 }
 
 /// Judges a solved state: its stability, and how far joints are from singular poses. Returns [`SolvedState::modes`].
-pub(crate) fn judge(
-    point: &OperatingPoint<'_>,
-    state: &mut Equilibrium,
-) -> Result<Vec<Mode>, Failure> {
-    state.pose = point
-        .mechanism
-        .pose_margin(&state.coordinates, point.inputs, point.design);
+pub(crate) fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<Vec<Mode>, Failure> {
+    state.pose = point.mechanism.pose_margin(&state.coordinates, point.inputs, point.design);
     if let Some(pose) = state.pose.take_if(|pose| pose.margin < pose.least) {
         return Err(Failure::BentTooFar(pose));
     }
@@ -110,10 +99,7 @@ fn measure(point: &OperatingPoint<'_>, unjudged: &mut UnjudgedResult) -> Result<
         unjudged.residual = point.residual(&unjudged.coordinates);
     }
     let (q, residual) = (&unjudged.coordinates, &unjudged.residual);
-    Ok(Measured {
-        relative_residual: relative_residual(point, q, residual, &linear.stiffness),
-        linear,
-    })
+    Ok(Measured { relative_residual: relative_residual(point, q, residual, &linear.stiffness), linear })
 }
 
 /// Whether positive masses and stiffnesses alone make a state stable.

@@ -52,9 +52,7 @@ pub(super) fn select_member(
     let Some(mut held) = family else {
         return refuse_held(point).map(|()| solved_state);
     };
-    let differs = |unknown: usize, a: f64, b: f64| {
-        (a - b).abs() > DIFFERENT * (a.abs() + b.abs() + unit[unknown])
-    };
+    let differs = |unknown: usize, a: f64, b: f64| (a - b).abs() > DIFFERENT * (a.abs() + b.abs() + unit[unknown]);
     let moves = |held: &Held| differs(held.unknown, q[held.unknown], held.value);
     let mut settled = match held.iter().any(moves) {
         true => finished(point, continued_to(point, start, q, &held)?)?,
@@ -74,11 +72,7 @@ pub(super) fn select_member(
     for unknown in point.named() {
         let (asked, coordinate) = (start[unknown], state.coordinates[unknown]);
         if differs(unknown, asked, coordinate) {
-            state.notes.push(Note::OtherValue {
-                unknown,
-                asked,
-                found: coordinate,
-            });
+            state.notes.push(Note::OtherValue { unknown, asked, found: coordinate });
         }
     }
     Ok(settled)
@@ -93,19 +87,12 @@ pub(super) fn refuse_held(point: &OperatingPoint<'_>) -> Result<(), Failure> {
 }
 
 fn refused(point: &OperatingPoint<'_>, dimension: usize) -> Failure {
-    Failure::Held {
-        unknowns: point.held.iter().map(|held| held.unknown).collect(),
-        dimension,
-    }
+    Failure::Held { unknowns: point.held.iter().map(|held| held.unknown).collect(), dimension }
 }
 
 /// The unknowns that hold a member of the family that `q` belongs to, with the values they are to have; `None` where the
 /// stiffness is regular, and the steady motion the only one nearby.
-fn choice(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    q: &[f64],
-) -> Result<Option<Vec<Held>>, Failure> {
+fn choice(point: &OperatingPoint<'_>, start: &[f64], q: &[f64]) -> Result<Option<Vec<Held>>, Failure> {
     let Some((_, stiffness)) = point.evaluate(q) else {
         return Ok(None);
     };
@@ -123,11 +110,7 @@ fn choice(
             return Err(refused(point, dimension));
         }
     }
-    let plain = |unknown, value| Held {
-        unknown,
-        value,
-        ..Held::default()
-    };
+    let plain = |unknown, value| Held { unknown, value, ..Held::default() };
     let structure = point.structure;
     let named = point.named().map(|unknown| plain(unknown, start[unknown]));
     let others = structure.speed_range().chain(0..structure.coordinates);
@@ -147,10 +130,7 @@ struct Independent<'a> {
 
 impl<'a> Independent<'a> {
     fn new(basis: &'a [Vector]) -> Self {
-        Self {
-            basis,
-            taken: Vec::new(),
-        }
+        Self { basis, taken: Vec::new() }
     }
 
     /// Takes an unknown if it moves along a direction that those taken before do not fix.
@@ -175,30 +155,20 @@ impl<'a> Independent<'a> {
 fn units_of(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
     let motions = units(point, q)?;
     let reaction = largest(&q[point.motions()..]);
-    Ok(Vector::from_fn(q.len(), |i| {
-        motions.get(i).copied().unwrap_or(reaction)
-    }))
+    Ok(Vector::from_fn(q.len(), |i| motions.get(i).copied().unwrap_or(reaction)))
 }
 
 /// The held unknowns, each perturbed slightly from its value at `q`.
 fn perturbed(held: &[Held], q: &[f64], unit: &[f64]) -> Vec<Held> {
     let moved = |held: &Held| {
         let here = q[held.unknown];
-        Held {
-            value: here + REACH * (here.abs() + unit[held.unknown]),
-            ..held.clone()
-        }
+        Held { value: here + REACH * (here.abs() + unit[held.unknown]), ..held.clone() }
     };
     held.iter().map(moved).collect()
 }
 
 /// The member with these held values: from the start, from the motion found there, or from the latter by stages.
-fn continued_to(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    values: &[f64],
-    held: &[Held],
-) -> Result<Vector, Failure> {
+fn continued_to(point: &OperatingPoint<'_>, start: &[f64], values: &[f64], held: &[Held]) -> Result<Vector, Failure> {
     let direct = newton(point, start, held).or_else(|| newton(point, values, held));
     let by_stages = || {
         (1..=STAGES).try_fold(Vector::from(values), |q, stage| {

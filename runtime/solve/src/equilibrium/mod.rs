@@ -29,9 +29,7 @@ pub use multistart::{Equilibria, Search, find_equilibria};
 #[doc(hidden)]
 pub use branch::Branch;
 #[doc(hidden)]
-pub use convergence::{
-    ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual,
-};
+pub use convergence::{ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual};
 #[doc(hidden)]
 pub use finish::SolvedState;
 #[doc(hidden)]
@@ -124,13 +122,8 @@ pub fn equilibrium_into(
     point.check_values()?;
     point.check_start(start)?;
     solve_into(point, start, policy, state).or_else(|failure| {
-        let comes_to_rest = matches!(
-            failure,
-            Failure::NotFound {
-                reason: NotFound::IterationLimit | NotFound::Minimum,
-                ..
-            }
-        );
+        let comes_to_rest =
+            matches!(failure, Failure::NotFound { reason: NotFound::IterationLimit | NotFound::Minimum, .. });
         let beside = comes_to_rest.then(|| multistart::from_beside(point, start, policy));
         let Some(mut found) = beside.flatten() else {
             return Err(failure.explain(&point.description));

@@ -77,13 +77,7 @@ impl Search {
     #[doc(hidden)]
     #[must_use]
     pub fn at(start: &[f64]) -> Self {
-        Self {
-            lower: start.into(),
-            upper: start.into(),
-            starts: 0,
-            seed: 0,
-            held: Vec::new(),
-        }
+        Self { lower: start.into(), upper: start.into(), starts: 0, seed: 0, held: Vec::new() }
     }
 
     /// Starts about the state `about`: between bounds for the coordinates and speeds that have some, anywhere within half
@@ -92,11 +86,7 @@ impl Search {
     /// # Errors
     /// [`Error::Setting`] if a displacement or a speed has no bounds, because nothing says how far it may move. Where
     /// constraints close loops, displacements may do without: they follow from the others.
-    pub fn within(
-        description: &Description,
-        about: &[f64],
-        bounds: &[(Coordinate, f64, f64)],
-    ) -> Result<Self, Error> {
+    pub fn within(description: &Description, about: &[f64], bounds: &[(Coordinate, f64, f64)]) -> Result<Self, Error> {
         let structure = Structure::of(description);
         let (mut lower, mut upper) = (Vector::from(about), Vector::from(about));
         let mut missing = Vec::new();
@@ -121,23 +111,14 @@ impl Search {
             true => Ok(Self::new(lower, upper)),
             false => Err(Error::Setting {
                 setting: "search for equilibria",
-                reason: format!(
-                    "nothing says how far {} may move: give bounds",
-                    missing.join(", ")
-                ),
+                reason: format!("nothing says how far {} may move: give bounds", missing.join(", ")),
             }),
         }
     }
 
     /// Starts in the box from `lower` to `upper`: one value for each unknown, SI.
     pub fn new(lower: impl Into<Vector>, upper: impl Into<Vector>) -> Self {
-        Self {
-            lower: lower.into(),
-            upper: upper.into(),
-            starts: 32,
-            seed: 0,
-            held: Vec::new(),
-        }
+        Self { lower: lower.into(), upper: upper.into(), starts: 32, seed: 0, held: Vec::new() }
     }
 }
 
@@ -200,9 +181,8 @@ pub fn find_equilibria(
                 distinct.push(state);
             }
         }
-        from = Vector::from_fn(start.len(), |i| {
-            search.lower[i] + random.fraction() * (search.upper[i] - search.lower[i])
-        });
+        from =
+            Vector::from_fn(start.len(), |i| search.lower[i] + random.fraction() * (search.upper[i] - search.lower[i]));
         starts += 1;
         watch.advance(1);
     }
@@ -220,11 +200,7 @@ const BESIDE: usize = 8;
 
 /// The equilibrium found from the first of some starts around `start` that leads to one; each is farther away.
 #[cold]
-pub(super) fn from_beside(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    policy: Policy,
-) -> Option<SolvedState> {
+pub(super) fn from_beside(point: &OperatingPoint<'_>, start: &[f64], policy: Policy) -> Option<SolvedState> {
     let mut random = RandomNumbers::new(0, 0);
     let (motions, share) = (point.motions(), 1.0 / BESIDE as f64);
     (1..=BESIDE).find_map(|k| {
@@ -248,6 +224,5 @@ fn same(point: &OperatingPoint<'_>, known: &Equilibrium, state: &Equilibrium) ->
     let (q, other) = (&known.coordinates, &state.coordinates);
     let turned = turned_towards(q, other, description);
     let singular = known.constraints.singular && state.constraints.singular;
-    coincide(&turned, other, singular, description)
-        && (turned == *q || turns_do_not_count(point, q, &turned))
+    coincide(&turned, other, singular, description) && (turned == *q || turns_do_not_count(point, q, &turned))
 }

@@ -2,9 +2,7 @@
 //! residual.
 
 use super::acceptance::{Candidate, UnjudgedResult, last_step};
-use super::convergence::{
-    Progress, ResidualMonitor, TOLERANCE, horizon, largest_of, relative_residual,
-};
+use super::convergence::{Progress, ResidualMonitor, TOLERANCE, horizon, largest_of, relative_residual};
 use super::descent::DEPARTURE;
 use super::operating_point::{Failure, OperatingPoint};
 use super::scaling::units;
@@ -21,10 +19,7 @@ const DAMPING: f64 = 1e-8;
 const INVERSE_ITERATIONS: usize = 4;
 
 /// Solves `g = 0` from `start`, which lies in the space.
-pub(super) fn damped_newton<S>(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-) -> Result<UnjudgedResult, Failure>
+pub(super) fn damped_newton<S>(point: &OperatingPoint<'_>, start: &[f64]) -> Result<UnjudgedResult, Failure>
 where
     S: SearchSpace,
 {
@@ -41,8 +36,7 @@ where
         let slopes = base.space.slopes(&base.residual);
         let stiffness = base.space.reduced(&base.stiffness);
         let factors = Lu::new(&stiffness);
-        let displacement =
-            |lu: &Lu, slopes: &[f64]| base.space.lift(lu.solve(slopes).map(|value| -value));
+        let displacement = |lu: &Lu, slopes: &[f64]| base.space.lift(lu.solve(slopes).map(|value| -value));
         let newton = factors.as_ref().map(|lu| displacement(lu, &slopes));
         let progress = watch.judge(point, &base.q, at, newton.as_deref());
         if progress == Progress::Finished {
@@ -53,9 +47,7 @@ where
         let mut step = newton.unwrap_or_else(damped);
         if progress == Progress::LastStep
             && let Some(lu) = &factors
-            && let Some(end) = last_step(point, &base.q, at, &step, |rest| {
-                displacement(lu, &base.space.slopes(rest))
-            })
+            && let Some(end) = last_step(point, &base.q, at, &step, |rest| displacement(lu, &base.space.slopes(rest)))
         {
             return Ok(UnjudgedResult::new(end, iterations + 1));
         }
@@ -86,11 +78,7 @@ where
         }
     }
     let relative = relative_residual(point, &base.q, &base.residual, &base.stiffness);
-    let reason = if largest_of(&base.q[..motions]) > escaped {
-        NotFound::Escape
-    } else {
-        NotFound::IterationLimit
-    };
+    let reason = if largest_of(&base.q[..motions]) > escaped { NotFound::Escape } else { NotFound::IterationLimit };
     Err(failure(reason, &base.q, MAX_ITERATIONS, relative))
 }
 
@@ -106,18 +94,14 @@ fn limit(step: &mut Vector, units: &[f64], radius: f64) -> f64 {
     if size <= radius {
         return 1.0;
     }
-    step.iter_mut()
-        .for_each(|value| *value = *value * radius / size);
+    step.iter_mut().for_each(|value| *value = *value * radius / size);
     radius / size
 }
 
 /// The states on either side of `q` along the direction with the least stiffness, as far as the residual is smaller
 /// there: where a stiffness is singular, what looks like a minimum of the residual may not be one.
 #[cold]
-pub(super) fn along_softest_direction<S>(
-    point: &OperatingPoint<'_>,
-    q: &[f64],
-) -> Option<Vec<Vector>>
+pub(super) fn along_softest_direction<S>(point: &OperatingPoint<'_>, q: &[f64]) -> Option<Vec<Vector>>
 where
     S: SearchSpace,
 {
@@ -135,14 +119,11 @@ where
     let direction = base.space.lift(direction);
     let motions = &direction[..point.motions()];
     let lead = (0..motions.len()).max_by(|&i, &j| motions[i].abs().total_cmp(&motions[j].abs()))?;
-    let share =
-        DEPARTURE * (point.description.large(lead) + base.q[lead].abs()) / direction[lead].abs();
+    let share = DEPARTURE * (point.description.large(lead) + base.q[lead].abs()) / direction[lead].abs();
     let before = merit(&slopes, &weight);
     let mut trial = Trial::blank(point.size());
     let mut side = |share: f64| {
-        let exists = base
-            .space
-            .trial(point, &base.q, (&direction, share), &mut trial);
+        let exists = base.space.trial(point, &base.q, (&direction, share), &mut trial);
         let falls = exists && merit(&base.space.slopes(&trial.residual), &weight) < before;
         falls.then(|| trial.q.clone())
     };
@@ -151,28 +132,17 @@ where
 
 /// Converts a base to the result.
 fn found<S>(base: Base<S>, iterations: usize) -> UnjudgedResult {
-    let end = Candidate {
-        coordinates: base.q,
-        residual: base.residual,
-        measured: None,
-    };
+    let end = Candidate { coordinates: base.q, residual: base.residual, measured: None };
     UnjudgedResult::new(end, iterations)
 }
 
 fn failure(reason: NotFound, q: &[f64], iterations: usize, relative: f64) -> Failure {
-    Failure::NotFound {
-        reason,
-        coordinates: q.into(),
-        iterations,
-        relative,
-    }
+    Failure::NotFound { reason, coordinates: q.into(), iterations, relative }
 }
 
 fn merit(residual: &[f64], weight: &[f64]) -> f64 {
     let pairs = residual.iter().zip(weight);
-    pairs.fold(0.0, |sum, (residual, weight)| {
-        sum + weight * residual * residual
-    })
+    pairs.fold(0.0, |sum, (residual, weight)| sum + weight * residual * residual)
 }
 
 /// A damped least-squares step, used where `Khat` is singular.
@@ -190,11 +160,8 @@ fn damped_step(residual: &[f64], stiffness: &Matrix, weight: &[f64]) -> Vector {
 fn normal_matrix(stiffness: &Matrix, weight: &[f64]) -> Matrix {
     let n = stiffness.row_count();
     let columns = stiffness.transpose();
-    let mut normal = Matrix::from_fn(n, n, |i, j| {
-        (0..n).fold(0.0, |sum, k| {
-            sum + columns[i][k] * (columns[j][k] * weight[k])
-        })
-    });
+    let mut normal =
+        Matrix::from_fn(n, n, |i, j| (0..n).fold(0.0, |sum, k| sum + columns[i][k] * (columns[j][k] * weight[k])));
     let trace = (0..n).fold(0.0, |sum, i| sum + normal[i][i]);
     for (i, row) in normal.iter_mut().enumerate() {
         row[i] += DAMPING * row[i].max(DAMPING * trace) + f64::MIN_POSITIVE;
@@ -219,8 +186,7 @@ where
     let mut length = 1.0;
     for _ in 0..40 {
         if base.space.trial(point, &base.q, (step, length), trial)
-            && merit(&base.space.slopes(&trial.residual), weight)
-                <= before * (1.0 - 1e-4 * share * length)
+            && merit(&base.space.slopes(&trial.residual), weight) <= before * (1.0 - 1e-4 * share * length)
         {
             return Some(length);
         }

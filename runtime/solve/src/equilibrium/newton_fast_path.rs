@@ -16,9 +16,7 @@ use super::Equilibrium;
 use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_of};
 use super::descent::{GROWTH, LineModel, SearchState};
 use super::operating_point::OperatingPoint;
-use crate::algebra::{
-    Cholesky, Matrix, Vector, all_finite, dot, factor_rows, for_size, largest, solve_rows,
-};
+use crate::algebra::{Cholesky, Matrix, Vector, all_finite, dot, factor_rows, for_size, largest, solve_rows};
 use crate::kernels::RestParts;
 
 /// Newton's method doubles the digits: a start in the valley needs few steps.
@@ -91,15 +89,11 @@ fn newton(
         let mut share = 1.0;
         if limited {
             share = progress.radius / size;
-            step.iter_mut()
-                .for_each(|value| *value = *value * progress.radius / size);
+            step.iter_mut().for_each(|value| *value = *value * progress.radius / size);
         }
         let slope = dot(step, residual);
         // A Newton step has as much curvature as slope.
-        let way = LineModel {
-            slope,
-            curvature: -share * slope,
-        };
+        let way = LineModel { slope, curvature: -share * slope };
         for ((next, q), step) in next.iter_mut().zip(&*q).zip(&*step) {
             *next = q + step;
         }
@@ -136,9 +130,7 @@ fn ends(
     let (u, b) = (point.inputs, point.design);
     let (q, linear) = (&state.coordinates[..n], &mut state.linear);
     let mut parts = RestParts::zeros(n);
-    point
-        .mechanism
-        .parts_and_linear_into(q, u, b, &mut parts, linear);
+    point.mechanism.parts_and_linear_into(q, u, b, &mut parts, linear);
     let residual = &mut state.residual[..n];
     let both = parts.inertia[..n].iter().zip(&parts.applied[..n]);
     for (rest, (inertia, applied)) in residual.iter_mut().zip(both) {
@@ -198,21 +190,14 @@ mod tests {
             let straight = |progress| {
                 let equilibrium: Result<Equilibrium, SearchState> = fast(&point, progress);
                 let found = equilibrium.ok()?;
-                let end = Candidate {
-                    coordinates: found.coordinates,
-                    residual: found.residual,
-                    measured: None,
-                };
+                let end = Candidate { coordinates: found.coordinates, residual: found.residual, measured: None };
                 Some(UnjudgedResult::new(end, found.iterations))
             };
             for k in 0..400_i32 {
                 let start = [0.47 * f64::from(k % 20 - 10), 0.41 * f64::from(k / 20 - 10)];
-                let Ok(expected) = minimise_potential::<Unconstrained>(
-                    &point,
-                    &start,
-                    &SearchState::first(&start),
-                    |_| None,
-                ) else {
+                let Ok(expected) =
+                    minimise_potential::<Unconstrained>(&point, &start, &SearchState::first(&start), |_| None)
+                else {
                     panic!("no state from {start:?}")
                 };
                 let left = expected.left_unstable_region;
@@ -223,11 +208,8 @@ mod tests {
                     }
                     Err(error) => {
                         let before = alone.get();
-                        let unjudged =
-                            minimise_potential::<Unconstrained>(&point, &start, &error, straight);
-                        let Ok(found) = unjudged else {
-                            panic!("nothing from {start:?}")
-                        };
+                        let unjudged = minimise_potential::<Unconstrained>(&point, &start, &error, straight);
+                        let Ok(found) = unjudged else { panic!("nothing from {start:?}") };
                         assert_eq!(found.left_unstable_region, left, "{omega} {start:?}");
                         resumed += alone.get() - before;
                         found.coordinates

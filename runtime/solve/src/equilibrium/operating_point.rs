@@ -40,11 +40,7 @@ pub struct OperatingPoint<'a> {
 impl<'a> OperatingPoint<'a> {
     /// Checks that the values have the right number, are finite, and describe bodies that can exist.
     #[doc(hidden)]
-    pub fn new(
-        mechanism: &'a dyn Kernels,
-        inputs: &'a [f64],
-        design: &'a [f64],
-    ) -> Result<Self, Error> {
+    pub fn new(mechanism: &'a dyn Kernels, inputs: &'a [f64], design: &'a [f64]) -> Result<Self, Error> {
         let point = Self::unchecked(mechanism, inputs, design);
         point.check_values()?;
         Ok(point)
@@ -181,10 +177,7 @@ impl<'a> OperatingPoint<'a> {
         let claimed = self.place.is_none() && self.free() > 0;
         let stiffness = claimed.then(|| self.linear(q).ok())??.stiffness;
         let resisted = FreeDirections::of(&stiffness, self.free()).is_empty();
-        resisted.then(|| Self {
-            place: Some(NONE),
-            ..self.clone()
-        })
+        resisted.then(|| Self { place: Some(NONE), ..self.clone() })
     }
 
     /// Number of coordinates and speeds, which come first, before the reactions.
@@ -194,34 +187,21 @@ impl<'a> OperatingPoint<'a> {
 
     /// This point without the constraints that are redundant at `x`, a state that meets them.
     pub(crate) fn without_redundant(&self, x: &[f64]) -> Self {
-        let plain = if self.structure.constraints() > 1 {
-            self.evaluate_plain(x)
-        } else {
-            None
-        };
-        plain.map_or_else(
-            || self.clone(),
-            |(_, stiffness)| self.without(&redundant_rows(&stiffness, self.structure)),
-        )
+        let plain = if self.structure.constraints() > 1 { self.evaluate_plain(x) } else { None };
+        plain.map_or_else(|| self.clone(), |(_, stiffness)| self.without(&redundant_rows(&stiffness, self.structure)))
     }
 
     /// This point with the place held as at another state.
     #[doc(hidden)]
     pub fn placed(self, free_directions: &'a FreeDirections) -> Self {
         let directions = (!free_directions.is_empty()).then_some(free_directions);
-        Self {
-            place: directions,
-            ..self
-        }
+        Self { place: directions, ..self }
     }
 
     /// This point without the constraints marked in `dropped`.
     #[doc(hidden)]
     pub fn without(&self, dropped: &[bool]) -> Self {
-        Self {
-            dropped: dropped.to_vec(),
-            ..self.clone()
-        }
+        Self { dropped: dropped.to_vec(), ..self.clone() }
     }
 
     /// An empty state, to be overwritten.
@@ -248,12 +228,7 @@ impl<'a> OperatingPoint<'a> {
     }
 
     /// Like [`Self::evaluate`], overwriting a residual and a stiffness of this size; false if either is not finite.
-    pub(crate) fn evaluate_into(
-        &self,
-        q: &[f64],
-        residual: &mut Vector,
-        stiffness: &mut Matrix,
-    ) -> bool {
+    pub(crate) fn evaluate_into(&self, q: &[f64], residual: &mut Vector, stiffness: &mut Matrix) -> bool {
         let entries = stiffness.as_flattened_mut();
         let kernels = self.mechanism;
         kernels.residual_and_stiffness_into(q, self.inputs, self.design, residual, entries);
@@ -307,8 +282,7 @@ impl<'a> OperatingPoint<'a> {
 
     /// Like [`Self::parts`], overwriting parts of this size.
     pub(crate) fn parts_into(&self, q: &[f64], parts: &mut RestParts) {
-        self.mechanism
-            .residual_parts_into(q, self.inputs, self.design, parts);
+        self.mechanism.residual_parts_into(q, self.inputs, self.design, parts);
     }
 
     fn drop_rows(&self, residual: &mut [f64], mut stiffness: Option<&mut Matrix>) {
@@ -332,10 +306,7 @@ impl<'a> OperatingPoint<'a> {
     }
 
     pub(crate) fn evaluate_start(&self, q: &[f64]) -> Result<(Vector, Matrix), Failure> {
-        self.evaluate(q).ok_or_else(|| Failure::OutsideDomain {
-            what: "the residual",
-            coordinates: q.into(),
-        })
+        self.evaluate(q).ok_or_else(|| Failure::OutsideDomain { what: "the residual", coordinates: q.into() })
     }
 
     /// The linearised mechanism with the gauge fixed.
@@ -348,8 +319,7 @@ impl<'a> OperatingPoint<'a> {
 
     /// Like [`Self::linear`], overwriting matrices of this size.
     pub(crate) fn linear_into(&self, q: &[f64], linear: &mut Linear) -> Result<(), Failure> {
-        self.mechanism
-            .linear_into(q, self.inputs, self.design, linear);
+        self.mechanism.linear_into(q, self.inputs, self.design, linear);
         self.check(q, linear)?;
         if self.free() > 0 {
             remove_rounding(&self.data(), q, &mut linear.stiffness);
@@ -401,10 +371,7 @@ impl<'a> OperatingPoint<'a> {
         } else {
             return Ok(());
         };
-        Err(Failure::OutsideDomain {
-            what,
-            coordinates: q.into(),
-        })
+        Err(Failure::OutsideDomain { what, coordinates: q.into() })
     }
 }
 
@@ -467,29 +434,13 @@ impl Failure {
     #[doc(hidden)]
     pub fn explain(self, description: &Description) -> Error {
         match self {
-            Self::OutsideDomain { what, coordinates } => Error::OutsideDomain {
-                mechanism: description.name.clone(),
-                what,
-                coordinates,
-            },
-            Self::NotFound {
-                reason,
-                coordinates,
-                iterations,
-                relative,
-            } => Error::NoEquilibrium {
-                reason,
-                iterations,
-                coordinates,
-                relative_residual: relative,
-            },
-            Self::NotAssembled {
-                reason,
-                coordinates,
-                gaps,
-                worst,
-                iterations,
-            } => Error::NotAssembled {
+            Self::OutsideDomain { what, coordinates } => {
+                Error::OutsideDomain { mechanism: description.name.clone(), what, coordinates }
+            }
+            Self::NotFound { reason, coordinates, iterations, relative } => {
+                Error::NoEquilibrium { reason, iterations, coordinates, relative_residual: relative }
+            }
+            Self::NotAssembled { reason, coordinates, gaps, worst, iterations } => Error::NotAssembled {
                 reason,
                 constraint: description.unknown_name(worst),
                 gap: gaps[worst],
@@ -501,30 +452,18 @@ impl Failure {
                 coordinates,
                 iterations,
             },
-            Self::Unbalanced {
-                coordinates,
-                dependent,
-                ..
-            } => Error::UnboundedReactions {
+            Self::Unbalanced { coordinates, dependent, .. } => Error::UnboundedReactions {
                 constraints: dependent_names(description, &dependent).collect(),
                 coordinates,
             },
-            Self::Held {
-                unknowns,
-                dimension,
-            } => Error::NotHeld {
-                unknowns: (unknowns.into_iter())
-                    .map(|unknown| description.unknown_name(unknown))
-                    .collect(),
+            Self::Held { unknowns, dimension } => Error::NotHeld {
+                unknowns: (unknowns.into_iter()).map(|unknown| description.unknown_name(unknown)).collect(),
                 dimension,
             },
-            Self::SingularMass(row) => Error::SingularMass {
-                coordinate: description.unknown_name(row),
-            },
-            Self::BentTooFar(pose) => Error::BentTooFar {
-                degrees: 2.0 * pose.margin.max(0.0).sqrt().acos().to_degrees(),
-                beam: pose.joint,
-            },
+            Self::SingularMass(row) => Error::SingularMass { coordinate: description.unknown_name(row) },
+            Self::BentTooFar(pose) => {
+                Error::BentTooFar { degrees: 2.0 * pose.margin.max(0.0).sqrt().acos().to_degrees(), beam: pose.joint }
+            }
             Self::Mode { mode, residual } => Error::ModesNotFound { mode, residual },
         }
     }

@@ -91,9 +91,7 @@ mod tests {
             path.go(u, state(u).into_iter());
         }
         for u in [1.5, -1.0, 7.0] {
-            let Some(predicted) = path.at(u) else {
-                panic!("three states")
-            };
+            let Some(predicted) = path.at(u) else { panic!("three states") };
             for (predicted, exact) in predicted.iter().zip(state(u)) {
                 assert!((predicted - exact).abs() < 1e-13 * (1.0 + u * u), "{u}");
             }

@@ -120,17 +120,9 @@ impl Weak {
         let combination = placed(tangent.structure, &combination);
         // The support is `combination^T Khat direction`.
         let none = Vector::zeros(point.size());
-        let approach = point.mechanism.pencil_gradient(
-            q,
-            point.inputs,
-            point.design,
-            [&combination, &none, &none, &direction],
-        );
-        Self {
-            direction,
-            combination,
-            approach: approach.coordinates,
-        }
+        let approach =
+            point.mechanism.pencil_gradient(q, point.inputs, point.design, [&combination, &none, &none, &direction]);
+        Self { direction, combination, approach: approach.coordinates }
     }
 
     /// The largest share of the distance by which residuals of this size move a state; infinite if its stiffness is
@@ -154,16 +146,10 @@ impl Weak {
         let force = dot(&self.direction, &residual);
         let steepest = dot(&self.approach, &self.approach);
         let change = (0..motions).fold(0.0, |sum, i| {
-            let row = (0..motions).fold(0.0, |sum, j| {
-                sum + (stiffness[i][j] * self.approach[j]).abs()
-            });
+            let row = (0..motions).fold(0.0, |sum, j| sum + (stiffness[i][j] * self.approach[j]).abs());
             sum + self.direction[i].abs() * row
         });
-        if force.abs() * steepest <= BESIDE * change {
-            0.0
-        } else {
-            force
-        }
+        if force.abs() * steepest <= BESIDE * change { 0.0 } else { force }
     }
 }
 

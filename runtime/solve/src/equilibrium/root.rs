@@ -19,10 +19,7 @@ pub struct Bracket {
 ///
 /// `function` returns its value and, if known, its slope; `None` if it is not defined: the point then counts as lying
 /// on the side of `high`.
-pub fn refine(
-    mut bracket: Bracket,
-    mut function: impl FnMut(f64) -> Option<(f64, Option<f64>)>,
-) -> f64 {
+pub fn refine(mut bracket: Bracket, mut function: impl FnMut(f64) -> Option<(f64, Option<f64>)>) -> f64 {
     let (mut weight_low, mut weight_high) = (1.0, 1.0);
     let mut last_side = 0;
     let mut newton = None;
@@ -35,8 +32,7 @@ pub fn refine(
         let (a, b) = (bracket.at_low * weight_low, bracket.at_high * weight_high);
         let secant = bracket.low + width * a / (a - b);
         let middle = bracket.low + 0.5 * width;
-        let inside =
-            |trial: &f64| trial.is_finite() && (trial - bracket.low) * (trial - bracket.high) < 0.0;
+        let inside = |trial: &f64| trial.is_finite() && (trial - bracket.low) * (trial - bracket.high) < 0.0;
         let slow = round % 16 == 15 || (round % 4 == 3 && newton.is_none());
         let trial = if slow {
             middle
@@ -54,11 +50,7 @@ pub fn refine(
                 bracket.low = trial;
                 bracket.at_low = value;
                 weight_low = 1.0;
-                weight_high = if last_side == 1 {
-                    0.5 * weight_high
-                } else {
-                    1.0
-                };
+                weight_high = if last_side == 1 { 0.5 * weight_high } else { 1.0 };
                 last_side = 1;
             }
             other => {
@@ -66,11 +58,7 @@ pub fn refine(
                 bracket.high = trial;
                 bracket.at_high = other.map_or(-bracket.at_low, |(value, _)| value);
                 weight_high = 1.0;
-                weight_low = if last_side == -1 {
-                    0.5 * weight_low
-                } else {
-                    1.0
-                };
+                weight_low = if last_side == -1 { 0.5 * weight_low } else { 1.0 };
                 last_side = -1;
             }
         }
@@ -81,11 +69,7 @@ pub fn refine(
             return trial;
         }
     }
-    if bracket.at_high.abs() < bracket.at_low.abs() {
-        bracket.high
-    } else {
-        bracket.low
-    }
+    if bracket.at_high.abs() < bracket.at_low.abs() { bracket.high } else { bracket.low }
 }
 
 #[cfg(test)]
@@ -96,31 +80,16 @@ mod tests {
         x * x * x - 2.0
     }
 
-    const UP: Bracket = Bracket {
-        low: 0.0,
-        high: 3.0,
-        at_low: -2.0,
-        at_high: 25.0,
-    };
+    const UP: Bracket = Bracket { low: 0.0, high: 3.0, at_low: -2.0, at_high: 25.0 };
 
     #[test]
     fn finds_roots_of_both_slopes_and_edges_of_domains() {
-        let down = Bracket {
-            low: 3.0,
-            high: 0.0,
-            at_low: 25.0,
-            at_high: -2.0,
-        };
+        let down = Bracket { low: 3.0, high: 0.0, at_low: 25.0, at_high: -2.0 };
         for bracket in [UP, down] {
             let root = refine(bracket, |x| Some((cubic(x), None)));
             assert!((root - 2f64.cbrt()).abs() < 1e-15);
         }
-        let bracket = Bracket {
-            low: 0.0,
-            high: 2.0,
-            at_low: 1.0,
-            at_high: -1.0,
-        };
+        let bracket = Bracket { low: 0.0, high: 2.0, at_low: 1.0, at_high: -1.0 };
         let edge = refine(bracket, |x| (x <= 1.0).then(|| ((1.0 - x).sqrt(), None)));
         assert!((edge - 1.0).abs() < 1e-14);
     }

@@ -64,10 +64,7 @@ pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, F
     if weight.iter().all(|value| value.is_finite()) {
         Ok(weight)
     } else {
-        Err(Failure::OutsideDomain {
-            what: "the mass matrix",
-            coordinates: q.into(),
-        })
+        Err(Failure::OutsideDomain { what: "the mass matrix", coordinates: q.into() })
     }
 }
 
@@ -94,8 +91,6 @@ fn fastest(linear: &Linear, structure: Structure, mass: &[f64], q: &[f64]) -> f6
         let reactions = structure.constraint_rows().map(|j| (row[j] * q[j]).abs());
         (reactions.fold(row[i].abs(), f64::max) / mass[i]).sqrt()
     });
-    let damped = structure
-        .speed_range()
-        .map(|i| linear.stiffness[i][i].abs() / mass[i]);
+    let damped = structure.speed_range().map(|i| linear.stiffness[i][i].abs() / mass[i]);
     elastic.chain(damped).fold(0.0, f64::max)
 }

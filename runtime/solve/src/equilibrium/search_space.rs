@@ -58,11 +58,7 @@ pub(super) trait SearchSpace: Sized {
     fn base(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Base<Self>, Failure>;
 
     /// Moves the base to the end of a step, whose contents are unspecified afterwards.
-    fn arrive(
-        point: &OperatingPoint<'_>,
-        trial: &mut Trial,
-        base: &mut Base<Self>,
-    ) -> Result<(), Failure>;
+    fn arrive(point: &OperatingPoint<'_>, trial: &mut Trial, base: &mut Base<Self>) -> Result<(), Failure>;
 
     /// Slopes of the potential along the free directions.
     fn slopes<'a>(&self, residual: &'a Vector) -> Cow<'a, Vector>;
@@ -77,13 +73,7 @@ pub(super) trait SearchSpace: Sized {
     fn lift(&self, y: Vector) -> Vector;
 
     /// Writes the state at a share of a step; false if there is none.
-    fn trial(
-        &self,
-        point: &OperatingPoint<'_>,
-        q: &[f64],
-        step_and_share: (&[f64], f64),
-        trial: &mut Trial,
-    ) -> bool;
+    fn trial(&self, point: &OperatingPoint<'_>, q: &[f64], step_and_share: (&[f64], f64), trial: &mut Trial) -> bool;
 }
 
 /// All unknowns, with constraints treated as ordinary equations.
@@ -92,19 +82,10 @@ pub(super) struct Unconstrained;
 impl SearchSpace for Unconstrained {
     fn base(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Base<Self>, Failure> {
         let (residual, stiffness) = point.evaluate_start(q)?;
-        Ok(Base {
-            q: q.into(),
-            residual,
-            stiffness,
-            space: Self,
-        })
+        Ok(Base { q: q.into(), residual, stiffness, space: Self })
     }
 
-    fn arrive(
-        _: &OperatingPoint<'_>,
-        trial: &mut Trial,
-        base: &mut Base<Self>,
-    ) -> Result<(), Failure> {
+    fn arrive(_: &OperatingPoint<'_>, trial: &mut Trial, base: &mut Base<Self>) -> Result<(), Failure> {
         swap(&mut base.q, &mut trial.q);
         swap(&mut base.residual, &mut trial.residual);
         swap(&mut base.stiffness, &mut trial.stiffness);
@@ -127,16 +108,9 @@ impl SearchSpace for Unconstrained {
         y
     }
 
-    fn trial(
-        &self,
-        point: &OperatingPoint<'_>,
-        q: &[f64],
-        (step, length): (&[f64], f64),
-        trial: &mut Trial,
-    ) -> bool {
+    fn trial(&self, point: &OperatingPoint<'_>, q: &[f64], (step, length): (&[f64], f64), trial: &mut Trial) -> bool {
         let n = q.len();
-        let (coordinates, direction, step) =
-            (&mut trial.q[..n], &mut trial.direction[..n], &step[..n]);
+        let (coordinates, direction, step) = (&mut trial.q[..n], &mut trial.direction[..n], &step[..n]);
         for i in 0..n {
             coordinates[i] = q[i] + length * step[i];
             direction[i] = step[i];
@@ -166,9 +140,7 @@ impl ConstraintManifold {
     /// `a_ik = h_i . n_k` of the independent constraints at a state with the normals at the base.
     fn crossed(&self, stiffness: &Matrix) -> Matrix {
         let rank = self.normals.len();
-        Matrix::from_fn(rank, rank, |i, k| {
-            dot(&stiffness[self.row(i)], &self.normals[k])
-        })
+        Matrix::from_fn(rank, rank, |i, k| dot(&stiffness[self.row(i)], &self.normals[k]))
     }
 
     /// Selects the values of the independent constraints.
@@ -187,12 +159,7 @@ impl ConstraintManifold {
 
     /// Displacement along the normals at the base that brings `from` back onto the constraints, no longer than `reach`
     /// in the mass metric; also returns the residual and the stiffness there.
-    fn back(
-        &self,
-        point: &OperatingPoint<'_>,
-        from: &[f64],
-        reach: f64,
-    ) -> Option<(Vector, Vector, Matrix)> {
+    fn back(&self, point: &OperatingPoint<'_>, from: &[f64], reach: f64) -> Option<(Vector, Vector, Matrix)> {
         let mut c = Vector::zeros(self.normals.len());
         let mut last = f64::INFINITY;
         for _ in 0..MAX_RETURNS {
@@ -216,23 +183,14 @@ impl ConstraintManifold {
     }
 
     /// The state at a share `length` of `step`.
-    fn along(
-        &self,
-        point: &OperatingPoint<'_>,
-        q: &[f64],
-        (step, length): (&[f64], f64),
-    ) -> Option<Trial> {
+    fn along(&self, point: &OperatingPoint<'_>, q: &[f64], (step, length): (&[f64], f64)) -> Option<Trial> {
         let scaled = self.tangent.normal.scaled(step);
         let reach = length * dot(&scaled, &scaled).sqrt();
         let from = add_scaled(q, length, step);
         let (mut q, residual, stiffness) = self.back(point, &from, reach)?;
         let crossed = self.crossed(&stiffness);
         // Multipliers that balance the forces along the normals at the base.
-        let forces: Vector = self
-            .normals
-            .iter()
-            .map(|normal| dot(normal, &residual))
-            .collect();
+        let forces: Vector = self.normals.iter().map(|normal| dot(normal, &residual)).collect();
         let change = Lu::new(&crossed.transpose())?.solve(&forces);
         for (i, change) in change.iter().enumerate() {
             q[self.row(i)] -= change;
@@ -241,22 +199,12 @@ impl ConstraintManifold {
         let off = self.independent(&times(&stiffness, step));
         let bend = Lu::new(&crossed)?.solve(&off);
         let direction = add_scaled(step, -1.0, &self.along_normals(&bend));
-        all_finite_matrix(&stiffness).then_some(Trial {
-            q,
-            residual,
-            stiffness,
-            direction,
-        })
+        all_finite_matrix(&stiffness).then_some(Trial { q, residual, stiffness, direction })
     }
 }
 
 /// Largest gap of the constraints on positions, relative to what small motions open.
-pub(super) fn greatest_gap(
-    point: &OperatingPoint<'_>,
-    q: &[f64],
-    residual: &[f64],
-    stiffness: &Matrix,
-) -> f64 {
+pub(super) fn greatest_gap(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], stiffness: &Matrix) -> f64 {
     largest_of(&relative_gaps(point, q, residual, stiffness))
 }
 
@@ -266,29 +214,17 @@ impl SearchSpace for ConstraintManifold {
         let linear = point.linear(q)?;
         let tangent = Tangent::new(&linear, point.structure);
         let normals = (0..tangent.normal.rank).map(|k| tangent.normal.normal(k));
-        let space = Self {
-            normals: normals.collect(),
-            tangent,
-        };
+        let space = Self { normals: normals.collect(), tangent };
         let mut q = Vector::from(q);
         let change = space.tangent.normal.multipliers(&residual);
         for (i, change) in change.iter().enumerate() {
             q[space.row(i)] -= change;
         }
         let (residual, stiffness) = point.evaluate_start(&q)?;
-        Ok(Base {
-            q,
-            residual,
-            stiffness,
-            space,
-        })
+        Ok(Base { q, residual, stiffness, space })
     }
 
-    fn arrive(
-        point: &OperatingPoint<'_>,
-        trial: &mut Trial,
-        base: &mut Base<Self>,
-    ) -> Result<(), Failure> {
+    fn arrive(point: &OperatingPoint<'_>, trial: &mut Trial, base: &mut Base<Self>) -> Result<(), Failure> {
         *base = Self::base(point, &trial.q)?;
         Ok(())
     }
@@ -310,13 +246,7 @@ impl SearchSpace for ConstraintManifold {
         self.tangent.lift(&y)
     }
 
-    fn trial(
-        &self,
-        point: &OperatingPoint<'_>,
-        q: &[f64],
-        (step, length): (&[f64], f64),
-        trial: &mut Trial,
-    ) -> bool {
+    fn trial(&self, point: &OperatingPoint<'_>, q: &[f64], (step, length): (&[f64], f64), trial: &mut Trial) -> bool {
         let candidate = self.along(point, q, (step, length));
         let exists = candidate.is_some();
         if let Some(candidate) = candidate {

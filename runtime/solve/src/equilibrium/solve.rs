@@ -23,11 +23,7 @@ use crate::state::Note;
 use crate::{DampingKind, Mode, Stability};
 
 /// Like [`equilibrium`](super::equilibrium), for validated values.
-pub fn solve(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    policy: Policy,
-) -> Result<SolvedState, Failure> {
+pub fn solve(point: &OperatingPoint<'_>, start: &[f64], policy: Policy) -> Result<SolvedState, Failure> {
     let mut state = point.blank_state();
     let modes = solve_into(point, start, policy, &mut state)?;
     Ok(SolvedState { state, modes })
@@ -91,11 +87,7 @@ fn has_open_potential(point: &OperatingPoint<'_>) -> bool {
 }
 
 /// Like [`solve`], for mechanisms with constraints or without a potential.
-fn solve_slowly(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    policy: Policy,
-) -> Result<SolvedState, Failure> {
+fn solve_slowly(point: &OperatingPoint<'_>, start: &[f64], policy: Policy) -> Result<SolvedState, Failure> {
     let structure = point.structure;
     let closed;
     let start = if structure.open() {
@@ -111,23 +103,13 @@ fn solve_slowly(
             solved_state = member::select_member(point, start, solved_state)?;
         }
         if policy == Policy::Nearest {
-            solved_state.state.notes.extend(far(
-                point,
-                start,
-                &solved_state.state.coordinates,
-                point.named(),
-            ));
+            solved_state.state.notes.extend(far(point, start, &solved_state.state.coordinates, point.named()));
         }
         return Ok(solved_state);
     }
     let mut solved_state = solve_by_descent(point, start, &descent::SearchState::first(start));
     for _ in 0..descent::MAX_DEPARTURES {
-        let Err(Failure::Unbalanced {
-            coordinates,
-            downhill,
-            ..
-        }) = solved_state
-        else {
+        let Err(Failure::Unbalanced { coordinates, downhill, .. }) = solved_state else {
             return solved_state;
         };
         let start = departed(point, &coordinates, &downhill)?;
@@ -199,20 +181,12 @@ fn solve_by_descent(
         return Ok(held);
     }
     let minimum = if structure.open() {
-        descent::minimise_potential::<search_space::Unconstrained>(
-            point,
-            start,
-            progress,
-            |progress| straight(point, progress),
-        )
+        descent::minimise_potential::<search_space::Unconstrained>(point, start, progress, |progress| {
+            straight(point, progress)
+        })
     } else {
-        descent::minimise_potential::<search_space::ConstraintManifold>(
-            point,
-            start,
-            progress,
-            |_| None,
-        )
-        .and_then(|unjudged| polished(point, unjudged))
+        descent::minimise_potential::<search_space::ConstraintManifold>(point, start, progress, |_| None)
+            .and_then(|unjudged| polished(point, unjudged))
     };
     minimum
         .or_else(|failure| match failure {
@@ -222,27 +196,22 @@ fn solve_by_descent(
         .and_then(|candidate| bounded(point, candidate))
         .and_then(|candidate| finish(point, candidate))
         .map_err(|failure| match failure {
-            Failure::NotFound {
-                ref coordinates, ..
-            } if !structure.open() => unbalanced(point, coordinates).unwrap_or(failure),
+            Failure::NotFound { ref coordinates, .. } if !structure.open() => {
+                unbalanced(point, coordinates).unwrap_or(failure)
+            }
             _ => failure,
         })
 }
 
 /// Refuses a state next to a pole of the forces.
-fn bounded(
-    point: &OperatingPoint<'_>,
-    unjudged: UnjudgedResult,
-) -> Result<UnjudgedResult, Failure> {
+fn bounded(point: &OperatingPoint<'_>, unjudged: UnjudgedResult) -> Result<UnjudgedResult, Failure> {
     let q = &unjudged.coordinates;
     if !descent::grows_without_bound(point, q) {
         return Ok(unjudged);
     }
     let relative = point
         .evaluate(q)
-        .map_or(f64::INFINITY, |(residual, stiffness)| {
-            relative_residual(point, q, &residual, &stiffness)
-        });
+        .map_or(f64::INFINITY, |(residual, stiffness)| relative_residual(point, q, &residual, &stiffness));
     Err(Failure::NotFound {
         reason: NotFound::Unbounded,
         iterations: unjudged.iterations,
@@ -291,10 +260,7 @@ fn straight(point: &OperatingPoint<'_>, progress: descent::SearchState) -> Optio
     Some(UnjudgedResult {
         coordinates: state.coordinates,
         residual: state.residual,
-        measured: Some(Measured {
-            linear: state.linear,
-            relative_residual: state.relative_residual,
-        }),
+        measured: Some(Measured { linear: state.linear, relative_residual: state.relative_residual }),
         iterations: state.iterations,
         left_unstable_region: false,
     })
@@ -303,35 +269,22 @@ fn straight(point: &OperatingPoint<'_>, progress: descent::SearchState) -> Optio
 /// Like [`nearest`], also where the search comes to rest at a state whose stiffness is singular, as from a critical state:
 /// it goes on from either side of it. Of two results, one that is stable is preferred.
 fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<SolvedState, Failure> {
-    let search =
-        |start: &[f64]| nearest(point, start).and_then(|candidate| finish(point, candidate));
+    let search = |start: &[f64]| nearest(point, start).and_then(|candidate| finish(point, candidate));
     search(start).or_else(|failure| {
-        let Failure::NotFound {
-            reason: NotFound::Minimum,
-            coordinates,
-            ..
-        } = &failure
-        else {
+        let Failure::NotFound { reason: NotFound::Minimum, coordinates, .. } = &failure else {
             return Err(failure);
         };
         let structure = point.structure;
         let sides = if structure.open() || !structure.holonomic() {
             let independent = point.without_redundant(coordinates);
-            newton::along_softest_direction::<search_space::Unconstrained>(
-                &independent,
-                coordinates,
-            )
+            newton::along_softest_direction::<search_space::Unconstrained>(&independent, coordinates)
         } else {
             newton::along_softest_direction::<search_space::ConstraintManifold>(point, coordinates)
         };
         let sides = sides.unwrap_or_default().into_iter();
         let solutions = sides.filter_map(|side| search(&side).ok());
         let best = solutions.reduce(|first, second| {
-            if second.state.stability.holds() && !first.state.stability.holds() {
-                second
-            } else {
-                first
-            }
+            if second.state.stability.holds() && !first.state.stability.holds() { second } else { first }
         });
         best.ok_or(failure)
     })
@@ -354,13 +307,9 @@ fn nearest(point: &OperatingPoint<'_>, start: &[f64]) -> Result<UnjudgedResult, 
 }
 
 /// Takes the last steps in coordinates and reactions together.
-fn polished(
-    point: &OperatingPoint<'_>,
-    unjudged: UnjudgedResult,
-) -> Result<UnjudgedResult, Failure> {
+fn polished(point: &OperatingPoint<'_>, unjudged: UnjudgedResult) -> Result<UnjudgedResult, Failure> {
     let independent = point.without_redundant(&unjudged.coordinates);
-    let last =
-        newton::damped_newton::<search_space::Unconstrained>(&independent, &unjudged.coordinates)?;
+    let last = newton::damped_newton::<search_space::Unconstrained>(&independent, &unjudged.coordinates)?;
     Ok(UnjudgedResult {
         iterations: unjudged.iterations + last.iterations,
         left_unstable_region: unjudged.left_unstable_region,

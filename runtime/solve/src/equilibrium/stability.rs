@@ -34,11 +34,7 @@ impl Verdict {
     }
 
     pub(super) fn without_modes(stability: Stability, rounding: f64) -> Self {
-        Self {
-            stability,
-            rounding,
-            modes: Vec::new(),
-        }
+        Self { stability, rounding, modes: Vec::new() }
     }
 }
 
@@ -82,8 +78,7 @@ pub fn judge(
     let held = free.held(&linear.stiffness);
     let doubt = |lambda, phi: &[f64]| rounding::of_data(mechanism, at, &held, (lambda, phi));
     let count = description.free_directions;
-    let general =
-        |unstable, floor| by_eigenvalues((linear, nearby), (description, count), unstable, floor);
+    let general = |unstable, floor| by_eigenvalues((linear, nearby), (description, count), unstable, floor);
     if structure.open() {
         return judge_free(description, linear, linear, &doubt, &general);
     }
@@ -122,8 +117,7 @@ fn judge_free(
     let free = linear.mass.row_count() - rest.mass.row_count();
     let linear = &*rest;
     if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > SYMMETRIC {
-        let negative =
-            Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
+        let negative = Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
         return Ok(if negative {
             Verdict::without_modes(Stability::Divergent { negative: 1 }, 0.0)
         } else {
@@ -147,12 +141,8 @@ fn judge_free(
             }
         }
     }
-    let damped = description.damping != DampingKind::Zero
-        && linear
-            .damping
-            .as_flattened()
-            .iter()
-            .any(|&value| value != 0.0);
+    let damped =
+        description.damping != DampingKind::Zero && linear.damping.as_flattened().iter().any(|&value| value != 0.0);
     let stability = if negative > 0 && (!damped || (zero == 0 && negative % 2 == 1)) {
         Stability::Divergent { negative }
     } else if negative > 0 || (damped && !dissipates(linear)) {
@@ -200,16 +190,12 @@ fn by_eigenvalues(
     };
     let zero = zero + spectrum.modes.iter().filter(drifts).count();
     let stability = if divergent > 0 {
-        Stability::Divergent {
-            negative: divergent,
-        }
+        Stability::Divergent { negative: divergent }
     } else if growing > 0 {
         Stability::Flutter { growing }
     } else if zero > 0 {
         // A direction without resistance has two zero eigenvalues `s`.
-        Stability::Neutral {
-            zero: if free > 0 { free } else { zero },
-        }
+        Stability::Neutral { zero: if free > 0 { free } else { zero } }
     } else if constant == 0 {
         Stability::Stable
     } else if negative > 0 && skew(&linear.damping) {
@@ -217,24 +203,14 @@ fn by_eigenvalues(
     } else {
         Stability::Marginal
     };
-    Verdict {
-        stability,
-        rounding: floor,
-        modes: spectrum.modes,
-    }
+    Verdict { stability, rounding: floor, modes: spectrum.modes }
 }
 
 /// Judges a critical state by its general eigenvalues, of which the `zero` smallest count as zero.
-pub fn judge_critical(
-    linear: &Linear,
-    description: &Shared<Description>,
-    zero: usize,
-) -> Option<Verdict> {
+pub fn judge_critical(linear: &Linear, description: &Shared<Description>, zero: usize) -> Option<Verdict> {
     /// Both eigenvalues of a direction without stiffness are as far from zero as each other but for rounding.
     const MARGIN: f64 = 4.0;
-    let mut modes = solve_modes(linear, Family::General, description, 0.0)
-        .ok()?
-        .modes;
+    let mut modes = solve_modes(linear, Family::General, description, 0.0).ok()?.modes;
     modes.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
     let critical = modes.get(zero.checked_sub(1)?)?;
     let floor = MARGIN * change_to_zero(linear, critical);
@@ -245,8 +221,7 @@ pub fn judge_critical(
 /// Whether a matrix is skew-symmetric to rounding.
 fn skew(matrix: &Matrix) -> bool {
     let threshold = SYMMETRIC * largest_element(matrix);
-    (0..matrix.row_count())
-        .all(|i| (0..=i).all(|j| (matrix[i][j] + matrix[j][i]).abs() <= threshold))
+    (0..matrix.row_count()).all(|i| (0..=i).all(|j| (matrix[i][j] + matrix[j][i]).abs() <= threshold))
 }
 
 /// Whether no eigenvalue of the symmetric part of `Chat` is negative beyond rounding; `false` where that cannot be told.

@@ -17,11 +17,7 @@ pub fn turned_towards(q: &[f64], other: &[f64], description: &Description) -> Ve
     Vector::from_fn(q.len(), |i| {
         let angle = description.coordinates[i].unit.symbol == *"rad";
         let turns = ((q[i] - other[i]) / core::f64::consts::TAU).round();
-        if angle && turns != 0.0 {
-            q[i] - turns * core::f64::consts::TAU
-        } else {
-            q[i]
-        }
+        if angle && turns != 0.0 { q[i] - turns * core::f64::consts::TAU } else { q[i] }
     })
 }
 

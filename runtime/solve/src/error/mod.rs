@@ -213,18 +213,14 @@ pub enum Error {
         variable: Text,
     },
     /// The stiffness matrix is not symmetric, so undamped symmetric modes do not exist.
-    #[error(
-        "the stiffness matrix is not symmetric (relative difference {asymmetry:.3e}): ask for general modes"
-    )]
+    #[error("the stiffness matrix is not symmetric (relative difference {asymmetry:.3e}): ask for general modes")]
     NonsymmetricStiffness {
         /// Largest difference of mirrored elements, relative to the largest element.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         asymmetry: f64,
     },
     /// Undamped modes were requested, but speeds or constraints on velocities make motions of first order.
-    #[error(
-        "speeds and constraints on velocities have no undamped symmetric modes: ask for general modes"
-    )]
+    #[error("speeds and constraints on velocities have no undamped symmetric modes: ask for general modes")]
     NoUndampedModes,
     /// The eigenvalue iteration did not converge, or a pair failed its residual check.
     #[error("mode {} was not found to working accuracy: relative residual {residual:.3e}", .mode + 1)]
@@ -286,9 +282,7 @@ pub enum Error {
         modes: Vec<usize>,
     },
     /// A forced vibration was requested of a mechanism that nothing excites.
-    #[error(
-        "`{mechanism}` has no excitation: declare an `unbalance`, a `harmonic` force or a `shaken` joint"
-    )]
+    #[error("`{mechanism}` has no excitation: declare an `unbalance`, a `harmonic` force or a `shaken` joint")]
     NoExcitation {
         /// Name of the mechanism.
         mechanism: Text,
@@ -490,10 +484,9 @@ fn not_held(unknowns: &[Text], dimension: usize) -> String {
         (0, _) => format!(
             "{names} cannot be held at a value: this steady motion is not one of a family, its equations determine it"
         ),
-        (_, count) if count > dimension => format!(
-            "a family of {dimension} cannot hold {names}: let {} of them go",
-            count - dimension
-        ),
+        (_, count) if count > dimension => {
+            format!("a family of {dimension} cannot hold {names}: let {} of them go", count - dimension)
+        }
         _ => format!(
             "{names} cannot all be chosen in this family of {dimension}: one follows from the others, so let it go"
         ),
@@ -509,17 +502,13 @@ fn names(names: &[Text]) -> String {
 }
 
 fn ranges(all: &[core::ops::Range<u64>]) -> String {
-    let each: Vec<_> = (all.iter())
-        .map(|range| format!("{} to below {}", range.start, range.end))
-        .collect();
+    let each: Vec<_> = (all.iter()).map(|range| format!("{} to below {}", range.start, range.end)).collect();
     each.join(", ")
 }
 
 /// Why the nominal design lacks a response.
 fn nominally(reason: Option<&Error>) -> String {
-    reason.map_or_else(String::new, |reason| {
-        format!(". At the nominal design, {reason}")
-    })
+    reason.map_or_else(String::new, |reason| format!(". At the nominal design, {reason}"))
 }
 
 /// The mode in resonance, counted from 1 as in all messages.
@@ -554,37 +543,22 @@ fn unreliable(error: &eigentol_statistics::Error) -> String {
 }
 
 fn listed(others: &[(Text, f64)]) -> String {
-    let each = others
-        .iter()
-        .map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));
+    let each = others.iter().map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));
     each.collect()
 }
 
 impl From<eigentol_statistics::Error> for Error {
     fn from(error: eigentol_statistics::Error) -> Self {
         match error {
-            eigentol_statistics::Error::Setting { setting, reason } => {
-                Self::Setting { setting, reason }
+            eigentol_statistics::Error::Setting { setting, reason } => Self::Setting { setting, reason },
+            eigentol_statistics::Error::WrongLength { kind, found, expected } => {
+                Self::WrongLength { kind, found, expected }
             }
-            eigentol_statistics::Error::WrongLength {
-                kind,
-                found,
-                expected,
-            } => Self::WrongLength {
-                kind,
-                found,
-                expected,
-            },
             error @ (eigentol_statistics::Error::NoLimitValue { .. }
             | eigentol_statistics::Error::NoDesignPoint { .. }
             | eigentol_statistics::Error::Curvature { .. }) => Self::NoReliability(Box::new(error)),
-            eigentol_statistics::Error::Overlap { start, end } => {
-                Self::SamplesOverlap { start, end }
-            }
-            other => Self::Setting {
-                setting: "statistics",
-                reason: other.to_string(),
-            },
+            eigentol_statistics::Error::Overlap { start, end } => Self::SamplesOverlap { start, end },
+            other => Self::Setting { setting: "statistics", reason: other.to_string() },
         }
     }
 }
@@ -597,10 +571,7 @@ fn six_digits(value: f64) -> f64 {
 /// A value in SI with its declared unit.
 fn valued(value: f64, unit: &Unit) -> String {
     let number = six_digits(unit.from_si(value)).to_string();
-    [number.as_str(), &unit.symbol]
-        .join(" ")
-        .trim_end()
-        .to_owned()
+    [number.as_str(), &unit.symbol].join(" ").trim_end().to_owned()
 }
 
 #[cfg(test)]
@@ -610,9 +581,7 @@ mod tests {
     /// Messages count modes from 1 and name no function.
     #[test]
     fn sentences() {
-        let merged = |modes: &[usize]| Error::Defective {
-            modes: modes.to_vec(),
-        };
+        let merged = |modes: &[usize]| Error::Defective { modes: modes.to_vec() };
         let start = |error: Error| error.to_string();
         assert!(start(merged(&[0])).starts_with("mode 1 and its conjugate have merged into a"));
         assert!(start(merged(&[0, 2])).starts_with("modes 1, 3 have merged into a defective"));

@@ -49,9 +49,7 @@ pub(super) fn derivatives(
         along: Matrix::zeros(count, size),
     };
     let moving = u.iter().chain(b).zip(du.iter().chain(db));
-    let mut numbers: Vec<Second> = moving
-        .map(|(&value, &slope)| Dual::fixed(Dual { value, slope }))
-        .collect();
+    let mut numbers: Vec<Second> = moving.map(|(&value, &slope)| Dual::fixed(Dual { value, slope })).collect();
     let mut values = vec![Second::fixed(Dual::fixed(0.0)); count];
     let mut evaluate = |numbers: &[Second]| {
         let (u, b) = numbers.split_at(u.len());

@@ -60,19 +60,14 @@ impl Held {
     #[doc(hidden)]
     #[must_use]
     pub fn at(unknown: usize, value: f64) -> Self {
-        Self {
-            unknown,
-            value,
-            ..Self::default()
-        }
+        Self { unknown, value, ..Self::default() }
     }
 }
 
 /// The combinations of motions along which no held unknown moves.
 fn unheld(motions: &[Vector], held: &[Held]) -> Vec<Vector> {
-    let moved = Matrix::from_fn(motions.len(), motions.len(), |i, k| {
-        held.get(i).map_or(0.0, |held| motions[k][held.unknown])
-    });
+    let moved =
+        Matrix::from_fn(motions.len(), motions.len(), |i, k| held.get(i).map_or(0.0, |held| motions[k][held.unknown]));
     let free = motions.len().saturating_sub(held.len());
     let mut all = NullSpace::of(&moved, free).right;
     all.truncate(free);
@@ -82,13 +77,7 @@ fn unheld(motions: &[Vector], held: &[Held]) -> Vec<Vector> {
 impl FreeDirections {
     /// No directions.
     pub(crate) const fn none() -> Self {
-        Self {
-            motions: Vec::new(),
-            balances: Vec::new(),
-            rows: Vec::new(),
-            columns: Vec::new(),
-            held: Vec::new(),
-        }
+        Self { motions: Vec::new(), balances: Vec::new(), rows: Vec::new(), columns: Vec::new(), held: Vec::new() }
     }
 
     /// The directions at an equilibrium with this stiffness, which has `count` of them. None where the stiffness has
@@ -131,11 +120,7 @@ impl FreeDirections {
             row
         };
         let rows = held.iter().map(|held| unit(held.unknown));
-        Self {
-            rows: rows.chain(free.iter().map(combined)).collect(),
-            held,
-            ..directions
-        }
+        Self { rows: rows.chain(free.iter().map(combined)).collect(), held, ..directions }
     }
 
     /// The motions that nothing holds: those along which no held unknown moves.
@@ -228,11 +213,7 @@ impl FreeDirections {
     /// The same if the deviations of these inputs follow the design variables.
     pub(crate) fn with_deviations(&self, inputs: &[usize]) -> Self {
         let mut extended = self.clone();
-        for held in extended
-            .held
-            .iter_mut()
-            .filter(|held| held.declared.is_some())
-        {
+        for held in extended.held.iter_mut().filter(|held| held.declared.is_some()) {
             let deviations = inputs.iter().map(|&input| held.by_input[input]);
             held.by_design = held.by_design.iter().copied().chain(deviations).collect();
         }

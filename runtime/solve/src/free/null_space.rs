@@ -1,8 +1,5 @@
 //! Null vectors of a square matrix, right and left, by elimination with complete pivoting.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use crate::algebra::{Matrix, Vector, add_to, dot, greater, is_symmetric, largest};
 
@@ -44,10 +41,7 @@ impl NullSpace {
         let vectors = |basis: &[Vector], unit: &[f64]| -> (Vec<Vector>, Vec<Vector>) {
             let times = |x: &Vector| x.iter().zip(unit).map(|(x, unit)| x * unit).collect();
             let over = |x: &Vector| x.iter().zip(unit).map(|(x, unit)| x / unit).collect();
-            (
-                basis.iter().map(times).collect(),
-                basis.iter().map(over).collect(),
-            )
+            (basis.iter().map(times).collect(), basis.iter().map(over).collect())
         };
         let basis = orthonormal(elimination.right());
         let (right, rows) = vectors(&basis, &column);
@@ -56,14 +50,7 @@ impl NullSpace {
             true => (right.clone(), rows.clone()),
             false => vectors(&orthonormal(elimination.left()), &row),
         };
-        Self {
-            right,
-            left,
-            rows,
-            columns,
-            basis,
-            remainder: elimination.remainder(),
-        }
+        Self { right, left, rows, columns, basis, remainder: elimination.remainder() }
     }
 
     /// The rank of a matrix.
@@ -197,9 +184,7 @@ impl Elimination {
             let mut y = Vector::zeros(n);
             y[free] = 1.0;
             for k in (0..self.rank).rev() {
-                let sum = (k + 1..self.rank).fold(self.factors[free][k], |sum, i| {
-                    sum + y[i] * self.factors[i][k]
-                });
+                let sum = (k + 1..self.rank).fold(self.factors[free][k], |sum, i| sum + y[i] * self.factors[i][k]);
                 y[k] = -sum;
             }
             placed(&y, &self.row_order)
@@ -276,11 +261,7 @@ mod tests {
         assert_eq!((null_space.right.len(), null_space.left.len()), (1, 1));
         assert!(largest(&times(&matrix, &null_space.right[0])) < 1e-14);
         assert!(largest(&times(&matrix.transpose(), &null_space.left[0])) < 1e-14);
-        assert!(
-            NullSpace::of(&Matrix::from([[2.0, 1.0], [1.0, 1.0]]), 0)
-                .right
-                .is_empty()
-        );
+        assert!(NullSpace::of(&Matrix::from([[2.0, 1.0], [1.0, 1.0]]), 0).right.is_empty());
         assert_eq!(NullSpace::of(&Matrix::zeros(3, 3), 0).right.len(), 3);
     }
 

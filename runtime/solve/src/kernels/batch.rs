@@ -5,9 +5,7 @@
 //! operations are the same, each is rounded once, and none are fused.
 
 use super::{DirectionalKernels, Kernels};
-use crate::mechanism::{
-    Array, Gradient, GradientOf, Linear, LinearPartials, Mechanism, RestParts, Square,
-};
+use crate::mechanism::{Array, Gradient, GradientOf, Linear, LinearPartials, Mechanism, RestParts, Square};
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use crate::{DampingKind, Description};
 
@@ -45,12 +43,7 @@ pub trait BatchKernels: DirectionalKernels {
     );
 
     /// [`Kernels::linear_into`](super::Kernels::linear_into).
-    fn linear_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        linear: &mut BatchLinear<'_>,
-    );
+    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>);
 
     /// [`Kernels::parts_and_linear_into`](super::Kernels::parts_and_linear_into).
     fn parts_and_linear_batch(
@@ -120,11 +113,7 @@ fn store_rows<V: Lanes, R: Array<V>>(from: &[R], to: &mut [Batch], at: usize) {
 }
 
 #[inline(always)]
-fn store_gradient<V: Lanes, M: Mechanism>(
-    from: &GradientOf<M, V>,
-    to: &mut BatchGradient<'_>,
-    at: usize,
-) {
+fn store_gradient<V: Lanes, M: Mechanism>(from: &GradientOf<M, V>, to: &mut BatchGradient<'_>, at: usize) {
     store(from.coordinates.as_ref(), to.coordinates, at);
     store(from.inputs.as_ref(), to.inputs, at);
     store(from.design.as_ref(), to.design, at);
@@ -133,11 +122,7 @@ fn store_gradient<V: Lanes, M: Mechanism>(
 /// Stores matrices one after the other. A damping matrix that is always zero is not read, so the kernel need not write
 /// it.
 #[inline(always)]
-fn store_linears<V: Lanes, M: Mechanism>(
-    from: &[Linear<Square<M, V>>],
-    to: &mut BatchLinear<'_>,
-    at: usize,
-) {
+fn store_linears<V: Lanes, M: Mechanism>(from: &[Linear<Square<M, V>>], to: &mut BatchLinear<'_>, at: usize) {
     let size = M::Coordinates::<V>::LEN * M::Coordinates::<V>::LEN;
     for (k, from) in from.iter().enumerate() {
         let first = k * size;
@@ -158,11 +143,8 @@ struct Call<'a, M, F> {
 }
 
 /// Unknowns, inputs and design variables in vectors.
-type Point<'a, M, V> = (
-    &'a <M as Mechanism>::Coordinates<V>,
-    &'a <M as Mechanism>::Inputs<V>,
-    &'a <M as Mechanism>::Design<V>,
-);
+type Point<'a, M, V> =
+    (&'a <M as Mechanism>::Coordinates<V>, &'a <M as Mechanism>::Inputs<V>, &'a <M as Mechanism>::Design<V>);
 
 /// The body of a [`Call`] for the states from `at` on.
 trait Kernel<M: Mechanism> {
@@ -312,26 +294,14 @@ pub(super) fn evaluate_batch<M: Mechanism>(
     {
         let [q, u, b] = [arguments[0], arguments[1], arguments[2]];
         let (at, factors) = (BatchPoint { q, u, b }, &arguments[3..]);
-        let gradient = BatchGradient {
-            coordinates,
-            inputs,
-            design,
-        };
+        let gradient = BatchGradient { coordinates, inputs, design };
         let instructions = Instructions::best();
         match kernel {
             super::Kernel::PencilGradient => {
-                return instructions.run(Call {
-                    mechanism,
-                    at: &at,
-                    kernel: PencilGradient { factors, gradient },
-                });
+                return instructions.run(Call { mechanism, at: &at, kernel: PencilGradient { factors, gradient } });
             }
             super::Kernel::ForcedGradient => {
-                return instructions.run(Call {
-                    mechanism,
-                    at: &at,
-                    kernel: ForcedGradient { factors, gradient },
-                });
+                return instructions.run(Call { mechanism, at: &at, kernel: ForcedGradient { factors, gradient } });
             }
             _ => {}
         }
@@ -397,11 +367,7 @@ fn run<M: Mechanism>(
     generated: bool,
     kernel: impl Kernel<M>,
 ) {
-    let call = Call {
-        mechanism,
-        at: &at,
-        kernel,
-    };
+    let call = Call { mechanism, at: &at, kernel };
     if const { pays::<M>() } && generated {
         instructions.run(call);
     } else {
@@ -417,32 +383,12 @@ impl<M: Mechanism> BatchKernels for M {
         residual: &mut [Batch],
         stiffness: &mut [Batch],
     ) {
-        let kernel = ResidualAndStiffness {
-            residual,
-            stiffness,
-        };
-        run(
-            self,
-            instructions,
-            at,
-            const { generated(const { &M::DESCRIPTION }, "residual_and_stiffness") },
-            kernel,
-        );
+        let kernel = ResidualAndStiffness { residual, stiffness };
+        run(self, instructions, at, const { generated(const { &M::DESCRIPTION }, "residual_and_stiffness") }, kernel);
     }
 
-    fn linear_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        linear: &mut BatchLinear<'_>,
-    ) {
-        run(
-            self,
-            instructions,
-            at,
-            const { generated(const { &M::DESCRIPTION }, "linear") },
-            LinearTask { linear },
-        );
+    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
+        run(self, instructions, at, const { generated(const { &M::DESCRIPTION }, "linear") }, LinearTask { linear });
     }
 
     fn parts_and_linear_batch(
@@ -469,13 +415,7 @@ impl<M: Mechanism> BatchKernels for M {
         residual: [&mut [Batch]; 2],
     ) {
         let kernel = Partials { matrices, residual };
-        run(
-            self,
-            instructions,
-            at,
-            const { generated(const { &M::DESCRIPTION }, "linear_partials") },
-            kernel,
-        );
+        run(self, instructions, at, const { generated(const { &M::DESCRIPTION }, "linear_partials") }, kernel);
     }
 
     fn mode_gradient_batch(
@@ -486,18 +426,8 @@ impl<M: Mechanism> BatchKernels for M {
         lambda: &Batch,
         gradient: &mut BatchGradient<'_>,
     ) {
-        let kernel = ModeGradient {
-            phi,
-            lambda,
-            gradient,
-        };
-        run(
-            self,
-            instructions,
-            at,
-            const { generated(const { &M::DESCRIPTION }, "mode_gradient") },
-            kernel,
-        );
+        let kernel = ModeGradient { phi, lambda, gradient };
+        run(self, instructions, at, const { generated(const { &M::DESCRIPTION }, "mode_gradient") }, kernel);
     }
 
     fn residual_gradient_batch(

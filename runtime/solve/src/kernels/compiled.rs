@@ -11,14 +11,14 @@
 use super::batch::evaluate_batch;
 use super::interval::Interval;
 use super::{
-    Costs, Curvature, CurvatureKernels, Directional, DirectionalKernels, Gradient, Kernel, Kernels,
-    Linear, MotionKernel, MotionKernels, PartialMatrices, PictureKernels, ResidualPartials,
-    RestParts, Second, Sizes, entries_of, gradient_results, linear_results,
+    Costs, Curvature, CurvatureKernels, Directional, DirectionalKernels, Gradient, Kernel, Kernels, Linear,
+    MotionKernel, MotionKernels, PartialMatrices, PictureKernels, ResidualPartials, RestParts, Second, Sizes,
+    entries_of, gradient_results, linear_results,
 };
 use crate::algebra::Vector;
 use crate::mechanism::{
-    Array, Description, ForcingOf, GradientOf, Mechanism, OutputMotionOf, PartialsOf, PictureInfo,
-    PoseMargin, Shared, Square, Violation, few_partials,
+    Array, Description, ForcingOf, GradientOf, Mechanism, OutputMotionOf, PartialsOf, PictureInfo, PoseMargin, Shared,
+    Square, Violation, few_partials,
 };
 use crate::scalar::{Batch, Dual};
 use crate::{Real, mechanism};
@@ -137,11 +137,7 @@ fn point<'a, M: Mechanism>(
     q: &'a [f64],
     u: &'a [f64],
     b: &'a [f64],
-) -> (
-    &'a M::Coordinates<f64>,
-    &'a M::Inputs<f64>,
-    &'a M::Design<f64>,
-) {
+) -> (&'a M::Coordinates<f64>, &'a M::Inputs<f64>, &'a M::Design<f64>) {
     (Array::view(q), Array::view(u), Array::view(b))
 }
 
@@ -164,8 +160,7 @@ fn partials_by_direction(
             if let Some(to) = to.next() {
                 to.mass.copy_from_slice(change.mass.as_flattened());
                 to.damping.copy_from_slice(change.damping.as_flattened());
-                to.stiffness
-                    .copy_from_slice(change.stiffness.as_flattened());
+                to.stiffness.copy_from_slice(change.stiffness.as_flattened());
             }
         }
     }
@@ -215,23 +210,11 @@ impl<M: Mechanism> Kernels for M {
             }
             Kernel::ModeGradient => {
                 let (phi, lambda) = (vector(3), arguments[4][0]);
-                copy_gradient::<M>(
-                    &Mechanism::mode_gradient(self, q, u, b, phi, lambda),
-                    results,
-                );
+                copy_gradient::<M>(&Mechanism::mode_gradient(self, q, u, b, phi, lambda), results);
             }
             Kernel::PencilGradient => {
                 let [left, acceleration, velocity, position] = [3, 4, 5, 6].map(vector);
-                let gradient = Mechanism::pencil_gradient(
-                    self,
-                    q,
-                    u,
-                    b,
-                    left,
-                    acceleration,
-                    velocity,
-                    position,
-                );
+                let gradient = Mechanism::pencil_gradient(self, q, u, b, left, acceleration, velocity, position);
                 copy_gradient::<M>(&gradient, results);
             }
             Kernel::ResidualGradient => {
@@ -281,14 +264,7 @@ impl<M: Mechanism> Kernels for M {
         copy_rows(&computed.1, stiffness);
     }
 
-    fn parts_and_linear_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        parts: &mut RestParts,
-        linear: &mut Linear,
-    ) {
+    fn parts_and_linear_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts, linear: &mut Linear) {
         if const { M::Coordinates::<f64>::LEN > FEW_COORDINATES } {
             self.residual_parts_into(q, u, b, parts);
             self.linear_into(q, u, b, linear);
@@ -301,13 +277,7 @@ impl<M: Mechanism> Kernels for M {
         copy_linear::<M>(&self.linear_inlined(q, u, b), &mut linear_results(linear));
     }
 
-    fn linear_partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        partials: &mut PartialMatrices,
-    ) {
+    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices) {
         if const { size_of::<PartialsOf<M, f64>>() > ON_STACK } {
             partials_by_direction(self, q, u, b, partials);
             return;
@@ -348,15 +318,7 @@ impl<M: Mechanism> Kernels for M {
         );
     }
 
-    fn mode_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        gradient: &mut Gradient,
-    ) {
+    fn mode_gradient_into(&self, q: &[f64], u: &[f64], b: &[f64], phi: &[f64], lambda: f64, gradient: &mut Gradient) {
         let (q, u, b) = point::<M>(q, u, b);
         let computed = Mechanism::mode_gradient(self, q, u, b, Array::view(phi), lambda);
         copy_gradient::<M>(&computed, &mut gradient_results(gradient));
@@ -473,18 +435,12 @@ impl<M: Mechanism> CurvatureKernels for M {
                     .zip(direction)
                     .map(|(values, slopes)| {
                         let pairs = values.iter().zip(*slopes);
-                        pairs
-                            .map(|(&value, &slope)| Dual { value, slope })
-                            .collect()
+                        pairs.map(|(&value, &slope)| Dual { value, slope }).collect()
                     })
                     .collect();
                 let moved: Vec<&[Dual<f64>]> = moved.iter().map(Vec::as_slice).collect();
                 let gradient = forced_gradient(self, &moved);
-                let parts = [
-                    gradient.coordinates.as_ref(),
-                    gradient.inputs.as_ref(),
-                    gradient.design.as_ref(),
-                ];
+                let parts = [gradient.coordinates.as_ref(), gradient.inputs.as_ref(), gradient.design.as_ref()];
                 for (to, from) in results.iter_mut().zip(parts) {
                     for (to, from) in to.iter_mut().zip(from) {
                         *to = from.slope;
@@ -496,12 +452,7 @@ impl<M: Mechanism> CurvatureKernels for M {
 }
 
 impl<M: Mechanism> MotionKernels for M {
-    fn evaluate_motion(
-        &self,
-        kernel: MotionKernel,
-        arguments: &[&[f64]],
-        results: &mut [&mut [f64]],
-    ) {
+    fn evaluate_motion(&self, kernel: MotionKernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
         let (before, at) = arguments.split_at(arguments.len() - 3);
         let (q, u, b) = point::<M>(at[0], at[1], at[2]);
         let vector = |k: usize| Array::view(before[k]);

@@ -1,10 +1,7 @@
 //! Derivatives of the gradients of modes and outputs along a direction, as needed for second derivatives. They are
 //! long, and few callers need them: only those that do compile them.
 
-use super::{
-    Curvature, DirectionalKernels, Gradient, gradient_results, matrix_results,
-    output_partials_zeros,
-};
+use super::{Curvature, DirectionalKernels, Gradient, gradient_results, matrix_results, output_partials_zeros};
 use crate::algebra::Matrix;
 
 /// Gradients of modes and outputs in dual numbers.
@@ -71,8 +68,7 @@ pub trait CurvatureKernels: DirectionalKernels {
         changes: [&[f64]; 4],
         gradient: &mut Gradient,
     ) {
-        let lists =
-            |[q, u, b]: [_; 3], [l, a, v, x]: [_; 4]| -> [&[f64]; 7] { [q, u, b, l, a, v, x] };
+        let lists = |[q, u, b]: [_; 3], [l, a, v, x]: [_; 4]| -> [&[f64]; 7] { [q, u, b, l, a, v, x] };
         self.evaluate_curvature(
             Curvature::PencilGradient,
             &lists([q, u, b], vectors),
@@ -131,13 +127,7 @@ impl dyn CurvatureKernels + '_ {
         gradient
     }
     /// Derivatives of [`Kernels::output_partials_into`](crate::Kernels::output_partials_into) along `dq`, `du`, `db`.
-    pub fn output_partials_along(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-    ) -> [Matrix; 3] {
+    pub fn output_partials_along(&self, q: &[f64], u: &[f64], b: &[f64], direction: [&[f64]; 3]) -> [Matrix; 3] {
         let mut partials = output_partials_zeros(self.sizes());
         self.output_partials_along_into(q, u, b, direction, partials.each_mut());
         partials

@@ -14,14 +14,7 @@ pub trait DirectionalKernels: Kernels {
     );
 
     /// [`Mechanism::linear_along`](eigentol_contract::Mechanism::linear_along); `direction` is `dq`, `du`, `db`.
-    fn linear_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        linear: &mut Linear,
-    ) {
+    fn linear_along_into(&self, q: &[f64], u: &[f64], b: &[f64], direction: [&[f64]; 3], linear: &mut Linear) {
         let results = &mut linear_results(linear);
         self.evaluate_along(Directional::Linear, &[q, u, b], &direction, results);
     }

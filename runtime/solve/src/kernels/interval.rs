@@ -13,10 +13,7 @@ pub struct Interval {
     high: f64,
 }
 
-const ALL: Interval = Interval {
-    low: f64::NEG_INFINITY,
-    high: f64::INFINITY,
-};
+const ALL: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
 impl Interval {
     /// `value` and everything within `distance` of it.
@@ -68,12 +65,7 @@ impl Mul for Interval {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self, other);
-        Self::between([
-            a.low * b.low,
-            a.low * b.high,
-            a.high * b.low,
-            a.high * b.high,
-        ])
+        Self::between([a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high])
     }
 }
 
@@ -84,22 +76,14 @@ impl Div for Interval {
         if b.low <= 0.0 && b.high >= 0.0 {
             return ALL;
         }
-        Self::between([
-            a.low / b.low,
-            a.low / b.high,
-            a.high / b.low,
-            a.high / b.high,
-        ])
+        Self::between([a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high])
     }
 }
 
 impl Neg for Interval {
     type Output = Self;
     fn neg(self) -> Self {
-        Self {
-            low: -self.high,
-            high: -self.low,
-        }
+        Self { low: -self.high, high: -self.low }
     }
 }
 
@@ -164,22 +148,13 @@ mod tests {
                     (b.powi(3), y * y * y),
                     (b.powi(-2), 1.0 / (y * y)),
                 ] {
-                    assert!(
-                        range.low <= value && value <= range.high,
-                        "{range:?} {value}"
-                    );
+                    assert!(range.low <= value && value <= range.high, "{range:?} {value}");
                 }
             }
         }
         assert!(a > zero && b < zero && (a + b).partial_cmp(&zero).is_none());
         // Nothing is known about these, and nothing is claimed.
-        for unknown in [
-            a / (a + b),
-            b.sqrt(),
-            a.ln(),
-            Interval::constant(f64::NAN),
-            ALL * zero,
-        ] {
+        for unknown in [a / (a + b), b.sqrt(), a.ln(), Interval::constant(f64::NAN), ALL * zero] {
             assert!(unknown.partial_cmp(&zero).is_none(), "{unknown:?}");
         }
     }

@@ -67,36 +67,24 @@ pub type ResidualPartials<T = f64> = (Matrix<T>, Matrix<T>);
 #[inline]
 pub(crate) fn residual_partials_zeros<T: Copy + Default>(sizes: Sizes) -> ResidualPartials<T> {
     let rows = sizes.coordinates;
-    (
-        Matrix::zeros(rows, sizes.inputs),
-        Matrix::zeros(rows, sizes.design),
-    )
+    (Matrix::zeros(rows, sizes.inputs), Matrix::zeros(rows, sizes.design))
 }
 
 /// Zeros.
 fn output_partials_zeros(sizes: Sizes) -> [Matrix; 3] {
-    [sizes.coordinates, sizes.inputs, sizes.design]
-        .map(|columns| Matrix::zeros(sizes.outputs, columns))
+    [sizes.coordinates, sizes.inputs, sizes.design].map(|columns| Matrix::zeros(sizes.outputs, columns))
 }
 
 /// The three matrices as results.
 #[inline]
 pub fn linear_results<T>(linear: &mut Linear<T>) -> [&mut [T]; 3] {
-    [
-        linear.mass.as_flattened_mut(),
-        linear.damping.as_flattened_mut(),
-        linear.stiffness.as_flattened_mut(),
-    ]
+    [linear.mass.as_flattened_mut(), linear.damping.as_flattened_mut(), linear.stiffness.as_flattened_mut()]
 }
 
 /// A gradient as results.
 #[inline]
 pub fn gradient_results<T>(gradient: &mut Gradient<T>) -> [&mut [T]; 3] {
-    [
-        &mut gradient.coordinates,
-        &mut gradient.inputs,
-        &mut gradient.design,
-    ]
+    [&mut gradient.coordinates, &mut gradient.inputs, &mut gradient.design]
 }
 
 /// Matrices as results.
@@ -171,26 +159,13 @@ pub trait Kernels: Sync {
     }
 
     /// [`Kernels::residual_parts_into`] and [`Kernels::linear_into`]; common terms are computed once where that pays.
-    fn parts_and_linear_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        parts: &mut RestParts,
-        linear: &mut Linear,
-    ) {
+    fn parts_and_linear_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts, linear: &mut Linear) {
         self.residual_parts_into(q, u, b, parts);
         self.linear_into(q, u, b, linear);
     }
 
     /// [`Mechanism::residual_partials`](eigentol_contract::Mechanism::residual_partials).
-    fn residual_partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        partials: &mut ResidualPartials,
-    ) {
+    fn residual_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut ResidualPartials) {
         let results = &mut matrix_results([&mut partials.0, &mut partials.1]);
         self.evaluate(Kernel::ResidualPartials, &[q, u, b], results);
     }
@@ -212,21 +187,9 @@ pub trait Kernels: Sync {
     }
 
     /// [`Mechanism::mode_gradient`](eigentol_contract::Mechanism::mode_gradient).
-    fn mode_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        gradient: &mut Gradient,
-    ) {
+    fn mode_gradient_into(&self, q: &[f64], u: &[f64], b: &[f64], phi: &[f64], lambda: f64, gradient: &mut Gradient) {
         let arguments = &[q, u, b, phi, &[lambda]];
-        self.evaluate(
-            Kernel::ModeGradient,
-            arguments,
-            &mut gradient_results(gradient),
-        );
+        self.evaluate(Kernel::ModeGradient, arguments, &mut gradient_results(gradient));
     }
 
     /// [`Mechanism::pencil_gradient`](eigentol_contract::Mechanism::pencil_gradient).
@@ -244,14 +207,7 @@ pub trait Kernels: Sync {
     }
 
     /// [`Mechanism::residual_gradient`](eigentol_contract::Mechanism::residual_gradient).
-    fn residual_gradient_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        gradient: &mut Gradient,
-    ) {
+    fn residual_gradient_into(&self, q: &[f64], u: &[f64], b: &[f64], w: &[f64], gradient: &mut Gradient) {
         let results = &mut gradient_results(gradient);
         self.evaluate(Kernel::ResidualGradient, &[q, u, b, w], results);
     }
@@ -294,8 +250,7 @@ impl dyn Kernels + '_ {
     /// The deviation of an input, SI.
     #[doc(hidden)]
     pub fn deviation(&self, input: usize, b: &[f64]) -> f64 {
-        let of_input =
-            |(design, _): &(usize, &f64)| self.input_of_deviation(*design) == Some(input);
+        let of_input = |(design, _): &(usize, &f64)| self.input_of_deviation(*design) == Some(input);
         let deviations = b.iter().enumerate().filter(of_input);
         deviations.map(|(_, deviation)| deviation).sum()
     }
@@ -352,40 +307,21 @@ impl dyn Kernels + '_ {
     }
 
     /// Derivatives of the three matrices; the derivatives of the residual are written to `residual`.
-    pub fn partials(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        residual: &mut ResidualPartials,
-    ) -> PartialMatrices {
+    pub fn partials(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut ResidualPartials) -> PartialMatrices {
         let mut matrices = PartialMatrices::zeros(self.sizes());
         self.partials_into(q, u, b, &mut matrices, residual);
         matrices
     }
 
     /// Gradient of `phi^T (Khat - lambda Mhat) phi`.
-    pub fn mode_gradient(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-    ) -> Gradient {
+    pub fn mode_gradient(&self, q: &[f64], u: &[f64], b: &[f64], phi: &[f64], lambda: f64) -> Gradient {
         let mut gradient = Gradient::zeros(self.sizes());
         self.mode_gradient_into(q, u, b, phi, lambda, &mut gradient);
         gradient
     }
 
     /// Gradient of `left^T (Mhat acceleration + Chat velocity + Khat position)`.
-    pub fn pencil_gradient(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-    ) -> Gradient {
+    pub fn pencil_gradient(&self, q: &[f64], u: &[f64], b: &[f64], vectors: [&[f64]; 4]) -> Gradient {
         let mut gradient = Gradient::zeros(self.sizes());
         self.pencil_gradient_into(q, u, b, vectors, &mut gradient);
         gradient

@@ -6,12 +6,7 @@ use crate::algebra::{Matrix, Vector};
 /// The equations of motion and their linearisation along any motion.
 pub trait MotionKernels: DirectionalKernels {
     /// Evaluates a kernel, as [`Kernels::evaluate`](super::Kernels::evaluate).
-    fn evaluate_motion(
-        &self,
-        kernel: MotionKernel,
-        arguments: &[&[f64]],
-        results: &mut [&mut [f64]],
-    );
+    fn evaluate_motion(&self, kernel: MotionKernel, arguments: &[&[f64]], results: &mut [&mut [f64]]);
 
     /// [`Mechanism::motion_residual`](eigentol_contract::Mechanism::motion_residual).
     fn motion_residual_into(
@@ -28,15 +23,7 @@ pub trait MotionKernels: DirectionalKernels {
     }
 
     /// [`Mechanism::motion`](eigentol_contract::Mechanism::motion).
-    fn motion_into(
-        &self,
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        mass: &mut Matrix,
-        right: &mut [f64],
-    ) {
+    fn motion_into(&self, velocity: &[f64], q: &[f64], u: &[f64], b: &[f64], mass: &mut Matrix, right: &mut [f64]) {
         let results = &mut [mass.as_flattened_mut(), right];
         self.evaluate_motion(MotionKernel::Motion, &[velocity, q, u, b], results);
     }
@@ -58,14 +45,7 @@ pub trait MotionKernels: DirectionalKernels {
 
 impl dyn MotionKernels + '_ {
     /// `g(qddot, qdot, q; u, b)`.
-    pub fn motion_residual(
-        &self,
-        acceleration: &[f64],
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-    ) -> Vector {
+    pub fn motion_residual(&self, acceleration: &[f64], velocity: &[f64], q: &[f64], u: &[f64], b: &[f64]) -> Vector {
         let mut residual = Vector::zeros(q.len());
         self.motion_residual_into(acceleration, velocity, q, u, b, &mut residual);
         residual
@@ -80,14 +60,7 @@ impl dyn MotionKernels + '_ {
     }
 
     /// The equations of motion linearised along any motion.
-    pub fn motion_linear(
-        &self,
-        acceleration: &[f64],
-        velocity: &[f64],
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-    ) -> Linear {
+    pub fn motion_linear(&self, acceleration: &[f64], velocity: &[f64], q: &[f64], u: &[f64], b: &[f64]) -> Linear {
         let mut linear = Linear::zeros(q.len());
         self.motion_linear_into(acceleration, velocity, q, u, b, &mut linear);
         linear

@@ -21,10 +21,7 @@ impl PartialMatrices {
     #[must_use]
     pub fn zeros(sizes: Sizes) -> Self {
         let variables = sizes.coordinates + sizes.inputs + sizes.design;
-        Self {
-            sizes,
-            entries: repeat_n(0.0, variables * entries_of(sizes.coordinates)).collect(),
-        }
+        Self { sizes, entries: repeat_n(0.0, variables * entries_of(sizes.coordinates)).collect() }
     }
 
     /// Converts to lists of matrices.
@@ -38,10 +35,7 @@ impl PartialMatrices {
     }
 
     /// Converts some of the derivatives to matrices.
-    pub(crate) fn matrices<'a>(
-        &self,
-        changes: &'a [f64],
-    ) -> impl ExactSizeIterator<Item = Linear> + use<'a> {
+    pub(crate) fn matrices<'a>(&self, changes: &'a [f64]) -> impl ExactSizeIterator<Item = Linear> + use<'a> {
         let n = self.sizes.coordinates;
         let matrix = move |entries: &[f64]| Matrix::from_fn(n, n, |i, j| entries[i * n + j]);
         let each = changes.chunks_exact(entries_of(n).max(1));
@@ -88,17 +82,11 @@ impl PartialMatrices {
     #[inline]
     pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = mechanism::Linear<&mut [f64]>> {
         let each = entries_of(self.sizes.coordinates);
-        self.entries
-            .chunks_exact_mut(each.max(1))
-            .map(move |change| {
-                let (mass, rest) = change.split_at_mut(each / 3);
-                let (damping, stiffness) = rest.split_at_mut(each / 3);
-                mechanism::Linear {
-                    mass,
-                    damping,
-                    stiffness,
-                }
-            })
+        self.entries.chunks_exact_mut(each.max(1)).map(move |change| {
+            let (mass, rest) = change.split_at_mut(each / 3);
+            let (damping, stiffness) = rest.split_at_mut(each / 3);
+            mechanism::Linear { mass, damping, stiffness }
+        })
     }
 }
 

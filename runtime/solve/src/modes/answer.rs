@@ -33,9 +33,7 @@ impl Answer for Modes {
         said.columns(table);
         shapes.rest(&mut said);
         if self.damping_ignored {
-            said.note(
-                "Damping and gyroscopic forces (Chat) are not zero here and are ignored: undamped modes.",
-            );
+            said.note("Damping and gyroscopic forces (Chat) are not zero here and are ignored: undamped modes.");
         }
         said
     }
@@ -48,18 +46,13 @@ impl Modes {
             return;
         }
         let whirl = |mode: &Mode| {
-            let place = self
-                .modes
-                .iter()
-                .position(|other| std::ptr::eq(other, mode))?;
+            let place = self.modes.iter().position(|other| std::ptr::eq(other, mode))?;
             *self.whirls.get(place)?
         };
         table.words("kind", &|mode| Some(whirl(mode)?.kind.to_string()));
         table.words("whirl", &|mode| Some(whirl(mode)?.sense()?.to_string()));
         table.number("whirl ratio", "", &|mode| whirl(mode)?.ratio);
-        table.cells("kind", &|mode| {
-            whirl(mode).map_or_else(|| "-".to_owned(), |whirl| whirl.to_string())
-        });
+        table.cells("kind", &|mode| whirl(mode).map_or_else(|| "-".to_owned(), |whirl| whirl.to_string()));
     }
 }
 
@@ -68,9 +61,7 @@ fn eigenvalues(table: &mut Columns<'_, Mode>, family: Family) {
     table.whole("mode", &|mode| Some(mode.label + 1)).shown();
     let frequency = table.number("frequency", "rad/s", &Mode::frequency);
     frequency.shown().headed("omega [rad/s]");
-    table.cells("f [Hz]", &|mode| {
-        optional(mode.frequency().map(|omega| omega / TAU))
-    });
+    table.cells("f [Hz]", &|mode| optional(mode.frequency().map(|omega| omega / TAU)));
     table.number("natural frequency", "rad/s", &Mode::natural_frequency);
     table.number("damping ratio", "", &Mode::damping_ratio);
     table.number("Re s", "1/s", &|mode| Some(mode.s.re));
@@ -87,11 +78,7 @@ fn eigenvalues(table: &mut Columns<'_, Mode>, family: Family) {
 
 /// The rate of growth, or zero if it is rounding, 1/s.
 fn growth(mode: &Mode) -> f64 {
-    if mode.s.re.abs() <= mode.error {
-        0.0
-    } else {
-        unless_rounding(mode.s.re, mode.s.norm())
-    }
+    if mode.s.re.abs() <= mode.error { 0.0 } else { unless_rounding(mode.s.re, mode.s.norm()) }
 }
 
 /// The damping ratio of an oscillation, zero if its growth is rounding.
@@ -136,10 +123,7 @@ impl<'a> Shapes<'a> {
         let greatest = largest(all.iter().map(|(_, _, most)| *most));
         let (moving, still): (Vec<_>, Vec<_>) =
             (all.into_iter()).partition(|(_, _, most)| unless_rounding(*most, greatest) != 0.0);
-        Self {
-            moving,
-            still: still.into_iter().map(|(_, info, _)| &*info.name).collect(),
-        }
+        Self { moving, still: still.into_iter().map(|(_, info, _)| &*info.name).collect() }
     }
 
     fn side_by_side(&self) -> bool {
@@ -181,9 +165,7 @@ impl<'a> Shapes<'a> {
             said.note(format!("In no mode {verb} {still} move."));
         }
         if !self.side_by_side() {
-            said.note(format!(
-                "Only the {NAMED} largest components are shown: {EVERYTHING}."
-            ));
+            said.note(format!("Only the {NAMED} largest components are shown: {EVERYTHING}."));
         }
     }
 }

@@ -1,9 +1,6 @@
 //! Tracking modes: which modes of two sets are the same motion (modal assurance criterion), and which cannot be told
 //! apart.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use super::kinetic::{kinetic, product};
 use super::{Family, Mode};
@@ -43,22 +40,14 @@ pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
         let scale = own_size * size;
         let cosine = product(&mode.shape, weighted).norm_sqr();
         let shapes = if scale > 0.0 { cosine / scale } else { 0.0 };
-        if general {
-            shapes * same_eigenvalue(mode.s, to.modes[j].s, own_rate, *rate)
-        } else {
-            shapes
-        }
+        if general { shapes * same_eigenvalue(mode.s, to.modes[j].s, own_rate, *rate) } else { shapes }
     })
 }
 
 /// `(1 + cos of the phase difference) / 2`, reduced slightly with the distance; takes both eigenvalues and their sizes.
 fn same_eigenvalue(a: Complex, b: Complex, size_a: f64, size_b: f64) -> f64 {
     let sizes = size_a * size_b;
-    let phase = if sizes > 0.0 {
-        0.5 + 0.5 * (a.conj() * b).re / sizes
-    } else {
-        1.0
-    };
+    let phase = if sizes > 0.0 { 0.5 + 0.5 * (a.conj() * b).re / sizes } else { 1.0 };
     let sum = size_a + size_b;
     let distance = if sum > 0.0 { (a - b).norm() / sum } else { 0.0 };
     phase * (1.0 - EIGENVALUE_SHARE * distance)
@@ -74,11 +63,7 @@ fn real_assurance(from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
             let (x, y, mass) = (&x[..n], &y[..n], &mass[..n * n]);
             let scale = real_form(n, x, mass, x) * real_form(n, y, mass, y);
             let product = real_form(n, x, mass, y);
-            if scale > 0.0 {
-                product * product / scale
-            } else {
-                0.0
-            }
+            if scale > 0.0 { product * product / scale } else { 0.0 }
         },
     )
 }
@@ -115,11 +100,7 @@ pub fn position(matched: Option<(usize, f64)>) -> Option<usize> {
 }
 
 /// Like [`match_modes`], with the assurance of each pair.
-pub fn match_with_assurance(
-    from: &Modes,
-    to: &Modes,
-    linear: &Linear,
-) -> Vector<Option<(usize, f64)>> {
+pub fn match_with_assurance(from: &Modes, to: &Modes, linear: &Linear) -> Vector<Option<(usize, f64)>> {
     let (here, there) = (from.modes.len(), to.modes.len());
     if here == 1 && there == 1 {
         return [Some((0, 1.0))].into();
@@ -168,22 +149,15 @@ impl Modes {
             }
             return;
         }
-        let continued = order
-            .iter()
-            .zip(&before.modes)
-            .filter_map(|(index, mode)| index.map(|index| (index, Some(mode.label))));
-        let new = (0..self.modes.len())
-            .filter(|index| !order.contains(&Some(*index)))
-            .map(|index| (index, None));
+        let continued =
+            order.iter().zip(&before.modes).filter_map(|(index, mode)| index.map(|index| (index, Some(mode.label))));
+        let new = (0..self.modes.len()).filter(|index| !order.contains(&Some(*index))).map(|index| (index, None));
         let modes = continued.chain(new).map(|(index, label)| {
             let label = label.unwrap_or_else(|| {
                 next += 1;
                 next - 1
             });
-            Mode {
-                label,
-                ..self.modes[index].clone()
-            }
+            Mode { label, ..self.modes[index].clone() }
         });
         self.modes = modes.collect();
     }
@@ -222,12 +196,7 @@ pub fn equal_groups(modes: &Modes) -> Vec<Vec<usize>> {
 
 /// Puts what continues a group of equal modes in ascending order of `size`, by exchanging it with `swap`.
 #[inline]
-pub fn in_order<T>(
-    group: &[usize],
-    all: &mut T,
-    size: impl Fn(&T, usize) -> f64,
-    swap: impl Fn(&mut T, usize, usize),
-) {
+pub fn in_order<T>(group: &[usize], all: &mut T, size: impl Fn(&T, usize) -> f64, swap: impl Fn(&mut T, usize, usize)) {
     for (k, &r) in group.iter().enumerate() {
         for &before in &group[..k] {
             if size(all, r) < size(all, before) {
@@ -268,9 +237,7 @@ fn near_each_other(family: Family, a: &Mode, b: &Mode, gap: f64) -> bool {
         return false;
     }
     match family {
-        Family::Undamped => {
-            (a.lambda - b.lambda).abs() <= gap * greater(a.lambda.abs(), b.lambda.abs())
-        }
+        Family::Undamped => (a.lambda - b.lambda).abs() <= gap * greater(a.lambda.abs(), b.lambda.abs()),
         Family::General => (a.s - b.s).norm() <= gap * a.s.norm().max(b.s.norm()),
     }
 }

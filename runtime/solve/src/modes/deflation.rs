@@ -26,10 +26,7 @@
 //! Under a thrust that turns with a free machine, `W^T M Z` may be singular: a turn of the whole, which nothing resists,
 //! accelerates it across, and the zero of this motion has a chain of four vectors. There is no pencil without it, but
 //! the system of first order loses two more zeros in the same way, as often as there are any.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use std::borrow::Cow;
 
@@ -72,14 +69,7 @@ impl<'a> Deflated<'a> {
         let size = Vector::from_fn(mass.row_count(), |i| mass[i][i].abs().sqrt());
         let weighted = |x: &Vector| x.iter().zip(&size).map(|(x, size)| x * size).collect();
         let kept = others(right.iter().map(weighted));
-        let mut deflated = Self {
-            linear,
-            right,
-            left,
-            inverse,
-            kept,
-            test: None,
-        };
+        let mut deflated = Self { linear, right, left, inverse, kept, test: None };
         if deflated.left != deflated.right {
             deflated.test = Some(deflated.projected());
         }
@@ -104,22 +94,15 @@ impl<'a> Deflated<'a> {
     }
 
     fn pencil(&self) -> Linear {
-        let Linear {
-            mass,
-            damping,
-            stiffness,
-        } = self.linear;
+        let Linear { mass, damping, stiffness } = self.linear;
         let (m, c) = (self.images(mass), self.images(damping));
         let kept = &self.kept;
         let block = |matrix: &Matrix, pairs: &[(&Images, &Images)]| {
             let element = |i: usize, j: usize| {
-                pairs.iter().fold(matrix[i][j], |sum, (of_right, of_left)| {
-                    sum - self.coupling(of_right, of_left, i, j)
-                })
+                pairs.iter().fold(matrix[i][j], |sum, (of_right, of_left)| sum - self.coupling(of_right, of_left, i, j))
             };
             let Some(test) = &self.test else {
-                let mut reduced =
-                    Matrix::from_fn(kept.len(), kept.len(), |i, j| element(kept[i], kept[j]));
+                let mut reduced = Matrix::from_fn(kept.len(), kept.len(), |i, j| element(kept[i], kept[j]));
                 restore_symmetry(&mut reduced, matrix);
                 return reduced;
             };
@@ -181,9 +164,7 @@ impl<'a> Deflated<'a> {
             Some(test) => {
                 let mut psi = Vector::zeros(self.linear.mass.row_count());
                 for (amount, vector) in e.iter().zip(test) {
-                    psi.iter_mut()
-                        .zip(vector)
-                        .for_each(|(psi, value)| *psi += amount * value);
+                    psi.iter_mut().zip(vector).for_each(|(psi, value)| *psi += amount * value);
                 }
                 psi
             }
@@ -280,11 +261,7 @@ pub(crate) fn pairs(
         return symmetric::solve_into(stiffness, mass, pairs);
     }
     let n = mass.row_count();
-    let linear = Linear {
-        mass: mass.clone(),
-        damping: Matrix::zeros(n, n),
-        stiffness: stiffness.clone(),
-    };
+    let linear = Linear { mass: mass.clone(), damping: Matrix::zeros(n, n), stiffness: stiffness.clone() };
     let split = Split::new(&linear, count);
     let Some(deflated) = split.and_then(|split| Deflated::new(&linear, split.drifting)) else {
         return symmetric::solve_into(stiffness, mass, pairs);
@@ -301,12 +278,7 @@ pub(crate) fn pairs(
     for (to, shape) in pairs.shapes.iter_mut().zip(&free) {
         to.copy_from_slice(shape);
     }
-    for (to, shape) in pairs
-        .shapes
-        .iter_mut()
-        .skip(free.len())
-        .zip(rest.shapes.iter())
-    {
+    for (to, shape) in pairs.shapes.iter_mut().skip(free.len()).zip(rest.shapes.iter()) {
         let shape = shape.iter().map(|x| Complex64::from(*x));
         // Without damping the vector does not depend on the eigenvalue.
         let lifted = deflated.right(Complex64::ONE, &shape.collect::<Vec<_>>());
@@ -399,18 +371,14 @@ impl WithoutZeros {
         let left_out: Vec<usize> = (0..n).filter(|i| !kept.contains(i)).collect();
         let at = Matrix::from_fn(left_out.len(), zeros.len(), |i, k| zeros[k][left_out[i]]);
         let inverse = inverse(&at).unwrap_or_default();
-        let rows = Matrix::from_fn(left_out.len(), kept.len(), |i, j| {
-            whole[left_out[i]][kept[j]]
-        });
+        let rows = Matrix::from_fn(left_out.len(), kept.len(), |i, j| whole[left_out[i]][kept[j]]);
         let amounts = Matrix::from_fn(zeros.len(), kept.len(), |k, j| {
             (0..left_out.len()).fold(0.0, |sum, i| sum + inverse[k][i] * rows[i][j])
         });
         let added = |first: &Matrix, size: fn(f64) -> f64| {
             Matrix::from_fn(kept.len(), kept.len(), |i, j| {
                 let numbered = zeros.iter().enumerate();
-                numbered.fold(first[kept[i]][kept[j]], |sum, (k, z)| {
-                    sum + size(-z[kept[i]] * amounts[k][j])
-                })
+                numbered.fold(first[kept[i]][kept[j]], |sum, (k, z)| sum + size(-z[kept[i]] * amounts[k][j]))
             })
         };
         Self {
@@ -457,9 +425,7 @@ impl WithoutZeros {
         let along: Vec<Complex64> = self.zeros.iter().map(|z| product_with(z, &y)).collect();
         for (i, &index) in self.left_out.iter().enumerate() {
             let column = along.iter().enumerate();
-            y[index] = -column
-                .map(|(k, along)| along * self.inverse[k][i])
-                .sum::<Complex64>();
+            y[index] = -column.map(|(k, along)| along * self.inverse[k][i]).sum::<Complex64>();
         }
         y
     }
@@ -471,9 +437,7 @@ fn products(space: &NullSpace, count: usize) -> Matrix {
     let clear = |(x, dual): (&f64, &f64)| if (x * dual).abs() <= NOTHING { 0.0 } else { *x };
     let cleared = |vectors: &[Vector], duals: &[Vector]| -> Vec<Vector> {
         let pairs = vectors.iter().zip(duals).take(count);
-        pairs
-            .map(|(x, dual)| x.iter().zip(dual).map(clear).collect())
-            .collect()
+        pairs.map(|(x, dual)| x.iter().zip(dual).map(clear).collect()).collect()
     };
     let right = cleared(&space.right, &space.rows);
     let left = cleared(&space.left, &space.columns);
@@ -481,11 +445,7 @@ fn products(space: &NullSpace, count: usize) -> Matrix {
         let pairs = left[i].iter().zip(&right[j]);
         let terms = pairs.fold(0.0, |sum, (w, z)| sum + (w * z).abs());
         let product = dot(&left[i], &right[j]);
-        if product.abs() <= UNDAMPED * terms {
-            0.0
-        } else {
-            product
-        }
+        if product.abs() <= UNDAMPED * terms { 0.0 } else { product }
     })
 }
 
@@ -520,24 +480,15 @@ impl Split {
             return None;
         }
         // Where nothing resists more than these motions, which of them are meant is arbitrary.
-        let NullSpace {
-            right,
-            left,
-            remainder,
-            ..
-        } = NullSpace::of(&linear.stiffness, count);
+        let NullSpace { right, left, remainder, .. } = NullSpace::of(&linear.stiffness, count);
         if remainder > REMAINDER {
             return None;
         }
         let coupled = product_without_rounding(&linear.damping, &right, &left);
         let space = NullSpace::of(&coupled, 0);
-        let both = |of_right: &[Vector], of_left: &[Vector]| {
-            (combined(&right, of_right), combined(&left, of_left))
-        };
+        let both = |of_right: &[Vector], of_left: &[Vector]| (combined(&right, of_right), combined(&left, of_left));
         let across = |space: &[Vector]| {
-            let rows = Matrix::from_fn(right.len(), right.len(), |i, j| {
-                space.get(i).map_or(0.0, |x| x[j])
-            });
+            let rows = Matrix::from_fn(right.len(), right.len(), |i, j| space.get(i).map_or(0.0, |x| x[j]));
             NullSpace::of(&rows, 0).right
         };
         Some(Self {
@@ -558,10 +509,7 @@ fn product_without_rounding(matrix: &Matrix, right: &[Vector], left: &[Vector]) 
     let mut coupled = product(left, matrix, right);
     let sizes = |all: &[Vector]| -> Vec<Vector> { all.iter().map(|x| x.map(f64::abs)).collect() };
     let terms = product(&sizes(left), &matrix.map(f64::abs), &sizes(right));
-    let both = coupled
-        .as_flattened_mut()
-        .iter_mut()
-        .zip(terms.as_flattened());
+    let both = coupled.as_flattened_mut().iter_mut().zip(terms.as_flattened());
     for (entry, terms) in both {
         if entry.abs() <= UNDAMPED * terms {
             *entry = 0.0;
@@ -635,11 +583,9 @@ fn others(vectors: impl IntoIterator<Item = Vector>) -> Vec<usize> {
     for k in 0..rest.len() {
         let weight = |i: usize| rest[k][i].abs();
         // A margin makes the first of equal ones win, regardless of rounding.
-        let pivot = (kept.iter().copied()).reduce(|best, i| {
-            match weight(i) > weight(best) * (1.0 + 1e-9) {
-                true => i,
-                false => best,
-            }
+        let pivot = (kept.iter().copied()).reduce(|best, i| match weight(i) > weight(best) * (1.0 + 1e-9) {
+            true => i,
+            false => best,
         });
         let Some(pivot) = pivot else {
             return kept;

@@ -19,12 +19,7 @@ pub(super) fn kinetic(from: &Modes, to: &Modes, linear: &Linear) -> Option<Matri
     let all = || from.modes.iter().chain(&to.modes);
     let rate = all().fold(0.0, |most: f64, mode| most.max(mode.s.norm()));
     let rate = if rate > 0.0 { rate } else { 1.0 };
-    Some(inertia(
-        linear,
-        structure,
-        rate,
-        all().map(|mode| &*mode.shape),
-    ))
+    Some(inertia(linear, structure, rate, all().map(|mode| &*mode.shape)))
 }
 
 /// The inertia of displacements, times `rate`, and of speeds: `Mhat`, with the columns of the speeds from `Chat`.
@@ -50,13 +45,7 @@ pub fn inertia<'a>(
     });
     let greatest = largest_element(&weight);
     let moves_mass = |shape: &[Complex]| {
-        let motion = Vector::from_fn(n, |i| {
-            if i < motions {
-                shape[i]
-            } else {
-                Complex::default()
-            }
-        });
+        let motion = Vector::from_fn(n, |i| if i < motions { shape[i] } else { Complex::default() });
         let re = product(&motion, &times_complex(&weight, &motion)).re;
         re > MASSLESS * greatest * product(&motion, &motion).re
     };
@@ -72,7 +61,5 @@ pub fn inertia<'a>(
 
 /// `x^H y`.
 pub(super) fn product(x: &[Complex], y: &[Complex]) -> Complex {
-    x.iter()
-        .zip(y)
-        .fold(Complex::default(), |sum, (a, b)| sum + a.conj() * b)
+    x.iter().zip(y).fold(Complex::default(), |sum, (a, b)| sum + a.conj() * b)
 }

@@ -19,8 +19,7 @@ mod whirl;
 
 #[doc(hidden)]
 pub use assurance::{
-    EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another,
-    position,
+    EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another, position,
 };
 pub use assurance::{assurance, clusters, match_modes};
 #[doc(hidden)]
@@ -127,10 +126,7 @@ impl Modes {
     /// Reassigns these modes to the mechanism with deviating inputs, all deviations zero.
     #[must_use]
     pub fn with_deviations<K: Kernels + ?Sized>(&self, of: &DeviatingInputs<'_, K>) -> Self {
-        Self {
-            description: of.description(),
-            ..self.clone()
-        }
+        Self { description: of.description(), ..self.clone() }
     }
 
     /// The modes if they are general, otherwise an empty slice.
@@ -155,10 +151,7 @@ impl Modes {
     /// merge more modes (`clusters::clusters`). Empty if there is no such mode.
     #[must_use]
     pub fn cluster_of(&self, mode: usize) -> Vec<usize> {
-        let mut members: Vec<usize> = (mode < self.modes.len())
-            .then_some(mode)
-            .into_iter()
-            .collect();
+        let mut members: Vec<usize> = (mode < self.modes.len()).then_some(mode).into_iter().collect();
         let mut next = 0;
         while let Some(&of) = members.get(next) {
             let near = (0..self.modes.len()).filter(|&r| near(self, of, r, CLUSTER_GAP));
@@ -200,11 +193,7 @@ pub fn undamped_modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
 }
 
 /// The modes of the given family about an equilibrium; for `judged` see [`Modes::solve_at`].
-pub(crate) fn modes_at(
-    at: &Equilibrium,
-    family: Family,
-    judged: Vec<Mode>,
-) -> Result<Modes, Error> {
+pub(crate) fn modes_at(at: &Equilibrium, family: Family, judged: Vec<Mode>) -> Result<Modes, Error> {
     let mut modes = Modes::empty(family, &at.description);
     modes.solve_at(at, judged)?;
     Ok(modes)
@@ -218,11 +207,7 @@ pub(crate) fn modes_at(
 /// # Errors
 /// Those of [`undamped_modes`], and [`Error::WrongLength`] if the matrices do not have the size that `description`
 /// gives.
-pub fn modes_of(
-    linear: &Linear,
-    family: Family,
-    description: &Shared<Description>,
-) -> Result<Modes, Error> {
+pub fn modes_of(linear: &Linear, family: Family, description: &Shared<Description>) -> Result<Modes, Error> {
     check_sizes(linear, description)?;
     solve_modes(linear, family, description, 0.0).map_err(|failure| failure.explain(description))
 }
@@ -230,24 +215,13 @@ pub fn modes_of(
 /// Refuses matrices that are not square or differ in size. Mechanisms with constraints or speeds also fix the size;
 /// open ones accept any.
 fn check_sizes(linear: &Linear, description: &Description) -> Result<(), Error> {
-    let expected = if Structure::of(description).open() {
-        linear.mass.row_count()
-    } else {
-        description.coordinates.len()
-    };
+    let expected =
+        if Structure::of(description).open() { linear.mass.row_count() } else { description.coordinates.len() };
     let sizes = |matrix: &Matrix| [matrix.row_count(), matrix.column_count()];
     let matrices = [&linear.mass, &linear.damping, &linear.stiffness];
-    match matrices
-        .into_iter()
-        .flat_map(sizes)
-        .find(|&size| size != expected)
-    {
+    match matrices.into_iter().flat_map(sizes).find(|&size| size != expected) {
         None => Ok(()),
-        Some(found) => Err(Error::WrongLength {
-            kind: "rows or columns of a matrix",
-            found,
-            expected,
-        }),
+        Some(found) => Err(Error::WrongLength { kind: "rows or columns of a matrix", found, expected }),
     }
 }
 
@@ -272,12 +246,10 @@ impl ModesFailure {
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
             Self::NotHolonomic => Error::NoUndampedModes,
             Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
-            Self::Pencil(EigenproblemError::SingularMass(row)) => Error::SingularMass {
-                coordinate: description.unknown_name(row),
-            },
-            Self::Pencil(EigenproblemError::Inaccurate { mode, residual }) => {
-                Error::ModesNotFound { mode, residual }
+            Self::Pencil(EigenproblemError::SingularMass(row)) => {
+                Error::SingularMass { coordinate: description.unknown_name(row) }
             }
+            Self::Pencil(EigenproblemError::Inaccurate { mode, residual }) => Error::ModesNotFound { mode, residual },
         }
     }
 }
@@ -316,8 +288,7 @@ impl Modes {
     /// judge its stability, and is empty otherwise.
     #[doc(hidden)]
     pub fn solve_at(&mut self, at: &Equilibrium, judged: Vec<Mode>) -> Result<(), Error> {
-        self.solve_judged(at, judged, &[])
-            .map_err(|failure| failure.explain(&at.description))?;
+        self.solve_judged(at, judged, &[]).map_err(|failure| failure.explain(&at.description))?;
         self.inputs.set(&at.inputs, |value| *value);
         Ok(())
     }
@@ -325,12 +296,7 @@ impl Modes {
     /// Like [`Self::solve_at`], but leaves the inputs alone and starts from all modes of a nearby equilibrium, if
     /// given.
     #[doc(hidden)]
-    pub fn solve_judged(
-        &mut self,
-        at: &Equilibrium,
-        judged: Vec<Mode>,
-        nearby: &[Mode],
-    ) -> Result<(), ModesFailure> {
+    pub fn solve_judged(&mut self, at: &Equilibrium, judged: Vec<Mode>, nearby: &[Mode]) -> Result<(), ModesFailure> {
         let alone = at.free.held.is_empty();
         if self.family == Family::General && !judged.is_empty() && alone {
             self.modes = judged;
@@ -423,9 +389,7 @@ fn solve_general(
     let accelerates = accelerates(linear, structure, free);
     let open = structure.open() && !accelerates;
     let roots = if open && free > 0 {
-        deflation::roots(linear, free, |rest| {
-            roots_near(Eigenproblem::Quadratic(rest), &[])
-        })
+        deflation::roots(linear, free, |rest| roots_near(Eigenproblem::Quadratic(rest), &[]))
     } else if open {
         let nearby: Vec<_> = nearby.iter().map(Mode::near).collect();
         roots_near(Eigenproblem::Quadratic(linear), &nearby)
@@ -434,8 +398,7 @@ fn solve_general(
     };
     let roots = roots.map_err(ModesFailure::Pencil)?;
     // Without dissipation, a motion that stays bounded has imaginary eigenvalues.
-    let conservative =
-        description.symmetric_stiffness && description.damping != DampingKind::General;
+    let conservative = description.symmetric_stiffness && description.damping != DampingKind::General;
     modes.clear();
     let mut free_left = free;
     // Without dissipation two real zeros are one motion, as a pair of small imaginary ones is: which of the two they are
@@ -444,11 +407,7 @@ fn solve_general(
     let mut second_zero = false;
     for (r, root) in roots.into_iter().enumerate() {
         let mut s = root.s;
-        let error = if floor > 0.0 {
-            root.error.max(moved_by(linear, &root, floor))
-        } else {
-            root.error
-        };
+        let error = if floor > 0.0 { root.error.max(moved_by(linear, &root, floor)) } else { root.error };
         let zero = sign(s.norm(), error) == Sign::Zero;
         let keeps_amplitude = sign(s.re, error) == Sign::Zero;
         if zero && s.im == 0.0 && in_pairs && free_left == 0 {

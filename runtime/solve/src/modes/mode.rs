@@ -78,12 +78,9 @@ impl fmt::Display for Behaviour {
             Self::Decaying(rate) => write!(f, "creeps back, rate {} 1/s", rough(*rate)),
             Self::Free => write!(f, "free"),
             Self::Neutral => write!(f, "neutral"),
-            Self::Divergent(rate) => write!(
-                f,
-                "diverges, rate {} 1/s: doubles in {} s",
-                rough(*rate),
-                rough(LN_2 / rate)
-            ),
+            Self::Divergent(rate) => {
+                write!(f, "diverges, rate {} 1/s: doubles in {} s", rough(*rate), rough(LN_2 / rate))
+            }
         }
     }
 }
@@ -125,22 +122,14 @@ impl Mode {
     /// This mode as a predictor for the modes of a nearby problem.
     #[doc(hidden)]
     pub fn near(&self) -> ApproximatePair<'_> {
-        ApproximatePair {
-            s: self.s,
-            right: &self.shape,
-            left: self.left(),
-        }
+        ApproximatePair { s: self.s, right: &self.shape, left: self.left() }
     }
 
     /// Left vector `psi`, normalised as [`shape`](Self::shape), except that with speeds or constraints on velocities
     /// the largest of all its components is one. For an undamped mode it is the shape.
     #[must_use]
     pub fn left(&self) -> &[Complex] {
-        if self.left.is_empty() {
-            &self.shape
-        } else {
-            &self.left
-        }
+        if self.left.is_empty() { &self.shape } else { &self.left }
     }
 
     /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` if it does not oscillate.
@@ -201,11 +190,7 @@ impl Mode {
         self.left.make_room(0);
         self.residual = residual;
         // `sqrt(error)`, or `error / rate` if that is smaller.
-        self.error = if rate * rate > error {
-            error / rate
-        } else {
-            error.sqrt()
-        };
+        self.error = if rate * rate > error { error / rate } else { error.sqrt() };
         self.condition = 1.0;
         self.label = label;
         self.shape.make_room(n)
@@ -225,11 +210,7 @@ mod tests {
     #[test]
     fn only_general_modes_have_a_left_vector_of_their_own() {
         let [i, two] = [Complex::new(0.0, 1.0), Complex::new(2.0, 0.0)];
-        let general = Mode {
-            shape: [Complex::ONE, i].into(),
-            left: [i, two].into(),
-            ..Mode::blank()
-        };
+        let general = Mode { shape: [Complex::ONE, i].into(), left: [i, two].into(), ..Mode::blank() };
         assert_eq!(general.left(), [i, two]);
         let mut undamped = general;
         let shape = undamped.make_undamped(0, (4.0, 0.0), 0.0, 2);

@@ -34,11 +34,7 @@ pub fn transposed(linear: &Linear) -> Linear {
 }
 
 /// `(s^2 M + s C + K)^T x`.
-pub(crate) fn pencil_transposed_times(
-    linear: &Linear,
-    s: Complex,
-    x: &[Complex],
-) -> Vector<Complex> {
+pub(crate) fn pencil_transposed_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<Complex> {
     let product = |matrix: &Matrix| -> Vector<Complex> {
         let mut sum = Vector::zeros(matrix.column_count());
         for (row, x) in matrix.iter().zip(x) {
@@ -48,10 +44,6 @@ pub(crate) fn pencil_transposed_times(
         }
         sum
     };
-    let (m, c, k) = (
-        product(&linear.mass),
-        product(&linear.damping),
-        product(&linear.stiffness),
-    );
+    let (m, c, k) = (product(&linear.mass), product(&linear.damping), product(&linear.stiffness));
     Vector::from_fn(x.len(), |i| s * (s * m[i] + c[i]) + k[i])
 }

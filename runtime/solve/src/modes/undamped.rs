@@ -12,7 +12,5 @@ pub fn undamped(said: &mut Findings, family: Family, description: &Description) 
         (Family::Undamped, DampingKind::Gyroscopic) => "Gyroscopic forces (Chat)",
         (Family::Undamped, DampingKind::General) => "Damping and gyroscopic forces (Chat)",
     };
-    said.note(format!(
-        "{what} of this mechanism are ignored: undamped modes."
-    ));
+    said.note(format!("{what} of this mechanism are ignored: undamped modes."));
 }

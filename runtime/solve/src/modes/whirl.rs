@@ -81,9 +81,7 @@ pub struct Whirl {
 
 impl Whirl {
     /// From the seven sums of the kernel; `None` if no shaft moves.
-    fn new(
-        [moment, lateral, torsional, axial, eccentric, moving, still]: [f64; 7],
-    ) -> Option<Self> {
+    fn new([moment, lateral, torsional, axial, eccentric, moving, still]: [f64; 7]) -> Option<Self> {
         let all = lateral + torsional + axial;
         // What turns about an axis beside it is no shaft.
         let shaft = moving > NO_SHARE * (moving + still) && eccentric < 0.5;
@@ -120,10 +118,7 @@ impl Whirl {
     /// Its kind with its sense.
     #[must_use]
     pub fn character(self) -> Character {
-        Character {
-            kind: self.kind,
-            sense: self.sense(),
-        }
+        Character { kind: self.kind, sense: self.sense() }
     }
 
     /// Whether anything can excite the mode where its frequency (rad/s) meets a multiple of the speed.
@@ -214,12 +209,8 @@ impl Answer for Whirls {
         let rows: Vec<_> = self.iter().copied().enumerate().collect();
         let mut table = Columns::new("whirls", &rows);
         table.whole("mode", &|row| Some(row.0 + 1)).shown();
-        table
-            .words("kind", &|row| Some(row.1?.kind.to_string()))
-            .shown();
-        table
-            .words("sense", &|row| Some(row.1?.sense()?.to_string()))
-            .shown();
+        table.words("kind", &|row| Some(row.1?.kind.to_string())).shown();
+        table.words("sense", &|row| Some(row.1?.sense()?.to_string())).shown();
         table.number("ratio", "", &|row| row.1?.ratio).digits(rough);
         let mut said = Findings::titled("Kind and whirl of each mode".to_owned());
         said.columns(table);

@@ -6,13 +6,9 @@
 
 use super::gradients::{Source, changes, of_general, rate};
 use super::pencil::{BilinearForm, ComplexGradient, form_gradient};
-use super::{
-    Method, ModeSensitivity, Sensitivities, assemble_into, check_state, free_directions, redundancy,
-};
+use super::{Method, ModeSensitivity, Sensitivities, assemble_into, check_state, free_directions, redundancy};
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
-use crate::kernels::{
-    Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros,
-};
+use crate::kernels::{Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros};
 use crate::modes::{Family, pencil_slope_times};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
@@ -21,11 +17,7 @@ use crate::{Complex, Equilibrium, Error, Mode, Modes};
 /// # Errors
 /// [`Error::CriticalState`] if `Khat` is singular, [`Error::ClosesHereOnly`] if redundant constraints contradict each
 /// other as soon as a variable changes, [`Error::OutsideDomain`] if a derivative is not finite.
-pub fn sensitivities(
-    mechanism: &dyn Kernels,
-    at: &Equilibrium,
-    modes: &Modes,
-) -> Result<Sensitivities, Error> {
+pub fn sensitivities(mechanism: &dyn Kernels, at: &Equilibrium, modes: &Modes) -> Result<Sensitivities, Error> {
     let mut sensitivities = Sensitivities::blank(at, modes, Method::Adjoint);
     Adjoint::new(mechanism, modes.family).sensitivities_into(at, modes, &mut sensitivities)?;
     Ok(sensitivities)
@@ -63,12 +55,7 @@ impl<'a> Adjoint<'a> {
         modes: &Modes,
         sensitivities: &mut Sensitivities,
     ) -> Result<(), Error> {
-        let Self {
-            mechanism,
-            source,
-            matrices,
-            residual,
-        } = self;
+        let Self { mechanism, source, matrices, residual } = self;
         check_state(*mechanism, at)?;
         redundancy::check(*mechanism, at)?;
         free_directions::check(*mechanism, at)?;
@@ -88,12 +75,7 @@ impl<'a> Adjoint<'a> {
             Source::Reverse => (None, None),
         };
         let sizes = mechanism.sizes();
-        let shared = AdjointContext {
-            mechanism: *mechanism,
-            at,
-            factors: &factors,
-            residual,
-        };
+        let shared = AdjointContext { mechanism: *mechanism, at, factors: &factors, residual };
         match (modes.family, matrices, residual) {
             (Family::Undamped, Some(matrices), Some(residual)) => {
                 assemble_into(at, modes, sensitivities, |sensitivity, mode| {
@@ -136,8 +118,7 @@ impl AdjointContext<'_> {
         mode: &Mode,
     ) {
         let symmetric = self.at.description.symmetric_stiffness;
-        let [inputs, design] =
-            mode_sensitivity.make_undamped(mode, self.at.inputs.len(), self.at.design.len());
+        let [inputs, design] = mode_sensitivity.make_undamped(mode, self.at.inputs.len(), self.at.design.len());
         for_size(
             mode.shape.len(),
             #[inline(always)]
@@ -168,8 +149,7 @@ impl AdjointContext<'_> {
     ) {
         let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
         let phi = mode.real_shape();
-        self.mechanism
-            .mode_gradient_into(q, u, b, &phi, mode.lambda, gradient);
+        self.mechanism.mode_gradient_into(q, u, b, &phi, mode.lambda, gradient);
         self.total(gradient, room);
         let (inputs, design) = (gradient.inputs.iter(), gradient.design.iter());
         mode_sensitivity.set_undamped(mode, inputs.copied(), design.copied());
@@ -285,8 +265,5 @@ fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
 
 /// `psi^T (2 s Mhat + Chat) phi`; zero where the eigenvalue has merged with another.
 pub fn normaliser(at: &Equilibrium, mode: &Mode) -> Complex {
-    dot_complex(
-        mode.left(),
-        &pencil_slope_times(&at.linear, mode.s, &mode.shape),
-    )
+    dot_complex(mode.left(), &pencil_slope_times(&at.linear, mode.s, &mode.shape))
 }

@@ -22,9 +22,7 @@ impl Answer for Sensitivities {
     fn findings(&self) -> Findings {
         let title = title(&self.description, &self.inputs);
         let method = self.method;
-        let mut said = Findings::titled(format!(
-            "{title}: sensitivities of the frequencies, {method}"
-        ));
+        let mut said = Findings::titled(format!("{title}: sensitivities of the frequencies, {method}"));
         let variables = variables(&self.description, &self.inputs);
         self.data(&mut said, &variables);
         say(&mut said, &variables, &self.shown());
@@ -53,9 +51,7 @@ impl Sensitivities {
         table.words("unit", &|row| Some(row.1.unit.symbol.to_string()));
         for (k, quantity) in Quantity::ALL.into_iter().enumerate() {
             let unit = format!("{} per unit", quantity.unit().symbol);
-            table.number(&quantity.to_string(), unit.trim_start(), &|row| {
-                Some(row.2[k]? * row.1.unit.scale)
-            });
+            table.number(&quantity.to_string(), unit.trim_start(), &|row| Some(row.2[k]? * row.1.unit.scale));
         }
         said.columns(table);
     }
@@ -92,10 +88,7 @@ impl Sensitivities {
         match &numbers[..] {
             [] => {}
             [one] => said.note(format!("Mode {one} is {says}.")),
-            [others @ .., last] => said.note(format!(
-                "Modes {} and {last} are {says}.",
-                others.join(", ")
-            )),
+            [others @ .., last] => said.note(format!("Modes {} and {last} are {says}.", others.join(", "))),
         }
     }
 
@@ -124,9 +117,7 @@ fn first(mode: &ModeSensitivity) -> Quantity {
 /// Derivatives of a quantity by inputs and design variables; empty if it has none.
 fn slopes(mode: &ModeSensitivity, of: Quantity) -> Vec<f64> {
     let slopes = mode.of(of);
-    slopes.map_or_else(Vec::new, |slopes| {
-        [&slopes.by_input[..], &slopes.by_design].concat()
-    })
+    slopes.map_or_else(Vec::new, |slopes| [&slopes.by_input[..], &slopes.by_design].concat())
 }
 
 /// `equilibrium shift`: a row for each unknown and variable.

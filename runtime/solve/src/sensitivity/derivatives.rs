@@ -19,16 +19,8 @@ pub struct Variable<'a> {
 /// All variables, inputs first.
 pub fn variables<'a>(d: &'a Description, inputs: &[f64]) -> Vec<Variable<'a>> {
     let of_inputs = d.inputs.iter().zip(inputs);
-    let of_inputs = of_inputs.map(|(info, &value)| Variable {
-        name: &info.name,
-        unit: &info.unit,
-        value,
-    });
-    let of_design = d.design.iter().map(|info| Variable {
-        name: &info.name,
-        unit: &info.unit,
-        value: info.nominal,
-    });
+    let of_inputs = of_inputs.map(|(info, &value)| Variable { name: &info.name, unit: &info.unit, value });
+    let of_design = d.design.iter().map(|info| Variable { name: &info.name, unit: &info.unit, value: info.nominal });
     of_inputs.chain(of_design).collect()
 }
 
@@ -124,9 +116,7 @@ pub fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derived]) {
     if !left.is_empty() && !columns.is_empty() {
         let left: Vec<&str> = left.iter().map(|(_, variable)| &**variable.name).collect();
         let names = names(&left, "variables");
-        said.note(format!(
-            "Left out, relative effect {BELOW} of the strongest: {names}."
-        ));
+        said.note(format!("Left out, relative effect {BELOW} of the strongest: {names}."));
     }
 }
 
@@ -134,9 +124,7 @@ pub fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derived]) {
 /// `per` of the variable.
 pub fn data(name: &str, what: &str, variables: &[Variable<'_>], all: &[Derived]) -> Table {
     let each = all.iter();
-    let rows: Vec<_> = each
-        .flat_map(|of| variables.iter().enumerate().map(move |x| (of, x)))
-        .collect();
+    let rows: Vec<_> = each.flat_map(|of| variables.iter().enumerate().map(move |x| (of, x))).collect();
     let mut table = Columns::new(name, &rows);
     table.words(what, &|row| Some(row.0.name.clone()));
     table.words("unit", &|row| Some(row.0.unit.symbol.to_string()));

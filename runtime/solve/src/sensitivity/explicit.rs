@@ -24,10 +24,7 @@ pub fn sensitivities_explicit(
     let partials = partials_at(mechanism, at);
     assemble(at, modes, Method::Explicit, |sensitivity, mode| {
         let rate = Rate::of(at, modes.family, mode);
-        let mut slopes = rate.slopes(
-            partials.matrices(partials.by_input()),
-            partials.matrices(partials.by_design()),
-        );
+        let mut slopes = rate.slopes(partials.matrices(partials.by_input()), partials.matrices(partials.by_design()));
         let by_coordinate = partials.matrices(partials.by_coordinate());
         for (i, change) in by_coordinate.enumerate() {
             let moved = rate.along(&change);
@@ -58,10 +55,7 @@ pub fn sensitivities_with_frozen_equilibrium(
     let partials = partials_at(mechanism, at);
     assemble(at, modes, Method::FrozenEquilibrium, |sensitivity, mode| {
         let rate = Rate::of(at, modes.family, mode);
-        let slopes = rate.slopes(
-            partials.matrices(partials.by_input()),
-            partials.matrices(partials.by_design()),
-        );
+        let slopes = rate.slopes(partials.matrices(partials.by_input()), partials.matrices(partials.by_design()));
         sensitivity.set(mode, modes.family, &slopes);
     })
 }
@@ -83,11 +77,7 @@ pub struct Rate<'a> {
 impl<'a> Rate<'a> {
     #[doc(hidden)]
     pub fn of(at: &Equilibrium, family: Family, mode: &'a Mode) -> Self {
-        Self {
-            family,
-            mode,
-            scale: normaliser(at, mode),
-        }
+        Self { family, mode, scale: normaliser(at, mode) }
     }
 
     /// Derivatives from the changes of the matrices with each variable.
@@ -97,10 +87,7 @@ impl<'a> Rate<'a> {
         by_design: impl Iterator<Item = L>,
     ) -> Slopes<Complex> {
         let slope = |change: L| self.along(change.borrow());
-        Slopes {
-            by_input: by_input.map(slope).collect(),
-            by_design: by_design.map(slope).collect(),
-        }
+        Slopes { by_input: by_input.map(slope).collect(), by_design: by_design.map(slope).collect() }
     }
 
     /// Derivative along a change of the matrices: `phi^T (dK - lambda dM) phi` (eq. 20), and its counterpart for

@@ -22,14 +22,10 @@ pub fn sensitivities_by_finite_difference(
 ) -> Result<Sensitivities, Error> {
     if !(step > 0.0 && step.is_finite()) {
         let reason = format!("{step} is not a positive number");
-        return Err(Error::Setting {
-            setting: "finite-difference step",
-            reason,
-        });
+        return Err(Error::Setting { setting: "finite-difference step", reason });
     }
-    let solve = |u: &[f64], b: &[f64]| {
-        equilibrium(mechanism, u, b, &at.coordinates, Policy::Nearest).map(|state| state.linear)
-    };
+    let solve =
+        |u: &[f64], b: &[f64]| equilibrium(mechanism, u, b, &at.coordinates, Policy::Nearest).map(|state| state.linear);
     let mut by_input = Vec::with_capacity(at.inputs.len());
     for (j, &value) in at.inputs.iter().enumerate() {
         let half = half_step(value, step);
@@ -55,11 +51,7 @@ pub fn sensitivities_by_finite_difference(
 }
 
 fn half_step(value: f64, step: f64) -> f64 {
-    if value == 0.0 {
-        step
-    } else {
-        step * value.abs()
-    }
+    if value == 0.0 { step } else { step * value.abs() }
 }
 
 fn difference(above: &Linear, below: &Linear, width: f64) -> Linear {

@@ -36,10 +36,7 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
         let input = moved(&by_input, u, w).map(|j| &at.description.inputs[j].name);
         let design = || moved(&by_design, b, w).map(|j| &at.description.design[j].name);
         if let Some(variable) = input.or_else(design) {
-            return Err(Error::BalancesHereOnly {
-                coordinates: moving(at, z),
-                variable: variable.clone(),
-            });
+            return Err(Error::BalancesHereOnly { coordinates: moving(at, z), variable: variable.clone() });
         }
     }
     Ok(())
@@ -49,10 +46,7 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
 /// unknown determines.
 pub fn depends(at: &Equilibrium, by_unknown: &[f64]) -> bool {
     at.free.undetermined().iter().any(|z| {
-        let terms = by_unknown
-            .iter()
-            .zip(z)
-            .fold(0.0, |sum, (a, z)| sum + (a * z).abs());
+        let terms = by_unknown.iter().zip(z).fold(0.0, |sum, (a, z)| sum + (a * z).abs());
         dot(by_unknown, z).abs() > ROUNDING * terms
     })
 }
@@ -63,9 +57,7 @@ fn forces(mechanism: &dyn Kernels, at: &Equilibrium) -> Vector {
     let parts = mechanism.residual_parts(&at.coordinates, &at.inputs, &at.design);
     let reach = at.coordinates.map(|q| q.abs() + SMALL_MOTION);
     let restored = times(&at.linear.stiffness.map(f64::abs), &reach);
-    Vector::from_fn(reach.len(), |i| {
-        parts.inertia[i].abs() + parts.applied[i].abs() + restored[i]
-    })
+    Vector::from_fn(reach.len(), |i| parts.inertia[i].abs() + parts.applied[i].abs() + restored[i])
 }
 
 /// The names of the unknowns that take part in a motion.

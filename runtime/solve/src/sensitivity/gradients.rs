@@ -34,18 +34,8 @@ impl Source {
         let variables = sizes.inputs + sizes.design;
         // Operations per mode with partials, and gradients needed per mode without them.
         let (matrices, form, residual, forces) = match family {
-            Family::Undamped => (
-                2 * n * (n + 1) * (n + variables),
-                (costs.mode_gradient, 1),
-                2 * n * variables,
-                1,
-            ),
-            Family::General => (
-                6 * n * n * (n + variables),
-                (costs.pencil_gradient, 4),
-                4 * n * variables,
-                2,
-            ),
+            Family::Undamped => (2 * n * (n + 1) * (n + variables), (costs.mode_gradient, 1), 2 * n * variables, 1),
+            Family::General => (6 * n * n * (n + variables), (costs.pencil_gradient, 4), 4 * n * variables, 2),
         };
         let force = (costs.residual_gradient, forces);
         if pays(n, (costs.linear_partials, matrices), form) {
@@ -59,11 +49,7 @@ impl Source {
 }
 
 /// Whether one call of `shared` plus `use_of_it` operations per mode costs less than `calls` of `separate` per mode.
-fn pays(
-    modes: usize,
-    (shared, use_of_it): (Option<usize>, usize),
-    (separate, calls): (Option<usize>, usize),
-) -> bool {
+fn pays(modes: usize, (shared, use_of_it): (Option<usize>, usize), (separate, calls): (Option<usize>, usize)) -> bool {
     match (shared, separate) {
         (Some(shared), Some(separate)) => shared + modes * use_of_it < modes * calls * separate,
         _ => false,
@@ -80,19 +66,13 @@ pub(crate) fn changes(n: usize, all: &[f64]) -> impl ExactSizeIterator<Item = &[
 /// `symmetric` refers to `dKhat`.
 #[inline(always)]
 pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
-    let Linear {
-        mass, stiffness, ..
-    } = parts(&change[..entries_of(n)]);
+    let Linear { mass, stiffness, .. } = parts(&change[..entries_of(n)]);
     let (mut diagonal, mut mixed) = (-0.0, -0.0);
     for i in 0..n {
         diagonal += phi[i] * phi[i] * (stiffness[i * n + i] - lambda * mass[i * n + i]);
         for j in 0..i {
             let below = stiffness[i * n + j];
-            let stiffness = if symmetric {
-                below
-            } else {
-                0.5 * (below + stiffness[j * n + i])
-            };
+            let stiffness = if symmetric { below } else { 0.5 * (below + stiffness[j * n + i]) };
             mixed += phi[i] * phi[j] * (stiffness - lambda * mass[i * n + j]);
         }
     }
@@ -107,11 +87,7 @@ pub(crate) fn of_general(partials: &PartialMatrices, mode: &Mode, gradient: &mut
     let weights = Matrix::from_fn(n, n, |i, j| left[i] * mode.shape[j]);
     let rate = |change: &[f64]| {
         let (mut k, mut c, mut m) = (Complex::ZERO, Complex::ZERO, Complex::ZERO);
-        let Linear {
-            mass,
-            damping,
-            stiffness,
-        } = parts(change);
+        let Linear { mass, damping, stiffness } = parts(change);
         let elements = stiffness.iter().zip(damping).zip(mass);
         for (weight, ((stiffness, damping), mass)) in weights.as_flattened().iter().zip(elements) {
             k += weight * stiffness;
@@ -122,11 +98,7 @@ pub(crate) fn of_general(partials: &PartialMatrices, mode: &Mode, gradient: &mut
     };
     let [re, im] = gradient;
     for (re, im, changes) in [
-        (
-            &mut re.coordinates,
-            &mut im.coordinates,
-            partials.by_coordinate(),
-        ),
+        (&mut re.coordinates, &mut im.coordinates, partials.by_coordinate()),
         (&mut re.inputs, &mut im.inputs, partials.by_input()),
         (&mut re.design, &mut im.design, partials.by_design()),
     ] {

@@ -34,9 +34,7 @@ pub use mode::root_rate;
 pub use mode::{ModeSensitivity, Slopes};
 pub use outputs::{OutputSensitivities, output_sensitivities};
 #[doc(hidden)]
-pub use pencil::{
-    BilinearForm, ComplexGradient, Direction, form_gradient, form_gradient_along, subtract,
-};
+pub use pencil::{BilinearForm, ComplexGradient, Direction, form_gradient, form_gradient_along, subtract};
 pub use quantity::Quantity;
 #[doc(hidden)]
 pub use quantity::{eigenvalue_curvature, eigenvalue_slope};
@@ -101,11 +99,7 @@ impl Sensitivities {
     #[doc(hidden)]
     pub fn blank(at: &Equilibrium, modes: &Modes, method: Method) -> Self {
         Self {
-            modes: modes
-                .modes
-                .iter()
-                .map(|_| ModeSensitivity::blank())
-                .collect(),
+            modes: modes.modes.iter().map(|_| ModeSensitivity::blank()).collect(),
             method,
             family: modes.family,
             inputs: at.inputs.clone(),
@@ -135,13 +129,9 @@ fn assemble_into(
 ) -> Result<(), Error> {
     check_modes(at, modes)?;
     sensitivities.inputs.clone_from(&at.inputs);
-    sensitivities
-        .modes
-        .resize_with(modes.modes.len(), ModeSensitivity::blank);
+    sensitivities.modes.resize_with(modes.modes.len(), ModeSensitivity::blank);
     let mut finite = true;
-    for (position, (sensitivity, mode)) in
-        sensitivities.modes.iter_mut().zip(&modes.modes).enumerate()
-    {
+    for (position, (sensitivity, mode)) in sensitivities.modes.iter_mut().zip(&modes.modes).enumerate() {
         if mode.behaviour == Behaviour::Free {
             sensitivity.set_free(at.inputs.len(), at.design.len());
         } else if merged(modes, position) {
@@ -152,11 +142,7 @@ fn assemble_into(
         }
         finite &= sensitivity.finite();
     }
-    if finite {
-        Ok(())
-    } else {
-        Err(shift::outside_domain(at))
-    }
+    if finite { Ok(()) } else { Err(shift::outside_domain(at)) }
 }
 
 /// Refuses a state of another mechanism.
@@ -173,10 +159,6 @@ pub fn check_modes(at: &Equilibrium, modes: &Modes) -> Result<(), Error> {
     let mut lengths = modes.modes.iter().map(|mode| mode.shape.len());
     match lengths.find(|&length| length != expected) {
         None => Ok(()),
-        Some(length) => Err(Error::WrongLength {
-            kind: "components of a shape",
-            found: length,
-            expected,
-        }),
+        Some(length) => Err(Error::WrongLength { kind: "components of a shape", found: length, expected }),
     }
 }

@@ -14,10 +14,7 @@ use crate::{Complex, Mode};
 /// First derivatives of one number with respect to every input and design variable.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default")
-)]
+#[cfg_attr(feature = "serde", serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default"))]
 pub struct Slopes<T> {
     /// With respect to each input, per SI unit.
     pub by_input: Vector<T>,
@@ -28,22 +25,15 @@ pub struct Slopes<T> {
 impl<T: Copy + Default> Slopes<T> {
     #[doc(hidden)]
     pub fn map<R: Copy + Default>(&self, f: impl Fn(T) -> R) -> Slopes<R> {
-        Slopes {
-            by_input: self.by_input.map(&f),
-            by_design: self.by_design.map(&f),
-        }
+        Slopes { by_input: self.by_input.map(&f), by_design: self.by_design.map(&f) }
     }
 
     /// The derivatives of two numbers together.
     #[doc(hidden)]
     #[must_use]
     pub fn zip<S: Copy + Default>(&self, other: &Slopes<S>) -> Slopes<(T, S)> {
-        let pairs =
-            |item: &[T], other: &[S]| item.iter().copied().zip(other.iter().copied()).collect();
-        Slopes {
-            by_input: pairs(&self.by_input, &other.by_input),
-            by_design: pairs(&self.by_design, &other.by_design),
-        }
+        let pairs = |item: &[T], other: &[S]| item.iter().copied().zip(other.iter().copied()).collect();
+        Slopes { by_input: pairs(&self.by_input, &other.by_input), by_design: pairs(&self.by_design, &other.by_design) }
     }
 
     /// Those by inputs, then those by design variables.
@@ -55,19 +45,13 @@ impl<T: Copy + Default> Slopes<T> {
     /// Empty slopes, to be overwritten.
     #[inline]
     fn blank() -> Self {
-        Self {
-            by_input: Vector::default(),
-            by_design: Vector::default(),
-        }
+        Self { by_input: Vector::default(), by_design: Vector::default() }
     }
 
     /// Makes room for the given numbers of inputs and design variables; the contents are unspecified.
     #[inline(always)]
     fn make_room(&mut self, inputs: usize, design: usize) -> [&mut [T]; 2] {
-        [
-            self.by_input.make_room(inputs),
-            self.by_design.make_room(design),
-        ]
+        [self.by_input.make_room(inputs), self.by_design.make_room(design)]
     }
 }
 
@@ -149,13 +133,7 @@ impl ModeSensitivity {
     #[inline]
     #[doc(hidden)]
     pub fn blank() -> Self {
-        Self {
-            lambda: Slopes::blank(),
-            clustered: false,
-            value: Complex::ZERO,
-            undamped: true,
-            general: None,
-        }
+        Self { lambda: Slopes::blank(), clustered: false, value: Complex::ZERO, undamped: true, general: None }
     }
 
     /// Assigns a mode that belongs to no cluster and the derivatives of its eigenvalue: of `lambda` (real part) for an
@@ -279,11 +257,7 @@ fn root_slope(s: Complex) -> Option<impl Fn(f64) -> Complex> {
     let rate = root_rate(s);
     let oscillates = s.im > 0.0;
     (s != Complex::ZERO).then_some(move |dlambda: f64| {
-        if oscillates {
-            Complex::new(0.0, rate * dlambda)
-        } else {
-            Complex::new(-rate * dlambda, 0.0)
-        }
+        if oscillates { Complex::new(0.0, rate * dlambda) } else { Complex::new(-rate * dlambda, 0.0) }
     })
 }
 
@@ -310,26 +284,14 @@ mod tests {
     fn a_frequency_whose_derivative_overflows_is_not_finite() {
         let mut mode_sensitivity = ModeSensitivity::blank();
         for (slope, finite) in [(1e100, true), (1e200, false)] {
-            mode_sensitivity.set_undamped(
-                &mode(Complex::new(0.0, 1e-150)),
-                [].into_iter(),
-                [slope].into_iter(),
-            );
+            mode_sensitivity.set_undamped(&mode(Complex::new(0.0, 1e-150)), [].into_iter(), [slope].into_iter());
             assert_eq!(mode_sensitivity.finite(), finite);
             assert_eq!(mode_sensitivity.frequency().is_some(), finite);
         }
         // At rest only `lambda` has a derivative.
         mode_sensitivity.set_undamped(&mode(Complex::ZERO), [].into_iter(), [1e200].into_iter());
-        assert!(
-            mode_sensitivity.finite()
-                && mode_sensitivity.s().is_none()
-                && mode_sensitivity.frequency().is_none()
-        );
-        mode_sensitivity.set_undamped(
-            &mode(Complex::ZERO),
-            [].into_iter(),
-            [f64::INFINITY].into_iter(),
-        );
+        assert!(mode_sensitivity.finite() && mode_sensitivity.s().is_none() && mode_sensitivity.frequency().is_none());
+        mode_sensitivity.set_undamped(&mode(Complex::ZERO), [].into_iter(), [f64::INFINITY].into_iter());
         assert!(!mode_sensitivity.finite());
     }
 
@@ -343,40 +305,23 @@ mod tests {
         for _ in 0..2 {
             general(&mut mode_sensitivity, ds);
             assert!(!mode_sensitivity.clustered && mode_sensitivity.finite());
-            assert_eq!(
-                mode_sensitivity.s().map(|slopes| slopes.by_design[0]),
-                Some(ds)
-            );
-            assert_eq!(
-                mode_sensitivity
-                    .frequency()
-                    .map(|slopes| slopes.by_design[0]),
-                Some(ds.im)
-            );
+            assert_eq!(mode_sensitivity.s().map(|slopes| slopes.by_design[0]), Some(ds));
+            assert_eq!(mode_sensitivity.frequency().map(|slopes| slopes.by_design[0]), Some(ds.im));
             assert_eq!(mode_sensitivity.lambda.by_design[0], -2.0 * (s * ds).re);
             // Where it merges with another, its derivatives are not finite.
             general(&mut mode_sensitivity, Complex::new(f64::NAN, 0.0));
             assert!(mode_sensitivity.clustered && mode_sensitivity.finite());
             assert!(
                 mode_sensitivity.s().is_none()
-                    && Quantity::ALL
-                        .iter()
-                        .all(|quantity| mode_sensitivity.of(*quantity).is_none())
+                    && Quantity::ALL.iter().all(|quantity| mode_sensitivity.of(*quantity).is_none())
             );
             assert_eq!(mode_sensitivity.lambda.by_design[0], 0.0);
         }
         general(&mut mode_sensitivity, ds);
         mode_sensitivity.set_merged(&mode(s), 0, 1);
         assert!(mode_sensitivity.clustered && mode_sensitivity.s().is_none());
-        mode_sensitivity.set_undamped(
-            &mode(Complex::new(0.0, 2.0)),
-            [].into_iter(),
-            [4.0].into_iter(),
-        );
+        mode_sensitivity.set_undamped(&mode(Complex::new(0.0, 2.0)), [].into_iter(), [4.0].into_iter());
         assert!(!mode_sensitivity.clustered);
-        assert_eq!(
-            mode_sensitivity.s().map(|slopes| slopes.by_design[0]),
-            Some(Complex::new(0.0, 1.0))
-        );
+        assert_eq!(mode_sensitivity.s().map(|slopes| slopes.by_design[0]), Some(Complex::new(0.0, 1.0)));
     }
 }

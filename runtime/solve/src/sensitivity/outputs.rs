@@ -28,10 +28,7 @@ pub struct OutputSensitivities {
 ///
 /// # Errors
 /// [`Error::CriticalState`] if `Khat` is singular, [`Error::InfiniteOutput`] if a value is not finite.
-pub fn output_sensitivities(
-    mechanism: &dyn Kernels,
-    at: &Equilibrium,
-) -> Result<OutputSensitivities, Error> {
+pub fn output_sensitivities(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<OutputSensitivities, Error> {
     let shift = equilibrium_shift(mechanism, at)?;
     let values = mechanism.outputs(&at.coordinates, &at.inputs, &at.design);
     let [by_coordinate, mut by_input, mut by_design] =

@@ -91,12 +91,7 @@ pub type ComplexGradient = [Gradient; 2];
 /// A complex gradient from real kernel calls.
 ///
 /// `call(left, others, ..)` must be linear in both of the parts of the form that it selects. `room` is scratch space.
-fn complex(
-    [re, im]: &mut ComplexGradient,
-    room: &mut Gradient,
-    real: bool,
-    call: impl Fn(Part, Part, &mut Gradient),
-) {
+fn complex([re, im]: &mut ComplexGradient, room: &mut Gradient, real: bool, call: impl Fn(Part, Part, &mut Gradient)) {
     call(RE, RE, re);
     if real {
         each(im, re, |im, _| *im = 0.0);
@@ -115,11 +110,9 @@ pub fn subtract(from: &mut Gradient, gradient: &Gradient) {
 }
 
 fn each(to: &mut Gradient, from: &Gradient, f: impl Fn(&mut f64, f64)) {
-    for (to, from) in [
-        (&mut to.coordinates, &from.coordinates),
-        (&mut to.inputs, &from.inputs),
-        (&mut to.design, &from.design),
-    ] {
+    for (to, from) in
+        [(&mut to.coordinates, &from.coordinates), (&mut to.inputs, &from.inputs), (&mut to.design, &from.design)]
+    {
         for (to, from) in to.iter_mut().zip(from) {
             f(to, *from);
         }

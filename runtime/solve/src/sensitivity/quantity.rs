@@ -21,12 +21,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// All quantities.
-    pub const ALL: [Self; 4] = [
-        Self::Frequency,
-        Self::NaturalFrequency,
-        Self::DampingRatio,
-        Self::Growth,
-    ];
+    pub const ALL: [Self; 4] = [Self::Frequency, Self::NaturalFrequency, Self::DampingRatio, Self::Growth];
 
     /// The unit of the quantity.
     #[must_use]

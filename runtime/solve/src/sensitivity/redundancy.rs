@@ -26,8 +26,7 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
         return Ok(());
     }
     let tangent = Tangent::new(&at.linear, structure);
-    let (by_input, by_design) =
-        mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
+    let (by_input, by_design) = mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
     let scale = Scale::new(at, &tangent);
     for k in 0..tangent.redundant() {
         let n = tangent.null_left(k);
@@ -54,9 +53,7 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
 /// void.
 fn at_rest(n: &[f64], at: &Equilibrium, structure: Structure) -> bool {
     let first = structure.motions();
-    let rows = Matrix::from_fn(structure.constraints(), first, |k, j| {
-        at.linear.stiffness[first + k][j]
-    });
+    let rows = Matrix::from_fn(structure.constraints(), first, |k, j| at.linear.stiffness[first + k][j]);
     Rows::balanced(rows).cancel(&n[structure.constraint_rows()], ROUNDING)
 }
 
@@ -74,9 +71,7 @@ impl Scale {
         let motions = &at.coordinates[..tangent.structure.motions()];
         let opened = tangent.structure.constraint_rows().fold(0.0, |sum, i| {
             let pairs = motions.iter().zip(&at.linear.stiffness[i]);
-            pairs.fold(sum, |sum, (q, slope)| {
-                sum + weights[i] * slope.abs() * (SMALL_MOTION + q.abs())
-            })
+            pairs.fold(sum, |sum, (q, slope)| sum + weights[i] * slope.abs() * (SMALL_MOTION + q.abs()))
         });
         Self { weights, opened }
     }

@@ -27,10 +27,7 @@ pub struct EquilibriumShift {
 /// # Errors
 /// [`Error::CriticalState`] if `Khat` is singular, [`Error::ClosesHereOnly`] if redundant constraints contradict each
 /// other as soon as a variable changes, [`Error::OutsideDomain`] if a derivative is not finite.
-pub fn equilibrium_shift(
-    mechanism: &dyn Kernels,
-    at: &Equilibrium,
-) -> Result<EquilibriumShift, Error> {
+pub fn equilibrium_shift(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<EquilibriumShift, Error> {
     check_state(mechanism, at)?;
     redundancy::check(mechanism, at)?;
     free_directions::check(mechanism, at)?;
@@ -53,15 +50,8 @@ pub fn equilibrium_shift(
 
 /// The directions in which a state moves with each input and each design variable, including the shift of the
 /// equilibrium.
-pub fn directions(
-    mechanism: &dyn Kernels,
-    at: &Equilibrium,
-) -> Result<impl Iterator<Item = Direction> + use<>, Error> {
-    let EquilibriumShift {
-        by_input,
-        by_design,
-        ..
-    } = equilibrium_shift(mechanism, at)?;
+pub fn directions(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<impl Iterator<Item = Direction> + use<>, Error> {
+    let EquilibriumShift { by_input, by_design, .. } = equilibrium_shift(mechanism, at)?;
     let (u, p) = (by_input.column_count(), by_design.column_count());
     let inputs = (0..u).map(move |k| Direction {
         coordinates: by_input.column(k),
@@ -86,10 +76,7 @@ fn solve_columns(factors: &Lu<f64>, mut partials: Matrix) -> Matrix {
         #[inline(always)]
         || factors.solve_columns(&partials),
     );
-    partials
-        .as_flattened_mut()
-        .iter_mut()
-        .for_each(|value| *value = -*value);
+    partials.as_flattened_mut().iter_mut().for_each(|value| *value = -*value);
     partials
 }
 

@@ -140,21 +140,14 @@ impl Equilibrium {
     #[doc(hidden)]
     pub fn regular(&self) -> Result<(), Error> {
         if self.constraints.singular {
-            Err(Error::SingularConfiguration {
-                constraints: self.dependent_constraints().collect(),
-            })
+            Err(Error::SingularConfiguration { constraints: self.dependent_constraints().collect() })
         } else {
             Ok(())
         }
     }
 }
 
-pub(crate) fn dependent_names(
-    description: &Description,
-    dependent: &[bool],
-) -> impl Iterator<Item = Text> {
+pub(crate) fn dependent_names(description: &Description, dependent: &[bool]) -> impl Iterator<Item = Text> {
     let infos = description.coordinates.iter().zip(dependent);
-    infos
-        .filter(|(_, takes_part)| **takes_part)
-        .map(|(info, _)| info.name.clone())
+    infos.filter(|(_, takes_part)| **takes_part).map(|(info, _)| info.name.clone())
 }

@@ -44,9 +44,7 @@ impl Note {
             with_unit(given_in(value, unit), unit)
         };
         match self {
-            Self::Stays => {
-                "Stays at the start values: they are those of an unstable equilibrium".to_owned()
-            }
+            Self::Stays => "Stays at the start values: they are those of an unstable equilibrium".to_owned(),
             Self::Far { unknown, distance } => format!(
                 "The nearest equilibrium is {} from the start of {}",
                 value(*unknown, *distance),
@@ -67,11 +65,7 @@ impl Note {
                     held.collect::<Vec<_>>().join(" and ")
                 )
             }
-            Self::OtherValue {
-                unknown,
-                asked,
-                found,
-            } => format!(
+            Self::OtherValue { unknown, asked, found } => format!(
                 "{} is {} here, although {} was given",
                 infos[*unknown].name,
                 value(*unknown, *found),

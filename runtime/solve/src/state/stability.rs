@@ -42,13 +42,7 @@ impl Stability {
     /// holding, although a motion along them may go on for ever.
     #[must_use]
     pub fn holds(self) -> bool {
-        matches!(
-            self,
-            Self::Stable
-                | Self::GyroscopicallyStabilised { .. }
-                | Self::Marginal
-                | Self::Neutral { .. }
-        )
+        matches!(self, Self::Stable | Self::GyroscopicallyStabilised { .. } | Self::Marginal | Self::Neutral { .. })
     }
 }
 
@@ -62,14 +56,10 @@ impl fmt::Display for Stability {
                 1 => write!(f, "divergent (unstable in one direction)"),
                 _ => write!(f, "divergent (unstable in {negative} directions)"),
             },
-            Self::GyroscopicallyStabilised { negative } => write!(
-                f,
-                "stable by gyroscopic forces alone ({negative} directions without stiffness)"
-            ),
-            Self::Marginal => write!(
-                f,
-                "marginal (an oscillation neither grows nor decays within rounding)"
-            ),
+            Self::GyroscopicallyStabilised { negative } => {
+                write!(f, "stable by gyroscopic forces alone ({negative} directions without stiffness)")
+            }
+            Self::Marginal => write!(f, "marginal (an oscillation neither grows nor decays within rounding)"),
             Self::Flutter { growing } => match growing {
                 1 => write!(f, "flutter (one growing oscillation)"),
                 _ => write!(f, "flutter ({growing} growing oscillations)"),
@@ -92,9 +82,7 @@ impl Stability {
     #[must_use]
     pub fn predicate(self) -> String {
         match self {
-            Self::Flutter { growing: 1 } => {
-                "unstable (flutter: one growing oscillation)".to_owned()
-            }
+            Self::Flutter { growing: 1 } => "unstable (flutter: one growing oscillation)".to_owned(),
             Self::Flutter { growing } => {
                 format!("unstable (flutter: {growing} growing oscillations)")
             }

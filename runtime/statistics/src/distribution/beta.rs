@@ -13,11 +13,7 @@ pub(super) fn check(shape: f64) -> Result<(), Error> {
     }
     Err(Error::Setting {
         setting: "shape of a beta distribution",
-        reason: format!(
-            "{shape} must lie between {} and {}",
-            SHAPES.start(),
-            SHAPES.end()
-        ),
+        reason: format!("{shape} must lie between {} and {}", SHAPES.start(), SHAPES.end()),
     })
 }
 
@@ -74,11 +70,7 @@ fn lower(alpha: f64, beta: f64, probability: f64) -> f64 {
         let log_density = alpha * log_x + (beta - 1.0) * (-x).ln_1p() - scale;
         let step = gap * (below.ln() - log_density).exp();
         let next = log_x - step;
-        let next = if next > low && next < high {
-            next
-        } else {
-            0.5 * (low + high)
-        };
+        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
         if (next - log_x).abs() <= 2e-16 * log_x.abs().max(1.0) {
             return next.exp();
         }

@@ -16,22 +16,14 @@ pub(super) struct Discrete {
 
 impl Discrete {
     pub(super) fn new(values: &[(f64, f64)]) -> Result<Self, Error> {
-        let wrong = |reason: String| {
-            Err(Error::Setting {
-                setting: "discrete distribution",
-                reason,
-            })
-        };
+        let wrong = |reason: String| Err(Error::Setting { setting: "discrete distribution", reason });
         if let Some((value, _)) = values.iter().find(|(value, _)| !value.is_finite()) {
             return wrong(format!("value {value} must be finite"));
         }
         if let Some((_, weight)) = (values.iter()).find(|(_, w)| !(0.0..=f64::MAX).contains(w)) {
-            return wrong(format!(
-                "weight {weight} must be zero or positive and finite"
-            ));
+            return wrong(format!("weight {weight} must be zero or positive and finite"));
         }
-        let mut sorted: Vec<(f64, f64)> =
-            values.iter().filter(|(_, w)| *w > 0.0).copied().collect();
+        let mut sorted: Vec<(f64, f64)> = values.iter().filter(|(_, w)| *w > 0.0).copied().collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let greatest = sorted.iter().fold(0.0, |most: f64, (_, w)| most.max(*w));
         if sorted.is_empty() {
@@ -39,11 +31,7 @@ impl Discrete {
         }
         let sum: f64 = sorted.iter().map(|(_, w)| w / greatest).sum();
         let weights: Vec<f64> = sorted.iter().map(|(_, w)| w / greatest / sum).collect();
-        Ok(Self {
-            values: sorted.iter().map(|(value, _)| *value).collect(),
-            steps: steps(&weights),
-            weights,
-        })
+        Ok(Self { values: sorted.iter().map(|(value, _)| *value).collect(), steps: steps(&weights), weights })
     }
 
     pub(super) fn support(&self) -> (f64, f64) {
@@ -88,12 +76,10 @@ fn steps(weights: &[f64]) -> Vec<f64> {
     let mut above = running(&mut weights.iter().rev());
     above.reverse();
     let each = below.iter().zip(above.iter().skip(1));
-    each.map(|(below, above)| {
-        if below < above {
-            normal::quantile(below.min(0.5))
-        } else {
-            -normal::quantile(above.min(0.5))
-        }
-    })
+    each.map(
+        |(below, above)| {
+            if below < above { normal::quantile(below.min(0.5)) } else { -normal::quantile(above.min(0.5)) }
+        },
+    )
     .collect()
 }

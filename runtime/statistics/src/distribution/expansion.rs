@@ -39,10 +39,7 @@ impl Expansion {
         };
         let explained: f64 = coefficients.iter().map(|a| a * a).sum();
         let rest = (variable.sigma * variable.sigma - explained).max(0.0);
-        Self {
-            coefficients,
-            rest: rest.sqrt(),
-        }
+        Self { coefficients, rest: rest.sqrt() }
     }
 
     /// Covariance of two variables whose normal variables have correlation `r`. The remainder of the series is treated

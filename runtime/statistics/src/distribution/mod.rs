@@ -37,33 +37,12 @@ pub struct Distribution {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Kind {
     Normal,
-    Lognormal {
-        log_mean: f64,
-        log_sigma: f64,
-    },
-    Weibull {
-        shape: f64,
-        scale: f64,
-    },
-    TruncatedNormal {
-        centre: f64,
-        scale: f64,
-        within: Interval,
-    },
-    Uniform {
-        low: f64,
-        high: f64,
-    },
-    Triangular {
-        low: f64,
-        peak: f64,
-        high: f64,
-    },
-    Beta {
-        shapes: (f64, f64),
-        low: f64,
-        high: f64,
-    },
+    Lognormal { log_mean: f64, log_sigma: f64 },
+    Weibull { shape: f64, scale: f64 },
+    TruncatedNormal { centre: f64, scale: f64, within: Interval },
+    Uniform { low: f64, high: f64 },
+    Triangular { low: f64, peak: f64, high: f64 },
+    Beta { shapes: (f64, f64), low: f64, high: f64 },
     Discrete(Discrete),
 }
 
@@ -83,11 +62,7 @@ impl Distribution {
     pub fn normal(mean: f64, sigma: f64) -> Result<Self, Error> {
         finite(&[mean])?;
         not_negative(sigma)?;
-        Ok(Self {
-            kind: Kind::Normal,
-            mean,
-            sigma,
-        })
+        Ok(Self { kind: Kind::Normal, mean, sigma })
     }
 
     /// Lognormal distribution, given the mean and standard deviation of the variable itself.
@@ -100,10 +75,7 @@ impl Distribution {
         not_negative(sigma)?;
         let log_variance = (sigma / mean).powi(2).ln_1p();
         Ok(Self {
-            kind: Kind::Lognormal {
-                log_mean: mean.ln() - 0.5 * log_variance,
-                log_sigma: log_variance.sqrt(),
-            },
+            kind: Kind::Lognormal { log_mean: mean.ln() - 0.5 * log_variance, log_sigma: log_variance.sqrt() },
             mean,
             sigma,
         })
@@ -116,11 +88,7 @@ impl Distribution {
     pub fn weibull(shape: f64, scale: f64) -> Result<Self, Error> {
         positive("scale of a Weibull variable", scale)?;
         let (mean, sigma) = weibull::unit_moments(shape)?;
-        Ok(Self {
-            kind: Kind::Weibull { shape, scale },
-            mean: scale * mean,
-            sigma: scale * sigma,
-        })
+        Ok(Self { kind: Kind::Weibull { shape, scale }, mean: scale * mean, sigma: scale * sigma })
     }
 
     /// Two-parameter Weibull distribution, given mean and standard deviation.
@@ -153,11 +121,7 @@ impl Distribution {
         let within = Interval::new((low - mean) / sigma, (high - mean) / sigma)?;
         let (shift, spread) = within.moments();
         Ok(Self {
-            kind: Kind::TruncatedNormal {
-                centre: mean,
-                scale: sigma,
-                within,
-            },
+            kind: Kind::TruncatedNormal { centre: mean, scale: sigma, within },
             mean: mean + sigma * shift,
             sigma: sigma * spread,
         })
@@ -210,11 +174,7 @@ impl Distribution {
         beta::check(beta)?;
         let sum = alpha + beta;
         Ok(Self {
-            kind: Kind::Beta {
-                shapes: (alpha, beta),
-                low,
-                high,
-            },
+            kind: Kind::Beta { shapes: (alpha, beta), low, high },
             mean: low + (high - low) * (alpha / sum),
             sigma: (high - low) / sum * (alpha * beta / (sum + 1.0)).sqrt(),
         })
@@ -228,11 +188,7 @@ impl Distribution {
     pub fn discrete(values: &[(f64, f64)]) -> Result<Self, Error> {
         let discrete = Discrete::new(values)?;
         let (mean, sigma) = discrete.moments();
-        Ok(Self {
-            kind: Kind::Discrete(discrete),
-            mean,
-            sigma,
-        })
+        Ok(Self { kind: Kind::Discrete(discrete), mean, sigma })
     }
 
     /// Empirical distribution: each of the measured values is equally probable.
@@ -281,17 +237,13 @@ impl Distribution {
             _ if self.sigma == 0.0 => (self.mean, self.mean),
             Kind::Normal => (f64::NEG_INFINITY, f64::INFINITY),
             Kind::Lognormal { .. } | Kind::Weibull { .. } => (0.0, f64::INFINITY),
-            Kind::TruncatedNormal {
-                centre,
-                scale,
-                within,
-            } => {
+            Kind::TruncatedNormal { centre, scale, within } => {
                 let (low, high) = within.ends();
                 (centre + scale * low, centre + scale * high)
             }
-            Kind::Uniform { low, high }
-            | Kind::Triangular { low, high, .. }
-            | Kind::Beta { low, high, .. } => (*low, *high),
+            Kind::Uniform { low, high } | Kind::Triangular { low, high, .. } | Kind::Beta { low, high, .. } => {
+                (*low, *high)
+            }
             Kind::Discrete(discrete) => discrete.support(),
         }
     }
@@ -323,10 +275,7 @@ impl Distribution {
 fn finite(values: &[f64]) -> Result<(), Error> {
     match values.iter().find(|value| !value.is_finite()) {
         None => Ok(()),
-        Some(value) => Err(Error::Setting {
-            setting: "distribution",
-            reason: format!("{value} must be finite"),
-        }),
+        Some(value) => Err(Error::Setting { setting: "distribution", reason: format!("{value} must be finite") }),
     }
 }
 
@@ -334,10 +283,7 @@ fn positive(setting: &'static str, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    Err(Error::Setting {
-        setting,
-        reason: format!("{value} must be positive and finite"),
-    })
+    Err(Error::Setting { setting, reason: format!("{value} must be positive and finite") })
 }
 
 fn not_negative(sigma: f64) -> Result<(), Error> {

@@ -13,23 +13,12 @@ impl Distribution {
         }
         match &self.kind {
             Kind::Normal => self.mean + self.sigma * z,
-            Kind::Lognormal {
-                log_mean,
-                log_sigma,
-            } => (log_mean + log_sigma * z).exp(),
+            Kind::Lognormal { log_mean, log_sigma } => (log_mean + log_sigma * z).exp(),
             Kind::Weibull { shape, scale } => scale * (-normal::ln_upper(z)).powf(1.0 / shape),
-            Kind::TruncatedNormal {
-                centre,
-                scale,
-                within,
-            } => centre + scale * within.quantile(z),
+            Kind::TruncatedNormal { centre, scale, within } => centre + scale * within.quantile(z),
             Kind::Uniform { low, high } => {
                 let width = high - low;
-                if z < 0.0 {
-                    low + width * normal::cdf(z)
-                } else {
-                    high - width * normal::cdf(-z)
-                }
+                if z < 0.0 { low + width * normal::cdf(z) } else { high - width * normal::cdf(-z) }
             }
             Kind::Triangular { low, peak, high } => {
                 let (below, above, width) = (peak - low, high - peak, high - low);
@@ -78,11 +67,7 @@ impl Distribution {
                 if density == 0.0 {
                     return 0.0;
                 }
-                let side = if probability * width < below {
-                    below / probability
-                } else {
-                    above / normal::cdf(-z)
-                };
+                let side = if probability * width < below { below / probability } else { above / normal::cdf(-z) };
                 0.5 * density * (width * side).sqrt()
             }
             Kind::Beta { shapes, low, high } => (high - low) * beta::slope(*shapes, z),

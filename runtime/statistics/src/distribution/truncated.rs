@@ -31,12 +31,7 @@ impl Interval {
                 ),
             });
         }
-        Ok(Self {
-            low,
-            high,
-            mirrored,
-            above,
-        })
+        Ok(Self { low, high, mirrored, above })
     }
 
     pub(super) fn ends(&self) -> (f64, f64) {
@@ -45,11 +40,8 @@ impl Interval {
 
     /// The value with the same probability of being exceeded within the interval as `z` has without limits.
     pub(super) fn quantile(&self, z: f64) -> f64 {
-        let (below, beyond) = if self.mirrored {
-            (normal::cdf(-z), normal::cdf(z))
-        } else {
-            (normal::cdf(z), normal::cdf(-z))
-        };
+        let (below, beyond) =
+            if self.mirrored { (normal::cdf(-z), normal::cdf(z)) } else { (normal::cdf(z), normal::cdf(-z)) };
         let (most, least) = self.above;
         // A weighted mean of both ends, so that neither loses its digits to the other.
         let above = most * beyond + least * below;
@@ -70,17 +62,10 @@ impl Interval {
         // Values farther than this from the nearest possible value have less than a part in 10^18.
         const REACH: f64 = 9.5;
         let nearest = 0.0_f64.clamp(self.low, self.high);
-        let (low, high) = (
-            self.low.max(nearest - REACH),
-            self.high.min(nearest + REACH),
-        );
+        let (low, high) = (self.low.max(nearest - REACH), self.high.min(nearest + REACH));
         let density = |z: f64| (0.5 * (nearest - z) * (nearest + z)).exp();
-        let panels = (2.0 * (high - low) * (1.0 + nearest.abs()))
-            .ceil()
-            .clamp(1.0, 4000.0) as usize;
-        let integral = |f: &dyn Fn(f64) -> f64| {
-            legendre::composite((low, high), panels, |z| f(z) * density(z))
-        };
+        let panels = (2.0 * (high - low) * (1.0 + nearest.abs())).ceil().clamp(1.0, 4000.0) as usize;
+        let integral = |f: &dyn Fn(f64) -> f64| legendre::composite((low, high), panels, |z| f(z) * density(z));
         let mass = integral(&|_| 1.0);
         let shift = integral(&|z| z - nearest) / mass;
         let variance = integral(&|z| (z - nearest - shift).powi(2)) / mass;

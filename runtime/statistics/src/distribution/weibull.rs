@@ -11,11 +11,7 @@ pub(super) fn unit_moments(shape: f64) -> Result<(f64, f64), Error> {
     if !SHAPES.contains(&shape) {
         return Err(Error::Setting {
             setting: "shape of a Weibull variable",
-            reason: format!(
-                "{shape} must lie between {} and {:e}",
-                SHAPES.start(),
-                SHAPES.end()
-            ),
+            reason: format!("{shape} must lie between {} and {:e}", SHAPES.start(), SHAPES.end()),
         });
     }
     let mean = ln_gamma(1.0 + 1.0 / shape).exp();

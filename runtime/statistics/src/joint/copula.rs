@@ -4,10 +4,7 @@ use crate::distribution::Expansion;
 use crate::{Distribution, Error};
 
 /// Correlations of the underlying normal variables for which the variables have the given linear correlations.
-pub(super) fn normal_correlation(
-    variables: &[Distribution],
-    correlation: &[f64],
-) -> Result<Vec<f64>, Error> {
+pub(super) fn normal_correlation(variables: &[Distribution], correlation: &[f64]) -> Result<Vec<f64>, Error> {
     let count = variables.len();
     let mut values = correlation.to_vec();
     let mut series: Vec<Option<Expansion>> = vec![None; count];

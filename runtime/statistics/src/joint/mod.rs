@@ -46,10 +46,7 @@ impl Joint {
     /// Independent variables.
     #[must_use]
     pub fn independent(variables: Vec<Distribution>) -> Self {
-        Self {
-            variables,
-            dependence: None,
-        }
+        Self { variables, dependence: None }
     }
 
     /// Variables with these linear correlations, row by row; those of the underlying normal variables are computed from
@@ -66,19 +63,12 @@ impl Joint {
             let normal = normal_correlation(&variables, correlation)?;
             factor = semidefinite_factor(&normal, count).map_err(|_| Error::Setting {
                 setting: "correlation matrix",
-                reason:
-                    "no jointly normal variables give these variables all of these correlations; \
+                reason: "no jointly normal variables give these variables all of these correlations; \
                          smaller ones may do"
-                        .to_owned(),
+                    .to_owned(),
             })?;
         }
-        Ok(Self {
-            variables,
-            dependence: Some(Dependence {
-                correlation: correlation.to_vec(),
-                factor,
-            }),
-        })
+        Ok(Self { variables, dependence: Some(Dependence { correlation: correlation.to_vec(), factor }) })
     }
 
     /// Number of variables.
@@ -118,8 +108,7 @@ impl Joint {
     #[must_use]
     pub fn covariance(&self, i: usize, j: usize) -> f64 {
         let delta = if i == j { 1.0 } else { 0.0 };
-        let correlation =
-            (self.dependence.as_ref()).map_or(delta, |all| all.correlation[i * self.len() + j]);
+        let correlation = (self.dependence.as_ref()).map_or(delta, |all| all.correlation[i * self.len() + j]);
         correlation * self.variables[i].sigma() * self.variables[j].sigma()
     }
 

@@ -16,15 +16,10 @@ impl TryFrom<Unchecked> for Joint {
 
     fn try_from(read: Unchecked) -> Result<Self, &'static str> {
         let size = read.variables.len().pow(2);
-        let fits = |dependence: &Dependence| {
-            dependence.correlation.len() == size && dependence.factor.len() == size
-        };
+        let fits = |dependence: &Dependence| dependence.correlation.len() == size && dependence.factor.len() == size;
         if !read.dependence.as_ref().is_none_or(fits) {
             return Err("there is not one correlation for each pair of variables");
         }
-        Ok(Self {
-            variables: read.variables,
-            dependence: read.dependence,
-        })
+        Ok(Self { variables: read.variables, dependence: read.dependence })
     }
 }

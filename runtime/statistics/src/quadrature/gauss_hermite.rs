@@ -41,16 +41,9 @@ pub fn gauss_hermite(nodes: usize) -> Result<Rule, Error> {
             reason: format!("a Gauss-Hermite rule has between 1 and {MAX_NODES}, not {nodes}"),
         });
     }
-    let mut starts: Vec<f64> = jacobi(nodes)
-        .symmetric_eigenvalues()
-        .iter()
-        .copied()
-        .collect();
+    let mut starts: Vec<f64> = jacobi(nodes).symmetric_eigenvalues().iter().copied().collect();
     starts.sort_by(f64::total_cmp);
-    let mut rule = Rule {
-        nodes: vec![0.0; nodes],
-        weights: vec![0.0; nodes],
-    };
+    let mut rule = Rule { nodes: vec![0.0; nodes], weights: vec![0.0; nodes] };
     for (i, start) in starts.into_iter().enumerate().skip(nodes / 2) {
         let middle = 2 * i + 1 == nodes;
         let (node, weight) = node_near(if middle { 0.0 } else { start }, nodes);
@@ -64,13 +57,7 @@ pub fn gauss_hermite(nodes: usize) -> Result<Rule, Error> {
 
 /// Multiplication by `x` in the basis of the orthonormal polynomials: `x p_k = sqrt(k+1) p_(k+1) + sqrt(k) p_(k-1)`.
 fn jacobi(nodes: usize) -> DMatrix<f64> {
-    DMatrix::from_fn(nodes, nodes, |i, j| {
-        if i.abs_diff(j) == 1 {
-            (i.max(j) as f64).sqrt()
-        } else {
-            0.0
-        }
-    })
+    DMatrix::from_fn(nodes, nodes, |i, j| if i.abs_diff(j) == 1 { (i.max(j) as f64).sqrt() } else { 0.0 })
 }
 
 /// The root of `p_n` near a value, and its weight `1 / (n p_(n-1)^2)`.

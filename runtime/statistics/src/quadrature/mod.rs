@@ -30,9 +30,5 @@ pub struct Node<'a> {
 }
 
 fn finite(sum: f64) -> Result<f64, Error> {
-    if sum.is_finite() {
-        Ok(sum)
-    } else {
-        Err(Error::NotFinite { kind: "integral" })
-    }
+    if sum.is_finite() { Ok(sum) } else { Err(Error::NotFinite { kind: "integral" }) }
 }

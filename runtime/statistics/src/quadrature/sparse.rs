@@ -57,10 +57,7 @@ impl SparseGrid {
     /// # Errors
     /// [`Error::Setting`] for zero dimensions or more than 2^64 points.
     pub fn new(dimensions: usize, level: usize) -> Result<Self, Error> {
-        let setting = |setting, reason: &str| Error::Setting {
-            setting,
-            reason: reason.into(),
-        };
+        let setting = |setting, reason: &str| Error::Setting { setting, reason: reason.into() };
         if dimensions == 0 {
             return Err(setting("dimensions", "a grid has at least one"));
         }
@@ -110,10 +107,7 @@ impl SparseGrid {
             fine.add(node.weight * result);
             coarse.add(node.coarse_weight * result);
         }
-        Ok(Integral {
-            value: finite(fine.value())?,
-            difference: finite(fine.value() - coarse.value())?.abs(),
-        })
+        Ok(Integral { value: finite(fine.value())?, difference: finite(fine.value() - coarse.value())?.abs() })
     }
 }
 
@@ -134,9 +128,7 @@ fn factors(dimensions: usize, level: usize, centres: &[f64]) -> Vec<Truncated> {
 /// Number of points with a weight in this level or the next lower one.
 fn count(dimensions: usize, level: usize, factors: &[Truncated]) -> Option<u64> {
     // Numbers of nodes of one coordinate, by 2 g - 1.
-    let nodes: Vec<u128> = (0..=level)
-        .map(|t| if t % 2 == 1 { t as u128 + 1 } else { 0 })
-        .collect();
+    let nodes: Vec<u128> = (0..=level).map(|t| if t % 2 == 1 { t as u128 + 1 } else { 0 }).collect();
     let mut ways = vec![0; level + 1];
     ways[0] = 1_u128;
     let mut subsets = 1_u128;

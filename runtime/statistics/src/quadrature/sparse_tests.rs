@@ -22,8 +22,7 @@ fn levels(sum: usize, dimensions: usize) -> Vec<Vec<usize>> {
 fn smolyak(dimensions: usize, level: usize) -> BTreeMap<Vec<u64>, f64> {
     let mut grid = BTreeMap::new();
     for below in 0..dimensions.min(level + 1) {
-        let binomial =
-            (0..below).fold(1.0, |b, i| b * (dimensions - 1 - i) as f64 / (i + 1) as f64);
+        let binomial = (0..below).fold(1.0, |b, i| b * (dimensions - 1 - i) as f64 / (i + 1) as f64);
         let coefficient = if below % 2 == 0 { binomial } else { -binomial };
         for levels in levels(level - below, dimensions) {
             let nodes: Vec<usize> = levels.iter().map(|l| 2 * l.div_ceil(2) + 1).collect();
@@ -49,8 +48,7 @@ fn sparse_grids_are_smolyaks() {
             let mut seen = BTreeMap::new();
             while let Some(node) = walk.next_point() {
                 let key: Vec<u64> = node.point.iter().map(|z| z.to_bits()).collect();
-                let weight =
-                    |grid: &BTreeMap<Vec<u64>, f64>| grid.get(&key).copied().unwrap_or(0.0);
+                let weight = |grid: &BTreeMap<Vec<u64>, f64>| grid.get(&key).copied().unwrap_or(0.0);
                 assert!((node.weight - weight(&fine)).abs() < 1e-12);
                 let below = coarse.as_ref().map_or(0.0, weight);
                 assert!((node.coarse_weight - below).abs() < 1e-12);
@@ -58,10 +56,7 @@ fn sparse_grids_are_smolyaks() {
             }
             assert_eq!(seen.len() as u64, grid.points(), "{dimensions} {level}");
             let present = |(_, weight): &(&Vec<u64>, &f64)| weight.abs() > 1e-12;
-            let missing = fine
-                .iter()
-                .filter(present)
-                .find(|(key, _)| !seen.contains_key(*key));
+            let missing = fine.iter().filter(present).find(|(key, _)| !seen.contains_key(*key));
             assert_eq!(missing, None);
         }
     }
@@ -72,14 +67,8 @@ fn sparse_grids_are_smolyaks() {
 #[test]
 fn sparse_grids_are_small() {
     let points = |d, level| SparseGrid::new(d, level).unwrap().points();
-    assert_eq!(
-        [0, 1, 2, 3].map(|level| points(10, level)),
-        [1, 21, 201, 1201]
-    );
-    assert_eq!(
-        [0, 1, 2, 3].map(|level| points(20, level)),
-        [1, 41, 801, 10_001]
-    );
+    assert_eq!([0, 1, 2, 3].map(|level| points(10, level)), [1, 21, 201, 1201]);
+    assert_eq!([0, 1, 2, 3].map(|level| points(20, level)), [1, 41, 801, 10_001]);
     assert_eq!(points(400, 2), 2 * 400 * 400 + 1);
 }
 
@@ -94,10 +83,7 @@ fn sparse_grids_are_exact_up_to_their_total_degree() {
                 let f = |z: &[f64]| z.iter().zip(&e).map(|(z, e)| z.powi(*e as i32)).product();
                 let exact: f64 = e.iter().map(|e| moment(*e as u32)).product();
                 let integral = grid.integrate(f).unwrap();
-                assert!(
-                    (integral.value - exact).abs() < 1e-9 * exact.max(1.0),
-                    "{level} {e:?}"
-                );
+                assert!((integral.value - exact).abs() < 1e-9 * exact.max(1.0), "{level} {e:?}");
                 if sum + 2 <= 2 * level as usize + 1 {
                     assert!(integral.difference < 1e-9 * exact.max(1.0));
                 }
@@ -143,10 +129,7 @@ fn smooth_functions_converge() {
     for level in 0..7 {
         let integral = SparseGrid::new(4, level).unwrap().integrate(f).unwrap();
         let next = (integral.value - exact).abs();
-        assert!(
-            next < 0.15 * error && next < integral.difference,
-            "{level} {next:e}"
-        );
+        assert!(next < 0.15 * error && next < integral.difference, "{level} {next:e}");
         error = next;
     }
     assert!(error < 1e-10);

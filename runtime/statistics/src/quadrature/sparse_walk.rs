@@ -38,13 +38,7 @@ struct Active {
 
 impl<'a> SparseWalk<'a> {
     pub(super) fn new(grid: &'a SparseGrid) -> Self {
-        Self {
-            grid,
-            started: false,
-            active: Vec::new(),
-            left: grid.level,
-            point: vec![0.0; grid.dimensions],
-        }
+        Self { grid, started: false, active: Vec::new(), left: grid.level, point: vec![0.0; grid.dimensions] }
     }
 
     /// The next point and its weights; `None` after the last one.
@@ -99,12 +93,7 @@ impl<'a> SparseWalk<'a> {
         *coordinate = value;
         let before = self.active.last().map_or(1.0, |last| last.weight);
         self.left = left;
-        self.active.push(Active {
-            dimension,
-            g,
-            node,
-            weight: before * weight,
-        });
+        self.active.push(Active { dimension, g, node, weight: before * weight });
         true
     }
 }

@@ -30,17 +30,12 @@ impl TensorGrid {
     /// [`Error::Setting`] for zero dimensions, if a rule does not exist (see [`gauss_hermite`]) or for more than 2^64
     /// points.
     pub fn new(nodes: &[usize]) -> Result<Self, Error> {
-        let setting = |reason: &str| Error::Setting {
-            setting: "nodes",
-            reason: reason.into(),
-        };
+        let setting = |reason: &str| Error::Setting { setting: "nodes", reason: reason.into() };
         if nodes.is_empty() {
             return Err(setting("a grid has at least one dimension"));
         }
         let rules = nodes.iter().map(|&nodes| gauss_hermite(nodes));
-        let points = nodes
-            .iter()
-            .try_fold(1_u64, |points, &nodes| points.checked_mul(nodes as u64));
+        let points = nodes.iter().try_fold(1_u64, |points, &nodes| points.checked_mul(nodes as u64));
         Ok(Self {
             rules: rules.collect::<Result<_, _>>()?,
             points: points.ok_or_else(|| setting("more than 2^64 points: take a sparse grid"))?,
@@ -113,10 +108,7 @@ impl TensorWalk<'_> {
             self.update();
             self.left = left;
             self.step();
-            Node {
-                point: &self.point,
-                weight: self.products.last().copied().unwrap_or(1.0),
-            }
+            Node { point: &self.point, weight: self.products.last().copied().unwrap_or(1.0) }
         })
     }
 

@@ -40,10 +40,7 @@ fn rules_agree_with_reference_values() {
             let near = |z: &&f64| (**z - sign * node).abs() < 1e-14 * node;
             let index = rule.nodes.iter().position(|z| near(&z));
             let computed = rule.weights[index.expect("a node there")];
-            assert!(
-                (computed / weight - 1.0).abs() < 2e-14,
-                "{nodes} {node} {computed:e}"
-            );
+            assert!((computed / weight - 1.0).abs() < 2e-14, "{nodes} {node} {computed:e}");
         }
     }
 }
@@ -60,10 +57,7 @@ fn rules_are_exact_up_to_their_degree() {
         };
         for exponent in 0..(2 * nodes as u32).min(120) {
             let scale = moment(exponent + exponent % 2);
-            assert!(
-                (mean(exponent) - moment(exponent)).abs() < 2e-13 * scale,
-                "{nodes} {exponent}"
-            );
+            assert!((mean(exponent) - moment(exponent)).abs() < 2e-13 * scale, "{nodes} {exponent}");
         }
         if nodes < 15 {
             let factorial: f64 = (1..=nodes as u32).map(f64::from).product();
@@ -117,8 +111,5 @@ fn settings_are_checked() {
     assert!(SparseGrid::new(0, 1).is_err());
     assert!(SparseGrid::new(2000, 12).is_err());
     let grid = SparseGrid::new(2, 1).unwrap();
-    assert!(matches!(
-        grid.integrate(|_| f64::NAN),
-        Err(Error::NotFinite { .. })
-    ));
+    assert!(matches!(grid.integrate(|_| f64::NAN), Err(Error::NotFinite { .. })));
 }

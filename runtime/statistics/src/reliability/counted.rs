@@ -45,18 +45,9 @@ impl<'a> Counted<'a> {
     pub(super) fn new<L: LimitState>(limit: &'a L) -> Result<Self, Error> {
         let dimension = limit.dimension();
         if dimension == 0 {
-            return Err(Error::Setting {
-                setting: "dimension",
-                reason: "a limit state needs a variable".into(),
-            });
+            return Err(Error::Setting { setting: "dimension", reason: "a limit state needs a variable".into() });
         }
-        Ok(Self {
-            limit,
-            dimension,
-            total: Cell::new(0),
-            without_value: Cell::new(0),
-            reason: RefCell::default(),
-        })
+        Ok(Self { limit, dimension, total: Cell::new(0), without_value: Cell::new(0), reason: RefCell::default() })
     }
 
     pub(super) fn dimension(&self) -> usize {
@@ -68,11 +59,9 @@ impl<'a> Counted<'a> {
         self.total.set(self.total.get() + 1);
         let checked = match self.limit.evaluate(z) {
             Err(reason) => Err(reason),
-            Ok(limit) if limit.gradient.len() != self.dimension => Err(format!(
-                "its gradient has {} entries, expected {}",
-                limit.gradient.len(),
-                self.dimension
-            )),
+            Ok(limit) if limit.gradient.len() != self.dimension => {
+                Err(format!("its gradient has {} entries, expected {}", limit.gradient.len(), self.dimension))
+            }
             Ok(limit) if !is_finite(&limit) => Err("its value or gradient is not finite".into()),
             Ok(limit) => Ok(limit),
         };
@@ -94,10 +83,7 @@ impl<'a> Counted<'a> {
             return Ok(None);
         };
         let hessian = hessian.map_err(reason)?;
-        for found in [hessian.len()]
-            .into_iter()
-            .chain(hessian.iter().map(Vec::len))
-        {
+        for found in [hessian.len()].into_iter().chain(hessian.iter().map(Vec::len)) {
             if found != self.dimension {
                 return Err(Error::WrongLength {
                     kind: "rows or columns of second derivatives",
@@ -119,10 +105,7 @@ impl<'a> Counted<'a> {
     }
 
     pub(super) fn evaluations(&self) -> Evaluations {
-        Evaluations {
-            total: self.total.get(),
-            without_value: self.without_value.get(),
-        }
+        Evaluations { total: self.total.get(), without_value: self.without_value.get() }
     }
 }
 

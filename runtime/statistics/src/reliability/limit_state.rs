@@ -78,10 +78,7 @@ where
 {
     /// Creates a limit state with `dimension` variables.
     pub fn new(dimension: usize, function: F) -> Self {
-        Self {
-            dimension,
-            function,
-        }
+        Self { dimension, function }
     }
 
     /// Adds exact second derivatives, row by row.
@@ -89,10 +86,7 @@ where
     where
         H: Fn(&[f64]) -> Result<Vec<Vec<f64>>, E>,
     {
-        LimitFunctionWithHessian {
-            limit: self,
-            hessian,
-        }
+        LimitFunctionWithHessian { limit: self, hessian }
     }
 }
 

@@ -16,8 +16,7 @@ mod vector;
 
 pub use counted::Evaluations;
 pub use form::{
-    Closest, DesignPoint, FailureRegions, FormResult, FormSensitivity, FormSettings, Residuals,
-    failure_regions, form,
+    Closest, DesignPoint, FailureRegions, FormResult, FormSensitivity, FormSettings, Residuals, failure_regions, form,
 };
 pub use limit_state::{LimitFunction, LimitFunctionWithHessian, LimitState, LimitValue};
 pub use sorm::{Sorm, sorm};

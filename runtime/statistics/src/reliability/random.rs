@@ -56,15 +56,11 @@ mod tests {
     #[test]
     fn samples_are_normal() {
         let mut samples = NormalSamples::new(5, 0, 0, 2);
-        let mut values: Vec<f64> = (0..10_000)
-            .flat_map(|_| samples.next_sample().to_vec())
-            .collect();
+        let mut values: Vec<f64> = (0..10_000).flat_map(|_| samples.next_sample().to_vec()).collect();
         values.sort_by(f64::total_cmp);
         let number = values.len() as f64;
-        let distances = values
-            .iter()
-            .enumerate()
-            .map(|(k, &x)| ((k as f64 + 0.5) / number - crate::normal::cdf(x)).abs());
+        let distances =
+            values.iter().enumerate().map(|(k, &x)| ((k as f64 + 0.5) / number - crate::normal::cdf(x)).abs());
         assert!(distances.fold(0.0, f64::max) < 1.95 / number.sqrt());
     }
 }

@@ -69,21 +69,10 @@ impl SaltelliDesign {
     /// evaluation `k`.
     pub fn point(&self, k: u64, into: &mut [f64]) -> Result<(), Error> {
         if into.len() != self.inputs() {
-            return Err(Error::WrongLength {
-                kind: "inputs",
-                found: into.len(),
-                expected: self.inputs(),
-            });
+            return Err(Error::WrongLength { kind: "inputs", found: into.len(), expected: self.inputs() });
         }
-        let point = self
-            .from(k)
-            .next_point()
-            .map(|point| into.copy_from_slice(point));
-        point.ok_or(Error::BeyondLast {
-            kind: "evaluation",
-            index: k,
-            number: self.evaluations(),
-        })
+        let point = self.from(k).next_point().map(|point| into.copy_from_slice(point));
+        point.ok_or(Error::BeyondLast { kind: "evaluation", index: k, number: self.evaluations() })
     }
 
     /// Iterates over the evaluations, starting at number `first`.

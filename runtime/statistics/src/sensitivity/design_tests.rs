@@ -20,10 +20,7 @@ fn designs_are_addressable_and_exchange_one_column() {
     }
     let mut coordinates = [0.0; 6];
     for (row, points) in rows.chunks(5).enumerate() {
-        Sequence::sobol(6, 4, 0)
-            .unwrap()
-            .point(row as u64, &mut coordinates)
-            .unwrap();
+        Sequence::sobol(6, 4, 0).unwrap().point(row as u64, &mut coordinates).unwrap();
         let (a, b) = coordinates.split_at(3);
         assert_eq!((&points[0][..], &points[1][..]), (a, b));
         for i in 0..3 {

@@ -62,18 +62,11 @@ impl Sums {
         let share = |sum: f64| sum / (self.n * positive);
         let half_square = |xx: f64, xc: f64| share(0.5 * (xx + self.cc) - xc);
         Some(match estimator {
-            Estimator::Saltelli => [
-                share(self.bc - self.ab - mean * (self.c - self.a)),
-                half_square(self.aa, self.ac),
-            ],
-            Estimator::Jansen => [
-                1.0 - half_square(self.bb, self.bc),
-                half_square(self.aa, self.ac),
-            ],
-            Estimator::Martinez => [
-                self.correlation([self.b, self.bb, self.bc])?,
-                1.0 - self.correlation([self.a, self.aa, self.ac])?,
-            ],
+            Estimator::Saltelli => [share(self.bc - self.ab - mean * (self.c - self.a)), half_square(self.aa, self.ac)],
+            Estimator::Jansen => [1.0 - half_square(self.bb, self.bc), half_square(self.aa, self.ac)],
+            Estimator::Martinez => {
+                [self.correlation([self.b, self.bb, self.bc])?, 1.0 - self.correlation([self.a, self.aa, self.ac])?]
+            }
         })
     }
 

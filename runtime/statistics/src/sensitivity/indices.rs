@@ -21,11 +21,7 @@ pub struct Bootstrap {
 impl Default for Bootstrap {
     /// 200 resamples, 95 per cent.
     fn default() -> Self {
-        Self {
-            resamples: 200,
-            confidence: 0.95,
-            seed: 0,
-        }
+        Self { resamples: 200, confidence: 0.95, seed: 0 }
     }
 }
 
@@ -87,9 +83,7 @@ pub fn sobol_indices(
     let number = rows.number();
     at_least("complete rows", number, 2)?;
     let all = vec![1.0; number];
-    let estimates = rows.indices(&all, estimator).ok_or(Error::Constant {
-        what: "the values".into(),
-    })?;
+    let estimates = rows.indices(&all, estimator).ok_or(Error::Constant { what: "the values".into() })?;
     let resampled: Vec<Vec<[f64; 2]>> = (0..bootstrap.resamples as u64)
         .filter_map(|stream| rows.indices(&drawn(number, bootstrap.seed, stream), estimator))
         .collect();
@@ -101,11 +95,7 @@ pub fn sobol_indices(
                 let mut others: Vec<f64> = resampled.iter().map(|r| r[i][kind]).collect();
                 others.sort_by(f64::total_cmp);
                 let tail = 0.5 * (1.0 - bootstrap.confidence);
-                Estimate {
-                    value: value[kind],
-                    lower: quantile(&others, tail),
-                    upper: quantile(&others, 1.0 - tail),
-                }
+                Estimate { value: value[kind], lower: quantile(&others, tail), upper: quantile(&others, 1.0 - tail) }
             })
             .collect()
     };
@@ -140,22 +130,14 @@ impl Rows {
         if values.iter().flatten().any(|value| !value.is_finite()) {
             return Err(Error::NotFinite { kind: "a value" });
         }
-        let complete = values
-            .chunks_exact(blocks)
-            .filter_map(|row| row.iter().copied().collect::<Option<Vec<f64>>>());
+        let complete = values.chunks_exact(blocks).filter_map(|row| row.iter().copied().collect::<Option<Vec<f64>>>());
         let mut values: Vec<f64> = complete.flatten().collect();
         let centre = values.iter().sum::<f64>() / values.len().max(1) as f64;
         values.iter_mut().for_each(|value| *value -= centre);
         if values.iter().any(|value| !(value * value).is_finite()) {
-            return Err(Error::NotFinite {
-                kind: "the variance",
-            });
+            return Err(Error::NotFinite { kind: "the variance" });
         }
-        Ok(Self {
-            inputs,
-            centre,
-            values,
-        })
+        Ok(Self { inputs, centre, values })
     }
 
     fn number(&self) -> usize {
@@ -172,9 +154,7 @@ impl Rows {
     }
 
     fn indices(&self, times: &[f64], estimator: Estimator) -> Option<Vec<[f64; 2]>> {
-        (0..self.inputs)
-            .map(|input| self.sums(times, input).indices(estimator))
-            .collect()
+        (0..self.inputs).map(|input| self.sums(times, input).indices(estimator)).collect()
     }
 }
 
@@ -199,11 +179,7 @@ fn quantile(sorted: &[f64], probability: f64) -> f64 {
 
 pub(super) fn at_least(kind: &'static str, found: usize, needed: usize) -> Result<(), Error> {
     if found < needed {
-        return Err(Error::TooFew {
-            kind,
-            found,
-            needed,
-        });
+        return Err(Error::TooFew { kind, found, needed });
     }
     Ok(())
 }

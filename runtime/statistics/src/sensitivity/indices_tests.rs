@@ -9,11 +9,7 @@ use crate::sequence::Sequence;
 /// once in a thousand), and shrink with the square root of the number of rows.
 #[test]
 fn intervals_hold_the_index() {
-    let bootstrap = Bootstrap {
-        resamples: 200,
-        confidence: 0.9,
-        seed: 3,
-    };
+    let bootstrap = Bootstrap { resamples: 200, confidence: 0.9, seed: 3 };
     let indices = |rows: u64, stream: u64| {
         let design = SaltelliDesign::new(Sequence::random(4, 8, stream).unwrap(), rows).unwrap();
         let values = evaluate(&design, |u| u[0] + 2.0 * u[1]);
@@ -42,22 +38,10 @@ fn intervals_hold_the_index() {
 #[test]
 fn wrong_values_are_refused() {
     let indices = |values: &[Option<f64>]| sobol_indices(1, values, Estimator::Martinez, few());
-    assert!(matches!(
-        indices(&[Some(1.0); 4]),
-        Err(Error::WrongLength { .. })
-    ));
-    assert!(matches!(
-        indices(&[Some(0.1); 6]),
-        Err(Error::Constant { .. })
-    ));
-    assert!(matches!(
-        indices(&[Some(f64::NAN); 6]),
-        Err(Error::NotFinite { .. })
-    ));
+    assert!(matches!(indices(&[Some(1.0); 4]), Err(Error::WrongLength { .. })));
+    assert!(matches!(indices(&[Some(0.1); 6]), Err(Error::Constant { .. })));
+    assert!(matches!(indices(&[Some(f64::NAN); 6]), Err(Error::NotFinite { .. })));
     assert!(matches!(indices(&[]), Err(Error::TooFew { .. })));
     let holes = [Some(1.0), Some(2.0), Some(3.0), None, Some(1.0), Some(0.0)];
-    assert!(matches!(
-        indices(&holes),
-        Err(Error::TooFew { found: 1, .. })
-    ));
+    assert!(matches!(indices(&holes), Err(Error::TooFew { found: 1, .. })));
 }

@@ -37,11 +37,7 @@ impl Sample {
             if found == expected {
                 return Ok(());
             }
-            Err(Error::WrongLength {
-                kind,
-                found,
-                expected,
-            })
+            Err(Error::WrongLength { kind, found, expected })
         };
         length("results", results.len(), inputs.len())?;
         let number = inputs.first().map_or(0, Vec::len);
@@ -50,9 +46,8 @@ impl Sample {
             length("inputs", row.len(), number)?;
         }
         let pairs = inputs.iter().zip(results);
-        let complete: Vec<(&Vec<f64>, f64)> = pairs
-            .filter_map(|(row, result)| result.map(|result| (row, result)))
-            .collect();
+        let complete: Vec<(&Vec<f64>, f64)> =
+            pairs.filter_map(|(row, result)| result.map(|result| (row, result))).collect();
         at_least("rows with a result", complete.len(), 3)?;
         let column = |j: usize| {
             let column = complete.iter().map(|(row, _)| row[j]).collect();
@@ -95,27 +90,19 @@ impl Sample {
     /// Its regression gives the coefficients known as SRRC and PRCC.
     pub fn ranked(&self) -> Self {
         let ranked = |values: &Vec<f64>| centred(ranks(values));
-        Self {
-            columns: self.columns.iter().map(ranked).collect(),
-            result: ranked(&self.result),
-            dropped: self.dropped,
-        }
+        Self { columns: self.columns.iter().map(ranked).collect(), result: ranked(&self.result), dropped: self.dropped }
     }
 }
 
 fn standardised(values: Vec<f64>, what: impl FnOnce() -> String) -> Result<Vec<f64>, Error> {
     if values.iter().any(|value| !value.is_finite()) {
-        return Err(Error::NotFinite {
-            kind: "an input or a result",
-        });
+        return Err(Error::NotFinite { kind: "an input or a result" });
     }
     if values.iter().all(|value| *value == values[0]) {
         return Err(Error::Constant { what: what() });
     }
     let scale = values.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
-    Ok(centred(
-        values.into_iter().map(|value| value / scale).collect(),
-    ))
+    Ok(centred(values.into_iter().map(|value| value / scale).collect()))
 }
 
 /// Scales to mean 0 and length 1. The values must not all be equal.

@@ -7,9 +7,7 @@ use crate::sequence::Sequence;
 fn inputs(rows: u64, dimensions: usize) -> Vec<Vec<f64>> {
     let sequence = Sequence::random(dimensions, 12, 0).unwrap();
     let mut walk = sequence.from(0);
-    let mut rows: Vec<Vec<f64>> = (0..rows)
-        .filter_map(|_| walk.next_point().map(<[f64]>::to_vec))
-        .collect();
+    let mut rows: Vec<Vec<f64>> = (0..rows).filter_map(|_| walk.next_point().map(<[f64]>::to_vec)).collect();
     // Correlated inputs.
     rows.iter_mut().for_each(|row| row[1] += 0.7 * row[0]);
     rows
@@ -67,9 +65,8 @@ fn partial_correlations_are_those_of_residuals() {
     let values: Vec<Option<f64>> = results.iter().copied().map(Some).collect();
     let regression = Sample::new(&inputs, &values).unwrap().regression().unwrap();
     for i in 0..3 {
-        let others: Vec<Vec<f64>> = (inputs.iter())
-            .map(|row| (0..3).filter(|j| *j != i).map(|j| row[j]).collect())
-            .collect();
+        let others: Vec<Vec<f64>> =
+            (inputs.iter()).map(|row| (0..3).filter(|j| *j != i).map(|j| row[j]).collect()).collect();
         let column: Vec<f64> = inputs.iter().map(|row| row[i]).collect();
         let x = residuals(&others, &column);
         let y: Vec<Option<f64>> = residuals(&others, &results).into_iter().map(Some).collect();
@@ -90,10 +87,7 @@ fn residuals(inputs: &[Vec<f64>], results: &[f64]) -> Vec<f64> {
     let clean = |mut vector: Vec<f64>, basis: &[Vec<f64>]| {
         for direction in basis.iter().chain(basis) {
             let part = dot(&vector, direction) / dot(direction, direction);
-            vector
-                .iter_mut()
-                .zip(direction)
-                .for_each(|(x, d)| *x -= part * d);
+            vector.iter_mut().zip(direction).for_each(|(x, d)| *x -= part * d);
         }
         vector
     };
@@ -111,10 +105,7 @@ fn rows_without_a_result_are_dropped_and_counted() {
     results[..2].fill(None);
     let sample = Sample::new(&inputs, &results).unwrap();
     let expected = Sample::new(&inputs[2..], &rest).unwrap();
-    assert_eq!(
-        (sample.rows(), sample.dropped(), expected.dropped()),
-        (18, 2, 0)
-    );
+    assert_eq!((sample.rows(), sample.dropped(), expected.dropped()), (18, 2, 0));
     assert_eq!(sample.pearson(), expected.pearson());
     assert_eq!(sample.ranked().dropped(), 2);
 }
@@ -135,18 +126,9 @@ fn wrong_samples_are_refused() {
     other[0][0] = f64::INFINITY;
     assert!(matches!(new(&other), Err(Error::NotFinite { .. })));
     other = rows.clone();
-    other
-        .iter_mut()
-        .for_each(|row| row.push(3.0 * row[0] - row[1]));
+    other.iter_mut().for_each(|row| row.push(3.0 * row[0] - row[1]));
     let dependent = new(&other).unwrap().regression();
     assert_eq!(dependent, Err(Error::Dependent { input: 2 }));
     let few = Sample::new(&rows[..3], &results[..3]).unwrap().regression();
-    assert!(matches!(
-        few,
-        Err(Error::TooFew {
-            found: 3,
-            needed: 4,
-            ..
-        })
-    ));
+    assert!(matches!(few, Err(Error::TooFew { found: 3, needed: 4, .. })));
 }

@@ -23,10 +23,7 @@ fn quasi_random(inputs: usize, rows: u64) -> SaltelliDesign {
 }
 
 pub(super) fn few() -> Bootstrap {
-    Bootstrap {
-        resamples: 20,
-        ..Bootstrap::default()
-    }
+    Bootstrap { resamples: 20, ..Bootstrap::default() }
 }
 
 fn assert_indices(f: impl Fn(&[f64]) -> f64, first: &[f64], total: &[f64], tolerance: f64) {
@@ -79,18 +76,10 @@ fn sobols_g_function() {
     let product: f64 = part.iter().map(|v| 1.0 + v).product();
     let variance = product - 1.0;
     let g = move |u: &[f64]| {
-        let factors = u
-            .iter()
-            .zip(a)
-            .map(|(u, a)| ((4.0 * u - 2.0).abs() + a) / (1.0 + a));
+        let factors = u.iter().zip(a).map(|(u, a)| ((4.0 * u - 2.0).abs() + a) / (1.0 + a));
         factors.product::<f64>()
     };
-    assert_indices(
-        g,
-        &part.map(|v| v / variance),
-        &part.map(|v| v * product / (1.0 + v) / variance),
-        0.012,
-    );
+    assert_indices(g, &part.map(|v| v / variance), &part.map(|v| v * product / (1.0 + v) / variance), 0.012);
 }
 
 #[test]
@@ -105,13 +94,8 @@ fn linear_models() {
 /// The published formulas, sum by sum, for arbitrary values.
 #[test]
 fn estimators_are_the_published_ones() {
-    let values = evaluate(&quasi_random(3, 57), |u| {
-        (9.0 * u[0]).sin() + u[1] * u[2] + 5.0
-    });
-    let rows: Vec<Vec<f64>> = values
-        .chunks(5)
-        .map(|row| row.iter().flatten().copied().collect())
-        .collect();
+    let values = evaluate(&quasi_random(3, 57), |u| (9.0 * u[0]).sin() + u[1] * u[2] + 5.0);
+    let rows: Vec<Vec<f64>> = values.chunks(5).map(|row| row.iter().flatten().copied().collect()).collect();
     let n = rows.len() as f64;
     let mean = |f: &dyn Fn(&[f64]) -> f64| rows.iter().map(|row| f(row)).sum::<f64>() / n;
     let m = 0.5 * mean(&|r| r[0] + r[1]);
@@ -126,22 +110,13 @@ fn estimators_are_the_published_ones() {
         let total = mean(&|r| (r[0] - r[i]).powi(2)) / (2.0 * variance);
         let expected = [
             [mean(&|r| (r[1] - m) * (r[i] - r[0])) / variance, total],
-            [
-                1.0 - mean(&|r| (r[1] - r[i]).powi(2)) / (2.0 * variance),
-                total,
-            ],
+            [1.0 - mean(&|r| (r[1] - r[i]).powi(2)) / (2.0 * variance), total],
             [correlation(1, i), 1.0 - correlation(0, i)],
         ];
         for (estimator, [first, total]) in ESTIMATORS.into_iter().zip(expected) {
             let sobol_indices = sobol_indices(3, &values, estimator, few()).unwrap();
-            assert!(
-                (sobol_indices.first[input].value - first).abs() < 1e-12,
-                "{estimator:?}"
-            );
-            assert!(
-                (sobol_indices.total[input].value - total).abs() < 1e-12,
-                "{estimator:?}"
-            );
+            assert!((sobol_indices.first[input].value - first).abs() < 1e-12, "{estimator:?}");
+            assert!((sobol_indices.total[input].value - total).abs() < 1e-12, "{estimator:?}");
         }
     }
 }
@@ -150,10 +125,8 @@ fn estimators_are_the_published_ones() {
 fn permuted_inputs_permute_the_indices() {
     let values = evaluate(&quasi_random(3, 256), ishigami);
     let order = [2, 0, 1];
-    let permuted: Vec<Option<f64>> = values
-        .chunks(5)
-        .flat_map(|row| [row[0], row[1], row[4], row[2], row[3]])
-        .collect();
+    let permuted: Vec<Option<f64>> =
+        values.chunks(5).flat_map(|row| [row[0], row[1], row[4], row[2], row[3]]).collect();
     for estimator in ESTIMATORS {
         let plain = sobol_indices(3, &values, estimator, few()).unwrap();
         let other = sobol_indices(3, &permuted, estimator, few()).unwrap();
@@ -182,13 +155,7 @@ fn rows_with_a_missing_value_are_dropped_and_counted() {
     let found = sobol_indices(3, &holes, Estimator::Jansen, few()).unwrap();
     let expected = sobol_indices(3, &rest, Estimator::Jansen, few()).unwrap();
     assert_eq!((found.rows, found.dropped), (96, 4));
-    assert_eq!(
-        SobolIndices {
-            dropped: 0,
-            ..found
-        },
-        expected
-    );
+    assert_eq!(SobolIndices { dropped: 0, ..found }, expected);
 }
 
 proptest! {

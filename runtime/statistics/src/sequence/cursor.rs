@@ -29,12 +29,7 @@ impl<'a> Cursor<'a> {
             Kind::Sobol(sobol) => State::Sobol(sobol.digits(first)),
             Kind::LatinHypercube(_) => State::Nothing,
         };
-        Self {
-            sequence,
-            next: first,
-            state,
-            point: vec![0.5; sequence.dimensions],
-        }
+        Self { sequence, next: first, state, point: vec![0.5; sequence.dimensions] }
     }
 
     /// Coordinates of the next point, strictly between 0 and 1; `None` after the last one.

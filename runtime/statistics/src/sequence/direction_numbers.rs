@@ -52,17 +52,10 @@ mod tests {
     /// A power of `x` modulo a polynomial of the given degree over the field with two elements.
     fn power(exponent: u64, polynomial: u64, degree: usize) -> u64 {
         let reduce = |x: u64| {
-            if x >> degree & 1 == 1 {
-                x ^ polynomial
-            } else {
-                x
-            }
+            if x >> degree & 1 == 1 { x ^ polynomial } else { x }
         };
-        let product = |a: u64, b: u64| {
-            (0..degree).rev().fold(0, |sum, i| {
-                reduce(sum << 1) ^ if b >> i & 1 == 1 { a } else { 0 }
-            })
-        };
+        let product =
+            |a: u64, b: u64| (0..degree).rev().fold(0, |sum, i| reduce(sum << 1) ^ if b >> i & 1 == 1 { a } else { 0 });
         let (mut result, mut square) = (1, reduce(2));
         for i in 0..=degree {
             if exponent >> i & 1 == 1 {
@@ -139,9 +132,7 @@ mod tests {
             let pivot = &above[d];
             assert_eq!(digit(pivot, d), 1, "dimension {}", d + 1);
             for row in below.iter_mut().filter(|row| digit(row, d) == 1) {
-                row.iter_mut()
-                    .zip(pivot)
-                    .for_each(|(row, pivot)| *row ^= pivot);
+                row.iter_mut().zip(pivot).for_each(|(row, pivot)| *row ^= pivot);
             }
         }
     }

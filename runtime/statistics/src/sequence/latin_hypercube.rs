@@ -14,11 +14,7 @@ pub(super) struct LatinHypercube {
 
 impl LatinHypercube {
     pub(super) fn new(dimensions: usize, points: u64, seed: u64, stream: u64) -> Self {
-        Self {
-            points,
-            permutation: Permutation::new(points),
-            keys: keys(seed, stream, 2 * dimensions),
-        }
+        Self { points, permutation: Permutation::new(points), keys: keys(seed, stream, 2 * dimensions) }
     }
 
     pub(super) fn write(&self, k: u64, into: &mut [f64]) {

@@ -71,11 +71,7 @@ impl Sequence {
     /// # Errors
     /// [`Error::Setting`] for zero dimensions.
     pub fn random(dimensions: usize, seed: u64, stream: u64) -> Result<Self, Error> {
-        let random = Random {
-            dimensions,
-            seed,
-            stream,
-        };
+        let random = Random { dimensions, seed, stream };
         Self::new(dimensions, u64::MAX, || Kind::Random(random))
     }
 
@@ -84,21 +80,14 @@ impl Sequence {
     ///
     /// # Errors
     /// [`Error::Setting`] for zero dimensions, zero points or more than 2^32 points.
-    pub fn latin_hypercube(
-        dimensions: usize,
-        points: u64,
-        seed: u64,
-        stream: u64,
-    ) -> Result<Self, Error> {
+    pub fn latin_hypercube(dimensions: usize, points: u64, seed: u64, stream: u64) -> Result<Self, Error> {
         if points == 0 || points > 1 << 32 {
             return Err(Error::Setting {
                 setting: "points",
                 reason: format!("a Latin hypercube has between 1 and 2^32, not {points}"),
             });
         }
-        Self::new(dimensions, points, || {
-            Kind::LatinHypercube(LatinHypercube::new(dimensions, points, seed, stream))
-        })
+        Self::new(dimensions, points, || Kind::LatinHypercube(LatinHypercube::new(dimensions, points, seed, stream)))
     }
 
     /// The first 2^36 points of the Sobol' sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30,
@@ -134,16 +123,9 @@ impl Sequence {
 
     fn new(dimensions: usize, points: u64, kind: impl FnOnce() -> Kind) -> Result<Self, Error> {
         if dimensions == 0 {
-            return Err(Error::Setting {
-                setting: "dimensions",
-                reason: "a point has at least one coordinate".into(),
-            });
+            return Err(Error::Setting { setting: "dimensions", reason: "a point has at least one coordinate".into() });
         }
-        Ok(Self {
-            dimensions,
-            points,
-            kind: kind(),
-        })
+        Ok(Self { dimensions, points, kind: kind() })
     }
 
     /// Number of coordinates of a point.
@@ -164,18 +146,10 @@ impl Sequence {
     /// point `k`.
     pub fn point(&self, k: u64, into: &mut [f64]) -> Result<(), Error> {
         if into.len() != self.dimensions {
-            return Err(Error::WrongLength {
-                kind: "coordinates",
-                found: into.len(),
-                expected: self.dimensions,
-            });
+            return Err(Error::WrongLength { kind: "coordinates", found: into.len(), expected: self.dimensions });
         }
         if k >= self.points {
-            return Err(Error::BeyondLast {
-                kind: "point",
-                index: k,
-                number: self.points,
-            });
+            return Err(Error::BeyondLast { kind: "point", index: k, number: self.points });
         }
         match &self.kind {
             Kind::Random(random) => draw(&mut random.at(k), into),

@@ -19,9 +19,7 @@ fn is_net(points: &[Vec<f64>], m: u32, t: u32) -> bool {
         }
         counts.into_iter().all(|count| count == 1 << t)
     };
-    shares(m - t, dimensions)
-        .iter()
-        .all(|digits| balanced(digits))
+    shares(m - t, dimensions).iter().all(|digits| balanced(digits))
 }
 
 /// All ways to distribute a number of digits among dimensions.
@@ -31,8 +29,7 @@ fn shares(digits: u32, dimensions: usize) -> Vec<Vec<u32>> {
     }
     let with = |first: u32| {
         let rest = shares(digits - first, dimensions - 1);
-        rest.into_iter()
-            .map(move |rest| [vec![first], rest].concat())
+        rest.into_iter().map(move |rest| [vec![first], rest].concat())
     };
     (0..=digits).flat_map(with).collect()
 }
@@ -46,11 +43,7 @@ fn points_form_nets() {
             for block in [0, 1, 5] {
                 let number = 1 << m;
                 let plain = Sequence::unscrambled_sobol(dimensions).unwrap();
-                assert!(is_net(
-                    &points(&plain, block * number, number as usize),
-                    m,
-                    t
-                ));
+                assert!(is_net(&points(&plain, block * number, number as usize), m, t));
                 for stream in 0..3 {
                     let sequence = Sequence::sobol(dimensions, 17, stream).unwrap();
                     let points = points(&sequence, block * number, number as usize);

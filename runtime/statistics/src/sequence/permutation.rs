@@ -19,11 +19,7 @@ impl Permutation {
     pub(super) fn new(n: u64) -> Self {
         let digits = u64::BITS - (n - 1).leading_zeros();
         let low = digits / 2;
-        Self {
-            n,
-            halves: (low, digits - low),
-            rounds: if digits < 8 { 24 } else { 12 },
-        }
+        Self { n, halves: (low, digits - low), rounds: if digits < 8 { 24 } else { 12 } }
     }
 
     /// The image of `k`, which must be below `n`.
@@ -79,15 +75,9 @@ mod tests {
                 *counts.entry(images).or_insert(0_u32) += 1;
             }
             assert_eq!(counts.len() as u64, permutations);
-            let squares: f64 = counts
-                .values()
-                .map(|&c| (f64::from(c) - mean).powi(2) / mean)
-                .sum();
+            let squares: f64 = counts.values().map(|&c| (f64::from(c) - mean).powi(2) / mean).sum();
             let freedom = (permutations - 1) as f64;
-            assert!(
-                (squares - freedom).abs() < 4.0 * (2.0 * freedom).sqrt(),
-                "{n}: {squares}"
-            );
+            assert!((squares - freedom).abs() < 4.0 * (2.0 * freedom).sqrt(), "{n}: {squares}");
         }
     }
 
@@ -111,10 +101,7 @@ mod tests {
                     (count - mean).powi(2) / mean
                 })
                 .sum();
-            assert!(
-                (squares - 99.0).abs() < 4.0 * 198.0_f64.sqrt(),
-                "{n}: {squares}"
-            );
+            assert!((squares - 99.0).abs() < 4.0 * 198.0_f64.sqrt(), "{n}: {squares}");
         }
     }
 }

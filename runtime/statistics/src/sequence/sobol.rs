@@ -14,17 +14,11 @@ pub(super) struct Sobol {
 
 impl Sobol {
     pub(super) fn plain(dimensions: usize) -> Self {
-        Self {
-            directions: directions(dimensions),
-            keys: None,
-        }
+        Self { directions: directions(dimensions), keys: None }
     }
 
     pub(super) fn scrambled(dimensions: usize, seed: u64, stream: u64) -> Self {
-        Self {
-            keys: Some(keys(seed, stream, dimensions)),
-            ..Self::plain(dimensions)
-        }
+        Self { keys: Some(keys(seed, stream, dimensions)), ..Self::plain(dimensions) }
     }
 
     /// Binary digits of point `k`, by dimension.

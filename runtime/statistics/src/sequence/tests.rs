@@ -90,10 +90,7 @@ fn every_stratum_holds_one_point_of_a_latin_hypercube() {
 fn strata_of_large_samples_are_distinct() {
     let n = 1 << 32;
     let sequence = Sequence::latin_hypercube(1, n, 11, 5).unwrap();
-    let mut strata: Vec<u64> = points(&sequence, n - 20_000, 20_000)
-        .iter()
-        .map(|x| (x[0] * n as f64) as u64)
-        .collect();
+    let mut strata: Vec<u64> = points(&sequence, n - 20_000, 20_000).iter().map(|x| (x[0] * n as f64) as u64).collect();
     strata.sort_unstable();
     strata.dedup();
     assert_eq!(strata.len(), 20_000);
@@ -125,10 +122,7 @@ fn order(sequence: impl Fn(u64, u64) -> Sequence, f: impl Fn(&[f64]) -> f64, exa
     let rmse = |n: u64| {
         let streams = 64;
         let squares = (0..streams).map(|stream| {
-            let sum: f64 = points(&sequence(n, stream), 0, n as usize)
-                .iter()
-                .map(|x| f(x))
-                .sum();
+            let sum: f64 = points(&sequence(n, stream), 0, n as usize).iter().map(|x| f(x)).sum();
             (sum / n as f64 - exact).powi(2)
         });
         (squares.sum::<f64>() / streams as f64).sqrt()
@@ -189,10 +183,7 @@ fn settings_are_checked() {
     assert_eq!(last.dimensions(), 2048);
     let sample = Sequence::latin_hypercube(2, 5, 0, 0).unwrap();
     assert!(sample.point(4, &mut [0.0; 2]).is_ok());
-    assert!(matches!(
-        sample.point(5, &mut [0.0; 2]),
-        Err(Error::BeyondLast { index: 5, .. })
-    ));
+    assert!(matches!(sample.point(5, &mut [0.0; 2]), Err(Error::BeyondLast { index: 5, .. })));
     assert!(sample.point(0, &mut [0.0; 3]).is_err());
     assert!(sample.from(9).next_point().is_none());
     let sobol = Sequence::sobol(1, 0, 0).unwrap();
@@ -203,12 +194,5 @@ fn settings_are_checked() {
 #[test]
 fn bits_are_fixed() {
     let bits = all_kinds(2, 5, 6).map(|s| points(&s, 3, 1)[0][1].to_bits());
-    assert_eq!(
-        bits,
-        [
-            4_604_920_890_493_916_600,
-            4_600_094_095_634_112_294,
-            4_603_790_039_243_656_292
-        ]
-    );
+    assert_eq!(bits, [4_604_920_890_493_916_600, 4_600_094_095_634_112_294, 4_603_790_039_243_656_292]);
 }

@@ -38,11 +38,7 @@ impl Serialize for Number {
 
 impl<'de> Deserialize<'de> for Number {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        if from.is_human_readable() {
-            from.deserialize_any(Any)
-        } else {
-            f64::deserialize(from).map(Self)
-        }
+        if from.is_human_readable() { from.deserialize_any(Any) } else { f64::deserialize(from).map(Self) }
     }
 }
 

@@ -67,10 +67,7 @@ fn weights(count: u64, p: f64) -> (u64, Vec<f64>) {
     down.reverse();
     let mut weights = down;
     k = most_probable;
-    while let Some(&weight) = weights
-        .last()
-        .filter(|weight| k < count && **weight > NEGLIGIBLE)
-    {
+    while let Some(&weight) = weights.last().filter(|weight| k < count && **weight > NEGLIGIBLE) {
         weights.push(weight * ratio(k));
         k += 1;
     }

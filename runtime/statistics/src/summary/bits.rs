@@ -3,16 +3,11 @@
 pub(super) mod one {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-    pub(in crate::summary) fn serialize<S: Serializer>(
-        value: &f64,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
+    pub(in crate::summary) fn serialize<S: Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
         value.to_bits().serialize(to)
     }
 
-    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<f64, D::Error> {
+    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
         u64::deserialize(from).map(f64::from_bits)
     }
 }
@@ -20,16 +15,11 @@ pub(super) mod one {
 pub(super) mod two {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-    pub(in crate::summary) fn serialize<S: Serializer>(
-        values: &[f64; 2],
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
+    pub(in crate::summary) fn serialize<S: Serializer>(values: &[f64; 2], to: S) -> Result<S::Ok, S::Error> {
         values.map(f64::to_bits).serialize(to)
     }
 
-    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<[f64; 2], D::Error> {
+    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
         <[u64; 2]>::deserialize(from).map(|bits| bits.map(f64::from_bits))
     }
 }
@@ -37,16 +27,11 @@ pub(super) mod two {
 pub(super) mod many {
     use serde::{Deserialize, Deserializer, Serializer};
 
-    pub(in crate::summary) fn serialize<S: Serializer>(
-        values: &[f64],
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
+    pub(in crate::summary) fn serialize<S: Serializer>(values: &[f64], to: S) -> Result<S::Ok, S::Error> {
         to.collect_seq(values.iter().map(|value| value.to_bits()))
     }
 
-    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<Vec<f64>, D::Error> {
+    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
         let bits = Vec::<u64>::deserialize(from)?;
         Ok(bits.into_iter().map(f64::from_bits).collect())
     }

@@ -20,14 +20,8 @@ const END: u64 = 1 << 60;
 /// ```
 pub fn chunks(samples: Range<u64>) -> impl Iterator<Item = Range<u64>> {
     let size = CHUNK as u64;
-    let chunks = if samples.is_empty() {
-        0..0
-    } else {
-        samples.start / size..(samples.end - 1) / size + 1
-    };
-    chunks.map(move |c| {
-        samples.start.max(c * size)..samples.end.min(c.saturating_add(1).saturating_mul(size))
-    })
+    let chunks = if samples.is_empty() { 0..0 } else { samples.start / size..(samples.end - 1) / size + 1 };
+    chunks.map(move |c| samples.start.max(c * size)..samples.end.min(c.saturating_add(1).saturating_mul(size)))
 }
 
 /// The values of some samples of one chunk, ordered by quantity.
@@ -78,12 +72,8 @@ impl Chunk {
     pub fn restart(&mut self, samples: Range<u64>) -> Result<(), Error> {
         let index = samples.start / CHUNK as u64;
         if samples.is_empty() || samples.end > END || (samples.end - 1) / CHUNK as u64 != index {
-            let reason =
-                format!("{samples:?} is not a part of one chunk; use `chunks` to split a range");
-            return Err(Error::Setting {
-                setting: "samples",
-                reason,
-            });
+            let reason = format!("{samples:?} is not a part of one chunk; use `chunks` to split a range");
+            return Err(Error::Setting { setting: "samples", reason });
         }
         let start = (samples.start % CHUNK as u64) as usize;
         self.index = index;
@@ -103,10 +93,7 @@ impl Chunk {
         let offset = (sample % CHUNK as u64) as usize;
         if sample / CHUNK as u64 != self.index || !self.covered.has(offset) {
             let reason = format!("{sample} is not among the samples of this chunk");
-            return Err(Error::Setting {
-                setting: "sample",
-                reason,
-            });
+            return Err(Error::Setting { setting: "sample", reason });
         }
         self.present[quantity].set(offset, value.is_some());
         self.values[quantity * CHUNK + offset] = value.unwrap_or_default();
@@ -124,11 +111,7 @@ impl Chunk {
         let expected = self.covered.count();
         if values.len() != expected {
             let found = values.len();
-            return Err(Error::WrongLength {
-                kind: "values of samples",
-                found,
-                expected,
-            });
+            return Err(Error::WrongLength { kind: "values of samples", found, expected });
         }
         let start = quantity * CHUNK + start;
         self.values[start..start + expected].copy_from_slice(values);
@@ -144,22 +127,12 @@ impl Chunk {
     ///
     /// If there is no such quantity, or if some of these samples are not in this chunk.
     #[inline]
-    pub fn set_some(
-        &mut self,
-        first: u64,
-        quantity: usize,
-        values: &[f64],
-        having: u64,
-    ) -> Result<(), Error> {
+    pub fn set_some(&mut self, first: u64, quantity: usize, values: &[f64], having: u64) -> Result<(), Error> {
         check_below("quantity", quantity, self.present.len())?;
         let (start, count) = ((first % CHUNK as u64) as usize, values.len());
         if first / CHUNK as u64 != self.index || !self.covered.has_all(start, count) {
-            let reason =
-                format!("{first} and the next, {count} in all, are not among those of this chunk");
-            return Err(Error::Setting {
-                setting: "samples",
-                reason,
-            });
+            let reason = format!("{first} and the next, {count} in all, are not among those of this chunk");
+            return Err(Error::Setting { setting: "samples", reason });
         }
         let offset = quantity * CHUNK + start;
         self.values[offset..offset + count].copy_from_slice(values);

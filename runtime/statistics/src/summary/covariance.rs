@@ -23,12 +23,7 @@ impl Covariance {
     /// Computes the statistics of a pair of quantities; `None` if no sample has both.
     #[must_use]
     pub fn of(comoments: &Comoments) -> Option<Self> {
-        let Comoments {
-            count,
-            means,
-            squares,
-            product,
-        } = *comoments;
+        let Comoments { count, means, squares, product } = *comoments;
         let finite = |value: f64| value.is_finite().then_some(value);
         let divisor = (count > 1).then(|| (count - 1) as f64);
         let [x, y] = squares.map(f64::sqrt);

@@ -14,21 +14,13 @@ fn total(lanes: &Lanes) -> f64 {
 /// The sum of the deviations from `pivot`, and the smallest and largest values, which are infinite for an empty slice.
 #[inline(always)]
 pub(super) fn sum_and_range(values: &[f64], pivot: f64) -> (f64, f64, f64) {
-    let (mut sums, mut least, mut greatest) = (
-        [0.0; LANES],
-        [f64::INFINITY; LANES],
-        [f64::NEG_INFINITY; LANES],
-    );
+    let (mut sums, mut least, mut greatest) = ([0.0; LANES], [f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
     let (blocks, rest) = values.as_chunks::<LANES>();
     let mut add = |k: usize, value: f64| {
         sums[k] += value - pivot;
         // `f64::min` does not specify which of two zeros it returns.
         least[k] = if value < least[k] { value } else { least[k] };
-        greatest[k] = if value > greatest[k] {
-            value
-        } else {
-            greatest[k]
-        };
+        greatest[k] = if value > greatest[k] { value } else { greatest[k] };
     };
     for block in blocks {
         for (k, &value) in block.iter().enumerate() {
@@ -38,12 +30,8 @@ pub(super) fn sum_and_range(values: &[f64], pivot: f64) -> (f64, f64, f64) {
     for (k, &value) in rest.iter().enumerate() {
         add(k, value);
     }
-    let least = least
-        .into_iter()
-        .fold(f64::INFINITY, |a, b| if b < a { b } else { a });
-    let greatest = greatest
-        .into_iter()
-        .fold(f64::NEG_INFINITY, |a, b| if b > a { b } else { a });
+    let least = least.into_iter().fold(f64::INFINITY, |a, b| if b < a { b } else { a });
+    let greatest = greatest.into_iter().fold(f64::NEG_INFINITY, |a, b| if b > a { b } else { a });
     (total(&sums), least, greatest)
 }
 

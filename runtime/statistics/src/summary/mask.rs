@@ -19,9 +19,7 @@ impl Mask {
             _ => u64::MAX,
         };
         let up_to = |end: usize, k: usize| first(end.saturating_sub(64 * k));
-        Self(std::array::from_fn(|k| {
-            up_to(places.end, k) & !up_to(places.start, k)
-        }))
+        Self(std::array::from_fn(|k| up_to(places.end, k) & !up_to(places.start, k)))
     }
 
     pub(super) fn count(self) -> usize {
@@ -52,10 +50,7 @@ impl Mask {
     #[inline]
     fn words(start: usize, bits: u64) -> [(usize, u64); 2] {
         let (word, shift) = (start / 64, start % 64);
-        [
-            (word, bits << shift),
-            (word + 1, (bits >> 1) >> (63 - shift)),
-        ]
+        [(word, bits << shift), (word + 1, (bits >> 1) >> (63 - shift))]
     }
 
     /// The lowest `count` bits set.
@@ -98,18 +93,13 @@ impl Mask {
         let words = self.0.into_iter().enumerate();
         words.flat_map(|(k, word)| {
             let bits = std::iter::successors(Some(word), |left| Some(left & left.wrapping_sub(1)));
-            bits.take_while(|left| *left != 0)
-                .map(move |left| 64 * k + left.trailing_zeros() as usize)
+            bits.take_while(|left| *left != 0).map(move |left| 64 * k + left.trailing_zeros() as usize)
         })
     }
 
     /// The values at these places, packed: `values` itself or a part of `room`.
     #[inline(always)]
-    pub(super) fn select<'a>(
-        self,
-        values: &'a [f64; CHUNK],
-        room: &'a mut [f64; CHUNK],
-    ) -> &'a [f64] {
+    pub(super) fn select<'a>(self, values: &'a [f64; CHUNK], room: &'a mut [f64; CHUNK]) -> &'a [f64] {
         if self.is_full() {
             return values;
         }
@@ -132,10 +122,7 @@ mod tests {
             let mask = Mask::of(range.clone());
             assert!(mask.places().eq(range.clone()), "{range:?}");
             assert_eq!(mask.count(), range.len());
-            assert_eq!(
-                (mask.is_full(), mask.is_empty()),
-                (range.len() == 256, range.is_empty())
-            );
+            assert_eq!((mask.is_full(), mask.is_empty()), (range.len() == 256, range.is_empty()));
             assert!((0..300).all(|place| mask.has(place) == range.contains(&place)));
         }
     }

@@ -92,21 +92,12 @@ impl Moments {
             + square * d * d * (a * a - a * b + b * b)
             + 6.0 * d * d * (a * a * other.second + b * b * self.second)
             + 4.0 * d * (a * other.third - b * self.third);
-        self.third +=
-            other.third + square * d * (a - b) + 3.0 * d * (a * other.second - b * self.second);
+        self.third += other.third + square * d * (a - b) + 3.0 * d * (a * other.second - b * self.second);
         self.second += other.second + square;
         self.mean = self.mean.moved(d * b);
         self.count = count;
-        self.min = if other.min < self.min {
-            other.min
-        } else {
-            self.min
-        };
-        self.max = if other.max > self.max {
-            other.max
-        } else {
-            self.max
-        };
+        self.min = if other.min < self.min { other.min } else { self.min };
+        self.max = if other.max > self.max { other.max } else { self.max };
     }
 
     /// Number of values.

@@ -52,9 +52,7 @@ impl Partial {
     // Inlined, so that it uses the vector instructions of its caller.
     #[inline(always)]
     pub fn add(&mut self, chunk: &Chunk) -> Result<(), Error> {
-        if chunk.present.len() != self.plan.quantities()
-            || chunk.outcomes.len() != self.plan.outcomes
-        {
+        if chunk.present.len() != self.plan.quantities() || chunk.outcomes.len() != self.plan.outcomes {
             return Err(Error::OtherPlan);
         }
         self.refuse_overlap(chunk)?;
@@ -162,9 +160,7 @@ impl Partial {
             }
         });
         let sketches = self.sketches.drain(..);
-        (all.iter().zip(sketches))
-            .map(|(moments, sketch)| Statistics::of(moments, sketch))
-            .collect()
+        (all.iter().zip(sketches)).map(|(moments, sketch)| Statistics::of(moments, sketch)).collect()
     }
 
     /// Covariance of two quantities; `None` if no sample has both.
@@ -184,13 +180,8 @@ impl Partial {
     pub fn comoments(&self, first: usize, second: usize) -> Result<Comoments, Error> {
         let pair = (first.min(second), first.max(second));
         let Ok(index) = self.plan.pairs.binary_search(&pair) else {
-            let reason = format!(
-                "that of {first} and {second} is not planned; ask for it with `Plan::covariances`"
-            );
-            return Err(Error::Setting {
-                setting: "covariance",
-                reason,
-            });
+            let reason = format!("that of {first} and {second} is not planned; ask for it with `Plan::covariances`");
+            return Err(Error::Setting { setting: "covariance", reason });
         };
         let mut all = Comoments::default();
         self.fold(|node| all.merge(&node.pairs[index]));
@@ -210,9 +201,7 @@ impl Partial {
     }
 
     fn keep(&mut self, part: &Chunk) {
-        let position = self
-            .fragments
-            .binary_search_by_key(&part.index, |chunk| chunk.index);
+        let position = self.fragments.binary_search_by_key(&part.index, |chunk| chunk.index);
         let at = position.unwrap_or_else(|at| {
             let mut empty = Chunk::empty(&self.plan, part.index);
             empty.outcomes.clear();
@@ -228,25 +217,16 @@ impl Partial {
 
     fn refuse_overlap(&self, chunk: &Chunk) -> Result<(), Error> {
         let nodes = &self.tree.nodes;
-        let before = nodes
-            .partition_point(|node| node.start <= chunk.index)
-            .checked_sub(1);
-        let in_tree =
-            before.is_some_and(|at| (chunk.index - nodes[at].start) >> nodes[at].level == 0);
-        let position = self
-            .fragments
-            .binary_search_by_key(&chunk.index, |other| other.index);
-        let in_fragment =
-            position.is_ok_and(|at| !self.fragments[at].covered.and(chunk.covered).is_empty());
+        let before = nodes.partition_point(|node| node.start <= chunk.index).checked_sub(1);
+        let in_tree = before.is_some_and(|at| (chunk.index - nodes[at].start) >> nodes[at].level == 0);
+        let position = self.fragments.binary_search_by_key(&chunk.index, |other| other.index);
+        let in_fragment = position.is_ok_and(|at| !self.fragments[at].covered.and(chunk.covered).is_empty());
         if !in_tree && !in_fragment {
             return Ok(());
         }
         let chunk_ranges: Vec<_> = ranges::joined(chunk.samples());
         let common = ranges::overlap(&self.ranges(), &chunk_ranges).unwrap_or_default();
-        Err(Error::Overlap {
-            start: common.start,
-            end: common.end,
-        })
+        Err(Error::Overlap { start: common.start, end: common.end })
     }
 }
 
@@ -254,16 +234,10 @@ impl Partial {
 fn not_a_number(chunk: &Chunk) -> Error {
     let mut values = (0..chunk.present.len()).flat_map(|k| {
         let column = chunk.column(k).into_iter();
-        column.flat_map(move |(values, mask)| {
-            mask.places().map(move |offset| (k, offset, values[offset]))
-        })
+        column.flat_map(move |(values, mask)| mask.places().map(move |offset| (k, offset, values[offset])))
     });
     let found = values.find(|(_, _, value)| value.is_nan() || value.abs() > LARGEST);
     let (quantity, offset, value) = found.unwrap_or((0, 0, f64::NAN));
     let sample = chunk.index * CHUNK as u64 + offset as u64;
-    Error::Value {
-        quantity,
-        sample,
-        value: value.to_string(),
-    }
+    Error::Value { quantity, sample, value: value.to_string() }
 }

@@ -21,11 +21,7 @@ impl Plan {
     /// A plan for the moments of `quantities` quantities.
     #[must_use]
     pub fn new(quantities: usize) -> Self {
-        Self {
-            sketches: vec![None; quantities],
-            pairs: Vec::new(),
-            outcomes: 0,
-        }
+        Self { sketches: vec![None; quantities], pairs: Vec::new(), outcomes: 0 }
     }
 
     /// Number of quantities.

@@ -46,39 +46,24 @@ impl Statistics {
     pub fn of(moments: &Moments, sketch: Option<Sketch>) -> Option<Self> {
         let mean = moments.mean().filter(|mean| mean.is_finite())?;
         let n = moments.count as f64;
-        let given =
-            |count: u64, value: f64| (moments.count >= count && value.is_finite()).then_some(value);
-        let Moments {
-            second,
-            third,
-            fourth,
-            ..
-        } = *moments;
+        let given = |count: u64, value: f64| (moments.count >= count && value.is_finite()).then_some(value);
+        let Moments { second, third, fourth, .. } = *moments;
         let sigma = given(2, (second / (n - 1.0)).sqrt());
         let skewness = third / second / second.sqrt() * n.sqrt();
         let kurtosis = n * (fourth / second / second) - 3.0;
         // (m4 / sigma^4 - (n - 3) / (n - 1)) / n is the variance of sigma^2, divided by sigma^4.
         let share = (n - 1.0) / n;
-        let variance = given(
-            2,
-            ((kurtosis + 3.0) * share * share - (n - 3.0) / (n - 1.0)) / n,
-        );
+        let variance = given(2, ((kurtosis + 3.0) * share * share - (n - 3.0) / (n - 1.0)) / n);
         let skewness_error = (6.0 * n * (n - 1.0) / ((n - 2.0) * (n + 1.0) * (n + 3.0))).sqrt();
-        let kurtosis_error =
-            2.0 * skewness_error * ((n * n - 1.0) / ((n - 3.0) * (n + 5.0))).sqrt();
+        let kurtosis_error = 2.0 * skewness_error * ((n * n - 1.0) / ((n - 3.0) * (n + 5.0))).sqrt();
         let skewness = given(3, skewness * (n * (n - 1.0)).sqrt() / (n - 2.0));
-        let excess_kurtosis = given(
-            4,
-            (n - 1.0) / ((n - 2.0) * (n - 3.0)) * ((n + 1.0) * kurtosis + 6.0),
-        );
+        let excess_kurtosis = given(4, (n - 1.0) / ((n - 2.0) * (n - 3.0)) * ((n + 1.0) * kurtosis + 6.0));
         Some(Self {
             count: moments.count,
             mean,
             standard_error: sigma.map(|sigma| sigma / n.sqrt()),
             sigma,
-            sigma_error: sigma
-                .zip(variance)
-                .map(|(sigma, variance)| 0.5 * sigma * variance.max(0.0).sqrt()),
+            sigma_error: sigma.zip(variance).map(|(sigma, variance)| 0.5 * sigma * variance.max(0.0).sqrt()),
             skewness,
             skewness_error: skewness.map(|_| skewness_error),
             excess_kurtosis,
@@ -125,8 +110,7 @@ impl Statistics {
     fn distribution(&self) -> Result<&Sketch, Error> {
         self.sketch.as_ref().ok_or_else(|| Error::Setting {
             setting: "quantile",
-            reason: "the plan has no sketch of this quantity; ask for it with `Plan::sketch`"
-                .to_owned(),
+            reason: "the plan has no sketch of this quantity; ask for it with `Plan::sketch`".to_owned(),
         })
     }
 }

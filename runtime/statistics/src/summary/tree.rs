@@ -31,19 +31,13 @@ impl Node {
             });
         }
         let pairs = plan.pairs.iter().map(|&(first, second)| {
-            let (Some((x, in_x)), Some((y, in_y))) = (chunk.column(first), chunk.column(second))
-            else {
+            let (Some((x, in_x)), Some((y, in_y))) = (chunk.column(first), chunk.column(second)) else {
                 return Comoments::default();
             };
             let both = in_x.and(in_y);
             Comoments::of(both.select(x, &mut room), both.select(y, &mut second_room))
         });
-        Self {
-            start: chunk.index,
-            level: 0,
-            pairs: pairs.collect(),
-            moments,
-        }
+        Self { start: chunk.index, level: 0, pairs: pairs.collect(), moments }
     }
 
     /// Adds the samples of a later node.
@@ -88,8 +82,7 @@ impl Tree {
         let is_right = node.start >> node.level & 1 == 1;
         let left = if is_right { at.checked_sub(1)? } else { at };
         let (first, second) = (self.nodes.get(left)?, self.nodes.get(left + 1)?);
-        let halves =
-            first.level == second.level && first.start + (1 << first.level) == second.start;
+        let halves = first.level == second.level && first.start + (1 << first.level) == second.start;
         halves.then_some(left)
     }
 }

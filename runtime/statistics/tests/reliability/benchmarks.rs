@@ -7,46 +7,26 @@
 use core::convert::Infallible;
 use core::f64::consts::{PI, SQRT_2};
 
-use eigentol_statistics::reliability::sampling::{
-    Failure, Proposal, SampledProbability, Sampler, SamplingSettings,
-};
-use eigentol_statistics::reliability::system::{
-    FirstOrderSystem, QuadratureSettings, probability_above,
-};
-use eigentol_statistics::reliability::{
-    DesignPoint, FormSettings, LimitState, failure_regions, sorm,
-};
+use eigentol_statistics::reliability::sampling::{Failure, Proposal, SampledProbability, Sampler, SamplingSettings};
+use eigentol_statistics::reliability::system::{FirstOrderSystem, QuadratureSettings, probability_above};
+use eigentol_statistics::reliability::{DesignPoint, FormSettings, LimitState, failure_regions, sorm};
 
 use crate::common::{below, close, density, design_point, limit, linear, mean};
 
-fn sampled<L: LimitState>(
-    limits: &[L],
-    failure: Failure,
-    proposal: &Proposal,
-) -> SampledProbability {
-    let settings = SamplingSettings {
-        coefficient_of_variation: 0.015,
-        ..SamplingSettings::default()
-    };
-    let sampled_probability = Sampler::new(limits, failure, proposal, &settings)
-        .expect("valid")
-        .run();
+fn sampled<L: LimitState>(limits: &[L], failure: Failure, proposal: &Proposal) -> SampledProbability {
+    let settings = SamplingSettings { coefficient_of_variation: 0.015, ..SamplingSettings::default() };
+    let sampled_probability = Sampler::new(limits, failure, proposal, &settings).expect("valid").run();
     assert!(sampled_probability.reached, "{sampled_probability:?}");
     sampled_probability
 }
 
 fn regions<L: LimitState>(limit: &L) -> Vec<DesignPoint> {
-    failure_regions(limit, &FormSettings::default())
-        .expect("valid")
-        .design_points
+    failure_regions(limit, &FormSettings::default()).expect("valid").design_points
 }
 
 fn off(sampled_probability: &SampledProbability, exact: f64) {
     let distance = (sampled_probability.probability.value - exact).abs();
-    assert!(
-        distance < 4.0 * sampled_probability.probability.standard_error,
-        "{sampled_probability:?} {exact}"
-    );
+    assert!(distance < 4.0 * sampled_probability.probability.standard_error, "{sampled_probability:?} {exact}");
 }
 
 /// A lognormal variable with this mean and standard deviation, and its derivative by the standard normal variable.
@@ -59,14 +39,8 @@ fn lognormal(mean: f64, deviation: f64, z: f64) -> (f64, f64) {
 #[test]
 fn rp8() {
     const FACTORS: [f64; 6] = [1.0, 2.0, 2.0, 1.0, -5.0, -5.0];
-    const LAWS: [(f64, f64); 6] = [
-        (120.0, 12.0),
-        (120.0, 12.0),
-        (120.0, 12.0),
-        (120.0, 12.0),
-        (50.0, 10.0),
-        (40.0, 8.0),
-    ];
+    const LAWS: [(f64, f64); 6] =
+        [(120.0, 12.0), (120.0, 12.0), (120.0, 12.0), (120.0, 12.0), (50.0, 10.0), (40.0, 8.0)];
     let limits = [limit(6, |z| {
         let parts: Vec<(f64, f64)> = FACTORS
             .iter()
@@ -84,11 +58,7 @@ fn rp8() {
     let second_order = sorm(&limits[0], &at).unwrap();
     close(second_order.tvedt().unwrap(), 0.000784, 0.03);
     let proposal = Proposal::around(&[at]).unwrap();
-    close(
-        sampled(&limits, Failure::Any, &proposal).probability.value,
-        0.000784,
-        0.05,
-    );
+    close(sampled(&limits, Failure::Any, &proposal).probability.value, 0.000784, 0.05);
 }
 
 /// Uniform, Gumbel and normal variables.
@@ -161,9 +131,7 @@ fn rp22() {
 #[test]
 fn rp25() {
     let limits: [Box<dyn LimitState<Error = Infallible>>; 2] = [
-        Box::new(limit(2, |z| {
-            (z[0] * z[0] - 8.0 * z[1] + 16.0, vec![2.0 * z[0], -8.0])
-        })),
+        Box::new(limit(2, |z| (z[0] * z[0] - 8.0 * z[1] + 16.0, vec![2.0 * z[0], -8.0]))),
         Box::new(limit(2, |z| (-16.0 * z[0] + z[1] + 32.0, vec![-16.0, 1.0]))),
     ];
     let limits = limits.each_ref().map(|limit| limit.as_ref());
@@ -189,18 +157,12 @@ fn rp28() {
     let exact = mean(|z| {
         let x2 = 0.0104 + 0.00156 * z;
         let below_limit = below((146.14 / x2 - 78_064.0) / 11_710.0);
-        if x2 > 0.0 {
-            below_limit
-        } else {
-            1.0 - below_limit
-        }
+        if x2 > 0.0 { below_limit } else { 1.0 - below_limit }
     });
     close(exact, 1.46e-7, 5e-3);
     let design_points = regions(&limits[0]);
     assert_eq!(design_points.len(), 2, "{design_points:?}");
-    let parts = design_points
-        .iter()
-        .map(|point| sorm(&limits[0], point).unwrap().tvedt().unwrap());
+    let parts = design_points.iter().map(|point| sorm(&limits[0], point).unwrap().tvedt().unwrap());
     close(parts.sum(), exact, 0.02);
     let proposal = Proposal::around(&design_points).unwrap();
     off(&sampled(&limits, Failure::Any, &proposal), exact);
@@ -209,19 +171,10 @@ fn rp28() {
 /// Flat to third order at the design point: second order shows no difference, sampling does.
 #[test]
 fn rp31() {
-    let limits = [limit(2, |z| {
-        (
-            2.0 - z[1] + 256.0 * z[0].powi(4),
-            vec![1024.0 * z[0].powi(3), -1.0],
-        )
-    })];
+    let limits = [limit(2, |z| (2.0 - z[1] + 256.0 * z[0].powi(4), vec![1024.0 * z[0].powi(3), -1.0]))];
     let at = design_point(&limits[0]);
     close(at.beta, 2.0, 1e-9);
-    close(
-        sorm(&limits[0], &at).unwrap().tvedt().unwrap(),
-        below(-2.0),
-        1e-6,
-    );
+    close(sorm(&limits[0], &at).unwrap().tvedt().unwrap(), below(-2.0), 1e-6);
     let exact = mean(|x| below(-2.0 - 256.0 * x.powi(4)));
     close(exact, 0.003_226_681_209_587_691, 1e-8);
     let proposal = Proposal::around(&[at]).unwrap();
@@ -231,14 +184,10 @@ fn rp31() {
 /// A series system of two planes.
 #[test]
 fn rp33() {
-    let design_points = [
-        design_point(&linear(3.0 * 3.0_f64.sqrt(), vec![-1.0; 3])),
-        design_point(&linear(3.0, vec![0.0, 0.0, -1.0])),
-    ];
+    let design_points =
+        [design_point(&linear(3.0 * 3.0_f64.sqrt(), vec![-1.0; 3])), design_point(&linear(3.0, vec![0.0, 0.0, -1.0]))];
     let system = FirstOrderSystem::of(&design_points).unwrap();
-    let found = system
-        .series_probability(&QuadratureSettings::default())
-        .unwrap();
+    let found = system.series_probability(&QuadratureSettings::default()).unwrap();
     let r = 1.0 / 3.0_f64.sqrt();
     let exact = 2.0 * below(-3.0) - probability_above(3.0, 3.0, r).unwrap();
     assert!((found.value - exact).abs() < 5.0 * found.standard_error);
@@ -326,9 +275,7 @@ fn rp110() {
     close(design_points[0].beta, 4.0, 1e-12);
     close(design_points[1].beta, 5.0, 1e-12);
     let system = FirstOrderSystem::of(&design_points).unwrap();
-    let found = system
-        .series_probability(&QuadratureSettings::default())
-        .unwrap();
+    let found = system.series_probability(&QuadratureSettings::default()).unwrap();
     close(found.value, 0.0000319, 3e-3);
 }
 
@@ -340,19 +287,11 @@ fn rp111() {
         let sign = if product < 0.0 { -1.0 } else { 1.0 };
         (12.5 - product.abs(), vec![-sign * z[1], -sign * z[0]])
     })];
-    let settings = FormSettings {
-        restarts: 12,
-        ..FormSettings::default()
-    };
-    let design_points = failure_regions(&limits[0], &settings)
-        .unwrap()
-        .design_points;
+    let settings = FormSettings { restarts: 12, ..FormSettings::default() };
+    let design_points = failure_regions(&limits[0], &settings).unwrap().design_points;
     assert_eq!(design_points.len(), 4, "{design_points:?}");
     let proposal = Proposal::around(&design_points).unwrap();
-    off(
-        &sampled(&limits, Failure::Any, &proposal),
-        8.082_737_356_734_152e-7,
-    );
+    off(&sampled(&limits, Failure::Any, &proposal), 8.082_737_356_734_152e-7);
 }
 
 /// The series system of Waarts (2000), with four limit states of which two are curved: exact after a rotation by 45
@@ -368,12 +307,8 @@ fn four_branches() {
         })
     };
     let straight = |sign: f64| linear(7.0 / SQRT_2, vec![sign, -sign]);
-    let limits: [Box<dyn LimitState<Error = Infallible>>; 4] = [
-        Box::new(curved(1.0)),
-        Box::new(curved(-1.0)),
-        Box::new(straight(1.0)),
-        Box::new(straight(-1.0)),
-    ];
+    let limits: [Box<dyn LimitState<Error = Infallible>>; 4] =
+        [Box::new(curved(1.0)), Box::new(curved(-1.0)), Box::new(straight(1.0)), Box::new(straight(-1.0))];
     let limits = limits.each_ref().map(|limit| limit.as_ref());
     let exact = mean(|v| match v.abs() < 3.5 {
         true => 2.0 * below(-3.0 - 0.2 * v * v),
@@ -383,11 +318,6 @@ fn four_branches() {
     let design_points: Vec<DesignPoint> = limits.iter().map(design_point).collect();
     let proposal = Proposal::around(&design_points).unwrap();
     off(&sampled(&limits, Failure::Any, &proposal), exact);
-    let bounds = FirstOrderSystem::of(&design_points)
-        .unwrap()
-        .series_bounds();
-    assert!(
-        bounds.upper > exact,
-        "first order ignores that two limits bend away"
-    );
+    let bounds = FirstOrderSystem::of(&design_points).unwrap().series_bounds();
+    assert!(bounds.upper > exact, "first order ignores that two limits bend away");
 }

@@ -2,9 +2,7 @@
 
 use core::convert::Infallible;
 
-use eigentol_statistics::reliability::{
-    DesignPoint, FormSettings, LimitFunction, LimitState, LimitValue, form,
-};
+use eigentol_statistics::reliability::{DesignPoint, FormSettings, LimitFunction, LimitState, LimitValue, form};
 
 pub(crate) fn limit(
     dimension: usize,
@@ -24,16 +22,11 @@ pub(crate) fn linear(distance: f64, gradient: Vec<f64>) -> impl LimitState<Error
 }
 
 pub(crate) fn design_point<L: LimitState>(limit: &L) -> DesignPoint {
-    form(limit, &FormSettings::default())
-        .expect("has a design point")
-        .design_point
+    form(limit, &FormSettings::default()).expect("has a design point").design_point
 }
 
 pub(crate) fn close(value: f64, expected: f64, relative: f64) {
-    assert!(
-        (value - expected).abs() <= relative * expected.abs(),
-        "found {value}, expected {expected}"
-    );
+    assert!((value - expected).abs() <= relative * expected.abs(), "found {value}, expected {expected}");
 }
 
 /// `Phi(x)`.

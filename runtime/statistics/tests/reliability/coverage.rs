@@ -16,11 +16,7 @@ impl Tally {
     fn add<L: LimitState>(&mut self, limit: &L, directions: &[Direction], seed: u64, exact: f64) {
         let dimension = limit.dimension();
         let variables: Vec<usize> = (0..dimension).collect();
-        let settings = LineSettings {
-            seed,
-            evaluations: 20_000,
-            ..LineSettings::default()
-        };
+        let settings = LineSettings { seed, evaluations: 20_000, ..LineSettings::default() };
         let sampler = LineSampler::new(dimension, &variables, directions, &settings);
         let sampler = sampler.expect("valid settings");
         let found = sampler.run(limit);
@@ -38,10 +34,7 @@ impl Tally {
         let all = below + inside + above;
         let scatter = 3.0 * (0.05 * all).sqrt();
         assert!(inside > 0.94 * all - scatter, "{what}: {self:?}");
-        assert!(
-            (below - above).abs() < 0.01 * all + scatter,
-            "{what}: {self:?}"
-        );
+        assert!((below - above).abs() < 0.01 * all + scatter, "{what}: {self:?}");
     }
 }
 
@@ -60,10 +53,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn toward(along: &[f64], distance: f64) -> Direction {
-    Direction {
-        along: along.to_vec(),
-        distance,
-    }
+    Direction { along: along.to_vec(), distance }
 }
 
 /// Planes on either side of the origin, from 1e-6 to 1 - 1e-6.
@@ -91,25 +81,17 @@ fn curved_limits() {
         let along = unit(&mut random, dimension);
         let other = unit(&mut random, dimension);
         let part = dot(&along, &other);
-        let across: Vec<f64> = (along.iter().zip(&other))
-            .map(|(a, b)| b - part * a)
-            .collect();
+        let across: Vec<f64> = (along.iter().zip(&other)).map(|(a, b)| b - part * a).collect();
         let length = dot(&across, &across).sqrt();
         let beta = 4.0 * random.probability();
         let curvature = (0.8 * random.probability() - 0.3) / beta.max(1.0);
-        let sign = if random.probability() < 0.5 {
-            1.0
-        } else {
-            -1.0
-        };
+        let sign = if random.probability() < 0.5 { 1.0 } else { -1.0 };
         let value = |z: &[f64]| {
             let u = dot(&across, z) / length;
             sign * (beta - dot(&along, z) + 0.5 * curvature * u * u)
         };
         let steps = (-9000..9000).map(|k| (f64::from(k) + 0.5) * 1e-3);
-        let beyond: f64 = steps
-            .map(|u| 1e-3 * density(u) * cdf(-beta - 0.5 * curvature * u * u))
-            .sum();
+        let beyond: f64 = steps.map(|u| 1e-3 * density(u) * cdf(-beta - 0.5 * curvature * u * u)).sum();
         let exact = if sign > 0.0 { beyond } else { 1.0 - beyond };
         let paraboloid = limit(dimension, |z| (value(z), vec![0.0; dimension]));
         tally.add(&paraboloid, &[toward(&along, sign * beta)], trial, exact);

@@ -37,10 +37,7 @@ fn curved_limits_ignore_what_does_not_matter() {
             let mut gradient = vec![0.0; z.len()];
             gradient[0] = -(0.3 * z[0]).exp() * 0.3;
             gradient[1] = -0.2 - 0.1 * z[1];
-            (
-                2.6 - (0.3 * z[0]).exp() - 0.2 * z[1] - 0.05 * z[1] * z[1],
-                gradient,
-            )
+            (2.6 - (0.3 * z[0]).exp() - 0.2 * z[1] - 0.05 * z[1] * z[1], gradient)
         })
     };
     let alone = design_point(&curved(2));
@@ -66,11 +63,7 @@ fn units_do_not_matter() {
         let design_point = design_point(&scaled(unit));
         assert_eq!(design_point.point, expected.point, "unit 2^{exponent}");
         assert_eq!(design_point.residuals, expected.residuals);
-        close(
-            design_point.gradient_norm,
-            unit * expected.gradient_norm,
-            1e-14,
-        );
+        close(design_point.gradient_norm, unit * expected.gradient_norm, 1e-14);
     }
 }
 
@@ -98,9 +91,7 @@ fn a_failing_origin_has_negative_beta() {
     close(at.probability(), below(2.0), 1e-14);
     close(at.point[0], -1.2, 1e-14);
     close(at.direction[0], 0.6, 1e-14);
-    let curved = limit(2, |z| {
-        (-1.5 - z[0] + 0.1 * z[1] * z[1], vec![-1.0, 0.2 * z[1]])
-    });
+    let curved = limit(2, |z| (-1.5 - z[0] + 0.1 * z[1] * z[1], vec![-1.0, 0.2 * z[1]]));
     close(design_point(&curved).beta, -1.5, 1e-12);
 }
 
@@ -154,10 +145,7 @@ fn flat_regions_are_crossed() {
         let rise = (z[0] - 1.0).max(0.0);
         (4.0 - rise * rise, vec![-2.0 * rise, 0.0])
     });
-    let settings = FormSettings {
-        restarts: 8,
-        ..FormSettings::default()
-    };
+    let settings = FormSettings { restarts: 8, ..FormSettings::default() };
     close(form(&flat, &settings).unwrap().design_point.beta, 3.0, 1e-9);
 }
 
@@ -172,17 +160,10 @@ fn searches_step_back_from_where_there_is_no_value() {
             return Err("the legs do not reach");
         }
         let slope = -0.5 / rest.sqrt();
-        Ok(LimitValue {
-            value: rest.sqrt() - 0.2,
-            gradient: vec![slope, 0.0],
-        })
+        Ok(LimitValue { value: rest.sqrt() - 0.2, gradient: vec![slope, 0.0] })
     });
     // The iteration alone, without the optimiser.
-    let settings = FormSettings {
-        restarts: 0,
-        optimiser_evaluations: 0,
-        ..FormSettings::default()
-    };
+    let settings = FormSettings { restarts: 0, optimiser_evaluations: 0, ..FormSettings::default() };
     let found = form(&root, &settings).unwrap();
     close(found.design_point.beta, 2.46, 1e-9);
     assert!(asked_beyond.get() > 0);
@@ -197,20 +178,10 @@ fn starts_without_a_value_are_pulled_back() {
             return Err("does not exist");
         }
         let rise = (z[0] - 0.5).max(0.0);
-        Ok(LimitValue {
-            value: 4.0 - rise * rise,
-            gradient: vec![-2.0 * rise],
-        })
+        Ok(LimitValue { value: 4.0 - rise * rise, gradient: vec![-2.0 * rise] })
     });
-    let settings = FormSettings {
-        restarts: 2,
-        ..FormSettings::default()
-    };
-    close(
-        form(&island, &settings).unwrap().design_point.beta,
-        2.5,
-        1e-9,
-    );
+    let settings = FormSettings { restarts: 2, ..FormSettings::default() };
+    close(form(&island, &settings).unwrap().design_point.beta, 2.5, 1e-9);
 }
 
 #[test]
@@ -223,20 +194,14 @@ fn values_that_are_no_numbers_are_no_values() {
     assert!(matches!(error, Error::NoLimitValue { .. }), "{error}");
     let short = limit(2, |_| (1.0, vec![1.0]));
     let error = form(&short, &FormSettings::default()).unwrap_err();
-    assert!(
-        error.to_string().contains("1 entries, expected 2"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("1 entries, expected 2"), "{error}");
 }
 
 #[test]
 fn nothing_to_search_is_refused() {
     assert!(form(&linear(1.0, vec![]), &FormSettings::default()).is_err());
     for tolerance in [0.0, f64::NAN] {
-        let settings = FormSettings {
-            tolerance,
-            ..FormSettings::default()
-        };
+        let settings = FormSettings { tolerance, ..FormSettings::default() };
         assert!(form(&linear(1.0, vec![1.0]), &settings).is_err());
     }
 }
@@ -247,18 +212,13 @@ fn nothing_to_search_is_refused() {
 fn a_point_that_is_nearest_in_some_directions_only_is_left() {
     // (b - z1) = k z0^2 / 2 with b k > 1: the nearest points are at z1 = 1/k.
     let (b, k) = (4.0, 0.5);
-    let valley = limit(2, move |z| {
-        (b - z[1] - 0.5 * k * z[0] * z[0], vec![-k * z[0], -1.0])
-    });
+    let valley = limit(2, move |z| (b - z[1] - 0.5 * k * z[0] * z[0], vec![-k * z[0], -1.0]));
     let z1 = 1.0 / k;
     let z0_square = 2.0 * (b - z1) / k;
     let expected = (z1 * z1 + z0_square).sqrt();
     assert!(expected < b);
     // Without restarts, which would find the same point.
-    let settings = FormSettings {
-        restarts: 0,
-        ..FormSettings::default()
-    };
+    let settings = FormSettings { restarts: 0, ..FormSettings::default() };
     let design_point = form(&valley, &settings).unwrap().design_point;
     close(design_point.beta, expected, 1e-8);
 }

@@ -1,55 +1,34 @@
 //! Lines against exact probabilities: planes, shells, systems, missing values.
 
 use eigentol_statistics::reliability::LimitState;
-use eigentol_statistics::reliability::lines::{
-    Direction, LineProbability, LineSampler, LineSettings,
-};
+use eigentol_statistics::reliability::lines::{Direction, LineProbability, LineSampler, LineSettings};
 
 use crate::common::{below, close, limit, linear, mean};
 
 fn settings(coefficient_of_variation: f64) -> LineSettings {
-    LineSettings {
-        coefficient_of_variation,
-        evaluations: 1_000_000,
-        ..LineSettings::default()
-    }
+    LineSettings { coefficient_of_variation, evaluations: 1_000_000, ..LineSettings::default() }
 }
 
 fn toward(along: &[f64], distance: f64) -> Direction {
-    Direction {
-        along: along.to_vec(),
-        distance,
-    }
+    Direction { along: along.to_vec(), distance }
 }
 
-fn run<L: LimitState>(
-    limit: &L,
-    directions: &[Direction],
-    coefficient_of_variation: f64,
-) -> LineProbability {
+fn run<L: LimitState>(limit: &L, directions: &[Direction], coefficient_of_variation: f64) -> LineProbability {
     let dimension = limit.dimension();
     let variables: Vec<usize> = (0..dimension).collect();
     let settings = settings(coefficient_of_variation);
-    LineSampler::new(dimension, &variables, directions, &settings)
-        .expect("valid settings")
-        .run(limit)
+    LineSampler::new(dimension, &variables, directions, &settings).expect("valid settings").run(limit)
 }
 
 /// Within four standard errors, which are at most `relative` of the exact value.
 fn covers(line_probability: &LineProbability, exact: f64, relative: f64) {
     let probability = line_probability.probability;
-    assert!(
-        line_probability.settled && line_probability.reached,
-        "{line_probability:?}"
-    );
+    assert!(line_probability.settled && line_probability.reached, "{line_probability:?}");
     assert!(
         (probability.value - exact).abs() <= 4.0 * probability.standard_error + 2e-3 * exact,
         "{line_probability:?}, exact {exact:e}"
     );
-    assert!(
-        probability.standard_error <= relative * exact,
-        "{line_probability:?}"
-    );
+    assert!(probability.standard_error <= relative * exact, "{line_probability:?}");
 }
 
 /// Along its normal a plane has no scatter at all; along any other direction the estimate is still unbiased.
@@ -64,16 +43,8 @@ fn planes() {
         covers(&found, below(-beta), 0.011);
     }
     let plane = linear(2.0, vec![-0.6, -0.8]);
-    covers(
-        &run(&plane, &[toward(&[1.0, 1.0], 2.0)], 0.02),
-        below(-2.0),
-        0.021,
-    );
-    covers(
-        &run(&plane, &[toward(&[0.6, -0.8], 2.0)], 0.05),
-        below(-2.0),
-        0.051,
-    );
+    covers(&run(&plane, &[toward(&[1.0, 1.0], 2.0)], 0.02), below(-2.0), 0.021);
+    covers(&run(&plane, &[toward(&[0.6, -0.8], 2.0)], 0.05), below(-2.0), 0.051);
     covers(&run(&plane, &[], 0.05), below(-2.0), 0.051);
 }
 
@@ -82,23 +53,14 @@ fn planes() {
 fn spheres_and_thin_shells() {
     let outside = |r: f64| (-0.5 * r * r).exp() * (1.0 + 0.5 * r * r);
     let square = |z: &[f64]| z.iter().map(|z| z * z).sum::<f64>();
-    let directions = |r: f64| {
-        [
-            toward(&[1.0, 0.0, 0.0, 0.0], r),
-            toward(&[0.0, 1.0, -1.0, 0.5], r),
-        ]
-    };
+    let directions = |r: f64| [toward(&[1.0, 0.0, 0.0, 0.0], r), toward(&[0.0, 1.0, -1.0, 0.5], r)];
     let gradient = || vec![0.0; 4];
     for r in [1.0_f64, 3.0, 5.0] {
         let far = limit(4, |z| (r * r - square(z), gradient()));
         covers(&run(&far, &directions(r), 0.05), outside(r), 0.06);
     }
     let near = limit(4, |z| (square(z) - 1.0, gradient()));
-    covers(
-        &run(&near, &directions(0.0), 0.05),
-        1.0 - outside(1.0),
-        0.051,
-    );
+    covers(&run(&near, &directions(0.0), 0.05), 1.0 - outside(1.0), 0.051);
     for thickness in [1e-2, 1e-4] {
         let half = 0.5 * thickness;
         let shell = limit(4, |z| ((square(z).sqrt() - 2.0).abs() - half, gradient()));
@@ -157,18 +119,13 @@ fn directions_share_the_space() {
             vec![toward(&first, near)],
             vec![toward(&second, far)],
             vec![toward(&first, near), toward(&second, far)],
-            vec![
-                toward(&first, near),
-                toward(&first, near),
-                toward(&[-1.0, 0.0], 3.0),
-            ],
+            vec![toward(&first, near), toward(&first, near), toward(&[-1.0, 0.0], 3.0)],
         ] {
             let found = run(&system, &directions, 0.02);
             let probability = found.probability;
             assert!(found.reached, "{degrees} {found:?}");
             assert!(
-                (probability.value - exact).abs()
-                    <= 4.0 * probability.standard_error + 1e-3 * exact,
+                (probability.value - exact).abs() <= 4.0 * probability.standard_error + 1e-3 * exact,
                 "{degrees} {found:?}, exact {exact:e}"
             );
         }
@@ -186,8 +143,7 @@ fn failures_that_nobody_expected() {
     };
     for degrees in [180.0, 120.0, 75.0] {
         let [first, second] = [plane(0.0), plane(degrees)];
-        let along =
-            |values: &[f64], z: &[f64]| values.iter().zip(z).map(|(a, z)| a * z).sum::<f64>();
+        let along = |values: &[f64], z: &[f64]| values.iter().zip(z).map(|(a, z)| a * z).sum::<f64>();
         let system = limit(3, |z| {
             let nearest = along(&first, z).max(along(&second, z));
             (beta - nearest, vec![0.0; 3])
@@ -201,19 +157,12 @@ fn failures_that_nobody_expected() {
             vec![],
         ] {
             for stream in 0..30 {
-                let settings = LineSettings {
-                    stream,
-                    evaluations: 20_000,
-                    ..LineSettings::default()
-                };
+                let settings = LineSettings { stream, evaluations: 20_000, ..LineSettings::default() };
                 let sampler = LineSampler::new(3, &[0, 1, 2], &directions, &settings).unwrap();
                 let found = sampler.run(&system);
                 let relative = found.probability.value / exact;
                 assert!(found.settled, "{degrees} {directions:?} {found:?}");
-                assert!(
-                    (relative - 1.0).abs() < 0.1,
-                    "{degrees} {directions:?} {found:?}"
-                );
+                assert!((relative - 1.0).abs() < 0.1, "{degrees} {directions:?} {found:?}");
             }
         }
     }
@@ -223,8 +172,7 @@ fn failures_that_nobody_expected() {
 #[test]
 fn one_variable_of_three() {
     let band = limit(3, |z| ((z[1] - 1.0).abs() - 0.25, vec![0.0; 3]));
-    let sampler =
-        LineSampler::new(3, &[1], &[toward(&[5.0, 1.0, 0.0], 0.75)], &settings(0.01)).unwrap();
+    let sampler = LineSampler::new(3, &[1], &[toward(&[5.0, 1.0, 0.0], 0.75)], &settings(0.01)).unwrap();
     let found = sampler.run(&band);
     assert_eq!((found.lines, found.settled), (1, true));
     assert_eq!(found.probability.standard_error, 0.0);
@@ -248,29 +196,16 @@ fn missing_values_are_counted_apart() {
 #[test]
 fn few_failures_settle_nothing() {
     let ball = limit(6, |z| {
-        let square = z
-            .iter()
-            .skip(1)
-            .fold((z[0] - 4.0).powi(2), |sum, z| sum + z * z);
+        let square = z.iter().skip(1).fold((z[0] - 4.0).powi(2), |sum, z| sum + z * z);
         (square - 0.25, vec![0.0; 6])
     });
-    let rarely = LineSettings {
-        evaluations: 3_000,
-        ..LineSettings::default()
-    };
+    let rarely = LineSettings { evaluations: 3_000, ..LineSettings::default() };
     let variables = [0, 1, 2, 3, 4, 5];
-    let found = LineSampler::new(6, &variables, &[], &rarely)
-        .unwrap()
-        .run(&ball);
+    let found = LineSampler::new(6, &variables, &[], &rarely).unwrap().run(&ball);
     assert!(!found.settled && !found.reached, "{found:?}");
-    let hardly = LineSettings {
-        evaluations: 100,
-        ..LineSettings::default()
-    };
+    let hardly = LineSettings { evaluations: 100, ..LineSettings::default() };
     let plane = linear(2.0, vec![-1.0, 0.0]);
-    let found = LineSampler::new(2, &[0, 1], &[toward(&[1.0, 0.0], 2.0)], &hardly)
-        .unwrap()
-        .run(&plane);
+    let found = LineSampler::new(2, &[0, 1], &[toward(&[1.0, 0.0], 2.0)], &hardly).unwrap().run(&plane);
     assert!(!found.settled, "{found:?}");
 }
 
@@ -280,39 +215,21 @@ fn standard_errors_are_right() {
     let curved = limit(2, |z| (2.5 - z[0] - 0.3 * z[1] * z[1], vec![0.0; 2]));
     let runs: Vec<LineProbability> = (0..60)
         .map(|stream| {
-            let settings = LineSettings {
-                stream,
-                coefficient_of_variation: 0.1,
-                ..LineSettings::default()
-            };
-            LineSampler::new(2, &[0, 1], &[toward(&[1.0, 0.0], 2.5)], &settings)
-                .unwrap()
-                .run(&curved)
+            let settings = LineSettings { stream, coefficient_of_variation: 0.1, ..LineSettings::default() };
+            LineSampler::new(2, &[0, 1], &[toward(&[1.0, 0.0], 2.5)], &settings).unwrap().run(&curved)
         })
         .collect();
     let n = runs.len() as f64;
     let mean = runs.iter().map(|run| run.probability.value).sum::<f64>() / n;
-    let squares = runs
-        .iter()
-        .map(|run| (run.probability.value - mean).powi(2));
+    let squares = runs.iter().map(|run| (run.probability.value - mean).powi(2));
     let scatter = (squares.sum::<f64>() / (n - 1.0)).sqrt();
-    let stated = runs
-        .iter()
-        .map(|run| run.probability.standard_error)
-        .sum::<f64>()
-        / n;
-    assert!(
-        (0.6..1.6).contains(&(stated / scatter)),
-        "{stated} {scatter}"
-    );
+    let stated = runs.iter().map(|run| run.probability.standard_error).sum::<f64>() / n;
+    assert!((0.6..1.6).contains(&(stated / scatter)), "{stated} {scatter}");
 }
 
 #[test]
 fn settings_that_make_no_sense_are_refused() {
-    let reach = LineSettings {
-        reach: 0.0,
-        ..LineSettings::default()
-    };
+    let reach = LineSettings { reach: 0.0, ..LineSettings::default() };
     assert!(LineSampler::new(2, &[0], &[], &reach).is_err());
     assert!(LineSampler::new(2, &[], &[], &LineSettings::default()).is_err());
     assert!(LineSampler::new(2, &[2], &[], &LineSettings::default()).is_err());

@@ -7,21 +7,13 @@ use crate::common::{below, close, limit};
 
 /// Failure beyond 3 on one side and beyond 4 on the other; the search from the origin finds only the far region.
 fn two_sided() -> impl LimitState<Error = core::convert::Infallible> {
-    limit(3, |z| {
-        (
-            (3.0 + z[0]) * (4.0 - z[0]),
-            vec![1.0 - 2.0 * z[0], 0.0, 0.0],
-        )
-    })
+    limit(3, |z| ((3.0 + z[0]) * (4.0 - z[0]), vec![1.0 - 2.0 * z[0], 0.0, 0.0]))
 }
 
 #[test]
 fn bulges_uncover_the_other_side() {
     // Without restarts, only the bulges are tested.
-    let settings = FormSettings {
-        restarts: 0,
-        ..FormSettings::default()
-    };
+    let settings = FormSettings { restarts: 0, ..FormSettings::default() };
     let found = failure_regions(&two_sided(), &settings).unwrap();
     let betas: Vec<f64> = found.design_points.iter().map(|p| p.beta).collect();
     assert_eq!(betas.len(), 2, "{betas:?}");
@@ -38,10 +30,7 @@ fn bulges_uncover_what_is_beside() {
         let (a, b) = (3.0 - z[0], 3.5 - z[1]);
         (a * b, vec![-b, -a])
     });
-    let settings = FormSettings {
-        restarts: 0,
-        ..FormSettings::default()
-    };
+    let settings = FormSettings { restarts: 0, ..FormSettings::default() };
     let found = failure_regions(&corner, &settings).unwrap();
     let betas: Vec<f64> = found.design_points.iter().map(|p| p.beta).collect();
     assert_eq!(betas.len(), 2, "{betas:?}");
@@ -54,13 +43,8 @@ fn mixtures_sum_over_regions() {
     let limits = [two_sided()];
     let found = failure_regions(&limits[0], &FormSettings::default()).unwrap();
     let proposal = Proposal::around(&found.design_points).unwrap();
-    let settings = SamplingSettings {
-        coefficient_of_variation: 0.01,
-        ..SamplingSettings::default()
-    };
-    let sampled = Sampler::new(&limits, Failure::Any, &proposal, &settings)
-        .unwrap()
-        .run();
+    let settings = SamplingSettings { coefficient_of_variation: 0.01, ..SamplingSettings::default() };
+    let sampled = Sampler::new(&limits, Failure::Any, &proposal, &settings).unwrap().run();
     assert!(sampled.reached);
     close(sampled.probability.value, below(-3.0) + below(-4.0), 0.03);
 }
@@ -68,17 +52,8 @@ fn mixtures_sum_over_regions() {
 /// Infinitely many design points: their number is capped, and the result says that there may be more.
 #[test]
 fn a_ring_of_design_points_is_capped() {
-    let ring = limit(2, |z| {
-        (
-            9.0 - z[0] * z[0] - z[1] * z[1],
-            vec![-2.0 * z[0], -2.0 * z[1]],
-        )
-    });
-    let settings = FormSettings {
-        regions: 3,
-        restarts: 10,
-        ..FormSettings::default()
-    };
+    let ring = limit(2, |z| (9.0 - z[0] * z[0] - z[1] * z[1], vec![-2.0 * z[0], -2.0 * z[1]]));
+    let settings = FormSettings { regions: 3, restarts: 10, ..FormSettings::default() };
     let found = failure_regions(&ring, &settings).unwrap();
     assert_eq!(found.design_points.len(), 3);
     assert!(!found.exhausted);

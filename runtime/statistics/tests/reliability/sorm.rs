@@ -9,28 +9,19 @@ use crate::common::{below, close, density, design_point, limit, mean};
 
 /// `unit (b - n . z + sum kappa_i (t_i . z)^2 / 2)` with orthonormal `n`, `t_1`, `t_2` that are not coordinate axes.
 fn paraboloid(b: f64, kappa: [f64; 2], unit: f64) -> impl LimitState<Error = Infallible> {
-    const AXES: [[f64; 3]; 3] = [
-        [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0],
-        [2.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0],
-        [-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0],
-    ];
+    const AXES: [[f64; 3]; 3] =
+        [[2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0], [2.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0], [-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0]];
     let along = |z: &[f64], axis: [f64; 3]| -> f64 { axis.iter().zip(z).map(|(a, z)| a * z).sum() };
     let value = move |z: &[f64]| {
         let [n, t, s] = AXES.map(|axis| along(z, axis));
         let value = b - n + 0.5 * (kappa[0] * t * t + kappa[1] * s * s);
         let entry = |i: usize| -AXES[0][i] + kappa[0] * t * AXES[1][i] + kappa[1] * s * AXES[2][i];
-        Ok(LimitValue {
-            value: unit * value,
-            gradient: (0..3).map(|i| unit * entry(i)).collect(),
-        })
+        Ok(LimitValue { value: unit * value, gradient: (0..3).map(|i| unit * entry(i)).collect() })
     };
     let hessian = move |_: &[f64]| {
-        let entry = |i: usize, j: usize| {
-            unit * (kappa[0] * AXES[1][i] * AXES[1][j] + kappa[1] * AXES[2][i] * AXES[2][j])
-        };
-        Ok((0..3)
-            .map(|i| (0..3).map(|j| entry(i, j)).collect())
-            .collect())
+        let entry =
+            |i: usize, j: usize| unit * (kappa[0] * AXES[1][i] * AXES[1][j] + kappa[1] * AXES[2][i] * AXES[2][j]);
+        Ok((0..3).map(|i| (0..3).map(|j| entry(i, j)).collect()).collect())
     };
     LimitFunction::new(3, value).with_hessian(hessian)
 }
@@ -80,11 +71,7 @@ fn formulas_on_a_paraboloid() {
     close(found.tvedt().unwrap(), exact, 1e-9);
     close(found.breitung().unwrap(), below(-b) / (1.0 + b * k), 1e-9);
     let psi = density(b) / below(-b);
-    close(
-        found.hohenbichler_rackwitz().unwrap(),
-        below(-b) / (1.0 + psi * k),
-        1e-9,
-    );
+    close(found.hohenbichler_rackwitz().unwrap(), below(-b) / (1.0 + psi * k), 1e-9);
     // Each formula is closer than the previous one.
     let off = |p: f64| (p / exact - 1.0).abs();
     assert!(off(found.hohenbichler_rackwitz().unwrap()) < 0.5 * off(found.breitung().unwrap()));
@@ -121,19 +108,13 @@ fn a_saddle() {
 #[test]
 fn negative_beta_is_the_complement() {
     let exact = mean(|y| below(1.5 + 0.1 * y * y));
-    let failing = limit(2, |z| {
-        (-1.5 - z[0] - 0.1 * z[1] * z[1], vec![-1.0, -0.2 * z[1]])
-    });
+    let failing = limit(2, |z| (-1.5 - z[0] - 0.1 * z[1] * z[1], vec![-1.0, -0.2 * z[1]]));
     let at = design_point(&failing);
     close(at.beta, -1.5, 1e-12);
     let found = sorm(&failing, &at).unwrap();
     close(found.curvatures()[0], -0.2, 1e-8);
     close(found.tvedt().unwrap(), exact, 1e-9);
-    close(
-        found.breitung().unwrap(),
-        1.0 - below(-1.5) / 1.3_f64.sqrt(),
-        1e-8,
-    );
+    close(found.breitung().unwrap(), 1.0 - below(-1.5) / 1.3_f64.sqrt(), 1e-8);
 }
 
 /// Failure inside a ball, a noncentral chi-square probability: with three variables
@@ -154,41 +135,23 @@ fn a_ball() {
         close(*kappa, 1.0 / r, 1e-8);
     }
     let off = |p: f64| (p / exact - 1.0).abs();
-    assert!(
-        off(found.tvedt().unwrap()) < 0.1,
-        "{} {exact}",
-        found.tvedt().unwrap()
-    );
+    assert!(off(found.tvedt().unwrap()) < 0.1, "{} {exact}", found.tvedt().unwrap());
     assert!(off(at.probability()) > 0.5);
 }
 
 /// The limit is a circle about the origin, `beta kappa = -1`: none of the formulas is valid.
 #[test]
 fn too_much_curvature_is_refused() {
-    let outside = limit(2, |z| {
-        (
-            4.0 - z[0] * z[0] - z[1] * z[1] + 0.1 * z[1],
-            vec![-2.0 * z[0], -2.0 * z[1] + 0.1],
-        )
-    });
-    let outside_more = limit(2, |z| {
-        (2.0 - z[0] - 0.3 * z[1] * z[1], vec![-1.0, -0.6 * z[1]])
-    });
+    let outside = limit(2, |z| (4.0 - z[0] * z[0] - z[1] * z[1] + 0.1 * z[1], vec![-2.0 * z[0], -2.0 * z[1] + 0.1]));
+    let outside_more = limit(2, |z| (2.0 - z[0] - 0.3 * z[1] * z[1], vec![-1.0, -0.6 * z[1]]));
     let mut at = design_point(&outside_more);
     at.point = vec![2.0, 0.0];
     at.beta = 2.0;
     at.direction = vec![1.0, 0.0];
     at.gradient_norm = 1.0;
     let found = sorm(&outside_more, &at).unwrap();
-    for refused in [
-        found.breitung(),
-        found.hohenbichler_rackwitz(),
-        found.tvedt(),
-    ] {
-        let Err(Error::Curvature {
-            curvature, beta, ..
-        }) = refused
-        else {
+    for refused in [found.breitung(), found.hohenbichler_rackwitz(), found.tvedt()] {
+        let Err(Error::Curvature { curvature, beta, .. }) = refused else {
             panic!("{refused:?}");
         };
         close(curvature, -0.6, 1e-8);

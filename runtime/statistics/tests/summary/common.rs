@@ -6,9 +6,7 @@ use std::ops::Range;
 
 /// A number between 0 and 1 (SplitMix64, Steele, Lea and Flood 2014).
 pub(crate) fn uniform(stream: u64, sample: u64) -> f64 {
-    let mut z = (stream << 40 ^ sample)
-        .wrapping_add(1)
-        .wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let mut z = (stream << 40 ^ sample).wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     z = (z ^ z >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ z >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
     ((z ^ z >> 31) >> 11) as f64 / (1_u64 << 53) as f64
@@ -26,11 +24,7 @@ pub(crate) fn quantities(sample: u64) -> [Option<f64>; 3] {
     let x = normal(7, sample);
     let y = 0.5 * x + uniform(8, sample);
     let z = [0.0, -0.0, 1.0, -3.5][(sample % 4) as usize] * uniform(9, sample);
-    [
-        Some(1e8 + 1e-4 * x),
-        (sample % 5 != 3).then_some(y),
-        Some(z),
-    ]
+    [Some(1e8 + 1e-4 * x), (sample % 5 != 3).then_some(y), Some(z)]
 }
 
 pub(crate) fn plan() -> Result<Plan, Error> {

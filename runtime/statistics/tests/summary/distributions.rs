@@ -16,35 +16,15 @@ fn of(value: impl Fn(u64) -> f64, count: u64) -> Statistics {
 fn moments_are_those_of_the_distribution() {
     let exponential = |k| -(1.0 - uniform(11, k)).ln();
     let samples: [(&str, Statistics, [f64; 4], [f64; 2]); 3] = [
-        (
-            "uniform",
-            of(|k| uniform(10, k), COUNT),
-            [0.5, (1.0_f64 / 12.0).sqrt(), 0.0, -1.2],
-            [1.5, 1.2],
-        ),
-        (
-            "normal",
-            of(|k| 7.0 + 2.0 * normal(12, k), COUNT),
-            [7.0, 2.0, 0.0, 0.0],
-            [2.5, 5.0],
-        ),
-        (
-            "exponential",
-            of(exponential, COUNT),
-            [1.0, 1.0, 2.0, 6.0],
-            [25.0, 250.0],
-        ),
+        ("uniform", of(|k| uniform(10, k), COUNT), [0.5, (1.0_f64 / 12.0).sqrt(), 0.0, -1.2], [1.5, 1.2]),
+        ("normal", of(|k| 7.0 + 2.0 * normal(12, k), COUNT), [7.0, 2.0, 0.0, 0.0], [2.5, 5.0]),
+        ("exponential", of(exponential, COUNT), [1.0, 1.0, 2.0, 6.0], [25.0, 250.0]),
     ];
-    for (name, s, [mean, sigma, skewness, kurtosis], [skewness_scatter, kurtosis_scatter]) in
-        samples
-    {
+    for (name, s, [mean, sigma, skewness, kurtosis], [skewness_scatter, kurtosis_scatter]) in samples {
         let root = (COUNT as f64).sqrt();
         let near = |value: Option<f64>, expected: f64, error: f64| {
             let found = value.expect(name);
-            assert!(
-                (found - expected).abs() < 5.0 * error,
-                "{name}: {found}, expected {expected}"
-            );
+            assert!((found - expected).abs() < 5.0 * error, "{name}: {found}, expected {expected}");
         };
         near(Some(s.mean), mean, s.standard_error.expect(name));
         near(s.sigma, sigma, s.sigma_error.expect(name));
@@ -60,37 +40,22 @@ type Value = fn(u64) -> f64;
 #[test]
 fn standard_errors_are_the_scatter() {
     const EXPERIMENTS: u64 = 2000;
-    let distributions: [(&str, Value); 2] = [
-        ("normal", |k| normal(20, k)),
-        ("uniform", |k| uniform(21, k)),
-    ];
+    let distributions: [(&str, Value); 2] = [("normal", |k| normal(20, k)), ("uniform", |k| uniform(21, k))];
     for (name, value) in distributions {
-        let all: Vec<Statistics> = (0..EXPERIMENTS)
-            .map(|e| of(|k| value(200 * e + k), 200))
-            .collect();
+        let all: Vec<Statistics> = (0..EXPERIMENTS).map(|e| of(|k| value(200 * e + k), 200)).collect();
         let scatter = |pick: &dyn Fn(&Statistics) -> Option<f64>| {
             let values: Vec<f64> = all.iter().filter_map(pick).collect();
             let s = Statistics::of(&Moments::of(&values), None).expect(name);
             (s.mean, s.sigma.expect(name))
         };
         // The scatter of 2000 experiments is known to 1.6 percent.
-        let near = |scatter: f64, error: f64| {
-            assert!(
-                (scatter / error - 1.0).abs() < 0.06,
-                "{name}: {scatter} and {error}"
-            )
-        };
-        near(
-            scatter(&|s| Some(s.mean)).1,
-            scatter(&|s| s.standard_error).0,
-        );
+        let near =
+            |scatter: f64, error: f64| assert!((scatter / error - 1.0).abs() < 0.06, "{name}: {scatter} and {error}");
+        near(scatter(&|s| Some(s.mean)).1, scatter(&|s| s.standard_error).0);
         near(scatter(&|s| s.sigma).1, scatter(&|s| s.sigma_error).0);
         if name == "normal" {
             near(scatter(&|s| s.skewness).1, scatter(&|s| s.skewness_error).0);
-            near(
-                scatter(&|s| s.excess_kurtosis).1,
-                scatter(&|s| s.kurtosis_error).0,
-            );
+            near(scatter(&|s| s.excess_kurtosis).1, scatter(&|s| s.kurtosis_error).0);
             // Unbiased.
             assert!(scatter(&|s| s.excess_kurtosis).0.abs() < 0.03);
         }

@@ -15,15 +15,7 @@ fn ranks(count: u32, p: f64, confidence: f64) -> Result<Option<(f64, f64, f64)>,
 #[test]
 fn quantiles_of_type_seven() -> Result<(), Error> {
     let values = Sorted::new(vec![17.0, 2.0, 13.0, 3.0, 11.0, 5.0, 7.0])?;
-    for (p, expected) in [
-        (0.0, 2.0),
-        (0.25, 4.0),
-        (0.5, 7.0),
-        (0.75, 12.0),
-        (1.0, 17.0),
-        (0.9, 14.6),
-        (0.1, 2.6),
-    ] {
+    for (p, expected) in [(0.0, 2.0), (0.25, 4.0), (0.5, 7.0), (0.75, 12.0), (1.0, 17.0), (0.9, 14.6), (0.1, 2.6)] {
         assert!((values.quantile(p)? - expected).abs() < 1e-14, "{p}");
     }
     assert_eq!(Sorted::new(vec![4.0])?.quantile(0.3)?, 4.0);
@@ -48,10 +40,7 @@ fn intervals_of_medians() -> Result<(), Error> {
             panic!("{count} are enough");
         };
         assert_eq!((first, last), (lower, upper), "{count}");
-        assert!(
-            (coverage - (1.0 - left_out)).abs() < 1e-14,
-            "{count}: {coverage}"
-        );
+        assert!((coverage - (1.0 - left_out)).abs() < 1e-14, "{count}: {coverage}");
     }
     Ok(())
 }
@@ -79,15 +68,9 @@ fn intervals_of_many_values() -> Result<(), Error> {
         let Some((lower, upper, coverage)) = ranks(count, p, 0.99)? else {
             panic!("{count} are enough");
         };
-        let (mean, half) = (
-            f64::from(count) * p,
-            2.575_829_3 * (f64::from(count) * p * (1.0 - p)).sqrt(),
-        );
+        let (mean, half) = (f64::from(count) * p, 2.575_829_3 * (f64::from(count) * p * (1.0 - p)).sqrt());
         // The skewness of the binomial distribution shifts both ends by about one.
-        assert!(
-            (lower - (mean - half)).abs() < 2.5 && (upper - (mean + half)).abs() < 2.5,
-            "{lower} {upper}"
-        );
+        assert!((lower - (mean - half)).abs() < 2.5 && (upper - (mean + half)).abs() < 2.5, "{lower} {upper}");
         assert!((0.99..0.992).contains(&coverage), "{coverage}");
     }
     Ok(())
@@ -98,9 +81,7 @@ fn intervals_cover_the_quantile_as_often_as_they_say() -> Result<(), Error> {
     for (count, p) in [(40, 0.5), (100, 0.9)] {
         let (experiments, mut covered, mut coverage) = (4000, 0, 0.0);
         for experiment in 0..experiments {
-            let values = (0..count)
-                .map(|k| uniform(40, experiment * count + k).powi(3))
-                .collect();
+            let values = (0..count).map(|k| uniform(40, experiment * count + k).powi(3)).collect();
             let Some(found) = Sorted::new(values)?.quantile_interval(p, 0.9)? else {
                 panic!("{count} are enough");
             };
@@ -109,10 +90,7 @@ fn intervals_cover_the_quantile_as_often_as_they_say() -> Result<(), Error> {
         }
         let share = f64::from(covered) / experiments as f64;
         let error = (coverage * (1.0 - coverage) / experiments as f64).sqrt();
-        assert!(
-            coverage >= 0.9 && (share - coverage).abs() < 4.0 * error,
-            "{share} and {coverage}"
-        );
+        assert!(coverage >= 0.9 && (share - coverage).abs() < 4.0 * error, "{share} and {coverage}");
     }
     Ok(())
 }
@@ -124,10 +102,8 @@ fn intervals_of_sketches_contain_those_of_values() -> Result<(), Error> {
     sketch.add(&values)?;
     let sorted = Sorted::new(values)?;
     for p in [0.05, 0.5, 0.95] {
-        let (Some(found), Some(exact)) = (
-            sketch.quantile_interval(p, 0.95)?,
-            sorted.quantile_interval(p, 0.95)?,
-        ) else {
+        let (Some(found), Some(exact)) = (sketch.quantile_interval(p, 0.95)?, sorted.quantile_interval(p, 0.95)?)
+        else {
             panic!("3000 are enough");
         };
         assert_eq!(found.coverage, exact.coverage);

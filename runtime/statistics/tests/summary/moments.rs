@@ -1,9 +1,7 @@
 //! Moments against exact sums of integers.
 
 use eigentol_statistics::Error;
-use eigentol_statistics::summary::{
-    Chunk, Comoments, Covariance, Moments, Partial, Plan, Statistics, chunks,
-};
+use eigentol_statistics::summary::{Chunk, Comoments, Covariance, Moments, Partial, Plan, Statistics, chunks};
 use proptest::prelude::*;
 
 use crate::common::{normal, uniform};
@@ -43,47 +41,26 @@ impl Exact {
             third as f64 / size.powi(2) * unit.powi(3),
             fourth as f64 / size.powi(3) * unit.powi(4),
         ];
-        Self {
-            n: size,
-            mean: origin + unit * (s1 as f64 / size),
-            central,
-        }
+        Self { n: size, mean: origin + unit * (s1 as f64 / size), central }
     }
 
     /// Checks that the statistics match to within this relative error, as a share of the scale of each.
     fn assert(&self, s: &Statistics, tolerance: f64) {
-        let Self {
-            n,
-            mean,
-            central: [m2, m3, m4],
-        } = *self;
+        let Self { n, mean, central: [m2, m3, m4] } = *self;
         let near = |name: &str, value: Option<f64>, expected: f64, scale: f64| {
             let found = value.expect(name);
-            assert!(
-                (found - expected).abs() <= tolerance * scale,
-                "{name}: {found:e}, expected {expected:e}"
-            );
+            assert!((found - expected).abs() <= tolerance * scale, "{name}: {found:e}, expected {expected:e}");
         };
         let sigma = (m2 / (n - 1.0)).sqrt();
         near("mean", Some(s.mean), mean, f64::max(mean.abs(), sigma));
         near("sigma", s.sigma, sigma, sigma);
         near("standard error", s.standard_error, sigma / n.sqrt(), sigma);
         let (g1, g2) = (n.sqrt() * m3 / m2.powf(1.5), n * m4 / (m2 * m2) - 3.0);
-        near(
-            "skewness",
-            s.skewness,
-            g1 * (n * (n - 1.0)).sqrt() / (n - 2.0),
-            1.0 + g1.abs(),
-        );
+        near("skewness", s.skewness, g1 * (n * (n - 1.0)).sqrt() / (n - 2.0), 1.0 + g1.abs());
         let g2 = (n - 1.0) / ((n - 2.0) * (n - 3.0)) * ((n + 1.0) * g2 + 6.0);
         near("kurtosis", s.excess_kurtosis, g2, 10.0 + g2.abs());
         let variance = (m4 / n - (n - 3.0) / (n - 1.0) * sigma.powi(4)) / n;
-        near(
-            "error of sigma",
-            s.sigma_error,
-            variance.sqrt() / (2.0 * sigma),
-            sigma,
-        );
+        near("error of sigma", s.sigma_error, variance.sqrt() / (2.0 * sigma), sigma);
     }
 }
 
@@ -93,23 +70,13 @@ fn large_means_with_small_spreads() -> Result<(), Error> {
     // matters.
     let unit = 0.5_f64.powi(26);
     let skewed = |k| normal(1, k) + 0.3 * normal(2, k).powi(2);
-    let integers: Vec<i64> = (0..10_000)
-        .map(|k| (1e-4 * skewed(k) / unit).round() as i64)
-        .collect();
+    let integers: Vec<i64> = (0..10_000).map(|k| (1e-4 * skewed(k) / unit).round() as i64).collect();
     for origin in [1e8, -1e8, 0.0, 1e8 + 1.0] {
         let values: Vec<f64> = integers.iter().map(|k| origin + unit * *k as f64).collect();
-        let statistics = partial(&[&values], &Plan::new(1))?
-            .statistics(0)?
-            .expect("values");
+        let statistics = partial(&[&values], &Plan::new(1))?.statistics(0)?.expect("values");
         Exact::of(&integers, origin, unit).assert(&statistics, 1e-14);
-        assert_eq!(
-            statistics.min,
-            origin + unit * *integers.iter().min().expect("values") as f64
-        );
-        assert_eq!(
-            statistics.max,
-            origin + unit * *integers.iter().max().expect("values") as f64
-        );
+        assert_eq!(statistics.min, origin + unit * *integers.iter().min().expect("values") as f64);
+        assert_eq!(statistics.max, origin + unit * *integers.iter().max().expect("values") as f64);
     }
     Ok(())
 }
@@ -196,10 +163,7 @@ fn covariance_of_samples_that_have_both() -> Result<(), Error> {
     let found = partial.covariance(0, 1)?.expect("values");
     let expected = Covariance::of(&Comoments::of(&first, &second)).expect("values");
     assert_eq!(found.count, first.len() as u64);
-    let both = [
-        (found.covariance, expected.covariance),
-        (found.correlation, expected.correlation),
-    ];
+    let both = [(found.covariance, expected.covariance), (found.correlation, expected.correlation)];
     for (found, expected) in both {
         let (found, expected) = (found.expect("pairs"), expected.expect("pairs"));
         assert!((found - expected).abs() < 1e-14 && expected > 0.05);
@@ -213,16 +177,10 @@ fn few_values() {
     assert!(of(&[]).is_none() && Covariance::of(&Comoments::of(&[], &[])).is_none());
     let one = of(&[3.0]).expect("a value");
     assert_eq!((one.count, one.mean, one.min, one.max), (1, 3.0, 3.0, 3.0));
-    assert_eq!(
-        (one.sigma, one.standard_error, one.sigma_error),
-        (None, None, None)
-    );
+    assert_eq!((one.sigma, one.standard_error, one.sigma_error), (None, None, None));
     assert_eq!((one.skewness, one.excess_kurtosis), (None, None));
     let two = of(&[1.0, 2.0]).expect("values");
-    assert_eq!(
-        (two.sigma, two.standard_error),
-        (Some(0.5_f64.sqrt()), Some(0.5))
-    );
+    assert_eq!((two.sigma, two.standard_error), (Some(0.5_f64.sqrt()), Some(0.5)));
     assert_eq!((two.skewness, two.excess_kurtosis), (None, None));
     let three = of(&[1.0, 2.0, 4.0]).expect("values");
     // From R's package e1071: skewness(c(1, 2, 4), type = 2).
@@ -230,10 +188,7 @@ fn few_values() {
     assert_eq!(three.excess_kurtosis, None);
     let single = Covariance::of(&Comoments::of(&[1.0], &[2.0, 5.0])).expect("a pair");
     assert_eq!((single.count, single.means), (1, [1.0, 2.0]));
-    assert_eq!(
-        (single.covariance, single.correlation, single.sigmas),
-        (None, None, None)
-    );
+    assert_eq!((single.covariance, single.correlation, single.sigmas), (None, None, None));
 }
 
 #[test]
@@ -244,14 +199,8 @@ fn values_that_are_all_the_same_have_no_spread() -> Result<(), Error> {
         let line: Vec<f64> = (0..1000).map(f64::from).collect();
         let partial = partial(&[&values, &line], &plan)?;
         let s = partial.statistics(0)?.expect("values");
-        assert_eq!(
-            (s.mean, s.sigma, s.standard_error),
-            (value, Some(0.0), Some(0.0))
-        );
-        assert_eq!(
-            (s.sigma_error, s.skewness, s.excess_kurtosis),
-            (None, None, None)
-        );
+        assert_eq!((s.mean, s.sigma, s.standard_error), (value, Some(0.0), Some(0.0)));
+        assert_eq!((s.sigma_error, s.skewness, s.excess_kurtosis), (None, None, None));
         let c = partial.covariance(0, 1)?.expect("values");
         assert_eq!((c.covariance, c.correlation), (Some(0.0), None));
     }
@@ -260,17 +209,10 @@ fn values_that_are_all_the_same_have_no_spread() -> Result<(), Error> {
 
 #[test]
 fn what_is_too_large_to_compute_is_not_there() -> Result<(), Error> {
-    let values: Vec<f64> = (0..600)
-        .map(|k| if k % 3 == 0 { -1e300 } else { 1e300 })
-        .collect();
-    let s = partial(&[&values], &Plan::new(1))?
-        .statistics(0)?
-        .expect("values");
+    let values: Vec<f64> = (0..600).map(|k| if k % 3 == 0 { -1e300 } else { 1e300 }).collect();
+    let s = partial(&[&values], &Plan::new(1))?.statistics(0)?.expect("values");
     assert!((s.mean / 1e300 - 1.0 / 3.0).abs() < 1e-15 && s.min == -1e300);
-    assert_eq!(
-        (s.sigma, s.standard_error, s.sigma_error),
-        (None, None, None)
-    );
+    assert_eq!((s.sigma, s.standard_error, s.sigma_error), (None, None, None));
     assert_eq!((s.skewness, s.excess_kurtosis), (None, None));
     Ok(())
 }

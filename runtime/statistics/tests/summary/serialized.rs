@@ -27,13 +27,8 @@ fn states_that_cannot_be_are_refused() -> Result<(), Error> {
     let written = serde_json::to_value(gathered(100..1600)?).expect("numbers and lists");
     let refused = |path: &str, value: serde_json::Value| {
         let mut changed = written.clone();
-        *changed
-            .pointer_mut(path)
-            .unwrap_or_else(|| panic!("{path} in {written}")) = value;
-        assert!(
-            serde_json::from_value::<Partial>(changed).is_err(),
-            "{path}"
-        );
+        *changed.pointer_mut(path).unwrap_or_else(|| panic!("{path} in {written}")) = value;
+        assert!(serde_json::from_value::<Partial>(changed).is_err(), "{path}");
     };
     refused("/tree/nodes/0/start", 3.into());
     refused("/tree/nodes/0/level", 60.into());

@@ -6,9 +6,7 @@ use proptest::prelude::*;
 
 use crate::common::{normal, uniform};
 
-const SHARES: [f64; 13] = [
-    0.0, 1e-4, 0.01, 0.1, 0.25, 0.4, 0.5, 0.501, 0.75, 0.9, 0.999, 0.9999, 1.0,
-];
+const SHARES: [f64; 13] = [0.0, 1e-4, 0.01, 0.1, 0.25, 0.4, 0.5, 0.501, 0.75, 0.9, 0.999, 0.9999, 1.0];
 
 fn sketch(values: &[f64], reference: f64, scale: f64) -> Result<Sketch, Error> {
     let mut sketch = Sketch::new(reference, scale)?;
@@ -18,50 +16,31 @@ fn sketch(values: &[f64], reference: f64, scale: f64) -> Result<Sketch, Error> {
 
 /// Checks all estimates against the sorted values.
 fn check(name: &str, values: &[f64], reference: f64, scale: f64) -> Result<(), Error> {
-    let (sketch, sorted) = (
-        sketch(values, reference, scale)?,
-        Sorted::new(values.to_vec())?,
-    );
+    let (sketch, sorted) = (sketch(values, reference, scale)?, Sorted::new(values.to_vec())?);
     for p in SHARES {
         let (found, exact) = (sketch.quantile(p)?, sorted.quantile(p)?);
-        assert!(
-            (found.value - exact).abs() <= found.error,
-            "{name}, {p}: {found:?}, exact {exact}"
-        );
+        assert!((found.value - exact).abs() <= found.error, "{name}, {p}: {found:?}, exact {exact}");
         // The promised error, for the neighbours of the quantile.
         let position = (values.len() - 1) as f64 * p;
-        let neighbours =
-            [position.floor(), position.ceil()].map(|rank| sorted.values()[rank as usize]);
+        let neighbours = [position.floor(), position.ceil()].map(|rank| sorted.values()[rank as usize]);
         let bound = neighbours.map(|value| {
             let deviation = (value - reference).abs();
             let rounding = 4.0 * f64::EPSILON * (value.abs() + reference.abs());
             f64::max(deviation / 256.0, scale * 0.5_f64.powi(23)) + rounding
         });
-        assert!(
-            found.error <= 1.0001 * bound[0].max(bound[1]),
-            "{name}, {p}: {found:?}, bound {bound:?}"
-        );
+        assert!(found.error <= 1.0001 * bound[0].max(bound[1]), "{name}, {p}: {found:?}, bound {bound:?}");
         let inside = sketch.cdf(exact)?;
         let share = sorted.cdf(exact)?;
-        assert!(
-            (inside.value - share).abs() <= inside.error + 1e-15,
-            "{name}, {p}: {inside:?}, exact {share}"
-        );
+        assert!((inside.value - share).abs() <= inside.error + 1e-15, "{name}, {p}: {inside:?}, exact {share}");
     }
     assert_eq!(sketch.quantile(0.0)?.value, sorted.values()[0]);
-    assert_eq!(
-        sketch.quantile(1.0)?.value,
-        sorted.values()[values.len() - 1]
-    );
+    assert_eq!(sketch.quantile(1.0)?.value, sorted.values()[values.len() - 1]);
     let histogram = sketch.histogram(20)?;
     let mut sum = 0.0;
     for (edge, share) in histogram.edges[1..].iter().zip(&histogram.shares) {
         sum += share;
         let known = sketch.cdf(*edge)?;
-        assert!(
-            (sum - sorted.cdf(*edge)?).abs() <= known.error + 1e-12,
-            "{name} at {edge}"
-        );
+        assert!((sum - sorted.cdf(*edge)?).abs() <= known.error + 1e-12, "{name} at {edge}");
     }
     assert!((sum - 1.0).abs() < 1e-12 && histogram.shares.iter().all(|share| *share >= 0.0));
     Ok(())
@@ -106,22 +85,13 @@ fn of_many_distributions() -> Result<(), Error> {
 fn resolution_for_normal_values() -> Result<(), Error> {
     let values: Vec<f64> = (0..100_000).map(|k| 50.0 + 0.2 * normal(37, k)).collect();
     let (sketch, sorted) = (sketch(&values, 50.0, 0.2)?, Sorted::new(values)?);
-    for (p, limit) in [
-        (0.5, 1e-5),
-        (0.16, 0.004),
-        (0.84, 0.004),
-        (0.001, 0.013),
-        (0.999, 0.013),
-    ] {
+    for (p, limit) in [(0.5, 1e-5), (0.16, 0.004), (0.84, 0.004), (0.001, 0.013), (0.999, 0.013)] {
         let value = sketch.quantile(p)?;
         assert!(value.error <= limit * 0.2, "{p}: {value:?}");
         // With many values per bucket, interpolation is much better than its bound.
         if (0.1..0.9).contains(&p) {
             let exact = sorted.quantile(p)?;
-            assert!(
-                (value.value - exact).abs() <= 0.1 * limit * 0.2 + 2e-6,
-                "{p}: {value:?}, exact {exact}"
-            );
+            assert!((value.value - exact).abs() <= 0.1 * limit * 0.2 + 2e-6, "{p}: {value:?}, exact {exact}");
         }
     }
     Ok(())
@@ -141,30 +111,15 @@ fn zeros_of_either_sign_are_the_same_in_any_order() -> Result<(), Error> {
 
 #[test]
 fn values_that_are_all_the_same_are_exact() -> Result<(), Error> {
-    for (value, reference) in [
-        (5.0, 5.0),
-        (5.1, 5.0),
-        (-0.3, 0.0),
-        (1e300, -1e300),
-        (1e-300, 0.0),
-    ] {
+    for (value, reference) in [(5.0, 5.0), (5.1, 5.0), (-0.3, 0.0), (1e300, -1e300), (1e-300, 0.0)] {
         let sketch = sketch(&[value; 300], reference, 1.0)?;
         for p in SHARES {
             let quantile = sketch.quantile(p)?;
             assert_eq!((quantile.value, quantile.error), (value, 0.0));
         }
-        assert_eq!(
-            (
-                sketch.cdf(value)?.value,
-                sketch.cdf(value - 1e-3 * value.abs())?.value
-            ),
-            (1.0, 0.0)
-        );
+        assert_eq!((sketch.cdf(value)?.value, sketch.cdf(value - 1e-3 * value.abs())?.value), (1.0, 0.0));
         let histogram = sketch.histogram(7)?;
-        assert_eq!(
-            (histogram.edges, histogram.shares),
-            (vec![value, value], vec![1.0])
-        );
+        assert_eq!((histogram.edges, histogram.shares), (vec![value, value], vec![1.0]));
     }
     Ok(())
 }

@@ -14,13 +14,7 @@ fn bits(partial: &Partial) -> Result<Vec<u64>, Error> {
             continue;
         };
         bits.extend([s.count, s.mean.to_bits(), s.min.to_bits(), s.max.to_bits()]);
-        let optional = [
-            s.standard_error,
-            s.sigma,
-            s.sigma_error,
-            s.skewness,
-            s.excess_kurtosis,
-        ];
+        let optional = [s.standard_error, s.sigma, s.sigma_error, s.skewness, s.excess_kurtosis];
         bits.extend(optional.into_iter().flatten().map(f64::to_bits));
         if s.sketch().is_some() {
             for p in [0.0, 0.01, 0.3, 0.5, 0.9, 1.0] {
@@ -32,12 +26,7 @@ fn bits(partial: &Partial) -> Result<Vec<u64>, Error> {
     for (first, second) in [(0, 1), (0, 2), (2, 1)] {
         if let Some(c) = partial.covariance(first, second)? {
             bits.extend(c.means.map(f64::to_bits));
-            bits.extend(
-                [c.covariance, c.correlation]
-                    .into_iter()
-                    .flatten()
-                    .map(f64::to_bits),
-            );
+            bits.extend([c.covariance, c.correlation].into_iter().flatten().map(f64::to_bits));
         }
     }
     bits.extend(partial.outcomes());
@@ -117,14 +106,9 @@ fn any_number_of_threads_gives_the_same_bits() -> Result<(), Error> {
     for threads in [2, 3, 7] {
         let parts = std::thread::scope(|scope| {
             let workers: Vec<_> = (0..threads)
-                .map(|k| {
-                    scope.spawn(move || gathered(20_000 * k / threads..20_000 * (k + 1) / threads))
-                })
+                .map(|k| scope.spawn(move || gathered(20_000 * k / threads..20_000 * (k + 1) / threads)))
                 .collect();
-            workers
-                .into_iter()
-                .map(|worker| worker.join().expect("no panic"))
-                .collect::<Vec<_>>()
+            workers.into_iter().map(|worker| worker.join().expect("no panic")).collect::<Vec<_>>()
         });
         let mut all = Partial::new(plan()?);
         for part in parts {

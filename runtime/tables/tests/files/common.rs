@@ -10,10 +10,7 @@ pub(crate) fn table() -> Table {
     table.whole("mode", [Some(1), None, Some(3)]);
     table.numbers("length", "mm", [0.1 + 0.2, f64::MIN_POSITIVE, -1.0e300]);
     table.numbers("sigma", "rad/s", [Some(5e-324), None, Some(-0.0)]);
-    table.texts(
-        "name, with \"marks\"",
-        ["a,b", "line\nline", " \"c\" "].map(|x| Some(x.to_owned())),
-    );
+    table.texts("name, with \"marks\"", ["a,b", "line\nline", " \"c\" "].map(|x| Some(x.to_owned())));
     table.flags("met", [Some(true), None, Some(false)]);
     table
 }

@@ -11,11 +11,7 @@ fn a_table_comes_back_bit_by_bit() {
     let text = csv::to_string(&table()).expect("text");
     let back = csv::read("mixed", text.as_bytes()).expect("a table");
     assert_eq!(back, table());
-    let Some(Column {
-        values: Values::Numbers(own),
-        ..
-    }) = back.column("sigma")
-    else {
+    let Some(Column { values: Values::Numbers(own), .. }) = back.column("sigma") else {
         panic!("numbers");
     };
     assert!(own[2].expect("a number").is_sign_negative());
@@ -27,10 +23,7 @@ fn what_is_not_finite_is_an_empty_cell() {
     table.numbers("distance", "sigma", [f64::INFINITY, f64::NAN, 2.0]);
     let text = csv::to_string(&table).expect("text");
     assert_eq!(text, "distance [sigma]\n\"\"\n\"\"\n2.0\n");
-    assert_eq!(
-        csv::read("distances", text.as_bytes()).expect("a table"),
-        table
-    );
+    assert_eq!(csv::read("distances", text.as_bytes()).expect("a table"), table);
 }
 
 #[test]
@@ -46,10 +39,7 @@ fn a_file_that_is_cut_off_is_refused() {
     }
     assert_eq!(whole, 3);
     let error = csv::read("empty", io::empty()).expect_err("no headings");
-    assert_eq!(
-        error.to_string(),
-        "line 1: there are no headings: the file is empty"
-    );
+    assert_eq!(error.to_string(), "line 1: there are no headings: the file is empty");
 }
 
 #[test]
@@ -58,24 +48,14 @@ fn other_columns_are_refused_in_one_file() {
     other.numbers("length", "m", [1.0]);
     let mut writer = csv::Writer::new(Vec::new());
     writer.write(&table()).expect("written");
-    assert!(matches!(
-        writer.write(&other),
-        Err(Error::OtherColumns { .. })
-    ));
+    assert!(matches!(writer.write(&other), Err(Error::OtherColumns { .. })));
 }
 
 #[test]
 fn columns_of_different_lengths_are_refused() {
     let mut table = table();
     table.columns[1].values = Values::Numbers(vec![Some(1.0)]);
-    assert!(matches!(
-        csv::to_string(&table),
-        Err(Error::Lengths {
-            found: 1,
-            expected: 3,
-            ..
-        })
-    ));
+    assert!(matches!(csv::to_string(&table), Err(Error::Lengths { found: 1, expected: 3, .. })));
 }
 
 #[test]
@@ -84,23 +64,14 @@ fn a_full_disk_is_an_error() {
     assert!(csv::write(&table(), Disk(size)).is_ok());
     for room in 0..size {
         let error = csv::write(&table(), Disk(room)).expect_err("no room");
-        assert!(
-            matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull),
-            "{error:?}"
-        );
+        assert!(matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull), "{error:?}");
     }
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn so_is_that_of_the_system() {
-    let full = std::fs::OpenOptions::new()
-        .write(true)
-        .open("/dev/full")
-        .expect("the device");
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("the device");
     let error = csv::write(&table(), full).expect_err("no room");
-    assert!(
-        matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull),
-        "{error:?}"
-    );
+    assert!(matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull), "{error:?}");
 }

@@ -48,17 +48,10 @@ fn another_program_finds_its_way() {
     assert_eq!(document["kind"], "modes");
     assert_eq!(document["mechanism"], "Swing");
     assert_eq!(document["inputs"]["speed"]["unit"], "rpm");
-    let speed = document["inputs"]["speed"]["value"]
-        .as_f64()
-        .expect("a number");
+    let speed = document["inputs"]["speed"]["value"].as_f64().expect("a number");
     assert!((speed - 60.0).abs() < 1e-12);
-    let columns = document["tables"][0]["columns"]
-        .as_array()
-        .expect("columns");
-    let frequency = columns
-        .iter()
-        .find(|column| column["name"] == "frequency")
-        .expect("a column");
+    let columns = document["tables"][0]["columns"].as_array().expect("columns");
+    let frequency = columns.iter().find(|column| column["name"] == "frequency").expect("a column");
     assert_eq!(frequency["unit"], "rad/s");
     assert_eq!(frequency["kind"], "numbers");
     assert_eq!(frequency["values"][0].as_f64(), modes().frequencies()[0]);
@@ -75,19 +68,10 @@ fn a_result_comes_back_with_its_description() {
 #[test]
 fn what_is_infinite_is_a_word_in_the_result_and_missing_in_the_tables() {
     let study = Study::new(Swing).input(Swing::speed, InDeclaredUnit(60.0));
-    let first = study
-        .start(Swing::theta, 1.0)
-        .first_order()
-        .expect("spreads");
+    let first = study.start(Swing::theta, 1.0).first_order().expect("spreads");
     let text = json::to_string(&first).expect("text");
-    assert!(
-        text.contains(r#""distance_to_neighbour":"Infinity""#),
-        "{text}"
-    );
-    assert_eq!(
-        json::read::<FirstOrder>(text.as_bytes()).expect("spreads"),
-        first
-    );
+    assert!(text.contains(r#""distance_to_neighbour":"Infinity""#), "{text}");
+    assert_eq!(json::read::<FirstOrder>(text.as_bytes()).expect("spreads"), first);
     let tables = json::read_tables(text.as_bytes()).expect("tables");
     let column = tables[0].column("distance to neighbour").expect("a column");
     assert_eq!(column.values, Values::Numbers(vec![None]));
@@ -102,28 +86,13 @@ fn other_documents_are_refused() {
         "the document is of version 7, written by \"eigentol-tables 0.1.0\"; this program reads version 1: write it again with this \
          program, or read it with the one that wrote it"
     );
-    assert!(matches!(
-        refused(with("version", Value::Null)),
-        Error::Version { .. }
-    ));
-    assert!(matches!(
-        refused(with("format", "other".into())),
-        Error::Foreign
-    ));
+    assert!(matches!(refused(with("version", Value::Null)), Error::Version { .. }));
+    assert!(matches!(refused(with("format", "other".into())), Error::Foreign));
     assert!(matches!(refused("[1, 2]".to_owned()), Error::Foreign));
-    assert!(matches!(
-        refused("no JSON".to_owned()),
-        Error::Malformed { line: 1, .. }
-    ));
-    assert!(matches!(
-        refused(with("result", Value::Null)),
-        Error::Content(_)
-    ));
+    assert!(matches!(refused("no JSON".to_owned()), Error::Malformed { line: 1, .. }));
+    assert!(matches!(refused(with("result", Value::Null)), Error::Content(_)));
     let error = json::read::<Equilibrium>(text().as_bytes()).expect_err("another kind");
-    assert_eq!(
-        error.to_string(),
-        "the document holds `modes`, not `equilibrium`"
-    );
+    assert_eq!(error.to_string(), "the document holds `modes`, not `equilibrium`");
 }
 
 /// Each list of the result in turn loses its last entry or has it doubled: refused before anything is built from it.
@@ -132,9 +101,7 @@ fn lists_of_other_lengths_are_refused<A: Answer + Serialize + DeserializeOwned>(
     let whole: Value = serde_json::from_str(&text).expect("JSON");
     assert!(json::read::<A>(text.as_bytes()).is_ok(), "{}", A::KIND);
     let schema: Value = serde_json::from_str(json::SCHEMA).expect("JSON");
-    let kinds = schema["properties"]["kind"]["enum"]
-        .as_array()
-        .expect("kinds");
+    let kinds = schema["properties"]["kind"]["enum"].as_array().expect("kinds");
     assert!(kinds.iter().any(|kind| kind == A::KIND), "{}", A::KIND);
     for change in [shorter, longer] {
         for list in 0.. {
@@ -184,10 +151,7 @@ fn resize(value: &mut Value, left: &mut usize, change: fn(&mut Vec<Value>)) -> b
 #[test]
 fn damaged_results_do_no_harm() {
     let study = Study::new(Swing).input(Swing::speed, InDeclaredUnit(60.0));
-    let study = study
-        .start(Swing::theta, 1.0)
-        .samples(64)
-        .keep_samples(true);
+    let study = study.start(Swing::theta, 1.0).samples(64).keep_samples(true);
     let state = study.equilibrium().expect("a state");
     let modes = study.modes().expect("a state");
     lists_of_other_lengths_are_refused(&state);
@@ -200,14 +164,9 @@ fn damaged_results_do_no_harm() {
     lists_of_other_lengths_are_refused(&study.summary().expect("a summary"));
     let few = study.clone().samples(3);
     lists_of_other_lengths_are_refused(&few.monte_carlo().expect("samples"));
-    let sweep = study
-        .sweep(Swing::speed, &[6.0, 6.1, 6.2])
-        .expect("a sweep");
+    let sweep = study.sweep(Swing::speed, &[6.0, 6.1, 6.2]).expect("a sweep");
     lists_of_other_lengths_are_refused(&sweep);
-    let responses = [Response::Mode {
-        mode: 0,
-        quantity: Quantity::Frequency,
-    }];
+    let responses = [Response::Mode { mode: 0, quantity: Quantity::Frequency }];
     lists_of_other_lengths_are_refused(&study.propagate(&responses).expect("spreads"));
     lists_of_other_lengths_are_refused(&study.worst_case(&responses).expect("limits"));
     lists_of_other_lengths_are_refused(&study.influence(&responses).expect("shares"));
@@ -259,9 +218,6 @@ fn a_full_disk_is_an_error() {
     assert!(json::write(&modes(), Disk(size)).is_ok());
     for room in 0..size {
         let error = json::write(&modes(), Disk(room)).expect_err("no room");
-        assert!(
-            matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull),
-            "{error:?}"
-        );
+        assert!(matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull), "{error:?}");
     }
 }

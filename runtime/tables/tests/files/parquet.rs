@@ -38,11 +38,7 @@ fn parts_are_joined_in_order() {
         panic!("numbers");
     };
     for (k, value) in values.iter().enumerate() {
-        assert_eq!(
-            *value,
-            (!k.is_multiple_of(7)).then(|| (k as f64).sqrt()),
-            "{k}"
-        );
+        assert_eq!(*value, (!k.is_multiple_of(7)).then(|| (k as f64).sqrt()), "{k}");
     }
 }
 
@@ -62,39 +58,23 @@ fn other_columns_are_refused_in_one_file() {
     writer.write(&table()).expect("written");
     let mut other = table();
     other.columns[1].unit = "m".to_owned();
-    assert!(matches!(
-        writer.write(&other),
-        Err(Error::OtherColumns { .. })
-    ));
+    assert!(matches!(writer.write(&other), Err(Error::OtherColumns { .. })));
     // The rejected table leaves the file unaffected.
     writer.write(&table()).expect("written");
     writer.finish().expect("finished");
-    assert_eq!(
-        parquet::read(&file[..]).expect("a table").rows(),
-        2 * table().rows()
-    );
+    assert_eq!(parquet::read(&file[..]).expect("a table").rows(), 2 * table().rows());
 }
 
 #[test]
 fn another_version_is_refused() {
     let file = bytes(&[table()]);
     let key = b"eigentol";
-    let at = file
-        .windows(key.len())
-        .position(|window| window == key)
-        .expect("the key");
-    let version = at
-        + file[at..]
-            .iter()
-            .position(|byte| *byte == b'1')
-            .expect("the version");
+    let at = file.windows(key.len()).position(|window| window == key).expect("the key");
+    let version = at + file[at..].iter().position(|byte| *byte == b'1').expect("the version");
     let mut other = file.clone();
     other[version] = b'7';
     let error = parquet::read(&other[..]).expect_err("another version");
-    assert!(
-        matches!(&error, Error::Version { found, expected: 1, .. } if found == "7"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::Version { found, expected: 1, .. } if found == "7"), "{error}");
 }
 
 #[test]
@@ -103,9 +83,6 @@ fn a_full_disk_is_an_error() {
     assert!(parquet::write(&table(), Disk(size)).is_ok());
     for room in 0..size {
         let error = parquet::write(&table(), Disk(room)).expect_err("no room");
-        assert!(
-            matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull),
-            "{room}: {error:?}"
-        );
+        assert!(matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull), "{room}: {error:?}");
     }
 }

@@ -54,11 +54,7 @@ impl<'a> Workspace<'a> {
         past: &Past<'_>,
         shapes: &Matrix,
     ) -> usize {
-        let Self {
-            block,
-            scratch,
-            slopes: derivatives,
-        } = self;
+        let Self { block, scratch, slopes: derivatives } = self;
         let number = values.len().min(WIDTH);
         let Some(&last) = values[..number].last() else {
             return 0;
@@ -75,9 +71,7 @@ impl<'a> Workspace<'a> {
                 slopes(kernels, instructions, block, derivatives);
             }
         }
-        let passed = block.flags.0[..number]
-            .iter()
-            .take_while(|flag| **flag == 1.0);
+        let passed = block.flags.0[..number].iter().take_while(|flag| **flag == 1.0);
         passed.count()
     }
 }

@@ -75,11 +75,7 @@ pub(crate) fn load<V: Lanes, const N: usize>(n: usize, from: &[Batch], at: usize
 
 /// Loads the first entries of a matrix, row by row.
 #[inline(always)]
-pub(crate) fn load_matrix<V: Lanes, const N: usize>(
-    n: usize,
-    from: &[Batch],
-    at: usize,
-) -> Square<V, N> {
+pub(crate) fn load_matrix<V: Lanes, const N: usize>(n: usize, from: &[Batch], at: usize) -> Square<V, N> {
     let mut rows = [[V::constant(0.0); N]; N];
     let from = &from[..n * n];
     for i in 0..n {
@@ -92,12 +88,7 @@ pub(crate) fn load_matrix<V: Lanes, const N: usize>(
 
 /// Stores the first entries.
 #[inline(always)]
-pub(crate) fn store<V: Lanes, const N: usize>(
-    n: usize,
-    row: &Row<V, N>,
-    to: &mut [Batch],
-    at: usize,
-) {
+pub(crate) fn store<V: Lanes, const N: usize>(n: usize, row: &Row<V, N>, to: &mut [Batch], at: usize) {
     let to = &mut to[..n];
     for i in 0..n {
         row[i].store(&mut to[i], at);
@@ -123,11 +114,7 @@ pub(crate) fn keep<V: Lanes>(flag: V, mask: V::Mask) -> V {
 /// `matrix = L D L^T`: `L` below the diagonal, inverse pivots on it. The flag says that every pivot is positive, and at
 /// least the share `least` of its diagonal element.
 #[inline(always)]
-pub(crate) fn factor<V: Lanes, const N: usize>(
-    n: usize,
-    matrix: &Square<V, N>,
-    least: f64,
-) -> (Square<V, N>, V) {
+pub(crate) fn factor<V: Lanes, const N: usize>(n: usize, matrix: &Square<V, N>, least: f64) -> (Square<V, N>, V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
     let mut factor = [[zero; N]; N];
     let mut pivots = [zero; N];
@@ -143,10 +130,7 @@ pub(crate) fn factor<V: Lanes, const N: usize>(
             factor[i][j] = scaled * factor[j][j];
             pivot = pivot - factor[i][j] * scaled;
         }
-        flag = keep(
-            flag,
-            (matrix[i][i].abs() * V::constant(least)).at_most(pivot),
-        );
+        flag = keep(flag, (matrix[i][i].abs() * V::constant(least)).at_most(pivot));
         pivots[i] = pivot;
         factor[i][i] = one / pivot;
     }
@@ -155,11 +139,7 @@ pub(crate) fn factor<V: Lanes, const N: usize>(
 
 /// Solves `L D L^T x = right`.
 #[inline(always)]
-pub(crate) fn solve<V: Lanes, const N: usize>(
-    n: usize,
-    factor: &Square<V, N>,
-    right: &Row<V, N>,
-) -> Row<V, N> {
+pub(crate) fn solve<V: Lanes, const N: usize>(n: usize, factor: &Square<V, N>, right: &Row<V, N>) -> Row<V, N> {
     let mut x = *right;
     for i in 0..n {
         for j in 0..i {

@@ -47,19 +47,12 @@ pub fn possible(description: &Description, kernels: &[&str]) -> bool {
         && Structure::of(description).open()
         && matches!(description.damping, DampingKind::Zero)
         && description.symmetric_stiffness
-        && kernels
-            .iter()
-            .all(|name| description.kernel(name).is_some())
+        && kernels.iter().all(|name| description.kernel(name).is_some())
 }
 
 /// The kernels that a block needs.
-pub const KERNELS: [&str; 5] = [
-    "residual_and_stiffness",
-    "residual_parts",
-    "linear",
-    "mode_gradient",
-    "residual_gradient",
-];
+pub const KERNELS: [&str; 5] =
+    ["residual_and_stiffness", "residual_parts", "linear", "mode_gradient", "residual_gradient"];
 
 impl<'a> Block<'a> {
     /// Number of batches that a block takes.
@@ -78,11 +71,7 @@ impl<'a> Block<'a> {
             iterations: Batch::default(),
             residual: room.take(n),
             relative_residual: Batch::default(),
-            linear: BatchLinear {
-                mass: room.take(n * n),
-                damping: &mut [],
-                stiffness: room.take(n * n),
-            },
+            linear: BatchLinear { mass: room.take(n * n), damping: &mut [], stiffness: room.take(n * n) },
             lambda: room.take(n),
             shapes: room.take(n * n),
             mode_residuals: room.take(n),
@@ -94,10 +83,6 @@ impl<'a> Block<'a> {
     }
 
     pub(super) fn point(&self) -> BatchPoint<'_> {
-        BatchPoint {
-            q: self.coordinates,
-            u: self.inputs,
-            b: self.design,
-        }
+        BatchPoint { q: self.coordinates, u: self.inputs, b: self.design }
     }
 }

@@ -15,26 +15,17 @@ pub(crate) struct Complex<V> {
 impl<V: Lanes> Complex<V> {
     #[inline(always)]
     pub(crate) fn constant(z: Complex64) -> Self {
-        Self {
-            re: V::constant(z.re),
-            im: V::constant(z.im),
-        }
+        Self { re: V::constant(z.re), im: V::constant(z.im) }
     }
 
     #[inline(always)]
     pub(crate) fn times(self, factor: V) -> Self {
-        Self {
-            re: self.re * factor,
-            im: self.im * factor,
-        }
+        Self { re: self.re * factor, im: self.im * factor }
     }
 
     #[inline(always)]
     pub(crate) fn conjugate(self) -> Self {
-        Self {
-            re: self.re,
-            im: -self.im,
-        }
+        Self { re: self.re, im: -self.im }
     }
 
     /// `|z|^2`
@@ -56,10 +47,7 @@ impl<V: Lanes> Complex<V> {
 
     #[inline(always)]
     pub(crate) fn choose(mask: V::Mask, yes: Self, no: Self) -> Self {
-        Self {
-            re: V::choose(mask, yes.re, no.re),
-            im: V::choose(mask, yes.im, no.im),
-        }
+        Self { re: V::choose(mask, yes.re, no.re), im: V::choose(mask, yes.im, no.im) }
     }
 }
 
@@ -68,10 +56,7 @@ impl<V: Lanes> Add for Complex<V> {
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self {
-            re: self.re + other.re,
-            im: self.im + other.im,
-        }
+        Self { re: self.re + other.re, im: self.im + other.im }
     }
 }
 
@@ -80,10 +65,7 @@ impl<V: Lanes> Sub for Complex<V> {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self {
-            re: self.re - other.re,
-            im: self.im - other.im,
-        }
+        Self { re: self.re - other.re, im: self.im - other.im }
     }
 }
 
@@ -92,9 +74,6 @@ impl<V: Lanes> Mul for Complex<V> {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self {
-            re: self.re * other.re - self.im * other.im,
-            im: self.re * other.im + self.im * other.re,
-        }
+        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
     }
 }

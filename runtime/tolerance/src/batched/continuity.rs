@@ -52,11 +52,7 @@ fn before(batch: &Batch, past: [f64; 3]) -> [Batch; 3] {
     let mut places = [Batch::default(); 3];
     for (by, places) in (1..).zip(&mut places) {
         for k in 0..WIDTH {
-            places.0[k] = if k < by {
-                past[by - 1 - k]
-            } else {
-                batch.0[k - by]
-            };
+            places.0[k] = if k < by { past[by - 1 - k] } else { batch.0[k - by] };
         }
     }
     places

@@ -95,20 +95,10 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
     /// each belongs to the nearby mode at its position and to no other, by shape and, if modes are `damped`, by
     /// eigenvalue.
     #[inline(always)]
-    pub(crate) fn eigenvalues(
-        &self,
-        reference: &Reference,
-        damped: bool,
-    ) -> (Eigenvalues<V, N>, V) {
+    pub(crate) fn eigenvalues(&self, reference: &Reference, damped: bool) -> (Eigenvalues<V, N>, V) {
         let (zero, n) = (V::constant(0.0), self.n);
         let none = Complex::constant(Complex64::ZERO);
-        let blank = Pair {
-            s: none,
-            error: zero,
-            size: zero,
-            right: [none; N],
-            weighed: [none; N],
-        };
+        let blank = Pair { s: none, error: zero, size: zero, right: [none; N], weighed: [none; N] };
         let mut storage = [[blank; N]; 2];
         let slots = storage.as_flattened_mut();
         let mut flag = V::constant(1.0);
@@ -148,13 +138,7 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
         let near = V::constant(NEAR * NEAR * known.s.norm_sqr());
         let mut flag = keep(one, step.square().at_most(near));
         let (mut done, mut error) = (zero, zero);
-        let mut kept = Pair {
-            s,
-            error,
-            size,
-            right,
-            weighed: of_right.sums[0],
-        };
+        let mut kept = Pair { s, error, size, right, weighed: of_right.sums[0] };
         for _ in 0..STEPS {
             let (factors, neighbour) = self.factors(s, known);
             right = factors.solve(&of_right.slope(n, s));
@@ -207,16 +191,9 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
     }
 
     #[inline(always)]
-    fn products(
-        &self,
-        x: &Vector<V, N>,
-        element: impl Fn(&Square<V, N>, usize, usize) -> V,
-    ) -> Products<V, N> {
+    fn products(&self, x: &Vector<V, N>, element: impl Fn(&Square<V, N>, usize, usize) -> V) -> Products<V, N> {
         let (zero, n) = (V::constant(0.0), self.n);
-        let mut products = Products {
-            sums: [[Complex { re: zero, im: zero }; N]; 3],
-            terms: [[zero; N]; 3],
-        };
+        let mut products = Products { sums: [[Complex { re: zero, im: zero }; N]; 3], terms: [[zero; N]; 3] };
         let mut bounds = [zero; N];
         for j in 0..n {
             bounds[j] = x[j].bound();
@@ -249,10 +226,7 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
         for (q, &i) in q[..n].iter_mut().zip(rows) {
             for (q, &j) in q[..n].iter_mut().zip(columns) {
                 let (m, c) = (mass[i][j], damping[i][j]);
-                *q = Complex {
-                    re: square.re * m + (s.re * c + stiffness[i][j]),
-                    im: square.im * m + s.im * c,
-                };
+                *q = Complex { re: square.re * m + (s.re * c + stiffness[i][j]), im: square.im * m + s.im * c };
             }
         }
         let tiny = V::constant(TINY);
@@ -274,12 +248,7 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
                 }
             }
         }
-        let factors = Factors {
-            n,
-            factors: q,
-            rows,
-            columns,
-        };
+        let factors = Factors { n, factors: q, rows, columns };
         (factors, neighbour)
     }
 }
@@ -377,13 +346,7 @@ impl<V: Lanes, const N: usize> Products<V, N> {
     }
 
     #[inline(always)]
-    fn measure(
-        &self,
-        n: usize,
-        s: Complex<V>,
-        left: &Vector<V, N>,
-        of_left: &Products<V, N>,
-    ) -> Measure<V> {
+    fn measure(&self, n: usize, s: Complex<V>, left: &Vector<V, N>, of_left: &Products<V, N>) -> Measure<V> {
         let zero = V::constant(0.0);
         let none = Complex { re: zero, im: zero };
         let slopes = self.slope(n, s);
@@ -495,13 +458,7 @@ fn recognised<V: Lanes, const N: usize>(
     let measured = &measured.as_flattened()[..pairs.len()];
     for (j, threshold) in thresholds.iter_mut().enumerate() {
         let (size, rate) = measured[j];
-        let assurance = assurance(
-            (n, damped),
-            &known[j],
-            &pairs[j],
-            pairs[j].size * size,
-            rate,
-        );
+        let assurance = assurance((n, damped), &known[j], &pairs[j], pairs[j].size * size, rate);
         *threshold = assurance - V::constant(OWN);
     }
     for i in 0..pairs.len() {

@@ -9,10 +9,7 @@
 //! through the three states before it, each mode recognised and apart from the others. States are accepted up to the
 //! first lane that fails; the scalar solver continues from there. Points are shown to a function and overwritten,
 //! because allocating results of this size costs more than computing them.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "rows and columns of several matrices"
-)]
+#![allow(clippy::needless_range_loop, reason = "rows and columns of several matrices")]
 
 mod advance;
 pub(crate) mod algebra;

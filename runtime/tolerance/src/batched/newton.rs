@@ -25,18 +25,9 @@ pub(super) fn newton<'m>(
     block.flags = Batch::all(1.0);
     block.iterations = Batch::all(0.0);
     for _ in 0..STEPS {
-        kernels.residual_and_stiffness_batch(
-            instructions,
-            block.point(),
-            scratch.residual,
-            scratch.stiffness,
-        );
+        kernels.residual_and_stiffness_batch(instructions, block.point(), scratch.residual, scratch.stiffness);
         let resting = &mut resting;
-        instructions.run(Step {
-            scratch,
-            block,
-            resting,
-        });
+        instructions.run(Step { scratch, block, resting });
         if resting.0.iter().all(|rests| *rests >= 1.0) {
             break;
         }
@@ -58,11 +49,7 @@ impl Task for Step<'_, '_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self {
-            scratch,
-            block,
-            resting,
-        } = self;
+        let Self { scratch, block, resting } = self;
         let (zero, one) = (V::constant(0.0), V::constant(1.0));
         for_size!(block.coordinates.len(), |n, N| {
             for at in (0..WIDTH).step_by(V::WIDTH) {

@@ -63,11 +63,7 @@ impl<'a> Slopes<'a> {
                 inputs: room.take(sizes.inputs),
                 design: room.take(sizes.design),
             };
-            Self::Gradients(Gradients {
-                direct: gradient(),
-                shift: gradient(),
-                adjoint: room.take(n),
-            })
+            Self::Gradients(Gradients { direct: gradient(), shift: gradient(), adjoint: room.take(n) })
         }
     }
 }
@@ -95,11 +91,7 @@ pub(super) fn slopes<'m>(
                 instructions.run(Adjoint { block, gradients });
                 let Gradients { shift, adjoint, .. } = gradients;
                 kernels.residual_gradient_batch(instructions, block.point(), adjoint, shift);
-                instructions.run(TotalDerivatives {
-                    block,
-                    gradients,
-                    mode,
-                });
+                instructions.run(TotalDerivatives { block, gradients, mode });
             }
         }
     }
@@ -126,12 +118,7 @@ impl Task for FromPartials<'_, '_> {
 }
 
 #[inline(always)]
-fn from_partials<V: Lanes, const N: usize>(
-    n: usize,
-    partials: &Partials<'_>,
-    block: &mut Block<'_>,
-    at: usize,
-) {
+fn from_partials<V: Lanes, const N: usize>(n: usize, partials: &Partials<'_>, block: &mut Block<'_>, at: usize) {
     let Partials { matrices, residual } = partials;
     let stiffness: Square<V, N> = load_matrix(n, block.linear.stiffness, at);
     let (solver, _) = FactoredMatrix::new(n, &stiffness, POSITIVE);
@@ -211,11 +198,7 @@ impl Task for TotalDerivatives<'_, '_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self {
-            block,
-            gradients: Gradients { direct, shift, .. },
-            mode,
-        } = self;
+        let Self { block, gradients: Gradients { direct, shift, .. }, mode } = self;
         for at in (0..WIDTH).step_by(V::WIDTH) {
             let mut finite = Finite::new();
             for (direct, shift, to) in [
@@ -268,10 +251,7 @@ impl<V: Lanes, const N: usize> Change<V, N> {
     fn load(n: usize, changes: &BatchLinear<'_>, k: usize, at: usize) -> Self {
         let stiffness = &changes.stiffness[k * n * n..][..n * n];
         let mass = &changes.mass[k * n * n..][..n * n];
-        let mut change = Self {
-            stiffness: [[V::constant(0.0); N]; N],
-            mass: [[V::constant(0.0); N]; N],
-        };
+        let mut change = Self { stiffness: [[V::constant(0.0); N]; N], mass: [[V::constant(0.0); N]; N] };
         for i in 0..n {
             for j in 0..=i {
                 change.stiffness[i][j] = V::load(&stiffness[i * n + j], at);

@@ -29,10 +29,7 @@ impl<'a> Scratch<'a> {
         Self {
             residual: room.take(n),
             stiffness: room.take(n * n),
-            parts: BatchParts {
-                inertia: room.take(n),
-                applied: room.take(n),
-            },
+            parts: BatchParts { inertia: room.take(n), applied: room.take(n) },
         }
     }
 }
@@ -49,17 +46,9 @@ pub(super) fn state<'m>(
     shapes: &Matrix,
 ) {
     let parts = &mut scratch.parts;
-    let point = BatchPoint {
-        q: block.coordinates,
-        u: block.inputs,
-        b: block.design,
-    };
+    let point = BatchPoint { q: block.coordinates, u: block.inputs, b: block.design };
     kernels.parts_and_linear_batch(instructions, point, parts, &mut block.linear);
-    instructions.run(CompleteStates {
-        shapes,
-        parts,
-        block,
-    });
+    instructions.run(CompleteStates { shapes, parts, block });
 }
 
 struct CompleteStates<'a, 'b> {
@@ -73,11 +62,7 @@ impl Task for CompleteStates<'_, '_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self {
-            shapes,
-            parts,
-            block,
-        } = self;
+        let Self { shapes, parts, block } = self;
         let one = V::constant(1.0);
         for_size!(block.coordinates.len(), |n, N| {
             let shapes: &Square<f64, N> = &small(n, shapes);
@@ -91,8 +76,7 @@ impl Task for CompleteStates<'_, '_> {
                 for i in 0..n {
                     residual[i] = residual[i] - applied[i];
                 }
-                let (relative, rest) =
-                    remainder(n, &q, [&inertia, &applied, &residual], &stiffness);
+                let (relative, rest) = remainder(n, &q, [&inertia, &applied, &residual], &stiffness);
                 let mut flag = keep(V::load(&block.flags, at), one.at_most(rest));
                 flag = keep(flag, one.at_most(closed::definite(n, &mass, POSITIVE)));
                 let (lambda, vectors, found) = modes(n, &mass, &stiffness, shapes);
@@ -101,8 +85,7 @@ impl Task for CompleteStates<'_, '_> {
                 relative.store(&mut block.relative_residual, at);
                 algebra::store(n, &lambda, block.lambda, at);
                 for r in 0..n {
-                    let (most, error, accurate) =
-                        mode_residual(n, &mass, &stiffness, lambda[r], &vectors[r]);
+                    let (most, error, accurate) = mode_residual(n, &mass, &stiffness, lambda[r], &vectors[r]);
                     flag = keep(flag, one.at_most(accurate));
                     most.store(&mut block.mode_residuals[r], at);
                     error.store(&mut block.mode_errors[r], at);
@@ -167,10 +150,7 @@ fn modes<V: Lanes, const N: usize>(
         let lambda = lambda[i];
         greatest = V::choose(lambda.at_most(greatest), greatest, lambda);
     }
-    let (positive, slow) = (
-        V::constant(2.0 * of_elements(n)) * greatest,
-        V::constant(SLOW),
-    );
+    let (positive, slow) = (V::constant(2.0 * of_elements(n)) * greatest, V::constant(SLOW));
     let least = V::choose(slow.at_most(positive), positive, slow);
     for r in 0..n {
         for s in 0..n {

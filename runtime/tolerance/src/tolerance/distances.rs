@@ -21,8 +21,7 @@ impl ModeTolerance {
     #[doc(hidden)]
     pub fn distance_to_critical_damping(&self, family: Family) -> Option<f64> {
         let frequency = self.of(Quantity::Frequency)?;
-        (family == Family::General && frequency.sigma > 0.0)
-            .then(|| 0.5 * frequency.mean / frequency.sigma)
+        (family == Family::General && frequency.sigma > 0.0).then(|| 0.5 * frequency.mean / frequency.sigma)
     }
 }
 
@@ -83,9 +82,7 @@ impl FirstOrder {
     #[doc(hidden)]
     pub fn nearest_critical(&self) -> Option<(usize, f64)> {
         let distances = self.modes.iter().map(|mode| mode.distance_to_critical);
-        let nearest = distances
-            .enumerate()
-            .min_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
+        let nearest = distances.enumerate().min_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
         nearest.filter(|(_, distance)| near(distance.abs()))
     }
 }

@@ -123,10 +123,7 @@ impl Doubt {
     /// Whether it is about modes that share one spread.
     #[doc(hidden)]
     pub fn shared(&self) -> bool {
-        matches!(
-            self,
-            Self::Clustered { .. } | Self::EqualInEveryDesign { .. }
-        )
+        matches!(self, Self::Clustered { .. } | Self::EqualInEveryDesign { .. })
     }
 
     /// Whether it shows that there is no such standard deviation, or that it is wrong. Distances to other states only
@@ -135,9 +132,7 @@ impl Doubt {
     pub fn certain(&self) -> bool {
         match self {
             Self::NearCritical { distance } => *distance < UPON_CRITICAL,
-            Self::BranchNear { distance, .. } | Self::NearInstability { distance } => {
-                *distance <= 0.0
-            }
+            Self::BranchNear { distance, .. } | Self::NearInstability { distance } => *distance <= 0.0,
             Self::NearCriticalDamping { .. }
             | Self::NearNeighbour { .. }
             | Self::Unchecked { .. }

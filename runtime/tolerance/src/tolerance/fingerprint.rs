@@ -15,12 +15,7 @@ pub struct Fingerprint(Vec<(String, String)>);
 impl Fingerprint {
     /// The fingerprint of the state that samples are drawn about.
     #[doc(hidden)]
-    pub fn new(
-        mechanism: &dyn Kernels,
-        at: &Equilibrium,
-        modes: &Modes,
-        tolerances: &Tolerances,
-    ) -> Self {
+    pub fn new(mechanism: &dyn Kernels, at: &Equilibrium, modes: &Modes, tolerances: &Tolerances) -> Self {
         let description = &at.description;
         let mut all = Self(Vec::new());
         all.add("mechanism", &*description.name);
@@ -34,9 +29,7 @@ impl Fingerprint {
         for (i, info) in description.design.iter().enumerate() {
             let (sigma, shift) = (tolerances.sigmas().get(i), tolerances.shifts().get(i));
             let law = (tolerances.joint()).and_then(|(joint, _)| joint.variables().get(i));
-            let law = law.map_or("normal".to_owned(), |law| {
-                Digest::of_text(&format!("{law:?}"))
-            });
+            let law = law.map_or("normal".to_owned(), |law| Digest::of_text(&format!("{law:?}")));
             let value = format!("{sigma:?} {shift:?} {law}").replace("Some", "");
             all.add(format!("tolerance of `{}`", info.name), value);
         }
@@ -87,11 +80,7 @@ impl Fingerprint {
         for name in names {
             let (own, other) = (value_of(self, name), value_of(other, name));
             if own != other {
-                return Err(Error::OtherRun {
-                    what: name.to_owned(),
-                    own,
-                    other,
-                });
+                return Err(Error::OtherRun { what: name.to_owned(), own, other });
             }
         }
         Ok(())
@@ -157,11 +146,7 @@ impl Digest {
     fn numbers(&mut self, numbers: &[f64]) {
         for number in numbers {
             // Processors differ in the bits of NaN, and both zeros are equal.
-            let number = if number.is_nan() {
-                f64::NAN
-            } else {
-                number + 0.0
-            };
+            let number = if number.is_nan() { f64::NAN } else { number + 0.0 };
             self.bytes(&number.to_bits().to_le_bytes());
         }
     }

@@ -157,11 +157,7 @@ pub struct FirstOrder {
 ///
 /// # Errors
 /// [`Error::WrongLength`] for tolerances of another mechanism.
-pub fn first_order(
-    modes: &Modes,
-    sensitivities: &Sensitivities,
-    tolerances: &Tolerances,
-) -> Result<FirstOrder, Error> {
+pub fn first_order(modes: &Modes, sensitivities: &Sensitivities, tolerances: &Tolerances) -> Result<FirstOrder, Error> {
     tolerances.check_count(sensitivities.description.design.len())?;
     let count = modes.modes.len().min(sensitivities.modes.len());
     let mut spreads = Vec::with_capacity(count);
@@ -202,18 +198,14 @@ fn undamped(
     mode_tolerance: &mut ModeTolerance,
 ) {
     let lambda = &mut mode_tolerance.lambda;
-    lambda
-        .by_design
-        .set(&mode_sensitivity.lambda.by_design, |slope| *slope);
+    lambda.by_design.set(&mode_sensitivity.lambda.by_design, |slope| *slope);
     mode_tolerance.shift = lambda.finish(mode.lambda, tolerances);
     mode_tolerance.behaviour = mode.behaviour;
     mode_tolerance.value = mode.s;
     mode_tolerance.distance_to_critical = match mode.behaviour {
         Behaviour::Free => f64::INFINITY,
         // Along a free direction nothing vanishes that tolerances could bring back.
-        Behaviour::Neutral if mode_tolerance.lambda.sigma <= mode.error * mode.error => {
-            f64::INFINITY
-        }
+        Behaviour::Neutral if mode_tolerance.lambda.sigma <= mode.error * mode.error => f64::INFINITY,
         Behaviour::Neutral => 0.0,
         _ => in_sigmas(mode_tolerance.lambda.mean, mode_tolerance.lambda.sigma),
     };
@@ -240,9 +232,8 @@ fn general(
     });
     let [_, natural, _, growth] = all.each_ref().map(Option::as_ref);
     mode_tolerance.distance_to_critical = distance_to_zero(mode, natural, growth);
-    mode_tolerance.distance_to_instability = growth
-        .filter(|spread| !keeps_amplitude(mode, spread))
-        .map_or(f64::INFINITY, |spread| match mode.behaviour {
+    mode_tolerance.distance_to_instability =
+        growth.filter(|spread| !keeps_amplitude(mode, spread)).map_or(f64::INFINITY, |spread| match mode.behaviour {
             Behaviour::Oscillating(_) => 0.0,
             _ => in_sigmas(-spread.mean, spread.sigma),
         });
@@ -316,9 +307,5 @@ fn distances(
             return [one, another].map(|slopes| slopes.map_or(0.0, |_| f64::INFINITY));
         }
     };
-    [if sigma > 0.0 {
-        gap / sigma
-    } else {
-        f64::INFINITY
-    }; 2]
+    [if sigma > 0.0 { gap / sigma } else { f64::INFINITY }; 2]
 }

@@ -71,10 +71,7 @@ impl SampleRun<'_> {
         let mut kept = Vec::new();
         let mut pieces = self.pieces(groups);
         while !self.stopped() {
-            let round: Vec<(usize, Range<u64>)> = pieces
-                .by_ref()
-                .take(ROUND as usize * self.threads())
-                .collect();
+            let round: Vec<(usize, Range<u64>)> = pieces.by_ref().take(ROUND as usize * self.threads()).collect();
             if round.is_empty() {
                 break;
             }
@@ -115,12 +112,7 @@ impl SampleRun<'_> {
                 }
                 None => chunk.insert(Chunk::new(plan, range.clone())?),
             };
-            let mut part_of_chunk = Part {
-                group,
-                samples: range.clone(),
-                chunk,
-                kept: &mut kept,
-            };
+            let mut part_of_chunk = Part { group, samples: range.clone(), chunk, kept: &mut kept };
             solve(room, &mut part_of_chunk)?;
             Instructions::best().run(Add(&mut part, chunk))?;
             if let Some(progress) = self.progress {
@@ -133,24 +125,16 @@ impl SampleRun<'_> {
     /// Splits the ranges into pieces of whole chunks.
     fn pieces(&self, groups: &[Range<u64>]) -> impl Iterator<Item = (usize, Range<u64>)> {
         let size = CHUNK as u64;
-        let lengths = groups
-            .iter()
-            .map(|group| group.end.saturating_sub(group.start));
+        let lengths = groups.iter().map(|group| group.end.saturating_sub(group.start));
         let chunks: u64 = lengths.map(|length| length.div_ceil(size)).sum();
         let share = match self.threads {
             1 => u64::MAX / size,
-            _ => chunks
-                .div_ceil(ROUND * self.threads() as u64)
-                .clamp(self.least.min(MOST), MOST),
+            _ => chunks.div_ceil(ROUND * self.threads() as u64).clamp(self.least.min(MOST), MOST),
         };
         let pieces = move |(group, samples): (usize, &Range<u64>)| {
             let (mut start, end) = (samples.start, samples.end);
             core::iter::from_fn(move || {
-                let range = start
-                    ..(start / size)
-                        .saturating_add(share)
-                        .saturating_mul(size)
-                        .min(end);
+                let range = start..(start / size).saturating_add(share).saturating_mul(size).min(end);
                 start = range.end;
                 (!range.is_empty()).then_some((group, range))
             })
@@ -190,13 +174,7 @@ mod tests {
     fn pieces_end_where_chunks_do() {
         for threads in [1, 2, 3, 7] {
             for range in [0..0, 5..6, 0..3000, 100..100_000, 255..257] {
-                let work = SampleRun {
-                    threads,
-                    size: (1, 1),
-                    least: 4,
-                    progress: None,
-                    stop: None,
-                };
+                let work = SampleRun { threads, size: (1, 1), least: 4, progress: None, stop: None };
                 let groups = [0..0, range.clone()];
                 let pieces: Vec<_> = work.pieces(&groups).collect();
                 let mut next = range.start;

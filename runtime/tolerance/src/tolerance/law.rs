@@ -10,11 +10,7 @@ use crate::mechanism::{Law, ToleranceInfo};
 /// # Errors
 /// [`Error::Setting`] for limits that are not finite or in the wrong order, a sigma level that is not positive, and
 /// parameters that the distribution refuses.
-pub fn distribution(
-    value: f64,
-    tolerance: &ToleranceInfo,
-    sigma_level: f64,
-) -> Result<Distribution, Error> {
+pub fn distribution(value: f64, tolerance: &ToleranceInfo, sigma_level: f64) -> Result<Distribution, Error> {
     let size = if tolerance.relative { value.abs() } else { 1.0 };
     let (lower, upper) = (tolerance.lower * size, tolerance.upper * size);
     if !(lower <= upper && (upper - lower).is_finite()) && lower != -upper {
@@ -37,28 +33,16 @@ pub fn distribution(
         Law::Triangular => Distribution::triangular(low, middle, high),
         Law::Beta { alpha, beta } => Distribution::beta((*alpha, *beta), (low, high)),
         Law::OneOf(values) => {
-            if let Some((fraction, _)) = values
-                .iter()
-                .find(|(fraction, _)| !(0.0..=1.0).contains(fraction))
-            {
+            if let Some((fraction, _)) = values.iter().find(|(fraction, _)| !(0.0..=1.0).contains(fraction)) {
                 return Err(Error::Setting {
                     setting: "place of a value",
-                    reason: format!(
-                        "{fraction} is not between 0, the lower limit, and 1, the upper one"
-                    ),
+                    reason: format!("{fraction} is not between 0, the lower limit, and 1, the upper one"),
                 });
             }
             let value = |fraction: f64| {
-                if fraction == 1.0 {
-                    high
-                } else {
-                    low + fraction * (high - low)
-                }
+                if fraction == 1.0 { high } else { low + fraction * (high - low) }
             };
-            let values: Vec<(f64, f64)> = values
-                .iter()
-                .map(|&(fraction, weight)| (value(fraction), weight))
-                .collect();
+            let values: Vec<(f64, f64)> = values.iter().map(|&(fraction, weight)| (value(fraction), weight)).collect();
             Distribution::discrete(&values)
         }
     }?)
@@ -76,9 +60,7 @@ pub(super) fn standard_deviation(half_width: f64, sigma_level: f64) -> Result<f6
     }
     let sigma = half_width / sigma_level;
     if !sigma.is_finite() {
-        let reason = format!(
-            "{sigma_level} makes the standard deviation of half-width {half_width} infinite"
-        );
+        let reason = format!("{sigma_level} makes the standard deviation of half-width {half_width} infinite");
         return refuse("sigma level", reason);
     }
     Ok(sigma)

@@ -32,9 +32,7 @@ mod standard_normal;
 mod tolerances;
 
 #[doc(hidden)]
-pub use answers::{
-    doubt_sentences, doubted, far, joined, outcomes, spread_of, standing, statistics, unmoved,
-};
+pub use answers::{doubt_sentences, doubted, far, joined, outcomes, spread_of, standing, statistics, unmoved};
 pub use answers::{numbered_samples_table, samples_table};
 pub use doubt::{Doubt, Measured};
 /// Statistics of samples with their quantiles and histograms, from [`eigentol_statistics`].

@@ -52,22 +52,11 @@ pub fn partial_monte_carlo(
         let about = Fingerprint::new(mechanism, nominal, modes, tolerances);
         drawn(about, method, tolerances, sampling)
     };
-    run_samples(
-        mechanism,
-        (nominal, modes),
-        tolerances,
-        sampling,
-        fingerprint,
-    )
+    run_samples(mechanism, (nominal, modes), tolerances, sampling, fingerprint)
 }
 
 /// Adds how samples are drawn to the fingerprint of what they are drawn about.
-fn drawn(
-    about: Fingerprint,
-    method: &str,
-    tolerances: &Tolerances,
-    sampling: &Sampling<'_>,
-) -> Fingerprint {
+fn drawn(about: Fingerprint, method: &str, tolerances: &Tolerances, sampling: &Sampling<'_>) -> Fingerprint {
     let varied = tolerances.sigmas().iter().filter(|sigma| **sigma > 0.0);
     about
         .with("method", method)
@@ -105,14 +94,9 @@ fn run_samples(
         stop: sampling.stop,
     };
     let plan = solver.plan()?;
-    let solve =
-        |room: &mut SampleWorkspace, part: &mut Part<'_, Numbered>| solver.solve(room, part);
+    let solve = |room: &mut SampleWorkspace, part: &mut Part<'_, Numbered>| solver.solve(room, part);
     let (parts, kept) = work.gather(&plan, &[range], || solver.room(), solve)?;
-    let method = if side_by_side {
-        "Monte Carlo side by side"
-    } else {
-        "Monte Carlo one by one"
-    };
+    let method = if side_by_side { "Monte Carlo side by side" } else { "Monte Carlo one by one" };
     Ok(PartialMonteCarlo {
         format: Format,
         run: Run {

@@ -52,12 +52,7 @@ mod tests {
         let tails: Vec<f64> = tails.filter(|&p| p < 0.5).collect();
         let centre = (1..1000).map(|k| f64::from(k) / 1000.0);
         let opposite = tails.iter().map(|p| 1.0 - p);
-        tails
-            .iter()
-            .copied()
-            .chain(centre)
-            .chain(opposite)
-            .collect()
+        tails.iter().copied().chain(centre).chain(opposite).collect()
     }
 
     #[test]
@@ -101,10 +96,7 @@ mod tests {
         for set in Instructions::available() {
             for start in 0..all.len() {
                 let shifted = |shift: usize| all[(start + shift) % all.len()];
-                let (radii, angles) = (
-                    Batch::from_fn(|k| shifted(177 * k)),
-                    Batch::from_fn(shifted),
-                );
+                let (radii, angles) = (Batch::from_fn(|k| shifted(177 * k)), Batch::from_fn(shifted));
                 let pairs = set.run(All(&radii, &angles));
                 for state in 0..WIDTH {
                     let (x, y) = standard_normal_pair(radii.0[state], angles.0[state]);

@@ -58,23 +58,16 @@ impl Outcome {
     /// Whether the design certainly has no stable equilibrium, or none was found.
     #[doc(hidden)]
     pub fn lost(self) -> bool {
-        matches!(
-            self,
-            Self::Divergent | Self::Flutter | Self::NoEquilibrium | Self::NotAssembled
-        )
+        matches!(self, Self::Divergent | Self::Flutter | Self::NoEquilibrium | Self::NotAssembled)
     }
 }
 
 impl From<&Failure> for Outcome {
     fn from(failure: &Failure) -> Self {
         match failure {
-            Failure::NotFound { .. } | Failure::Unbalanced { .. } | Failure::Held { .. } => {
-                Self::NoEquilibrium
-            }
+            Failure::NotFound { .. } | Failure::Unbalanced { .. } | Failure::Held { .. } => Self::NoEquilibrium,
             Failure::NotAssembled { .. } => Self::NotAssembled,
-            Failure::OutsideDomain { .. } | Failure::SingularMass(_) | Failure::BentTooFar(_) => {
-                Self::Unphysical
-            }
+            Failure::OutsideDomain { .. } | Failure::SingularMass(_) | Failure::BentTooFar(_) => Self::Unphysical,
             Failure::Mode { .. } => Self::NoModes,
         }
     }

@@ -28,15 +28,10 @@ pub struct OutputTolerances {
 ///
 /// # Errors
 /// [`Error::WrongLength`] for tolerances of another mechanism.
-pub fn output_tolerances(
-    outputs: &OutputSensitivities,
-    tolerances: &Tolerances,
-) -> Result<OutputTolerances, Error> {
+pub fn output_tolerances(outputs: &OutputSensitivities, tolerances: &Tolerances) -> Result<OutputTolerances, Error> {
     tolerances.check_count(outputs.description.design.len())?;
     let spread = |(mean, slopes): (&f64, &Option<Vector>)| {
-        slopes
-            .as_ref()
-            .map(|slopes| Spread::new(*mean, slopes.clone(), tolerances))
+        slopes.as_ref().map(|slopes| Spread::new(*mean, slopes.clone(), tolerances))
     };
     let each = outputs.values.iter().zip(&outputs.by_design);
     Ok(OutputTolerances {

@@ -22,11 +22,7 @@ pub(super) const VARIABLES: &str = "variables with a tolerance";
 /// With the feature `serde` it can be written and read back, by the same version of the format only. In JSON, numbers
 /// keep their last digit only if the reader preserves it, as `serde_json` does with its feature `float_roundtrip`.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "Unchecked")
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 #[non_exhaustive]
 pub struct PartialMonteCarlo {
     pub(super) format: Format,
@@ -113,9 +109,7 @@ impl PartialMonteCarlo {
         let mut modes = part.map_or_else(Vec::new, Partial::into_statistics);
         let damping_ratios = match self.family {
             Family::General => modes.split_off(modes.len() / 2),
-            Family::Undamped => (modes.iter().flatten())
-                .map(|mode| Statistics::of_equal(0.0, mode.count))
-                .collect(),
+            Family::Undamped => (modes.iter().flatten()).map(|mode| Statistics::of_equal(0.0, mode.count)).collect(),
         };
         MonteCarlo {
             samples: counts.total(),

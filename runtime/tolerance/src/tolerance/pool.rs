@@ -20,11 +20,7 @@ const STACK_PER_ELEMENT: usize = 4 << 10;
 /// enough.
 const fn stack(n: usize, p: usize) -> Option<usize> {
     let elements = n * (n + p);
-    if elements <= SMALL || cfg!(target_family = "wasm") {
-        None
-    } else {
-        Some(STACK + STACK_PER_ELEMENT * elements)
-    }
+    if elements <= SMALL || cfg!(target_family = "wasm") { None } else { Some(STACK + STACK_PER_ELEMENT * elements) }
 }
 
 /// Pools by number of threads and by stack size, if that is not the default.
@@ -50,9 +46,7 @@ fn of(threads: usize, stack: Option<usize>) -> Result<Arc<ThreadPool>, Error> {
     if let Some(size) = stack {
         builder = builder.stack_size(size);
     }
-    let pool = builder
-        .build()
-        .map_err(|error| Error::Threads(error.to_string()))?;
+    let pool = builder.build().map_err(|error| Error::Threads(error.to_string()))?;
     let pool = Arc::new(pool);
     pools.insert((threads, stack), Arc::clone(&pool));
     Ok(pool)
@@ -98,10 +92,7 @@ mod tests {
         let (two, again, three) = (of(2, None)?, of(2, None)?, of(3, None)?);
         assert!(Arc::ptr_eq(&two, &again) && !Arc::ptr_eq(&two, &three));
         assert!(!Arc::ptr_eq(&two, &of(2, Some(1 << 22))?));
-        assert_eq!(
-            (two.current_num_threads(), three.current_num_threads()),
-            (2, 3)
-        );
+        assert_eq!((two.current_num_threads(), three.current_num_threads()), (2, 3));
         Ok(())
     }
 }

@@ -10,11 +10,7 @@ use crate::{Description, Error, Shared};
 
 /// Version of the layout of stored partial results; other versions are refused on reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(into = "u32", try_from = "u32")
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(into = "u32", try_from = "u32"))]
 pub struct Format;
 
 #[cfg(feature = "serde")]
@@ -146,10 +142,7 @@ impl Run {
             let ranges = part.ranges();
             let done: u64 = ranges.iter().map(|range| range.end - range.start).sum();
             let counted = part.outcomes().get(..outcomes);
-            let counted = counted.and_then(|all| {
-                all.iter()
-                    .try_fold(0_u64, |sum, number| sum.checked_add(*number))
-            });
+            let counted = counted.and_then(|all| all.iter().try_fold(0_u64, |sum, number| sum.checked_add(*number)));
             part.plan().quantities() == quantities
                 && ranges.last().is_none_or(|last| last.end <= self.of_each)
                 && counted == Some(done)

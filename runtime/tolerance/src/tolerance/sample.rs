@@ -113,8 +113,7 @@ impl Solution {
         let point = point.held_like(&nominal.free);
         self.state.design.copy_from_slice(design);
         let start = &nominal.coordinates;
-        solve_into(&point, start, Policy::about(nominal), &mut self.state)
-            .map_err(|failure| Outcome::from(&failure))
+        solve_into(&point, start, Policy::about(nominal), &mut self.state).map_err(|failure| Outcome::from(&failure))
     }
 
     /// Whether the sample is as stable, or as unstable, as the nominal state.

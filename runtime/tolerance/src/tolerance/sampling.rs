@@ -26,19 +26,10 @@ pub struct Draw<'a> {
 impl<'a> Draw<'a> {
     /// Prepares to draw samples from number `first` on.
     #[doc(hidden)]
-    pub fn starting(
-        sequence: (u64, u64),
-        first: u64,
-        nominal: &'a [f64],
-        tolerances: &'a Tolerances,
-    ) -> Self {
+    pub fn starting(sequence: (u64, u64), first: u64, nominal: &'a [f64], tolerances: &'a Tolerances) -> Self {
         let factor = tolerances.factor();
         let variables = nominal.len();
-        let variable = |j: usize| {
-            factor
-                .iter()
-                .any(|row| row.get(j).is_some_and(|l| *l != 0.0))
-        };
+        let variable = |j: usize| factor.iter().any(|row| row.get(j).is_some_and(|l| *l != 0.0));
         let all = tolerances.joint().is_some();
         let used = |pair| all || variable(2 * pair) || variable(2 * pair + 1);
         Self {
@@ -63,8 +54,7 @@ impl<'a> Draw<'a> {
                 }
             }
         }
-        self.tolerances
-            .design_from_normal(self.nominal, &self.standard, &mut self.design);
+        self.tolerances.design_from_normal(self.nominal, &self.standard, &mut self.design);
         &self.design
     }
 }
@@ -113,9 +103,7 @@ mod tests {
 
     fn design(seed: u64, first: u64, tolerances: &Tolerances) -> Vector {
         let nominal = Vector::zeros(tolerances.sigmas().len());
-        Draw::starting((seed, 0), first, &nominal, tolerances)
-            .next_design()
-            .into()
+        Draw::starting((seed, 0), first, &nominal, tolerances).next_design().into()
     }
 
     #[test]
@@ -146,10 +134,7 @@ mod tests {
             assert!(distances.fold(0.0, f64::max) < 1.95 / f64::from(number).sqrt());
             for j in 0..i {
                 let product: f64 = samples.iter().map(|sample| sample[i] * sample[j]).sum();
-                let squares: f64 = samples
-                    .iter()
-                    .map(|sample| (sample[i] * sample[j]).powi(2))
-                    .sum();
+                let squares: f64 = samples.iter().map(|sample| (sample[i] * sample[j]).powi(2)).sum();
                 assert!((product / f64::from(number)).abs() < 4.0 / f64::from(number).sqrt());
                 assert!((squares / f64::from(number) - 1.0).abs() < 0.1);
             }
@@ -177,14 +162,10 @@ mod tests {
 
     #[test]
     fn samples_are_addressable() {
-        let Ok(tolerances) = Tolerances::new([0.3, 0.6], 3.0, None) else {
-            panic!("valid")
-        };
+        let Ok(tolerances) = Tolerances::new([0.3, 0.6], 3.0, None) else { panic!("valid") };
         let nominal = [1.0, 2.0];
         let mut sequence = Draw::starting((7, 0), 0, &nominal, &tolerances);
-        let all: Vec<_> = (0..20)
-            .map(|_| Vector::from(sequence.next_design()))
-            .collect();
+        let all: Vec<_> = (0..20).map(|_| Vector::from(sequence.next_design())).collect();
         for (k, sample) in all.iter().enumerate() {
             let mut alone = Draw::starting((7, 0), k as u64, &nominal, &tolerances);
             assert_eq!(*sample, alone.next_design());

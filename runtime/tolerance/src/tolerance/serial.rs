@@ -23,10 +23,8 @@ impl TryFrom<Unchecked> for Tolerances {
 
     fn try_from(read: Unchecked) -> Result<Self, &'static str> {
         let count = read.half_widths.len();
-        let square =
-            |matrix: &Matrix| (matrix.row_count(), matrix.column_count()) == (count, count);
-        let together =
-            |(joint, nominal): &(Joint, Vector)| joint.len() == count && nominal.len() == count;
+        let square = |matrix: &Matrix| (matrix.row_count(), matrix.column_count()) == (count, count);
+        let together = |(joint, nominal): &(Joint, Vector)| joint.len() == count && nominal.len() == count;
         let fits = read.sigmas.len() == count
             && read.shifts.len() == count
             && square(&read.factor)

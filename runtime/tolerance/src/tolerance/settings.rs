@@ -99,14 +99,12 @@ impl<'a> Sampling<'a> {
         let (samples, groups) = (self.samples as u64, self.groups());
         match self.points {
             Points::Random => Ok(samples),
-            _ if groups < 2 => refused(
-                "randomisations",
-                format!("{groups}: the error is the scatter between two or more"),
-            ),
-            _ if samples / groups < 2 => refused(
-                "samples",
-                format!("{samples} leave less than two for each of {groups} randomisations"),
-            ),
+            _ if groups < 2 => {
+                refused("randomisations", format!("{groups}: the error is the scatter between two or more"))
+            }
+            _ if samples / groups < 2 => {
+                refused("samples", format!("{samples} leave less than two for each of {groups} randomisations"))
+            }
             Points::LatinHypercube => Ok(samples / groups),
             Points::Sobol => Ok(1 << (samples / groups).ilog2()),
         }

@@ -93,10 +93,7 @@ impl<'a> SideBySide<'a> {
             // The check of which designs can exist only covered numbers below this bound.
             let usual = row.iter().all(|z| z.abs() < GREATEST_NORMAL);
             let solved = usual && batch.accepted >> member & 1 == 1;
-            let solved_design = SolvedDesign {
-                coordinates: &coordinates,
-                eigenvalues: &eigenvalues,
-            };
+            let solved_design = SolvedDesign { coordinates: &coordinates, eigenvalues: &eigenvalues };
             each(k, &design, solved.then_some(solved_design))?;
         }
         Ok(())

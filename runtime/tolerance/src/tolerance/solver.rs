@@ -103,11 +103,7 @@ impl<'a> SampleSolver<'a> {
     }
 
     /// Solves the samples of one chunk.
-    pub(super) fn solve(
-        &self,
-        room: &mut SampleWorkspace,
-        part: &mut Part<'_, Numbered>,
-    ) -> Result<(), Error> {
+    pub(super) fn solve(&self, room: &mut SampleWorkspace, part: &mut Part<'_, Numbered>) -> Result<(), Error> {
         if let Some(vectors) = self.in_vectors() {
             return self.solve_batched(vectors, room, part);
         }
@@ -157,8 +153,7 @@ impl<'a> SampleSolver<'a> {
         part: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {
         let accepted = batch.accepted.count_ones() as usize;
-        part.chunk
-            .count(Outcome::Stable as usize, accepted as u64)?;
+        part.chunk.count(Outcome::Stable as usize, accepted as u64)?;
         let having = u64::from(batch.accepted);
         let (count, damped) = (self.modes.modes.len(), self.modes.family == Family::General);
         let all = batch.frequencies.iter().zip(&*batch.rates);
@@ -195,10 +190,8 @@ impl<'a> SampleSolver<'a> {
     /// nominal equilibrium, by which samples side by side are judged, does not tell.
     fn is_on_nominal_branch(&self, design: &[f64], equilibrium: &Equilibrium) -> bool {
         let q = &equilibrium.coordinates;
-        let near =
-            |prepared: &Prepared<'_>| prepared.is_continued_by(q, &equilibrium.linear.stiffness);
-        self.prepared.as_ref().is_some_and(near)
-            || Branch::of(self.mechanism, self.nominal).holds(design, q)
+        let near = |prepared: &Prepared<'_>| prepared.is_continued_by(q, &equilibrium.linear.stiffness);
+        self.prepared.as_ref().is_some_and(near) || Branch::of(self.mechanism, self.nominal).holds(design, q)
     }
 
     /// Solves a sample on its own.

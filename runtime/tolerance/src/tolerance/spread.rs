@@ -37,13 +37,7 @@ impl Spread {
     /// An empty spread, to be overwritten.
     #[inline]
     pub(super) fn blank() -> Self {
-        Self {
-            mean: 0.0,
-            by_design: Vector::default(),
-            sigma: 0.0,
-            band: 0.0,
-            variance_shares: Vector::default(),
-        }
+        Self { mean: 0.0, by_design: Vector::default(), sigma: 0.0, band: 0.0, variance_shares: Vector::default() }
     }
 
     /// Completes the spread of a quantity whose derivatives are already written; returns the effect of means that

@@ -10,9 +10,7 @@ impl Tolerances {
             None if self.correlation().is_none() => {
                 let means = nominal.iter().zip(self.shifts());
                 let normal = self.sigmas().iter().zip(z);
-                for (value, ((nominal, shift), (sigma, z))) in
-                    into.iter_mut().zip(means.zip(normal))
-                {
+                for (value, ((nominal, shift), (sigma, z))) in into.iter_mut().zip(means.zip(normal)) {
                     *value = nominal + shift + sigma * z;
                 }
             }
@@ -39,8 +37,7 @@ impl Tolerances {
         let variables = 0..self.sigmas().len();
         let matters = |j: usize| match self.joint() {
             None => self.factor().iter().any(|row| row[j] != 0.0),
-            Some((joint, _)) => (variables.clone())
-                .any(|i| self.sigmas()[i] > 0.0 && joint.normal_factor(i, j) != 0.0),
+            Some((joint, _)) => (variables.clone()).any(|i| self.sigmas()[i] > 0.0 && joint.normal_factor(i, j) != 0.0),
         };
         variables.clone().filter(|&j| matters(j)).collect()
     }

@@ -57,16 +57,12 @@ impl Tolerances {
     /// [`Error::Setting`] if a declared tolerance makes no sense.
     pub fn declared(description: &Description) -> Result<Self, Error> {
         let infos = &description.design;
-        let normal = infos
-            .iter()
-            .map(|info| info.tolerance.normal_half_width(info.nominal));
+        let normal = infos.iter().map(|info| info.tolerance.normal_half_width(info.nominal));
         if normal.clone().all(|half_width| half_width.is_some()) {
             return Self::new(normal.flatten().collect::<Vector>(), 3.0, None);
         }
         let nominal: Vector = infos.iter().map(|info| info.nominal).collect();
-        let laws = infos
-            .iter()
-            .map(|info| distribution(info.nominal, &info.tolerance, 3.0));
+        let laws = infos.iter().map(|info| distribution(info.nominal, &info.tolerance, 3.0));
         let distributions: Vec<Distribution> = laws.collect::<Result<_, _>>()?;
         Self::distributed(&nominal, distributions, 3.0, None)
     }
@@ -79,11 +75,7 @@ impl Tolerances {
     /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive or too small, or a
     /// correlation matrix that does not have one row and column per half-width or is not symmetric and positive
     /// semidefinite with a unit diagonal.
-    pub fn new(
-        half_widths: impl Into<Vector>,
-        sigma_level: f64,
-        correlation: Option<Matrix>,
-    ) -> Result<Self, Error> {
+    pub fn new(half_widths: impl Into<Vector>, sigma_level: f64, correlation: Option<Matrix>) -> Result<Self, Error> {
         let half_widths = half_widths.into();
         let mut sigmas = Vector::zeros(half_widths.len());
         for (sigma, half_width) in sigmas.iter_mut().zip(&half_widths) {
@@ -116,11 +108,7 @@ impl Tolerances {
         correlation: Option<Matrix>,
     ) -> Result<Self, Error> {
         if values.len() != nominal.len() {
-            return Err(Error::WrongLength {
-                kind: "distributions",
-                found: values.len(),
-                expected: nominal.len(),
-            });
+            return Err(Error::WrongLength { kind: "distributions", found: values.len(), expected: nominal.len() });
         }
         standard_deviation(0.0, sigma_level)?;
         let sigmas: Vector = values.iter().map(Distribution::sigma).collect();
@@ -128,9 +116,7 @@ impl Tolerances {
         let normal = values.iter().all(Distribution::is_normal);
         Ok(Self {
             factor: covariance_factor(&sigmas, correlation.as_ref())?,
-            shifts: means
-                .map(|(value, nominal)| value.mean() - nominal)
-                .collect(),
+            shifts: means.map(|(value, nominal)| value.mean() - nominal).collect(),
             half_widths: sigmas.map(|sigma| sigma_level * sigma),
             sigma_level,
             sigmas,
@@ -210,27 +196,21 @@ impl Tolerances {
         }
         let means = nominal.iter().zip(&self.shifts);
         let each = means.zip(&self.sigmas);
-        let each =
-            each.map(|((nominal, shift), sigma)| Distribution::normal(nominal + shift, *sigma));
+        let each = each.map(|((nominal, shift), sigma)| Distribution::normal(nominal + shift, *sigma));
         Ok(each.collect::<Result<_, _>>()?)
     }
 
     /// The distribution of values that are not jointly normal, and the nominal values it was made for.
     #[doc(hidden)]
     pub fn joint(&self) -> Option<(&Joint, &[f64])> {
-        self.joint
-            .as_ref()
-            .map(|(joint, nominal)| (joint, &nominal[..]))
+        self.joint.as_ref().map(|(joint, nominal)| (joint, &nominal[..]))
     }
 
     /// First-order effect of the means on a quantity with these slopes.
     #[doc(hidden)]
     pub fn mean_shift(&self, slopes: &[f64]) -> f64 {
         let parts = slopes.iter().zip(&self.shifts);
-        parts
-            .filter(|(_, shift)| **shift != 0.0)
-            .map(|(slope, shift)| slope * shift)
-            .sum()
+        parts.filter(|(_, shift)| **shift != 0.0).map(|(slope, shift)| slope * shift).sum()
     }
 
     /// Refuses tolerances that do not belong to `count` design variables.
@@ -240,11 +220,7 @@ impl Tolerances {
         if found == count {
             return Ok(());
         }
-        Err(Error::WrongLength {
-            kind: "tolerances",
-            found,
-            expected: count,
-        })
+        Err(Error::WrongLength { kind: "tolerances", found, expected: count })
     }
 
     /// Lower triangular `L` with covariance `Sigma = L L^T`.
@@ -263,11 +239,7 @@ impl Tolerances {
     #[inline]
     pub fn sigma(&self, slopes: &[f64]) -> f64 {
         let variance = self.variance(slopes, &mut Vector::default());
-        if ORDINARY.contains(&variance) {
-            variance.sqrt()
-        } else {
-            self.spread_of_any_size(slopes).0
-        }
+        if ORDINARY.contains(&variance) { variance.sqrt() } else { self.spread_of_any_size(slopes).0 }
     }
 
     /// Location and scale of the values expected of a quantity, SI: its nominal value and, if there are derivatives,
@@ -324,8 +296,7 @@ impl Tolerances {
             return Vector::filled(self.sigmas.len(), f64::NAN);
         }
         let each = slopes.iter().zip(&self.sigmas);
-        each.map(|(slope, sigma)| (unit * slope) * (unit * sigma))
-            .collect()
+        each.map(|(slope, sigma)| (unit * slope) * (unit * sigma)).collect()
     }
 
     /// The correlation matrix times a vector.
@@ -361,13 +332,7 @@ impl Tolerances {
         }
         let contributions = self.contributions(&parts.map(|part| part / size));
         let variance = sum(&contributions);
-        let shares = contributions.map(|contribution| {
-            if variance > 0.0 {
-                contribution / variance
-            } else {
-                0.0
-            }
-        });
+        let shares = contributions.map(|contribution| if variance > 0.0 { contribution / variance } else { 0.0 });
         // Rounding may make a fully compensated variance negative; NaN stays NaN.
         let variance = if variance < 0.0 { 0.0 } else { variance };
         (size * variance.sqrt() / unit / unit, shares)
@@ -389,9 +354,7 @@ const ORDINARY: core::ops::Range<f64> = 1e-200..1e200;
 fn covariance_factor(sigmas: &[f64], correlation: Option<&Matrix>) -> Result<Matrix, Error> {
     let size = sigmas.len();
     let Some(matrix) = correlation else {
-        return Ok(Matrix::from_fn(size, size, |i, j| {
-            if i == j { sigmas[i] } else { 0.0 }
-        }));
+        return Ok(Matrix::from_fn(size, size, |i, j| if i == j { sigmas[i] } else { 0.0 }));
     };
     let found = (matrix.row_count(), matrix.column_count());
     if found != (size, size) {
@@ -402,7 +365,5 @@ fn covariance_factor(sigmas: &[f64], correlation: Option<&Matrix>) -> Result<Mat
         });
     }
     let root = semidefinite_factor(matrix.as_flattened(), size)?;
-    Ok(Matrix::from_fn(size, size, |i, j| {
-        root[i * size + j] * sigmas[i]
-    }))
+    Ok(Matrix::from_fn(size, size, |i, j| root[i * size + j] * sigmas[i]))
 }

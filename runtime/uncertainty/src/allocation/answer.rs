@@ -48,13 +48,10 @@ impl Allocation {
         table.cells("variable", &|(info, _)| heading(&info.name, &info.unit));
         table.words("variable", &|(info, _)| Some(info.name.to_string()));
         table.words("unit", &|(info, _)| Some(info.unit.symbol.to_string()));
-        let nominal = table.number("nominal value", "", &|(info, (nominal, _))| {
-            Some(converted(**nominal, &info.unit))
-        });
+        let nominal = table.number("nominal value", "", &|(info, (nominal, _))| Some(converted(**nominal, &info.unit)));
         nominal.digits(number);
-        let half_width = table.number("half-width", "", &|(info, (_, half_width))| {
-            Some(converted(**half_width, &info.unit))
-        });
+        let half_width =
+            table.number("half-width", "", &|(info, (_, half_width))| Some(converted(**half_width, &info.unit)));
         half_width.digits(rough);
         said.columns(table);
     }
@@ -69,9 +66,7 @@ impl Allocation {
         let beta = table.number("beta", "", &|(k, _)| self.reliability.beta_of(*k));
         beta.digits(short);
         let column = table.number("probability of failure, sampled", "", &|(k, _)| sampled(*k));
-        column
-            .digits(|value| chance(value, 0.0))
-            .headed("P(failed), sampled");
+        column.digits(|value| chance(value, 0.0)).headed("P(failed), sampled");
         let refuted = table.flag("refuted", &|(k, _)| Some(self.refuted.contains(k)));
         refuted.shown().headed("samples refute it");
         said.columns(table);

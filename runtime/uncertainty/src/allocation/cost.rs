@@ -22,11 +22,7 @@ impl<'a> Cost<'a> {
     /// `fixed + factor / T^power` of a half-width `T` in SI units: finite numbers, `factor` and `power` positive.
     #[must_use]
     pub fn reciprocal(fixed: f64, factor: f64, power: f64) -> Self {
-        Self(Law::Reciprocal {
-            fixed,
-            factor,
-            power,
-        })
+        Self(Law::Reciprocal { fixed, factor, power })
     }
 
     /// Any smooth function of a half-width in SI units, with its derivative.
@@ -37,25 +33,16 @@ impl<'a> Cost<'a> {
 
     /// What is wrong with the numbers of a [`Cost::reciprocal`]: a cost must not fall where a tolerance gets tighter.
     pub(super) fn mistake(&self) -> Option<String> {
-        let Law::Reciprocal {
-            fixed,
-            factor,
-            power,
-        } = self.0
-        else {
+        let Law::Reciprocal { fixed, factor, power } = self.0 else {
             return None;
         };
         let positive = |value: f64| value > 0.0 && value.is_finite();
         if !fixed.is_finite() {
             Some(format!("the fixed cost {fixed} is not finite"))
         } else if !positive(factor) {
-            Some(format!(
-                "the factor of a cost must be positive and finite, not {factor}"
-            ))
+            Some(format!("the factor of a cost must be positive and finite, not {factor}"))
         } else if !positive(power) {
-            Some(format!(
-                "the power of a cost must be positive and finite, not {power}"
-            ))
+            Some(format!("the power of a cost must be positive and finite, not {power}"))
         } else {
             None
         }
@@ -66,11 +53,7 @@ impl<'a> Cost<'a> {
     pub fn of(&self, half_width: f64) -> (f64, f64) {
         match &self.0 {
             Law::Function(function) => function(half_width),
-            Law::Reciprocal {
-                fixed,
-                factor,
-                power,
-            } => {
+            Law::Reciprocal { fixed, factor, power } => {
                 let variable = factor / half_width.powf(*power);
                 (fixed + variable, -power * variable / half_width)
             }
@@ -82,11 +65,7 @@ impl fmt::Debug for Cost<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Law::Function(_) => write!(f, "Cost(function)"),
-            Law::Reciprocal {
-                fixed,
-                factor,
-                power,
-            } => write!(f, "Cost({fixed} + {factor} / T^{power})"),
+            Law::Reciprocal { fixed, factor, power } => write!(f, "Cost({fixed} + {factor} / T^{power})"),
         }
     }
 }

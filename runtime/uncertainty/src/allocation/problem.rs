@@ -67,11 +67,7 @@ pub(super) enum Search {
 
 impl Search {
     fn settings(self) -> FormSettings {
-        let single = FormSettings {
-            restarts: 0,
-            regions: 1,
-            ..FormSettings::default()
-        };
+        let single = FormSettings { restarts: 0, regions: 1, ..FormSettings::default() };
         FormSettings {
             tolerance: 1e-10,
             ..match self {
@@ -88,9 +84,7 @@ impl Problem<'_> {
         let (mut nominal, mut wide) = (self.nominal.clone(), self.half_widths.clone());
         let (logarithms, parts) = x.split_at(self.choices.half_widths.len());
         for (half_width, logarithm) in self.choices.half_widths.iter().zip(logarithms) {
-            wide[half_width.variable] = logarithm
-                .exp()
-                .clamp(half_width.limits.0, half_width.limits.1);
+            wide[half_width.variable] = logarithm.exp().clamp(half_width.limits.0, half_width.limits.1);
         }
         for (choice, part) in self.choices.nominals.iter().zip(parts) {
             let (low, high) = choice.limits;
@@ -102,9 +96,7 @@ impl Problem<'_> {
     /// The start of the search, and the bounds of the choices.
     pub(super) fn start(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
         let choices = self.choices.half_widths.iter();
-        let logarithms = choices
-            .clone()
-            .map(|choice| self.half_widths[choice.variable].ln());
+        let logarithms = choices.clone().map(|choice| self.half_widths[choice.variable].ln());
         let mut x: Vec<f64> = logarithms.collect();
         let bounds = choices.map(|choice| (choice.limits.0.ln(), choice.limits.1.ln()));
         let mut bounds: Vec<(f64, f64)> = bounds.collect();
@@ -122,27 +114,15 @@ impl Problem<'_> {
         let (cost, cost_slopes) = self.cost(x.len(), &wide)?;
         let mut reached: Vec<Reached> = Vec::new();
         for (requirement, failure) in self.choices.failure.iter().enumerate() {
-            let limits = self
-                .limits
-                .iter()
-                .filter(|limit| limit.requirement == requirement);
+            let limits = self.limits.iter().filter(|limit| limit.requirement == requirement);
             let parts = limits.map(|limit| self.limit(&deviations, &wide, limit));
             let parts: Vec<Vec<(f64, Vec<f64>)>> = parts.collect::<Result<_, _>>()?;
             if !parts.is_empty() {
                 let (beta, slopes) = joined(&parts.concat(), x.len());
-                reached.push(Reached {
-                    requirement,
-                    beta,
-                    slopes,
-                    wanted: -normal::quantile(*failure),
-                });
+                reached.push(Reached { requirement, beta, slopes, wanted: -normal::quantile(*failure) });
             }
         }
-        Ok(Evaluated {
-            cost,
-            cost_slopes,
-            requirements: reached,
-        })
+        Ok(Evaluated { cost, cost_slopes, requirements: reached })
     }
 
     fn cost(&self, size: usize, wide: &[f64]) -> Result<(f64, Vec<f64>), Error> {
@@ -163,18 +143,8 @@ impl Problem<'_> {
     }
 
     /// Reliability index of each failure region of a limit, and its derivatives with respect to the choices.
-    fn limit(
-        &self,
-        deviations: &Deviations<'_>,
-        wide: &[f64],
-        limit: &Limit,
-    ) -> Result<Vec<(f64, Vec<f64>)>, Error> {
-        let limit = LimitAt::new(
-            self.requirements.responses(),
-            limit.place,
-            limit.alone,
-            deviations,
-        );
+    fn limit(&self, deviations: &Deviations<'_>, wide: &[f64], limit: &Limit) -> Result<Vec<(f64, Vec<f64>)>, Error> {
+        let limit = LimitAt::new(self.requirements.responses(), limit.place, limit.alone, deviations);
         let points = match failure_regions(&limit, &self.search.settings()) {
             Ok(failure_regions) => failure_regions.design_points,
             Err(error) if out_of_reach(&error) => return Ok(Vec::new()),
@@ -182,12 +152,16 @@ impl Problem<'_> {
         };
         let part = |at: &DesignPoint| {
             let slopes = slopes_at(&limit, deviations, at)?;
-            let half_widths = self.choices.half_widths.iter().map(|half_width| {
-                slopes.by_half_width[half_width.variable].beta * wide[half_width.variable]
-            });
-            let nominals = self.choices.nominals.iter().map(|nominal| {
-                slopes.by_nominal[nominal.variable].beta * (nominal.limits.1 - nominal.limits.0)
-            });
+            let half_widths = self
+                .choices
+                .half_widths
+                .iter()
+                .map(|half_width| slopes.by_half_width[half_width.variable].beta * wide[half_width.variable]);
+            let nominals = self
+                .choices
+                .nominals
+                .iter()
+                .map(|nominal| slopes.by_nominal[nominal.variable].beta * (nominal.limits.1 - nominal.limits.0));
             Ok((at.beta, half_widths.chain(nominals).collect()))
         };
         points.iter().map(part).collect()
@@ -201,17 +175,10 @@ fn joined(parts: &[(f64, Vec<f64>)], size: usize) -> (f64, Vec<f64>) {
         [(beta, slopes)] => (*beta, slopes.clone()),
         _ => {
             let sum: f64 = parts.iter().map(|(beta, _)| normal::cdf(-beta)).sum();
-            let least = parts
-                .iter()
-                .map(|(beta, _)| *beta)
-                .fold(f64::INFINITY, f64::min);
+            let least = parts.iter().map(|(beta, _)| *beta).fold(f64::INFINITY, f64::min);
             // Beyond the range of a double, or if several limits fail for certain, use the smallest index.
             let inverted = -normal::quantile(sum);
-            let beta = if inverted.is_finite() {
-                inverted
-            } else {
-                least
-            };
+            let beta = if inverted.is_finite() { inverted } else { least };
             let mut slopes = vec![0.0; size];
             for (reliability_index, by) in parts {
                 let weight = (0.5 * (beta - reliability_index) * (beta + reliability_index)).exp();

@@ -7,9 +7,7 @@ use slsqp::{Func, StopTols, minimize};
 
 use super::choices::Choices;
 use super::problem::{Evaluated, Problem, Reached, Search};
-use crate::requirement::{
-    Chances, FormSettings, Reliability, Requirements, chances_of, check, judge, reliability_of,
-};
+use crate::requirement::{Chances, FormSettings, Reliability, Requirements, chances_of, check, judge, reliability_of};
 use crate::tolerance::Sampling;
 use crate::{Description, Error, Shared, Vector, Watch};
 
@@ -75,16 +73,9 @@ pub fn allocate(
     let deviations = requirements.deviations();
     check(requirements, deviations)?;
     let state = requirements.responses().nominal();
-    let (nominal, half_widths) =
-        choices.start(&state.design, deviations.tolerances().half_widths());
-    let mut problem = Problem {
-        search: Search::Single,
-        limits: requirements.limits(),
-        requirements,
-        choices,
-        nominal,
-        half_widths,
-    };
+    let (nominal, half_widths) = choices.start(&state.design, deviations.tolerances().half_widths());
+    let mut problem =
+        Problem { search: Search::Single, limits: requirements.limits(), requirements, choices, nominal, half_widths };
     let watch = sampling.watch();
     let reliability_at = |design: &(Vector, Vector)| {
         let moved = deviations.moved(&design.0, &design.1);
@@ -101,11 +92,7 @@ pub fn allocate(
     }
     let (nominal, half_widths) = problem.design(&optimum.x);
     let stopped = watch.stopped();
-    if let Some(worst) = optimum
-        .best
-        .worst()
-        .filter(|reached| reached.shortfall() > ENOUGH)
-    {
+    if let Some(worst) = optimum.best.worst().filter(|reached| reached.shortfall() > ENOUGH) {
         if stopped {
             return Err(Error::Stopped);
         }
@@ -187,9 +174,8 @@ fn search(problem: &Problem<'_>, watch: Watch<'_>) -> Result<Optimum, Error> {
             let progress = &progress;
             move |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
                 let mut progress = progress.borrow_mut();
-                let Some(requirement) = progress
-                    .at(problem, watch, x)
-                    .and_then(|evaluation| evaluation.requirements.get(k))
+                let Some(requirement) =
+                    progress.at(problem, watch, x).and_then(|evaluation| evaluation.requirements.get(k))
                 else {
                     return f64::INFINITY;
                 };
@@ -202,32 +188,13 @@ fn search(problem: &Problem<'_>, watch: Watch<'_>) -> Result<Optimum, Error> {
             }
         })
         .collect();
-    let constraints: Vec<&dyn Func<()>> = constraints
-        .iter()
-        .map(|constraint| constraint as &dyn Func<()>)
-        .collect();
-    let stop = StopTols {
-        xtol_abs: vec![1e-10; start.len()],
-        ..StopTols::default()
-    };
+    let constraints: Vec<&dyn Func<()>> = constraints.iter().map(|constraint| constraint as &dyn Func<()>).collect();
+    let stop = StopTols { xtol_abs: vec![1e-10; start.len()], ..StopTols::default() };
     // However the optimiser ends, the best choice on the way counts: it mistakes rounding for a violated constraint.
-    let _ = minimize(
-        objective,
-        &start,
-        &bounds,
-        &constraints,
-        (),
-        EVALUATIONS,
-        Some(stop),
-    );
+    let _ = minimize(objective, &start, &bounds, &constraints, (), EVALUATIONS, Some(stop));
     let progress = progress.into_inner();
     let (x, best) = progress.best;
-    Ok(Optimum {
-        x,
-        best,
-        cost_before: before,
-        evaluations: progress.tried,
-    })
+    Ok(Optimum { x, best, cost_before: before, evaluations: progress.tried })
 }
 
 /// The shortfall passed to the optimiser: finite even if nothing fails.

@@ -13,8 +13,7 @@ use crate::response::{Response, Vibration};
 use crate::{Complex, Description, Error};
 
 /// What every amplitude and phase means.
-const CONVENTIONS: &str =
-    "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).";
+const CONVENTIONS: &str = "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).";
 /// An error of a model's spread that is worth a word.
 const WORTH_SAYING: f64 = 0.01;
 
@@ -44,18 +43,10 @@ impl Answer for Bode {
         if self.harmonics() > 1 {
             column.shown();
         }
-        table
-            .number("frequency", "rad/s", &|row| Some(row.found?.0.frequency))
-            .digits(number);
-        table
-            .words("output", &|row| Some(row.name(d)?.to_owned()))
-            .shown();
-        table
-            .words("unit", &|row| Some(row.unit(d)?.to_owned()))
-            .shown();
-        table
-            .number("amplitude", "", &|row| row.scaled(d, Complex::norm))
-            .digits(number);
+        table.number("frequency", "rad/s", &|row| Some(row.found?.0.frequency)).digits(number);
+        table.words("output", &|row| Some(row.name(d)?.to_owned())).shown();
+        table.words("unit", &|row| Some(row.unit(d)?.to_owned())).shown();
+        table.number("amplitude", "", &|row| row.scaled(d, Complex::norm)).digits(number);
         table
             .number("phase", "deg", &|row| {
                 let amplitude = row.amplitude().filter(|y| *y != Complex::ZERO)?;
@@ -64,10 +55,7 @@ impl Answer for Bode {
             .digits(short);
         table.number("Re", "", &|row| row.scaled(d, |y| y.re));
         table.number("Im", "", &|row| row.scaled(d, |y| y.im));
-        table.words("stable", &|row| {
-            row.found
-                .map(|_| if row.stable { "yes" } else { "no" }.to_owned())
-        });
+        table.words("stable", &|row| row.found.map(|_| if row.stable { "yes" } else { "no" }.to_owned()));
         table.words("error", &|row| row.error.map(ToString::to_string));
         said.columns(table);
         self.bands(&mut said, &points);
@@ -75,16 +63,10 @@ impl Answer for Bode {
         if few < all {
             said.note(format!("{few} of {all} points are shown: {EVERYTHING}."));
         }
-        if let Some(error) = self
-            .points
-            .iter()
-            .find_map(|point| point.vibration.as_ref().err())
-        {
+        if let Some(error) = self.points.iter().find_map(|point| point.vibration.as_ref().err()) {
             let failed = self.points.iter().filter(|point| point.vibration.is_err());
             let failed = failed.count();
-            said.note(format!(
-                "{failed} of {all} points have no vibration; the first: {error}."
-            ));
+            said.note(format!("{failed} of {all} points have no vibration; the first: {error}."));
         }
         self.unstable(&mut said);
         said.note(CONVENTIONS);
@@ -165,13 +147,7 @@ impl Bode {
         let mut rows = Vec::new();
         for (point, bode_point) in self.points.iter().enumerate() {
             let (value, stable) = (bode_point.value, bode_point.stable);
-            let row = |found, error| Row {
-                point,
-                value,
-                stable,
-                found,
-                error,
-            };
+            let row = |found, error| Row { point, value, stable, found, error };
             match &bode_point.vibration {
                 Ok(vibration) => {
                     for harmonic in &vibration.response.harmonics {
@@ -212,29 +188,15 @@ impl Bode {
         varied(&mut table, d, self.input, given, &|row| row.value);
         let named = |row: &Band<'_>| Response::Vibration(*row.vibration);
         let scaled = |row: &Band<'_>, value| Some(converted(value, &named(row).unit(d)));
-        table
-            .words("amplitude of", &|row| Some(named(row).name(d)))
-            .shown();
-        table
-            .words("unit", &|row| Some(named(row).unit(d).symbol.to_string()))
-            .shown();
-        table
-            .number("nominal", "", &|row| scaled(row, row.spread?.nominal?))
-            .digits(number);
-        table
-            .number("mean", "", &|row| scaled(row, row.spread?.mean.value))
-            .digits(number);
-        table
-            .number("sigma", "", &|row| scaled(row, row.spread?.sigma?.value))
-            .digits(short);
+        table.words("amplitude of", &|row| Some(named(row).name(d))).shown();
+        table.words("unit", &|row| Some(named(row).unit(d).symbol.to_string())).shown();
+        table.number("nominal", "", &|row| scaled(row, row.spread?.nominal?)).digits(number);
+        table.number("mean", "", &|row| scaled(row, row.spread?.mean.value)).digits(number);
+        table.number("sigma", "", &|row| scaled(row, row.spread?.sigma?.value)).digits(short);
         for (index, name) in [(1, "2.3 %"), (3, "50 %"), (5, "97.7 %"), (6, "99.9 %")] {
-            table
-                .number(name, "", &|row| scaled(row, row.quantile(index)?))
-                .digits(number);
+            table.number(name, "", &|row| scaled(row, row.quantile(index)?)).digits(number);
         }
-        table.whole("designs solved anew", &|row| {
-            usize::try_from(row.check?.samples).ok()
-        });
+        table.whole("designs solved anew", &|row| usize::try_from(row.check?.samples).ok());
         table.number("error of sigma", "", &|row| Some(row.check?.sigma));
         table.number("error of 99 %", "", &|row| Some(row.check?.upper));
         said.columns(table);
@@ -243,15 +205,11 @@ impl Bode {
         let Some(worst) = worst.reduce(f64::max) else {
             return;
         };
-        let number = checks()
-            .map(|check| check.samples)
-            .max()
-            .unwrap_or_default();
+        let number = checks().map(|check| check.samples).max().unwrap_or_default();
         said.note(match worst > WORTH_SAYING {
-            true => format!(
-                "Solving {number} designs anew at each point shows the bands up to {} off.",
-                percent(worst)
-            ),
+            true => {
+                format!("Solving {number} designs anew at each point shows the bands up to {} off.", percent(worst))
+            }
             false => format!(
                 "Solving {number} designs anew at each point confirms the bands within {}.",
                 percent(WORTH_SAYING)

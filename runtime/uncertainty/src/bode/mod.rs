@@ -90,9 +90,7 @@ pub fn bode(
 ) -> Result<Bode, Error> {
     let description = mechanism.description();
     if description.excitations.is_empty() {
-        return Err(Error::NoExcitation {
-            mechanism: description.name.clone(),
-        });
+        return Err(Error::NoExcitation { mechanism: description.name.clone() });
     }
     // Bands are parallel themselves.
     let (together, threads) = match banded {
@@ -113,25 +111,18 @@ pub fn bode(
         })
     };
     let (mut waiting, mut failed) = (Vec::with_capacity(together), None);
-    states_each(
-        mechanism,
-        (u, b),
-        start,
-        following.into(),
-        (input, values),
-        |at| {
-            waiting.push(at.clone());
-            if waiting.len() < together && !watch.stopped() {
-                return ControlFlow::Continue(());
-            }
-            let flow = solve(&waiting);
-            waiting.clear();
-            flow.unwrap_or_else(|error| {
-                failed = Some(error);
-                ControlFlow::Break(())
-            })
-        },
-    )?;
+    states_each(mechanism, (u, b), start, following.into(), (input, values), |at| {
+        waiting.push(at.clone());
+        if waiting.len() < together && !watch.stopped() {
+            return ControlFlow::Continue(());
+        }
+        let flow = solve(&waiting);
+        waiting.clear();
+        flow.unwrap_or_else(|error| {
+            failed = Some(error);
+            ControlFlow::Break(())
+        })
+    })?;
     if let Some(error) = failed {
         return Err(error);
     }
@@ -148,11 +139,7 @@ pub fn bode(
 }
 
 /// Errors of settings end the whole; those of the state belong to the point.
-fn point(
-    mechanism: &dyn SummaryKernels,
-    at: &SweepPoint,
-    banded: Option<&Banded<'_>>,
-) -> Result<BodePoint, Error> {
+fn point(mechanism: &dyn SummaryKernels, at: &SweepPoint, banded: Option<&Banded<'_>>) -> Result<BodePoint, Error> {
     let value = at.value;
     let vibration = match &at.equilibrium {
         Ok(equilibrium) => forced::sensitivities(mechanism, equilibrium),
@@ -163,9 +150,7 @@ fn point(
         _ => false,
     };
     let mut bands = None;
-    if let (Some(banded), Ok(equilibrium), Ok(modes), Ok(_)) =
-        (banded, &at.equilibrium, &at.modes, &vibration)
-    {
+    if let (Some(banded), Ok(equilibrium), Ok(modes), Ok(_)) = (banded, &at.equilibrium, &at.modes, &vibration) {
         let wanted = banded.wanted.iter().copied().map(Response::Vibration);
         let responses = Responses::new(mechanism, equilibrium, modes, wanted.collect())?;
         let (tolerances, sampling) = (banded.tolerances, &banded.sampling);
@@ -179,10 +164,5 @@ fn point(
         };
         bands = Some(Bands { spread, checks });
     }
-    Ok(BodePoint {
-        value,
-        stable,
-        vibration,
-        bands,
-    })
+    Ok(BodePoint { value, stable, vibration, bands })
 }

@@ -23,14 +23,10 @@ pub(crate) fn chance(value: f64, error: f64) -> String {
 /// none.
 pub(crate) fn judged<R>(table: &mut Columns<'_, R>, judgement: &dyn Fn(&R) -> &Judgement) {
     let of = |row: &R| judgement(row).judged().copied();
-    table.number("probability, solved anew", "", &|row| {
-        Some(of(row)?.probability.value)
-    });
+    table.number("probability, solved anew", "", &|row| Some(of(row)?.probability.value));
     table.number("95 % from", "", &|row| Some(of(row)?.interval().lower));
     table.number("95 % to", "", &|row| Some(of(row)?.interval().upper));
-    table.number("probability without response", "", &|row| {
-        Some(of(row)?.untold.value)
-    });
+    table.number("probability without response", "", &|row| Some(of(row)?.untold.value));
     table.flag("settled", &|row| Some(of(row)?.settled));
     table.whole("designs", &|row| usize::try_from(of(row)?.designs).ok());
 }
@@ -51,11 +47,7 @@ impl fmt::Display for Judged {
             write!(f, ", too few for the error to be known")?;
         }
         if self.untold.value > self.unseen {
-            write!(
-                f,
-                "; designs with a probability of {} lack the response",
-                rough(self.untold.value)
-            )?;
+            write!(f, "; designs with a probability of {} lack the response", rough(self.untold.value))?;
         }
         Ok(())
     }

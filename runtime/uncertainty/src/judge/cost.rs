@@ -31,8 +31,7 @@ pub(crate) fn together(modes: &Modes) -> bool {
 pub(crate) fn operations(modes: &Modes, together: bool) -> f64 {
     let description = &modes.description;
     let n = description.coordinates.len() as f64;
-    let kernels =
-        STEPS * kernel(description, "residual_and_stiffness") + kernel(description, "linear");
+    let kernels = STEPS * kernel(description, "residual_and_stiffness") + kernel(description, "linear");
     // The n^3 terms: reduction, iterations and vectors of a symmetric pencil, or of a general one of twice the size,
     // left and right.
     match (together, modes.family) {
@@ -46,7 +45,7 @@ pub(crate) fn operations(modes: &Modes, together: bool) -> f64 {
 /// Operations of a kernel; estimated from the size of its result if its code was not generated.
 fn kernel(description: &Description, name: &str) -> f64 {
     let n = description.coordinates.len() as f64;
-    description.kernel(name).map_or(50.0 * n * n, |kernel| {
-        kernel.operations as f64 + FUNCTION * kernel.functions as f64
-    })
+    description
+        .kernel(name)
+        .map_or(50.0 * n * n, |kernel| kernel.operations as f64 + FUNCTION * kernel.functions as f64)
 }

@@ -10,20 +10,14 @@ use crate::tolerance::{FirstOrder, Tolerances, first_order};
 pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;
 
 /// First order at the nominal design, which knows the distances to other states.
-pub(crate) fn distances(
-    responses: &Responses<'_>,
-    tolerances: &Tolerances,
-) -> Result<FirstOrder, Error> {
+pub(crate) fn distances(responses: &Responses<'_>, tolerances: &Tolerances) -> Result<FirstOrder, Error> {
     let (at, modes) = (responses.nominal(), responses.modes());
     let slopes = sensitivities(responses.mechanism(), at, modes)?;
     first_order(modes, &slopes, tolerances)
 }
 
 /// The doubts that distances raise about models of each response that are fitted at the nominal design.
-pub(crate) fn doubts_of_models(
-    responses: &Responses<'_>,
-    tolerances: &Tolerances,
-) -> Vec<Vec<Doubt>> {
+pub(crate) fn doubts_of_models(responses: &Responses<'_>, tolerances: &Tolerances) -> Vec<Vec<Doubt>> {
     let critical = Doubt::NearCritical { distance: 0.0 };
     let first_order = tolerances.vary().then(|| distances(responses, tolerances));
     let of = |response: &Response| match (&first_order, response) {

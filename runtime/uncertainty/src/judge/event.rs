@@ -58,12 +58,7 @@ impl Lines {
     pub(crate) fn along(deviations: &Deviations<'_>, slopes: &[f64], distance: f64) -> Self {
         let origin = vec![0.0; deviations.dimension()];
         let along = deviations.gradient(&origin, slopes);
-        Self {
-            directions: vec![Direction { along, distance }],
-            worth: 0,
-            effort: 1.0,
-            sequence: (0, 0),
-        }
+        Self { directions: vec![Direction { along, distance }], worth: 0, effort: 1.0, sequence: (0, 0) }
     }
 
     /// The farthest distance.
@@ -79,12 +74,7 @@ impl<'a> Event<'a> {
         deviations: &'a Deviations<'a>,
         distance: &'a Distance<'a>,
     ) -> Self {
-        Self {
-            responses,
-            deviations,
-            distance,
-            room: RefCell::new(responses.workspace()),
-        }
+        Self { responses, deviations, distance, room: RefCell::new(responses.workspace()) }
     }
 
     /// The probability of the event, from as many designs as a verdict needs and the budget allows.
@@ -122,10 +112,7 @@ impl<'a> Event<'a> {
         let sampler = LineSampler::new(dimension, &variables, &lines.directions, &settings)?;
         let fewest = sampler.fewest();
         if evaluations < fewest {
-            return Ok(Judgement::Open(Unjudged::TooDear {
-                operations: fewest as f64 * each,
-                budget,
-            }));
+            return Ok(Judgement::Open(Unjudged::TooDear { operations: fewest as f64 * each, budget }));
         }
         let probability = sampler.run(self);
         self.responses.go_on()?;
@@ -134,18 +121,9 @@ impl<'a> Event<'a> {
 
     fn at(&self, z: &[f64]) -> Option<f64> {
         let design: Vector = self.deviations.design(z);
-        let realisation = self
-            .responses
-            .at(&mut self.room.borrow_mut(), &design)
-            .ok()?;
+        let realisation = self.responses.at(&mut self.room.borrow_mut(), &design).ok()?;
         // A design on the limit meets it.
-        (self.distance)(&design, &realisation).map(|value| {
-            if value == 0.0 {
-                f64::MIN_POSITIVE
-            } else {
-                value
-            }
-        })
+        (self.distance)(&design, &realisation).map(|value| if value == 0.0 { f64::MIN_POSITIVE } else { value })
     }
 }
 

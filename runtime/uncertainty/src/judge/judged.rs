@@ -47,15 +47,9 @@ impl Judged {
     /// 95 % confidence interval of the probability.
     #[must_use]
     pub fn interval(&self) -> Interval {
-        let Estimate {
-            value,
-            standard_error,
-        } = self.probability;
+        let Estimate { value, standard_error } = self.probability;
         let half = COVERING * standard_error;
-        Interval {
-            lower: (value - half).max(0.0),
-            upper: (value + half + self.unseen).min(1.0),
-        }
+        Interval { lower: (value - half).max(0.0), upper: (value + half + self.unseen).min(1.0) }
     }
 
     /// The largest error that a claimed probability may have, given the interval.
@@ -69,10 +63,7 @@ impl Judged {
     #[must_use]
     pub fn agrees(&self, claimed: f64) -> bool {
         let Interval { lower, upper } = self.interval();
-        let (least, most) = (
-            1.0 - TRUSTED_PROBABILITY_ERROR,
-            1.0 + TRUSTED_PROBABILITY_ERROR,
-        );
+        let (least, most) = (1.0 - TRUSTED_PROBABILITY_ERROR, 1.0 + TRUSTED_PROBABILITY_ERROR);
         self.settled && (least * lower..=most * upper).contains(&claimed)
     }
 

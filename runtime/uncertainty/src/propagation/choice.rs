@@ -81,37 +81,26 @@ pub fn propagate(
     if wanted <= affordable {
         return sample(
             wanted,
-            format!(
-                "samples cost {cost_of_all} solutions of the {solutions} allowed, and hold for any response"
-            ),
+            format!("samples cost {cost_of_all} solutions of the {solutions} allowed, and hold for any response"),
         );
     }
-    let dear = format!(
-        "{wanted} samples would cost {cost_of_all} solutions, more than the {solutions} allowed"
-    );
+    let dear = format!("{wanted} samples would cost {cost_of_all} solutions, more than the {solutions} allowed");
     let doubted = doubts_of_models(responses, tolerances);
     if affordable >= FEW && !doubted.iter().all(Vec::is_empty) {
         let reason = format!("{dear}; distances cast doubt on any model: so fewer samples");
         return sample(affordable, reason);
     }
-    let levels = LEVELS
-        .rev()
-        .filter(|level| cost(dimensions, *level).is_some_and(|cost| cost <= affordable));
+    let levels = LEVELS.rev().filter(|level| cost(dimensions, *level).is_some_and(|cost| cost <= affordable));
     if let (Some(level), Ok(())) = (levels.max(), refuse_discrete(tolerances)) {
         match quadrature(responses, tolerances, level, sampling.threads) {
             Err(Error::NoResponse { response, .. }) if affordable >= FEW => {
-                let reason = format!(
-                    "{dear}; quadrature has a node without response {}: so fewer samples",
-                    response + 1
-                );
+                let reason =
+                    format!("{dear}; quadrature has a node without response {}: so fewer samples", response + 1);
                 return sample(affordable, reason);
             }
             Err(Error::NoResponse { .. }) => {}
             integrated => {
-                return with(
-                    integrated,
-                    format!("{dear}; {dimensions} variables are few enough for quadrature"),
-                );
+                return with(integrated, format!("{dear}; {dimensions} variables are few enough for quadrature"));
             }
         }
     }

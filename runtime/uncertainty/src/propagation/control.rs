@@ -80,10 +80,7 @@ pub fn controlled(
         Err(Error::Setting { setting, reason })
     };
     if sampling.points != Points::Random {
-        return refused(
-            "points",
-            "standard errors of control variates need random ones",
-        );
+        return refused("points", "standard errors of control variates need random ones");
     }
     if sampling.samples < 3 {
         return refused("samples", "two tell no error of a standard deviation");
@@ -91,21 +88,12 @@ pub fn controlled(
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;
     let expansions = expansions(mechanism, responses)?;
-    let controls: Vec<Option<Control<'_>>> = (expansions.iter())
-        .map(|expansion| Some(Control::of(expansion.as_ref()?, tolerances)))
-        .collect();
-    let scales = controls.iter().flat_map(|control| {
-        control
-            .as_ref()
-            .map_or([(0.0, 1.0); QUANTITIES], Control::scales)
-    });
+    let controls: Vec<Option<Control<'_>>> =
+        (expansions.iter()).map(|expansion| Some(Control::of(expansion.as_ref()?, tolerances))).collect();
+    let scales = controls.iter().flat_map(|control| control.as_ref().map_or([(0.0, 1.0); QUANTITIES], Control::scales));
     let task = Task {
         scales: scales.collect(),
-        model: &Pairs {
-            designs: Designs::new(responses, &space),
-            nominal: space.nominal,
-            controls: &controls,
-        },
+        model: &Pairs { designs: Designs::new(responses, &space), nominal: space.nominal, controls: &controls },
         space: &space,
         unknowns: at.coordinates.len(),
     };
@@ -146,27 +134,15 @@ impl<'a> Control<'a> {
             Some(exact) => (Method::SecondOrder, exact),
             None => {
                 let exact = moments::first_order(expansion, tolerances);
-                (
-                    Method::FirstOrder,
-                    (exact.mean, tolerances.sigma(&expansion.slopes)),
-                )
+                (Method::FirstOrder, (exact.mean, tolerances.sigma(&expansion.slopes)))
             }
         };
-        Self {
-            expansion,
-            model,
-            mean,
-            sigma,
-        }
+        Self { expansion, model, mean, sigma }
     }
 
     fn scales(&self) -> [Scale; QUANTITIES] {
         let usable = |scale: f64| {
-            if scale > 0.0 && scale.is_finite() {
-                scale
-            } else {
-                1.0
-            }
+            if scale > 0.0 && scale.is_finite() { scale } else { 1.0 }
         };
         let value = (self.mean, usable(self.sigma));
         let square = (0.0, usable(self.sigma * self.sigma));
@@ -182,11 +158,7 @@ impl<'a> Control<'a> {
     }
 
     /// The spread from the samples, whose quantities for this response start at `index`.
-    fn spread(
-        &self,
-        samples: &Gathered<'_>,
-        index: usize,
-    ) -> Result<Option<ControlledSpread>, Error> {
+    fn spread(&self, samples: &Gathered<'_>, index: usize) -> Result<Option<ControlledSpread>, Error> {
         if samples.count(index)? < samples.total() {
             return Ok(None);
         }
@@ -200,11 +172,7 @@ impl<'a> Control<'a> {
             return Ok(None);
         }
         let sigma = variance.sqrt();
-        let error = if sigma > 0.0 {
-            0.5 * square.error / sigma
-        } else {
-            0.0
-        };
+        let error = if sigma > 0.0 { 0.5 * square.error / sigma } else { 0.0 };
         Ok(Some(ControlledSpread {
             mean: Estimated::new(first.value, Some(first.error)),
             sigma: Estimated::new(sigma, Some(error)),
@@ -226,11 +194,7 @@ struct Corrected {
 /// `f - beta (g - known)`, `beta = Cov(f, g) / Var(g)`.
 fn corrected(samples: &Gathered<'_>, index: usize, known: f64) -> Result<Option<Corrected>, Error> {
     let covariance = |i, j| samples.covariance(i, j);
-    let all = (
-        covariance(index, index)?,
-        covariance(index, index + 1)?,
-        covariance(index + 1, index + 1)?,
-    );
+    let all = (covariance(index, index)?, covariance(index, index + 1)?, covariance(index + 1, index + 1)?);
     let (Some(variance), Some(both), Some(other)) = all else {
         return Ok(None);
     };
@@ -266,12 +230,7 @@ impl Model for Pairs<'_> {
         self.designs.room()
     }
 
-    fn evaluate(
-        &self,
-        room: &mut DesignRoom,
-        points: &[Vector],
-        take: &mut Take<'_>,
-    ) -> Result<(), Error> {
+    fn evaluate(&self, room: &mut DesignRoom, points: &[Vector], take: &mut Take<'_>) -> Result<(), Error> {
         let mut values = vec![None; QUANTITIES * self.controls.len()];
         self.designs.evaluate(room, points, &mut |k, evaluated| {
             let moved = evaluated.design.iter().zip(self.nominal);
@@ -285,13 +244,7 @@ impl Model for Pairs<'_> {
                     places.copy_from_slice(&[Some(*f), Some(g), Some(square(*f)), Some(square(g))]);
                 }
             }
-            take(
-                k,
-                Evaluated {
-                    values: &values,
-                    ..evaluated
-                },
-            )
+            take(k, Evaluated { values: &values, ..evaluated })
         })
     }
 }

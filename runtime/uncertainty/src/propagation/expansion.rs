@@ -47,10 +47,7 @@ pub(super) fn expansions(
         Some(Expansion {
             value: (*value)?,
             slopes: slopes?,
-            curvature: models
-                .of(*response)
-                .ok()
-                .map(|model| model.quadratic.curvature),
+            curvature: models.of(*response).ok().map(|model| model.quadratic.curvature),
         })
     });
     Ok(each.collect())
@@ -89,14 +86,7 @@ impl Model for Polynomials<'_> {
                 first[k] = expansion.as_ref().map(|item| item.first_order(x));
                 second[k] = expansion.as_ref().and_then(|item| item.second_order(x));
             }
-            take(
-                k,
-                Evaluated {
-                    design,
-                    outcome,
-                    values,
-                },
-            )?;
+            take(k, Evaluated { design, outcome, values })?;
         }
         Ok(())
     }

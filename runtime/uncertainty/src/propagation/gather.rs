@@ -4,9 +4,7 @@ use core::ops::Range;
 
 use eigentol_statistics::normal;
 use eigentol_statistics::sequence::Sequence;
-use eigentol_statistics::summary::{
-    Chunk, Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics,
-};
+use eigentol_statistics::summary::{Chunk, Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics};
 
 use super::model::{Evaluated, Model, TOGETHER};
 use super::result::{Estimated, QUANTILES, Quantile, ResponseSpread};
@@ -51,9 +49,7 @@ impl<M: Model> Task<'_, M> {
     fn plan(&self) -> Result<Plan, Error> {
         let (responses, variables) = (self.scales.len(), self.space.variables().len());
         let all: Vec<usize> = (0..responses + variables).collect();
-        let mut plan = Plan::new(all.len())
-            .covariances(&all[..responses], &all)?
-            .outcomes(Outcome::ALL.len());
+        let mut plan = Plan::new(all.len()).covariances(&all[..responses], &all)?.outcomes(Outcome::ALL.len());
         for (k, (reference, scale)) in self.scales.iter().enumerate() {
             plan = plan.sketch(k, *reference, *scale)?;
         }
@@ -109,9 +105,8 @@ impl<M: Model> Task<'_, M> {
                 };
                 points.push(self.space.standard(normals(probabilities)));
             }
-            self.model.evaluate(room, &points, &mut |k, evaluated| {
-                take(chunk, first + k as u64, &evaluated, &variables)
-            })?;
+            self.model
+                .evaluate(room, &points, &mut |k, evaluated| take(chunk, first + k as u64, &evaluated, &variables))?;
         }
         Ok(())
     }
@@ -126,11 +121,7 @@ pub(super) fn normals(probabilities: &[f64]) -> impl Iterator<Item = f64> {
 fn take(
     chunk: &mut Chunk,
     sample: u64,
-    Evaluated {
-        design,
-        outcome,
-        values,
-    }: &Evaluated<'_>,
+    Evaluated { design, outcome, values }: &Evaluated<'_>,
     variables: &[usize],
 ) -> Result<(), Error> {
     chunk.count(*outcome as usize, 1)?;
@@ -170,11 +161,7 @@ impl Gathered<'_> {
     /// spread that it takes none.
     fn divisor(&self, count: u64) -> f64 {
         let n = count as f64;
-        if self.0.len() == 1 {
-            1.0
-        } else {
-            (n - 1.0) / n
-        }
+        if self.0.len() == 1 { 1.0 } else { (n - 1.0) / n }
     }
 
     /// Number of samples that have a quantity.
@@ -220,11 +207,7 @@ impl Gathered<'_> {
     }
 
     /// The spread of a response; `None` if no sample has it.
-    pub(super) fn spread(
-        &self,
-        response: usize,
-        nominal: Option<f64>,
-    ) -> Result<Option<ResponseSpread>, Error> {
+    pub(super) fn spread(&self, response: usize, nominal: Option<f64>) -> Result<Option<ResponseSpread>, Error> {
         let Some(all) = self.statistics(response)? else {
             return Ok(None);
         };
@@ -241,35 +224,19 @@ impl Gathered<'_> {
             } else {
                 quantile_error(&all, &groups, probability)
             };
-            quantiles.push(Quantile {
-                probability,
-                value: all.quantile(probability)?.value,
-                error,
-            });
+            quantiles.push(Quantile { probability, value: all.quantile(probability)?.value, error });
         }
         let total = self.total() as f64;
         let (n, divisor) = (all.count as f64, self.divisor(all.count));
         // The estimate for `n` random values contains the factor `sqrt(n (n - 1)) / (n - 2)` against bias; remove it.
-        let unskewed = if one {
-            1.0
-        } else {
-            (n - 2.0) / (n * (n - 1.0)).sqrt()
-        };
+        let unskewed = if one { 1.0 } else { (n - 2.0) / (n * (n - 1.0)).sqrt() };
         Ok(Some(ResponseSpread {
             nominal,
             mean: Estimated::new(all.mean, errors(all.standard_error, &|x| Some(x.mean))),
-            sigma: (all.sigma).map(|sigma| {
-                Estimated::new(
-                    sigma * divisor.sqrt(),
-                    errors(all.sigma_error, &|x| x.sigma),
-                )
-            }),
-            skewness: (all.skewness).map(|value| {
-                Estimated::new(
-                    value * unskewed,
-                    errors(all.skewness_error, &|x| x.skewness),
-                )
-            }),
+            sigma: (all.sigma)
+                .map(|sigma| Estimated::new(sigma * divisor.sqrt(), errors(all.sigma_error, &|x| x.sigma))),
+            skewness: (all.skewness)
+                .map(|value| Estimated::new(value * unskewed, errors(all.skewness_error, &|x| x.skewness))),
             quantiles,
             share: all.count as f64 / total,
         }))
@@ -278,10 +245,7 @@ impl Gathered<'_> {
     /// Statistics of each randomisation; empty unless all have the same number of samples.
     fn groups(&self, response: usize) -> Result<Vec<Statistics>, Error> {
         let number = |part: &Partial| part.outcomes().iter().sum::<u64>();
-        let equal = self
-            .0
-            .windows(2)
-            .all(|pair| number(&pair[0]) == number(&pair[1]));
+        let equal = self.0.windows(2).all(|pair| number(&pair[0]) == number(&pair[1]));
         if !equal {
             return Ok(Vec::new());
         }
@@ -303,13 +267,10 @@ fn quantile_error(all: &Statistics, groups: &[Statistics], probability: f64) -> 
         return None;
     }
     let quantile = all.quantile(probability).ok()?;
-    let share = scatter(groups, &|item| {
-        Some(item.sketch()?.cdf(quantile.value).ok()?.value)
-    })?;
+    let share = scatter(groups, &|item| Some(item.sketch()?.cdf(quantile.value).ok()?.value))?;
     // Definitions of a quantile differ by up to half a sample.
     let share = share.hypot(0.5 / all.count as f64);
-    let [lower, upper] =
-        [-share, share].map(|change| all.quantile((probability + change).clamp(0.0, 1.0)).ok());
+    let [lower, upper] = [-share, share].map(|change| all.quantile((probability + change).clamp(0.0, 1.0)).ok());
     // In a bucket of the sketch any value is as likely as any other.
     let bucket = quantile.error / 3.0_f64.sqrt();
     Some((0.5 * (upper?.value - lower?.value)).hypot(bucket))

@@ -1,8 +1,6 @@
 //! Attributes the scatter of responses to the variables.
 
-use eigentol_statistics::sensitivity::{
-    Bootstrap, Estimate, Estimator, SaltelliDesign, Sample, sobol_indices,
-};
+use eigentol_statistics::sensitivity::{Bootstrap, Estimate, Estimator, SaltelliDesign, Sample, sobol_indices};
 use eigentol_statistics::sequence::Sequence;
 
 use super::gather::normals;
@@ -150,19 +148,10 @@ struct Table {
     counts: Counts,
 }
 
-fn table(
-    responses: &Responses<'_>,
-    space: &Space<'_>,
-    sampling: &Sampling<'_>,
-) -> Result<Table, Error> {
+fn table(responses: &Responses<'_>, space: &Space<'_>, sampling: &Sampling<'_>) -> Result<Table, Error> {
     let variables = space.variables();
     let d = space.dimensions();
-    let mut table = Table {
-        blocks: 1,
-        designs: Vec::new(),
-        values: Vec::new(),
-        counts: Counts::default(),
-    };
+    let mut table = Table { blocks: 1, designs: Vec::new(), values: Vec::new(), counts: Counts::default() };
     if d == 0 {
         return Ok(table);
     }
@@ -171,10 +160,7 @@ fn table(
     if rows < 16 {
         return Err(Error::Setting {
             setting: "samples",
-            reason: format!(
-                "{} are less than 16 rows of {} designs each",
-                sampling.samples, table.blocks
-            ),
+            reason: format!("{} are less than 16 rows of {} designs each", sampling.samples, table.blocks),
         });
     }
     let rows = 1 << rows.ilog2();
@@ -198,13 +184,7 @@ fn table(
     };
     let room = || designs.room();
     let size = (at.coordinates.len(), at.design.len());
-    for piece in pool::run(
-        sampling.threads,
-        size,
-        number.div_ceil(TOGETHER),
-        room,
-        work,
-    )? {
+    for piece in pool::run(sampling.threads, size, number.div_ceil(TOGETHER), room, work)? {
         for (outcome, values, design) in piece? {
             table.counts.add(outcome, 1);
             table.values.push(values);
@@ -217,11 +197,7 @@ fn table(
 /// Whether the variables are independent of each other.
 fn independent(space: &Space<'_>) -> bool {
     space.tolerances.correlation().is_none_or(|matrix| {
-        matrix.iter().enumerate().all(|(i, row)| {
-            row.iter()
-                .enumerate()
-                .all(|(j, value)| i == j || *value == 0.0)
-        })
+        matrix.iter().enumerate().all(|(i, row)| row.iter().enumerate().all(|(j, value)| i == j || *value == 0.0))
     })
 }
 
@@ -232,12 +208,7 @@ enum Points {
 }
 
 impl Points {
-    fn new(
-        blocks: usize,
-        dimensions: usize,
-        rows: usize,
-        sampling: &Sampling<'_>,
-    ) -> Result<Self, Error> {
+    fn new(blocks: usize, dimensions: usize, rows: usize, sampling: &Sampling<'_>) -> Result<Self, Error> {
         let of = |dimensions| Sequence::sobol(dimensions, sampling.seed, sampling.stream);
         Ok(if blocks == 1 {
             Self::Plain(of(dimensions)?)
@@ -268,43 +239,29 @@ impl Points {
 impl Table {
     fn response(&self, i: usize, variables: &[usize]) -> ResponseInfluence {
         let values: Vec<Option<f64>> = self.values.iter().map(|values| values[i]).collect();
-        let indices = (self.blocks > 1).then(|| {
-            sobol_indices(
-                variables.len(),
-                &values,
-                Estimator::Jansen,
-                Bootstrap::default(),
-            )
-        });
+        let indices =
+            (self.blocks > 1).then(|| sobol_indices(variables.len(), &values, Estimator::Jansen, Bootstrap::default()));
         let indices = indices.and_then(Result::ok);
         // The first two evaluations of a row are independent of each other; the others recombine their variables.
         let is_independent = |k: &usize| self.blocks == 1 || k % self.blocks < 2;
         let independent: Vec<usize> = (0..values.len()).filter(is_independent).collect();
-        let designs: Vec<Vec<f64>> = independent
-            .iter()
-            .map(|&k| self.designs[k].clone())
-            .collect();
+        let designs: Vec<Vec<f64>> = independent.iter().map(|&k| self.designs[k].clone()).collect();
         let results: Vec<Option<f64>> = independent.iter().map(|&k| values[k]).collect();
         let sample = Sample::new(&designs, &results).ok();
         let sample = sample.as_ref();
         let (pearson, spearman) = (sample.map(Sample::pearson), sample.map(Sample::spearman));
         let regression = sample.and_then(|sample| sample.regression().ok());
         let number = |list: &Option<Vec<f64>>, k: usize| Some(*list.as_ref()?.get(k)?);
-        let each = variables
-            .iter()
-            .enumerate()
-            .map(|(k, &variable)| VariableInfluence {
-                variable,
-                first: indices.as_ref().and_then(|all| all.first.get(k).copied()),
-                total: indices.as_ref().and_then(|all| all.total.get(k).copied()),
-                correlation: number(&pearson, k),
-                rank_correlation: number(&spearman, k),
-                regression: regression
-                    .as_ref()
-                    .and_then(|all| all.coefficients.get(k).copied()),
-                at_low: None,
-                at_high: None,
-            });
+        let each = variables.iter().enumerate().map(|(k, &variable)| VariableInfluence {
+            variable,
+            first: indices.as_ref().and_then(|all| all.first.get(k).copied()),
+            total: indices.as_ref().and_then(|all| all.total.get(k).copied()),
+            correlation: number(&pearson, k),
+            rank_correlation: number(&spearman, k),
+            regression: regression.as_ref().and_then(|all| all.coefficients.get(k).copied()),
+            at_low: None,
+            at_high: None,
+        });
         ResponseInfluence {
             nominal: None,
             variables: each.collect(),

@@ -25,12 +25,7 @@ pub(super) trait Model: Sync {
     fn room(&self) -> Self::Room;
 
     /// Evaluates the designs of at most [`TOGETHER`] points, each with one standard normal number per design variable.
-    fn evaluate(
-        &self,
-        room: &mut Self::Room,
-        points: &[Vector],
-        take: &mut Take<'_>,
-    ) -> Result<(), Error>;
+    fn evaluate(&self, room: &mut Self::Room, points: &[Vector], take: &mut Take<'_>) -> Result<(), Error>;
 }
 
 /// Maximum number of points evaluated at a time.
@@ -46,11 +41,7 @@ pub(super) struct Designs<'a> {
 
 impl<'a> Designs<'a> {
     pub(super) fn new(responses: &'a Responses<'a>, space: &'a Space<'a>) -> Self {
-        Self {
-            responses,
-            space,
-            side_by_side: side_by_side(responses, space.tolerances),
-        }
+        Self { responses, space, side_by_side: side_by_side(responses, space.tolerances) }
     }
 
     pub(super) fn side_by_side(&self) -> bool {
@@ -58,13 +49,9 @@ impl<'a> Designs<'a> {
     }
 }
 
-fn side_by_side<'a>(
-    responses: &Responses<'a>,
-    tolerances: &'a Tolerances,
-) -> Option<SideBySide<'a>> {
+fn side_by_side<'a>(responses: &Responses<'a>, tolerances: &'a Tolerances) -> Option<SideBySide<'a>> {
     let (at, modes) = (responses.nominal(), responses.modes());
-    let here =
-        |response: &Response| matches!(response, Response::Mode { .. } | Response::Vibration(_));
+    let here = |response: &Response| matches!(response, Response::Mode { .. } | Response::Vibration(_));
     if !responses.wanted().iter().all(here) {
         return None;
     }
@@ -96,20 +83,9 @@ impl Model for Designs<'_> {
         }
     }
 
-    fn evaluate(
-        &self,
-        room: &mut DesignRoom,
-        points: &[Vector],
-        take: &mut Take<'_>,
-    ) -> Result<(), Error> {
+    fn evaluate(&self, room: &mut DesignRoom, points: &[Vector], take: &mut Take<'_>) -> Result<(), Error> {
         let responses = self.responses;
-        let DesignRoom {
-            alone,
-            design,
-            state,
-            lanes,
-            values,
-        } = room;
+        let DesignRoom { alone, design, state, lanes, values } = room;
         let mut solve = |design: &[f64], values: &mut Vec<Option<f64>>| {
             let realisation = responses.at(alone, design)?;
             *values = realisation.values;
@@ -119,14 +95,7 @@ impl Model for Designs<'_> {
             for (k, z) in points.iter().enumerate() {
                 self.space.design(z, design);
                 let outcome = solve(design, values)?;
-                take(
-                    k,
-                    Evaluated {
-                        design,
-                        outcome,
-                        values,
-                    },
-                )?;
+                take(k, Evaluated { design, outcome, values })?;
             }
             return Ok(());
         };
@@ -139,14 +108,7 @@ impl Model for Designs<'_> {
                 }
                 None => solve(design, values)?,
             };
-            take(
-                k,
-                Evaluated {
-                    design,
-                    outcome,
-                    values,
-                },
-            )
+            take(k, Evaluated { design, outcome, values })
         })
     }
 }

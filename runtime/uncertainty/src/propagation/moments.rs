@@ -19,11 +19,8 @@ fn shape(tolerances: &Tolerances) -> Option<Vec<[f64; 2]>> {
         return Some(vec![[0.0; 2]; tolerances.sigmas().len()]);
     };
     let variables = joint.variables().iter();
-    (joint.is_independent()).then(|| {
-        variables
-            .map(|variable| [variable.skewness(), variable.excess_kurtosis()])
-            .collect()
-    })
+    (joint.is_independent())
+        .then(|| variables.map(|variable| [variable.skewness(), variable.excess_kurtosis()]).collect())
 }
 
 /// First order: mean `f0 + S m`, variance `|a|^2`, third moment `sum a^3 g`, with `a = L^T S`, the shift `m` of the
@@ -33,9 +30,7 @@ pub(super) fn first_order(expansion: &Expansion, tolerances: &Tolerances) -> Exa
     let a = times(&tolerances.factor().transpose(), &expansion.slopes);
     let third = |shape: Vec<[f64; 2]>| {
         let parts = a.iter().zip(shape);
-        parts
-            .map(|(a, [skewness, _])| (a / sigma).powi(3) * skewness)
-            .sum()
+        parts.map(|(a, [skewness, _])| (a / sigma).powi(3) * skewness).sum()
     };
     ExactMoments {
         mean: expansion.value + tolerances.mean_shift(&expansion.slopes),
@@ -47,35 +42,21 @@ pub(super) fn first_order(expansion: &Expansion, tolerances: &Tolerances) -> Exa
 /// Second order, for any distribution: with `a = L^T (S + H m)` and `B = L^T H L`, the mean is
 /// `f0 + S m + m^T H m / 2 + tr(B) / 2`. For independent variables of skewness `g` and excess kurtosis `k`, the
 /// variance is `sum a^2 + sum a_j B_jj g_j + sum B_jj^2 k_j / 4 + sum_jk B_jk^2 / 2`.
-pub(super) fn second_order(
-    expansion: &Expansion,
-    curvature: &Matrix,
-    tolerances: &Tolerances,
-) -> ExactMoments {
+pub(super) fn second_order(expansion: &Expansion, curvature: &Matrix, tolerances: &Tolerances) -> ExactMoments {
     let shifts = tolerances.shifts();
     let factor = tolerances.factor();
     let columns = factor.transpose();
     let bent = times(curvature, shifts);
-    let slopes: Vector = expansion
-        .slopes
-        .iter()
-        .zip(&bent)
-        .map(|(s, h)| s + h)
-        .collect();
+    let slopes: Vector = expansion.slopes.iter().zip(&bent).map(|(s, h)| s + h).collect();
     let a = times(&columns, &slopes);
     let size = a.len();
     let b = Matrix::from_fn(size, size, |j, k| form(&columns[j], curvature, &columns[k]));
     let trace: f64 = (0..size).map(|j| b[j][j]).sum();
     let variance = |shape: Vec<[f64; 2]>| {
-        let squares: f64 = b
-            .as_flattened()
-            .iter()
-            .map(|element| element * element)
-            .sum();
+        let squares: f64 = b.as_flattened().iter().map(|element| element * element).sum();
         let terms = shape.iter().enumerate();
-        let terms = terms.map(|(j, [skewness, kurtosis])| {
-            a[j] * b[j][j] * skewness + 0.25 * b[j][j] * b[j][j] * kurtosis
-        });
+        let terms =
+            terms.map(|(j, [skewness, kurtosis])| a[j] * b[j][j] * skewness + 0.25 * b[j][j] * b[j][j] * kurtosis);
         dot(&a, &a) + terms.sum::<f64>() + 0.5 * squares
     };
     ExactMoments {

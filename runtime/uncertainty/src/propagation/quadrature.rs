@@ -53,10 +53,7 @@ pub fn quadrature(
     refuse_discrete(tolerances)?;
     let nominal = responses.at(&mut responses.workspace(), &at.design)?.values;
     let mut sums = Sums::new(&nominal, &space);
-    let mut tally = NodeOutcomes {
-        counts: Counts::default(),
-        missing: vec![0; nominal.len()],
-    };
+    let mut tally = NodeOutcomes { counts: Counts::default(), missing: vec![0; nominal.len()] };
     let designs = Designs::new(responses, &space);
     grid.rounds(&mut |nodes| {
         let solve = |room: &mut DesignRoom, piece: usize| {
@@ -65,11 +62,7 @@ pub fn quadrature(
             let points: Vec<Vector> = points.collect();
             let mut each = Vec::with_capacity(batch.len());
             designs.evaluate(room, &points, &mut |_, evaluated| {
-                each.push((
-                    evaluated.outcome,
-                    evaluated.values.to_vec(),
-                    Vector::from(evaluated.design),
-                ));
+                each.push((evaluated.outcome, evaluated.values.to_vec(), Vector::from(evaluated.design)));
                 Ok(())
             })?;
             Ok::<Vec<(Outcome, Vec<Option<f64>>, Vector)>, Error>(each)
@@ -101,10 +94,7 @@ pub(super) fn refuse_discrete(tolerances: &Tolerances) -> Result<(), Error> {
     if variables.iter().all(|variable| variable.is_continuous()) {
         return Ok(());
     }
-    Err(Error::Setting {
-        setting: "quadrature",
-        reason: "a variable takes discrete values: sample instead".to_owned(),
-    })
+    Err(Error::Setting { setting: "quadrature", reason: "a variable takes discrete values: sample instead".to_owned() })
 }
 
 /// The nodes of two successive levels.
@@ -261,17 +251,9 @@ impl Sums {
         if variance < -rounding {
             return None;
         }
-        let sigma = if variance > rounding {
-            variance.sqrt()
-        } else {
-            0.0
-        };
+        let sigma = if variance > rounding { variance.sqrt() } else { 0.0 };
         let third = cube - 3.0 * mean * square + 2.0 * mean * mean * mean;
-        let skewness = if sigma > 0.0 {
-            third / sigma.powi(3)
-        } else {
-            0.0
-        };
+        let skewness = if sigma > 0.0 { third / sigma.powi(3) } else { 0.0 };
         Some([self.centres[i] + mean, sigma, skewness])
     }
 
@@ -316,9 +298,7 @@ impl Sums {
             doubts: Vec::new(),
             spreads: spreads.collect::<Result<_, Error>>()?,
             covariance: Matrix::from_fn(m, m, |i, j| Some(self.covariance(i, j, 0))),
-            with_design: Matrix::from_fn(m, at.design.len(), |i, j| {
-                Some(self.covariance(i, m + j, 0))
-            }),
+            with_design: Matrix::from_fn(m, at.design.len(), |i, j| Some(self.covariance(i, m + j, 0))),
             evaluations: counts.total() as u64,
             counts,
             inputs: at.inputs.clone(),

@@ -19,11 +19,7 @@ use eigentol_statistics::summary::Partial;
 ///
 /// With the feature `serde` it can be serialised; only the same version of the format can be read.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "Unchecked")
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 #[non_exhaustive]
 pub struct Samples {
     format: Format,
@@ -57,27 +53,15 @@ pub struct Samples {
 /// # Errors
 /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for invalid settings,
 /// [`Error::Threads`]. Samples that fail are counted, not errors.
-pub fn sampled(
-    responses: &Responses<'_>,
-    tolerances: &Tolerances,
-    sampling: &Sampling<'_>,
-) -> Result<Samples, Error> {
+pub fn sampled(responses: &Responses<'_>, tolerances: &Tolerances, sampling: &Sampling<'_>) -> Result<Samples, Error> {
     if sampling.samples == 0 {
-        return Err(Error::Setting {
-            setting: "samples",
-            reason: "there must be one".to_owned(),
-        });
+        return Err(Error::Setting { setting: "samples", reason: "there must be one".to_owned() });
     }
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;
     let (nominal, scales) = nominal_scales(responses, tolerances)?;
     let designs = Designs::new(responses, &space);
-    let task = Task {
-        model: &designs,
-        scales,
-        unknowns: at.coordinates.len(),
-        space: &space,
-    };
+    let task = Task { model: &designs, scales, unknowns: at.coordinates.len(), space: &space };
     Ok(Samples {
         format: Format,
         points: sampling.points,
@@ -104,14 +88,7 @@ fn fingerprint(
     let (at, modes) = (responses.nominal(), responses.modes());
     let mut all = Fingerprint::new(responses.mechanism(), at, modes, tolerances)
         .with("points", format!("{:?}", sampling.points))
-        .with(
-            "solved",
-            if side_by_side {
-                "side by side"
-            } else {
-                "one by one"
-            },
-        )
+        .with("solved", if side_by_side { "side by side" } else { "one by one" })
         .with("samples", sampling.samples)
         .with("randomisations", sampling.groups())
         .with("seed", sampling.seed)
@@ -238,8 +215,7 @@ impl TryFrom<Unchecked> for Samples {
         let quantities = read.wanted.len() + varied.len();
         let outcomes = Outcome::ALL.len();
         read.run.check(quantities, outcomes)?;
-        let fits = read.nominal.len() == read.wanted.len()
-            && varied.iter().all(|variable| variable < variables);
+        let fits = read.nominal.len() == read.wanted.len() && varied.iter().all(|variable| variable < variables);
         if !fits {
             return Err("the parts of these samples do not fit together");
         }

@@ -14,11 +14,7 @@ pub(super) struct Space<'a> {
 impl<'a> Space<'a> {
     pub(super) fn new(nominal: &'a Equilibrium, tolerances: &'a Tolerances) -> Result<Self, Error> {
         tolerances.check_count(nominal.design.len())?;
-        Ok(Self {
-            nominal: &nominal.design,
-            tolerances,
-            dimensions: tolerances.normal_dimensions(),
-        })
+        Ok(Self { nominal: &nominal.design, tolerances, dimensions: tolerances.normal_dimensions() })
     }
 
     /// Number of dimensions; zero if nothing varies.

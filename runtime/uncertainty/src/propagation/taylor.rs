@@ -90,20 +90,13 @@ fn taylor(
     let space = Space::new(at, tolerances)?;
     let expansions = expansions(mechanism, responses)?;
     let parts = samples(&space, &expansions)?;
-    let all = Models {
-        samples: Gathered(&parts),
-        expansions: &expansions,
-        tolerances,
-    };
+    let all = Models { samples: Gathered(&parts), expansions: &expansions, tolerances };
     let count = expansions.len();
     let second = method == Method::SecondOrder;
     let (mut spreads, mut covariance) = (Vec::new(), Matrix::zeros(count, count));
     let mut with_design = Matrix::from_fn(count, at.design.len(), |_, _| None);
     for (i, expansion) in expansions.iter().enumerate() {
-        let Some(expansion) = expansion
-            .as_ref()
-            .filter(|x| !second || x.curvature.is_some())
-        else {
+        let Some(expansion) = expansion.as_ref().filter(|x| !second || x.curvature.is_some()) else {
             spreads.push(None);
             continue;
         };
@@ -120,8 +113,7 @@ fn taylor(
         } else {
             for (j, other) in expansions.iter().enumerate() {
                 let other = other.as_ref();
-                covariance[i][j] =
-                    other.map(|other| tolerances.covariance(&expansion.slopes, &other.slopes));
+                covariance[i][j] = other.map(|other| tolerances.covariance(&expansion.slopes, &other.slopes));
             }
             let factor = tolerances.factor();
             let all = times(factor, &times(&factor.transpose(), &expansion.slopes));
@@ -155,22 +147,11 @@ fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Vec<Pa
         let own = expansion.as_ref();
         let sigma = own.map_or(0.0, |x| space.tolerances.sigma(&x.slopes));
         let value = own.map_or(0.0, |x| x.value);
-        (
-            value,
-            if sigma > 0.0 && sigma.is_finite() {
-                sigma
-            } else {
-                1.0
-            },
-        )
+        (value, if sigma > 0.0 && sigma.is_finite() { sigma } else { 1.0 })
     };
     let scales: Vec<_> = expansions.iter().map(scale).collect();
-    let task = Task {
-        model: &Polynomials { space, expansions },
-        space,
-        scales: [&scales[..], &scales].concat(),
-        unknowns: 0,
-    };
+    let task =
+        Task { model: &Polynomials { space, expansions }, space, scales: [&scales[..], &scales].concat(), unknowns: 0 };
     task.gather(&Sampling::default().points(Points::Sobol).samples(SAMPLES))
 }
 
@@ -181,12 +162,7 @@ struct Models<'a> {
 }
 
 impl Models<'_> {
-    fn spread(
-        &self,
-        i: usize,
-        expansion: &Expansion,
-        second: bool,
-    ) -> Result<ResponseSpread, Error> {
+    fn spread(&self, i: usize, expansion: &Expansion, second: bool) -> Result<ResponseSpread, Error> {
         let first = self.model(i, expansion, None)?;
         let Some(curvature) = &expansion.curvature else {
             return Ok(first.without_errors());
@@ -199,9 +175,7 @@ impl Models<'_> {
         };
         add_difference(&mut spread, &other, share);
         let sigma = spread.sigma.as_mut();
-        if let Some((sigma, error)) =
-            sigma.and_then(|sigma| Some((sigma.value, sigma.error.as_mut()?)))
-        {
+        if let Some((sigma, error)) = sigma.and_then(|sigma| Some((sigma.value, sigma.error.as_mut()?))) {
             *error += THIRD * ratio * ratio * sigma;
         }
         Ok(spread)
@@ -212,29 +186,15 @@ impl Models<'_> {
     fn ratio(&self, expansion: &Expansion, curvature: &Matrix) -> f64 {
         let columns = self.tolerances.factor().transpose();
         let curved = columns.iter().map(|row| times(curvature, row));
-        let squares: f64 = curved
-            .flat_map(|row| times(&columns, &row))
-            .map(|element| 0.5 * element * element)
-            .sum();
-        let bent = self
-            .tolerances
-            .sigma(&times(curvature, self.tolerances.shifts()));
+        let squares: f64 = curved.flat_map(|row| times(&columns, &row)).map(|element| 0.5 * element * element).sum();
+        let bent = self.tolerances.sigma(&times(curvature, self.tolerances.shifts()));
         let ratio = (squares.sqrt() + bent) / self.tolerances.sigma(&expansion.slopes);
         if ratio < 1.0 { ratio } else { 1.0 }
     }
 
     /// The spread of an expansion, including the errors of sampling it.
-    fn model(
-        &self,
-        i: usize,
-        expansion: &Expansion,
-        curvature: Option<&Matrix>,
-    ) -> Result<ResponseSpread, Error> {
-        let index = if curvature.is_some() {
-            self.expansions.len() + i
-        } else {
-            i
-        };
+    fn model(&self, i: usize, expansion: &Expansion, curvature: Option<&Matrix>) -> Result<ResponseSpread, Error> {
+        let index = if curvature.is_some() { self.expansions.len() + i } else { i };
         let exact = match curvature {
             None => moments::first_order(expansion, self.tolerances),
             Some(curvature) => moments::second_order(expansion, curvature, self.tolerances),
@@ -242,11 +202,7 @@ impl Models<'_> {
         let nominal = Some(expansion.value);
         let sampled = self.samples.spread(index, nominal)?;
         let certain = |value: f64| Estimated::new(value, Some(0.0));
-        let ExactMoments {
-            mean,
-            sigma,
-            skewness,
-        } = exact;
+        let ExactMoments { mean, sigma, skewness } = exact;
         let normal = curvature.is_none() && self.tolerances.is_normal();
         let quantiles = match (sigma, sampled.as_ref()) {
             (Some(sigma), _) if normal => exactly_normal(mean, sigma),
@@ -257,9 +213,7 @@ impl Models<'_> {
             nominal,
             mean: certain(mean),
             sigma: sigma.map(certain).or(of_samples.and_then(|all| all.sigma)),
-            skewness: skewness
-                .map(certain)
-                .or(of_samples.and_then(|all| all.skewness)),
+            skewness: skewness.map(certain).or(of_samples.and_then(|all| all.skewness)),
             quantiles,
             share: 1.0,
         })

@@ -26,11 +26,7 @@ impl<'a> Vibrations<'a> {
         wanted: &[Response],
         space: &'a Space<'a>,
     ) -> Result<Self, Error> {
-        let mut this = Self {
-            harmonics: Vec::new(),
-            wanted: Vec::new(),
-            space,
-        };
+        let mut this = Self { harmonics: Vec::new(), wanted: Vec::new(), space };
         for response in wanted {
             let Response::Vibration(vibration) = response else {
                 return Err(Error::Setting {
@@ -61,35 +57,19 @@ impl Model for Vibrations<'_> {
         (self.space.nominal.into(), vec![None; self.wanted.len()])
     }
 
-    fn evaluate(
-        &self,
-        (design, values): &mut Self::Room,
-        points: &[Vector],
-        take: &mut Take<'_>,
-    ) -> Result<(), Error> {
+    fn evaluate(&self, (design, values): &mut Self::Room, points: &[Vector], take: &mut Take<'_>) -> Result<(), Error> {
         for (k, z) in points.iter().enumerate() {
             self.space.design(z, design);
             let harmonics = self.harmonics.iter();
-            let amplitudes: Vec<_> = harmonics
-                .map(|(_, model)| model.amplitudes(design))
-                .collect();
+            let amplitudes: Vec<_> = harmonics.map(|(_, model)| model.amplitudes(design)).collect();
             for (value, (index, vibration)) in values.iter_mut().zip(&self.wanted) {
-                *value = amplitudes[*index]
-                    .as_ref()
-                    .and_then(|(frequency, outputs)| {
-                        let y = (*outputs.get(vibration.output.index())?)?;
-                        Some(vibration.measure.of(*frequency, y).norm())
-                    });
+                *value = amplitudes[*index].as_ref().and_then(|(frequency, outputs)| {
+                    let y = (*outputs.get(vibration.output.index())?)?;
+                    Some(vibration.measure.of(*frequency, y).norm())
+                });
             }
             let outcome = Outcome::Stable;
-            take(
-                k,
-                Evaluated {
-                    design,
-                    outcome,
-                    values,
-                },
-            )?;
+            take(k, Evaluated { design, outcome, values })?;
         }
         Ok(())
     }
@@ -113,12 +93,7 @@ pub fn vibrations(
     let space = Space::new(at, tolerances)?;
     let model = Vibrations::new(mechanism, at, responses.wanted(), &space)?;
     let (nominal, scales) = nominal_scales(responses, tolerances)?;
-    let task = Task {
-        model: &model,
-        scales,
-        unknowns: at.coordinates.len(),
-        space: &space,
-    };
+    let task = Task { model: &model, scales, unknowns: at.coordinates.len(), space: &space };
     let parts = task.gather(sampling)?;
     propagation_of(
         Method::Resolvent(sampling.points),
@@ -160,12 +135,8 @@ pub fn check_vibrations(
         designs: Designs::new(responses, &space),
         model: Vibrations::new(mechanism, at, responses.wanted(), &space)?,
     };
-    let task = Task {
-        model: &both,
-        scales: [&scales[..], &scales].concat(),
-        unknowns: at.coordinates.len(),
-        space: &space,
-    };
+    let task =
+        Task { model: &both, scales: [&scales[..], &scales].concat(), unknowns: at.coordinates.len(), space: &space };
     let parts = task.gather(sampling)?;
     let (gathered, count) = (Gathered(&parts), scales.len());
     let compared = |k: usize| {
@@ -177,11 +148,7 @@ pub fn check_vibrations(
         let sigma = relative(sigma(count + k)?, sigma(k)?);
         let upper = relative(upper(count + k)?, upper(k)?);
         let samples = gathered.count(k)?;
-        Ok(sigma.zip(upper).map(|(sigma, upper)| VibrationCheck {
-            samples,
-            sigma,
-            upper,
-        }))
+        Ok(sigma.zip(upper).map(|(sigma, upper)| VibrationCheck { samples, sigma, upper }))
     };
     (0..count).map(compared).collect()
 }
@@ -211,12 +178,7 @@ impl Model for Both<'_> {
         (self.designs.room(), self.model.room())
     }
 
-    fn evaluate(
-        &self,
-        (exact, model): &mut Self::Room,
-        points: &[Vector],
-        take: &mut Take<'_>,
-    ) -> Result<(), Error> {
+    fn evaluate(&self, (exact, model): &mut Self::Room, points: &[Vector], take: &mut Take<'_>) -> Result<(), Error> {
         for (k, z) in points.iter().enumerate() {
             let one = std::slice::from_ref(z);
             let mut values: Vec<Option<f64>> = Vec::new();
@@ -230,14 +192,7 @@ impl Model for Both<'_> {
                 let exact = values.clone();
                 let alike = predicted.values.iter().zip(exact);
                 values.extend(alike.map(|(x, exact)| exact.and(*x)));
-                take(
-                    k,
-                    Evaluated {
-                        design: predicted.design,
-                        outcome,
-                        values: &values,
-                    },
-                )
+                take(k, Evaluated { design: predicted.design, outcome, values: &values })
             })?;
         }
         Ok(())

@@ -67,10 +67,7 @@ impl ResponseLimits {
     #[must_use]
     pub fn is_monotonic(&self) -> bool {
         let confirmed = |end: &Option<Extreme>| end.as_ref().is_some_and(|end| end.confirmed);
-        self.turning.is_empty()
-            && self.missing.is_empty()
-            && confirmed(&self.least)
-            && confirmed(&self.greatest)
+        self.turning.is_empty() && self.missing.is_empty() && confirmed(&self.least) && confirmed(&self.greatest)
     }
 }
 
@@ -139,9 +136,7 @@ pub fn worst_case(responses: &Responses<'_>, tolerances: &Tolerances) -> Result<
     }
     Ok(WorstCase {
         wanted: responses.wanted().to_vec(),
-        responses: (ends.iter().enumerate())
-            .map(|(response, ends)| search.found(response, ends))
-            .collect(),
+        responses: (ends.iter().enumerate()).map(|(response, ends)| search.found(response, ends)).collect(),
         evaluations: search.seen.len(),
         limits: search.limits,
         inputs: at.inputs.clone(),
@@ -163,14 +158,11 @@ struct Search<'a> {
 impl Search<'_> {
     fn design(&self, corner: &[i8]) -> Vector {
         let values = self.nominal.iter().zip(&self.limits);
-        let each = corner
-            .iter()
-            .zip(values)
-            .map(|(side, (nominal, (low, high)))| match side {
-                -1 => *low,
-                1 => *high,
-                _ => *nominal,
-            });
+        let each = corner.iter().zip(values).map(|(side, (nominal, (low, high)))| match side {
+            -1 => *low,
+            1 => *high,
+            _ => *nominal,
+        });
         each.collect()
     }
 
@@ -222,10 +214,7 @@ impl Search<'_> {
     /// Checks all corners of the box if they are few.
     fn all_corners(&mut self) -> Result<(), Error> {
         let wide = self.limits.iter().enumerate();
-        let varying: Vec<usize> = wide
-            .filter(|(_, (low, high))| low < high)
-            .map(|(j, _)| j)
-            .collect();
+        let varying: Vec<usize> = wide.filter(|(_, (low, high))| low < high).map(|(j, _)| j).collect();
         if varying.len() > ALL_CORNERS {
             return Ok(());
         }
@@ -244,9 +233,7 @@ impl Search<'_> {
         let slopes = self.seen.get(corner)?.gradients.get(response)?.as_ref()?;
         let widths = self.limits.iter().map(|(low, high)| high - low);
         let changes: Vec<f64> = slopes.iter().zip(widths).map(|(s, w)| s * w).collect();
-        let most = changes
-            .iter()
-            .fold(0.0_f64, |most, change| most.max(change.abs()));
+        let most = changes.iter().fold(0.0_f64, |most, change| most.max(change.abs()));
         let sign = |change: &f64| match change.abs() > NO_SIGN * most {
             true => change.signum() as i8,
             false => 0,
@@ -255,23 +242,16 @@ impl Search<'_> {
     }
 
     fn turning(&self, response: usize) -> Vec<usize> {
-        let all: Vec<Corner> = (self.seen.keys())
-            .filter_map(|corner| self.signs(corner, response))
-            .collect();
+        let all: Vec<Corner> = (self.seen.keys()).filter_map(|corner| self.signs(corner, response)).collect();
         let has = |j: usize, sign: i8| all.iter().any(|signs| signs[j] == sign);
-        (0..self.limits.len())
-            .filter(|&j| has(j, 1) && has(j, -1))
-            .collect()
+        (0..self.limits.len()).filter(|&j| has(j, 1) && has(j, -1)).collect()
     }
 
     /// The result, given the corners at which the searches for least and greatest ended. What lies between the
     /// evaluated designs and a corner without a value is unknown.
     fn found(&self, response: usize, ends: &[Corner; 2]) -> ResponseLimits {
         let value = |realisation: &Realisation| realisation.values[response];
-        let missing = self
-            .seen
-            .iter()
-            .filter(|(_, realisation)| value(realisation).is_none());
+        let missing = self.seen.iter().filter(|(_, realisation)| value(realisation).is_none());
         let known = |corner: &Corner| self.seen.get(corner).and_then(value).is_some();
         let elsewhere = missing.clone().any(|(corner, _)| !ends.contains(corner));
         let extreme = |way: i8, end: &Corner| {
@@ -294,28 +274,19 @@ impl Search<'_> {
 
     fn extreme(&self, response: usize, way: i8) -> Option<Extreme> {
         let all = self.seen.iter();
-        let all =
-            all.filter_map(|(corner, realisation)| Some((corner, realisation.values[response]?)));
+        let all = all.filter_map(|(corner, realisation)| Some((corner, realisation.values[response]?)));
         let all: Vec<(&Corner, f64)> = all.collect();
         let worst = |most: f64, (_, value): &(_, f64)| most.max(f64::from(way) * value);
         let most = all.iter().fold(f64::NEG_INFINITY, worst);
-        let equal = all
-            .into_iter()
-            .filter(|(_, value)| most - f64::from(way) * value <= ROUNDING * most.abs());
+        let equal = all.into_iter().filter(|(_, value)| most - f64::from(way) * value <= ROUNDING * most.abs());
         // Variables that do not matter stay nominal.
         let moved = |corner: &Corner| corner.iter().filter(|side| **side != 0).count();
         let (corner, value) = equal.min_by_key(|(corner, _)| moved(corner))?;
         let signs = self.signs(corner, response);
         let outwards = |signs: &Corner| {
             let pairs = corner.iter().zip(signs);
-            pairs
-                .clone()
-                .all(|(side, sign)| *sign == 0 || *side == way * sign)
+            pairs.clone().all(|(side, sign)| *sign == 0 || *side == way * sign)
         };
-        Some(Extreme {
-            value,
-            design: self.design(corner),
-            confirmed: signs.as_ref().is_some_and(outwards),
-        })
+        Some(Extreme { value, design: self.design(corner), confirmed: signs.as_ref().is_some_and(outwards) })
     }
 }

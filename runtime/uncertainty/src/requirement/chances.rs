@@ -51,11 +51,7 @@ impl Tally {
     /// # Errors
     /// [`Error::Setting`] for a confidence that is not inside (0, 1).
     pub fn wilson(&self, confidence: f64) -> Result<Interval, Error> {
-        Ok(wilson(
-            self.failed as u64,
-            self.samples() as u64,
-            confidence,
-        )?)
+        Ok(wilson(self.failed as u64, self.samples() as u64, confidence)?)
     }
 
     /// Clopper-Pearson confidence interval of the failure probability: its coverage is at least `confidence`.
@@ -126,11 +122,7 @@ pub(crate) fn chances_of(
     let range = sampling.now()?;
     if range.is_empty() {
         return Err(Error::Setting {
-            setting: if sampling.samples == 0 {
-                "samples"
-            } else {
-                "range"
-            },
+            setting: if sampling.samples == 0 { "samples" } else { "range" },
             reason: "at least one is needed".to_owned(),
         });
     }
@@ -199,10 +191,7 @@ struct Standard {
 impl Standard {
     fn new(variables: usize) -> Result<Self, Error> {
         let ones = Vector::filled(variables, 1.0);
-        Ok(Self {
-            zeros: Vector::zeros(variables),
-            ones: Tolerances::new(ones, 1.0, None::<Matrix>)?,
-        })
+        Ok(Self { zeros: Vector::zeros(variables), ones: Tolerances::new(ones, 1.0, None::<Matrix>)? })
     }
 
     fn from(&self, sequence: (u64, u64), first: u64) -> Draw<'_> {
@@ -218,10 +207,6 @@ struct Piece {
 
 impl Piece {
     fn new(requirements: usize) -> Self {
-        Self {
-            counts: Counts::default(),
-            all: Tally::default(),
-            each: vec![Tally::default(); requirements],
-        }
+        Self { counts: Counts::default(), all: Tally::default(), each: vec![Tally::default(); requirements] }
     }
 }

@@ -97,21 +97,13 @@ pub(crate) fn slopes_at(
     at: &reliability::DesignPoint,
 ) -> Result<Slopes, Error> {
     let (_, by_design) = limit.by_design(&at.point).map_err(|reason| {
-        Error::from(eigentol_statistics::Error::NoLimitValue {
-            place: "at the design point",
-            reason,
-        })
+        Error::from(eigentol_statistics::Error::NoLimitValue { place: "at the design point", reason })
     })?;
     let rates = deviations.by_half_width(&at.point);
     let along = by_design.iter().zip(&rates);
     Ok(Slopes {
-        by_nominal: by_design
-            .iter()
-            .map(|slope| at.sensitivity(*slope))
-            .collect(),
-        by_half_width: along
-            .map(|(slope, rate)| at.sensitivity(slope * rate))
-            .collect(),
+        by_nominal: by_design.iter().map(|slope| at.sensitivity(*slope)).collect(),
+        by_half_width: along.map(|(slope, rate)| at.sensitivity(slope * rate)).collect(),
         by_design,
     })
 }

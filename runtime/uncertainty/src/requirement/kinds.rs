@@ -58,42 +58,29 @@ impl Requirement {
     #[must_use]
     pub fn at_least(response: Response, low: f64) -> Self {
         let high = f64::INFINITY;
-        Self::Within {
-            response,
-            low,
-            high,
-        }
+        Self::Within { response, low, high }
     }
 
     /// Requires a response to be at most `high`.
     #[must_use]
     pub fn at_most(response: Response, high: f64) -> Self {
         let low = f64::NEG_INFINITY;
-        Self::Within {
-            response,
-            low,
-            high,
-        }
+        Self::Within { response, low, high }
     }
 
     /// Requires a response to stay away from the value of an input by a fraction of it.
     #[must_use]
     pub fn away(response: Response, input: Input, fraction: f64) -> Self {
-        Self::Away {
-            response,
-            input,
-            order: 1.0,
-            fraction,
-        }
+        Self::Away { response, input, order: 1.0, fraction }
     }
 
     /// The response it constrains, if any.
     #[must_use]
     pub fn response(&self) -> Option<Response> {
         match self {
-            Self::Within { response, .. }
-            | Self::Outside { response, .. }
-            | Self::Away { response, .. } => Some(*response),
+            Self::Within { response, .. } | Self::Outside { response, .. } | Self::Away { response, .. } => {
+                Some(*response)
+            }
             Self::Stable => None,
         }
     }
@@ -118,11 +105,7 @@ impl Requirement {
             let band = limit.band(responses.mechanism(), inputs, design);
             let distance = value.map(|value| beyond(band, value));
             match lost {
-                true => Some(
-                    distance
-                        .filter(|distance| *distance <= 0.0)
-                        .unwrap_or(f64::NEG_INFINITY),
-                ),
+                true => Some(distance.filter(|distance| *distance <= 0.0).unwrap_or(f64::NEG_INFINITY)),
                 false => distance,
             }
         };
@@ -134,16 +117,8 @@ impl Requirement {
     pub(crate) fn limits(&self) -> Vec<Self> {
         let (response, low, high) = match *self {
             Self::Stable => return Vec::new(),
-            Self::Within {
-                response,
-                low,
-                high,
-            } => (response, low, high),
-            Self::Outside {
-                response,
-                low,
-                high,
-            } if low.is_infinite() || high.is_infinite() => (response, high, low),
+            Self::Within { response, low, high } => (response, low, high),
+            Self::Outside { response, low, high } if low.is_infinite() || high.is_infinite() => (response, high, low),
             Self::Outside { .. } | Self::Away { .. } => return vec![*self],
         };
         let low = low.is_finite().then(|| Self::at_least(response, low));
@@ -152,22 +127,12 @@ impl Requirement {
     }
 
     /// The ends of the values that fail, SI, for one of [`limits`](Self::limits) in a design.
-    pub(crate) fn band(
-        &self,
-        mechanism: &dyn Kernels,
-        inputs: &[f64],
-        design: &[f64],
-    ) -> (f64, f64) {
+    pub(crate) fn band(&self, mechanism: &dyn Kernels, inputs: &[f64], design: &[f64]) -> (f64, f64) {
         match *self {
             Self::Within { low, .. } if low.is_finite() => (f64::NEG_INFINITY, low),
             Self::Within { high, .. } => (high, f64::INFINITY),
             Self::Outside { low, high, .. } => (low, high),
-            Self::Away {
-                input,
-                order,
-                fraction,
-                ..
-            } => {
+            Self::Away { input, order, fraction, .. } => {
                 let actual = actual(mechanism, input.index(), inputs, design);
                 let centre = (order * actual).abs();
                 (centre * (1.0 - fraction), centre * (1.0 + fraction))
@@ -185,9 +150,7 @@ impl Requirement {
         input: usize,
     ) -> (f64, f64) {
         match *self {
-            Self::Away {
-                order, fraction, ..
-            } if self.moves_with(input) => {
+            Self::Away { order, fraction, .. } if self.moves_with(input) => {
                 let rate = order * (order * actual(mechanism, input, inputs, design)).signum();
                 (rate * (1.0 - fraction), rate * (1.0 + fraction))
             }
@@ -201,12 +164,7 @@ impl Requirement {
     }
 
     pub(super) fn check(&self, mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
-        let refuse = |reason: String| {
-            Err(Error::Setting {
-                setting: "requirement",
-                reason,
-            })
-        };
+        let refuse = |reason: String| Err(Error::Setting { setting: "requirement", reason });
         match *self {
             Self::Stable => Ok(()),
             Self::Within { low, high, .. } | Self::Outside { low, high, .. } => {
@@ -227,12 +185,7 @@ impl Requirement {
                     _ => Ok(()),
                 }
             }
-            Self::Away {
-                input,
-                order,
-                fraction,
-                ..
-            } => {
+            Self::Away { input, order, fraction, .. } => {
                 check_input(input, &at.description)?;
                 let (low, high) = self.band(mechanism, &at.inputs, &at.design);
                 if !(fraction > 0.0 && fraction.is_finite()) {

@@ -26,13 +26,7 @@ impl<'a> LimitAt<'a> {
         limit: Requirement,
         deviations: &'a Deviations<'a>,
     ) -> Self {
-        Self {
-            room: RefCell::new(responses.workspace()),
-            responses,
-            place: index,
-            limit,
-            deviations,
-        }
+        Self { room: RefCell::new(responses.workspace()), responses, place: index, limit, deviations }
     }
 
     /// Distance from failure and its derivatives with respect to the design variables.
@@ -46,11 +40,7 @@ impl<'a> LimitAt<'a> {
         let below = low - value > value - high;
         let slope = |(k, slope): (usize, &f64)| {
             let (by_low, by_high) = self.band_slopes(&design, k);
-            if below {
-                by_low - slope
-            } else {
-                slope - by_high
-            }
+            if below { by_low - slope } else { slope - by_high }
         };
         let slopes = gradient.iter().enumerate().map(slope).collect();
         Ok((beyond((low, high), value), slopes))
@@ -60,10 +50,9 @@ impl<'a> LimitAt<'a> {
     pub(super) fn sides(&self) -> Vec<Requirement> {
         let (low, high) = self.band(&self.responses.nominal().design);
         match self.limit.response() {
-            Some(response) if low.is_finite() && high.is_finite() => vec![
-                Requirement::at_least(response, low),
-                Requirement::at_most(response, high),
-            ],
+            Some(response) if low.is_finite() && high.is_finite() => {
+                vec![Requirement::at_least(response, low), Requirement::at_most(response, high)]
+            }
             _ => Vec::new(),
         }
     }

@@ -108,13 +108,7 @@ pub struct Probabilities {
 
 /// Where each evaluation takes a search along an input, a few starts must do.
 fn of_searches() -> FormSettings {
-    FormSettings {
-        optimiser_evaluations: 20,
-        iterations: 15,
-        restarts: 2,
-        regions: 3,
-        ..FormSettings::default()
-    }
+    FormSettings { optimiser_evaluations: 20, iterations: 15, restarts: 2, regions: 3, ..FormSettings::default() }
 }
 
 impl Requirements<'_> {
@@ -162,14 +156,11 @@ impl Requirements<'_> {
             false => Some(chances_of(self, deviations, sampling)?),
         };
         let one = |index: usize| {
-            let sampled = |chances: &Chances| {
-                FailureProbability::of_samples(chances.each.get(index).unwrap_or(&chances.all))
-            };
+            let sampled =
+                |chances: &Chances| FailureProbability::of_samples(chances.each.get(index).unwrap_or(&chances.all));
             let sampled = chances.as_ref().map(sampled).transpose()?;
             let sharpest = settled(index).into_iter().chain(sampled);
-            sharpest
-                .min_by(|a, b| a.width().total_cmp(&b.width()))
-                .ok_or(Error::Stopped)
+            sharpest.min_by(|a, b| a.width().total_cmp(&b.width())).ok_or(Error::Stopped)
         };
         let each: Vec<FailureProbability> = (0..count).map(one).collect::<Result<_, _>>()?;
         let sampled = chances.iter().flat_map(|chance| &chance.each);

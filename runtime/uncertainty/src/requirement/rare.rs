@@ -3,8 +3,7 @@
 use core::cell::{Cell, RefCell};
 
 use eigentol_statistics::reliability::sampling::{
-    Estimate, Failure, Interval, Proposal, SampleSums, SampledProbability, Sampler,
-    SamplingSettings,
+    Estimate, Failure, Interval, Proposal, SampleSums, SampledProbability, Sampler, SamplingSettings,
 };
 use eigentol_statistics::reliability::{self, LimitState, LimitValue};
 
@@ -65,15 +64,11 @@ impl RareFailure {
     /// Whether lines of designs found another probability, beyond the errors of both.
     #[must_use]
     pub fn contradicted(&self) -> bool {
-        let Estimate {
-            value,
-            standard_error,
-        } = self.failure.probability;
+        let Estimate { value, standard_error } = self.failure.probability;
         let judged = self.judgement.judged().filter(|x| x.settled);
         judged.is_some_and(|judged| {
             let Interval { lower, upper } = judged.interval();
-            let known =
-                CLEARLY * standard_error + TRUSTED_PROBABILITY_ERROR * judged.probability.value;
+            let known = CLEARLY * standard_error + TRUSTED_PROBABILITY_ERROR * judged.probability.value;
             value + known < lower || value - known > upper
         })
     }
@@ -103,14 +98,9 @@ impl Requirements<'_> {
             coefficient_of_variation: accuracy,
             ..SamplingSettings::default()
         };
-        let design_points = about
-            .limits
-            .iter()
-            .filter_map(|limit| limit.design_points.as_ref().ok());
-        let centres: Vec<reliability::DesignPoint> = design_points
-            .flatten()
-            .map(|point| point.normal.clone())
-            .collect();
+        let design_points = about.limits.iter().filter_map(|limit| limit.design_points.as_ref().ok());
+        let centres: Vec<reliability::DesignPoint> =
+            design_points.flatten().map(|point| point.normal.clone()).collect();
         if centres.is_empty() {
             return Err(Error::Setting {
                 setting: "design points",

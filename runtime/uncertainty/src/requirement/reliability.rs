@@ -127,10 +127,7 @@ impl Reliability {
     /// it has no design point.
     #[must_use]
     pub fn beta_of(&self, requirement: usize) -> Option<f64> {
-        let limits = self
-            .limits
-            .iter()
-            .filter(|limit| limit.requirement == requirement);
+        let limits = self.limits.iter().filter(|limit| limit.requirement == requirement);
         let parts: Vec<f64> = limits.filter_map(LimitReliability::probability).collect();
         (!parts.is_empty()).then(|| -normal::quantile(parts.iter().sum::<f64>().min(1.0)))
     }
@@ -190,9 +187,7 @@ pub(crate) fn reliability_of(
     Ok(Reliability {
         system: system(&limit_reliabilities)?,
         limits: limit_reliabilities,
-        left_out: (0..requirements.wanted().len())
-            .filter(|k| !has_limit(k))
-            .collect(),
+        left_out: (0..requirements.wanted().len()).filter(|k| !has_limit(k)).collect(),
         judgement: Judgement::Open(Unjudged::NotAsked),
         inputs: state.inputs.clone(),
         description: state.description.clone(),
@@ -200,16 +195,14 @@ pub(crate) fn reliability_of(
 }
 
 /// Rejects problems that certainly have no design point.
-pub(crate) fn check(
-    requirements: &Requirements<'_>,
-    deviations: &Deviations<'_>,
-) -> Result<(), Error> {
+pub(crate) fn check(requirements: &Requirements<'_>, deviations: &Deviations<'_>) -> Result<(), Error> {
     deviations.check_densities(&requirements.responses().nominal().description)?;
     if requirements.limits().is_empty() {
         return Err(Error::Setting {
             setting: "requirements",
-            reason: "stability alone has no design point: require a critical value beyond the operating point, or sample"
-                .to_owned(),
+            reason:
+                "stability alone has no design point: require a critical value beyond the operating point, or sample"
+                    .to_owned(),
         });
     }
     if deviations.tolerances().normal_dimensions().is_empty() {
@@ -242,29 +235,19 @@ fn design_points(
     let design_points = failure_regions(&limit, settings)?.design_points;
     let inside = design_points.first().is_some_and(|point| point.beta < 0.0);
     let sides = limit.sides();
-    if inside
-        && !sides.is_empty()
-        && (sides.into_iter()).all(|side| failure_regions(&at(side), settings).is_ok())
-    {
+    if inside && !sides.is_empty() && (sides.into_iter()).all(|side| failure_regions(&at(side), settings).is_ok()) {
         return Err(Error::Setting {
             setting: "forbidden band",
-            reason:
-                "the centre of the distribution lies inside, with designs on both sides: sample"
-                    .to_owned(),
+            reason: "the centre of the distribution lies inside, with designs on both sides: sample".to_owned(),
         });
     }
-    let points = design_points
-        .into_iter()
-        .map(|point| DesignPoint::new(&limit, deviations, point));
+    let points = design_points.into_iter().map(|point| DesignPoint::new(&limit, deviations, point));
     points.collect()
 }
 
 fn system(limits: &[LimitReliability]) -> Result<Option<SystemFailure>, Error> {
     let mut points: Vec<reliability::DesignPoint> = Vec::new();
-    for design_points in limits
-        .iter()
-        .filter_map(|limit| limit.design_points.as_ref().ok())
-    {
+    for design_points in limits.iter().filter_map(|limit| limit.design_points.as_ref().ok()) {
         if design_points.len() > 1 && design_points.iter().any(|point| point.beta() < 0.0) {
             return Ok(None);
         }
@@ -316,18 +299,12 @@ pub(super) fn judge_requirements(
     for k in 0..count {
         let limits = reliability.limits.iter().zip(&all);
         let of_requirement: Vec<_> = limits.filter(|(x, _)| x.requirement == k).collect();
-        let described =
-            !of_requirement.is_empty() && of_requirement.iter().all(|(x, _)| x.described());
+        let described = !of_requirement.is_empty() && of_requirement.iter().all(|(x, _)| x.described());
         let judgement = match &of_requirement[..] {
             [(only, _)] => only.judgement,
             _ => {
-                let lines = about.together(
-                    of_requirement.iter().map(|(_, lines)| *lines),
-                    of_requirement.is_empty(),
-                );
-                about.event(&lines, &|design, realisation| {
-                    requirements.distances(design, realisation)[k]
-                })?
+                let lines = about.together(of_requirement.iter().map(|(_, lines)| *lines), of_requirement.is_empty());
+                about.event(&lines, &|design, realisation| requirements.distances(design, realisation)[k])?
             }
         };
         judgements.push((judgement, described));
@@ -358,13 +335,7 @@ impl<'a> About<'a> {
         worth: u64,
         sequence: (u64, u64),
     ) -> Self {
-        Self {
-            requirements,
-            deviations,
-            worth,
-            sequence,
-            unstable: ways_to_instability(requirements, deviations),
-        }
+        Self { requirements, deviations, worth, sequence, unstable: ways_to_instability(requirements, deviations) }
     }
 
     /// Judges every limit; returns along which lines.
@@ -372,15 +343,7 @@ impl<'a> About<'a> {
         let mut all = Vec::new();
         let limits = self.requirements.limits();
         let responses = self.requirements.responses();
-        for (
-            limit,
-            Limit {
-                place: index,
-                alone,
-                ..
-            },
-        ) in reliability.limits.iter_mut().zip(limits)
-        {
+        for (limit, Limit { place: index, alone, .. }) in reliability.limits.iter_mut().zip(limits) {
             let mut lines = Lines {
                 worth: self.worth,
                 effort: EFFORT,
@@ -388,15 +351,8 @@ impl<'a> About<'a> {
                 ..lines(self.requirements, self.deviations, index, limit)
             };
             if alone.response().is_some_and(Response::of_state) {
-                let known = limit
-                    .design_points
-                    .as_ref()
-                    .is_ok_and(|all| !all.is_empty());
-                let farthest = if known {
-                    lines.farthest()
-                } else {
-                    f64::INFINITY
-                };
+                let known = limit.design_points.as_ref().is_ok_and(|all| !all.is_empty());
+                let farthest = if known { lines.farthest() } else { f64::INFINITY };
                 lines.directions.extend(self.unstable_within(farthest));
             }
             limit.judgement = self.event(&lines, &|design, realisation| {
@@ -415,9 +371,7 @@ impl<'a> About<'a> {
     /// Judges all requirements together.
     fn judge_any(&self, reliability: &Reliability, all: Vec<Lines>) -> Result<Judgement, Error> {
         let lines = self.together(all.iter(), !reliability.left_out.is_empty());
-        self.event(&lines, &|design, realisation| {
-            least(&self.requirements.distances(design, realisation))
-        })
+        self.event(&lines, &|design, realisation| least(&self.requirements.distances(design, realisation)))
     }
 
     fn event(&self, lines: &Lines, distance: &Distance<'_>) -> Result<Judgement, Error> {
@@ -426,12 +380,7 @@ impl<'a> About<'a> {
 
     /// Lines along all these directions, and towards instability if that matters too.
     fn together<'l>(&self, all: impl Iterator<Item = &'l Lines>, stability: bool) -> Lines {
-        let mut lines = Lines {
-            directions: Vec::new(),
-            worth: self.worth,
-            effort: EFFORT,
-            sequence: self.sequence,
-        };
+        let mut lines = Lines { directions: Vec::new(), worth: self.worth, effort: EFFORT, sequence: self.sequence };
         for part in all {
             lines.directions.extend(part.directions.iter().cloned());
         }
@@ -443,10 +392,7 @@ impl<'a> About<'a> {
 
     /// The directions in which stability is lost no less probably than within this distance.
     fn unstable_within(&self, distance: f64) -> impl Iterator<Item = Direction> {
-        let ways = self
-            .unstable
-            .iter()
-            .filter(move |way| way.distance <= distance);
+        let ways = self.unstable.iter().filter(move |way| way.distance <= distance);
         ways.cloned()
     }
 }
@@ -459,26 +405,12 @@ fn lines(
     limit_reliability: &LimitReliability,
 ) -> Lines {
     let points = limit_reliability.design_points.iter().flatten();
-    let directions: Vec<Direction> = points
-        .map(|point| Direction {
-            along: point.normal.direction.clone(),
-            distance: point.beta(),
-        })
-        .collect();
+    let directions: Vec<Direction> =
+        points.map(|point| Direction { along: point.normal.direction.clone(), distance: point.beta() }).collect();
     if !directions.is_empty() {
-        return Lines {
-            directions,
-            worth: 0,
-            effort: 0.0,
-            sequence: (0, 0),
-        };
+        return Lines { directions, worth: 0, effort: 0.0, sequence: (0, 0) };
     }
-    let limit = LimitAt::new(
-        requirements.responses(),
-        index,
-        limit_reliability.limit,
-        deviations,
-    );
+    let limit = LimitAt::new(requirements.responses(), index, limit_reliability.limit, deviations);
     let origin = vec![0.0; deviations.dimension()];
     let (value, slopes) = limit.by_design(&origin).unwrap_or((0.0, origin.clone()));
     let slope = deviations.gradient(&origin, &slopes);
@@ -486,10 +418,7 @@ fn lines(
 }
 
 /// Directions in which the least stable modes lose their stability.
-fn ways_to_instability(
-    requirements: &Requirements<'_>,
-    deviations: &Deviations<'_>,
-) -> Vec<Direction> {
+fn ways_to_instability(requirements: &Requirements<'_>, deviations: &Deviations<'_>) -> Vec<Direction> {
     let Ok(first) = distances(requirements.responses(), deviations.tolerances()) else {
         return Vec::new();
     };
@@ -504,9 +433,6 @@ fn ways_to_instability(
     ways.sort_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs()));
     let origin = vec![0.0; deviations.dimension()];
     let ways = ways.iter().take(LEAST_STABLE);
-    ways.map(|(distance, slopes)| Direction {
-        along: deviations.gradient(&origin, slopes),
-        distance: *distance,
-    })
-    .collect()
+    ways.map(|(distance, slopes)| Direction { along: deviations.gradient(&origin, slopes), distance: *distance })
+        .collect()
 }

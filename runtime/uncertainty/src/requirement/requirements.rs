@@ -47,10 +47,7 @@ impl<'a> Requirements<'a> {
         wanted: Vec<Requirement>,
     ) -> Result<Self, Error> {
         if wanted.is_empty() {
-            return Err(Error::Setting {
-                setting: "requirements",
-                reason: "at least one is needed".to_owned(),
-            });
+            return Err(Error::Setting { setting: "requirements", reason: "at least one is needed".to_owned() });
         }
         let check = |requirement: &Requirement| requirement.check(mechanism, nominal);
         wanted.iter().try_for_each(check)?;
@@ -88,11 +85,7 @@ impl<'a> Requirements<'a> {
         let mut index = 0;
         let mut limits = Vec::new();
         for (requirement, wanted) in self.wanted.iter().enumerate() {
-            limits.extend(wanted.limits().into_iter().map(|alone| Limit {
-                requirement,
-                place: index,
-                alone,
-            }));
+            limits.extend(wanted.limits().into_iter().map(|alone| Limit { requirement, place: index, alone }));
             index += usize::from(wanted.response().is_some());
         }
         limits
@@ -110,10 +103,7 @@ impl<'a> Requirements<'a> {
             let Response::Crossing { mode, .. } = *response else {
                 continue;
             };
-            let onsets = self
-                .responses
-                .nominal_flutter(*response)
-                .unwrap_or_default();
+            let onsets = self.responses.nominal_flutter(*response).unwrap_or_default();
             let own = onsets.iter().any(|(other, _)| *other == mode);
             if let Some((other, value)) = onsets.first().filter(|_| !own) {
                 let of = &self.responses.nominal().description;
@@ -155,12 +145,7 @@ impl<'a> Requirements<'a> {
         let mut values = realisation.values.iter();
         let each = self.wanted.iter().map(|wanted| {
             let value = wanted.response().and_then(|_| values.next().copied());
-            wanted.distance(
-                &self.responses,
-                design,
-                realisation.outcome,
-                value.flatten(),
-            )
+            wanted.distance(&self.responses, design, realisation.outcome, value.flatten())
         });
         each.collect()
     }

@@ -67,17 +67,13 @@ pub fn second_order_failure(
     wanted: Requirement,
 ) -> Result<SecondOrderFailure, Error> {
     wanted.check(mechanism, at)?;
-    let response = wanted.response().ok_or(Error::NoSensitivity {
-        reason: NoDerivative::Stability,
-    })?;
+    let response = wanted.response().ok_or(Error::NoSensitivity { reason: NoDerivative::Stability })?;
     let responses = Responses::new(mechanism, at, modes, vec![response])?;
     let model = QuadraticModels::new(mechanism, &responses).of(response)?;
     let reciprocal = reciprocal_slopes(mechanism, at, &wanted);
     let relative = relative(&model.quadratic, &reciprocal);
     let limits = wanted.limits();
-    let bands = limits
-        .iter()
-        .map(|limit| limit.band(mechanism, &at.inputs, &at.design));
+    let bands = limits.iter().map(|limit| limit.band(mechanism, &at.inputs, &at.design));
     let bands: Vec<(f64, f64)> = bands.collect();
     let mut margin = margin(&relative, tolerances, &bands)?;
     let derivatives = margin.derivatives.as_ref().zip(model.by_input.as_ref());
@@ -86,14 +82,9 @@ pub fn second_order_failure(
             let (low, high) = wanted.band_slopes(mechanism, &at.inputs, &at.design, k);
             // The derivative of the reciprocal `u / (u + d)` with respect to `d` is `r = -1/u`, and the derivative of
             // `r` with respect to `u` is `r^2`.
-            let bend = if wanted.moves_with(k) {
-                relative.value
-            } else {
-                0.0
-            };
-            let slopes = Vector::from_fn(reciprocal.len(), |j| {
-                mixed[k][j] + reciprocal[j] * (first[k] + bend * reciprocal[j])
-            });
+            let bend = if wanted.moves_with(k) { relative.value } else { 0.0 };
+            let slopes =
+                Vector::from_fn(reciprocal.len(), |j| mixed[k][j] + reciprocal[j] * (first[k] + bend * reciprocal[j]));
             let sigma = tolerances.covariance(&relative.slopes, &slopes) / margin.sigma;
             derivatives.along(first[k], sigma, low, high)
         })
@@ -143,9 +134,7 @@ fn mixed_with(
 /// `d` of the input the reciprocal is `u / (u + d)`, with `u` the present value of the input.
 fn reciprocal_slopes(mechanism: &dyn Kernels, at: &Equilibrium, wanted: &Requirement) -> Vector {
     let slope = |design: usize| match mechanism.input_of_deviation(design) {
-        Some(input) if wanted.moves_with(input) => {
-            -actual(mechanism, input, &at.inputs, &at.design).recip()
-        }
+        Some(input) if wanted.moves_with(input) => -actual(mechanism, input, &at.inputs, &at.design).recip(),
         _ => 0.0,
     };
     Vector::from_fn(at.design.len(), slope)
@@ -161,9 +150,5 @@ fn relative(model: &Quadratic, reciprocal: &[f64]) -> Quadratic {
             *value += s[i] * r[j] + s[j] * r[i] + 2.0 * f * r[i] * r[j];
         }
     }
-    Quadratic {
-        value: f,
-        slopes: add_scaled(s, f, r),
-        curvature,
-    }
+    Quadratic { value: f, slopes: add_scaled(s, f, r), curvature }
 }

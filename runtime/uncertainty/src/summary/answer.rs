@@ -99,12 +99,8 @@ impl Summary {
 
     fn rows(&self) -> Vec<Row<'_>> {
         let modes = self.first.modes.iter().zip(&self.trust).enumerate();
-        let rows = modes.map(|(mode, (first, trust))| Row {
-            mode,
-            first,
-            trust,
-            alone: self.cluster_of(mode).is_none(),
-        });
+        let rows =
+            modes.map(|(mode, (first, trust))| Row { mode, first, trust, alone: self.cluster_of(mode).is_none() });
         rows.collect()
     }
 
@@ -119,9 +115,7 @@ impl Summary {
         table.whole("mode", &|row| Some(row.mode + 1)).shown();
         let nominal = table.number("frequency", "rad/s", &|row| row.first.behaviour.frequency());
         nominal.digits(number).headed("nominal [rad/s]");
-        table.number("sigma, first order", "rad/s", &|row| {
-            Some(row.spread()?.sigma)
-        });
+        table.number("sigma, first order", "rad/s", &|row| Some(row.spread()?.sigma));
         table.cells("sigma: first order", &|row| or_dash(row.sigma(), rough));
         table.number("sigma, second order", "rad/s", &|row| {
             let second = self.second.modes.get(row.mode).filter(|_| row.alone)?;
@@ -132,30 +126,21 @@ impl Summary {
             let sigma = self.second_order_sigma(row.mode).filter(|_| row.alone);
             or_dash(sigma.map(|sigma| unless_rounding(sigma, nominal)), rough)
         });
-        let sampled = table.number("sigma, sampled", "rad/s", &|row| {
-            row.sampled(Quantity::Frequency)
-        });
+        let sampled = table.number("sigma, sampled", "rad/s", &|row| row.sampled(Quantity::Frequency));
         if self.sampled().is_some() {
             sampled.digits(rough).headed("sampled");
         }
         table.number("standard error of sampled sigma", "rad/s", &|row| {
             Some(row.trust.check(Quantity::Frequency)?.sigma.standard_error)
         });
-        table.whole("samples", &|row| {
-            Some(row.trust.check(Quantity::Frequency)?.count)
-        });
+        table.whole("samples", &|row| Some(row.trust.check(Quantity::Frequency)?.count));
         table.number("band", "rad/s", &|row| Some(row.spread()?.band));
         let level = self.first.sigma_level;
-        table.cells(&format!("{level} sigma"), &|row| {
-            or_dash(row.sigma().map(|sigma| sigma * level), rough)
+        table.cells(&format!("{level} sigma"), &|row| or_dash(row.sigma().map(|sigma| sigma * level), rough));
+        table.cells("mostly from", &|row| match row.sigma().is_some_and(|sigma| sigma != 0.0) {
+            true => mostly(&self.description, row.first.variance_shares()),
+            false => "-".to_owned(),
         });
-        table.cells(
-            "mostly from",
-            &|row| match row.sigma().is_some_and(|sigma| sigma != 0.0) {
-                true => mostly(&self.description, row.first.variance_shares()),
-                false => "-".to_owned(),
-            },
-        );
         table.flag("trusted", &|row| Some(row.trust.trusted()));
         table.cells("trusted", &|row| verdict(&row.trust.doubts).to_owned());
         table.words("use", &|row| Some(row.trust.advice.word().to_owned()));
@@ -175,16 +160,10 @@ impl Summary {
         table.cells("damping ratio", &|(_, x)| rough(x.mean));
         table.cells("sigma: first order", &|(_, x)| rough(spread_of(x)));
         if self.sampled().is_some() {
-            table.cells("sampled", &|(row, _)| {
-                or_dash(row.sampled(Quantity::DampingRatio), rough)
-            });
+            table.cells("sampled", &|(row, _)| or_dash(row.sampled(Quantity::DampingRatio), rough));
         }
-        table.cells("to instability [sigma]", &|(row, _)| {
-            far(row.first.distance_to_instability)
-        });
-        table.cells("mostly from", &|(_, item)| {
-            mostly(&self.description, &item.variance_shares)
-        });
+        table.cells("to instability [sigma]", &|(row, _)| far(row.first.distance_to_instability));
+        table.cells("mostly from", &|(_, item)| mostly(&self.description, &item.variance_shares));
         said.text(table.finish().1);
     }
 

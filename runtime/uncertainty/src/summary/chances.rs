@@ -27,12 +27,7 @@ impl Chance {
     /// The probability of an event that occurred in `count` of `samples` samples.
     pub(super) fn new(count: usize, samples: usize) -> Result<Self, Error> {
         let interval = wilson(count as u64, samples as u64, CONFIDENCE)?;
-        Ok(Self {
-            count,
-            samples,
-            lower: interval.lower,
-            upper: interval.upper,
-        })
+        Ok(Self { count, samples, lower: interval.lower, upper: interval.upper })
     }
 
     /// Fraction of the samples with the event.

@@ -51,9 +51,8 @@ impl<'a> Judge<'a> {
         let first = &self.first.modes[mode];
         let second = self.second.modes[mode].as_ref().ok();
         let damping = first.distance_to_critical_damping(self.first.family);
-        let distance = damping.map_or(self.first.distance_to_critical, |distance| {
-            distance.min(self.first.distance_to_critical)
-        });
+        let distance =
+            damping.map_or(self.first.distance_to_critical, |distance| distance.min(self.first.distance_to_critical));
         let prediction = |(quantity, size)| Prediction {
             mode,
             quantity,
@@ -87,12 +86,7 @@ impl<'a> Judge<'a> {
         if !doubts.iter().any(unstable) {
             doubts.extend(said.missing);
         }
-        Trust {
-            mode,
-            advice: self.advice(&doubts, &said.checks),
-            doubts,
-            checks: said.checks,
-        }
+        Trust { mode, advice: self.advice(&doubts, &said.checks), doubts, checks: said.checks }
     }
 
     fn findings(
@@ -105,25 +99,18 @@ impl<'a> Judge<'a> {
         let Sampling::Done(sampled) = &found.sampling else {
             return Findings::default();
         };
-        let cluster = self
-            .clusters
-            .iter()
-            .position(|cluster| cluster.modes.contains(&mode));
+        let cluster = self.clusters.iter().position(|cluster| cluster.modes.contains(&mode));
         let separate = cluster.is_some_and(|cluster| found.exchanged[cluster] == 0);
         if cluster.is_some() && !(separate && self.may_be_separate(mode)) {
             return Findings::default();
         }
-        let mut said = Findings {
-            separate,
-            ..Findings::default()
-        };
+        let mut said = Findings { separate, ..Findings::default() };
         let all = predictions.iter().zip(&found.checks).zip(&found.counts);
         for ((prediction, check), &count) in all.filter(|((one, _), _)| one.mode == mode) {
             let quantity = prediction.quantity;
             said.checks.extend(check);
             if check.is_some_and(|check| !check.representative) {
-                said.unrepresentative
-                    .push(Doubt::Unrepresentative { quantity });
+                said.unrepresentative.push(Doubt::Unrepresentative { quantity });
             }
             if let Some(error) = check.and_then(|check| check.first_order_error) {
                 said.errors.push((quantity, error, finding(error)));
@@ -136,11 +123,7 @@ impl<'a> Judge<'a> {
                     || (check.is_none() && still && count >= FEWEST);
             }
             if eigenmode.frequency().is_some() && 2 * count < sampled.samples {
-                said.missing = Some(Doubt::Missing {
-                    quantity,
-                    count,
-                    samples: sampled.samples,
-                });
+                said.missing = Some(Doubt::Missing { quantity, count, samples: sampled.samples });
             }
         }
         let are = |finding| move |error: &(_, _, Finding)| error.2 == finding;
@@ -157,9 +140,7 @@ impl<'a> Judge<'a> {
         let cluster = (self.cluster(mode)).filter(|_| !(said.separate && said.right));
         let mut doubts = self.first.doubts(mode);
         doubts.retain(|doubt| match doubt {
-            Doubt::NearCritical { distance } | Doubt::BranchNear { distance, .. } => {
-                !(said.right && *distance != 0.0)
-            }
+            Doubt::NearCritical { distance } | Doubt::BranchNear { distance, .. } => !(said.right && *distance != 0.0),
             Doubt::NearCriticalDamping { .. } => !said.right,
             // Clusters decide.
             Doubt::EqualNeighbours | Doubt::NearNeighbour { .. } => false,
@@ -169,15 +150,9 @@ impl<'a> Judge<'a> {
             let modes = cluster.modes.clone();
             let clustered = match cluster.equal {
                 true => Doubt::EqualInEveryDesign { modes },
-                false => Doubt::Clustered {
-                    modes,
-                    distance: cluster.distance,
-                    defective: cluster.defective(),
-                },
+                false => Doubt::Clustered { modes, distance: cluster.distance, defective: cluster.defective() },
             };
-            let leading = doubts
-                .iter()
-                .take_while(|doubt| **doubt == Doubt::NoFrequency);
+            let leading = doubts.iter().take_while(|doubt| **doubt == Doubt::NoFrequency);
             doubts.insert(leading.count(), clustered);
         }
         let decided = said.wrong || said.right;
@@ -197,18 +172,10 @@ impl<'a> Judge<'a> {
         if doubts.is_empty() {
             Advice::FirstOrder
         } else if any(|doubt| {
-            matches!(
-                doubt,
-                Doubt::Clustered {
-                    defective: false,
-                    ..
-                } | Doubt::EqualInEveryDesign { .. }
-            )
+            matches!(doubt, Doubt::Clustered { defective: false, .. } | Doubt::EqualInEveryDesign { .. })
         }) {
             Advice::Cluster
-        } else if any(|doubt| matches!(doubt, Doubt::Inaccurate { .. }))
-            && checks.iter().all(confirmed)
-        {
+        } else if any(|doubt| matches!(doubt, Doubt::Inaccurate { .. })) && checks.iter().all(confirmed) {
             Advice::SecondOrder
         } else {
             Advice::Sampling
@@ -243,10 +210,7 @@ impl<'a> Judge<'a> {
             let spread = second_spread_of(second, quantity);
             let sigma_error = spread.nonlinearity.sigma_error();
             if spread.moments.sigma > ROUNDING * size && sigma_error > TRUSTED_SIGMA_ERROR {
-                doubts.push(Doubt::Nonlinear {
-                    quantity,
-                    sigma_error,
-                });
+                doubts.push(Doubt::Nonlinear { quantity, sigma_error });
             }
         }
     }
@@ -273,11 +237,6 @@ fn second_spread_of(mode: &ModeSecondOrder, quantity: Quantity) -> &SecondOrderS
 /// the tolerances, and second order is no check of first order.
 pub(super) fn expanded_near_a_root(doubts: &[Doubt]) -> bool {
     doubts.iter().any(|doubt| {
-        matches!(
-            doubt,
-            Doubt::NearCritical { .. }
-                | Doubt::BranchNear { .. }
-                | Doubt::NearCriticalDamping { .. }
-        )
+        matches!(doubt, Doubt::NearCritical { .. } | Doubt::BranchNear { .. } | Doubt::NearCriticalDamping { .. })
     })
 }

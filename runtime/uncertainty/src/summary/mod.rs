@@ -144,29 +144,13 @@ pub fn summary_watched(
         inputs: at.inputs.clone(),
         description: modes.description.clone(),
     };
-    let judge = Judge {
-        first: &summary.first,
-        second: &summary.second,
-        clusters: &summary.clusters,
-    };
+    let judge = Judge { first: &summary.first, second: &summary.second, clusters: &summary.clusters };
     let numbered = || modes.modes.iter().enumerate();
-    let predictions: Vec<Prediction<'_>> = numbered()
-        .flat_map(|(mode, x)| judge.predictions(mode, x))
-        .collect();
-    let about = About {
-        mechanism,
-        at,
-        modes,
-        tolerances,
-        watch,
-    };
-    let groups: Vec<&[usize]> = (summary.clusters.iter())
-        .map(|cluster| &cluster.modes[..])
-        .collect();
+    let predictions: Vec<Prediction<'_>> = numbered().flat_map(|(mode, x)| judge.predictions(mode, x)).collect();
+    let about = About { mechanism, at, modes, tolerances, watch };
+    let groups: Vec<&[usize]> = (summary.clusters.iter()).map(|cluster| &cluster.modes[..]).collect();
     let sampled = about.sample(&predictions, &groups, budget)?;
-    let trust = numbered()
-        .map(|(mode, x)| judge.verdict(mode, x, &predictions, &sampled))
-        .collect();
+    let trust = numbered().map(|(mode, x)| judge.verdict(mode, x, &predictions, &sampled)).collect();
     (summary.trust, summary.sampling) = (trust, sampled.sampling);
     Ok(summary)
 }

@@ -67,10 +67,7 @@ pub(super) struct Paired {
 
 impl Paired {
     pub(super) fn new() -> Self {
-        Self {
-            groups: [Group::default(); GROUPS],
-            samples: 0,
-        }
+        Self { groups: [Group::default(); GROUPS], samples: 0 }
     }
 
     /// Adds a sample; `value` is `None` if it does not have the quantity.
@@ -147,10 +144,7 @@ impl Paired {
         let mean = without.iter().sum::<f64>() / count;
         let squares: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
         let standard_error = ((count - 1.0) / count * squares).sqrt();
-        (value.is_finite() && standard_error.is_finite()).then_some(Measured {
-            value,
-            standard_error,
-        })
+        (value.is_finite() && standard_error.is_finite()).then_some(Measured { value, standard_error })
     }
 }
 
@@ -165,9 +159,7 @@ mod tests {
         let value = |k: usize| ((k * 7919) % 1009) as f64;
         (0..10 * GROUPS).for_each(|k| paired.add(Some(value(k)), 0.0, 0.0));
         let measured = paired.jackknife(|group| group.found.mean());
-        let means: Vec<f64> = (0..GROUPS)
-            .map(|g| (0..10).map(|k| value(g + GROUPS * k)).sum::<f64>() / 10.0)
-            .collect();
+        let means: Vec<f64> = (0..GROUPS).map(|g| (0..10).map(|k| value(g + GROUPS * k)).sum::<f64>() / 10.0).collect();
         let mean = means.iter().sum::<f64>() / GROUPS as f64;
         let squares: f64 = means.iter().map(|x| (x - mean).powi(2)).sum();
         let expected = (squares / (GROUPS * (GROUPS - 1)) as f64).sqrt();
@@ -187,10 +179,7 @@ mod tests {
         let n = (2 * GROUPS) as f64;
         let expected = 2.0 * (4.0 * (2.0 * n + 1.0) / (2.0 * (n + 1.0))).sqrt();
         let ratio = paired.first_ratio().map_or(0.0, |ratio| ratio.value);
-        assert!(
-            (ratio * ratio - expected * expected).abs() < 1e-9,
-            "{ratio}"
-        );
+        assert!((ratio * ratio - expected * expected).abs() < 1e-9, "{ratio}");
     }
 
     #[test]

@@ -78,9 +78,7 @@ impl About<'_> {
         let mut pairs = vec![Paired::new(); predictions.len()];
         let outcome = |pairs: &[Paired], exchanged, sampling| SampledChecks {
             exchanged,
-            checks: (predictions.iter().zip(pairs))
-                .map(|(prediction, paired)| check(prediction, paired))
-                .collect(),
+            checks: (predictions.iter().zip(pairs)).map(|(prediction, paired)| check(prediction, paired)).collect(),
             counts: pairs.iter().map(Paired::count).collect(),
             sampling,
         };
@@ -102,13 +100,7 @@ impl About<'_> {
                     .keep_samples(true)
                     .progress(self.watch.progress)
                     .stop(self.watch.stop);
-                let Self {
-                    mechanism,
-                    at,
-                    modes,
-                    tolerances,
-                    ..
-                } = *self;
+                let Self { mechanism, at, modes, tolerances, .. } = *self;
                 let run = monte_carlo(mechanism, at, modes, tolerances, &sampling)?;
                 if self.watch.stopped() {
                     return Err(Error::Stopped);
@@ -125,11 +117,7 @@ impl About<'_> {
                 }
             }
             let open = |(prediction, paired): (&Prediction<'_>, &Paired)| {
-                let decisive = if prediction.doubtful {
-                    DECISIVE_IN_DOUBT
-                } else {
-                    DECISIVE
-                };
+                let decisive = if prediction.doubtful { DECISIVE_IN_DOUBT } else { DECISIVE };
                 let checked = check(prediction, paired);
                 checked.is_some_and(|check| stage < decisive || !decided(&check))
             };
@@ -140,23 +128,16 @@ impl About<'_> {
         let samples = counts.total();
         if samples == 0 {
             let operations = DECISIVE as f64 * each;
-            return Ok(outcome(
-                &pairs,
-                exchanged,
-                Sampling::TooDear { operations, budget },
-            ));
+            return Ok(outcome(&pairs, exchanged, Sampling::TooDear { operations, budget }));
         }
-        let other_branch = (self.at.stability.holds())
-            .then(|| Chance::new(elsewhere, samples))
-            .transpose()?;
+        let other_branch = (self.at.stability.holds()).then(|| Chance::new(elsewhere, samples)).transpose()?;
         let sampled = Sampled::new(&counts, other_branch)?;
         Ok(outcome(&pairs, exchanged, Sampling::Done(sampled)))
     }
 
     fn look_at(&self, sample: &Sample, predictions: &[Prediction<'_>], pairs: &mut [Paired]) {
-        let change: Vector = (sample.design.iter().zip(&self.at.design))
-            .map(|(value, nominal)| value - nominal)
-            .collect();
+        let change: Vector =
+            (sample.design.iter().zip(&self.at.design)).map(|(value, nominal)| value - nominal).collect();
         for (prediction, paired) in predictions.iter().zip(pairs) {
             let values = match prediction.quantity {
                 Quantity::DampingRatio => &sample.damping_ratios,
@@ -164,15 +145,12 @@ impl About<'_> {
             };
             let observed = values.get(prediction.mode).copied().flatten();
             let observed = observed.filter(|_| sample.outcome == Outcome::from(self.at.stability));
-            let first = prediction.slopes.as_ref().map_or(0.0, |slopes| {
-                slopes.iter().zip(&change).map(|(slope, x)| slope * x).sum()
-            });
+            let first = prediction
+                .slopes
+                .as_ref()
+                .map_or(0.0, |slopes| slopes.iter().zip(&change).map(|(slope, x)| slope * x).sum());
             let second = prediction.second.map_or(0.0, |model| model.change(&change));
-            paired.add(
-                observed.map(|value| value - prediction.nominal),
-                first,
-                second,
-            );
+            paired.add(observed.map(|value| value - prediction.nominal), first, second);
         }
     }
 
@@ -184,9 +162,8 @@ impl About<'_> {
         };
         let frequencies: Vec<(f64, f64)> = group.iter().filter_map(both).collect();
         let pairs = (0..frequencies.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        let turned = |(i, j): (usize, usize)| {
-            (frequencies[i].0 < frequencies[j].0) != (frequencies[i].1 < frequencies[j].1)
-        };
+        let turned =
+            |(i, j): (usize, usize)| (frequencies[i].0 < frequencies[j].0) != (frequencies[i].1 < frequencies[j].1);
         !pairs.into_iter().any(turned)
     }
 }
@@ -197,10 +174,7 @@ fn check(prediction: &Prediction<'_>, paired: &Paired) -> Option<Check> {
     if count < FEWEST || sigma.value <= ROUNDING * prediction.size {
         return None;
     }
-    let error = |ratio: Measured| Measured {
-        value: ratio.value - 1.0,
-        ..ratio
-    };
+    let error = |ratio: Measured| Measured { value: ratio.value - 1.0, ..ratio };
     let representative = prediction.slopes.is_none() || paired.represents(prediction.sigma);
     let (first, second) = (prediction.slopes.as_deref(), prediction.second);
     let first = first.filter(|_| representative);
@@ -252,10 +226,7 @@ mod tests {
     use super::*;
 
     fn measured(value: f64, standard_error: f64) -> Measured {
-        Measured {
-            value,
-            standard_error,
-        }
+        Measured { value, standard_error }
     }
 
     #[test]
@@ -281,11 +252,7 @@ mod tests {
             (-0.07, 0.0099, true),
             (-0.07, 0.0101, false),
         ] {
-            assert_eq!(
-                decides(Some(measured(value, error))),
-                decided,
-                "{value} {error}"
-            );
+            assert_eq!(decides(Some(measured(value, error))), decided, "{value} {error}");
         }
     }
 

@@ -67,8 +67,7 @@ impl Summary {
     pub fn sentences(&self) -> Vec<Sentence> {
         let mut all = self.doubts();
         let doubted = self.trust.iter().filter(|x| !x.trusted());
-        let checks =
-            doubted.flat_map(|doubted| doubted.checks.iter().map(|check| (doubted.mode, check)));
+        let checks = doubted.flat_map(|doubted| doubted.checks.iter().map(|check| (doubted.mode, check)));
         let converges = |mode| self.second_order_sigma(mode).is_some();
         all.extend(checks.map(|(mode, check)| fact(measured(mode, check, converges(mode)))));
         all.extend(self.advice());
@@ -79,10 +78,7 @@ impl Summary {
 
     fn doubts(&self) -> Vec<Sentence> {
         let all: Vec<&[Doubt]> = self.trust.iter().map(|x| &x.doubts[..]).collect();
-        let bad = |text| Sentence {
-            news: News::Bad,
-            text,
-        };
+        let bad = |text| Sentence { news: News::Bad, text };
         doubt_sentences(&all).into_iter().map(bad).collect()
     }
 
@@ -106,10 +102,7 @@ impl Summary {
                         confirmed(advised().flat_map(|advised| &advised.checks))
                     ),
                 ),
-                Advice::SecondOrder => (
-                    News::Fact,
-                    "use second order, which agrees with the samples.".to_owned(),
-                ),
+                Advice::SecondOrder => (News::Fact, "use second order, which agrees with the samples.".to_owned()),
                 _ => (News::Fact, "use Monte Carlo.".to_owned()),
             };
             let text = format!("{}: {text}", capital(named(&modes)));
@@ -165,10 +158,7 @@ impl Summary {
 }
 
 fn fact(text: String) -> Sentence {
-    Sentence {
-        news: News::Fact,
-        text,
-    }
+    Sentence { news: News::Fact, text }
 }
 
 /// The largest error of first order compared to the samples; empty without samples.

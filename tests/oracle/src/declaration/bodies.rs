@@ -44,12 +44,7 @@ impl Printer<'_> {
                 let center = self.metres(center);
                 format!("point({}, center: {center})", self.mass(*mass))
             }
-            Shape::Rod {
-                mass,
-                length,
-                along,
-                center,
-            } => {
+            Shape::Rod { mass, length, along, center } => {
                 let center = center.map(|center| format!(", center: {}", self.metres(&center)));
                 format!(
                     "rod({}, length: {}, along: {}{})",
@@ -59,25 +54,14 @@ impl Printer<'_> {
                     center.unwrap_or_default()
                 )
             }
-            Shape::Disk {
-                mass,
-                radius,
-                axis,
-                center,
-            } => format!(
+            Shape::Disk { mass, radius, axis, center } => format!(
                 "disk({}, radius: {}, axis: {}, center: {})",
                 self.amount(*mass, 2),
                 metre(radius),
                 direction(axis),
                 self.metres(center)
             ),
-            Shape::Cylinder {
-                mass,
-                radius,
-                length,
-                axis,
-                center,
-            } => format!(
+            Shape::Cylinder { mass, radius, length, axis, center } => format!(
                 "cylinder({}, radius: {}, length: {}, axis: {}, center: {})",
                 self.amount(*mass, 3),
                 metre(radius),
@@ -85,14 +69,7 @@ impl Printer<'_> {
                 direction(axis),
                 self.metres(center)
             ),
-            Shape::Tube {
-                mass,
-                inner,
-                outer,
-                length,
-                axis,
-                center,
-            } => format!(
+            Shape::Tube { mass, inner, outer, length, axis, center } => format!(
                 "tube({}, inner: {}, outer: {}, length: {}, axis: {}, center: {})",
                 self.amount(*mass, 3),
                 metre(inner),
@@ -101,28 +78,13 @@ impl Printer<'_> {
                 direction(axis),
                 self.metres(center)
             ),
-            Shape::Cuboid { mass, size, center } => format!(
-                "box({}, size: {}, center: {})",
-                self.amount(*mass, 3),
-                self.metres(size),
-                self.metres(center)
-            ),
-            Shape::Sphere {
-                mass,
-                radius,
-                center,
-            } => format!(
-                "sphere({}, radius: {}, center: {})",
-                self.amount(*mass, 3),
-                metre(radius),
-                self.metres(center)
-            ),
-            Shape::Rigid {
-                mass,
-                center,
-                inertia,
-                about,
-            } => {
+            Shape::Cuboid { mass, size, center } => {
+                format!("box({}, size: {}, center: {})", self.amount(*mass, 3), self.metres(size), self.metres(center))
+            }
+            Shape::Sphere { mass, radius, center } => {
+                format!("sphere({}, radius: {}, center: {})", self.amount(*mass, 3), metre(radius), self.metres(center))
+            }
+            Shape::Rigid { mass, center, inertia, about } => {
                 let about = about.map(|about| format!(", about: {}", self.metres(&about)));
                 format!(
                     "rigid({}, center: {}, inertia: {}{})",

@@ -24,22 +24,12 @@ impl Printer<'_> {
             }
         }
         let list = |curve: &Curve, axis: usize| {
-            let numbers = curve
-                .points
-                .iter()
-                .map(|point| format!("{:?}", point[axis]));
+            let numbers = curve.points.iter().map(|point| format!("{:?}", point[axis]));
             let numbers: Vec<String> = numbers.collect();
             let unit = symbol(curve.units[axis]);
             format!("[{}] {unit}", numbers.join(", "))
         };
-        let declared = |curve: &&Curve| {
-            format!(
-                "curve {}: {} -> {};",
-                curve.name,
-                list(curve, 0),
-                list(curve, 1)
-            )
-        };
+        let declared = |curve: &&Curve| format!("curve {}: {} -> {};", curve.name, list(curve, 0), list(curve, 1));
         known.iter().map(declared).collect()
     }
 
@@ -61,11 +51,7 @@ impl Printer<'_> {
 
     fn law(&self, law: &ForceLaw) -> String {
         match law {
-            ForceLaw::Spring {
-                coordinate,
-                stiffness,
-                rest,
-            } => {
+            ForceLaw::Spring { coordinate, stiffness, rest } => {
                 let motion = self.motion(*coordinate);
                 format!(
                     "spring(on: {}, stiffness: {}, rest: {})",
@@ -74,21 +60,12 @@ impl Printer<'_> {
                     self.value(*rest, motion.unit())
                 )
             }
-            ForceLaw::Damper {
-                coordinate,
-                damping,
-            } => {
+            ForceLaw::Damper { coordinate, damping } => {
                 let unit = self.motion(*coordinate).damping_unit();
                 let (name, damping) = (self.name(*coordinate), self.value(*damping, unit));
                 format!("damper(on: {name}, damping: {damping})")
             }
-            ForceLaw::SpringDamper {
-                from,
-                to,
-                stiffness,
-                damping,
-                length,
-            } => format!(
+            ForceLaw::SpringDamper { from, to, stiffness, damping, length } => format!(
                 "spring_damper(from: {}, to: {}, stiffness: {}, damping: {}, length: {})",
                 self.end(*from),
                 self.end(*to),
@@ -96,28 +73,16 @@ impl Printer<'_> {
                 self.value(*damping, Unit::NewtonSecondPerMetre),
                 self.value(*length, Unit::Metre)
             ),
-            ForceLaw::Tension { from, to, tension } => format!(
-                "tension(from: {}, to: {}, law: {})",
-                self.end(*from),
-                self.end(*to),
-                self.expression(tension)
-            ),
-            ForceLaw::Generalized { coordinate, value } => format!(
-                "generalized(on: {}, value: {})",
-                self.name(*coordinate),
-                self.expression(value)
-            ),
+            ForceLaw::Tension { from, to, tension } => {
+                format!("tension(from: {}, to: {}, law: {})", self.end(*from), self.end(*to), self.expression(tension))
+            }
+            ForceLaw::Generalized { coordinate, value } => {
+                format!("generalized(on: {}, value: {})", self.name(*coordinate), self.expression(value))
+            }
             ForceLaw::Potential { energy } => {
                 format!("potential(energy: {})", self.expression(energy))
             }
-            ForceLaw::Bushing {
-                from,
-                to,
-                stiffness,
-                damping,
-                turning_stiffness,
-                turning_damping,
-            } => format!(
+            ForceLaw::Bushing { from, to, stiffness, damping, turning_stiffness, turning_damping } => format!(
                 "bushing(from: {}, to: {}, stiffness: {}, damping: {}, turning_stiffness: {}, turning_damping: {})",
                 self.end(*from),
                 self.end(*to),
@@ -126,23 +91,14 @@ impl Printer<'_> {
                 self.matrix(turning_stiffness, Unit::NewtonMetrePerRadian),
                 self.matrix(turning_damping, Unit::NewtonMetreSecondPerRadian)
             ),
-            ForceLaw::Load {
-                point,
-                force,
-                moment,
-                following,
-            } => format!(
+            ForceLaw::Load { point, force, moment, following } => format!(
                 "{}(at: {}, force: {}, moment: {})",
                 if *following { "follower" } else { "load" },
                 self.end(*point),
                 self.vector(force, Unit::Newton),
                 self.vector(moment, Unit::NewtonMetre)
             ),
-            ForceLaw::Drag {
-                point,
-                damping,
-                turning_damping,
-            } => format!(
+            ForceLaw::Drag { point, damping, turning_damping } => format!(
                 "drag(at: {}, damping: {}, turning_damping: {})",
                 self.end(*point),
                 self.value(*damping, Unit::NewtonSecondPerMetre),

@@ -74,10 +74,7 @@ impl Printer<'_> {
         };
         let per_turn = match lead {
             Value::Number(lead) => Value::Number(lead * TAU),
-            Value::Design { variable, factor } => Value::Design {
-                variable,
-                factor: factor * TAU,
-            },
+            Value::Design { variable, factor } => Value::Design { variable, factor: factor * TAU },
         };
         format!("{axis}, lead: {}", self.value(per_turn, Unit::Metre))
     }

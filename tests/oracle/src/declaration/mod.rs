@@ -30,9 +30,5 @@ pub fn declaration(model: &Model) -> String {
     lines.extend(model.joints.iter().map(|joint| print.joint(joint)));
     lines.extend(model.points.iter().map(|point| print.point(point)));
     lines.extend(model.forces.iter().map(|force| print.force(force)));
-    format!(
-        "pub mechanism {} {{\n    {}\n}}\n",
-        model.name,
-        lines.join("\n    ")
-    )
+    format!("pub mechanism {} {{\n    {}\n}}\n", model.name, lines.join("\n    "))
 }

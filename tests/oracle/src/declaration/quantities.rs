@@ -79,11 +79,7 @@ impl Printer<'_> {
             Value::Number(number) => quantity(number, unit),
             Value::Design { variable, factor } => {
                 let name = &self.model.design[variable].name;
-                if factor == 1.0 {
-                    name.clone()
-                } else {
-                    format!("{factor:?} * {name}")
-                }
+                if factor == 1.0 { name.clone() } else { format!("{factor:?} * {name}") }
             }
         }
     }

@@ -2,10 +2,7 @@
 
 use num_dual::Dual;
 
-use super::poses::{
-    Four, Poses, get, index, lift, multiply, quaternion, quaternion_rotation, translation,
-    transpose,
-};
+use super::poses::{Four, Poses, get, index, lift, multiply, quaternion, quaternion_rotation, translation, transpose};
 use crate::matrices::Scalar;
 use crate::model::{Beam, Coordinate, Model, Section};
 
@@ -18,8 +15,7 @@ pub(super) fn section<D: Scalar>(beam: &Beam, q: &[D], value: f64, design: &[D])
         let unloaded = unloaded(beam, D::from(own.place), design);
         let turned = multiply(&rotation(beam, beam.turn(q, own.place)), &unloaded);
         let heading = heading(beam, q, k, design);
-        let direction: [D; 3] =
-            std::array::from_fn(|i| (0..3).map(|c| heading[c] * beam.axes[c][i]).sum());
+        let direction: [D; 3] = std::array::from_fn(|i| (0..3).map(|c| heading[c] * beam.axes[c][i]).sum());
         for (sum, row) in position.iter_mut().zip(&turned) {
             for (entry, component) in row.iter().zip(direction) {
                 *sum += length * *entry * component * weight;
@@ -88,10 +84,7 @@ fn moments<D: Scalar>(section: &Section, bent: [D; 3], design: &[D]) -> [D; 2] {
 /// Components along axes that are turned by an angle.
 fn turned_back<D: Scalar>([second, third]: [D; 2], angle: D) -> [D; 2] {
     let (sine, cosine) = angle.sin_cos();
-    [
-        cosine * second + sine * third,
-        cosine * third - sine * second,
-    ]
+    [cosine * second + sine * third, cosine * third - sine * second]
 }
 
 /// Rotation by an angle in a plane; in space by the quaternion `(1, turn / 2)` over its norm.
@@ -116,11 +109,7 @@ fn rotation<D: Scalar>(beam: &Beam, turn: [D; 3]) -> Four<D> {
 
 /// `1/2 e . C e` per unit of length, summed over all beams, of any six numbers `e` per section along its own axes, with the
 /// stiffness `C`.
-fn half_forms<D: Scalar>(
-    poses: &Poses<D>,
-    factor: impl Fn(&Beam) -> D,
-    strain: impl Fn(&Beam, usize) -> [D; 6],
-) -> D {
+fn half_forms<D: Scalar>(poses: &Poses<D>, factor: impl Fn(&Beam) -> D, strain: impl Fn(&Beam, usize) -> [D; 6]) -> D {
     let mut total = D::zero();
     for beam in &poses.model.beams {
         let length = get(beam.length, &poses.design);
@@ -146,11 +135,7 @@ pub(super) fn elastic<D: Scalar>(poses: &Poses<D>) -> D {
 /// Rayleigh's dissipation function of the lag: the same form of the rates of strain, times the lag. The axes along which
 /// strain is taken turn with the material, so that a spinning beam dissipates what its material feels.
 pub(super) fn dissipated<D: Scalar>(poses: &Poses<D>, moving: &Poses<Dual<D>>) -> D {
-    half_forms(
-        poses,
-        |beam| get(beam.lag, &poses.design),
-        |beam, k| strain(moving, beam, k).map(|strain| strain.eps),
-    )
+    half_forms(poses, |beam| get(beam.lag, &poses.design), |beam, k| strain(moving, beam, k).map(|strain| strain.eps))
 }
 
 /// Stretch and shear, twist and bending along the axes of the material.
@@ -165,14 +150,7 @@ fn strain<D: Scalar>(poses: &Poses<D>, beam: &Beam, k: usize) -> [D; 6] {
     }
     let [second, third] = turned_back([bent[1], bent[2]], angle);
     let [shear_second, shear_third] = turned_back([strained[1], strained[2]], angle);
-    [
-        strained[0],
-        shear_second,
-        shear_third,
-        bent[0],
-        second,
-        third,
-    ]
+    [strained[0], shear_second, shear_third, bent[0], second, third]
 }
 
 /// Twist and bending along the axes of the beam as they turn with the section, and their derivatives by the place as a
@@ -181,15 +159,10 @@ fn strain<D: Scalar>(poses: &Poses<D>, beam: &Beam, k: usize) -> [D; 6] {
 fn curvature<D: Scalar>(beam: &Beam, q: &[D], value: f64, design: &[D]) -> [Dual<D>; 3] {
     let (turn, slope) = (beam.turn(q, value), beam.slope(q, value));
     let curl = beam.curl(q, value);
-    let along: [Dual<Dual<D>>; 3] = std::array::from_fn(|k| {
-        Dual::new(Dual::new(turn[k], slope[k]), Dual::new(slope[k], curl[k]))
-    });
+    let along: [Dual<Dual<D>>; 3] =
+        std::array::from_fn(|k| Dual::new(Dual::new(turn[k], slope[k]), Dual::new(slope[k], curl[k])));
     let here = Dual::new(D::from(value), D::one());
-    let arc = unloaded(
-        beam,
-        Dual::new(here, Dual::from_re(D::one())),
-        &lift(&lift(design)),
-    );
+    let arc = unloaded(beam, Dual::new(here, Dual::from_re(D::one())), &lift(&lift(design)));
     let turned = multiply(&rotation(beam, along), &arc);
     let length = Dual::from_re(get(beam.length, design));
     let [loaded, before] = [turned, arc].map(|pose| spin(&pose));
@@ -210,10 +183,7 @@ fn spin<D: Scalar>(rotation: &Four<Dual<D>>) -> [D; 3] {
 
 /// The coordinates of a beam among all.
 pub(super) fn of_beam<'a, D>(model: &Model, beam: &Beam, coordinates: &'a [D]) -> &'a [D] {
-    let first = Coordinate {
-        joint: beam.joint,
-        step: 0,
-    };
+    let first = Coordinate { joint: beam.joint, step: 0 };
     let start = index(&model.coordinates(), first);
     &coordinates[start..start + beam.coordinates()]
 }

@@ -13,21 +13,13 @@ pub(super) struct Rates<'a, D> {
 
 /// Evaluates an energy.
 pub(super) fn evaluate<D: Scalar>(expr: &Expr, inputs: &[f64], poses: &Poses<D>) -> D {
-    let none = Rates {
-        of: &|_| unreachable!("an energy depends on no rate"),
-        length: D::zero(),
-        length_rate: D::zero(),
-    };
+    let none =
+        Rates { of: &|_| unreachable!("an energy depends on no rate"), length: D::zero(), length_rate: D::zero() };
     evaluate_with(expr, inputs, poses, &none)
 }
 
 /// Evaluates any expression.
-pub(super) fn evaluate_with<D: Scalar>(
-    expr: &Expr,
-    inputs: &[f64],
-    poses: &Poses<D>,
-    rates: &Rates<D>,
-) -> D {
+pub(super) fn evaluate_with<D: Scalar>(expr: &Expr, inputs: &[f64], poses: &Poses<D>, rates: &Rates<D>) -> D {
     let of = |part: &Expr| evaluate_with(part, inputs, poses, rates);
     match expr {
         Expr::Value(value, _) => get(*value, &poses.design),

@@ -37,59 +37,26 @@ fn of_shape<D: Scalar>(shape: &Shape, design: &[D]) -> Four<D> {
     // Mass, centre, and second moments about the centre.
     let (mass, center, second): (D, [D; 3], [[D; 3]; 3]) = match shape {
         Shape::Point { mass, center } => (number(mass), vector(center), [zero; 3]),
-        Shape::Rod {
-            mass,
-            length,
-            along: a,
-            center,
-        } => {
+        Shape::Rod { mass, length, along: a, center } => {
             let l = number(length);
             let m = amount(*mass, l);
             let half = a.map(|component| l * (0.5 * component / norm(*a)));
             let center = center.as_ref().map_or(half, vector);
-            (
-                m,
-                center,
-                table(|i, j| m * l * l * (along(*a, i, j) / 12.0)),
-            )
+            (m, center, table(|i, j| m * l * l * (along(*a, i, j) / 12.0)))
         }
-        Shape::Disk {
-            mass,
-            radius,
-            axis,
-            center,
-        } => {
+        Shape::Disk { mass, radius, axis, center } => {
             let r = number(radius);
             let m = amount(*mass, r * r * PI);
-            (
-                m,
-                vector(center),
-                table(|i, j| m * r * r * (across(*axis, i, j) / 4.0)),
-            )
+            (m, vector(center), table(|i, j| m * r * r * (across(*axis, i, j) / 4.0)))
         }
-        Shape::Cylinder {
-            mass,
-            radius,
-            length,
-            axis,
-            center,
-        } => {
+        Shape::Cylinder { mass, radius, length, axis, center } => {
             let (r, l) = (number(radius), number(length));
             let m = amount(*mass, r * r * l * PI);
-            let moments = |i, j| {
-                m * r * r * (across(*axis, i, j) / 4.0) + m * l * l * (along(*axis, i, j) / 12.0)
-            };
+            let moments = |i, j| m * r * r * (across(*axis, i, j) / 4.0) + m * l * l * (along(*axis, i, j) / 12.0);
             (m, vector(center), table(moments))
         }
         // The outer cylinder minus the bore.
-        Shape::Tube {
-            mass,
-            inner,
-            outer,
-            length,
-            axis,
-            center,
-        } => {
+        Shape::Tube { mass, inner, outer, length, axis, center } => {
             let (a, b, l) = (number(inner), number(outer), number(length));
             let m = amount(*mass, (b * b - a * a) * l * PI);
             let density = m / ((b * b - a * a) * l * PI);
@@ -103,31 +70,14 @@ fn of_shape<D: Scalar>(shape: &Shape, design: &[D]) -> Four<D> {
         Shape::Cuboid { mass, size, center } => {
             let size = vector(size);
             let m = amount(*mass, size[0] * size[1] * size[2]);
-            (
-                m,
-                vector(center),
-                table(|i, j| m * size[i] * size[j] * (f64::from(i == j) / 12.0)),
-            )
+            (m, vector(center), table(|i, j| m * size[i] * size[j] * (f64::from(i == j) / 12.0)))
         }
-        Shape::Sphere {
-            mass,
-            radius,
-            center,
-        } => {
+        Shape::Sphere { mass, radius, center } => {
             let r = number(radius);
             let m = amount(*mass, r * r * r * (4.0 * PI / 3.0));
-            (
-                m,
-                vector(center),
-                table(|i, j| m * r * r * (f64::from(i == j) / 5.0)),
-            )
+            (m, vector(center), table(|i, j| m * r * r * (f64::from(i == j) / 5.0)))
         }
-        Shape::Rigid {
-            mass,
-            center,
-            inertia,
-            about,
-        } => {
+        Shape::Rigid { mass, center, inertia, about } => {
             let [xx, yy, zz, xy, yz, xz] = inertia.map(|entry| get(entry, design));
             let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
             let half_trace = (xx + yy + zz) * 0.5;

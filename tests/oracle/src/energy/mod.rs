@@ -40,12 +40,7 @@ impl<'a, D: Scalar> Flow<'a, D> {
 }
 
 /// `g(qddot, qdot, q; u, b)` by Lagrange's equations.
-pub fn residual(
-    model: &Model,
-    [acceleration, velocity, q]: [&[f64]; 3],
-    inputs: &[f64],
-    design: &[f64],
-) -> Vec<f64> {
+pub fn residual(model: &Model, [acceleration, velocity, q]: [&[f64]; 3], inputs: &[f64], design: &[f64]) -> Vec<f64> {
     let all = model.coordinates();
     let mut position = vec![0.0; all.len()];
     let (mut speed, mut gain) = (position.clone(), position.clone());
@@ -72,13 +67,7 @@ pub fn residual(
         inputs,
         design: design.iter().map(|&b| in_time(b, 0.0)).collect(),
     };
-    let still = Flow {
-        model,
-        position: position.clone(),
-        speed: speed.clone(),
-        inputs,
-        design: design.to_vec(),
-    };
+    let still = Flow { model, position: position.clone(), speed: speed.clone(), inputs, design: design.to_vec() };
     let equation = |&coordinate: &usize| {
         let (mut by_speed, mut by_position) = (flow(), flow());
         by_speed.speed[coordinate].eps1 = 1.0;
@@ -91,12 +80,7 @@ pub fn residual(
 }
 
 /// Kinetic and potential energy of a motion.
-pub fn energies(
-    model: &Model,
-    [velocity, q]: [&[f64]; 2],
-    inputs: &[f64],
-    design: &[f64],
-) -> [f64; 2] {
+pub fn energies(model: &Model, [velocity, q]: [&[f64]; 2], inputs: &[f64], design: &[f64]) -> [f64; 2] {
     let (mut position, mut speed) = (Vec::new(), Vec::new());
     let mut free = q.iter().zip(velocity);
     for coordinate in model.coordinates() {
@@ -107,13 +91,7 @@ pub fn energies(
         position.push(*own.0);
         speed.push(*own.1);
     }
-    let flow = Flow {
-        model,
-        position,
-        speed,
-        inputs,
-        design: design.to_vec(),
-    };
+    let flow = Flow { model, position, speed, inputs, design: design.to_vec() };
     [kinetic(&flow), potential(&flow)]
 }
 
@@ -162,44 +140,24 @@ fn energy<D: Scalar>(flow: &Flow<D>, poses: &Poses<D>, law: &ForceLaw) -> D {
     let get = |v| get(v, &flow.design);
     match law {
         // 1/2 k (q - q0)^2
-        &ForceLaw::Spring {
-            coordinate,
-            stiffness,
-            rest,
-        } => {
+        &ForceLaw::Spring { coordinate, stiffness, rest } => {
             let stretch = poses.coordinate(coordinate) - get(rest);
             get(stiffness) * stretch * stretch * 0.5
         }
         // 1/2 k (d - L)^2
-        &ForceLaw::SpringDamper {
-            from,
-            to,
-            stiffness,
-            length,
-            ..
-        } => {
+        &ForceLaw::SpringDamper { from, to, stiffness, length, .. } => {
             let stretch = poses.distance(from, to) - get(length);
             get(stiffness) * stretch * stretch * 0.5
         }
         ForceLaw::Potential { energy } => evaluate(energy, flow.inputs, poses),
         // 1/2 d . K d; only the symmetric part of K counts
-        ForceLaw::Bushing {
-            from,
-            to,
-            stiffness,
-            ..
-        } => {
+        ForceLaw::Bushing { from, to, stiffness, .. } => {
             let relative = poses.relative(*from, *to);
             let d = [relative[0][3], relative[1][3], relative[2][3]];
             half_form(stiffness.map(|row| row.map(get)), d)
         }
         // -F . p
-        ForceLaw::Load {
-            point,
-            force,
-            following: false,
-            ..
-        } => {
+        ForceLaw::Load { point, force, following: false, .. } => {
             let at = poses.position(*point);
             -(0..3).map(|i| get(force[i]) * at[i]).sum::<D>()
         }
@@ -214,31 +172,20 @@ fn dissipation<D: Scalar>(flow: &Flow<D>) -> D {
     let speed = |coordinate| poses.coordinate(coordinate).eps;
     let power = |law: &ForceLaw| match law {
         // 1/2 c qdot^2
-        &ForceLaw::Damper {
-            coordinate,
-            damping,
-        } => get(damping) * speed(coordinate) * speed(coordinate) * 0.5,
+        &ForceLaw::Damper { coordinate, damping } => get(damping) * speed(coordinate) * speed(coordinate) * 0.5,
         // 1/2 c ddot^2
-        &ForceLaw::SpringDamper {
-            from, to, damping, ..
-        } => {
+        &ForceLaw::SpringDamper { from, to, damping, .. } => {
             let rate = poses.distance(from, to).eps;
             get(damping) * rate * rate * 0.5
         }
         // 1/2 d' . C d'; only the symmetric part of C counts
-        ForceLaw::Bushing {
-            from, to, damping, ..
-        } => {
+        ForceLaw::Bushing { from, to, damping, .. } => {
             let relative = poses.relative(*from, *to);
             let rate = [relative[0][3].eps, relative[1][3].eps, relative[2][3].eps];
             half_form(damping.map(|row| row.map(get)), rate)
         }
         // 1/2 c v^2 + 1/2 ct omega^2, and the squares of the entries of Rdot add up to 2 omega^2
-        &ForceLaw::Drag {
-            point,
-            damping,
-            turning_damping,
-        } => {
+        &ForceLaw::Drag { point, damping, turning_damping } => {
             let frame = poses.point(point);
             let squares = |columns: std::ops::Range<usize>| {
                 let mut sum = D::zero();
@@ -264,7 +211,6 @@ fn model_forces<'a, D>(flow: &Flow<'a, D>) -> impl Iterator<Item = &'a ForceLaw>
 /// `1/2 x . A x`.
 fn half_form<D: Scalar>(a: [[D; 3]; 3], x: [D; 3]) -> D {
     let rows = a.iter().zip(x);
-    let products =
-        rows.flat_map(|(row, xi)| row.iter().zip(x).map(move |(&aij, xj)| xi * aij * xj));
+    let products = rows.flat_map(|(row, xi)| row.iter().zip(x).map(move |(&aij, xj)| xi * aij * xj));
     products.sum::<D>() * 0.5
 }

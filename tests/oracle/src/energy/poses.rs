@@ -42,13 +42,7 @@ impl<'a, D: Scalar> Poses<'a, D> {
                 across = multiply(&across, &beams::section(beam, q, place, &design));
             }
             for (step, declared) in joint.motions().iter().enumerate() {
-                let x = coordinates[index(
-                    &names,
-                    Coordinate {
-                        joint: branch.joint,
-                        step,
-                    },
-                )];
+                let x = coordinates[index(&names, Coordinate { joint: branch.joint, step })];
                 across = multiply(&across, &displacement(declared, x, &design));
             }
             // The pose of the `to` body in the `from` body
@@ -62,12 +56,7 @@ impl<'a, D: Scalar> Poses<'a, D> {
                 Frame::Body(parent) => multiply(&bodies[parent], &across),
             };
         }
-        Self {
-            model,
-            coordinates,
-            design,
-            bodies,
-        }
+        Self { model, coordinates, design, bodies }
     }
 
     /// The frame of a point in the ground.
@@ -112,10 +101,7 @@ fn displacement<D: Scalar>(step: &Step, x: D, design: &[D]) -> Four<D> {
     match step.motion {
         Motion::Turn => quaternion_rotation(step.axis, x),
         Motion::Slide => along(x),
-        Motion::Screw { lead } => multiply(
-            &along(get(lead, design) * x),
-            &quaternion_rotation(step.axis, x),
-        ),
+        Motion::Screw { lead } => multiply(&along(get(lead, design) * x), &quaternion_rotation(step.axis, x)),
     }
 }
 
@@ -125,9 +111,7 @@ pub(super) fn placed<D: Scalar>(placement: &Placement, design: &[D]) -> Four<D> 
     placement
         .rotations
         .iter()
-        .fold(start, |pose, (axis, angle)| {
-            multiply(&pose, &quaternion_rotation(*axis, get(*angle, design)))
-        })
+        .fold(start, |pose, (axis, angle)| multiply(&pose, &quaternion_rotation(*axis, get(*angle, design))))
 }
 
 pub(super) fn norm(axis: [f64; 3]) -> f64 {
@@ -151,24 +135,9 @@ pub(super) fn quaternion_rotation<D: Scalar>(axis: [f64; 3], angle: D) -> Four<D
 pub(super) fn quaternion<D: Scalar>(w: D, [x, y, z]: [D; 3]) -> Four<D> {
     let (o, i) = (D::zero(), D::one());
     [
-        [
-            i - (y * y + z * z) * 2.0,
-            (x * y - w * z) * 2.0,
-            (x * z + w * y) * 2.0,
-            o,
-        ],
-        [
-            (x * y + w * z) * 2.0,
-            i - (x * x + z * z) * 2.0,
-            (y * z - w * x) * 2.0,
-            o,
-        ],
-        [
-            (x * z - w * y) * 2.0,
-            (y * z + w * x) * 2.0,
-            i - (x * x + y * y) * 2.0,
-            o,
-        ],
+        [i - (y * y + z * z) * 2.0, (x * y - w * z) * 2.0, (x * z + w * y) * 2.0, o],
+        [(x * y + w * z) * 2.0, i - (x * x + z * z) * 2.0, (y * z - w * x) * 2.0, o],
+        [(x * z - w * y) * 2.0, (y * z + w * x) * 2.0, i - (x * x + y * y) * 2.0, o],
         [o, o, o, i],
     ]
 }

@@ -41,22 +41,11 @@ impl Work<'_> {
             }
             ForceLaw::Generalized { coordinate, value } => {
                 let all = self.flow.model.coordinates();
-                if index(&all, *coordinate) == self.coordinate {
-                    self.value(value, Dual64::from(0.0))
-                } else {
-                    0.0
-                }
+                if index(&all, *coordinate) == self.coordinate { self.value(value, Dual64::from(0.0)) } else { 0.0 }
             }
             // M . dphi with M = -kr r - cr r', and F . dd with the antisymmetric parts of k and c, which have neither
             // energy nor dissipation; everything as seen in `from`
-            ForceLaw::Bushing {
-                from,
-                to,
-                stiffness,
-                damping,
-                turning_stiffness,
-                turning_damping,
-            } => {
+            ForceLaw::Bushing { from, to, stiffness, damping, turning_stiffness, turning_damping } => {
                 let relative = self.moving.relative(*from, *to);
                 let half = |i: usize, j: usize| (relative[i][j] - relative[j][i]) * 0.5;
                 let r = [half(2, 1), half(0, 2), half(1, 0)];
@@ -65,32 +54,18 @@ impl Work<'_> {
                 let displaced = self.displaced.relative(*from, *to);
                 let [k, c] = [stiffness, damping].map(|matrix| antisymmetric(self.rows(matrix)));
                 let force = resistance([k, c], [relative[0][3], relative[1][3], relative[2][3]]);
-                let displacement = [
-                    displaced[0][3].eps,
-                    displaced[1][3].eps,
-                    displaced[2][3].eps,
-                ];
+                let displacement = [displaced[0][3].eps, displaced[1][3].eps, displaced[2][3].eps];
                 dot(moment, rotation(&displaced)) + dot(force, displacement)
             }
-            ForceLaw::Load {
-                point,
-                moment,
-                following: false,
-                ..
-            } => dot(self.all(moment), rotation(&self.displaced.point(*point))),
-            ForceLaw::Load {
-                point,
-                force,
-                moment,
-                following: true,
-            } => {
+            ForceLaw::Load { point, moment, following: false, .. } => {
+                dot(self.all(moment), rotation(&self.displaced.point(*point)))
+            }
+            ForceLaw::Load { point, force, moment, following: true } => {
                 let frame = self.displaced.point(*point);
-                let turned = |v: [f64; 3]| -> [f64; 3] {
-                    std::array::from_fn(|i| (0..3).map(|j| frame[i][j].re * v[j]).sum())
-                };
+                let turned =
+                    |v: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| (0..3).map(|j| frame[i][j].re * v[j]).sum()) };
                 let displacement = [frame[0][3].eps, frame[1][3].eps, frame[2][3].eps];
-                dot(turned(self.all(force)), displacement)
-                    + dot(turned(self.all(moment)), rotation(&frame))
+                dot(turned(self.all(force)), displacement) + dot(turned(self.all(moment)), rotation(&frame))
             }
             _ => 0.0,
         }
@@ -98,11 +73,7 @@ impl Work<'_> {
 
     fn value(&self, expr: &Expr, length: Dual64) -> f64 {
         let rate = |coordinate| Dual64::from(self.moving.coordinate(coordinate).eps);
-        let rates = Rates {
-            of: &rate,
-            length,
-            length_rate: Dual64::from(length.eps),
-        };
+        let rates = Rates { of: &rate, length, length_rate: Dual64::from(length.eps) };
         evaluate_with(expr, self.flow.inputs, &self.moving, &rates).re
     }
 
@@ -128,11 +99,7 @@ fn antisymmetric(a: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
 
 /// The virtual rotation of a frame: `[dphi]x = dR R^T`.
 fn rotation(frame: &Four<Dual64>) -> [f64; 3] {
-    let entry = |i: usize, j: usize| -> f64 {
-        (0..3)
-            .map(|k| frame[i][k].eps * frame[j][k].re)
-            .sum::<f64>()
-    };
+    let entry = |i: usize, j: usize| -> f64 { (0..3).map(|k| frame[i][k].eps * frame[j][k].re).sum::<f64>() };
     [entry(2, 1), entry(0, 2), entry(1, 0)]
 }
 

@@ -2,8 +2,8 @@
 
 use super::{body, prismatic, spinning};
 use crate::model::{
-    Amount, Coordinate, Expr, Force, ForceLaw, Frame, Joint, Matrix, Model, Motion, ORIGIN, Part,
-    Placement, Point, Shape, Step, Unit, Value, Word, diagonal,
+    Amount, Coordinate, Expr, Force, ForceLaw, Frame, Joint, Matrix, Model, Motion, ORIGIN, Part, Placement, Point,
+    Shape, Step, Unit, Value, Word, diagonal,
 };
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
@@ -15,12 +15,7 @@ fn number(number: f64) -> Value {
 }
 
 fn disk(mass: f64) -> Vec<Part> {
-    vec![Part::whole(Shape::Disk {
-        mass: Amount::Mass(number(mass)),
-        radius: number(0.2),
-        axis: Z,
-        center: ORIGIN,
-    })]
+    vec![Part::whole(Shape::Disk { mass: Amount::Mass(number(mass)), radius: number(0.2), axis: Z, center: ORIGIN })]
 }
 
 fn force(model: &mut Model, law: ForceLaw) {
@@ -30,22 +25,14 @@ fn force(model: &mut Model, law: ForceLaw) {
 
 fn point(model: &mut Model, frame: Frame) -> usize {
     let name = format!("point{}", model.points.len());
-    model.points.push(Point {
-        name,
-        frame,
-        placement: Placement::NONE,
-    });
+    model.points.push(Point { name, frame, placement: Placement::NONE });
     model.points.len() - 1
 }
 
 /// Drag of the surrounding medium on the disk.
 fn external(model: &mut Model, disk: usize, damping: f64) {
     let point = point(model, Frame::Body(disk));
-    let law = ForceLaw::Drag {
-        point,
-        damping: number(damping),
-        turning_damping: number(0.3),
-    };
+    let law = ForceLaw::Drag { point, damping: number(damping), turning_damping: number(0.3) };
     force(model, law);
 }
 
@@ -62,11 +49,7 @@ pub fn jeffcott_in_the_ground(mass: f64, stiffness: [f64; 2], damping: f64) -> M
     model.joints = vec![Joint::new("bearing", Word::Planar, steps, ground, disk)];
     for (step, stiffness) in stiffness.into_iter().enumerate() {
         let coordinate = Coordinate { joint: 0, step };
-        let law = ForceLaw::Spring {
-            coordinate,
-            stiffness: number(stiffness),
-            rest: number(0.0),
-        };
+        let law = ForceLaw::Spring { coordinate, stiffness: number(stiffness), rest: number(0.0) };
         force(&mut model, law);
     }
     external(&mut model, 0, damping);
@@ -78,15 +61,8 @@ pub fn jeffcott_in_the_shaft(mass: f64, stiffness: f64, internal: f64, damping: 
     let mut model = plain_in_the_shaft(mass);
     for joint in [1, 2] {
         let coordinate = Coordinate { joint, step: 0 };
-        let spring = ForceLaw::Spring {
-            coordinate,
-            stiffness: number(stiffness),
-            rest: number(0.0),
-        };
-        let damper = ForceLaw::Damper {
-            coordinate,
-            damping: number(internal),
-        };
+        let spring = ForceLaw::Spring { coordinate, stiffness: number(stiffness), rest: number(0.0) };
+        let damper = ForceLaw::Damper { coordinate, damping: number(internal) };
         force(&mut model, spring);
         force(&mut model, damper);
     }
@@ -98,12 +74,8 @@ fn plain_in_the_shaft(mass: f64) -> Model {
     let mut model = spinning("Jeffcott");
     model.bodies.push(body("carriage", Vec::new()));
     model.bodies.push(body("disk", disk(mass)));
-    model
-        .joints
-        .push(prismatic("along_x", X, Frame::Body(0), 1));
-    model
-        .joints
-        .push(prismatic("along_y", Y, Frame::Body(1), 2));
+    model.joints.push(prismatic("along_x", X, Frame::Body(0), 1));
+    model.joints.push(prismatic("along_y", Y, Frame::Body(1), 2));
     model
 }
 
@@ -115,13 +87,7 @@ pub fn steadied_by_the_shaft(mass: f64, stiffness: f64, internal: f64, damping: 
     model.bodies.push(body("shaft", Vec::new()));
     let step = Step::new(Motion::Turn, Z).driven(0, 1.0);
     let (ground, shaft) = (Frame::Ground, Frame::Body(1));
-    model.joints.push(Joint::new(
-        "spin",
-        Word::Revolute,
-        vec![step],
-        ground,
-        shaft,
-    ));
+    model.joints.push(Joint::new("spin", Word::Revolute, vec![step], ground, shaft));
     let (from, to) = (point(&mut model, shaft), point(&mut model, Frame::Body(0)));
     let all = |value: f64| -> Matrix { diagonal([number(value); 3]) };
     let law = ForceLaw::Bushing {

@@ -16,9 +16,7 @@ fn turned<D: Scalar>(beam: &Beam, turn: [D; 3]) -> Matrix<D> {
         return rotation(beam.axes[axis], turn[axis]);
     }
     let axes = beam.axes.iter().zip(turn);
-    let psi = axes.fold(Vector::zero(), |sum, (&axis, turn)| {
-        sum + Vector::constant(axis).scaled(turn)
-    });
+    let psi = axes.fold(Vector::zero(), |sum, (&axis, turn)| sum + Vector::constant(axis).scaled(turn));
     let [x, y, z] = psi.0;
     let o = D::zero();
     let s = Matrix([[o, -z, y], [z, o, -x], [-y, x, o]]);
@@ -48,16 +46,11 @@ fn section<D: Scalar>(beam: &Beam, q: &[D], place: f64, design: &[D]) -> Pose<D>
         let heading = Vector([stretch + 1.0 - shortening, second, third]);
         let heading = curved(beam, item.place, design) * heading;
         let axes = beam.axes.iter().zip(heading.0);
-        let direction = axes.fold(Vector::zero(), |sum, (&axis, item)| {
-            sum + Vector::constant(axis).scaled(item)
-        });
+        let direction = axes.fold(Vector::zero(), |sum, (&axis, item)| sum + Vector::constant(axis).scaled(item));
         let direction = turned(beam, beam.turn(q, item.place)) * direction;
         sum + direction.scaled(D::from(weight))
     });
-    Pose {
-        rotation: turned(beam, beam.turn(q, place)),
-        origin: mean.scaled(length),
-    }
+    Pose { rotation: turned(beam, beam.turn(q, place)), origin: mean.scaled(length) }
 }
 
 /// Twist and curvatures along the axes of the beam: `f (psi' - psi x psi' / 2) / L`; in a plane, the slope of the
@@ -84,18 +77,9 @@ fn strain<D: Scalar>(beam: &Beam, q: &[D], section: &Section, design: &[D]) -> V
         return Vector(coordinates);
     }
     let length = value(beam.length, design);
-    let [psi, slope, curl] = [
-        beam.turn(q, section.place),
-        beam.slope(q, section.place),
-        beam.curl(q, section.place),
-    ];
+    let [psi, slope, curl] = [beam.turn(q, section.place), beam.slope(q, section.place), beam.curl(q, section.place)];
     let advanced = |at: [D; 3], by: [D; 3]| Vector([0, 1, 2].map(|i| Dual::new(at[i], by[i])));
-    let kappa = curvature(
-        beam,
-        advanced(psi, slope),
-        advanced(slope, curl),
-        Dual::from_re(length),
-    );
+    let kappa = curvature(beam, advanced(psi, slope), advanced(slope, curl), Dual::from_re(length));
     let points = beam.sections.iter().zip(beam.slopes_at(section.place));
     let growth = points.fold(Matrix::constant([[0.0; 3]; 3]), |sum, (other, share)| {
         sum + stiffness(beam, other, BENDING, design).scaled(D::from(share))
@@ -118,12 +102,7 @@ fn strain<D: Scalar>(beam: &Beam, q: &[D], section: &Section, design: &[D]) -> V
 }
 
 /// A tensor along the axes of an unloaded section, along those of the root: turned by the arc, and by the twist about it.
-fn turned_with<D: Scalar>(
-    beam: &Beam,
-    section: &Section,
-    matrix: Matrix<D>,
-    design: &[D],
-) -> Matrix<D> {
+fn turned_with<D: Scalar>(beam: &Beam, section: &Section, matrix: Matrix<D>, design: &[D]) -> Matrix<D> {
     let twist = rotation([1.0, 0.0, 0.0], value(section.twist, design));
     let axes = curved(beam, section.place, design) * twist;
     axes * matrix * axes.transpose()
@@ -136,12 +115,7 @@ const COUPLING: [usize; 2] = [0, 3];
 const BENDING: [usize; 2] = [3, 3];
 
 /// A block of the stiffness of a section, along the axes of the root.
-fn stiffness<D: Scalar>(
-    beam: &Beam,
-    section: &Section,
-    [row, column]: [usize; 2],
-    design: &[D],
-) -> Matrix<D> {
+fn stiffness<D: Scalar>(beam: &Beam, section: &Section, [row, column]: [usize; 2], design: &[D]) -> Matrix<D> {
     let entry = |i: usize, j: usize| value(section.stiffness[row + i][column + j], design);
     let matrix = Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))));
     turned_with(beam, section, matrix, design)
@@ -187,18 +161,11 @@ impl Oracle<'_> {
         let axis = |step: usize| {
             let moved = beyond(&seeded(&q, step));
             let turn = moved.rotation.rate() * moved.rotation.now().transpose();
-            Axis {
-                origin: moved.origin.now(),
-                spin: turn.vee(),
-                slide: moved.origin.rate(),
-            }
+            Axis { origin: moved.origin.now(), spin: turn.vee(), slide: moved.origin.rate() }
         };
         let axes = (0..q.len()).map(axis).collect();
         let here = beyond(&still(&q));
-        let here = Pose {
-            rotation: here.rotation.now(),
-            origin: here.origin.now(),
-        };
+        let here = Pose { rotation: here.rotation.now(), origin: here.origin.now() };
         (here, axes)
     }
 
@@ -206,11 +173,7 @@ impl Oracle<'_> {
     /// moment `D kappa + B^T gamma`, the force `A gamma + B kappa` and in both for `kappa`
     /// `kappa + lag (kappadot - spin e1 x kappa)`, and the same for stretch and shear `gamma`, all along the axes of the
     /// root as they turn.
-    pub(super) fn elastic<D: Scalar>(
-        &self,
-        beam: &Beam,
-        moving: &Moving<D>,
-    ) -> Vec<(Coordinate, D)> {
+    pub(super) fn elastic<D: Scalar>(&self, beam: &Beam, moving: &Moving<D>) -> Vec<(Coordinate, D)> {
         let design = &moving.state.design;
         let (length, lag) = (value(beam.length, design), value(beam.lag, design));
         let (driven, drives) = moving.driven;
@@ -245,8 +208,6 @@ impl Oracle<'_> {
         }
         let joint = beam.joint;
         let efforts = efforts.into_iter().enumerate();
-        efforts
-            .map(|(step, effort)| (Coordinate { joint, step }, effort))
-            .collect()
+        efforts.map(|(step, effort)| (Coordinate { joint, step }, effort)).collect()
     }
 }

@@ -20,10 +20,7 @@ pub(crate) fn vector<D: Scalar>(values: &Values, design: &[D]) -> Vector<D> {
 
 /// Pose of a placement: the offset, then each rotation about the axes resulting from the previous one.
 pub(crate) fn placement<D: Scalar>(placement: &Placement, design: &[D]) -> Pose<D> {
-    let mut pose = Pose {
-        origin: vector(&placement.offset, design),
-        ..Pose::identity()
-    };
+    let mut pose = Pose { origin: vector(&placement.offset, design), ..Pose::identity() };
     for (axis, angle) in &placement.rotations {
         pose.rotation = pose.rotation * rotation(*axis, value(*angle, design));
     }
@@ -51,23 +48,12 @@ pub(crate) fn inertia<D: Scalar>(parts: &[Part], design: &[D]) -> Inertia<D> {
         .iter()
         .map(|part| {
             let sign = D::from(if part.hole { -1.0 } else { 1.0 });
-            let (pose, piece) = (
-                placement(&part.placement, design),
-                shape(&part.shape, design),
-            );
+            let (pose, piece) = (placement(&part.placement, design), shape(&part.shape, design));
             let tensor = pose.rotation * piece.tensor * pose.rotation.transpose();
-            (
-                piece.mass * sign,
-                pose.point(piece.center),
-                tensor.scaled(sign),
-            )
+            (piece.mass * sign, pose.point(piece.center), tensor.scaled(sign))
         })
         .collect();
-    let mut total = Inertia {
-        mass: D::zero(),
-        center: Vector::zero(),
-        tensor: Matrix::constant([[0.0; 3]; 3]),
-    };
+    let mut total = Inertia { mass: D::zero(), center: Vector::zero(), tensor: Matrix::constant([[0.0; 3]; 3]) };
     if pieces.is_empty() {
         return total;
     }
@@ -100,18 +86,11 @@ fn mass_of<D: Scalar>(amount: Amount, volume: D, design: &[D]) -> D {
 fn shape<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
     let get = |v: &Value| value(*v, design);
     match shape {
-        Shape::Point { mass, center } => Inertia {
-            mass: get(mass),
-            center: vector(center, design),
-            tensor: Matrix::constant([[0.0; 3]; 3]),
-        },
+        Shape::Point { mass, center } => {
+            Inertia { mass: get(mass), center: vector(center, design), tensor: Matrix::constant([[0.0; 3]; 3]) }
+        }
         // m L^2 / 12 across, zero along.
-        Shape::Rod {
-            mass,
-            length,
-            along,
-            center,
-        } => {
+        Shape::Rod { mass, length, along, center } => {
             let (l, a) = (get(length), unit(*along));
             let m = mass_of(*mass, l, design);
             let half = Vector::constant(a).scaled(l * 0.5);
@@ -123,12 +102,7 @@ fn shape<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
             }
         }
         // m r^2 / 2 along, m r^2 / 4 across.
-        Shape::Disk {
-            mass,
-            radius,
-            axis,
-            center,
-        } => {
+        Shape::Disk { mass, radius, axis, center } => {
             let r = get(radius);
             let m = mass_of(*mass, r * r * PI, design);
             Inertia {
@@ -138,31 +112,14 @@ fn shape<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
             }
         }
         // m r^2 / 2 along, m (3 r^2 + L^2) / 12 across.
-        Shape::Cylinder {
-            mass,
-            radius,
-            length,
-            axis,
-            center,
-        } => {
+        Shape::Cylinder { mass, radius, length, axis, center } => {
             let (r, l) = (get(radius), get(length));
             let m = mass_of(*mass, r * r * l * PI, design);
             let across = m * (r * r * 3.0 + l * l) / 12.0;
-            Inertia {
-                mass: m,
-                center: vector(center, design),
-                tensor: symmetric(unit(*axis), m * r * r / 2.0, across),
-            }
+            Inertia { mass: m, center: vector(center, design), tensor: symmetric(unit(*axis), m * r * r / 2.0, across) }
         }
         // m (a^2 + b^2) / 2 along, m (3 (a^2 + b^2) + L^2) / 12 across.
-        Shape::Tube {
-            mass,
-            inner,
-            outer,
-            length,
-            axis,
-            center,
-        } => {
+        Shape::Tube { mass, inner, outer, length, axis, center } => {
             let (a, b, l) = (get(inner), get(outer), get(length));
             let m = mass_of(*mass, (b * b - a * a) * l * PI, design);
             let squares = a * a + b * b;
@@ -178,48 +135,23 @@ fn shape<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
             let [a, b, c] = size.map(|edge| value(edge, design));
             let m = mass_of(*mass, a * b * c, design);
             let (o, k) = (D::zero(), m / 12.0);
-            let rows = [
-                [k * (b * b + c * c), o, o],
-                [o, k * (a * a + c * c), o],
-                [o, o, k * (a * a + b * b)],
-            ];
-            Inertia {
-                mass: m,
-                center: vector(center, design),
-                tensor: Matrix(rows),
-            }
+            let rows = [[k * (b * b + c * c), o, o], [o, k * (a * a + c * c), o], [o, o, k * (a * a + b * b)]];
+            Inertia { mass: m, center: vector(center, design), tensor: Matrix(rows) }
         }
         // 2 m r^2 / 5 about any axis.
-        Shape::Sphere {
-            mass,
-            radius,
-            center,
-        } => {
+        Shape::Sphere { mass, radius, center } => {
             let r = get(radius);
             let m = mass_of(*mass, r * r * r * (4.0 * PI / 3.0), design);
-            Inertia {
-                mass: m,
-                center: vector(center, design),
-                tensor: Matrix::identity().scaled(m * r * r * 0.4),
-            }
+            Inertia { mass: m, center: vector(center, design), tensor: Matrix::identity().scaled(m * r * r * 0.4) }
         }
         // J_center = J_about - m (d . d I - d d^T) with d = center - about.
-        Shape::Rigid {
-            mass,
-            center,
-            inertia,
-            about,
-        } => {
+        Shape::Rigid { mass, center, inertia, about } => {
             let [xx, yy, zz, xy, yz, xz] = inertia.map(|entry| value(entry, design));
             let tensor = Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
             let (mass, center) = (get(mass), vector(center, design));
             let about = about.as_ref().map_or(center, |about| vector(about, design));
             let away = steiner(mass, center - about);
-            Inertia {
-                mass,
-                center,
-                tensor: tensor + away.scaled(D::from(-1.0)),
-            }
+            Inertia { mass, center, tensor: tensor + away.scaled(D::from(-1.0)) }
         }
     }
 }

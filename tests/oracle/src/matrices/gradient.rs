@@ -20,14 +20,8 @@ impl Functional for ModeFunctional {
         let (&lambda, phi) = fixed.split_last().expect("phi and lambda");
         let rest = State::at_rest(q, u, b).lifted();
         // Khat phi and Mhat phi: g differentiated along phi in q and in qddot
-        let stiff = State {
-            position: along(q, phi),
-            ..rest.clone()
-        };
-        let heavy = State {
-            acceleration: along(&vec![D::zero(); q.len()], phi),
-            ..rest
-        };
+        let stiff = State { position: along(q, phi), ..rest.clone() };
+        let heavy = State { acceleration: along(&vec![D::zero(); q.len()], phi), ..rest };
         let stiff = rates(&oracle.motion_residual(&stiff));
         let heavy = rates(&oracle.motion_residual(&heavy));
         let term = |i: usize| phi[i] * (stiff[i] - lambda * heavy[i]);
@@ -59,12 +53,7 @@ pub struct ResidualFunctional;
 
 impl Functional for ResidualFunctional {
     fn value<D: Scalar>(&self, oracle: &Oracle, [q, u, b]: [&[D]; 3], fixed: &[D]) -> D {
-        oracle
-            .residual(q, u, b)
-            .iter()
-            .zip(fixed)
-            .map(|(&g, &w)| g * w)
-            .sum()
+        oracle.residual(q, u, b).iter().zip(fixed).map(|(&g, &w)| g * w).sum()
     }
 }
 
@@ -79,12 +68,7 @@ pub struct Along<'a> {
 
 impl Oracle<'_> {
     /// Gradient of a functional by coordinates, inputs and design variables.
-    pub fn gradient<D: Scalar>(
-        &self,
-        functional: &impl Functional,
-        at: [&[D]; 3],
-        fixed: &[D],
-    ) -> [Vec<D>; 3] {
+    pub fn gradient<D: Scalar>(&self, functional: &impl Functional, at: [&[D]; 3], fixed: &[D]) -> [Vec<D>; 3] {
         let fixed = still(fixed);
         std::array::from_fn(|group| {
             let partial = |k: usize| {
@@ -105,8 +89,7 @@ impl Oracle<'_> {
         fixed: &[f64],
         direction: Along,
     ) -> [Vec<f64>; 3] {
-        let moved: [Vec<Dual<f64>>; 3] =
-            std::array::from_fn(|group| along(at[group], direction.at[group]));
+        let moved: [Vec<Dual<f64>>; 3] = std::array::from_fn(|group| along(at[group], direction.at[group]));
         let [q, u, b] = &moved;
         let gradient = self.gradient(functional, [q, u, b], &along(fixed, direction.fixed));
         gradient.map(|part| rates(&part))

@@ -78,18 +78,9 @@ fn displacement<D: Scalar>(step: &Step, q: D, design: &[D]) -> Pose<D> {
     let e = Vector::constant(unit(step.axis));
     let zero = Pose::identity();
     match step.motion {
-        Motion::Turn => Pose {
-            rotation: rotation(step.axis, q),
-            ..zero
-        },
-        Motion::Slide => Pose {
-            origin: e.scaled(q),
-            ..zero
-        },
-        Motion::Screw { lead } => Pose {
-            rotation: rotation(step.axis, q),
-            origin: e.scaled(value(lead, design) * q),
-        },
+        Motion::Turn => Pose { rotation: rotation(step.axis, q), ..zero },
+        Motion::Slide => Pose { origin: e.scaled(q), ..zero },
+        Motion::Screw { lead } => Pose { rotation: rotation(step.axis, q), origin: e.scaled(value(lead, design) * q) },
     }
 }
 
@@ -101,29 +92,17 @@ fn axis<D: Scalar>(step: &Step, frame: Pose<D>, sign: f64, design: &[D]) -> Axis
         Motion::Slide => (Vector::zero(), e),
         Motion::Screw { lead } => (e, e.scaled(value(lead, design))),
     };
-    Axis {
-        origin: frame.origin,
-        spin,
-        slide,
-    }
+    Axis { origin: frame.origin, spin, slide }
 }
 
 impl Oracle<'_> {
     /// Pose of every body: `X_child = X_parent X_from J_1(q_1) ... J_k(q_k) X_to^-1`. A joint declared from the child
     /// to its parent is traversed the other way, `X_child = X_parent X_to J_k(-q_k) ... J_1(-q_1) X_from^-1`.
-    pub(crate) fn configuration<D: Scalar>(
-        &self,
-        free: &[D],
-        driven: &[D],
-        design: &[D],
-    ) -> Configuration<D> {
+    pub(crate) fn configuration<D: Scalar>(&self, free: &[D], driven: &[D], design: &[D]) -> Configuration<D> {
         let model = self.model;
         let zero = Pose::identity();
         let mut at = Configuration {
-            ground: Pose {
-                rotation: Matrix::constant(self.ground),
-                ..zero
-            },
+            ground: Pose { rotation: Matrix::constant(self.ground), ..zero },
             bodies: vec![zero; model.bodies.len()],
             centers: vec![Vector::zero(); model.bodies.len()],
             axes: vec![Vec::new(); model.joints.len()],
@@ -132,11 +111,7 @@ impl Oracle<'_> {
             let joint = &model.joints[branch.joint];
             let from = placement(&joint.from_placement, design);
             let to = placement(&joint.to_placement, design);
-            let (inboard, outboard, sign) = if branch.reversed {
-                (to, from, -1.0)
-            } else {
-                (from, to, 1.0)
-            };
+            let (inboard, outboard, sign) = if branch.reversed { (to, from, -1.0) } else { (from, to, 1.0) };
             let mut order: Vec<usize> = (0..joint.motions().len()).collect();
             if branch.reversed {
                 order.reverse();
@@ -144,14 +119,10 @@ impl Oracle<'_> {
             let mut frame = at.pose(branch.parent) * inboard;
             let mut axes = Vec::new();
             if let Some(flexure) = joint.flexure {
-                (frame, axes) =
-                    self.across(flexure, branch.reversed, frame, [free, driven, design]);
+                (frame, axes) = self.across(flexure, branch.reversed, frame, [free, driven, design]);
             }
             for &step in &order {
-                let coordinate = Coordinate {
-                    joint: branch.joint,
-                    step,
-                };
+                let coordinate = Coordinate { joint: branch.joint, step };
                 let q = self.coordinate(coordinate, free, driven) * sign;
                 let step = &joint.steps[step];
                 axes.push(axis(step, frame, sign, design));
@@ -163,19 +134,13 @@ impl Oracle<'_> {
             at.axes[branch.joint] = axes;
             let pose = frame * outboard.inverse();
             at.bodies[branch.body] = pose;
-            at.centers[branch.body] =
-                pose.point(inertia(&model.bodies[branch.body].parts, design).center);
+            at.centers[branch.body] = pose.point(inertia(&model.bodies[branch.body].parts, design).center);
         }
         at
     }
 
     /// Looks up the value of a coordinate.
-    pub(crate) fn coordinate<D: Scalar>(
-        &self,
-        coordinate: Coordinate,
-        free: &[D],
-        driven: &[D],
-    ) -> D {
+    pub(crate) fn coordinate<D: Scalar>(&self, coordinate: Coordinate, free: &[D], driven: &[D]) -> D {
         let place = |list: &[Coordinate]| list.iter().position(|&other| other == coordinate);
         match place(&self.free) {
             Some(index) => free[index],
@@ -184,18 +149,12 @@ impl Oracle<'_> {
     }
 
     /// `B_D` and `B_R` (eq. 4), column by column.
-    pub(crate) fn velocity_transformation<D: Scalar>(
-        &self,
-        at: &Configuration<D>,
-    ) -> VelocityTransformation<D> {
+    pub(crate) fn velocity_transformation<D: Scalar>(&self, at: &Configuration<D>) -> VelocityTransformation<D> {
         let columns = |coordinates: &[Coordinate]| -> Columns<D> {
             let columns = coordinates.iter();
             columns.map(|&q| self.column(at, q)).collect()
         };
-        VelocityTransformation {
-            driven: columns(&self.driven),
-            free: columns(&self.free),
-        }
+        VelocityTransformation { driven: columns(&self.driven), free: columns(&self.free) }
     }
 
     /// The velocities that unit speed of one coordinate gives the bodies it carries: `v = s x (c - o) + t` and

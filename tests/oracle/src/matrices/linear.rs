@@ -29,11 +29,7 @@ pub struct LinearPartials {
 
 impl<D: Scalar> Linear<Dual<D>> {
     fn rates(&self) -> Linear<D> {
-        Linear {
-            mass: rates(&self.mass),
-            damping: rates(&self.damping),
-            stiffness: rates(&self.stiffness),
-        }
+        Linear { mass: rates(&self.mass), damping: rates(&self.damping), stiffness: rates(&self.stiffness) }
     }
 }
 
@@ -65,21 +61,16 @@ impl Oracle<'_> {
     /// row per coordinate.
     pub fn residual_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (q0, u0, b0) = (still(q), still(u), still(b));
-        let by_input = (0..u.len())
-            .map(|k| rates(&self.residual(&q0, &seeded(u, k), &b0)))
-            .collect::<Vec<_>>();
-        let by_design = (0..b.len())
-            .map(|k| rates(&self.residual(&q0, &u0, &seeded(b, k))))
-            .collect::<Vec<_>>();
+        let by_input = (0..u.len()).map(|k| rates(&self.residual(&q0, &seeded(u, k), &b0))).collect::<Vec<_>>();
+        let by_design = (0..b.len()).map(|k| rates(&self.residual(&q0, &u0, &seeded(b, k)))).collect::<Vec<_>>();
         (by_rows(&by_input), by_rows(&by_design))
     }
 
     /// Explicit partial derivatives of eqs. 15-17.
     pub fn linear_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> LinearPartials {
         let (q0, u0, b0) = (still(q), still(u), still(b));
-        let by = |count: usize, linear: &dyn Fn(usize) -> Linear<Dual<f64>>| {
-            (0..count).map(|k| linear(k).rates()).collect()
-        };
+        let by =
+            |count: usize, linear: &dyn Fn(usize) -> Linear<Dual<f64>>| (0..count).map(|k| linear(k).rates()).collect();
         LinearPartials {
             by_coordinate: by(q.len(), &|k| self.linear(&seeded(q, k), &u0, &b0)),
             by_input: by(u.len(), &|k| self.linear(&q0, &seeded(u, k), &b0)),
@@ -89,15 +80,12 @@ impl Oracle<'_> {
 
     /// Directional derivatives of eqs. 15-17 along `(dq, du, db)`.
     pub fn linear_along(&self, [q, u, b]: [&[f64]; 3], [dq, du, db]: [&[f64]; 3]) -> Linear<f64> {
-        self.linear(&along(q, dq), &along(u, du), &along(b, db))
-            .rates()
+        self.linear(&along(q, dq), &along(u, du), &along(b, db)).rates()
     }
 }
 
 /// The entries, by rows, of a matrix given by columns.
 fn by_rows<D: Scalar>(columns: &[Vec<D>]) -> Vec<D> {
     let rows = columns.first().map_or(0, Vec::len);
-    (0..rows)
-        .flat_map(|i| columns.iter().map(move |column| column[i]))
-        .collect()
+    (0..rows).flat_map(|i| columns.iter().map(move |column| column[i])).collect()
 }

@@ -55,11 +55,7 @@ impl<'a> Oracle<'a> {
     /// The same mechanism with its driven coordinates at other positions; in a steady state no kernel result may
     /// change.
     pub fn with_driven(mut self, position: &[f64]) -> Self {
-        assert_eq!(
-            position.len(),
-            self.driven.len(),
-            "one position per driven coordinate"
-        );
+        assert_eq!(position.len(), self.driven.len(), "one position per driven coordinate");
         self.driven_position = position.to_vec();
         self
     }

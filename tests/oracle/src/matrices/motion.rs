@@ -4,9 +4,7 @@ use num_dual::Dual;
 
 use super::bodies::inertia;
 use super::forces::Moving;
-use super::kinematics::{
-    Columns, Configuration, VelocityTransformation, of_body, rows_of, times, transposed_times,
-};
+use super::kinematics::{Columns, Configuration, VelocityTransformation, of_body, rows_of, times, transposed_times};
 use super::scalar::{along, rates, still};
 use super::space::{Matrix, Vector};
 use super::{Oracle, Scalar};
@@ -66,11 +64,7 @@ pub struct Motion<D> {
 impl<D: Scalar> Motion<D> {
     /// `Q*` (eq. 9).
     pub fn right_hand_side(&self) -> Vec<D> {
-        self.applied
-            .iter()
-            .zip(&self.inertia)
-            .map(|(&applied, &inertia)| applied - inertia)
-            .collect()
+        self.applied.iter().zip(&self.inertia).map(|(&applied, &inertia)| applied - inertia).collect()
     }
 }
 
@@ -96,10 +90,7 @@ impl<D: Scalar> Bodies<D> {
     fn times_mass(&self, x: &[D]) -> Vec<D> {
         let block = |body: usize| {
             let (linear, angular) = of_body(x, body);
-            rows_of(
-                linear.scaled(self.masses[body]),
-                self.tensors[body] * angular,
-            )
+            rows_of(linear.scaled(self.masses[body]), self.tensors[body] * angular)
         };
         (0..self.masses.len()).flat_map(block).collect()
     }
@@ -120,17 +111,12 @@ impl Oracle<'_> {
         let bodies = self.bodies(state);
         // M* = B_R^T (M B_R), one column at a time; it is symmetric
         let columns = bodies.b_free.iter().map(|column| bodies.times_mass(column));
-        let mass = columns
-            .map(|column| transposed_times(&bodies.b_free, &column))
-            .collect();
+        let mass = columns.map(|column| transposed_times(&bodies.b_free, &column)).collect();
         let inertial = sum(&bodies.times_mass(&bodies.bias), &bodies.gyroscopic);
         Motion {
             mass,
             inertia: transposed_times(&bodies.b_free, &inertial),
-            applied: sum(
-                &transposed_times(&bodies.b_free, &bodies.applied),
-                &bodies.generalized,
-            ),
+            applied: sum(&transposed_times(&bodies.b_free, &bodies.applied), &bodies.generalized),
         }
     }
 
@@ -139,19 +125,12 @@ impl Oracle<'_> {
     pub fn motion_residual<D: Scalar>(&self, state: &State<D>) -> Vec<D> {
         let bodies = self.bodies(state);
         let free = times(&bodies.b_free, &state.acceleration, bodies.bias.len());
-        let inertial = sum(
-            &bodies.times_mass(&sum(&free, &bodies.bias)),
-            &bodies.gyroscopic,
-        );
-        let unbalanced: Vec<D> = inertial
-            .iter()
-            .zip(&bodies.applied)
-            .map(|(&inertial, &applied)| inertial - applied)
-            .collect();
+        let inertial = sum(&bodies.times_mass(&sum(&free, &bodies.bias)), &bodies.gyroscopic);
+        let unbalanced: Vec<D> =
+            inertial.iter().zip(&bodies.applied).map(|(&inertial, &applied)| inertial - applied).collect();
         let projected = transposed_times(&bodies.b_free, &unbalanced);
         let both = projected.iter().zip(&bodies.generalized);
-        both.map(|(&unbalanced, &force)| unbalanced - force)
-            .collect()
+        both.map(|(&unbalanced, &force)| unbalanced - force).collect()
     }
 
     /// `Bdot_D u + Bdot_R qdot_R`: accelerations where the coordinates themselves have none.
@@ -168,28 +147,14 @@ impl Oracle<'_> {
         let at = self.configuration(&state.position, &driven, design);
         let b = self.velocity_transformation(&at);
         // xdot = B_D u + B_R qdot_R (4)
-        let velocities = sum(
-            &times(&b.driven, &drives, rows),
-            &times(&b.free, &state.velocity, rows),
-        );
+        let velocities = sum(&times(&b.driven, &drives, rows), &times(&b.free, &state.velocity, rows));
         // The same configuration advanced in time by epsilon.
-        let moving = self.configuration(
-            &along(&state.position, &state.velocity),
-            &along(&driven, &drives),
-            &still(design),
-        );
+        let moving =
+            self.configuration(&along(&state.position, &state.velocity), &along(&driven, &drives), &still(design));
         let b_dot = self.velocity_transformation_rate(&moving);
-        let bias = sum(
-            &times(&b_dot.driven, &drives, rows),
-            &times(&b_dot.free, &state.velocity, rows),
-        );
+        let bias = sum(&times(&b_dot.driven, &drives, rows), &times(&b_dot.free, &state.velocity, rows));
 
-        let inertias: Vec<_> = self
-            .model
-            .bodies
-            .iter()
-            .map(|body| inertia(&body.parts, design))
-            .collect();
+        let inertias: Vec<_> = self.model.bodies.iter().map(|body| inertia(&body.parts, design)).collect();
         let masses: Vec<D> = inertias.iter().map(|inertia| inertia.mass).collect();
         let tensors: Vec<Matrix<D>> = inertias
             .iter()
@@ -202,35 +167,16 @@ impl Oracle<'_> {
         });
         let gyroscopic = gyroscopic.collect();
 
-        let moving = Moving {
-            at: &at,
-            moving: &moving,
-            driven: (&driven, &drives),
-            state,
-        };
+        let moving = Moving { at: &at, moving: &moving, driven: (&driven, &drives), state };
         let (applied, generalized) = self.applied_forces(&moving, &masses);
-        Bodies {
-            b_free: b.free,
-            masses,
-            tensors,
-            bias,
-            gyroscopic,
-            applied,
-            generalized,
-        }
+        Bodies { b_free: b.free, masses, tensors, bias, gyroscopic, applied, generalized }
     }
 
     /// `Bdot_D` and `Bdot_R`: `B` differentiated along the speeds of all coordinates.
-    fn velocity_transformation_rate<D: Scalar>(
-        &self,
-        moving: &Configuration<Dual<D>>,
-    ) -> VelocityTransformation<D> {
+    fn velocity_transformation_rate<D: Scalar>(&self, moving: &Configuration<Dual<D>>) -> VelocityTransformation<D> {
         let b = self.velocity_transformation(moving);
         let rate = |columns: Vec<Vec<Dual<D>>>| columns.iter().map(|c| rates(c)).collect();
-        VelocityTransformation {
-            driven: rate(b.driven),
-            free: rate(b.free),
-        }
+        VelocityTransformation { driven: rate(b.driven), free: rate(b.free) }
     }
 }
 

@@ -55,10 +55,7 @@ impl Oracle<'_> {
 
     /// Mass, centre and central inertia of one piece of a body in the body frame; a hole counts as solid.
     pub fn piece(part: &Part, b: &[f64]) -> (f64, [f64; 3], [[f64; 3]; 3]) {
-        let whole = Part {
-            hole: false,
-            ..part.clone()
-        };
+        let whole = Part { hole: false, ..part.clone() };
         let found = inertia(&[whole], b);
         (found.mass, found.center.0, found.tensor.0)
     }

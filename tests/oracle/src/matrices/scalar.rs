@@ -9,24 +9,13 @@ impl<T: DualNum<Primitive = f64> + Copy> Scalar for T {}
 
 /// `x + epsilon dx` for every component.
 pub(crate) fn along<D: Scalar>(values: &[D], direction: &[D]) -> Vec<Dual<D>> {
-    assert_eq!(
-        values.len(),
-        direction.len(),
-        "one component of the direction per value"
-    );
-    values
-        .iter()
-        .zip(direction)
-        .map(|(&value, &rate)| Dual::new(value, rate))
-        .collect()
+    assert_eq!(values.len(), direction.len(), "one component of the direction per value");
+    values.iter().zip(direction).map(|(&value, &rate)| Dual::new(value, rate)).collect()
 }
 
 /// `x + 0 epsilon` for every component.
 pub(crate) fn still<D: Scalar>(values: &[D]) -> Vec<Dual<D>> {
-    values
-        .iter()
-        .map(|&value| Dual::new(value, D::zero()))
-        .collect()
+    values.iter().map(|&value| Dual::new(value, D::zero())).collect()
 }
 
 /// `x + epsilon e_k`.

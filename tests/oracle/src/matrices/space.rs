@@ -84,18 +84,14 @@ impl<D: Scalar> Matrix<D> {
     }
 
     pub(crate) fn transpose(self) -> Self {
-        Self(std::array::from_fn(|i| {
-            std::array::from_fn(|j| self.0[j][i])
-        }))
+        Self(std::array::from_fn(|i| std::array::from_fn(|j| self.0[j][i])))
     }
 }
 
 impl<D: Scalar> Add for Matrix<D> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| {
-            std::array::from_fn(|j| self.0[i][j] + other.0[i][j])
-        }))
+        Self(std::array::from_fn(|i| std::array::from_fn(|j| self.0[i][j] + other.0[i][j])))
     }
 }
 
@@ -110,19 +106,13 @@ impl<D: Scalar> Mul for Matrix<D> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let columns = other.transpose().0;
-        Self(
-            self.0
-                .map(|row| columns.map(|column| Vector(row).dot(Vector(column)))),
-        )
+        Self(self.0.map(|row| columns.map(|column| Vector(row).dot(Vector(column)))))
     }
 }
 
 impl<D: Scalar> Pose<D> {
     pub(crate) fn identity() -> Self {
-        Self {
-            rotation: Matrix::identity(),
-            origin: Vector::zero(),
-        }
+        Self { rotation: Matrix::identity(), origin: Vector::zero() }
     }
 
     /// Transforms a position from the inner frame to the outer frame.
@@ -132,20 +122,14 @@ impl<D: Scalar> Pose<D> {
 
     pub(crate) fn inverse(self) -> Self {
         let rotation = self.rotation.transpose();
-        Self {
-            rotation,
-            origin: Vector::zero() - rotation * self.origin,
-        }
+        Self { rotation, origin: Vector::zero() - rotation * self.origin }
     }
 }
 
 impl<D: Scalar> Mul for Pose<D> {
     type Output = Self;
     fn mul(self, inner: Self) -> Self {
-        Self {
-            rotation: self.rotation * inner.rotation,
-            origin: self.point(inner.origin),
-        }
+        Self { rotation: self.rotation * inner.rotation, origin: self.point(inner.origin) }
     }
 }
 
@@ -171,11 +155,7 @@ impl<D: Scalar> Matrix<Dual<D>> {
 
 /// The unit vector along `axis`.
 pub(crate) fn unit(axis: [f64; 3]) -> [f64; 3] {
-    let length = axis
-        .iter()
-        .map(|component| component * component)
-        .sum::<f64>()
-        .sqrt();
+    let length = axis.iter().map(|component| component * component).sum::<f64>().sqrt();
     assert!(length > 0.0, "an axis has a direction");
     axis.map(|component| component / length)
 }
@@ -186,7 +166,5 @@ pub(crate) fn rotation<D: Scalar>(axis: [f64; 3], angle: D) -> Matrix<D> {
     let [x, y, z] = e;
     let cross = Matrix::constant([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]);
     let (sine, cosine) = (angle.sin(), angle.cos());
-    Matrix::identity().scaled(cosine)
-        + cross.scaled(sine)
-        + Matrix::square(e).scaled(D::one() - cosine)
+    Matrix::identity().scaled(cosine) + cross.scaled(sine) + Matrix::square(e).scaled(D::one() - cosine)
 }

@@ -49,9 +49,7 @@ impl Oracle<'_> {
                 share += weight * across.map(|v| v.dot(v)).iter().sum::<f64>() / 2.0;
             }
             lateral += share;
-            let along = |moved: [Vector<f64>; 2]| {
-                moved.map(|v| omega.dot(v).powi(2)).iter().sum::<f64>() / 2.0
-            };
+            let along = |moved: [Vector<f64>; 2]| moved.map(|v| omega.dot(v).powi(2)).iter().sum::<f64>() / 2.0;
             axial += mass * along(on_axis);
             torsional += about_axis * along(turns);
             share += mass * along(on_axis) + about_axis * along(turns);

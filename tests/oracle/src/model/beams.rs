@@ -137,21 +137,13 @@ impl Beam {
     /// The factors `(x - x_i) / (x_k - x_i)` of Lagrange's polynomial of point `k`.
     fn others(&self, k: usize) -> impl Iterator<Item = (usize, impl Fn(f64) -> f64)> {
         let at = self.sections[k].place;
-        let others = self
-            .sections
-            .iter()
-            .enumerate()
-            .filter(move |(i, _)| *i != k);
+        let others = self.sections.iter().enumerate().filter(move |(i, _)| *i != k);
         others.map(move |(i, other)| (i, move |x: f64| (x - other.place) / (at - other.place)))
     }
 }
 
 /// Sums of coordinates of three kinds, one kind after the other, times the shape of their order.
-fn combined<D: DualNum<Primitive = f64> + Copy>(
-    counts: [usize; 3],
-    q: &[D],
-    shape: impl Fn(usize) -> f64,
-) -> [D; 3] {
+fn combined<D: DualNum<Primitive = f64> + Copy>(counts: [usize; 3], q: &[D], shape: impl Fn(usize) -> f64) -> [D; 3] {
     let mut rest = q;
     counts.map(|count| {
         let (own, others) = rest.split_at(count);

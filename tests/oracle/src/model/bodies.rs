@@ -26,11 +26,7 @@ pub struct Part {
 impl Part {
     /// A piece placed at the body frame itself.
     pub fn whole(shape: Shape) -> Self {
-        Self {
-            hole: false,
-            shape,
-            placement: Placement::NONE,
-        }
+        Self { hole: false, shape, placement: Placement::NONE }
     }
 }
 

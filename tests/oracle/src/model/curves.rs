@@ -35,9 +35,7 @@ impl Curve {
             let (slope, h) = chord(last - 1);
             return (x - last_x) * (slope + h * m[last - 1] / 6.0) + last_y;
         }
-        let k = (0..last)
-            .find(|&k| x.re() < points[k + 1][0])
-            .expect("inside the curve");
+        let k = (0..last).find(|&k| x.re() < points[k + 1][0]).expect("inside the curve");
         let ([x0, y0], [x1, y1]) = (points[k], points[k + 1]);
         let h = x1 - x0;
         let (left, right) = (-x + x1, x - x0);

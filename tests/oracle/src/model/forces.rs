@@ -65,9 +65,7 @@ impl Expr {
     /// The curves in the expression, in order.
     pub fn curves(&self) -> Vec<&Curve> {
         match self {
-            Self::Sum(parts) | Self::Product(parts) => {
-                parts.iter().flat_map(Self::curves).collect()
-            }
+            Self::Sum(parts) | Self::Product(parts) => parts.iter().flat_map(Self::curves).collect(),
             Self::Power(part, _) | Self::Sine(part) | Self::Cosine(part) => part.curves(),
             Self::Curve(curve, part) => {
                 let mut curves = part.curves();
@@ -84,19 +82,14 @@ impl Expr {
             Self::Sum(parts) | Self::Product(parts) => {
                 parts.iter().for_each(|part| part.leaves(visit));
             }
-            Self::Power(part, _) | Self::Sine(part) | Self::Cosine(part) | Self::Curve(_, part) => {
-                part.leaves(visit)
-            }
+            Self::Power(part, _) | Self::Sine(part) | Self::Cosine(part) | Self::Curve(_, part) => part.leaves(visit),
             leaf => visit(leaf),
         }
     }
 }
 
 /// Force laws.
-#[allow(
-    clippy::large_enum_variant,
-    reason = "a model has a handful of them, and numbers are copied"
-)]
+#[allow(clippy::large_enum_variant, reason = "a model has a handful of them, and numbers are copied")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum ForceLaw {
     /// `-stiffness (q - rest)` on a coordinate.

@@ -107,28 +107,17 @@ pub struct Step {
 impl Step {
     /// A free step without a name.
     pub fn new(motion: Motion, axis: [f64; 3]) -> Self {
-        Self {
-            name: String::new(),
-            motion,
-            axis,
-            drive: None,
-        }
+        Self { name: String::new(), motion, axis, drive: None }
     }
 
     /// The same step with a name.
     pub fn named(self, name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            ..self
-        }
+        Self { name: name.to_owned(), ..self }
     }
 
     /// The same step, driven at `factor * input`.
     pub fn driven(self, input: usize, factor: f64) -> Self {
-        Self {
-            drive: Some(Drive { input, factor }),
-            ..self
-        }
+        Self { drive: Some(Drive { input, factor }), ..self }
     }
 }
 

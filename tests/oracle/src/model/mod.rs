@@ -37,17 +37,11 @@ pub struct Placement {
 
 impl Placement {
     /// No displacement at all.
-    pub const NONE: Self = Self {
-        offset: ORIGIN,
-        rotations: Vec::new(),
-    };
+    pub const NONE: Self = Self { offset: ORIGIN, rotations: Vec::new() };
 
     /// An offset without rotation.
     pub fn at(offset: Values) -> Self {
-        Self {
-            offset,
-            rotations: Vec::new(),
-        }
+        Self { offset, rotations: Vec::new() }
     }
 }
 
@@ -110,35 +104,22 @@ impl Model {
             let reached = |frame: Frame, branches: &[Branch]| {
                 frame == Frame::Ground || branches.iter().any(|b| Frame::Body(b.body) == frame)
             };
-            let found = self
-                .joints
-                .iter()
-                .enumerate()
-                .find_map(|(joint, declared)| {
-                    if used[joint] {
-                        return None;
+            let found = self.joints.iter().enumerate().find_map(|(joint, declared)| {
+                if used[joint] {
+                    return None;
+                }
+                match (declared.from, declared.to) {
+                    (parent, Frame::Body(body)) if reached(parent, &branches) => {
+                        Some(Branch { body, parent, joint, reversed: false })
                     }
-                    match (declared.from, declared.to) {
-                        (parent, Frame::Body(body)) if reached(parent, &branches) => Some(Branch {
-                            body,
-                            parent,
-                            joint,
-                            reversed: false,
-                        }),
-                        (Frame::Body(body), parent) if reached(parent, &branches) => Some(Branch {
-                            body,
-                            parent,
-                            joint,
-                            reversed: true,
-                        }),
-                        _ => None,
+                    (Frame::Body(body), parent) if reached(parent, &branches) => {
+                        Some(Branch { body, parent, joint, reversed: true })
                     }
-                });
+                    _ => None,
+                }
+            });
             let branch = found.expect("every body has a path to the ground");
-            assert!(
-                !reached(Frame::Body(branch.body), &branches),
-                "the joints close no loop"
-            );
+            assert!(!reached(Frame::Body(branch.body), &branches), "the joints close no loop");
             used[branch.joint] = true;
             branches.push(branch);
         }
@@ -172,10 +153,7 @@ impl Model {
 
     /// Nominal values of the design variables.
     pub fn nominal(&self) -> Vec<f64> {
-        self.design
-            .iter()
-            .map(|variable| variable.nominal)
-            .collect()
+        self.design.iter().map(|variable| variable.nominal).collect()
     }
 
     fn select(&self, wanted: impl Fn(&Step) -> bool) -> Vec<Coordinate> {

@@ -19,10 +19,7 @@ impl Value {
     pub fn negated(self) -> Self {
         match self {
             Self::Number(number) => Self::Number(-number),
-            Self::Design { variable, factor } => Self::Design {
-                variable,
-                factor: -factor,
-            },
+            Self::Design { variable, factor } => Self::Design { variable, factor: -factor },
         }
     }
 }

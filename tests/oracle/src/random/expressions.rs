@@ -23,11 +23,7 @@ impl Source {
     fn curve(&mut self, (size, unit): (f64, Unit), argument: Expr) -> Expr {
         self.curves += 1;
         let count = 2 + self.random.below(5);
-        let kind = if self.special {
-            self.random.below(4)
-        } else {
-            3
-        };
+        let kind = if self.special { self.random.below(4) } else { 3 };
         let mut x = -1.5 * size;
         let points = (1..=count).map(|k| {
             x += size * self.random.between(0.2, 1.4);
@@ -41,11 +37,8 @@ impl Source {
             };
             [x, y]
         });
-        let curve = Curve {
-            points: points.collect(),
-            name: format!("curve{}", self.curves),
-            units: [unit, Unit::Of([0; 3])],
-        };
+        let curve =
+            Curve { points: points.collect(), name: format!("curve{}", self.curves), units: [unit, Unit::Of([0; 3])] };
         Expr::Curve(curve, Box::new(argument))
     }
 
@@ -56,27 +49,11 @@ impl Source {
         let stretch = Expr::Length.minus(free);
         let cube = Expr::Power(Box::new(stretch.clone()), 3);
         Expr::Sum(vec![
-            Expr::Product(vec![
-                self.positive((10.0, 100.0), Unit::Newton, &[metre]),
-                stretch,
-            ]),
-            Expr::Product(vec![
-                self.factor((1.0, 20.0), Unit::Newton, &[metre; 3]),
-                cube,
-            ]),
-            Expr::Product(vec![
-                self.positive((0.1, 2.0), Unit::Newton, &[speed]),
-                Expr::LengthRate,
-            ]),
-            Expr::Product(vec![
-                self.factor((0.1, 1.0), Unit::Newton, &[speed, metre]),
-                Expr::LengthRate,
-                Expr::Length,
-            ]),
-            Expr::Product(vec![
-                self.factor((1.0, 10.0), Unit::Newton, &[]),
-                self.curve((0.7, metre), Expr::Length),
-            ]),
+            Expr::Product(vec![self.positive((10.0, 100.0), Unit::Newton, &[metre]), stretch]),
+            Expr::Product(vec![self.factor((1.0, 20.0), Unit::Newton, &[metre; 3]), cube]),
+            Expr::Product(vec![self.positive((0.1, 2.0), Unit::Newton, &[speed]), Expr::LengthRate]),
+            Expr::Product(vec![self.factor((0.1, 1.0), Unit::Newton, &[speed, metre]), Expr::LengthRate, Expr::Length]),
+            Expr::Product(vec![self.factor((1.0, 10.0), Unit::Newton, &[]), self.curve((0.7, metre), Expr::Length)]),
         ])
     }
 }
@@ -96,12 +73,7 @@ impl Builder {
 
     /// `-k q - k3 q^3 - c rate(q)`, plus couplings with another free coordinate, the speed of any coordinate, or an
     /// input.
-    pub(super) fn generalized(
-        &mut self,
-        coordinate: Coordinate,
-        free: &[Coordinate],
-        all: &[Coordinate],
-    ) -> Expr {
+    pub(super) fn generalized(&mut self, coordinate: Coordinate, free: &[Coordinate], all: &[Coordinate]) -> Expr {
         let [unit, rate_unit, force] = self.units(coordinate);
         let q = Expr::Coordinate(coordinate);
         let stiffness = self.source.positive((5.0, 80.0), force, &[unit]);
@@ -159,23 +131,14 @@ impl Builder {
 
     /// `1/2 k (q1 - q2)^2` for coordinates of the same unit, `1/2 k q^2 + g q1 q2` for different ones, `-m cos q` for
     /// angles.
-    pub(super) fn energy_of_coordinates(
-        &mut self,
-        coordinate: Coordinate,
-        free: &[Coordinate],
-    ) -> Expr {
+    pub(super) fn energy_of_coordinates(&mut self, coordinate: Coordinate, free: &[Coordinate]) -> Expr {
         let energy = Unit::NewtonMetre;
         let other = free[self.source.random.below(free.len())];
         let ([unit, ..], [other_unit, ..]) = (self.units(coordinate), self.units(other));
         let (q, p) = (Expr::Coordinate(coordinate), Expr::Coordinate(other));
         let stiffness = self.source.positive((5.0, 80.0), energy, &[unit; 2]);
-        let half = |stretch: Expr, k: Expr| {
-            Expr::Product(vec![
-                Expr::number(0.5),
-                k,
-                Expr::Power(Box::new(stretch), 2),
-            ])
-        };
+        let half =
+            |stretch: Expr, k: Expr| Expr::Product(vec![Expr::number(0.5), k, Expr::Power(Box::new(stretch), 2)]);
         if unit == other_unit && other != coordinate && self.source.random.chance(0.6) {
             return half(q.minus(p), stiffness);
         }

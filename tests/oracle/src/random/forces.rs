@@ -3,8 +3,7 @@
 use super::Setting;
 use super::tree::Builder;
 use crate::model::{
-    Coordinate, Force, ForceLaw, Frame, Matrix, Motion, ORIGIN, Placement, Point, Unit, Values,
-    ZERO, diagonal,
+    Coordinate, Force, ForceLaw, Frame, Matrix, Motion, ORIGIN, Placement, Point, Unit, Values, ZERO, diagonal,
 };
 
 /// Points and force laws collected so far.
@@ -17,11 +16,7 @@ impl Elements {
     /// A new point with axes.
     fn point(&mut self, frame: Frame, placement: Placement) -> usize {
         let name = format!("point{}", self.points.len());
-        self.points.push(Point {
-            name,
-            frame,
-            placement,
-        });
+        self.points.push(Point { name, frame, placement });
         self.points.len() - 1
     }
 }
@@ -30,14 +25,9 @@ impl Builder {
     /// Forces on free coordinates, between points that no drive moves relative to each other, and at points where
     /// drives have no effect.
     pub(super) fn forces(&mut self, setting: Setting) -> (Vec<Point>, Vec<Force>) {
-        let mut elements = Elements {
-            points: Vec::new(),
-            laws: Vec::new(),
-        };
+        let mut elements = Elements { points: Vec::new(), laws: Vec::new() };
         let all: Vec<Coordinate> = (0..self.joints.len())
-            .flat_map(|joint| {
-                (0..self.joints[joint].steps.len()).map(move |step| Coordinate { joint, step })
-            })
+            .flat_map(|joint| (0..self.joints[joint].steps.len()).map(move |step| Coordinate { joint, step }))
             .collect();
         let driven = |q: &Coordinate| self.joints[q.joint].steps[q.step].drive.is_some();
         let free: Vec<Coordinate> = all.iter().copied().filter(|q| !driven(q)).collect();
@@ -59,23 +49,13 @@ impl Builder {
         (elements.points, forces.collect())
     }
 
-    fn on_coordinate(
-        &mut self,
-        coordinate: Coordinate,
-        [free, all]: [&[Coordinate]; 2],
-        laws: &mut Vec<ForceLaw>,
-    ) {
+    fn on_coordinate(&mut self, coordinate: Coordinate, [free, all]: [&[Coordinate]; 2], laws: &mut Vec<ForceLaw>) {
         let motion = self.joints[coordinate.joint].steps[coordinate.step].motion;
         // Only a spring holds a slider against its weight.
         if motion == Motion::Slide || self.source.random.chance(0.75) {
             laws.push(match self.source.random.below(6) {
-                0 => ForceLaw::Generalized {
-                    coordinate,
-                    value: self.generalized(coordinate, free, all),
-                },
-                1 => ForceLaw::Potential {
-                    energy: self.energy_of_coordinates(coordinate, free),
-                },
+                0 => ForceLaw::Generalized { coordinate, value: self.generalized(coordinate, free, all) },
+                1 => ForceLaw::Potential { energy: self.energy_of_coordinates(coordinate, free) },
                 _ => ForceLaw::Spring {
                     coordinate,
                     stiffness: self.source.between(5.0, 80.0, motion.stiffness_unit()),
@@ -84,10 +64,7 @@ impl Builder {
             });
         }
         if self.source.random.chance(0.25) {
-            laws.push(ForceLaw::Damper {
-                coordinate,
-                damping: self.source.between(0.1, 2.0, motion.damping_unit()),
-            });
+            laws.push(ForceLaw::Damper { coordinate, damping: self.source.between(0.1, 2.0, motion.damping_unit()) });
         }
     }
 
@@ -112,15 +89,9 @@ impl Builder {
             elements.point(frame, placement)
         });
         let law = match self.source.random.below(5) {
-            0 => ForceLaw::Tension {
-                from,
-                to,
-                tension: self.source.tension(),
-            },
+            0 => ForceLaw::Tension { from, to, tension: self.source.tension() },
             1 | 2 => self.bushing(from, to),
-            3 => ForceLaw::Potential {
-                energy: self.energy_of_distance(from, to),
-            },
+            3 => ForceLaw::Potential { energy: self.energy_of_distance(from, to) },
             _ => ForceLaw::SpringDamper {
                 from,
                 to,
@@ -135,10 +106,7 @@ impl Builder {
     /// A placement with axes.
     fn point_placement(&mut self) -> Placement {
         let offset = self.source.position(0.8);
-        Placement {
-            offset,
-            ..self.source.placement()
-        }
+        Placement { offset, ..self.source.placement() }
     }
 
     fn three(&mut self, low: f64, high: f64, unit: Unit) -> Values {
@@ -207,23 +175,11 @@ impl Builder {
         let point = elements.point(Frame::Body(body), placement);
         let law = match self.source.random.below(4) {
             0 => {
-                let [force, moment] = [
-                    self.load(5.0, Unit::Newton),
-                    self.load(2.0, Unit::NewtonMetre),
-                ];
+                let [force, moment] = [self.load(5.0, Unit::Newton), self.load(2.0, Unit::NewtonMetre)];
                 let upright = |[x, y, z]: Values| {
-                    if turning {
-                        [ORIGIN[0], ORIGIN[1], z]
-                    } else {
-                        [x, y, z]
-                    }
+                    if turning { [ORIGIN[0], ORIGIN[1], z] } else { [x, y, z] }
                 };
-                ForceLaw::Load {
-                    point,
-                    force: upright(force),
-                    moment: upright(moment),
-                    following: false,
-                }
+                ForceLaw::Load { point, force: upright(force), moment: upright(moment), following: false }
             }
             1 => ForceLaw::Load {
                 point,
@@ -234,20 +190,12 @@ impl Builder {
             2 if !self.drifting => ForceLaw::Drag {
                 point,
                 damping: self.source.between(0.1, 2.0, Unit::NewtonSecondPerMetre),
-                turning_damping: self
-                    .source
-                    .between(0.05, 0.5, Unit::NewtonMetreSecondPerRadian),
+                turning_damping: self.source.between(0.05, 0.5, Unit::NewtonMetreSecondPerRadian),
             },
             _ => {
-                let axis = if turning {
-                    2
-                } else {
-                    self.source.random.below(3)
-                };
+                let axis = if turning { 2 } else { self.source.random.below(3) };
                 let bound = setting == Setting::Still;
-                ForceLaw::Potential {
-                    energy: self.energy_of_position(point, axis, bound),
-                }
+                ForceLaw::Potential { energy: self.energy_of_position(point, axis, bound) }
             }
         };
         elements.laws.push(law);
@@ -269,9 +217,7 @@ impl Builder {
         elements.laws.push(ForceLaw::Drag {
             point,
             damping: self.source.between(0.1, 2.0, Unit::NewtonSecondPerMetre),
-            turning_damping: self
-                .source
-                .between(0.05, 0.5, Unit::NewtonMetreSecondPerRadian),
+            turning_damping: self.source.between(0.05, 0.5, Unit::NewtonMetreSecondPerRadian),
         });
     }
 }

@@ -53,9 +53,7 @@ impl Source {
     fn lead(&mut self) -> Motion {
         let size = self.random.between(0.02, 0.2);
         let lead = self.random.signed(size);
-        Motion::Screw {
-            lead: self.value(lead, Unit::Metre),
-        }
+        Motion::Screw { lead: self.value(lead, Unit::Metre) }
     }
 
     fn screw(&mut self, axis: [f64; 3]) -> Draft {
@@ -68,10 +66,7 @@ impl Source {
     }
 
     fn universal(&mut self, first: [f64; 3]) -> Draft {
-        (
-            Word::Universal,
-            vec![turn(first), turn(self.axis_across(first))],
-        )
+        (Word::Universal, vec![turn(first), turn(self.axis_across(first))])
     }
 
     /// Two oblique slides, and a turn perpendicular to both.
@@ -79,15 +74,9 @@ impl Source {
         let along = cross(normal, self.axis_across(normal));
         let across = cross(normal, along).map(|x| x / norm(normal));
         let lean = self.random.between(-0.8, 0.8);
-        let second = if self.random.chance(0.5) {
-            across
-        } else {
-            std::array::from_fn(|i| across[i] + lean * along[i])
-        };
-        (
-            Word::Planar,
-            vec![slide(along), slide(second), turn(normal)],
-        )
+        let second =
+            if self.random.chance(0.5) { across } else { std::array::from_fn(|i| across[i] + lean * along[i]) };
+        (Word::Planar, vec![slide(along), slide(second), turn(normal)])
     }
 
     fn three_turns(&mut self, first: [f64; 3]) -> Vec<Step> {
@@ -120,11 +109,7 @@ impl Source {
             false => self.axis(),
         };
         self.hinge = axis;
-        let hinge = if self.frames == Frames::Mixed {
-            0.3
-        } else {
-            0.7
-        };
+        let hinge = if self.frames == Frames::Mixed { 0.3 } else { 0.7 };
         if self.special && self.random.chance(hinge) {
             return (Word::Revolute, vec![turn(axis)]);
         }
@@ -245,11 +230,7 @@ pub(super) fn name(joints: &mut [Joint]) {
         joint.name = format!("joint{index}");
         let several = joint.steps.len() > 1;
         for (step, place) in joint.steps.iter_mut().zip('a'..) {
-            step.name = if several {
-                format!("joint{index}{place}")
-            } else {
-                joint.name.clone()
-            };
+            step.name = if several { format!("joint{index}{place}") } else { joint.name.clone() };
         }
     }
 }
@@ -259,9 +240,8 @@ pub(super) fn name(joints: &mut [Joint]) {
 pub(super) fn leave_singular_poses(model: &Model, q: &mut [f64]) {
     let free = model.free();
     for (index, joint) in model.joints.iter().enumerate() {
-        let turns: Vec<usize> = (0..joint.steps.len())
-            .filter(|&step| joint.steps[step].motion != Motion::Slide)
-            .collect();
+        let turns: Vec<usize> =
+            (0..joint.steps.len()).filter(|&step| joint.steps[step].motion != Motion::Slide).collect();
         let &[first, middle, last] = &turns[..] else {
             continue;
         };

@@ -77,30 +77,18 @@ impl Plan {
 
 /// All plans with up to seven bodies. Shrinking removes bodies.
 pub fn plans() -> impl Strategy<Value = Plan> {
-    let setting = prop_oneof![
-        Just(Setting::Still),
-        Just(Setting::Spinning),
-        Just(Setting::Conveyed),
-        Just(Setting::Climbing),
-    ];
+    let setting =
+        prop_oneof![Just(Setting::Still), Just(Setting::Spinning), Just(Setting::Conveyed), Just(Setting::Climbing),];
     let switches = (any::<bool>(), any::<bool>());
-    (setting, 1..=7_usize, switches, any::<u64>()).prop_map(
-        |(setting, bodies, (rotor, special), seed)| {
-            let driven = match setting {
-                Setting::Still => 0,
-                Setting::Spinning | Setting::Conveyed => 1,
-                Setting::Climbing => 2,
-            };
-            let bodies = bodies.min(7 - driven - usize::from(rotor));
-            Plan {
-                setting,
-                bodies,
-                rotor,
-                special,
-                seed,
-            }
-        },
-    )
+    (setting, 1..=7_usize, switches, any::<u64>()).prop_map(|(setting, bodies, (rotor, special), seed)| {
+        let driven = match setting {
+            Setting::Still => 0,
+            Setting::Spinning | Setting::Conveyed => 1,
+            Setting::Climbing => 2,
+        };
+        let bodies = bodies.min(7 - driven - usize::from(rotor));
+        Plan { setting, bodies, rotor, special, seed }
+    })
 }
 
 /// Runs a check on the given number of random plans, always the same ones, and shrinks any plan on which it panics.
@@ -108,12 +96,7 @@ pub fn plans() -> impl Strategy<Value = Plan> {
 /// # Panics
 /// With the smallest failing plan, and the message of the check.
 pub fn on_plans(cases: u32, check: impl Fn(Plan)) {
-    let config = Config {
-        cases,
-        failure_persistence: None,
-        max_shrink_iters: 20,
-        ..Config::default()
-    };
+    let config = Config { cases, failure_persistence: None, max_shrink_iters: 20, ..Config::default() };
     let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     let run = TestRunner::new_with_rng(config, rng).run(&plans(), |plan| {
         check(plan);
@@ -133,10 +116,7 @@ pub fn position(model: &Model, random: &mut Random) -> Vec<f64> {
         Motion::Turn | Motion::Screw { .. } => 1.2,
     };
     let free = model.free();
-    let mut q = free
-        .iter()
-        .map(|&coordinate| random.between(-1.0, 1.0) * limit(coordinate))
-        .collect::<Vec<_>>();
+    let mut q = free.iter().map(|&coordinate| random.between(-1.0, 1.0) * limit(coordinate)).collect::<Vec<_>>();
     joints::leave_singular_poses(model, &mut q);
     q
 }
@@ -152,12 +132,7 @@ fn is_regular(model: &Model) -> bool {
         let scaled = |i: usize, j: usize| mass[i][j] / (mass[i][i] * mass[j][j]).sqrt();
         let heavy = (0..q.len()).all(|i| mass[i][i] > 1e-6);
         let apart = motion.applied.iter().all(|force| force.is_finite());
-        apart
-            && heavy
-            && DMatrix::from_fn(q.len(), q.len(), scaled)
-                .symmetric_eigenvalues()
-                .min()
-                > 1e-5
+        apart && heavy && DMatrix::from_fn(q.len(), q.len(), scaled).symmetric_eigenvalues().min() > 1e-5
     })
 }
 

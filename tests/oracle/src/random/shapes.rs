@@ -35,11 +35,7 @@ impl Source {
         }
         let mut parts = self.pierced();
         if self.random.chance(0.6) {
-            parts.push(Part {
-                hole: false,
-                shape: self.shape(),
-                placement: self.placement(),
-            });
+            parts.push(Part { hole: false, shape: self.shape(), placement: self.placement() });
         }
         parts
     }
@@ -52,8 +48,7 @@ impl Source {
         let (solid, cavity) = (self.solid(size, mass), self.random.between(0.2, 0.4) * size);
         let missing = mass * self.random.between(0.05, 0.15);
         let mut hole = self.solid(cavity, missing);
-        let aside: Values =
-            std::array::from_fn(|_| Value::Number(self.random.between(-0.15, 0.15) * size));
+        let aside: Values = std::array::from_fn(|_| Value::Number(self.random.between(-0.15, 0.15) * size));
         match &mut hole {
             Shape::Sphere { center, .. }
             | Shape::Cuboid { center, .. }
@@ -62,33 +57,15 @@ impl Source {
             other => unreachable!("{other:?} is no solid"),
         }
         let placement = self.placement();
-        let turned = Placement {
-            offset: placement.offset,
-            ..self.placement()
-        };
-        vec![
-            Part {
-                hole: false,
-                shape: solid,
-                placement,
-            },
-            Part {
-                hole: true,
-                shape: hole,
-                placement: turned,
-            },
-        ]
+        let turned = Placement { offset: placement.offset, ..self.placement() };
+        vec![Part { hole: false, shape: solid, placement }, Part { hole: true, shape: hole, placement: turned }]
     }
 
     /// A compact shape centred on the origin.
     fn solid(&mut self, size: f64, mass: f64) -> Shape {
         let (center, length) = (ORIGIN, self.value(size, Unit::Metre));
         match self.random.below(4) {
-            0 => Shape::Sphere {
-                mass: self.amount_of(mass, 4.0 / 3.0 * PI * size.powi(3), 3),
-                radius: length,
-                center,
-            },
+            0 => Shape::Sphere { mass: self.amount_of(mass, 4.0 / 3.0 * PI * size.powi(3), 3), radius: length, center },
             1 => Shape::Cuboid {
                 mass: self.amount_of(mass, 8.0 * size.powi(3), 3),
                 size: [(); 3].map(|()| self.value(2.0 * size, Unit::Metre)),
@@ -115,19 +92,12 @@ impl Source {
     /// One shape of any kind.
     fn shape(&mut self) -> Shape {
         match self.random.below(8) {
-            0 => Shape::Point {
-                mass: self.mass(),
-                center: self.position(0.6),
-            },
+            0 => Shape::Point { mass: self.mass(), center: self.position(0.6) },
             1 => Shape::Rod {
                 mass: self.amount(0.6, 1),
                 length: self.length(),
                 along: self.axis(),
-                center: if self.random.chance(0.6) {
-                    None
-                } else {
-                    Some(self.position(0.6))
-                },
+                center: if self.random.chance(0.6) { None } else { Some(self.position(0.6)) },
             },
             2 => Shape::Disk {
                 mass: self.amount(1.0, 2),
@@ -147,11 +117,7 @@ impl Source {
                 size: [self.length(), self.length(), self.length()],
                 center: self.position(0.6),
             },
-            5 => Shape::Sphere {
-                mass: self.amount(1.0, 3),
-                radius: self.length(),
-                center: self.position(0.6),
-            },
+            5 => Shape::Sphere { mass: self.amount(1.0, 3), radius: self.length(), center: self.position(0.6) },
             6 => {
                 let axis = self.axis();
                 self.tube(axis, |source| source.position(0.6))
@@ -196,22 +162,14 @@ impl Source {
             own + thick * f64::from(i == j) + mass * d[i] * d[j]
         };
         let trace = s(0, 0) + s(1, 1) + s(2, 2);
-        let j = [
-            trace - s(0, 0),
-            trace - s(1, 1),
-            trace - s(2, 2),
-            -s(0, 1),
-            -s(1, 2),
-            -s(0, 2),
-        ];
+        let j = [trace - s(0, 0), trace - s(1, 1), trace - s(2, 2), -s(0, 1), -s(1, 2), -s(0, 2)];
         // All six are numbers, or all multiples of one variable, so that the inertia stays possible off the nominal
         // design.
         let inertia = match self.value(j[0], Unit::KilogramSquareMetre) {
             Value::Number(_) => j.map(Value::Number),
-            Value::Design { variable, factor } => j.map(|entry| Value::Design {
-                variable,
-                factor: factor * entry / j[0],
-            }),
+            Value::Design { variable, factor } => {
+                j.map(|entry| Value::Design { variable, factor: factor * entry / j[0] })
+            }
         };
         let numbers = |v: [f64; 3]| v.map(Value::Number);
         Shape::Rigid {
@@ -234,10 +192,7 @@ impl Source {
             parts.push(Part {
                 hole: false,
                 shape: self.symmetric(axis),
-                placement: Placement {
-                    offset: self.along(axis, along),
-                    rotations: vec![(axis, angle)],
-                },
+                placement: Placement { offset: self.along(axis, along), rotations: vec![(axis, angle)] },
             });
         }
         parts
@@ -247,10 +202,9 @@ impl Source {
     pub(super) fn along(&mut self, axis: [f64; 3], along: f64) -> Values {
         match self.value(along, Unit::Metre) {
             Value::Number(_) => axis.map(|component| Value::Number(along * component)),
-            Value::Design { variable, factor } => axis.map(|component| Value::Design {
-                variable,
-                factor: factor * component,
-            }),
+            Value::Design { variable, factor } => {
+                axis.map(|component| Value::Design { variable, factor: factor * component })
+            }
         }
     }
 
@@ -258,17 +212,8 @@ impl Source {
         let along = self.random.between(-0.3, 0.3);
         let center = self.along(axis, along);
         match self.random.below(4) {
-            0 => Shape::Disk {
-                mass: self.amount(1.0, 2),
-                radius: self.length(),
-                axis,
-                center,
-            },
-            1 => Shape::Sphere {
-                mass: self.amount(1.0, 3),
-                radius: self.length(),
-                center,
-            },
+            0 => Shape::Disk { mass: self.amount(1.0, 2), radius: self.length(), axis, center },
+            1 => Shape::Sphere { mass: self.amount(1.0, 3), radius: self.length(), center },
             2 => self.tube(axis, |_| center),
             _ => Shape::Cylinder {
                 mass: self.amount(0.8, 3),

@@ -3,9 +3,7 @@
 use super::joints::{self, Draft};
 use super::values::{Frames, Source};
 use super::{Plan, Random, Setting};
-use crate::model::{
-    Body, Frame, Input, Joint, Model, Motion, Part, Placement, Step, Unit, Value, Values, Word,
-};
+use crate::model::{Body, Frame, Input, Joint, Model, Motion, Part, Placement, Step, Unit, Value, Values, Word};
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
@@ -103,8 +101,7 @@ impl Builder {
 
     /// Adds a body driven about the vertical.
     fn shaft(&mut self, parent: Frame) {
-        let axis =
-            [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, 2.5]][self.source.random.below(3)];
+        let axis = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, 2.5]][self.source.random.below(3)];
         let placements = [self.upright(), self.source.placement()];
         let room = self.room();
         let draft = self.turning_joint(axis, room);
@@ -116,10 +113,7 @@ impl Builder {
         let offset = self.source.position(0.5);
         let angle = self.source.between(-2.0, 2.0, Unit::Radian);
         let turned = self.source.random.chance(0.5);
-        Placement {
-            offset,
-            rotations: if turned { vec![(Z, angle)] } else { Vec::new() },
-        }
+        Placement { offset, rotations: if turned { vec![(Z, angle)] } else { Vec::new() } }
     }
 
     /// How many free coordinates are still available, with one reserved for every body to come.
@@ -141,22 +135,14 @@ impl Builder {
                 self.inputs.len() - 1
             }
         };
-        let factor = if self.source.random.chance(0.5) {
-            1.0
-        } else {
-            -0.7
-        };
+        let factor = if self.source.random.chance(0.5) { 1.0 } else { -0.7 };
         *step = step.clone().driven(input, factor);
     }
 
     /// Adds a driven body; occasionally massless, unless it has free coordinates of its own.
     fn driven_body(&mut self, draft: Draft, parent: Frame, placements: [Placement; 2]) {
         let free = draft.1.iter().any(|step| step.drive.is_none());
-        let parts = if !free && self.source.random.chance(0.6) {
-            Vec::new()
-        } else {
-            self.source.parts()
-        };
+        let parts = if !free && self.source.random.chance(0.6) { Vec::new() } else { self.source.parts() };
         self.add(parts, draft, parent, placements);
     }
 
@@ -171,20 +157,14 @@ impl Builder {
             // A long chain.
             Frame::Body(self.bodies.len() - 1)
         } else {
-            Frame::Body(
-                trunk.saturating_sub(1) + random.below(self.bodies.len() - trunk.saturating_sub(1)),
-            )
+            Frame::Body(trunk.saturating_sub(1) + random.below(self.bodies.len() - trunk.saturating_sub(1)))
         };
         self.waiting -= 1;
         let room = self.room().max(1);
         let draft = self.source.joint(room);
         let placements = [self.source.placement(), self.source.outer_placement()];
         // Leaves get their mass at the end.
-        let parts = if draft.1.len() < 2 && self.source.random.chance(0.2) {
-            Vec::new()
-        } else {
-            self.source.parts()
-        };
+        let parts = if draft.1.len() < 2 && self.source.random.chance(0.2) { Vec::new() } else { self.source.parts() };
         self.add(parts, draft, parent, placements);
     }
 
@@ -206,11 +186,7 @@ impl Builder {
     fn give_leaves_mass(&mut self) {
         for index in 0..self.bodies.len() {
             let frame = Frame::Body(index);
-            let degree = self
-                .joints
-                .iter()
-                .filter(|j| j.from == frame || j.to == frame)
-                .count();
+            let degree = self.joints.iter().filter(|j| j.from == frame || j.to == frame).count();
             if degree < 2 && self.bodies[index].parts.is_empty() {
                 self.bodies[index].parts = self.source.parts();
             }
@@ -218,13 +194,7 @@ impl Builder {
     }
 
     /// Adds a body and its joint, declared in either direction.
-    fn add(
-        &mut self,
-        parts: Vec<Part>,
-        (word, mut steps): Draft,
-        parent: Frame,
-        [inboard, outboard]: [Placement; 2],
-    ) {
+    fn add(&mut self, parts: Vec<Part>, (word, mut steps): Draft, parent: Frame, [inboard, outboard]: [Placement; 2]) {
         let index = self.bodies.len();
         let name = format!("body{index}");
         self.bodies.push(Body { name, parts });
@@ -242,11 +212,7 @@ impl Builder {
         let reversible = !driven || turns_only || steps.len() == 1 || word == Word::Cylindrical;
         let body = Frame::Body(index);
         let mut ends = [(parent, inboard), (body, outboard)];
-        let inwards = if self.source.frames == Frames::Aligned {
-            0.05
-        } else {
-            0.25
-        };
+        let inwards = if self.source.frames == Frames::Aligned { 0.05 } else { 0.25 };
         if reversible && self.source.random.chance(inwards) {
             ends.reverse();
             if driven && turns_only {
@@ -254,10 +220,6 @@ impl Builder {
             }
         }
         let [(from, from_placement), (to, to_placement)] = ends;
-        self.joints.push(Joint {
-            from_placement,
-            to_placement,
-            ..Joint::new("", word, steps, from, to)
-        });
+        self.joints.push(Joint { from_placement, to_placement, ..Joint::new("", word, steps, from, to) });
     }
 }

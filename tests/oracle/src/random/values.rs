@@ -33,22 +33,10 @@ pub(super) enum Frames {
 }
 
 /// Frame angles: right angles, one typed with twelve digits, and one whose cosine rounds to one.
-const ANGLES: [f64; 6] = [
-    FRAC_PI_2,
-    -FRAC_PI_2,
-    PI,
-    FRAC_PI_2,
-    FRAC_PI_2 - 4.9e-12,
-    1e-8,
-];
+const ANGLES: [f64; 6] = [FRAC_PI_2, -FRAC_PI_2, PI, FRAC_PI_2, FRAC_PI_2 - 4.9e-12, 1e-8];
 
 /// Axes that lie in a coordinate plane, and one that nearly coincides with a frame axis.
-const LEANING: [[f64; 3]; 4] = [
-    [1.0, 1.0, 0.0],
-    [0.0, 3.0, -4.0],
-    [-1.0, 0.0, 2.0],
-    [1e-9, 1.0, 0.0],
-];
+const LEANING: [[f64; 3]; 4] = [[1.0, 1.0, 0.0], [0.0, 3.0, -4.0], [-1.0, 0.0, 2.0], [1e-9, 1.0, 0.0]];
 
 impl Source {
     pub(super) fn new(mut random: Random, special: bool) -> Self {
@@ -59,14 +47,7 @@ impl Source {
             }
             false => Frames::Mixed,
         };
-        Self {
-            random,
-            design: Vec::new(),
-            special,
-            frames,
-            hinge: [0.0, 1.0, 0.0],
-            curves: 0,
-        }
+        Self { random, design: Vec::new(), special, frames, hinge: [0.0, 1.0, 0.0], curves: 0 }
     }
 
     /// A value equal to `number`: a number, a multiple of an existing design variable, or of a new one.
@@ -78,16 +59,11 @@ impl Source {
         if !first && self.random.chance(0.45) {
             return Value::Number(number);
         }
-        let fitting: Vec<usize> = (0..self.design.len())
-            .filter(|&k| self.design[k].unit == unit)
-            .collect();
+        let fitting: Vec<usize> = (0..self.design.len()).filter(|&k| self.design[k].unit == unit).collect();
         let full = self.design.len() == MOST;
         if !fitting.is_empty() && (full || self.random.chance(0.8)) {
             let variable = fitting[self.random.below(fitting.len())];
-            return Value::Design {
-                variable,
-                factor: number / self.design[variable].nominal,
-            };
+            return Value::Design { variable, factor: number / self.design[variable].nominal };
         }
         // A small value would need large factors elsewhere.
         if full || number.abs() < 0.1 || !(first || self.random.chance(0.3)) {
@@ -95,15 +71,8 @@ impl Source {
         }
         // Positive, so that it can be a mass or a length elsewhere.
         let name = format!("b{}", self.design.len());
-        self.design.push(DesignVariable {
-            name,
-            unit,
-            nominal: number.abs(),
-        });
-        Value::Design {
-            variable: self.design.len() - 1,
-            factor: number.signum(),
-        }
+        self.design.push(DesignVariable { name, unit, nominal: number.abs() });
+        Value::Design { variable: self.design.len() - 1, factor: number.signum() }
     }
 
     /// A value in an interval.
@@ -131,11 +100,7 @@ impl Source {
         if self.special && self.random.chance(0.3) {
             return self.hinge;
         }
-        let leaning = if self.frames == Frames::Mixed {
-            0.3
-        } else {
-            0.05
-        };
+        let leaning = if self.frames == Frames::Mixed { 0.3 } else { 0.05 };
         if self.special && self.random.chance(leaning) {
             return self.random.of(&LEANING);
         }
@@ -143,12 +108,7 @@ impl Source {
             axis[self.random.below(3)] = if self.random.chance(0.5) { 1.0 } else { -1.0 };
             return axis;
         }
-        while axis
-            .iter()
-            .map(|component| component * component)
-            .sum::<f64>()
-            < 0.1
-        {
+        while axis.iter().map(|component| component * component).sum::<f64>() < 0.1 {
             axis = self.random.vector(2.0);
         }
         axis
@@ -171,10 +131,7 @@ impl Source {
             Frames::Mixed => self.random.below(3),
         };
         let rotations = (0..rotations).map(|_| (self.axis(), self.angle()));
-        Placement {
-            offset,
-            rotations: rotations.collect(),
-        }
+        Placement { offset, rotations: rotations.collect() }
     }
 
     /// The placement of a joint on the body it carries.

@@ -1,8 +1,8 @@
 //! Checks the oracle against short closed-form solutions.
 
 use eigentol_oracle::examples::{
-    anisotropic_bearing, blade, jeffcott_in_the_ground, jeffcott_in_the_shaft, screw_pendulum,
-    steadied_by_the_shaft, top,
+    anisotropic_bearing, blade, jeffcott_in_the_ground, jeffcott_in_the_shaft, screw_pendulum, steadied_by_the_shaft,
+    top,
 };
 use eigentol_oracle::kernels::Kernels;
 use eigentol_oracle::model::{Amount, Model, ORIGIN, Part, Placement, Shape, Value, ZERO};
@@ -18,10 +18,7 @@ fn assert_close(values: &[f64], expected: &[f64]) {
     assert_eq!(values.len(), expected.len());
     let scale = expected.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
     for (one, other) in values.iter().zip(expected) {
-        assert!(
-            (one - other).abs() < 1e-12 * scale,
-            "{values:?}, not {expected:?}"
-        );
+        assert!((one - other).abs() < 1e-12 * scale, "{values:?}, not {expected:?}");
     }
 }
 
@@ -73,20 +70,10 @@ fn a_top_precesses_steadily() {
 #[test]
 fn flap_and_lag_are_coupled() {
     let (m, r, w) = (2.3, 0.9, 4.0);
-    let particle = Shape::Point {
-        mass: number(m),
-        center: [number(r), ZERO, ZERO],
-    };
-    let rod = Shape::Rod {
-        mass: Amount::Density(number(m / r)),
-        length: number(r),
-        along: [1.0, 0.0, 0.0],
-        center: None,
-    };
-    for (shape, i, s) in [
-        (particle, m * r * r, m * r),
-        (rod, m * r * r / 3.0, m * r / 2.0),
-    ] {
+    let particle = Shape::Point { mass: number(m), center: [number(r), ZERO, ZERO] };
+    let rod =
+        Shape::Rod { mass: Amount::Density(number(m / r)), length: number(r), along: [1.0, 0.0, 0.0], center: None };
+    for (shape, i, s) in [(particle, m * r * r, m * r), (rod, m * r * r / 3.0, m * r / 2.0)] {
         let model = blade(shape);
         for (flap, lag) in [(0.4_f64, -0.3_f64), (-0.9, 0.6)] {
             let ((sb, cb), (sz, cz)) = (flap.sin_cos(), lag.sin_cos());
@@ -147,12 +134,7 @@ fn an_anisotropic_bearing_seen_from_the_shaft_is_not_steady() {
     // k I + dk (cos 2t, -sin 2t; -sin 2t, -cos 2t)
     let (sine, cosine) = (2.0 * 0.4_f64).sin_cos();
     let (mean, half) = (650.0, -150.0);
-    let turned = [
-        mean + half * cosine,
-        -half * sine,
-        -half * sine,
-        mean - half * cosine,
-    ];
+    let turned = [mean + half * cosine, -half * sine, -half * sine, mean - half * cosine];
     assert_close(&stiffness(0.4).stiffness, &turned);
 }
 
@@ -202,17 +184,10 @@ fn one_body_can_be_declared_in_many_ways() {
         axis,
         center,
     };
-    let hole = |shape, placement| Part {
-        hole: true,
-        shape,
-        placement,
-    };
+    let hole = |shape, placement| Part { hole: true, shape, placement };
     // The tensor of the tube about the origin: along and across its axis, then the parallel-axis terms.
     let squares = inner * inner + outer * outer;
-    let (along, across) = (
-        mass * squares / 2.0,
-        mass * (3.0 * squares + length * length) / 12.0,
-    );
+    let (along, across) = (mass * squares / 2.0, mass * (3.0 * squares + length * length) / 12.0);
     let e = axis.map(|component| component / 1.3);
     let c = [0.1, -0.2, 0.3];
     let square: f64 = c.iter().map(|x| x * x).sum();
@@ -224,38 +199,20 @@ fn one_body_can_be_declared_in_many_ways() {
     let rigid = Shape::Rigid {
         mass: number(mass),
         center,
-        inertia: [
-            entry(0, 0),
-            entry(1, 1),
-            entry(2, 2),
-            entry(0, 1),
-            entry(1, 2),
-            entry(0, 2),
-        ],
+        inertia: [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(0, 2)],
         about: Some(ORIGIN),
     };
     // Rotating a bore about its axis makes no difference, nor does where its offset is declared.
-    let bore = Placement {
-        offset: center,
-        rotations: vec![(axis, number(0.7))],
-    };
+    let bore = Placement { offset: center, rotations: vec![(axis, number(0.7))] };
     let bodies = [
         vec![Part::whole(tube(Amount::Mass(number(mass))))],
         vec![Part::whole(tube(Amount::Density(number(density))))],
-        vec![
-            Part::whole(cylinder(outer, center)),
-            hole(cylinder(inner, ORIGIN), bore),
-        ],
+        vec![Part::whole(cylinder(outer, center)), hole(cylinder(inner, ORIGIN), bore)],
         vec![Part::whole(rigid)],
     ];
     let residuals = bodies.map(|parts| {
-        let mut model = top(
-            Shape::Point {
-                mass: number(1.0),
-                center: ORIGIN,
-            },
-            [number(1.0), number(2.0), number(-9.0)],
-        );
+        let mut model =
+            top(Shape::Point { mass: number(1.0), center: ORIGIN }, [number(1.0), number(2.0), number(-9.0)]);
         model.bodies[0].parts = parts;
         let at = [&[0.7][..], &[2.0, -5.0], &[]];
         Kernels::motion_residual(&Oracle::new(&model), &[1.3], &[-0.8], at)

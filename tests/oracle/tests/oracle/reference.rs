@@ -9,14 +9,9 @@ use nalgebra::{DMatrix, DVector};
 
 fn assert_close(values: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     assert_eq!(values.len(), expected.len(), "{what}");
-    let scale = expected
-        .iter()
-        .fold(1.0, |most: f64, value| most.max(value.abs()));
+    let scale = expected.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
     for (one, other) in values.iter().zip(expected) {
-        assert!(
-            (one - other).abs() <= tolerance * scale,
-            "{what}: {values:?}, not {expected:?}"
-        );
+        assert!((one - other).abs() <= tolerance * scale, "{what}: {values:?}, not {expected:?}");
     }
 }
 
@@ -38,11 +33,7 @@ impl<'a> Total<'a> {
     fn new(oracle: &'a Oracle<'a>, at: At<'a>) -> Self {
         let n = at[0].len();
         let stiffness = Kernels::linear(oracle, at).stiffness;
-        Self {
-            oracle,
-            at,
-            stiffness: DMatrix::from_row_slice(n, n, &stiffness),
-        }
+        Self { oracle, at, stiffness: DMatrix::from_row_slice(n, n, &stiffness) }
     }
 
     /// `Khat dq*/db = -dg/db`.
@@ -50,10 +41,7 @@ impl<'a> Total<'a> {
         let [_, u, b] = self.at;
         let [by_input, by_design] = Kernels::residual_partials(self.oracle, self.at);
         let column = |matrix: &[f64], width: usize, k: usize| {
-            DVector::from_iterator(
-                self.at[0].len(),
-                matrix.iter().skip(k).step_by(width).copied(),
-            )
+            DVector::from_iterator(self.at[0].len(), matrix.iter().skip(k).step_by(width).copied())
         };
         let partial = match by {
             By::Input(k) => column(&by_input, u.len(), k),
@@ -88,20 +76,11 @@ impl<'a> Total<'a> {
     /// `domega/db` of an undamped mode by the adjoint method: `dlambda/db = da/db - (dg/db)^T w`, `Khat^T w = da/dq`.
     fn frequency(&self, (lambda, phi): &(f64, Vec<f64>)) -> [Vec<f64>; 2] {
         let [by_q, by_input, by_design] = self.oracle.mode_gradient(self.at, phi, *lambda);
-        let w = self
-            .stiffness
-            .transpose()
-            .lu()
-            .solve(&DVector::from_vec(by_q))
-            .expect("regular");
+        let w = self.stiffness.transpose().lu().solve(&DVector::from_vec(by_q)).expect("regular");
         let [_, g_input, g_design] = self.oracle.residual_gradient(self.at, w.as_slice());
         let omega = lambda.sqrt();
-        let rate = |a: Vec<f64>, g: Vec<f64>| -> Vec<f64> {
-            a.iter()
-                .zip(g)
-                .map(|(a, g)| (a - g) / (2.0 * omega))
-                .collect()
-        };
+        let rate =
+            |a: Vec<f64>, g: Vec<f64>| -> Vec<f64> { a.iter().zip(g).map(|(a, g)| (a - g) / (2.0 * omega)).collect() };
         [rate(by_input, g_input), rate(by_design, g_design)]
     }
 }
@@ -129,31 +108,17 @@ fn paper(case: &str, model: impl Fn(&Truth) -> Model, names: &[&str]) {
         let what = format!("{case} {}", condition.get("label").text());
         let model = model(&condition.get("parameters"));
         let q_star = condition.get("q_star");
-        let q: Vec<f64> = q_star
-            .fields()
-            .iter()
-            .map(|name| q_star.get(name).number())
-            .collect();
+        let q: Vec<f64> = q_star.fields().iter().map(|name| q_star.get(name).number()).collect();
         let u = [condition.get("parameters").get("Omega").number()];
         let b = model.nominal();
         let at: At = [&q, &u, &b];
         let oracle = Oracle::new(&model);
 
-        assert_close(
-            &Kernels::residual(&oracle, at),
-            &vec![0.0; q.len()],
-            1e-13,
-            &what,
-        );
+        assert_close(&Kernels::residual(&oracle, at), &vec![0.0; q.len()], 1e-13, &what);
         let linear = Kernels::linear(&oracle, at);
         assert_close(&linear.mass, &condition.get("M").matrix(), 1e-14, &what);
         assert_close(&linear.damping, &condition.get("C").matrix(), 1e-14, &what);
-        assert_close(
-            &linear.stiffness,
-            &condition.get("K").matrix(),
-            1e-14,
-            &what,
-        );
+        assert_close(&linear.stiffness, &condition.get("K").matrix(), 1e-14, &what);
 
         let total = Total::new(&oracle, at);
         let by = |name: &str| {
@@ -166,29 +131,11 @@ fn paper(case: &str, model: impl Fn(&Truth) -> Model, names: &[&str]) {
             let shift = expected("dq_star_db").numbers();
             assert_close(&total.equilibrium(by(name)), &shift, 1e-12, &what);
             let linear = total.linear(by(name));
-            assert_close(
-                &linear.mass,
-                &expected("dM_db_total").matrix(),
-                1e-12,
-                &what,
-            );
-            assert_close(
-                &linear.damping,
-                &expected("dC_db_total").matrix(),
-                1e-12,
-                &what,
-            );
-            assert_close(
-                &linear.stiffness,
-                &expected("dK_db_total").matrix(),
-                1e-12,
-                &what,
-            );
+            assert_close(&linear.mass, &expected("dM_db_total").matrix(), 1e-12, &what);
+            assert_close(&linear.damping, &expected("dC_db_total").matrix(), 1e-12, &what);
+            assert_close(&linear.stiffness, &expected("dK_db_total").matrix(), 1e-12, &what);
         }
-        for (mode, expected) in modes(&linear)
-            .iter()
-            .zip(condition.get("undamped_modes").list())
-        {
+        for (mode, expected) in modes(&linear).iter().zip(condition.get("undamped_modes").list()) {
             let lambda = expected.get("lambda").number();
             assert_close(&[mode.0], &[lambda], 1e-12, &what);
             let [by_input, by_design] = total.frequency(mode);
@@ -222,11 +169,7 @@ fn rotating_double_pendulum() {
 #[test]
 fn sliders_on_a_spinning_plate() {
     let names = ["m", "kx", "ky", "x0", "y0", "cx", "cy"];
-    paper(
-        "P3",
-        |p| two_sliders(names.map(|name| p.get(name).number())),
-        &names,
-    );
+    paper("P3", |p| two_sliders(names.map(|name| p.get(name).number())), &names);
 }
 
 /// Relative angles from absolute ones: `q = D theta`.
@@ -252,15 +195,7 @@ fn absolute_vector(vector: &[f64]) -> Vec<f64> {
 #[test]
 fn chains_at_equilibrium() {
     let truth = Truth::load("w1_w2_w3");
-    for name in [
-        "W1",
-        "W2",
-        "W2_varied",
-        "W3_n4",
-        "W3_n4_varied",
-        "W3_n8",
-        "W3_n8_varied",
-    ] {
+    for name in ["W1", "W2", "W2_varied", "W3_n4", "W3_n4_varied", "W3_n8", "W3_n8_varied"] {
         let case = truth.get(name);
         let model = chain(&case.get("L").numbers(), &case.get("m").numbers());
         let (b, oracle) = (model.nominal(), Oracle::new(&model));
@@ -281,10 +216,7 @@ fn chains_at_equilibrium() {
             assert_close(&residual, &vec![0.0; q.len()], 1e-11, &what);
 
             let total = Total::new(&oracle, at);
-            let (omegas, rates) = (
-                point.get("omega_n").numbers(),
-                point.get("domega_db").list(),
-            );
+            let (omegas, rates) = (point.get("omega_n").numbers(), point.get("domega_db").list());
             let modes = modes(&linear);
             let values: Vec<f64> = modes.iter().map(|(lambda, _)| lambda.sqrt()).collect();
             assert_close(&values, &omegas, 1e-11, &what);
@@ -302,11 +234,7 @@ fn chains_at_equilibrium() {
 fn checksum(matrix: &[f64]) -> f64 {
     let n = matrix.len().isqrt();
     let weight = |k: usize| ((3 * (k / n) + 7 * (k % n) + 1) as f64).sin();
-    matrix
-        .iter()
-        .enumerate()
-        .map(|(k, entry)| weight(k) * entry)
-        .sum()
+    matrix.iter().enumerate().map(|(k, entry)| weight(k) * entry).sum()
 }
 
 #[test]
@@ -319,46 +247,23 @@ fn chains_away_from_equilibrium() {
         let at: At = [&q, &u, &b];
         let oracle = Oracle::new(&model);
         let linear = Kernels::linear(&oracle, at);
-        assert_close(
-            &absolute(&linear.mass),
-            &case.get("M").matrix(),
-            1e-13,
-            &what,
-        );
-        assert_close(
-            &absolute(&linear.stiffness),
-            &case.get("K").matrix(),
-            1e-13,
-            &what,
-        );
+        assert_close(&absolute(&linear.mass), &case.get("M").matrix(), 1e-13, &what);
+        assert_close(&absolute(&linear.stiffness), &case.get("K").matrix(), 1e-13, &what);
         let residual = absolute_vector(&Kernels::residual(&oracle, at));
         assert_close(&residual, &case.get("R").numbers(), 1e-13, &what);
 
         let partials = Kernels::linear_partials(&oracle, at);
         let sums = |list: &[Linear<f64>], part: fn(&Linear<f64>) -> &Vec<f64>| -> Vec<f64> {
-            list.iter()
-                .map(|linear| checksum(&absolute(part(linear))))
-                .collect()
+            list.iter().map(|linear| checksum(&absolute(part(linear)))).collect()
         };
         let (design, coordinates) = (&partials.by_design, &partials.by_coordinate);
         for (field, found) in [
             ("dM_db_checksum", sums(design, |linear| &linear.mass)),
             ("dK_db_checksum", sums(design, |linear| &linear.stiffness)),
-            (
-                "dM_dq_checksum",
-                absolute_vector(&sums(coordinates, |linear| &linear.mass)),
-            ),
-            (
-                "dK_dq_checksum",
-                absolute_vector(&sums(coordinates, |linear| &linear.stiffness)),
-            ),
+            ("dM_dq_checksum", absolute_vector(&sums(coordinates, |linear| &linear.mass))),
+            ("dK_dq_checksum", absolute_vector(&sums(coordinates, |linear| &linear.stiffness))),
         ] {
-            assert_close(
-                &found,
-                &case.get(field).numbers(),
-                1e-12,
-                &format!("{what} {field}"),
-            );
+            assert_close(&found, &case.get(field).numbers(), 1e-12, &format!("{what} {field}"));
         }
     }
 }
@@ -381,12 +286,7 @@ fn seven_joint_arm() {
         assert_close(&torque, &get("static_tau").numbers(), 1e-12, "static tau");
         let linear = Kernels::linear(&oracle, at);
         assert_close(&linear.mass, &get("M").matrix(), 1e-12, "Mhat");
-        assert_close(
-            &linear.stiffness,
-            &get("static_dtau_dq").matrix(),
-            1e-12,
-            "Khat",
-        );
+        assert_close(&linear.stiffness, &get("static_dtau_dq").matrix(), 1e-12, "Khat");
         // In motion: by central differences of the residual, which the file gives exactly.
         for (field, by_velocity) in [("dtau_dq", false), ("dtau_dqdot", true)] {
             let columns = (0..q.len()).map(|j| {
@@ -397,8 +297,7 @@ fn seven_joint_arm() {
                     } else {
                         q[j] += h;
                     }
-                    let torque =
-                        Kernels::motion_residual(&oracle, &acceleration, &velocity, [&q, &[], &[]]);
+                    let torque = Kernels::motion_residual(&oracle, &acceleration, &velocity, [&q, &[], &[]]);
                     DVector::from_vec(torque)
                 };
                 (torque(1e-4) - torque(-1e-4)) / 2e-4

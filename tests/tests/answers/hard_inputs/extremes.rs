@@ -1,8 +1,6 @@
 //! The limits of the double-precision range.
 
-use eigentol::sensitivity::{
-    sensitivities, sensitivities_explicit, sensitivities_with_frozen_equilibrium,
-};
+use eigentol::sensitivity::{sensitivities, sensitivities_explicit, sensitivities_with_frozen_equilibrium};
 use eigentol::{Coordinate, DesignVariable, Policy, Stability, Study};
 use eigentol_tests::corpus::governor::Governor;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
@@ -32,10 +30,7 @@ fn starts_a_thousand_million_radians_away() {
             let cosine = (14.715 / (omega * omega)).min(1.0);
             let found = state.coordinates[0].cos();
             let coarse = 1e-9 + 8.0 * f64::EPSILON * start.abs();
-            assert!(
-                (found - cosine).abs() <= coarse,
-                "{start}, {omega}: {found}"
-            );
+            assert!((found - cosine).abs() <= coarse, "{start}, {omega}: {found}");
         }
     }
 }
@@ -104,10 +99,7 @@ fn a_residual_is_not_measured_by_infinity() {
 #[test]
 fn shares_of_a_huge_variance() {
     for width in [1e100, 1e154, 1e160, 1e200, f64::MAX] {
-        let spread = pendulum(1.0, 1.0, 3.0)
-            .tolerance(RotatingPendulum::l, width)
-            .first_order()
-            .expect("a spread");
+        let spread = pendulum(1.0, 1.0, 3.0).tolerance(RotatingPendulum::l, width).first_order().expect("a spread");
         let mode = &spread.modes[0];
         assert_numbers(mode.variance_shares(), "shares");
         assert_numbers(mode.frequency().iter().map(|x| x.sigma), "sigma");
@@ -116,10 +108,7 @@ fn shares_of_a_huge_variance() {
             .tolerance(RotatingPendulum::l, width)
             .output_tolerances()
             .expect("a spread");
-        assert_numbers(
-            outputs.spreads[0].iter().flat_map(|x| &x.variance_shares),
-            "shares of an output",
-        );
+        assert_numbers(outputs.spreads[0].iter().flat_map(|x| &x.variance_shares), "shares of an output");
     }
 }
 
@@ -127,10 +116,7 @@ fn shares_of_a_huge_variance() {
 #[test]
 fn both_ways_of_differentiating_refuse_alike() {
     let study = pendulum(-4.923, 4.256e-161, 0.1198).start(Coordinate::new(0), -1.8e-90);
-    let (state, found) = (
-        study.equilibrium().expect("a state"),
-        study.modes().expect("modes"),
-    );
+    let (state, found) = (study.equilibrium().expect("a state"), study.modes().expect("modes"));
     let adjoint = sensitivities(&RotatingPendulum, &state, &found);
     assert!(adjoint.is_err(), "{adjoint:?}");
     if let Ok(all) = sensitivities_explicit(&RotatingPendulum, &state, &found) {
@@ -141,10 +127,7 @@ fn both_ways_of_differentiating_refuse_alike() {
 #[test]
 fn frozen_derivatives_are_numbers() {
     let study = pendulum(-1.416e-96, 4.7392e155, 7.6749e-24);
-    let (state, found) = (
-        study.equilibrium().expect("a state"),
-        study.modes().expect("modes"),
-    );
+    let (state, found) = (study.equilibrium().expect("a state"), study.modes().expect("modes"));
     let frozen = sensitivities_with_frozen_equilibrium(&RotatingPendulum, &state, &found);
     if let Ok(frozen) = frozen {
         assert_numbers(&frozen.modes[0].lambda.by_design, "frozen");

@@ -74,16 +74,10 @@ fn unstable_designs_fail_requirements_on_their_modes() {
     let run = study.chances(&wanted).expect("samples").all;
     let share = run.failure();
     assert_eq!(run.untold, 0);
-    assert!(
-        (share - expected).abs() < 4.0 * (expected / 20_000.0).sqrt(),
-        "{share} {expected}"
-    );
+    assert!((share - expected).abs() < 4.0 * (expected / 20_000.0).sqrt(), "{share} {expected}");
     let rare = study.rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05);
     let probability = rare.expect("samples").failure.probability;
-    assert!(
-        (probability.value - expected).abs() < 4.0 * probability.standard_error,
-        "{probability:?} {expected}"
-    );
+    assert!((probability.value - expected).abs() < 4.0 * probability.standard_error, "{probability:?} {expected}");
 }
 
 /// `stable` has no design point, and its failures lie on the other side of the nominal design.
@@ -92,27 +86,17 @@ fn failures_without_a_design_point_are_found() {
     let study = mount("+/- 100%");
     let frequency = of_mode(Quantity::Frequency);
     let wanted = [Requirement::Stable, Requirement::at_most(frequency, 100.0)];
-    let rare = study
-        .rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05)
-        .expect("samples");
+    let rare = study.rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05).expect("samples");
     let expected = phi(-3.0) + phi(-4.5);
     let probability = rare.failure.probability;
     assert!(rare.failure.reached && rare.unseen < 0.06 * expected);
-    assert!(
-        (probability.value - expected).abs() < 4.0 * probability.standard_error,
-        "{probability:?} {expected}"
-    );
+    assert!((probability.value - expected).abs() < 4.0 * probability.standard_error, "{probability:?} {expected}");
     assert_eq!(rare.without_design_point, [0]);
     let text = rare.to_string();
-    assert!(
-        text.contains("No design point for requirement 1: failures with a probability"),
-        "{text}"
-    );
+    assert!(text.contains("No design point for requirement 1: failures with a probability"), "{text}");
     // With design points for all requirements there is nothing to be unseen.
     let few = study.sampling().samples(100);
-    let rare = study
-        .rare_failure(&wanted[1..], &few, 0.05)
-        .expect("samples");
+    let rare = study.rare_failure(&wanted[1..], &few, 0.05).expect("samples");
     assert_eq!((rare.unseen, rare.without_design_point.len()), (0.0, 0));
 }
 
@@ -121,36 +105,16 @@ fn failures_without_a_design_point_are_found() {
 fn the_centre_inside_a_forbidden_band_has_no_design_point() {
     let band = |low, high| {
         let response = of_mode(Quantity::Frequency);
-        [Requirement::Outside {
-            response,
-            low,
-            high,
-        }]
+        [Requirement::Outside { response, low, high }]
     };
     let study = mount("+/- 10%").samples(20_000);
     let inside = study.reliability(&band(62.0, 64.0)).expect("limits");
     let points = &inside.limits[0].design_points;
-    assert!(
-        matches!(
-            points,
-            Err(Error::Setting {
-                setting: "forbidden band",
-                ..
-            })
-        ),
-        "{points:?}"
-    );
+    assert!(matches!(points, Err(Error::Setting { setting: "forbidden band", .. })), "{points:?}");
     assert!(inside.system.is_none() && inside.beta_of(0).is_none());
     let at = |frequency: f64| (frequency * frequency * 10.0 - 40e3) / (4000.0 / 3.0);
-    let share = study
-        .chances(&band(62.0, 64.0))
-        .expect("samples")
-        .all
-        .failure();
-    assert!(
-        (share - phi(at(64.0)) + phi(at(62.0))).abs() < 0.015,
-        "{share}"
-    );
+    let share = study.chances(&band(62.0, 64.0)).expect("samples").all.failure();
+    assert!((share - phi(at(64.0)) + phi(at(62.0))).abs() < 0.015, "{share}");
     let beside = study.reliability(&band(66.5, 67.0)).expect("limits");
     assert!((beside.limits[0].beta().expect("a design point") - at(66.5)).abs() < 1e-6);
 }
@@ -168,34 +132,20 @@ fn design_points_that_are_reflections_are_found() {
     let width = 12.0 / f64::from(steps);
     let at = |k: i32| (f64::from(k) + 0.5) * width;
     let density = eigentol_statistics::normal::density;
-    let row =
-        |i| (0..steps).map(move |j| density(at(i)) * density(at(j)) * phi(-20.0 / (at(i) * at(j))));
+    let row = |i| (0..steps).map(move |j| density(at(i)) * density(at(j)) * phi(-20.0 / (at(i) * at(j))));
     let expected: f64 = 4.0 * width * width * (0..steps).flat_map(row).sum::<f64>();
-    let rare = study
-        .rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05)
-        .expect("samples");
+    let rare = study.rare_failure(&wanted, &study.sampling().samples(1_000_000), 0.05).expect("samples");
     let probability = rare.failure.probability;
-    assert!(
-        (probability.value - expected).abs() < 4.0 * probability.standard_error,
-        "{probability:?} {expected}"
-    );
+    assert!((probability.value - expected).abs() < 4.0 * probability.standard_error, "{probability:?} {expected}");
 }
 
 /// At one corner the mass has no frequency: what lies on the way is unknown.
 #[test]
 fn the_worst_case_beyond_stability_is_unknown() {
-    let worst = mount("+/- 100%")
-        .worst_case(&[of_mode(Quantity::Frequency)])
-        .expect("corners");
+    let worst = mount("+/- 100%").worst_case(&[of_mode(Quantity::Frequency)]).expect("corners");
     let response = &worst.responses[0];
-    let greatest = response
-        .greatest
-        .as_ref()
-        .map(|end| (end.value, end.confirmed));
-    assert_eq!(
-        (response.least.is_none(), response.missing.len()),
-        (true, 1)
-    );
+    let greatest = response.greatest.as_ref().map(|end| (end.value, end.confirmed));
+    assert_eq!((response.least.is_none(), response.missing.len()), (true, 1));
     assert!(greatest.is_some_and(|(value, sure)| sure && (value - 8000_f64.sqrt()).abs() < 1e-9));
 }
 
@@ -209,19 +159,12 @@ fn tolerances_about_an_extremum_are_allocated() {
         limits: (0.1, 6.0),
         cost: Cost::reciprocal(0.0, 1.0, 1.0),
     };
-    let choices = Choices {
-        half_widths: vec![half_width],
-        nominals: vec![],
-        failure: vec![0.01],
-    };
+    let choices = Choices { half_widths: vec![half_width], nominals: vec![], failure: vec![0.01] };
     let found = study.allocation(&wanted, &choices).expect("an allocation");
     // 2 Phi(-3 / T) = 0.01.
     let expected = 3.0 / 2.575_829_303_548_901;
     let half_width = found.half_widths[0];
-    assert!(
-        (half_width - expected).abs() < 1e-5,
-        "{half_width} {expected}"
-    );
+    assert!((half_width - expected).abs() < 1e-5, "{half_width} {expected}");
     assert!(found.refuted.is_empty());
     assert!((found.reliability.beta_of(0).expect("two points") - 2.326_347_874).abs() < 1e-5);
 }
@@ -233,25 +176,14 @@ fn samples_that_miss_rare_values_confirm_nothing() {
         let list = format!("one of [39.8, 40, 40.2, {stiff}] N/mm weighted [33, 33, 33, {weight}]");
         mount(&list).summary().expect("a summary")
     };
-    for (stiff, weight) in [
-        (80.0, 0.01),
-        (80.0, 0.05),
-        (80.0, 0.2),
-        (4000.0, 1e-3),
-        (4000.0, 1e-4),
-    ] {
+    for (stiff, weight) in [(80.0, 0.01), (80.0, 0.05), (80.0, 0.2), (4000.0, 1e-3), (4000.0, 1e-4)] {
         let summary = listed(stiff, weight);
         assert!(!summary.trust[0].trusted(), "{stiff} {weight}: {summary}");
     }
     let rare = listed(4000.0, 1e-4);
     let text = rare.to_string();
-    assert!(
-        text.contains("due to values too rare to be among the samples"),
-        "{text}"
-    );
-    let doubt = Doubt::Unrepresentative {
-        quantity: Quantity::Frequency,
-    };
+    assert!(text.contains("due to values too rare to be among the samples"), "{text}");
+    let doubt = Doubt::Unrepresentative { quantity: Quantity::Frequency };
     assert!(rare.trust[0].doubts.contains(&doubt));
     let check = &rare.trust[0].checks[0];
     assert!(!check.representative && check.first_order_error.is_none());
@@ -281,21 +213,9 @@ fn the_margin_of_mixed_modes_says_so() {
         ))
     };
     let wanted = Requirement::at_least(of_mode(Quantity::Frequency), 63.0);
-    let mixed = pair("40")
-        .second_order_failure(wanted)
-        .expect("a probability");
+    let mixed = pair("40").second_order_failure(wanted).expect("a probability");
     assert_eq!(mixed.mixed_with, [1]);
-    assert!(
-        mixed
-            .to_string()
-            .contains("Tolerances mix this mode with mode 2"),
-        "{mixed}"
-    );
-    let apart = pair("80")
-        .second_order_failure(wanted)
-        .expect("a probability");
-    assert!(
-        apart.mixed_with.is_empty() && !apart.to_string().contains("mix"),
-        "{apart}"
-    );
+    assert!(mixed.to_string().contains("Tolerances mix this mode with mode 2"), "{mixed}");
+    let apart = pair("80").second_order_failure(wanted).expect("a probability");
+    assert!(apart.mixed_with.is_empty() && !apart.to_string().contains("mix"), "{apart}");
 }

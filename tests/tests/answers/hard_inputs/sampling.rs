@@ -13,11 +13,7 @@ fn assert_complete(run: &MonteCarlo, samples: usize) {
     assert_eq!((run.samples, run.counts.total()), (samples, samples));
     let all = run.all.as_ref().expect("samples were asked for");
     assert_eq!(all.len(), samples);
-    let count = |outcome| {
-        all.iter()
-            .filter(|sample| sample.outcome == outcome)
-            .count()
-    };
+    let count = |outcome| all.iter().filter(|sample| sample.outcome == outcome).count();
     assert_eq!(run.counts.stable, count(Outcome::Stable));
     assert_eq!(run.counts.divergent, count(Outcome::Divergent));
     assert_eq!(run.counts.no_equilibrium, count(Outcome::NoEquilibrium));
@@ -51,11 +47,7 @@ fn assert_reproducible(study: &Study<impl Mechanism>) -> MonteCarlo {
     const SAMPLES: usize = 2500;
     let run = |threads: usize, seed: u64| {
         let study = study.clone().samples(SAMPLES).keep_samples(true);
-        study
-            .threads(threads)
-            .seed(seed)
-            .monte_carlo()
-            .expect("samples")
+        study.threads(threads).seed(seed).monte_carlo().expect("samples")
     };
     let one = run(1, 42);
     assert_complete(&one, SAMPLES);
@@ -83,9 +75,7 @@ fn double_pendulum_about_its_critical_speed() {
 
 #[test]
 fn governor_and_slider() {
-    let study = Study::new(Governor)
-        .input(Governor::speed, 20.0)
-        .input(Governor::collar, 0.19);
+    let study = Study::new(Governor).input(Governor::speed, 20.0).input(Governor::collar, 0.19);
     assert_eq!(assert_reproducible(&study).counts.stable, 2500);
     let study = Study::new(TurntableSlider).input(TurntableSlider::omega, 2.0);
     assert_eq!(assert_reproducible(&study).counts.stable, 2500);
@@ -99,18 +89,12 @@ fn samples_that_fail_are_counted() {
         .tolerance(SprungMass::m, 1.2)
         .tolerance(SprungMass::k, 10.0);
     let run = assert_reproducible(&study);
-    assert!(
-        run.counts.unphysical > 0,
-        "masses below zero: {:?}",
-        run.counts
-    );
+    assert!(run.counts.unphysical > 0, "masses below zero: {:?}", run.counts);
     assert!(run.counts.divergent > 500, "{:?}", run.counts);
     assert!(run.counts.stable > 500, "{:?}", run.counts);
 
     // A spring that may or may not hold the bar upright.
-    let study = Study::new(StandingBar)
-        .design(StandingBar::k, 9.81)
-        .tolerance(DesignVariable::new(2), 0.5);
+    let study = Study::new(StandingBar).design(StandingBar::k, 9.81).tolerance(DesignVariable::new(2), 0.5);
     let run = assert_reproducible(&study);
     assert_eq!(run.counts.stable, run.samples);
 }
@@ -118,11 +102,7 @@ fn samples_that_fail_are_counted() {
 #[test]
 fn no_samples_and_one_sample() {
     let study = Study::new(RotatingDoublePendulum).keep_samples(true);
-    let none = study
-        .clone()
-        .samples(0)
-        .monte_carlo()
-        .expect("nothing to do");
+    let none = study.clone().samples(0).monte_carlo().expect("nothing to do");
     assert_eq!((none.counts.total(), none.samples), (0, 0));
     assert_eq!(*none.modes, [None, None]);
     assert_eq!(none.all.as_deref(), Some(&[][..]));

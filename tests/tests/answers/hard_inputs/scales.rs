@@ -17,11 +17,7 @@ fn pendulums_of_every_size() {
             .input(RotatingDoublePendulum::omega, speed / length.sqrt())
             .start(RotatingDoublePendulum::theta1, 0.3);
         for (j, info) in design.iter().enumerate() {
-            let factor = if info.unit.symbol.contains("kg") {
-                mass
-            } else {
-                length
-            };
+            let factor = if info.unit.symbol.contains("kg") { mass } else { length };
             study = study
                 .design(DesignVariable::new(j), factor * info.nominal)
                 .tolerance(DesignVariable::new(j), factor * info.tolerance.upper);
@@ -54,10 +50,7 @@ fn pendulums_of_every_size() {
                     };
                     let expected = sigma(&sigmas) / length.sqrt();
                     let found = sigma(&spread);
-                    assert!(
-                        (found - expected).abs() <= 1e-7 * expected,
-                        "{what}: {found}"
-                    );
+                    assert!((found - expected).abs() <= 1e-7 * expected, "{what}: {found}");
                 }
             }
         }
@@ -83,23 +76,13 @@ fn sliders_of_every_size() {
                 assert_equilibrium(&SlidersOnPlate, &state);
                 let (x, y) = (state.coordinates[0], state.coordinates[1]);
                 let near = |value: f64, expected: f64| (value - expected).abs() <= 1e-12 * expected;
-                assert!(
-                    near(x, 0.125 * length),
-                    "{length:e} {force:e} {mass:e}: {x:e}"
-                );
-                assert!(
-                    near(y, 0.3 / 13.0 * length),
-                    "{length:e} {force:e} {mass:e}: {y:e}"
-                );
+                assert!(near(x, 0.125 * length), "{length:e} {force:e} {mass:e}: {x:e}");
+                assert!(near(y, 0.3 / 13.0 * length), "{length:e} {force:e} {mass:e}: {y:e}");
                 let undamped = study.clone().family(Family::Undamped);
                 let lambda = undamped.modes().expect("modes").modes[0].lambda;
                 assert!(near(lambda, 64.0 * force / mass), "{lambda:e}");
                 let general = study.modes().expect("modes");
-                for (mode, expected) in general
-                    .modes
-                    .iter()
-                    .zip([5.791_190_506_937_825, 14.087_658_162_815_892])
-                {
+                for (mode, expected) in general.modes.iter().zip([5.791_190_506_937_825, 14.087_658_162_815_892]) {
                     let omega = mode.frequency().expect("it oscillates");
                     assert!(near(omega, expected * f64::sqrt(force / mass)), "{omega:e}");
                 }

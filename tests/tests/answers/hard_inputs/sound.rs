@@ -6,8 +6,7 @@ use eigentol::sensitivity::{
 };
 use eigentol::tolerance::{first_order, output_tolerances};
 use eigentol::{
-    Behaviour, Equilibrium, Kernels, Modes, Quantity, Sensitivities, Stability, modes,
-    tolerance::Tolerances,
+    Behaviour, Equilibrium, Kernels, Modes, Quantity, Sensitivities, Stability, modes, tolerance::Tolerances,
 };
 use nalgebra::DMatrix;
 use std::borrow::Borrow;
@@ -15,10 +14,7 @@ use std::borrow::Borrow;
 #[track_caller]
 pub(crate) fn assert_numbers(values: impl IntoIterator<Item: Borrow<f64>>, what: &str) {
     let values: Vec<f64> = values.into_iter().map(|value| *value.borrow()).collect();
-    assert!(
-        values.iter().all(|value| !value.is_nan()),
-        "{what}: {values:?}"
-    );
+    assert!(values.iter().all(|value| !value.is_nan()), "{what}: {values:?}");
 }
 
 /// Checks an equilibrium: its residual is small against the forces in it, or is explained by coordinate rounding; if it
@@ -58,9 +54,7 @@ fn assert_settled(machine: &dyn Kernels, at: &Equilibrium, motion: impl Fn(f64) 
     if at.stability == Stability::Stable {
         let unstable = "called stable";
         assert!((0..n).all(|i| k[i][i] > 0.0), "{unstable}: {k:?}");
-        let scaled = DMatrix::from_fn(n, n, |i, j| {
-            (0.5 * k[i][j] + 0.5 * k[j][i]) / k[i][i].sqrt() / k[j][j].sqrt()
-        });
+        let scaled = DMatrix::from_fn(n, n, |i, j| (0.5 * k[i][j] + 0.5 * k[j][i]) / k[i][i].sqrt() / k[j][j].sqrt());
         let least = scaled.symmetric_eigenvalues().min();
         assert!(least > -1e-12, "{unstable} with {least:e}: {k:?}");
     }
@@ -87,11 +81,7 @@ fn assert_sensitivities(all: &Sensitivities, what: &str) {
     for mode in &all.modes {
         assert_numbers(&mode.lambda.by_input, what);
         assert_numbers(&mode.lambda.by_design, what);
-        for slopes in Quantity::ALL
-            .map(|quantity| mode.of(quantity))
-            .iter()
-            .flatten()
-        {
+        for slopes in Quantity::ALL.map(|quantity| mode.of(quantity)).iter().flatten() {
             assert_numbers(&slopes.by_input, what);
             assert_numbers(&slopes.by_design, what);
         }
@@ -123,10 +113,7 @@ pub(crate) fn assert_answers(machine: &dyn Kernels, at: &Equilibrium, tolerances
         let spread = first_order(&found, &all, tolerances).expect("spreads");
         assert_numbers([spread.distance_to_critical], "distance");
         for mode in &spread.modes {
-            assert_numbers(
-                [mode.lambda.sigma, mode.distance_to_critical],
-                "spread of lambda",
-            );
+            assert_numbers([mode.lambda.sigma, mode.distance_to_critical], "spread of lambda");
             for quantity in Quantity::ALL {
                 let spread = mode.of(quantity);
                 assert_numbers(spread.iter().flat_map(|x| [x.sigma, x.band]), "spread");

@@ -15,10 +15,7 @@ const BOTH: [Policy; 2] = [Policy::Stable, Policy::Nearest];
 fn a_spring_too_weak_for_the_speed() {
     let study = |omega: f64| Study::new(SprungMass).input(SprungMass::omega, omega);
     for policy in BOTH {
-        let held = study(9.0)
-            .policy(policy)
-            .equilibrium()
-            .expect("the spring holds");
+        let held = study(9.0).policy(policy).equilibrium().expect("the spring holds");
         assert!((held.coordinates[0] - 10.0 / 19.0).abs() < 1e-14);
         assert_eq!(held.stability, Stability::Stable);
 
@@ -27,10 +24,7 @@ fn a_spring_too_weak_for_the_speed() {
 
         let beyond = study(11.0).policy(policy);
         let state = beyond.equilibrium().expect("an unstable equilibrium");
-        assert!(
-            (state.coordinates[0] + 10.0 / 21.0).abs() < 1e-14,
-            "{state:?}"
-        );
+        assert!((state.coordinates[0] + 10.0 / 21.0).abs() < 1e-14, "{state:?}");
         assert_eq!(state.stability, Stability::Divergent { negative: 1 });
         let modes = beyond.modes().expect("modes");
         let Behaviour::Divergent(rate) = modes.modes[0].behaviour else {
@@ -46,63 +40,39 @@ fn a_spring_too_weak_for_the_speed() {
         assert_eq!(*run.modes, [None]);
     }
     // Without a rest length any position is an equilibrium at the critical speed.
-    let anywhere = study(10.0)
-        .design(SprungMass::rest, 0.0)
-        .start(Coordinate::new(0), 0.3);
+    let anywhere = study(10.0).design(SprungMass::rest, 0.0).start(Coordinate::new(0), 0.3);
     let state = anywhere.equilibrium().expect("any place");
     assert_eq!(state.coordinates, [0.3]);
     assert_eq!(state.stability, Stability::Neutral { zero: 1 });
-    assert_eq!(
-        anywhere.modes().expect("modes").modes[0].behaviour,
-        Behaviour::Neutral
-    );
-    assert!(matches!(
-        anywhere.sensitivities(),
-        Err(Error::CriticalState)
-    ));
+    assert_eq!(anywhere.modes().expect("modes").modes[0].behaviour, Behaviour::Neutral);
+    assert!(matches!(anywhere.sensitivities(), Err(Error::CriticalState)));
 }
 
 /// `k theta = m g l / 2 sin theta`: upright is unstable where `k < m g l / 2`.
 #[test]
 fn an_inverted_bar_is_not_called_stable() {
     let study = Study::new(StandingBar);
-    let upright = study
-        .clone()
-        .policy(Policy::Nearest)
-        .equilibrium()
-        .expect("upright");
+    let upright = study.clone().policy(Policy::Nearest).equilibrium().expect("upright");
     assert_eq!(upright.coordinates, [0.0]);
     assert_eq!(upright.stability, Stability::Divergent { negative: 1 });
     let fallen = study.equilibrium().expect("it leans on its spring");
     assert_eq!(fallen.stability, Stability::Stable);
     let theta = fallen.coordinates[0];
     assert!((5.0 * theta - 9.81 * theta.sin()).abs() < 1e-13 && theta > 1.0);
-    let held = study
-        .design(StandingBar::k, 10.0)
-        .equilibrium()
-        .expect("upright");
+    let held = study.design(StandingBar::k, 10.0).equilibrium().expect("upright");
     assert_eq!(held.coordinates, [0.0]);
     assert_eq!(held.stability, Stability::Stable);
 }
 
 #[test]
 fn what_nothing_holds() {
-    let rests = Study::new(FreeBar)
-        .design(FreeBar::k, 0.0)
-        .start(Coordinate::new(0), 1.25)
-        .equilibrium()
-        .expect("anywhere");
+    let rests =
+        Study::new(FreeBar).design(FreeBar::k, 0.0).start(Coordinate::new(0), 1.25).equilibrium().expect("anywhere");
     assert_eq!(rests.coordinates, [1.25]);
     assert_eq!(rests.stability, Stability::Neutral { zero: 1 });
     for policy in BOTH {
-        let falls = Study::new(Falling)
-            .design(Falling::k, 0.0)
-            .policy(policy)
-            .equilibrium();
-        assert!(
-            matches!(falls, Err(Error::NoEquilibrium { .. })),
-            "{falls:?}"
-        );
+        let falls = Study::new(Falling).design(Falling::k, 0.0).policy(policy).equilibrium();
+        assert!(matches!(falls, Err(Error::NoEquilibrium { .. })), "{falls:?}");
     }
 }
 
@@ -124,10 +94,7 @@ fn far_starts() {
                     // At this angle adjacent numbers are this far apart.
                     let coarse = 1e-9 + 8.0 * f64::EPSILON * start.abs();
                     let found = state.coordinates[0].cos();
-                    assert!(
-                        (found - cosine).abs() <= coarse,
-                        "{start}, {omega}: {found}"
-                    );
+                    assert!((found - cosine).abs() <= coarse, "{start}, {omega}: {found}");
                 }
             }
         }
@@ -146,19 +113,12 @@ fn starts_on_the_unstable_state_above_the_critical_speed() {
     let truth = Truth::load("P2");
     let critical = truth.get("Omega_critical").number();
     for factor in [1.0 + 1e-9, 1.0 + 1e-6, 1.001, 1.5, 10.0] {
-        let study = Study::new(RotatingDoublePendulum)
-            .input(RotatingDoublePendulum::omega, factor * critical);
+        let study = Study::new(RotatingDoublePendulum).input(RotatingDoublePendulum::omega, factor * critical);
         let state = study.equilibrium().expect("a state");
         assert_equilibrium(&RotatingDoublePendulum, &state);
         assert_eq!(state.stability, Stability::Stable, "{factor}");
-        assert!(
-            state.coordinates[0].abs() > 1e-6 && state.left_unstable_region,
-            "{factor}"
-        );
-        let kept = study
-            .policy(Policy::Nearest)
-            .equilibrium()
-            .expect("a state");
+        assert!(state.coordinates[0].abs() > 1e-6 && state.left_unstable_region, "{factor}");
+        let kept = study.policy(Policy::Nearest).equilibrium().expect("a state");
         assert_eq!(kept.coordinates, [0.0; 2]);
         // The second mode becomes unstable at 7.19 rad/s.
         let negative = if factor > 3.0 { 2 } else { 1 };
@@ -218,10 +178,7 @@ fn a_sweep_through_the_critical_speed_stays_on_stable_states() {
     let down: Vec<f64> = speeds.iter().rev().copied().collect();
     for speeds in [speeds, down] {
         let study = Study::new(RotatingDoublePendulum);
-        let points = study
-            .sweep(RotatingDoublePendulum::omega, &speeds)
-            .expect("a sweep")
-            .points;
+        let points = study.sweep(RotatingDoublePendulum::omega, &speeds).expect("a sweep").points;
         assert_eq!(points.len(), speeds.len());
         let tolerances = study.tolerances().expect("declared");
         for point in points {
@@ -235,11 +192,7 @@ fn a_sweep_through_the_critical_speed_stays_on_stable_states() {
             }
             let modes = point.modes.expect("modes");
             // The second mode never approaches zero.
-            assert!(
-                modes.frequencies()[1].is_some_and(|omega| omega > 6.0),
-                "{}",
-                point.value
-            );
+            assert!(modes.frequencies()[1].is_some_and(|omega| omega > 6.0), "{}", point.value);
         }
     }
 }
@@ -254,11 +207,7 @@ fn tiny_lengths_are_solved_or_refused() {
                 .start(RotatingDoublePendulum::theta1, 0.4)
                 .design(DesignVariable::new(variable), length);
             if let Ok(state) = study.equilibrium() {
-                assert_answers(
-                    &RotatingDoublePendulum,
-                    &state,
-                    &study.tolerances().expect("declared"),
-                );
+                assert_answers(&RotatingDoublePendulum, &state, &study.tolerances().expect("declared"));
             }
         }
     }

@@ -13,12 +13,9 @@ impl Visitor for EveryPlace {
     fn visit<M: Mechanism + Copy>(&mut self, machine: &'static str, _: &'static str, mechanism: M) {
         let names = Kernels::description(&mechanism);
         let refused = |study: Study<M>, expected: &str| {
-            for error in [
-                study.equilibrium().err(),
-                study.modes().err(),
-                study.sensitivities().err(),
-                study.monte_carlo().err(),
-            ] {
+            for error in
+                [study.equilibrium().err(), study.modes().err(), study.sensitivities().err(), study.monte_carlo().err()]
+            {
                 let Some(Error::NotFinite { name, .. }) = error else {
                     panic!("{machine}, {expected}: {error:?}");
                 };
@@ -67,12 +64,7 @@ fn what_no_body_can_have_is_named() {
         for value in [0.0, -0.0, -1e-300, -3.0, f64::MIN] {
             let study = Study::new(RotatingDoublePendulum).design(variable, value);
             let error = study.equilibrium().err();
-            let Some(Error::Unphysical {
-                quantity: found,
-                requirement,
-                value: got,
-            }) = error
-            else {
+            let Some(Error::Unphysical { quantity: found, requirement, value: got }) = error else {
                 panic!("{quantity} = {value}: {error:?}");
             };
             assert_eq!((&*found, &*requirement), (quantity, "positive"));
@@ -99,17 +91,13 @@ fn settings_without_sense_are_named() {
         }
     };
     for value in [-1e-300, -1.0].into_iter().chain(NOT_FINITE) {
-        refused(
-            study().tolerance(RotatingDoublePendulum::m1, value),
-            "tolerance",
-        );
+        refused(study().tolerance(RotatingDoublePendulum::m1, value), "tolerance");
     }
     for value in [0.0, -0.0, -3.0].into_iter().chain(NOT_FINITE) {
         refused(study().sigma_level(value), "sigma level");
     }
     let identity = |change: &[(usize, usize, f64)]| {
-        let mut matrix: [[f64; 4]; 4] =
-            std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+        let mut matrix: [[f64; 4]; 4] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
         for &(i, j, value) in change {
             matrix[i][j] = value;
         }
@@ -117,14 +105,7 @@ fn settings_without_sense_are_named() {
     };
     for change in [
         // Not positive semidefinite: 1 follows 0, 2 follows 1, but 2 opposes 0.
-        &[
-            (0, 1, 0.9),
-            (1, 0, 0.9),
-            (1, 2, 0.9),
-            (2, 1, 0.9),
-            (0, 2, -0.9),
-            (2, 0, -0.9),
-        ][..],
+        &[(0, 1, 0.9), (1, 0, 0.9), (1, 2, 0.9), (2, 1, 0.9), (0, 2, -0.9), (2, 0, -0.9)][..],
         &[(0, 3, 1.1), (3, 0, 1.1)],
         &[(0, 3, 0.5)],
         &[(1, 1, 0.9)],
@@ -143,47 +124,22 @@ fn settings_without_sense_are_named() {
 fn ranges_without_sense_are_named() {
     let omega = RotatingDoublePendulum::omega;
     let study = Study::new(RotatingDoublePendulum);
-    for (low, high, steps) in [
-        (f64::NAN, 1.0, 10),
-        (0.0, f64::INFINITY, 10),
-        (2.0, 2.0, 10),
-        (0.0, 5.0, 0),
-    ] {
+    for (low, high, steps) in [(f64::NAN, 1.0, 10), (0.0, f64::INFINITY, 10), (2.0, 2.0, 10), (0.0, 5.0, 0)] {
         let study = study.clone().steps(steps);
-        for error in [
-            study.critical_state(omega, low, high).err(),
-            study.crossings(omega, low, high, 1.0).err(),
-        ] {
-            let refused = matches!(
-                error,
-                Some(Error::Setting {
-                    setting: "range",
-                    ..
-                })
-            );
+        for error in [study.critical_state(omega, low, high).err(), study.crossings(omega, low, high, 1.0).err()] {
+            let refused = matches!(error, Some(Error::Setting { setting: "range", .. }));
             assert!(refused, "{low} to {high} in {steps}: {error:?}");
         }
     }
     for ratio in NOT_FINITE {
         let found = study.crossings(omega, 0.1, 2.0, ratio);
-        let refused = matches!(
-            found,
-            Err(Error::Setting {
-                setting: "line",
-                ..
-            })
-        );
+        let refused = matches!(found, Err(Error::Setting { setting: "line", .. }));
         assert!(refused, "{ratio}: {found:?}");
     }
     let none = study.critical_state(omega, 0.1, 1.0);
     let message = none.expect_err("no critical value").to_string();
-    assert_eq!(
-        message,
-        "no critical value in the range 0.1 to 1 rad/s of input `omega`"
-    );
-    let points = study
-        .sweep(omega, &NOT_FINITE)
-        .expect("points carry their errors");
+    assert_eq!(message, "no critical value in the range 0.1 to 1 rad/s of input `omega`");
+    let points = study.sweep(omega, &NOT_FINITE).expect("points carry their errors");
     for point in points {
         assert!(matches!(point.equilibrium, Err(Error::NotFinite { .. })));
         assert!(matches!(point.modes, Err(Error::NotFinite { .. })));
@@ -195,38 +151,15 @@ fn handles_of_other_machines_are_named() {
     let study = || Study::new(RotatingDoublePendulum);
     for (study, kind, index, count) in [
         (study().input(Input::new(1), 0.0), "input", 1, 1),
-        (
-            study().design(DesignVariable::new(4), 1.0),
-            "design variable",
-            4,
-            4,
-        ),
-        (
-            study().tolerance(DesignVariable::new(9), 1.0),
-            "design variable",
-            9,
-            4,
-        ),
-        (
-            study().start(Coordinate::new(usize::MAX), 0.0),
-            "coordinate",
-            usize::MAX,
-            2,
-        ),
+        (study().design(DesignVariable::new(4), 1.0), "design variable", 4, 4),
+        (study().tolerance(DesignVariable::new(9), 1.0), "design variable", 9, 4),
+        (study().start(Coordinate::new(usize::MAX), 0.0), "coordinate", usize::MAX, 2),
     ] {
-        let expected = Error::UnknownHandle {
-            kind,
-            index,
-            mechanism: "RotatingDoublePendulum".into(),
-            count,
-        };
+        let expected = Error::UnknownHandle { kind, index, mechanism: "RotatingDoublePendulum".into(), count };
         assert_eq!(study.equilibrium().err(), Some(expected.clone()));
         assert_eq!(study.first_order().err(), Some(expected.clone()));
         assert_eq!(study.sweep(Input::new(0), &[1.0]).err(), Some(expected));
     }
     let swept = study().sweep(Input::new(1), &[1.0]);
-    assert!(matches!(
-        swept,
-        Err(Error::UnknownHandle { kind: "input", .. })
-    ));
+    assert!(matches!(swept, Err(Error::UnknownHandle { kind: "input", .. })));
 }

@@ -41,11 +41,7 @@ fn ask(machine: &Interpreted, [u, b, start, widths]: [&[f64]; 4]) {
             assert_answers(machine, &state, &tolerances);
         }
     }
-    let mut study = Study::new(machine.clone())
-        .samples(8)
-        .threads(1)
-        .steps(4)
-        .keep_samples(true);
+    let mut study = Study::new(machine.clone()).samples(8).threads(1).steps(4).keep_samples(true);
     for (j, &value) in u.iter().enumerate() {
         study = study.input(Input::new(j), value);
     }
@@ -53,9 +49,7 @@ fn ask(machine: &Interpreted, [u, b, start, widths]: [&[f64]; 4]) {
         study = study.start(Coordinate::new(i), value);
     }
     for j in 0..sizes.design {
-        study = study
-            .design(DesignVariable::new(j), b[j])
-            .tolerance(DesignVariable::new(j), widths[j]);
+        study = study.design(DesignVariable::new(j), b[j]).tolerance(DesignVariable::new(j), widths[j]);
     }
     if let Ok(run) = study.monte_carlo() {
         assert_eq!(run.counts.total(), 8);
@@ -76,18 +70,10 @@ fn ask(machine: &Interpreted, [u, b, start, widths]: [&[f64]; 4]) {
             assert_numbers([critical.value], "critical");
             assert_numbers(critical.equilibrium.coordinates, "critical");
         }
-        for crossing in study
-            .crossings(Input::new(0), low, high, 1.0)
-            .into_iter()
-            .flatten()
-        {
+        for crossing in study.crossings(Input::new(0), low, high, 1.0).into_iter().flatten() {
             assert_numbers([crossing.value], "crossing");
         }
-        for point in study
-            .sweep(Input::new(0), &[low, high])
-            .into_iter()
-            .flatten()
-        {
+        for point in study.sweep(Input::new(0), &[low, high]).into_iter().flatten() {
             if let Ok(state) = point.equilibrium {
                 assert_answers(machine, &state, &usual);
             }
@@ -100,14 +86,8 @@ fn list(strategy: impl Strategy<Value = f64>) -> impl Strategy<Value = Vec<f64>>
 }
 
 /// Small mechanisms of every kind.
-const NAMES: [&str; 6] = [
-    "rotating_pendulum",
-    "rotating_double_pendulum",
-    "sliders_on_plate",
-    "governor",
-    "gimbal",
-    "turntable_slider",
-];
+const NAMES: [&str; 6] =
+    ["rotating_pendulum", "rotating_double_pendulum", "sliders_on_plate", "governor", "gimbal", "turntable_slider"];
 
 fn read(name: &str) -> Interpreted {
     let declaration = declarations().into_iter().find(|(known, _)| *known == name);
@@ -122,12 +102,8 @@ pub(crate) fn ask_often(
     start: impl Strategy<Value = f64>,
     widths: impl Strategy<Value = f64>,
 ) {
-    let config = ProptestConfig {
-        cases,
-        failure_persistence: None,
-        rng_seed: RngSeed::Fixed(20),
-        ..ProptestConfig::default()
-    };
+    let config =
+        ProptestConfig { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(20), ..ProptestConfig::default() };
     let machines = NAMES.map(read);
     let values = (0..NAMES.len(), list(u), list(b), list(start), list(widths));
     let asked = TestRunner::new(config).run(&values, |(which, u, b, start, widths)| {

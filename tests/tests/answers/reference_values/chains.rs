@@ -29,18 +29,14 @@ fn absolute(relative: &[f64]) -> Vec<f64> {
 /// `D^T a`: generalised forces of absolute angles from those of relative angles, `q = D theta`.
 fn absolute_forces(relative: &[f64]) -> Vec<f64> {
     let after = |j: usize| relative.get(j + 1).copied().unwrap_or(0.0);
-    (0..relative.len())
-        .map(|j| relative[j] - after(j))
-        .collect()
+    (0..relative.len()).map(|j| relative[j] - after(j)).collect()
 }
 
 /// `D^T A D`.
 fn absolute_matrix(relative: &Matrix) -> Matrix {
     let n = relative.row_count();
     let entry = |i: usize, j: usize| if i < n && j < n { relative[i][j] } else { 0.0 };
-    Matrix::from_fn(n, n, |i, j| {
-        entry(i, j) - entry(i + 1, j) - entry(i, j + 1) + entry(i + 1, j + 1)
-    })
+    Matrix::from_fn(n, n, |i, j| entry(i, j) - entry(i + 1, j) - entry(i, j + 1) + entry(i + 1, j + 1))
 }
 
 fn study<M: Kernels>(machine: M, case: &Truth) -> Study<M> {
@@ -77,17 +73,11 @@ fn check<M: BatchKernels + Copy>(machine: M, name: &str) {
 
         let modes = study.modes().expect("modes");
         assert!(!modes.damping_ignored, "{what}");
-        assert_close(
-            &frequencies(&modes),
-            &point.get("omega_n").numbers(),
-            0.0,
-            &what,
-        );
+        assert_close(&frequencies(&modes), &point.get("omega_n").numbers(), 0.0, &what);
 
         let adjoint = sensitivities(&machine, &at, &modes).expect("derivatives");
         let explicit = sensitivities_explicit(&machine, &at, &modes).expect("derivatives");
-        let frozen =
-            sensitivities_with_frozen_equilibrium(&machine, &at, &modes).expect("derivatives");
+        let frozen = sensitivities_with_frozen_equilibrium(&machine, &at, &modes).expect("derivatives");
         let mut misses = 0;
         for (r, expected) in point.get("domega_db").list().iter().enumerate() {
             let expected = expected.numbers();
@@ -97,35 +87,17 @@ fn check<M: BatchKernels + Copy>(machine: M, name: &str) {
                 let found = found.modes[r].frequency().expect("it oscillates").by_design;
                 assert_close(&found, &expected, 1e-2 * scale, &format!("{what} mode {r}"));
             }
-            let found = frozen.modes[r]
-                .frequency()
-                .expect("it oscillates")
-                .by_design;
-            misses += found
-                .iter()
-                .zip(&expected)
-                .filter(|(one, other)| (*one - *other).abs() > 1e-3 * scale)
-                .count();
+            let found = frozen.modes[r].frequency().expect("it oscillates").by_design;
+            misses += found.iter().zip(&expected).filter(|(one, other)| (*one - *other).abs() > 1e-3 * scale).count();
         }
-        let bent = point
-            .find("above_critical")
-            .is_some_and(|flag| flag.truth());
-        assert_eq!(
-            misses > 0,
-            bent,
-            "{what}: a frozen equilibrium misses {misses}"
-        );
+        let bent = point.find("above_critical").is_some_and(|flag| flag.truth());
+        assert_eq!(misses > 0, bent, "{what}: a frozen equilibrium misses {misses}");
         above += usize::from(bent);
 
         let shift = equilibrium_shift(&machine, &at).expect("a shift");
         for (j, expected) in point.get("dtheta_db").list().iter().enumerate() {
             let found = absolute(&moved(&shift, By::Design(j)));
-            assert_close(
-                &found,
-                &expected.numbers(),
-                1e-2,
-                &format!("{what} shift {j}"),
-            );
+            assert_close(&found, &expected.numbers(), 1e-2, &format!("{what} shift {j}"));
         }
     }
     assert!(above >= 2, "{name}");
@@ -158,52 +130,34 @@ fn eight_bars() {
 fn checksum(matrix: &Matrix) -> f64 {
     let term = |i: usize, j: usize| ((3 * i + 7 * j + 1) as f64).sin() * matrix[i][j];
     let n = matrix.row_count();
-    (0..n)
-        .flat_map(|i| (0..n).map(move |j| (i, j)))
-        .map(|(i, j)| term(i, j))
-        .sum()
+    (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| term(i, j)).sum()
 }
 
 fn away_from_equilibrium(machine: &dyn Kernels, case: &Truth) {
     let what = case.get("name").text();
     let theta = case.get("q").numbers();
-    let q = Vector::from_fn(theta.len(), |i| {
-        theta[i] - if i > 0 { theta[i - 1] } else { 0.0 }
-    });
+    let q = Vector::from_fn(theta.len(), |i| theta[i] - if i > 0 { theta[i - 1] } else { 0.0 });
     let b = [case.get("L").numbers(), case.get("m").numbers()].concat();
     let u = [case.get("Omega").number()];
 
     let linear = machine.linear(&q, &u, &b);
     for (field, matrix) in [("M", &linear.mass), ("K", &linear.stiffness)] {
         let found = flat(&absolute_matrix(matrix));
-        assert_close(
-            &found,
-            &case.get(field).matrix(),
-            1e-2,
-            &format!("{what} {field}"),
-        );
+        assert_close(&found, &case.get(field).matrix(), 1e-2, &format!("{what} {field}"));
     }
     let residual = absolute_forces(&machine.residual(&q, &u, &b));
     assert_close(&residual, &case.get("R").numbers(), 1e-2, &what);
 
     let partials = machine.linear_partials(&q, &u, &b);
     let sums = |list: &[Linear], part: fn(&Linear) -> &Matrix| {
-        list.iter()
-            .map(|linear| checksum(&absolute_matrix(part(linear))))
-            .collect::<Vec<f64>>()
+        list.iter().map(|linear| checksum(&absolute_matrix(part(linear)))).collect::<Vec<f64>>()
     };
     let (design, coordinates) = (&partials.by_design, &partials.by_coordinate);
     for (field, found) in [
         ("dM_db_checksum", sums(design, |linear| &linear.mass)),
         ("dK_db_checksum", sums(design, |linear| &linear.stiffness)),
-        (
-            "dM_dq_checksum",
-            absolute_forces(&sums(coordinates, |linear| &linear.mass)),
-        ),
-        (
-            "dK_dq_checksum",
-            absolute_forces(&sums(coordinates, |linear| &linear.stiffness)),
-        ),
+        ("dM_dq_checksum", absolute_forces(&sums(coordinates, |linear| &linear.mass))),
+        ("dK_dq_checksum", absolute_forces(&sums(coordinates, |linear| &linear.stiffness))),
     ] {
         let expected = case.get(field).numbers();
         assert_close(&found, &expected, 1e-2, &format!("{what} {field}"));

@@ -12,10 +12,7 @@ pub(crate) const TIGHT: f64 = 1e-9;
 pub(crate) fn assert_close(values: &[f64], expected: &[f64], scale: f64, what: &str) {
     assert_eq!(values.len(), expected.len(), "{what}");
     for (one, other) in values.iter().zip(expected) {
-        assert!(
-            (one - other).abs() <= TIGHT * other.abs().max(scale),
-            "{what}: {values:?}, not {expected:?}"
-        );
+        assert!((one - other).abs() <= TIGHT * other.abs().max(scale), "{what}: {values:?}, not {expected:?}");
     }
 }
 
@@ -32,9 +29,7 @@ pub(crate) fn flat(matrix: &Matrix) -> Vec<f64> {
 /// Frequencies of modes that all oscillate.
 pub(crate) fn frequencies(modes: &Modes) -> Vec<f64> {
     let frequencies = modes.frequencies().into_iter();
-    frequencies
-        .map(|omega| omega.expect("it oscillates"))
-        .collect()
+    frequencies.map(|omega| omega.expect("it oscillates")).collect()
 }
 
 /// The variable of differentiation.
@@ -58,12 +53,7 @@ pub(crate) fn moved(shift: &EquilibriumShift, by: By) -> Vector {
 
 /// `dM/db`, `dC/db`, `dK/db`, the explicit part plus the part through the equilibrium: from explicit partials, and in
 /// one direction.
-pub(crate) fn total_linear(
-    machine: &dyn DirectionalKernels,
-    at: &Equilibrium,
-    dq: &[f64],
-    by: By,
-) -> [Linear; 2] {
+pub(crate) fn total_linear(machine: &dyn DirectionalKernels, at: &Equilibrium, dq: &[f64], by: By) -> [Linear; 2] {
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
     let kernels: &dyn Kernels = machine;
     let partials = kernels.linear_partials(q, u, b);
@@ -72,11 +62,9 @@ pub(crate) fn total_linear(
         By::Design(k) => partials.by_design[k].clone(),
     };
     for (part, rate) in partials.by_coordinate.iter().zip(dq) {
-        for (total, part) in [
-            (&mut sum.mass, &part.mass),
-            (&mut sum.damping, &part.damping),
-            (&mut sum.stiffness, &part.stiffness),
-        ] {
+        for (total, part) in
+            [(&mut sum.mass, &part.mass), (&mut sum.damping, &part.damping), (&mut sum.stiffness, &part.stiffness)]
+        {
             let total = total.as_flattened_mut().iter_mut();
             for (total, part) in total.zip(part.as_flattened()) {
                 *total += rate * part;

@@ -2,8 +2,7 @@
 
 use eigentol::kernels::CurvatureKernels;
 use eigentol::sensitivity::{
-    Sensitivities, equilibrium_shift, sensitivities, sensitivities_explicit,
-    sensitivities_with_frozen_equilibrium,
+    Sensitivities, equilibrium_shift, sensitivities, sensitivities_explicit, sensitivities_with_frozen_equilibrium,
 };
 use eigentol::{Coordinate, DesignVariable, Family, Input, Kernels, Stability, Study};
 use eigentol_oracle::truth::Truth;
@@ -20,9 +19,7 @@ pub(crate) fn study<M: Kernels>(machine: M, condition: &Truth, names: &[&str]) -
     let mut study = Study::new(machine).input(Input::new(0), omega).threads(1);
     for (j, name) in names.iter().enumerate() {
         let variable = DesignVariable::new(j);
-        study = study
-            .design(variable, parameters.get(name).number())
-            .tolerance(variable, 0.0);
+        study = study.design(variable, parameters.get(name).number()).tolerance(variable, 0.0);
     }
     for variable in condition.get("design").list() {
         let name = variable.get("name").text();
@@ -53,18 +50,10 @@ fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> 
         let study = study(machine, &condition, names).family(Family::Undamped);
         let at = study.equilibrium().expect("an equilibrium");
         let q_star = condition.get("q_star");
-        let expected: Vec<f64> = q_star
-            .fields()
-            .iter()
-            .map(|name| q_star.get(name).number())
-            .collect();
+        let expected: Vec<f64> = q_star.fields().iter().map(|name| q_star.get(name).number()).collect();
         assert_equilibrium(&at.coordinates, &expected, &what);
         assert_eq!(at.stability, Stability::Stable, "{what}");
-        for (field, matrix) in [
-            ("M", &at.linear.mass),
-            ("C", &at.linear.damping),
-            ("K", &at.linear.stiffness),
-        ] {
+        for (field, matrix) in [("M", &at.linear.mass), ("C", &at.linear.damping), ("K", &at.linear.stiffness)] {
             let expected = condition.get(field).matrix();
             assert_close(&flat(matrix), &expected, 1e-2, &format!("{what} {field}"));
         }
@@ -82,11 +71,9 @@ fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> 
             let dq = moved(&shift, by(name));
             assert_close(&dq, &expected("dq_star_db").numbers(), 1e-3, &what);
             for total in total_linear(&machine, &at, &dq, by(name)) {
-                for (field, matrix) in [
-                    ("dM_db_total", &total.mass),
-                    ("dC_db_total", &total.damping),
-                    ("dK_db_total", &total.stiffness),
-                ] {
+                for (field, matrix) in
+                    [("dM_db_total", &total.mass), ("dC_db_total", &total.damping), ("dK_db_total", &total.stiffness)]
+                {
                     let what = format!("{what} {field}");
                     assert_close(&flat(matrix), &expected(field).matrix(), 1e-2, &what);
                 }
@@ -97,8 +84,7 @@ fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> 
         assert_eq!(modes.damping_ignored, file == "P3", "{what}");
         let adjoint = sensitivities(&machine, &at, &modes).expect("derivatives");
         let explicit = sensitivities_explicit(&machine, &at, &modes).expect("derivatives");
-        let frozen =
-            sensitivities_with_frozen_equilibrium(&machine, &at, &modes).expect("derivatives");
+        let frozen = sensitivities_with_frozen_equilibrium(&machine, &at, &modes).expect("derivatives");
         let spread = study.first_order().expect("a spread");
         let truths = condition.get("undamped_modes").list();
         assert_eq!(truths.len(), machine.sizes().coordinates, "{what}");
@@ -111,12 +97,7 @@ fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> 
             assert_close(&[frequency], &[number("omega")], 0.0, &what);
             let phi = truth.get("phi_M_normalised").numbers();
             let shape = mode.shape.map(|x| x.re);
-            let side = phi
-                .iter()
-                .zip(&shape)
-                .map(|(one, other)| one * other)
-                .sum::<f64>()
-                .signum();
+            let side = phi.iter().zip(&shape).map(|(one, other)| one * other).sum::<f64>().signum();
             assert_close(&shape.map(|x| side * x), &phi, 1e-2, &what);
 
             let mut variance = 0.0;
@@ -131,10 +112,7 @@ fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> 
                 let value = omega_by(&frozen, r, by(name));
                 assert_close(&[value], &[without], 1e-3, &format!("{what}, frozen"));
                 if (total - without).abs() > 1e-6 {
-                    assert!(
-                        (value - total).abs() > TIGHT * total.abs(),
-                        "{what}, frozen"
-                    );
+                    assert!((value - total).abs() > TIGHT * total.abs(), "{what}, frozen");
                     wrong_when_frozen += 1;
                 }
                 // The file's standard deviation includes the speed among the design variables.

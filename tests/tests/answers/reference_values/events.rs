@@ -18,23 +18,14 @@ use super::common::{assert_close, assert_equilibrium, frequencies};
 fn of_the_single_bar() {
     let truth = Truth::load("P1");
     let study = Study::new(RotatingPendulum);
-    let critical = study
-        .critical_state(RotatingPendulum::omega, 0.5, 8.0)
-        .expect("a critical speed");
+    let critical = study.critical_state(RotatingPendulum::omega, 0.5, 8.0).expect("a critical speed");
     let expected = truth.get("Omega_critical").number();
     assert_close(&[critical.value], &[expected], 0.0, "critical");
     // Omega_c = sqrt(3 g / (2 L)).
     let found = critical_sensitivity(&RotatingPendulum, &critical).expect("a bifurcation");
-    assert_close(
-        &found,
-        &[-expected / 2.0, 0.0],
-        1e-3,
-        "of the critical speed",
-    );
+    assert_close(&found, &[-expected / 2.0, 0.0], 1e-3, "of the critical speed");
 
-    let resonances = study
-        .crossings(RotatingPendulum::omega, 0.1, 8.0, 1.0)
-        .expect("a range");
+    let resonances = study.crossings(RotatingPendulum::omega, 0.1, 8.0, 1.0).expect("a range");
     assert_eq!(resonances.len(), 1);
     let expected = truth.get("Omega_resonance").number();
     assert_close(&[resonances[0].value], &[expected], 0.0, "resonance");
@@ -46,16 +37,11 @@ fn of_the_single_bar() {
 fn of_the_double_bar() {
     let truth = Truth::load("P2");
     let study = Study::new(RotatingDoublePendulum);
-    let critical = study
-        .critical_state(RotatingDoublePendulum::omega, 0.5, 6.0)
-        .expect("a critical speed");
+    let critical = study.critical_state(RotatingDoublePendulum::omega, 0.5, 6.0).expect("a critical speed");
     let expected = truth.get("Omega_critical").number();
     assert_close(&[critical.value], &[expected], 0.0, "critical");
     // On theta = 0 omega_1^2 = lambda_1 - Omega^2, so the critical speed has the same derivative as omega_1 at rest.
-    let mode_at_rest = truth.get("conditions").list()[0]
-        .get("undamped_modes")
-        .list()[0]
-        .clone();
+    let mode_at_rest = truth.get("conditions").list()[0].get("undamped_modes").list()[0].clone();
     let at_rest = mode_at_rest.get("domega_db");
     let names = ["L1", "L2", "m1", "m2"];
     let expected = names.map(|name| at_rest.get(name).number());
@@ -64,21 +50,11 @@ fn of_the_double_bar() {
     let bent = mode_at_rest.get("d2omega_db2");
     let found = critical_curvature(&RotatingDoublePendulum, &critical).expect("a bifurcation");
     for (row, expected) in found.second.iter().zip(bent.list()) {
-        assert_close(
-            row,
-            &expected.numbers(),
-            1e-3,
-            "of the critical speed, twice",
-        );
+        assert_close(row, &expected.numbers(), 1e-3, "of the critical speed, twice");
     }
 
-    let resonances = study
-        .crossings(RotatingDoublePendulum::omega, 0.1, 8.0, 1.0)
-        .expect("a range");
-    assert_eq!(
-        truth.get("resonances_on_bent_branch_up_to_8").list().len(),
-        0
-    );
+    let resonances = study.crossings(RotatingDoublePendulum::omega, 0.1, 8.0, 1.0).expect("a range");
+    assert_eq!(truth.get("resonances_on_bent_branch_up_to_8").list().len(), 0);
     assert_eq!(resonances.len(), 1);
     let expected = truth.get("Omega_resonance_mode1").number();
     assert_close(&[resonances[0].value], &[expected], 0.0, "resonance");
@@ -90,22 +66,14 @@ fn of_the_double_bar() {
 fn of_the_double_bar_on_the_unstable_branch() {
     let truth = Truth::load("P2");
     let study = Study::new(RotatingDoublePendulum).policy(Policy::Nearest);
-    let resonances = study
-        .crossings(RotatingDoublePendulum::omega, 3.0, 7.0, 1.0)
-        .expect("a range");
+    let resonances = study.crossings(RotatingDoublePendulum::omega, 3.0, 7.0, 1.0).expect("a range");
     assert_eq!(resonances.len(), 1);
     let expected = truth.get("Omega_resonance_mode2_on_theta0_branch").number();
     assert_close(&[resonances[0].value], &[expected], 0.0, "resonance");
 
-    let second = truth
-        .get("Omega_critical_2(of theta=0 branch, already unstable)")
-        .number();
+    let second = truth.get("Omega_critical_2(of theta=0 branch, already unstable)").number();
     for (omega, divergent) in [(second * (1.0 - 1e-6), 1), (second * (1.0 + 1e-6), 2)] {
-        let modes = study
-            .clone()
-            .input(RotatingDoublePendulum::omega, omega)
-            .modes()
-            .expect("modes");
+        let modes = study.clone().input(RotatingDoublePendulum::omega, omega).modes().expect("modes");
         let negative = modes.modes.iter().filter(|mode| mode.lambda < 0.0).count();
         assert_eq!(negative, divergent);
     }
@@ -115,18 +83,10 @@ fn of_the_double_bar_on_the_unstable_branch() {
 #[test]
 fn the_bent_branch_is_followed() {
     let field = "bent_branch_sweep [Omega, theta1, theta2_abs, omega1, omega2]";
-    let rows: Vec<Vec<f64>> = Truth::load("P2")
-        .get(field)
-        .list()
-        .iter()
-        .map(Truth::numbers)
-        .collect();
+    let rows: Vec<Vec<f64>> = Truth::load("P2").get(field).list().iter().map(Truth::numbers).collect();
     let speeds: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     let study = Study::new(RotatingDoublePendulum).start(RotatingDoublePendulum::theta1, 1.4);
-    let points = study
-        .sweep(RotatingDoublePendulum::omega, &speeds)
-        .expect("a sweep")
-        .points;
+    let points = study.sweep(RotatingDoublePendulum::omega, &speeds).expect("a sweep").points;
     assert_eq!(points.len(), 54);
     for (point, row) in points.iter().zip(&rows) {
         let what = format!("{} rad/s", row[0]);
@@ -145,31 +105,22 @@ fn a_default_sweep_bends_and_reports_the_critical_speed() {
     fn check<M: BatchKernels + Copy>(machine: M, critical: f64) {
         let mut speeds: Vec<f64> = (0..=80).map(|step| 0.1 * f64::from(step)).collect();
         for direction in ["up", "down"] {
-            let swept = Study::new(machine)
-                .sweep(Input::new(0), &speeds)
-                .expect("a sweep");
+            let swept = Study::new(machine).sweep(Input::new(0), &speeds).expect("a sweep");
             for point in &swept {
                 let at = point.equilibrium.as_ref().expect("an equilibrium");
                 assert_eq!(at.stability, Stability::Stable, "{direction}");
                 let bent = at.coordinates[0].abs() > 1e-3;
                 assert_eq!(bent, point.value > critical, "{direction} {}", point.value);
             }
-            let [found] = &swept.critical[..] else {
-                panic!("{direction}: {:?}", swept.critical)
-            };
+            let [found] = &swept.critical[..] else { panic!("{direction}: {:?}", swept.critical) };
             assert_close(&[found.value], &[critical], 0.0, direction);
-            let soft = SpecialKind::Pitchfork {
-                supercritical: Some(true),
-            };
+            let soft = SpecialKind::Pitchfork { supercritical: Some(true) };
             assert_eq!(found.kind, soft, "{direction}");
             speeds.reverse();
         }
     }
     check(RotatingPendulum, (1.5_f64 * 9.81).sqrt());
-    check(
-        RotatingDoublePendulum,
-        (9.81 * (3.0 - 6.0 / 7f64.sqrt())).sqrt(),
-    );
+    check(RotatingDoublePendulum, (9.81 * (3.0 - 6.0 / 7f64.sqrt())).sqrt());
 }
 
 fn critical<M: BatchKernels>(machine: M, name: &str) {
@@ -179,15 +130,8 @@ fn critical<M: BatchKernels>(machine: M, name: &str) {
     for (j, value) in values.into_iter().enumerate() {
         study = study.design(DesignVariable::new(j), value);
     }
-    let found = study
-        .critical_state(Input::new(0), 0.2, 5.0)
-        .expect("a critical speed");
-    assert_close(
-        &[found.value],
-        &[case.get("Omega_crit").number()],
-        0.0,
-        name,
-    );
+    let found = study.critical_state(Input::new(0), 0.2, 5.0).expect("a critical speed");
+    assert_close(&[found.value], &[case.get("Omega_crit").number()], 0.0, name);
     let hanging = vec![0.0; study.start_values().len()];
     assert_equilibrium(&found.equilibrium.coordinates, &hanging, name);
 }

@@ -22,9 +22,7 @@ fn by(names: &[&str], name: &str) -> By {
 fn second<T: Copy>(all: &SecondDerivatives<T>, pair: (By, By)) -> T {
     match pair {
         (By::Input(i), By::Input(j)) => all.by_input[i][j],
-        (By::Input(i), By::Design(j)) | (By::Design(j), By::Input(i)) => {
-            all.by_input_and_design[i][j]
-        }
+        (By::Input(i), By::Design(j)) | (By::Design(j), By::Input(i)) => all.by_input_and_design[i][j],
         (By::Design(i), By::Design(j)) => all.by_design[i][j],
     }
 }
@@ -37,24 +35,13 @@ fn complex(value: &Truth) -> Complex {
 #[track_caller]
 fn assert_complex(complex: Complex, expected: Complex, scale: f64, what: &str) {
     let off = (complex - expected).norm();
-    assert!(
-        off <= 1e-9 * expected.norm().max(scale),
-        "{what}: {complex}, not {expected}"
-    );
+    assert!(off <= 1e-9 * expected.norm().max(scale), "{what}: {complex}, not {expected}");
 }
 
 /// Compares a Hessian with the file's, entry by entry, relative to its largest entry.
-fn assert_hessian(
-    second_derivatives: &SecondDerivatives<f64>,
-    expected: &Truth,
-    order: &[By],
-    what: &str,
-) {
+fn assert_hessian(second_derivatives: &SecondDerivatives<f64>, expected: &Truth, order: &[By], what: &str) {
     let rows: Vec<Vec<f64>> = expected.list().iter().map(Truth::numbers).collect();
-    let scale = rows
-        .iter()
-        .flatten()
-        .fold(0.0_f64, |most, x| most.max(x.abs()));
+    let scale = rows.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
     for (row, &a) in rows.iter().zip(order) {
         for (&value, &b) in row.iter().zip(order) {
             assert_close(&[second(second_derivatives, (a, b))], &[value], scale, what);
@@ -70,18 +57,11 @@ fn undamped<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) 
         let label = condition.get("label").text();
         let study = study(machine, &condition, names).family(Family::Undamped);
         let design = condition.get("design").list();
-        let order: Vec<By> = design
-            .iter()
-            .map(|variable| by(names, &variable.get("name").text()))
-            .collect();
+        let order: Vec<By> = design.iter().map(|variable| by(names, &variable.get("name").text())).collect();
         for (r, truth) in condition.get("undamped_modes").list().iter().enumerate() {
             let what = format!("{file} {label} mode {r}");
             let curvature = study.mode_curvature(r).expect("second derivatives");
-            assert!(
-                curvature.asymmetry < 1e-10,
-                "{what}: {}",
-                curvature.asymmetry
-            );
+            assert!(curvature.asymmetry < 1e-10, "{what}: {}", curvature.asymmetry);
             let found = curvature.of(Quantity::Frequency).expect("it oscillates");
             assert_hessian(&found, &truth.get("d2omega_db2"), &order, &what);
 
@@ -127,29 +107,15 @@ fn general_modes_of_the_sliders() {
         let explicit = sensitivities_explicit(&SlidersOnPlate, &at, &found).expect("derivatives");
         let truths = condition.get("quadratic_modes").list();
         assert_eq!(truths.len(), found.modes.len(), "{label}");
-        let names: Vec<String> = condition
-            .get("design")
-            .list()
-            .iter()
-            .map(|variable| variable.get("name").text())
-            .collect();
+        let names: Vec<String> =
+            condition.get("design").list().iter().map(|variable| variable.get("name").text()).collect();
         for (r, truth) in truths.iter().enumerate() {
             let what = format!("P3 {label} general mode {r}");
             let mode = &found.modes[r];
             assert_complex(mode.s, complex(&truth.get("s")), 0.0, &what);
             let number = |field: &str| truth.get(field).number();
-            assert_close(
-                &[mode.natural_frequency().expect("one")],
-                &[number("omega_n")],
-                0.0,
-                &what,
-            );
-            assert_close(
-                &[mode.frequency().expect("one")],
-                &[number("omega_d")],
-                0.0,
-                &what,
-            );
+            assert_close(&[mode.natural_frequency().expect("one")], &[number("omega_n")], 0.0, &what);
+            assert_close(&[mode.frequency().expect("one")], &[number("omega_d")], 0.0, &what);
             let zeta = mode.damping_ratio().expect("one");
             assert_close(&[zeta], &[number("zeta")], 1e-3, &what);
             for name in &names {
@@ -168,13 +134,8 @@ fn general_modes_of_the_sliders() {
                     assert_close(&[natural], &[expected], 1e-3, &what);
                 }
             }
-            let curvature =
-                mode_curvature(&SlidersOnPlate, &at, &found, r).expect("second derivatives");
-            assert!(
-                curvature.asymmetry < 1e-11,
-                "{what}: {}",
-                curvature.asymmetry
-            );
+            let curvature = mode_curvature(&SlidersOnPlate, &at, &found, r).expect("second derivatives");
+            assert!(curvature.asymmetry < 1e-11, "{what}: {}", curvature.asymmetry);
             let second_s = curvature.eigenvalue.expect("it oscillates");
             let scale = 1e-3 * complex(&truth.get("d2s_db2").list()[0].list()[0]).norm();
             for (i, row) in truth.get("d2s_db2").list().iter().enumerate() {

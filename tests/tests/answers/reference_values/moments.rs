@@ -32,18 +32,11 @@ fn assert_moments(run: &MonteCarlo, mean: f64, deviation: f64, what: &str) {
     assert_eq!(mode.count, SAMPLES as u64, "{what}");
     let error = deviation / (SAMPLES as f64).sqrt();
     let off = (mode.mean - mean) / error;
-    assert!(
-        off.abs() <= 4.0,
-        "{what}: mean {}, not {mean}: {off:.1} standard errors",
-        mode.mean
-    );
+    assert!(off.abs() <= 4.0, "{what}: mean {}, not {mean}: {off:.1} standard errors", mode.mean);
     let error = deviation / (2.0 * SAMPLES as f64).sqrt();
     let sampled = mode.sigma.expect("many values");
     let off = (sampled - deviation) / error;
-    assert!(
-        off.abs() <= 4.0,
-        "{what}: deviation {sampled}, not {deviation}: {off:.1} standard errors"
-    );
+    assert!(off.abs() <= 4.0, "{what}: deviation {sampled}, not {deviation}: {off:.1} standard errors");
 }
 
 #[test]
@@ -69,11 +62,7 @@ fn quadrature(omega: f64, sigma: f64) -> (f64, f64) {
         let density = (-0.5 * z * z).exp();
         let w = 1.5 * 9.81 / (1.0 + sigma * z);
         let square = omega * omega;
-        let lambda = if square < w {
-            w - square
-        } else {
-            square - w * w / square
-        };
+        let lambda = if square < w { w - square } else { square - w * w / square };
         weight += density;
         first += density * lambda.sqrt();
         second += density * lambda;
@@ -100,9 +89,6 @@ fn moments_across_the_critical_speed() {
         let run = sampled(omega, half_width);
         let what = format!("{factor} of the critical speed, T = {half_width}");
         assert_moments(&run, mean, exact, &what);
-        assert!(
-            run.left_nominal_branch > 0 && run.left_nominal_branch < SAMPLES,
-            "{what}"
-        );
+        assert!(run.left_nominal_branch > 0 && run.left_nominal_branch < SAMPLES, "{what}");
     }
 }

@@ -32,18 +32,11 @@ struct Answers {
 
 impl Answers {
     /// Writes and reads back in a human-readable and in a binary format.
-    fn plain<T: Serialize + DeserializeOwned + PartialEq + Debug>(
-        &mut self,
-        name: &str,
-        answer: &T,
-    ) {
+    fn plain<T: Serialize + DeserializeOwned + PartialEq + Debug>(&mut self, name: &str, answer: &T) {
         let text = serde_json::to_string(answer).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let from_text: T =
-            serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
-        let bytes =
-            postcard::to_stdvec(answer).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
-        let from_bytes: T =
-            postcard::from_bytes(&bytes).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+        let from_text: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+        let bytes = postcard::to_stdvec(answer).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+        let from_bytes: T = postcard::from_bytes(&bytes).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
         for back in [from_text, from_bytes] {
             // Debug output distinguishes infinite numbers, and zeros by their sign.
             assert_eq!(format!("{back:?}"), format!("{answer:?}"), "{name}");
@@ -64,8 +57,7 @@ impl Answers {
             return;
         };
         let text = json::to_string(&answer).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let back: A =
-            json::read(text.as_bytes()).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+        let back: A = json::read(text.as_bytes()).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
         assert_eq!(back, answer, "{name}");
         let document = serde_json::from_str(&text).expect("JSON");
         let refused = refused(&document);
@@ -75,12 +67,7 @@ impl Answers {
     }
 
     fn ask(&mut self, name: &str, machine: Interpreted, operation: &Operation) {
-        let mut study = Study::new(machine)
-            .policy(operation.policy)
-            .samples(20)
-            .steps(4)
-            .threads(1)
-            .keep_samples(true);
+        let mut study = Study::new(machine).policy(operation.policy).samples(20).steps(4).threads(1).keep_samples(true);
         for (k, &value) in operation.inputs.iter().enumerate() {
             study = study.input(Input::new(k), value);
         }
@@ -101,10 +88,7 @@ impl Answers {
         self.both(
             name,
             study.second_order_failure(Requirement::at_least(
-                Response::Mode {
-                    mode: 0,
-                    quantity: Quantity::Frequency,
-                },
+                Response::Mode { mode: 0, quantity: Quantity::Frequency },
                 0.0,
             )),
         );
@@ -118,10 +102,7 @@ impl Answers {
         if !state.description.outputs.is_empty() {
             self.both(name, study.output_curvature(Output::new(0)));
         }
-        let (u, b) = (
-            vec![1.0; operation.inputs.len()],
-            vec![1.0; study.design_values().len()],
-        );
+        let (u, b) = (vec![1.0; operation.inputs.len()], vec![1.0; study.design_values().len()]);
         self.both(name, study.directional_derivatives(0, (&u, &b)));
         if !state.description.excitations.is_empty() {
             self.ask_of_vibration(name, &study);
@@ -167,10 +148,7 @@ impl Answers {
     }
 
     fn ask_of_chance(&mut self, name: &str, study: &Study<Interpreted>) {
-        let mode = Response::Mode {
-            mode: 0,
-            quantity: Quantity::Frequency,
-        };
+        let mode = Response::Mode { mode: 0, quantity: Quantity::Frequency };
         let mut responses = vec![mode];
         if !study.description().outputs.is_empty() {
             responses.push(Response::Output(Output::new(0)));
@@ -181,26 +159,15 @@ impl Answers {
         self.both(name, study.controlled(&responses));
         self.both(name, study.influence(&responses));
         let frequency = study.modes().expect("modes").frequencies()[0].unwrap_or(1.0);
-        let wanted = [
-            Requirement::at_least(mode, 0.99 * frequency),
-            Requirement::Stable,
-        ];
+        let wanted = [Requirement::at_least(mode, 0.99 * frequency), Requirement::Stable];
         self.plain(name, &wanted.to_vec());
         self.both(name, study.chances(&wanted));
         self.both(name, study.reliability(&wanted));
         let most = study.sampling().samples(50);
         self.both(name, study.rare_failure(&wanted, &most, 0.05));
         if name == "rotating_pendulum" {
-            let widths = HalfWidth {
-                variable: 0,
-                limits: (1e-6, 1e-1),
-                cost: Cost::reciprocal(0.0, 1.0, 1.0),
-            };
-            let choices = Choices {
-                half_widths: vec![widths],
-                nominals: Vec::new(),
-                failure: vec![0.1, 0.1],
-            };
+            let widths = HalfWidth { variable: 0, limits: (1e-6, 1e-1), cost: Cost::reciprocal(0.0, 1.0, 1.0) };
+            let choices = Choices { half_widths: vec![widths], nominals: Vec::new(), failure: vec![0.1, 0.1] };
             self.both(name, study.allocation(&wanted, &choices));
         }
     }

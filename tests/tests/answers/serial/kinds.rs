@@ -11,9 +11,7 @@ fn the_schema_names_every_kind() {
     let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime");
     let schema = fs::read_to_string(runtime.join("tables/eigentol.schema.json")).expect("a schema");
     let schema: serde_json::Value = serde_json::from_str(&schema).expect("JSON");
-    let listed = schema["properties"]["kind"]["enum"]
-        .as_array()
-        .expect("a list");
+    let listed = schema["properties"]["kind"]["enum"].as_array().expect("a list");
     let listed = listed.iter().filter_map(|kind| kind.as_str());
     let listed: BTreeSet<String> = listed.map(str::to_owned).collect();
     let mut declared = BTreeSet::new();

@@ -21,23 +21,17 @@ fn check(whole: &Value, schema: &Value, value: &Value, at: &str, refused: &mut V
         let met = match keyword.as_str() {
             "$ref" => {
                 let path = rule.as_str().and_then(|path| path.strip_prefix('#'));
-                let target = path
-                    .and_then(|path| whole.pointer(path))
-                    .expect("a definition");
+                let target = path.and_then(|path| whole.pointer(path)).expect("a definition");
                 check(whole, target, value, at, refused);
                 true
             }
             "type" => match rule {
                 Value::String(name) => is(value, name),
-                names => all(names)
-                    .iter()
-                    .any(|name| is(value, name.as_str().expect("a type"))),
+                names => all(names).iter().any(|name| is(value, name.as_str().expect("a type"))),
             },
             "const" => value == rule,
             "enum" => all(rule).contains(value),
-            "required" => all(rule)
-                .iter()
-                .all(|name| value.get(name.as_str().expect("a name")).is_some()),
+            "required" => all(rule).iter().all(|name| value.get(name.as_str().expect("a name")).is_some()),
             "properties" => {
                 for (name, schema) in rule.as_object().expect("properties") {
                     if let Some(value) = value.get(name) {
@@ -58,9 +52,7 @@ fn check(whole: &Value, schema: &Value, value: &Value, at: &str, refused: &mut V
                 }
                 true
             }
-            "minLength" => value
-                .as_str()
-                .is_none_or(|text| text.len() as u64 >= rule.as_u64().expect("a length")),
+            "minLength" => value.as_str().is_none_or(|text| text.len() as u64 >= rule.as_u64().expect("a length")),
             "oneOf" => all(rule).iter().filter(|schema| accepts(schema)).count() == 1,
             "anyOf" => all(rule).iter().any(accepts),
             "allOf" => all(rule).iter().all(accepts),
@@ -68,8 +60,7 @@ fn check(whole: &Value, schema: &Value, value: &Value, at: &str, refused: &mut V
                 let branch = if accepts(rule) { "then" } else { "else" };
                 schema.get(branch).is_none_or(accepts)
             }
-            "then" | "else" | "$defs" | "$schema" | "title" | "description" | "pattern"
-            | "minimum" => true,
+            "then" | "else" | "$defs" | "$schema" | "title" | "description" | "pattern" | "minimum" => true,
             other => panic!("a keyword that is not checked: {other}"),
         };
         if !met {
@@ -93,15 +84,8 @@ fn is(value: &Value, name: &str) -> bool {
 
 #[test]
 fn the_schema_refuses_what_is_none_of_ours() {
-    let document =
-        serde_json::json!({"format": "eigentol", "version": 1, "kind": "equilibria", "result": []});
+    let document = serde_json::json!({"format": "eigentol", "version": 1, "kind": "equilibria", "result": []});
     let refused = refused(&document);
-    assert!(
-        refused.iter().any(|reason| reason.contains("allOf")),
-        "{refused:?}"
-    );
-    assert!(
-        refused.iter().any(|reason| reason.contains("required")),
-        "{refused:?}"
-    );
+    assert!(refused.iter().any(|reason| reason.contains("allOf")), "{refused:?}");
+    assert!(refused.iter().any(|reason| reason.contains("required")), "{refused:?}");
 }

@@ -97,11 +97,7 @@ fn not_written(text: &str) -> Vec<String> {
             }
         }
         // Attributes come together, before the item they belong to.
-        if !(line.starts_with('#')
-            || line.starts_with("///")
-            || line.starts_with(' ')
-            || line.starts_with(")]"))
-        {
+        if !(line.starts_with('#') || line.starts_with("///") || line.starts_with(' ') || line.starts_with(")]")) {
             written = false;
         }
     }
@@ -113,10 +109,7 @@ fn check(folders: &[&str], least: usize, excuses: &[(&str, &str)], by_macro: &[&
     let mut files = Vec::new();
     for folder in folders {
         let folder = format!("../runtime/{folder}src");
-        sources(
-            &Path::new(env!("CARGO_MANIFEST_DIR")).join(folder),
-            &mut files,
-        );
+        sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut files);
     }
     assert!(files.len() > least);
     let mut used = by_macro.to_vec();
@@ -126,9 +119,7 @@ fn check(folders: &[&str], least: usize, excuses: &[(&str, &str)], by_macro: &[&
             let place = file.display();
             let excuse = excuses.iter().find(|(x, _)| *x == name);
             let (own, _) = excuse.unwrap_or_else(|| {
-                panic!(
-                    "{place}: `{name}` cannot be written: derive serde's traits under the feature"
-                )
+                panic!("{place}: `{name}` cannot be written: derive serde's traits under the feature")
             });
             used.push(own);
         }
@@ -140,21 +131,8 @@ fn check(folders: &[&str], least: usize, excuses: &[(&str, &str)], by_macro: &[&
 
 #[test]
 fn every_type_is_written_or_excused() {
-    let by_macro = [
-        "Coordinate",
-        "DesignVariable",
-        "Excitation",
-        "Input",
-        "Output",
-    ];
-    let crates = [
-        "contract/",
-        "solve/",
-        "tolerance/",
-        "analysis/",
-        "uncertainty/",
-        "",
-    ];
+    let by_macro = ["Coordinate", "DesignVariable", "Excitation", "Input", "Output"];
+    let crates = ["contract/", "solve/", "tolerance/", "analysis/", "uncertainty/", ""];
     check(&crates, 200, &NOT_WRITTEN, &by_macro);
     check(&["statistics/"], 50, &STATISTICS_NOT_WRITTEN, &[]);
 }
@@ -163,9 +141,7 @@ fn every_type_is_written_or_excused() {
 fn a_type_without_is_found() {
     let text = "/// One.\n#[derive(Clone)]\npub struct One {\n    field: f64,\n}\n";
     assert_eq!(not_written(text), ["One"]);
-    let with = format!(
-        "#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]\n{text}"
-    );
+    let with = format!("#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]\n{text}");
     assert_eq!(not_written(&with), Vec::<String>::new());
     assert_eq!(not_written(&format!("{with}{text}")), ["One"]);
 }

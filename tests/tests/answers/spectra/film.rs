@@ -15,11 +15,8 @@ const END: f64 = 12000.0 * RPM;
 /// A curve of the declaration, evaluated by the oracle's own splines.
 fn curve<const K: usize>(arguments: [f64; K], values: [f64; K]) -> impl Fn(f64) -> f64 {
     let points = arguments.into_iter().zip(values);
-    let curve = Curve {
-        name: String::new(),
-        points: points.map(|(x, y)| [x, y]).collect(),
-        units: [Unit::Of([0; 3]); 2],
-    };
+    let curve =
+        Curve { name: String::new(), points: points.map(|(x, y)| [x, y]).collect(), units: [Unit::Of([0; 3]); 2] };
     move |x| curve.at(x)
 }
 
@@ -32,11 +29,7 @@ fn excess([mass, film, temperature]: [f64; 3], speed: f64) -> f64 {
     let six = [2e3, 4e3, 6e3, 8e3, 10e3, 12e3];
     let kxx = film * curve(six, [12.15e6, 12.39e6, 12.44e6, 12.46e6, 12.47e6, 12.48e6])(rpm);
     let kxy = film * curve([2e3, 5e3, 12e3], [20.4e6, 51.4e6, 123.3e6])(rpm);
-    let kyx = film
-        * curve(
-            [2e3, 4e3, 8e3, 12e3],
-            [-26.91e6, -44.58e6, -84.02e6, -124.6e6],
-        )(rpm);
+    let kyx = film * curve([2e3, 4e3, 8e3, 12e3], [-26.91e6, -44.58e6, -84.02e6, -124.6e6])(rpm);
     let kyy = film * (7.5e6 - 1.2e6 * (rpm - 2e3) / 10e3);
     let viscosity = curve([20.0, 40.0, 60.0, 90.0], [1.8, 1.2, 0.8, 0.5])(temperature);
     let six = [2e3, 3e3, 4e3, 6e3, 9e3, 12e3];
@@ -64,10 +57,7 @@ fn the_limit_speed_of_an_oil_film() {
     let study = Study::new(FilmRotor).input(FilmRotor::speed, 6000.0 * RPM);
     let nominal = design(&study);
     let expected = limit(nominal);
-    assert!(
-        expected > 7000.0 * RPM && expected < 9500.0 * RPM,
-        "{expected}"
-    );
+    assert!(expected > 7000.0 * RPM && expected < 9500.0 * RPM, "{expected}");
     // The excess is smooth, so finite differences give its derivatives.
     let by = |k: usize| {
         let step = 1e-5 * nominal[k];
@@ -77,16 +67,11 @@ fn the_limit_speed_of_an_oil_film() {
         (excess(up, expected) - excess(down, expected)) / (2.0 * step)
     };
     let step = 1e-5 * expected;
-    let by_speed =
-        (excess(nominal, expected + step) - excess(nominal, expected - step)) / (2.0 * step);
+    let by_speed = (excess(nominal, expected + step) - excess(nominal, expected - step)) / (2.0 * step);
     let slopes = [0, 1, 2].map(|k| -by(k) / by_speed);
     let tolerances = study.tolerances().expect("declared");
-    let found = study
-        .flutter_onset_tolerances(FilmRotor::speed, BEGIN, END)
-        .expect("a search");
-    let [only] = &found[..] else {
-        panic!("{found:?}")
-    };
+    let found = study.flutter_onset_tolerances(FilmRotor::speed, BEGIN, END).expect("a search");
+    let [only] = &found[..] else { panic!("{found:?}") };
     event(only, expected, &slopes, &nominal, tolerances.half_widths());
 }
 
@@ -96,19 +81,10 @@ fn oil_whirl_goes_forward_at_half_the_speed() {
     let nominal = design(&Study::new(FilmRotor));
     let speed = 1.02 * limit(nominal);
     let study = Study::new(FilmRotor).input(FilmRotor::speed, speed);
-    let (modes, whirls) = (
-        study.modes().expect("modes"),
-        study.whirls().expect("whirls"),
-    );
-    let growing = modes
-        .modes
-        .iter()
-        .zip(whirls.iter())
-        .filter(|(mode, _)| mode.s.re > 0.0);
+    let (modes, whirls) = (study.modes().expect("modes"), study.whirls().expect("whirls"));
+    let growing = modes.modes.iter().zip(whirls.iter()).filter(|(mode, _)| mode.s.re > 0.0);
     let growing: Vec<_> = growing.collect();
-    let [(mode, whirl)] = growing[..] else {
-        panic!("{modes:?}")
-    };
+    let [(mode, whirl)] = growing[..] else { panic!("{modes:?}") };
     assert_eq!(whirl.expect("it circles").sense(), Some(Sense::Forward));
     let share = mode.s.im.abs() / speed;
     assert!((0.45..0.52).contains(&share), "{share}");
@@ -118,27 +94,16 @@ fn oil_whirl_goes_forward_at_half_the_speed() {
 /// ends themselves are valid.
 #[test]
 fn a_curve_ends() {
-    let at = |speed: f64| {
-        Study::new(FilmRotor)
-            .input(FilmRotor::speed, speed)
-            .equilibrium()
-    };
+    let at = |speed: f64| Study::new(FilmRotor).input(FilmRotor::speed, speed).equilibrium();
     for speed in [BEGIN, END] {
         assert!(at(speed).is_ok());
     }
-    for (speed, words) in [
-        (0.999 * BEGIN, "beginning of curve"),
-        (1.001 * END, "end of curve"),
-    ] {
-        let Err(error @ Error::Unphysical { .. }) = at(speed) else {
-            panic!("{speed}")
-        };
+    for (speed, words) in [(0.999 * BEGIN, "beginning of curve"), (1.001 * END, "end of curve")] {
+        let Err(error @ Error::Unphysical { .. }) = at(speed) else { panic!("{speed}") };
         let text = error.to_string();
         assert!(text.contains(words) && text.contains("cxy"), "{text}");
     }
-    let warm = Study::new(FilmRotor)
-        .input(FilmRotor::speed, 6000.0 * RPM)
-        .design(FilmRotor::temperature, 95.0);
+    let warm = Study::new(FilmRotor).input(FilmRotor::speed, 6000.0 * RPM).design(FilmRotor::temperature, 95.0);
     let text = warm.modes().expect_err("too warm").to_string();
     assert!(text.contains("viscosity"), "{text}");
 }

@@ -36,24 +36,12 @@ fn frequencies_that_merge_have_an_onset_without_derivative() {
     let [_, l, k, _] = design(&study);
     let boundary = (3.5 - 2f64.sqrt()) * k / l;
     // However the values of the range lie beside the onset, and from either side.
-    for (low, high) in [
-        (0.0, 1.3),
-        (0.0, 1.44),
-        (0.9, 1.01),
-        (1.3, 0.2),
-        (0.999, 1.2),
-        (1.7, 0.0),
-    ] {
-        let found = study
-            .flutter_onset_tolerances(ZieglerColumn::load, low * boundary, high * boundary)
-            .expect("a search");
-        let [only] = &found[..] else {
-            panic!("{low} to {high}: {found:?}")
-        };
+    for (low, high) in [(0.0, 1.3), (0.0, 1.44), (0.9, 1.01), (1.3, 0.2), (0.999, 1.2), (1.7, 0.0)] {
+        let found =
+            study.flutter_onset_tolerances(ZieglerColumn::load, low * boundary, high * boundary).expect("a search");
+        let [only] = &found[..] else { panic!("{low} to {high}: {found:?}") };
         assert!((only.value - boundary).abs() < 1e-9 * boundary);
-        let merge = Error::NoSensitivity {
-            reason: NoDerivative::Merge,
-        };
+        let merge = Error::NoSensitivity { reason: NoDerivative::Merge };
         assert_eq!(only.spread, Err(merge));
     }
 }
@@ -67,34 +55,16 @@ fn damping_destabilises() {
     let load = p * k / l;
     // P = 41 k / (28 l) + c^2 / (2 m l^3).
     let part = c * c / (2.0 * m * l.powi(3));
-    let slopes = [
-        -part / m,
-        -(41.0 * k / (28.0 * l) + 3.0 * part) / l,
-        41.0 / (28.0 * l),
-        2.0 * part / c,
-    ];
-    let found = study
-        .flutter_onset_tolerances(ZieglerColumn::load, 0.0, 1.3 * load)
-        .expect("a search");
-    let [only] = &found[..] else {
-        panic!("{found:?}")
-    };
+    let slopes = [-part / m, -(41.0 * k / (28.0 * l) + 3.0 * part) / l, 41.0 / (28.0 * l), 2.0 * part / c];
+    let found = study.flutter_onset_tolerances(ZieglerColumn::load, 0.0, 1.3 * load).expect("a search");
+    let [only] = &found[..] else { panic!("{found:?}") };
     let tolerances = study.tolerances().expect("declared");
-    event(
-        only,
-        load,
-        &slopes,
-        study.design_values(),
-        tolerances.half_widths(),
-    );
+    event(only, load, &slopes, study.design_values(), tolerances.half_widths());
     let there = study.input(ZieglerColumn::load, load + 0.5);
     let found = there.modes().expect("modes");
     let growing = found.modes.iter().find(|mode| mode.behaviour.grows());
     let growing = growing.expect("flutter");
     assert!(matches!(growing.behaviour, Behaviour::Flutter(_)));
-    close(
-        growing.damping_ratio().expect("one"),
-        -growing.s.re / growing.s.norm(),
-    );
+    close(growing.damping_ratio().expect("one"), -growing.s.re / growing.s.norm());
     assert!(growing.damping_ratio().expect("one") < 0.0);
 }

@@ -46,10 +46,7 @@ fn uncoupled_modes_cross() {
     let values: Vec<f64> = (0..=10).map(|step| 50.0 + 10.0 * f64::from(step)).collect();
     let study = pair(0.0);
     for (k, (omega, share)) in values.iter().zip(branch(&study, &values, 0)) {
-        assert!(
-            (omega - k.sqrt()).abs() < 1e-12 && share > 1.0 - 1e-12,
-            "{k}"
-        );
+        assert!((omega - k.sqrt()).abs() < 1e-12 && share > 1.0 - 1e-12, "{k}");
     }
     for (omega, share) in branch(&study, &values, 1) {
         assert!((omega - 10.0).abs() < 1e-12 && share < 1e-12);
@@ -62,9 +59,7 @@ fn uncoupled_modes_cross() {
 #[test]
 fn coupled_modes_veer() {
     let study = pair(2.0);
-    let fine: Vec<f64> = (0..=1000)
-        .map(|step| 50.0 + 0.1 * f64::from(step))
-        .collect();
+    let fine: Vec<f64> = (0..=1000).map(|step| 50.0 + 0.1 * f64::from(step)).collect();
     let coarse = [50.0, 94.0, 106.0, 150.0];
     for (label, first_share) in [(0, true), (1, false)] {
         let fine = branch(&study, &fine, label);
@@ -91,13 +86,7 @@ fn a_double_frequency_has_no_derivative_of_its_own() {
     let study = pair(0.0).input(TunedPair::tuning, 100.0);
     let slopes = study.sensitivities().expect("derivatives");
     assert!(slopes.modes.iter().all(|mode| mode.clustered));
-    assert!(matches!(
-        study.mode_curvature(1),
-        Err(Error::ClusteredMode { mode: 1 })
-    ));
-    assert!(matches!(
-        study.shape_sensitivity(0),
-        Err(Error::ClusteredMode { mode: 0 })
-    ));
+    assert!(matches!(study.mode_curvature(1), Err(Error::ClusteredMode { mode: 1 })));
+    assert!(matches!(study.shape_sensitivity(0), Err(Error::ClusteredMode { mode: 0 })));
     assert!(!study.first_order().expect("a spread").trusted());
 }

@@ -9,9 +9,7 @@ use super::common::{close, design};
 /// At rest the sliders are two oscillators; with a strong damper one of them creeps back at two rates.
 #[test]
 fn overdamped_motions_are_modes_of_their_own() {
-    let study = Study::new(SlidersOnPlate)
-        .design(SlidersOnPlate::cx, 12.0)
-        .design(SlidersOnPlate::cy, 0.5);
+    let study = Study::new(SlidersOnPlate).design(SlidersOnPlate::cx, 12.0).design(SlidersOnPlate::cy, 0.5);
     let design = study.design_values();
     let (m, kx, ky) = (design[0], design[1], design[2]);
     let found = study.modes().expect("modes");
@@ -27,10 +25,7 @@ fn overdamped_motions_are_modes_of_their_own() {
                 // ds/dc = -s / (2 m s + c), ds/dk = -1 / (2 m s + c).
                 let slope = 2.0 * m * mode.s.re + 12.0;
                 let growth = own.of(Quantity::Growth).expect("a derivative");
-                close(
-                    growth.by_design[SlidersOnPlate::cx.index()],
-                    -mode.s.re / slope,
-                );
+                close(growth.by_design[SlidersOnPlate::cx.index()], -mode.s.re / slope);
                 close(growth.by_design[SlidersOnPlate::kx.index()], -1.0 / slope);
                 assert_eq!(own.of(Quantity::Frequency), None);
                 assert_eq!(mode.frequency(), None);

@@ -19,11 +19,7 @@ fn roots([m, k, external, internal]: [f64; 4], speed: f64) -> (Complex, Complex)
     let b = Complex::from(external + internal);
     let root = (b * b - 4.0 * m * Complex::new(k, -speed * internal)).sqrt();
     let (one, other) = ((root - b) / (2.0 * m), (-root - b) / (2.0 * m));
-    if one.im > 0.0 {
-        (one, other)
-    } else {
-        (other, one)
-    }
+    if one.im > 0.0 { (one, other) } else { (other, one) }
 }
 
 fn onset([m, k, external, internal]: [f64; 4]) -> f64 {
@@ -73,22 +69,13 @@ fn onset_of_instability_by_internal_damping() {
         -(k / m).sqrt() * external / (internal * internal),
     ];
     let tolerances = study.tolerances().expect("declared");
-    let found = study
-        .flutter_onset_tolerances(JeffcottRotor::speed, 1.0, 2.0 * expected)
-        .expect("a search");
-    let [only] = &found[..] else {
-        panic!("{found:?}")
-    };
+    let found = study.flutter_onset_tolerances(JeffcottRotor::speed, 1.0, 2.0 * expected).expect("a search");
+    let [only] = &found[..] else { panic!("{found:?}") };
     event(only, expected, &slopes, &design, tolerances.half_widths());
     // Slightly above the onset, samples lie on both sides; their shares follow from the standard deviation of the
     // onset.
     let sigma = only.sigma().expect("a spread");
-    let run = study
-        .clone()
-        .input(JeffcottRotor::speed, expected + sigma)
-        .samples(4000)
-        .monte_carlo()
-        .expect("samples");
+    let run = study.clone().input(JeffcottRotor::speed, expected + sigma).samples(4000).monte_carlo().expect("samples");
     let share = run.counts.flutter as f64 / 4000.0;
     assert_eq!(run.counts.flutter + run.counts.stable, 4000);
     assert!((share - 0.8413).abs() < 0.03, "{share}");
@@ -108,15 +95,10 @@ fn synchronous_critical_speed() {
             false => high = middle,
         }
     }
-    let found = study
-        .crossing_tolerances(JeffcottRotor::speed, 40.0, 120.0, 1.0)
-        .expect("a search");
+    let found = study.crossing_tolerances(JeffcottRotor::speed, 40.0, 120.0, 1.0).expect("a search");
     // The forward whirl frequency crosses from below at its damped value; the backward frequency crosses as well.
     assert_eq!(found.len(), 2);
-    let forward = found
-        .iter()
-        .min_by(|a, b| (a.value - low).abs().total_cmp(&(b.value - low).abs()))
-        .expect("two");
+    let forward = found.iter().min_by(|a, b| (a.value - low).abs().total_cmp(&(b.value - low).abs())).expect("two");
     close(forward.value, low);
 }
 
@@ -135,10 +117,9 @@ fn conical_whirl_and_its_critical_speeds() {
         let found = at.modes().expect("modes");
         let half = 0.5 * speed * ip / it;
         let root = (half * half + k / it).sqrt();
-        for (mode, (omega, sense)) in found.modes.iter().zip([
-            (root - half, Sense::Backward),
-            (root + half, Sense::Forward),
-        ]) {
+        for (mode, (omega, sense)) in
+            found.modes.iter().zip([(root - half, Sense::Backward), (root + half, Sense::Forward)])
+        {
             near(mode.s, Complex::new(0.0, omega));
             assert_eq!(mode.behaviour, Behaviour::Oscillating(mode.s.im));
             let whirls = at.whirls().expect("whirls");
@@ -147,28 +128,14 @@ fn conical_whirl_and_its_critical_speeds() {
         }
     }
     let tolerances = study.tolerances().expect("declared");
-    let found = study
-        .crossing_tolerances(OverhungRotor::speed, 10.0, 300.0, 1.0)
-        .expect("a search");
-    let [backward, forward] = &found[..] else {
-        panic!("{found:?}")
-    };
+    let found = study.crossing_tolerances(OverhungRotor::speed, 10.0, 300.0, 1.0).expect("a search");
+    let [backward, forward] = &found[..] else { panic!("{found:?}") };
     // W^2 (It + Ip) = k backward, W^2 (It - Ip) = k forward.
     for (crossing, sign) in [(backward, 1.0), (forward, -1.0)] {
         let inertia = it + sign * ip;
         let speed = (k / inertia).sqrt();
-        let slopes = [
-            -0.5 * speed / inertia,
-            -0.5 * sign * speed / inertia,
-            0.5 * speed / k,
-        ];
-        event(
-            crossing,
-            speed,
-            &slopes,
-            study.design_values(),
-            tolerances.half_widths(),
-        );
+        let slopes = [-0.5 * speed / inertia, -0.5 * sign * speed / inertia, 0.5 * speed / k];
+        event(crossing, speed, &slopes, study.design_values(), tolerances.half_widths());
         assert!(matches!(crossing.event, Event::Crossing { .. }));
     }
 }
@@ -179,26 +146,17 @@ fn the_campbell_diagram_of_the_disk() {
     let study = disk();
     let [it, ip, k] = design(&study);
     let values: Vec<f64> = (0..=40).map(|step| 10.0 * f64::from(step)).collect();
-    let diagram = study
-        .campbell(OverhungRotor::speed, &values, &[1.0, 2.0])
-        .expect("a diagram");
+    let diagram = study.campbell(OverhungRotor::speed, &values, &[1.0, 2.0]).expect("a diagram");
     assert_eq!(diagram.labels(), [0, 1]);
     assert!(diagram.flutter_onsets.is_empty());
     for label in diagram.labels() {
         let branch: Vec<_> = diagram.branch(label).collect();
         assert_eq!(branch.len(), values.len());
         // The whirl sense is constant along the whole branch, from the first speed on.
-        let senses: Vec<Sense> = branch
-            .iter()
-            .filter_map(|(_, mode)| mode.whirl?.sense())
-            .collect();
+        let senses: Vec<Sense> = branch.iter().filter_map(|(_, mode)| mode.whirl?.sense()).collect();
         assert_eq!(senses.len(), values.len() - 1);
         assert!(senses.iter().all(|sense| sense == &senses[0]));
-        let sign = if senses[0] == Sense::Forward {
-            1.0
-        } else {
-            -1.0
-        };
+        let sign = if senses[0] == Sense::Forward { 1.0 } else { -1.0 };
         for (speed, mode) in &branch[1..] {
             let half = 0.5 * speed * ip / it;
             let root = (half * half + k / it).sqrt();
@@ -219,9 +177,7 @@ fn the_campbell_diagram_of_the_disk() {
         (k / (4.0 * it - 2.0 * ip)).sqrt(),
     ];
     // In isotropic bearings an unbalance does not excite backward whirl.
-    let [backward] = &diagram.not_excited[..] else {
-        panic!("{:?}", diagram.not_excited)
-    };
+    let [backward] = &diagram.not_excited[..] else { panic!("{:?}", diagram.not_excited) };
     assert!((backward.value - expected[0]).abs() < 1e-9 * expected[0]);
     let said = "1 crossing is left out, of modes that no unbalance excites";
     assert!(diagram.to_string().contains(said));

@@ -25,31 +25,20 @@ mechanism! {
 #[test]
 fn where_the_input_stands_still_the_mass_rests_anywhere() {
     let study = Study::new(FlatShaft);
-    let found = study
-        .branches(FlatShaft::speed, 0.0, 15.0)
-        .expect("branches");
+    let found = study.branches(FlatShaft::speed, 0.0, 15.0).expect("branches");
     // x^2 + (c^2 - k_x - k_y) x + k_x k_y = 0 for the square of the speed, with a mass of one.
     let half = 0.5 * (240.0 - 0.64);
     let root = f64::sqrt(half * half - 14_000.0);
     let critical = [half - root, half + root].map(f64::sqrt);
     assert_eq!(found.branches.len(), 5);
-    let [axis, lines @ ..] = &found.branches[..] else {
-        panic!("no branch")
-    };
+    let [axis, lines @ ..] = &found.branches[..] else { panic!("no branch") };
     let changes: Vec<Stability> = axis.stretches().iter().map(|(x, _)| *x).collect();
     let divergent = Stability::Divergent { negative: 1 };
     assert_eq!(changes, [Stability::Stable, divergent, Stability::Stable]);
     for line in lines {
-        let [(stability, points)] = line.stretches()[..] else {
-            panic!("{:?}", line.stretches().len())
-        };
+        let [(stability, points)] = line.stretches()[..] else { panic!("{:?}", line.stretches().len()) };
         assert_eq!(stability, Stability::Neutral { zero: 1 });
         let value = points[0].value;
-        assert!(
-            critical
-                .iter()
-                .any(|own| (own - value).abs() < 1e-9 * value),
-            "{value}"
-        );
+        assert!(critical.iter().any(|own| (own - value).abs() < 1e-9 * value), "{value}");
     }
 }

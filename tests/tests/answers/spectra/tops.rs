@@ -51,15 +51,9 @@ fn turning_splits_a_double_frequency() {
     }
     let slopes = study.sensitivities().expect("derivatives");
     assert!(slopes.modes.iter().all(|mode| mode.clustered));
-    assert!(matches!(
-        study.mode_curvature(0),
-        Err(eigentol::Error::ClusteredMode { mode: 0 })
-    ));
-    let couplings =
-        modal_couplings(&SphericalPendulum, &state, &found, &[0, 1]).expect("couplings");
-    let [a, b, c, d] = *couplings.by_input[0].as_flattened() else {
-        panic!("two modes")
-    };
+    assert!(matches!(study.mode_curvature(0), Err(eigentol::Error::ClusteredMode { mode: 0 })));
+    let couplings = modal_couplings(&SphericalPendulum, &state, &found, &[0, 1]).expect("couplings");
+    let [a, b, c, d] = *couplings.by_input[0].as_flattened() else { panic!("two modes") };
     // Eigenvalues of the 2 x 2 matrix: s' = +-i.
     let (half, root) = (0.5 * (a + d), (0.25 * (a - d) * (a - d) + b * c).sqrt());
     near(half + root, Complex::new(0.0, (half + root).im.signum()));
@@ -72,10 +66,7 @@ fn turning_splits_a_double_frequency() {
             near(found.modes[r].s, Complex::new(0.0, omega + sign * speed));
             let by_speed = slopes.modes[r].frequency().expect("it oscillates").by_input[0];
             close(by_speed, sign);
-            let by_length = slopes.modes[r]
-                .frequency()
-                .expect("it oscillates")
-                .by_design[0];
+            let by_length = slopes.modes[r].frequency().expect("it oscillates").by_design[0];
             close(by_length, -0.5 * omega / l);
         }
     }
@@ -89,9 +80,7 @@ fn a_sweep_follows_the_sleeping_top_until_it_falls() {
     let [m, h, transverse, polar] = design(&study);
     let (a, weight) = (transverse + m * h * h, m * 9.81 * h);
     let threshold = 2.0 * (a * weight).sqrt() / polar;
-    let spins: Vec<f64> = (0..20)
-        .map(|step| threshold * (2.0 - 0.06 * f64::from(step)))
-        .collect();
+    let spins: Vec<f64> = (0..20).map(|step| threshold * (2.0 - 0.06 * f64::from(step))).collect();
     // Not exactly upright, as with a start value taken from elsewhere.
     let study = study.start(SleepingTop::alpha, 1e-9);
     for point in &study.sweep(SleepingTop::spin, &spins).expect("a sweep") {

@@ -31,11 +31,7 @@ fn beam(coordinates: usize) -> String {
 /// Hinges in the middle of `n` equal pieces, with springs of `EI / h`; the first half piece is held, the last is free.
 fn bars(n: usize) -> String {
     let h = 1.0 / n as f64;
-    let mut text = format!(
-        "body root: rod(mass: {} kg, length: {} m, along: x);",
-        h / 2.0,
-        h / 2.0
-    );
+    let mut text = format!("body root: rod(mass: {} kg, length: {} m, along: x);", h / 2.0, h / 2.0);
     text += "joint clamp: fixed from hub to root;";
     for k in 1..=n {
         let length = if k == n { h / 2.0 } else { h };
@@ -66,9 +62,7 @@ impl Row {
         let machine = machine(text);
         let linear = machine.description().kernels.iter();
         let linear = linear.filter(|linear| linear.name == "linear");
-        let operations = linear
-            .map(|linear| linear.operations + linear.functions)
-            .sum();
+        let operations = linear.map(|linear| linear.operations + linear.functions).sum();
         let errors = [0, 1].map(|k| {
             let study = Study::new(machine.clone()).input(Input::new(0), [0.0, 5.0][k]);
             let modes = study.modes().expect("modes");
@@ -82,45 +76,29 @@ impl Row {
             study.modes().expect("modes");
             start.elapsed().as_secs_f64()
         });
-        Self {
-            name,
-            operations,
-            microseconds: 1e6 * seconds.fold(f64::INFINITY, f64::min),
-            errors,
-        }
+        Self { name, operations, microseconds: 1e6 * seconds.fold(f64::INFINITY, f64::min), errors }
     }
 }
 
 /// The rows as the table of the guide.
 fn table(rows: &[Row]) -> String {
-    let mut text =
-        "| model | at rest: modes 1, 2, 3 | `gamma` 5 | operations | modes |\n".to_owned();
+    let mut text = "| model | at rest: modes 1, 2, 3 | `gamma` 5 | operations | modes |\n".to_owned();
     text += "| --- | --- | --- | ---: | ---: |\n";
     for row in rows {
-        let errors = row
-            .errors
-            .map(|all| all.map(|x| format!("{x:.0e}")).join(", "));
+        let errors = row.errors.map(|all| all.map(|x| format!("{x:.0e}")).join(", "));
         let [rest, spinning] = errors;
         let (name, operations, time) = (&row.name, row.operations, row.microseconds);
-        writeln!(
-            text,
-            "| {name} | {rest} | {spinning} | {operations} | {time:.0} us |"
-        )
-        .expect("a string");
+        writeln!(text, "| {name} | {rest} | {spinning} | {operations} | {time:.0} us |").expect("a string");
     }
     text
 }
 
 #[test]
 fn a_few_coordinates_replace_many_bars() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F1_rotating_euler.json"
-    ));
+    let file = truth(include_str!("../../../truth/flexible/F1_rotating_euler.json"));
     let cases = file["dimensionless"].as_array().expect("cases");
     let exact = [0.0, 5.0].map(|gamma| {
-        let case = cases.iter().find(|case| {
-            case["motion"] == "flap" && case["delta"] == 0.0 && case["gamma"] == gamma
-        });
+        let case = cases.iter().find(|case| case["motion"] == "flap" && case["delta"] == 0.0 && case["gamma"] == gamma);
         let all = numbers(&case.expect("a case")["frequencies"]);
         [all[0], all[1], all[2]]
     });
@@ -130,10 +108,7 @@ fn a_few_coordinates_replace_many_bars() {
         for mode in 0..3 {
             let of = |row: &Row| row.errors[speed][mode];
             for rows in [&beams, &chains] {
-                assert!(
-                    of(&rows[0]) > of(&rows[1]) && of(&rows[1]) > of(&rows[2]),
-                    "mode {mode}"
-                );
+                assert!(of(&rows[0]) > of(&rows[1]) && of(&rows[1]) > of(&rows[2]), "mode {mode}");
             }
             // bars converge with the square of their length
             for pair in chains.windows(2) {
@@ -163,12 +138,7 @@ fn none_is_a_number_of_coordinates() {
         Ok::<_, String>(modes.frequencies())
     };
     let plain = frequencies("bending_y: 3").expect("a beam");
-    for more in [
-        "stretch: 0",
-        "shear: 0",
-        "stretch: 0, shear: 0",
-        "torsion: 0",
-    ] {
+    for more in ["stretch: 0", "shear: 0", "stretch: 0, shear: 0", "torsion: 0"] {
         let found = frequencies(&format!("bending_y: 3, {more}"));
         assert_eq!(found.expect("a beam"), plain, "{more}");
     }

@@ -4,15 +4,8 @@ use serde_json::Value;
 
 use crate::beams::compared::{Bars, compare, design, numbers, parameter, study, truth};
 
-const PARAMETERS: [(&str, &str); 7] = [
-    ("L", "m"),
-    ("R", "m"),
-    ("EI", "N*m^2"),
-    ("rhoA", "kg/m"),
-    ("m", "kg"),
-    ("e", "m"),
-    ("beta0", "rad"),
-];
+const PARAMETERS: [(&str, &str); 7] =
+    [("L", "m"), ("R", "m"), ("EI", "N*m^2"), ("rhoA", "kg/m"), ("m", "kg"), ("e", "m"), ("beta0", "rad")];
 
 fn planar(case: &Value, coordinates: usize) -> String {
     format!(
@@ -49,14 +42,8 @@ fn compared(case: &Value, coordinates: usize, bars: &Bars<'_>) {
 
 #[test]
 fn bent_by_weight_and_spun() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F14_bent_equilibrium.json"
-    ));
-    let bars = Bars {
-        values: &[4e-11, 3e-10, 1e-8],
-        first: &[1e-8, 1e-8],
-        second: &[],
-    };
+    let file = truth(include_str!("../../../truth/flexible/F14_bent_equilibrium.json"));
+    let bars = Bars { values: &[4e-11, 3e-10, 1e-8], first: &[1e-8, 1e-8], second: &[] };
     for case in file["gravity"].as_array().expect("cases") {
         compared(case, 10, &bars);
     }
@@ -73,14 +60,8 @@ fn bent_by_weight_and_spun() {
 /// Beyond a slope of 60 degrees, six coordinates are enough for five digits of the first frequency.
 #[test]
 fn few_coordinates_bend_far() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F14_bent_equilibrium.json"
-    ));
-    let case = file["gravity"]
-        .as_array()
-        .expect("cases")
-        .last()
-        .expect("a case");
+    let file = truth(include_str!("../../../truth/flexible/F14_bent_equilibrium.json"));
+    let case = file["gravity"].as_array().expect("cases").last().expect("a case");
     let study = study(&planar(case, 6), Some(0.0));
     let expected = numbers(&case["values"])[4];
     let modes = study.modes().expect("modes");
@@ -90,9 +71,7 @@ fn few_coordinates_bend_far() {
 
 #[test]
 fn a_blade_bent_in_space() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F18_blade_in_space.json"
-    ));
+    let file = truth(include_str!("../../../truth/flexible/F18_blade_in_space.json"));
     let parameters = [
         ("L", "m"),
         ("R", "m"),
@@ -143,13 +122,7 @@ fn a_blade_bent_in_space() {
             second: &[],
         };
         let what = format!("{}", case["parameters"]);
-        compare(
-            &what,
-            &study,
-            &with_derivatives,
-            &numbers(&case["frequencies"]),
-            &bars,
-        );
+        compare(&what, &study, &with_derivatives, &numbers(&case["frequencies"]), &bars);
         let height = study.outputs().expect("outputs").values[0];
         let expected = numbers(&case["tip_position"])[2];
         assert!((height - expected).abs() < 1e-9, "{height} {expected}");

@@ -53,17 +53,12 @@ fn a_buckled_column_is_followed_until_it_turns_too_far() {
     let critical = std::f64::consts::PI.powi(2) / 4.0;
     let turned = |error: &Error| matches!(error, Error::BentTooFar { degrees, .. } if (degrees - 150.0).abs() < 0.1);
     for high in [20.0, 30.0] {
-        let found = column
-            .events(load, 0.0, high, &[] as &[f64])
-            .expect("events");
+        let found = column.events(load, 0.0, high, &[] as &[f64]).expect("events");
         let values: Vec<f64> = found.critical.iter().map(|state| state.value).collect();
         assert_eq!(values.len(), 1, "{values:?}");
         assert!((values[0] / critical - 1.0).abs() < 1e-6, "{values:?}");
         let gaps = &found.searched.gaps;
-        assert!(
-            matches!(&gaps[..], [gap] if turned(&gap.reason)),
-            "{gaps:?}"
-        );
+        assert!(matches!(&gaps[..], [gap] if turned(&gap.reason)), "{gaps:?}");
     }
     let found = column.branches(load, 0.0, 20.0).expect("branches");
     let special = found.branches.iter().flat_map(|branch| &branch.special);

@@ -11,8 +11,7 @@ pub(crate) fn truth(text: &str) -> Value {
 
 pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     let list = value.as_array().expect("a list").iter();
-    list.map(|number| number.as_f64().expect("a number"))
-        .collect()
+    list.map(|number| number.as_f64().expect("a number")).collect()
 }
 
 /// A parameter of a case.
@@ -52,36 +51,17 @@ pub(crate) fn study(text: &str, speed: Option<f64>) -> Study<Interpreted> {
 
 fn close(value: f64, expected: f64, scale: f64, bar: f64, what: &str) {
     let error = (value - expected).abs() / scale.abs();
-    assert!(
-        error <= bar,
-        "{what}: {value} instead of {expected}, {error:.1e} > {bar:.0e}"
-    );
+    assert!(error <= bar, "{what}: {value} instead of {expected}, {error:.1e} > {bar:.0e}");
 }
 
 /// Compares frequencies, and if the case has them, first and second derivatives by its design variables.
-pub(crate) fn compare(
-    what: &str,
-    study: &Study<Interpreted>,
-    case: &Value,
-    frequencies: &[f64],
-    bars: &Bars<'_>,
-) {
-    let modes = study
-        .modes()
-        .unwrap_or_else(|error| panic!("{what}: {error}"));
+pub(crate) fn compare(what: &str, study: &Study<Interpreted>, case: &Value, frequencies: &[f64], bars: &Bars<'_>) {
+    let modes = study.modes().unwrap_or_else(|error| panic!("{what}: {error}"));
     let values: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
     for (k, (&bar, &expected)) in bars.values.iter().zip(frequencies).enumerate() {
-        close(
-            values[k],
-            expected,
-            expected,
-            bar,
-            &format!("{what}, mode {k}"),
-        );
+        close(values[k], expected, expected, bar, &format!("{what}, mode {k}"));
     }
-    let names: Vec<String> = (study.description().design.iter())
-        .map(|variable| variable.name.to_string())
-        .collect();
+    let names: Vec<String> = (study.description().design.iter()).map(|variable| variable.name.to_string()).collect();
     let sensitivities = study.sensitivities().expect("derivatives");
     let derivatives = &case["derivatives"];
     for (j, name) in names.iter().enumerate() {
@@ -107,22 +87,13 @@ pub(crate) fn compare(
                 continue;
             };
             // lambda = omega^2, lambda'' = 2 omega'^2 + 2 omega omega''
-            let slope = sensitivities.modes[k]
-                .frequency()
-                .expect("a frequency")
-                .by_design[j];
+            let slope = sensitivities.modes[k].frequency().expect("a frequency").by_design[j];
             let lambda = curvature.lambda.by_design[j][j];
             let found = (0.5 * lambda - slope * slope) / frequencies[k];
             let expected = numbers(second)[k];
             let usual = frequencies[k] / parameter(case, name).powi(2).max(1e-9);
             let scale = expected.abs().max(1e-3 * usual.min(1e9));
-            close(
-                found,
-                expected,
-                scale,
-                bar,
-                &format!("{what}, d2 mode {k} / d {name}2"),
-            );
+            close(found, expected, scale, bar, &format!("{what}, d2 mode {k} / d {name}2"));
         }
     }
 }

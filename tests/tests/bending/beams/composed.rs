@@ -19,8 +19,7 @@ fn assert_alike(values: &[f64], expected: &[f64], bar: f64) {
 }
 
 const BAR: &str = "along: x, up: z, mass_per_length: mu, stiffness_y: EI, bending_y: 6);";
-const NUMBERS: &str =
-    "design EI = 3 N*m^2; design mu = 1.2 kg/m; design L = 0.9 m; gravity 9.81 m/s^2 along -z;";
+const NUMBERS: &str = "design EI = 3 N*m^2; design mu = 1.2 kg/m; design L = 0.9 m; gravity 9.81 m/s^2 along -z;";
 
 /// A mass on the beam splits it: that is the same as two beams in series.
 #[test]
@@ -108,11 +107,7 @@ fn both_ends_held() {
         None,
     );
     for found in [&frequencies(&held), &frequencies(&free)] {
-        assert_alike(
-            &found[..3],
-            &[22.373_285_448_061, 61.672_822_868, 120.903_391_727],
-            2e-5,
-        );
+        assert_alike(&found[..3], &[22.373_285_448_061, 61.672_822_868, 120.903_391_727], 2e-5);
         assert!((found[0] - 22.373_285_448_061).abs() < 1e-8, "{}", found[0]);
     }
 }

@@ -35,10 +35,7 @@ fn frequencies(mechanism: Interpreted) -> Vec<f64> {
 /// The changes of one answer.
 fn changes(of: &Convergence, answer: Response) -> [f64; 2] {
     let change = of.changes.iter().find(|change| change.answer == answer);
-    change
-        .expect("the answer")
-        .relative
-        .map(|relative| relative.expect("a change"))
+    change.expect("the answer").relative.map(|relative| relative.expect("a change"))
 }
 
 fn frequency(mode: usize) -> Response {
@@ -60,10 +57,7 @@ fn a_refined_beam_is_one_declared_with_more() {
     };
     let refined = Interpreted::refined(&text(4, 2, 2), 1).expect("a beam");
     let declared = machine(&text(5, 3, 3));
-    assert_eq!(
-        refined.description().coordinates,
-        declared.description().coordinates
-    );
+    assert_eq!(refined.description().coordinates, declared.description().coordinates);
     assert_eq!(frequencies(refined), frequencies(declared));
 }
 
@@ -92,16 +86,9 @@ fn changes_are_those_of_beams_declared_with_more() {
 fn with_five_coordinates_the_first_mode_stays() {
     let text = cantilever(5, "");
     let convergence = convergence(&Study::new(machine(&text)), &text);
-    assert!(
-        changes(&convergence, frequency(0))
-            .iter()
-            .all(|own| own.abs() < 1e-6)
-    );
+    assert!(changes(&convergence, frequency(0)).iter().all(|own| own.abs() < 1e-6));
     let said = convergence.to_string();
-    assert!(
-        said.contains("Modes 1 and 2 change by less than 1e-"),
-        "{said}"
-    );
+    assert!(said.contains("Modes 1 and 2 change by less than 1e-"), "{said}");
     assert!(said.contains("`height` changes only by rounding"), "{said}");
     assert_eq!(convergence.of_first(2).changes.len(), 3);
 }
@@ -147,8 +134,7 @@ fn the_rule_counts_planes_of_bending_and_other_coordinates() {
     assert_eq!(machine(&cantilever(4, "")).good_modes(), Some(1));
     assert_eq!(machine(&cantilever(5, "")).good_modes(), Some(2));
     assert_eq!(machine(&cantilever(8, "")).good_modes(), Some(4));
-    let swinging =
-        cantilever(5, "").replace("joint clamp: fixed from", "joint clamp: revolute(y) from");
+    let swinging = cantilever(5, "").replace("joint clamp: fixed from", "joint clamp: revolute(y) from");
     assert_eq!(machine(&swinging).good_modes(), Some(3));
 }
 
@@ -159,10 +145,7 @@ fn a_mechanism_without_beams_cannot_be_refined() {
     assert_eq!(machine(text).good_modes(), None);
     let refused = Interpreted::refined(text, 1).expect_err("no beam");
     assert!(matches!(refused, RefineError::NoBeam { .. }));
-    assert_eq!(
-        refused.to_string(),
-        "`Rigid` has no beam, so there are no coordinates to add"
-    );
+    assert_eq!(refused.to_string(), "`Rigid` has no beam, so there are no coordinates to add");
     let refused = Interpreted::refined("mechanism Wrong { body }", 1);
     assert!(matches!(refused, Err(RefineError::Mistakes(_))));
 }

@@ -75,13 +75,7 @@ fn a_matrix_that_is_turned() {
         let beside = sine * cosine * (y - z);
         (entries[k][k + 1], entries[k + 1][k]) = (beside, beside);
     }
-    let turned = cantilever(
-        &format!(
-            "mass_per_length: 1.2 kg/m, stiffness: {}, {inertia}",
-            matrix(entries)
-        ),
-        "",
-    );
+    let turned = cantilever(&format!("mass_per_length: 1.2 kg/m, stiffness: {}, {inertia}", matrix(entries)), "");
     let held = cantilever(
         &format!(
             "mass_per_length: 1.2 kg/m, axial_stiffness: {axial} N, shear_stiffness_y: {shear_y} N,
@@ -116,11 +110,7 @@ fn about_another_line() {
             None,
         )
     };
-    let centre = of(
-        "section: section(mass: 0.4 kg/m, EA: EA, EIy: EI)",
-        0.05,
-        0.0,
-    );
+    let centre = of("section: section(mass: 0.4 kg/m, EA: EA, EIy: EI)", 0.05, 0.0);
     let none = "0, 0, 0";
     let zeros = "[0, 0, 0, 0, 0, 0]";
     let coupled = format!(
@@ -139,13 +129,9 @@ fn about_another_line() {
     // by the stiffness of the material
     let sensitivities = [&below, &centre].map(|x| x.sensitivities().expect("derivatives"));
     for mode in 0..3 {
-        let [below, centre] = sensitivities.each_ref().map(|sensitivity| {
-            sensitivity.modes[mode]
-                .frequency()
-                .expect("a frequency")
-                .by_design
-                .to_vec()
-        });
+        let [below, centre] = sensitivities
+            .each_ref()
+            .map(|sensitivity| sensitivity.modes[mode].frequency().expect("a frequency").by_design.to_vec());
         assert_alike(&below[1..], &centre[1..], 1e-7);
     }
 }

@@ -69,11 +69,7 @@ fn a_quarter_of_a_circle() {
         panic!("three outputs");
     };
     let shape = 0.75 * PI - 2.0;
-    assert_alike(
-        &[z, x],
-        &[size * shape / ABOUT_Y, -0.5 * size / ABOUT_Y],
-        3e-5,
-    );
+    assert_alike(&[z, x], &[size * shape / ABOUT_Y, -0.5 * size / ABOUT_Y], 3e-5);
     let y = moved([0.0, force, 0.0])[1];
     let expected = size * (0.25 * PI / ABOUT_Z + shape / AGAINST_TWIST);
     assert_alike(&[y], &[expected], 3e-5);
@@ -122,8 +118,7 @@ fn an_arc_of_straight_beams() {
     }
 }
 
-const STRAINED: &str =
-    "center_y: 10 mm, center_z: -5 mm, shear: 3, stretch: 2, axial_stiffness: 900 N,
+const STRAINED: &str = "center_y: 10 mm, center_z: -5 mm, shear: 3, stretch: 2, axial_stiffness: 900 N,
     shear_stiffness_y: 400 N, shear_stiffness_z: 300 N, lag: 1 ms";
 
 /// A twisted arc that a load splits in the middle, and two in series: the frame between them has the axes of the root.

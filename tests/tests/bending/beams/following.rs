@@ -35,8 +35,7 @@ fn integrated(load: &Load) -> Bent {
     };
     let steps = 4000;
     let h = -LENGTH / f64::from(steps);
-    let moved =
-        |x: [f64; 6], v: [f64; 6], h: f64| -> [f64; 6] { std::array::from_fn(|i| x[i] + h * v[i]) };
+    let moved = |x: [f64; 6], v: [f64; 6], h: f64| -> [f64; 6] { std::array::from_fn(|i| x[i] + h * v[i]) };
     let mut x = [0.0, 0.0, 0.0, load.tip[0], load.tip[1], 0.0];
     for _ in 0..steps {
         let a = rate(x);
@@ -49,12 +48,7 @@ fn integrated(load: &Load) -> Bent {
     // the root is at `x` in the axes of the tip; the tip, in those of the root:
     let [slope, along, across, _, _, moment] = x;
     let (sine, cosine) = slope.sin_cos();
-    [
-        -(cosine * along + sine * across),
-        sine * along - cosine * across,
-        -slope,
-        moment,
-    ]
+    [-(cosine * along + sine * across), sine * along - cosine * across, -slope, moment]
 }
 
 fn found(load: &Load) -> Bent {
@@ -76,12 +70,7 @@ fn found(load: &Load) -> Bent {
     let outputs = study.outputs().expect("outputs").values;
     let equilibrium = study.equilibrium().expect("an equilibrium");
     // the first coordinate is the turn of the tip, about y, which lowers z
-    [
-        outputs[0],
-        outputs[1],
-        -equilibrium.coordinates[0],
-        outputs[2],
-    ]
+    [outputs[0], outputs[1], -equilibrium.coordinates[0], outputs[2]]
 }
 
 #[test]

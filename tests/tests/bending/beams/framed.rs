@@ -28,21 +28,14 @@ fn frame(sides: usize, coordinates: usize, (angle, more): (f64, &str), root: &st
 /// more coordinates do not move.
 #[test]
 fn a_square_and_a_triangle_take_any_number_of_coordinates() {
-    for (sides, root) in [
-        (4, "planar(u: x, v: z, twist: -y)"),
-        (4, "fixed"),
-        (3, "fixed"),
-    ] {
+    for (sides, root) in [(4, "planar(u: x, v: z, twist: -y)"), (4, "fixed"), (3, "fixed")] {
         let corner = (-360.0 / sides as f64, "");
         let of = |n| frequencies(&frame(sides, n, corner, root));
         let best = of(8);
         for n in 4..8 {
             let found = of(n);
             let error = found[0] / best[0] - 1.0;
-            assert!(
-                (-1e-9..2e-3).contains(&error),
-                "{sides} {root} {n}: {error}"
-            );
+            assert!((-1e-9..2e-3).contains(&error), "{sides} {root} {n}: {error}");
         }
     }
 }
@@ -52,12 +45,7 @@ fn a_square_and_a_triangle_take_any_number_of_coordinates() {
 fn a_ring_of_two_half_circles() {
     let of = |n: usize| {
         let half = ", prebend_y: -180 deg, torsion_stiffness: 1 N*m^2";
-        frequencies(&frame(
-            2,
-            n,
-            (-180.0, half),
-            "planar(u: x, v: z, twist: -y)",
-        ))
+        frequencies(&frame(2, n, (-180.0, half), "planar(u: x, v: z, twist: -y)"))
     };
     let exact = (4.0_f64 * 9.0 / 5.0).sqrt();
     for n in 5..12 {

@@ -38,11 +38,7 @@ fn beam(name: &str, along: &str, up: &str, mass: f64) -> String {
 /// A portal of three equal beams on two feet.
 #[test]
 fn a_portal_in_every_order() {
-    let bodies = [
-        beam("a", "z", "x", 1.0),
-        beam("b", "z", "x", 1.0),
-        beam("c", "x", "z", 1.0),
-    ];
+    let bodies = [beam("a", "z", "x", 1.0), beam("b", "z", "x", 1.0), beam("c", "x", "z", 1.0)];
     for feet in ["fixed", "revolute(y)"] {
         let joints = [
             format!("joint ja: {feet} from ground to a;"),
@@ -53,10 +49,7 @@ fn a_portal_in_every_order() {
         let expected = lowest(&bodies.concat(), &joints);
         for joints in orders(&joints) {
             let frequency = lowest(&bodies.concat(), &joints);
-            assert!(
-                (frequency / expected - 1.0).abs() < 1e-9,
-                "{frequency} {expected} {joints:?}"
-            );
+            assert!((frequency / expected - 1.0).abs() < 1e-9, "{frequency} {expected} {joints:?}");
         }
     }
 }
@@ -77,10 +70,7 @@ fn a_platform_on_leaf_springs_in_every_order() {
     ];
     for joints in orders(&joints.map(str::to_owned)) {
         let frequency = lowest(&bodies.concat(), &joints);
-        assert!(
-            (frequency / 0.6_f64.sqrt() - 1.0).abs() < 1e-4,
-            "{frequency} {joints:?}"
-        );
+        assert!((frequency / 0.6_f64.sqrt() - 1.0).abs() < 1e-4, "{frequency} {joints:?}");
     }
 }
 
@@ -103,9 +93,6 @@ fn a_platform_on_bent_springs_in_every_order() {
     let expected = lowest(&bodies.concat(), &joints);
     for joints in orders(&joints) {
         let frequency = lowest(&bodies.concat(), &joints);
-        assert!(
-            (frequency / expected - 1.0).abs() < 1e-7,
-            "{frequency} {expected} {joints:?}"
-        );
+        assert!((frequency / expected - 1.0).abs() < 1e-7, "{frequency} {expected} {joints:?}");
     }
 }

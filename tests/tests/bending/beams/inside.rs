@@ -3,11 +3,7 @@
 use crate::beams::compared::study;
 
 fn outputs(text: &str) -> Vec<f64> {
-    study(text, None)
-        .outputs()
-        .expect("outputs")
-        .values
-        .to_vec()
+    study(text, None).outputs().expect("outputs").values.to_vec()
 }
 
 fn assert_close(value: f64, exact: f64, accuracy: f64) {
@@ -41,10 +37,9 @@ fn the_force_inside_a_bent_beam_is_the_weight_of_its_outer_part() {
     let (inner, outer) = (turn("arm_1_bend_y_0"), turn("arm_2_bend_y_0"));
     assert!(inner > 0.2, "{inner}");
     let pod = 0.4 * 9.81;
-    for ([x, z], angle, weight) in [
-        ([values[0], values[1]], inner, pod + 0.6 * 1.2 * 9.81),
-        ([values[2], values[3]], inner + outer, pod),
-    ] {
+    for ([x, z], angle, weight) in
+        [([values[0], values[1]], inner, pod + 0.6 * 1.2 * 9.81), ([values[2], values[3]], inner + outer, pod)]
+    {
         assert_close(x, weight * angle.sin(), 1e-9);
         assert_close(z, -weight * angle.cos(), 1e-9);
     }
@@ -86,12 +81,9 @@ fn what_is_inside_has_the_axes_of_the_section() {
     let expected = inside("x", "z", "[1, 2, 3]");
     assert_close(expected[0], 1e-3, 1e-5);
     assert_close(expected[2], 3e-3, 1e-5);
-    for (along, up, load) in [
-        ("-x", "z", "[-1, -2, 3]"),
-        ("y", "x", "[3, 1, 2]"),
-        ("z", "x", "[3, -2, 1]"),
-        ("-z", "-y", "[2, -3, -1]"),
-    ] {
+    for (along, up, load) in
+        [("-x", "z", "[-1, -2, 3]"), ("y", "x", "[3, 1, 2]"), ("z", "x", "[3, -2, 1]"), ("-z", "-y", "[2, -3, -1]")]
+    {
         for (found, expected) in inside(along, up, load).iter().zip(&expected) {
             assert_close(*found, *expected, 1e-9 * expected.abs());
         }

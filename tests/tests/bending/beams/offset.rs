@@ -47,23 +47,18 @@ fn bending_couples_with_torsion() {
     for (n, bar) in [(1.0, 1e-9), (2.0, 1e-6)] {
         for (branch, expected) in closed_form(n, length, center).into_iter().enumerate() {
             let error = |value: &f64| (value / expected - 1.0).abs();
-            let nearest =
-                (0..values.len()).min_by(|a, b| error(&values[*a]).total_cmp(&error(&values[*b])));
+            let nearest = (0..values.len()).min_by(|a, b| error(&values[*a]).total_cmp(&error(&values[*b])));
             let mode = nearest.expect("a mode");
             assert!(error(&values[mode]) < bar, "{expected} {values:?}");
             let slopes = sensitivities.modes[mode].frequency().expect("a frequency");
             let h = 1e-5;
             let by = |l: f64, c: f64| {
-                let [above, below] =
-                    [h, -h].map(|h| closed_form(n, length + l * h, center + c * h)[branch]);
+                let [above, below] = [h, -h].map(|h| closed_form(n, length + l * h, center + c * h)[branch]);
                 (above - below) / (2.0 * h)
             };
             for (slope, expected) in slopes.by_design.iter().zip([by(1.0, 0.0), by(0.0, 1.0)]) {
                 let size = expected.abs().max(1.0);
-                assert!(
-                    (slope - expected).abs() < 1e3 * bar * size,
-                    "{slope} {expected}"
-                );
+                assert!((slope - expected).abs() < 1e3 * bar * size, "{slope} {expected}");
             }
         }
     }

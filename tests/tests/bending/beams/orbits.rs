@@ -46,18 +46,9 @@ fn whirl(n: f64, spin: f64) -> [f64; 2] {
 fn displacement(shaft: &Interpreted, spin: f64, mode: &Mode) -> [Complex; 2] {
     let shaft: &dyn Kernels = shaft;
     let moved = |part: fn(&Complex) -> f64| {
-        let size = 1e-5
-            / mode
-                .shape
-                .iter()
-                .map(|component| component.norm())
-                .fold(0.0, f64::max);
+        let size = 1e-5 / mode.shape.iter().map(|component| component.norm()).fold(0.0, f64::max);
         let at = |sign: f64| {
-            let q: Vec<f64> = mode
-                .shape
-                .iter()
-                .map(|component| sign * size * part(component))
-                .collect();
+            let q: Vec<f64> = mode.shape.iter().map(|component| sign * size * part(component)).collect();
             shaft.outputs(&q, &[spin], &[])
         };
         let (ahead, behind) = (at(1.0), at(-1.0));
@@ -77,18 +68,13 @@ fn forward_whirl_turns_with_the_spin_and_is_faster() {
         for n in [1.0, 2.0] {
             let whirls = whirl(n, spin);
             for expected in whirls {
-                let near = |mode: &&Mode| {
-                    (mode.s - Complex::new(0.0, expected.abs())).norm() < 1e-8 * expected.abs()
-                };
+                let near = |mode: &&Mode| (mode.s - Complex::new(0.0, expected.abs())).norm() < 1e-8 * expected.abs();
                 let mode = modes.modes.iter().find(near);
                 let mode = mode.unwrap_or_else(|| panic!("no mode near {expected} at {spin}"));
                 let [y, z] = displacement(&shaft, spin, mode);
                 let turned = y * Complex::new(0.0, -expected.signum());
                 assert!(y.norm() > 1e-3, "{y}");
-                assert!(
-                    (z - turned).norm() < 1e-6 * y.norm(),
-                    "{spin}, {expected}: {y} {z}"
-                );
+                assert!((z - turned).norm() < 1e-6 * y.norm(), "{spin}, {expected}: {y} {z}");
             }
             // the one with the spin is the faster one
             let [slow, fast] = whirls;

@@ -18,15 +18,9 @@ fn at_150_degrees_the_margin_is_that_of_the_angle() {
     let half_turn = 75.0_f64.to_radians();
     let vector = 2.0 * half_turn.tan();
     let q = [0.6 * vector, 0.0, 0.0, 0.0, 0.8 * vector, 0.0];
-    let pose = arm
-        .pose_margin(&q, &[], &[])
-        .expect("a beam that turns about two axes");
+    let pose = arm.pose_margin(&q, &[], &[]).expect("a beam that turns about two axes");
     assert_eq!(&*pose.joint, "arm");
-    assert!(
-        (pose.margin - half_turn.cos().powi(2)).abs() < 1e-12,
-        "{}",
-        pose.margin
-    );
+    assert!((pose.margin - half_turn.cos().powi(2)).abs() < 1e-12, "{}", pose.margin);
     assert!((pose.margin - 0.067).abs() < 1e-3);
 }
 
@@ -41,11 +35,7 @@ fn the_section_that_has_turned_most_counts() {
     assert!((wave(0.0) - 1.0).abs() < 1e-15);
     // One of seven places is the middle, where the integral of the second polynomial is -1/4.
     let middle = 1.0 / (1.0 + 0.25 * (20.0_f64 / 4.0).powi(2));
-    assert!(
-        (wave(20.0) - middle).abs() < 1e-12,
-        "{} {middle}",
-        wave(20.0)
-    );
+    assert!((wave(20.0) - middle).abs() < 1e-12, "{} {middle}", wave(20.0));
 }
 
 #[test]
@@ -75,12 +65,7 @@ fn bent_by(moment: f64) -> String {
 
 #[test]
 fn beams_that_turn_by_more_than_150_degrees_are_refused() {
-    for (degrees, accepted) in [
-        (140.0_f64, true),
-        (149.0, true),
-        (151.0, false),
-        (160.0, false),
-    ] {
+    for (degrees, accepted) in [(140.0_f64, true), (149.0, true), (151.0, false), (160.0, false)] {
         let moment = 2.0 * degrees.to_radians();
         let study = study(&bent_by(moment), None).policy(eigentol::equilibrium::Policy::Nearest);
         let found = study.equilibrium();
@@ -90,13 +75,7 @@ fn beams_that_turn_by_more_than_150_degrees_are_refused() {
                 let exact = (0.5 * degrees.to_radians()).cos().powi(2);
                 assert!((margin - exact).abs() < 1e-3, "{degrees}: {margin} {exact}");
             }
-            (
-                false,
-                Err(eigentol::Error::BentTooFar {
-                    beam,
-                    degrees: found,
-                }),
-            ) => {
+            (false, Err(eigentol::Error::BentTooFar { beam, degrees: found })) => {
                 assert_eq!(&**beam, "arm");
                 assert!((found - degrees).abs() < 1.0, "{found}");
             }

@@ -58,15 +58,9 @@ fn tubes_need_a_wall_and_numbers_must_be_positive() {
         joint clamp: fixed from ground to boom;
     }";
     assert_eq!(broken(numbers, &[1.0, 20.0]), None);
-    assert_eq!(
-        broken(numbers, &[0.0, 20.0]).as_deref(),
-        Some("mass per length of boom")
-    );
+    assert_eq!(broken(numbers, &[0.0, 20.0]).as_deref(), Some("mass per length of boom"));
     let stiffness = broken(numbers, &[1.0, -20.0]);
-    assert_eq!(
-        stiffness.as_deref(),
-        Some("bending stiffness about y of boom")
-    );
+    assert_eq!(stiffness.as_deref(), Some("bending stiffness about y of boom"));
 }
 
 /// Entries beside the diagonal can make a section give way although its diagonal is positive.
@@ -80,8 +74,7 @@ fn a_matrix_of_stiffness_must_be_positive_definite() {
                 [0, 0, 0, 1, both, 0], [1 N*m, 0, 0, both, 2, 0], [0, 0, 0, 0, 0, 3]]);
         joint clamp: fixed from ground to blade;
     }";
-    let bending =
-        "stiffness of blade against bending about y with the strains of earlier rows free";
+    let bending = "stiffness of blade against bending about y with the strains of earlier rows free";
     let axial = "stiffness of blade against stretch with the strains of earlier rows free";
     // about y 2 - 1 / axial - both^2 is left
     let cases = [

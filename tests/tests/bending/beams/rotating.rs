@@ -26,9 +26,7 @@ const PARAMETERS: [(&str, &str); 4] = [("L", "m"), ("R", "m"), ("EI", "N*m^2"), 
 
 #[test]
 fn uniform_beams_of_every_hub_and_speed() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F1_rotating_euler.json"
-    ));
+    let file = truth(include_str!("../../../truth/flexible/F1_rotating_euler.json"));
     let design = "design R = 1 m; design L = 1 m; design EI = 1 N*m^2; design rhoA = 1 kg/m;";
     for motion in ["flap", "lag"] {
         let machine = machine(&rotating(design, motion, ""));
@@ -44,14 +42,8 @@ fn uniform_beams_of_every_hub_and_speed() {
                 tension if tension > 6.0 => &[3e-8, 7e-8, 8e-7, 1e-4],
                 _ => &[9e-12, 3e-11, 1e-7, 1e-4],
             };
-            let bars = Bars {
-                values,
-                first: &[],
-                second: &[],
-            };
-            let study = Study::new(machine.clone())
-                .input(Input::new(0), gamma)
-                .design(DesignVariable::new(0), delta);
+            let bars = Bars { values, first: &[], second: &[] };
+            let study = Study::new(machine.clone()).input(Input::new(0), gamma).design(DesignVariable::new(0), delta);
             let what = format!("{motion}, delta {delta}, gamma {gamma}");
             compare(&what, &study, case, &numbers(&case["frequencies"]), &bars);
         }
@@ -60,27 +52,19 @@ fn uniform_beams_of_every_hub_and_speed() {
 
 #[test]
 fn derivatives_of_uniform_beams() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F1_rotating_euler.json"
-    ));
+    let file = truth(include_str!("../../../truth/flexible/F1_rotating_euler.json"));
     for case in file["dimensional"].as_array().expect("cases") {
         let motion = case["motion"].as_str().expect("a motion");
         let text = rotating(&design(case, &PARAMETERS), motion, "");
         let study = study(&text, Some(parameter(case, "Omega")));
-        let bars = Bars {
-            values: &[1e-12, 1e-12, 6e-8],
-            first: &[1e-12, 2e-11],
-            second: &[1e-11, 2e-10],
-        };
+        let bars = Bars { values: &[1e-12, 1e-12, 6e-8], first: &[1e-12, 2e-11], second: &[1e-11, 2e-10] };
         compare(motion, &study, case, &numbers(&case["frequencies"]), &bars);
     }
 }
 
 #[test]
 fn a_heavy_tip() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F2_rotating_tip_mass.json"
-    ));
+    let file = truth(include_str!("../../../truth/flexible/F2_rotating_tip_mass.json"));
     for case in file["cases"].as_array().expect("cases") {
         let motion = case["motion"].as_str().expect("a motion");
         let all = [&PARAMETERS[..], &[("m", "kg"), ("J", "kg*m^2")]].concat();
@@ -88,16 +72,11 @@ fn a_heavy_tip() {
             "flap" => "[J / 2, J, J / 2]",
             _ => "[J / 2, J / 2, J]",
         };
-        let carried = format!(
-            "body tip: rigid(mass: m, inertia: {inertia}); joint end: fixed from blade at tip to tip;"
-        );
+        let carried =
+            format!("body tip: rigid(mass: m, inertia: {inertia}); joint end: fixed from blade at tip to tip;");
         let text = rotating(&design(case, &all), motion, &carried);
         let study = study(&text, Some(parameter(case, "Omega")));
-        let bars = Bars {
-            values: &[1e-12, 2e-12, 6e-9],
-            first: &[1e-12, 6e-11],
-            second: &[2e-11, 2e-9],
-        };
+        let bars = Bars { values: &[1e-12, 2e-12, 6e-9], first: &[1e-12, 6e-11], second: &[2e-11, 2e-9] };
         compare(motion, &study, case, &numbers(&case["frequencies"]), &bars);
     }
 }
@@ -105,9 +84,7 @@ fn a_heavy_tip() {
 /// A thin blade whose height, or width, or both shrink in proportion; rotary inertia is below 1e-9.
 #[test]
 fn tapered_beams() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F3_rotating_taper.json"
-    ));
+    let file = truth(include_str!("../../../truth/flexible/F3_rotating_taper.json"));
     for case in file["dimensionless"].as_array().expect("cases") {
         let number = |name: &str| case[name].as_f64().expect("a number");
         let [taper, gamma] = ["taper", "gamma"].map(number);
@@ -134,18 +111,8 @@ fn tapered_beams() {
             gamma if gamma > 8.0 => &[1e-6, 1e-6],
             _ => &[1e-8, 1e-8],
         };
-        let bars = Bars {
-            values,
-            first: &[],
-            second: &[],
-        };
+        let bars = Bars { values, first: &[], second: &[] };
         let study = study(&text, Some(gamma));
-        compare(
-            &format!("{case}"),
-            &study,
-            case,
-            &numbers(&case["flap"]),
-            &bars,
-        );
+        compare(&format!("{case}"), &study, case, &numbers(&case["flap"]), &bars);
     }
 }

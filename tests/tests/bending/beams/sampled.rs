@@ -31,12 +31,7 @@ fn designs_with_beams_are_solved_in_vectors() {
         assert!((a.mean - b.mean).abs() < 1e-9 * scale, "{k}");
         let (a, b) = (a.sigma.expect("many"), b.sigma.expect("many"));
         assert!((a - b).abs() < 1e-9 * scale, "{k}: {a} {b}");
-        let sigma = second.modes[k]
-            .as_ref()
-            .expect("derivatives")
-            .frequency
-            .moments
-            .sigma;
+        let sigma = second.modes[k].as_ref().expect("derivatives").frequency.moments.sigma;
         // Four standard errors of a deviation.
         let error = 4.0 / (2.0 * SAMPLES as f64).sqrt();
         assert!((b / sigma - 1.0).abs() < error, "{k}: {b} {sigma}");

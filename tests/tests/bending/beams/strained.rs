@@ -4,13 +4,7 @@ use eigentol::{DesignVariable, Input, Study};
 
 use crate::beams::compared::{Bars, compare, design, machine, numbers, parameter, study, truth};
 
-const PARAMETERS: [(&str, &str); 5] = [
-    ("L", "m"),
-    ("EI", "N*m^2"),
-    ("kGA", "N"),
-    ("rhoA", "kg/m"),
-    ("rhoI", "kg*m"),
-];
+const PARAMETERS: [(&str, &str); 5] = [("L", "m"), ("EI", "N*m^2"), ("kGA", "N"), ("rhoA", "kg/m"), ("rhoI", "kg*m")];
 
 /// A thick bar with `shear` and what holds it.
 fn thick(design: &str, shear: &str, held: &str) -> String {
@@ -28,9 +22,7 @@ fn thick(design: &str, shear: &str, held: &str) -> String {
 /// nine, and loses some.
 #[test]
 fn thick_beams_at_rest() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F4_timoshenko_at_rest.json"
-    ));
+    let file = truth(include_str!("../../../truth/flexible/F4_timoshenko_at_rest.json"));
     let bearing = "point tip: bar at tip; point seat: ground at [L, 0, 0];
         constraint slides: coincident(from: seat, to: tip, along: [z]);";
     for case in file["cases"].as_array().expect("cases") {
@@ -50,39 +42,19 @@ fn thick_beams_at_rest() {
             ["clamped", "clamped"] => "joint left: fixed from ground to bar;
                 joint right: prismatic(x) from bar at tip to ground at [L, 0, 0] on ground;"
                 .to_owned(),
-            ["free", "free"] => {
-                "joint left: planar(px: x, pz: z, ry: y) from ground to bar;".to_owned()
-            }
+            ["free", "free"] => "joint left: planar(px: x, pz: z, ry: y) from ground to bar;".to_owned(),
             other => panic!("{other:?}"),
         };
         let coordinates = Bars {
             values: &[2e-10, 1e-8],
-            first: if ends == ["clamped", "free"] {
-                &[1e-12, 1e-9]
-            } else {
-                &[]
-            },
-            second: if ends == ["clamped", "free"] {
-                &[1e-7, 1e-6]
-            } else {
-                &[]
-            },
+            first: if ends == ["clamped", "free"] { &[1e-12, 1e-9] } else { &[] },
+            second: if ends == ["clamped", "free"] { &[1e-7, 1e-6] } else { &[] },
         };
-        let statically = Bars {
-            values: &[1e-4, 1e-3],
-            first: &[],
-            second: &[],
-        };
+        let statically = Bars { values: &[1e-4, 1e-3], first: &[], second: &[] };
         for (shear, bars) in [("9", &coordinates), ("static", &statically)] {
             let text = thick(&design(case, &PARAMETERS), shear, &held);
             let study = study(&text, None);
-            compare(
-                &format!("{ends:?}, shear {shear}"),
-                &study,
-                case,
-                &numbers(&case["frequencies"]),
-                bars,
-            );
+            compare(&format!("{ends:?}, shear {shear}"), &study, case, &numbers(&case["frequencies"]), bars);
         }
     }
 }
@@ -90,9 +62,7 @@ fn thick_beams_at_rest() {
 /// Shear as coordinates on a spinning hub. Where tension acts, shear from the moments alone misses its part.
 #[test]
 fn thick_beams_that_spin() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F5_rotating_timoshenko.json"
-    ));
+    let file = truth(include_str!("../../../truth/flexible/F5_rotating_timoshenko.json"));
     let of_flap = "bending_y: 10, stiffness_y: 1 N*m^2, inertia_y: I, shear_stiffness_z: S";
     let of_lag = "bending_z: 10, stiffness_z: 1 N*m^2, inertia_z: I, shear_stiffness_y: S";
     for (motion, plane) in [("flap", of_flap), ("lag", of_lag)] {
@@ -109,14 +79,9 @@ fn thick_beams_that_spin() {
                 1.0 / 900.0,
                 900.0 / 3.059
             ));
-            let bars = Bars {
-                values,
-                first: &[],
-                second: &[],
-            };
+            let bars = Bars { values, first: &[], second: &[] };
             let cases = file["dimensionless"].as_array().expect("cases").iter();
-            let cases =
-                cases.filter(|case| case["form"] == "centre line" && case["motion"] == motion);
+            let cases = cases.filter(|case| case["form"] == "centre line" && case["motion"] == motion);
             for case in cases {
                 let number = |name: &str| case[name].as_f64().expect("a number");
                 let study = Study::new(machine.clone())
@@ -131,17 +96,8 @@ fn thick_beams_that_spin() {
 
 #[test]
 fn derivatives_of_thick_beams_that_spin() {
-    let file = truth(include_str!(
-        "../../../truth/flexible/F5_rotating_timoshenko.json"
-    ));
-    let parameters = [
-        ("L", "m"),
-        ("R", "m"),
-        ("EI", "N*m^2"),
-        ("kGA", "N"),
-        ("rhoA", "kg/m"),
-        ("rhoI", "kg*m"),
-    ];
+    let file = truth(include_str!("../../../truth/flexible/F5_rotating_timoshenko.json"));
+    let parameters = [("L", "m"), ("R", "m"), ("EI", "N*m^2"), ("kGA", "N"), ("rhoA", "kg/m"), ("rhoI", "kg*m")];
     let cases = file["dimensional"].as_array().expect("cases").iter();
     for case in cases.filter(|case| case["form"] == "centre line") {
         let motion = case["motion"].as_str().expect("a motion");
@@ -160,11 +116,7 @@ fn derivatives_of_thick_beams_that_spin() {
             design(case, &parameters)
         );
         let study = study(&text, Some(parameter(case, "Omega")));
-        let bars = Bars {
-            values: &[1e-14, 6e-11],
-            first: &[4e-13, 1e-9],
-            second: &[4e-13, 2e-9],
-        };
+        let bars = Bars { values: &[1e-14, 6e-11], first: &[4e-13, 1e-9], second: &[4e-13, 2e-9] };
         let what = format!("derivatives, {motion}");
         compare(&what, &study, case, &numbers(&case["frequencies"]), &bars);
     }
@@ -173,9 +125,7 @@ fn derivatives_of_thick_beams_that_spin() {
 /// A bar that only stretches: `b tan b = rhoA L / m`.
 #[test]
 fn a_bar_in_tension_and_compression() {
-    let case = truth(include_str!(
-        "../../../truth/flexible/F16_bar_with_tip_mass.json"
-    ));
+    let case = truth(include_str!("../../../truth/flexible/F16_bar_with_tip_mass.json"));
     let parameters = [("L", "m"), ("EA", "N"), ("rhoA", "kg/m"), ("m", "kg")];
     let text = format!(
         "mechanism Bar {{
@@ -188,18 +138,8 @@ fn a_bar_in_tension_and_compression() {
         }}",
         design(&case, &parameters)
     );
-    let bars = Bars {
-        values: &[1e-14, 1e-14, 1e-8],
-        first: &[1e-14, 3e-13],
-        second: &[2e-14, 1e-12],
-    };
-    compare(
-        "bar",
-        &study(&text, None),
-        &case,
-        &numbers(&case["frequencies"]),
-        &bars,
-    );
+    let bars = Bars { values: &[1e-14, 1e-14, 1e-8], first: &[1e-14, 3e-13], second: &[2e-14, 1e-12] };
+    compare("bar", &study(&text, None), &case, &numbers(&case["frequencies"]), &bars);
     assert!(parameter(&case, "m") > 0.0);
 }
 
@@ -221,8 +161,7 @@ fn static_shear_of_a_twisted_blade() {
         modes.frequencies().into_iter().flatten().take(3).collect()
     };
     for (height, bar) in [(20.0, 2e-4), (40.0, 5e-4)] {
-        let [none, statically, own] =
-            ["", ", shear: static", ", shear: 6"].map(|shear| frequencies(shear, height));
+        let [none, statically, own] = ["", ", shear: static", ", shear: 6"].map(|shear| frequencies(shear, height));
         for k in 0..3 {
             let softened = (none[k] - own[k]) / own[k];
             let error = (statically[k] - own[k]).abs() / own[k];

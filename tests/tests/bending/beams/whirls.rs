@@ -33,10 +33,7 @@ fn the_faster_whirl_of_a_spinning_beam_goes_with_the_spin() {
     for speed in [300.0, -300.0] {
         let [(slow, backward), (fast, forward)] = lowest_pair(speed);
         // Gyroscopic moments split the pair about its frequency at rest.
-        assert!(
-            slow < 0.999 * still && fast > 1.001 * still,
-            "{slow} {still} {fast}"
-        );
+        assert!(slow < 0.999 * still && fast > 1.001 * still, "{slow} {still} {fast}");
         assert!((slow * fast / still.powi(2) - 1.0).abs() < 1e-3);
         assert!((backward + 1.0).abs() < 1e-9, "{backward}");
         assert!((forward - 1.0).abs() < 1e-9, "{forward}");

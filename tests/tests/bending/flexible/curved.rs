@@ -6,12 +6,7 @@ use eigentol_oracle::random::Random;
 
 use crate::flexible::judged::{Machine, assert_close, judge};
 
-const CURVES: [&str; 4] = [
-    "",
-    ", prebend_y: -0.8 rad",
-    ", prebend_z: t",
-    ", prebend_y: 0.7 rad, prebend_z: t",
-];
+const CURVES: [&str; 4] = ["", ", prebend_y: -0.8 rad", ", prebend_z: t", ", prebend_y: 0.7 rad, prebend_z: t"];
 
 /// In space, with strains, in one plane, only in torsion.
 const WAYS: [&str; 5] = [
@@ -108,9 +103,7 @@ fn a_matrix_has_the_order_of_the_reference() {
                 })
                 .collect();
             let ends = ROOT.as_flattened().iter().zip(TIP.as_flattened());
-            let expected: Vec<f64> = ends
-                .map(|(root, tip)| root * (1.0 - place) + tip * place)
-                .collect();
+            let expected: Vec<f64> = ends.map(|(root, tip)| root * (1.0 - place) + tip * place).collect();
             assert_close("stiffness", &values, &expected, 1e-14, 100.0);
         }
     }

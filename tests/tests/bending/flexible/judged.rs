@@ -24,15 +24,9 @@ pub(crate) struct State {
 
 impl Machine {
     pub(crate) fn new(text: &str) -> Result<Self, String> {
-        let tokens = text
-            .parse()
-            .unwrap_or_else(|error| panic!("{error}\n{text}"));
-        let compiled =
-            compile(tokens, Limits::default()).map_err(|mistakes| mistakes.to_string())?;
-        Ok(Self {
-            compiled,
-            text: text.to_owned(),
-        })
+        let tokens = text.parse().unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let compiled = compile(tokens, Limits::default()).map_err(|mistakes| mistakes.to_string())?;
+        Ok(Self { compiled, text: text.to_owned() })
     }
 
     /// A machine that must be accepted.
@@ -49,11 +43,7 @@ impl Machine {
     pub(crate) fn state(&self, random: &mut Random) -> State {
         let mechanism = &self.compiled.mechanism;
         let n = self.roles().len();
-        let beams: Vec<_> = mechanism
-            .beams
-            .iter()
-            .flat_map(|beam| beam.coordinates.concat())
-            .collect();
+        let beams: Vec<_> = mechanism.beams.iter().flat_map(|beam| beam.coordinates.concat()).collect();
         let strains = mechanism.beams.iter().map(|beam| beam.strains.concat());
         let strains: Vec<_> = strains.flatten().collect();
         let mut all = |limit: f64| (0..n).map(|_| random.between(-limit, limit)).collect();
@@ -68,13 +58,7 @@ impl Machine {
         let u = inputs.map(|_| random.between(0.5, 4.0)).collect();
         let design = mechanism.design.iter();
         let b = design.map(|design| design.nominal * random.between(0.9, 1.1));
-        State {
-            acceleration,
-            velocity,
-            q,
-            u,
-            b: b.collect(),
-        }
+        State { acceleration, velocity, q, u, b: b.collect() }
     }
 
     pub(crate) fn evaluate(&self, kernel: &str, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
@@ -145,35 +129,14 @@ pub(crate) fn judge(what: &str, machine: &Machine, state: &State) {
 
     let motion = machine.motion(&model, state);
     let [acceleration, velocity, q] = motion.each_ref().map(Vec::as_slice);
-    let arguments: [&[f64]; 5] = [
-        &state.acceleration,
-        &state.velocity,
-        &state.q,
-        &state.u,
-        &state.b,
-    ];
+    let arguments: [&[f64]; 5] = [&state.acceleration, &state.velocity, &state.q, &state.u, &state.b];
     let found = &machine.evaluate("motion_residual", &arguments)[0];
     let lagrange = energy::residual(&model, [acceleration, velocity, q], &speeds, &[]);
     let size = 1.0 + largest(&lagrange);
-    assert_close(
-        &what("motion, by energies"),
-        found,
-        &ordered(&lagrange),
-        BAR,
-        size,
-    );
+    assert_close(&what("motion, by energies"), found, &ordered(&lagrange), BAR, size);
     let paper = Kernels::motion_residual(&oracle, acceleration, velocity, [q, &speeds, &[]]);
-    assert_close(
-        &what("motion, by matrices"),
-        found,
-        &ordered(&paper),
-        BAR,
-        size,
-    );
-    let coasts = machine
-        .roles()
-        .iter()
-        .any(|role| matches!(role, Role::Speed(_)));
+    assert_close(&what("motion, by matrices"), found, &ordered(&paper), BAR, size);
+    let coasts = machine.roles().iter().any(|role| matches!(role, Role::Speed(_)));
     if coasts {
         return;
     }
@@ -183,8 +146,7 @@ pub(crate) fn judge(what: &str, machine: &Machine, state: &State) {
     let n = q.len();
     let matrix = |values: &[f64]| -> Vec<f64> {
         let rows = order.iter();
-        rows.flat_map(|i| order.iter().map(move |j| values[i * n + j]))
-            .collect()
+        rows.flat_map(|i| order.iter().map(move |j| values[i * n + j])).collect()
     };
     let found = machine.evaluate("linear", &rest);
     let names = ["mass", "damping", "stiffness"];

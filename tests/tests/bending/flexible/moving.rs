@@ -15,12 +15,7 @@ fn accelerations(machine: &Machine, state: &State) -> Vec<f64> {
 }
 
 /// The rate along the motion that the machine's own accelerations give.
-pub(crate) fn rate(
-    machine: &Machine,
-    state: &State,
-    model: &Model,
-    of: impl Fn([&[f64]; 2]) -> f64,
-) -> f64 {
+pub(crate) fn rate(machine: &Machine, state: &State, model: &Model, of: impl Fn([&[f64]; 2]) -> f64) -> f64 {
     let acceleration = accelerations(machine, state);
     let at = |h: f64| {
         let (mut velocity, mut q) = (state.velocity.clone(), state.q.clone());

@@ -13,9 +13,7 @@ fn frequencies(text: &str, speed: Option<f64>) -> Vec<f64> {
         Some(speed) => study.input(Input::new(0), speed),
         None => study,
     };
-    let modes = study
-        .modes()
-        .unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let modes = study.modes().unwrap_or_else(|error| panic!("{error}\n{text}"));
     let mut values: Vec<f64> = modes.frequencies().into_iter().flatten().collect();
     values.sort_by(f64::total_cmp);
     values
@@ -51,23 +49,11 @@ fn turning_everything_changes_no_frequency() {
     let upright = boom([0.0, 2.0, -9.0], [0.3, 0.4, 0.9], "", along_x, "");
     let expected = frequencies(&upright, None);
     // the axes x, y, z become y, z, x, by a third of a turn about [1, 1, 1]
-    let turned = boom(
-        [-9.0, 0.0, 2.0],
-        [0.9, 0.3, 0.4],
-        "rotated([1, 1, 1], 120 deg)",
-        along_x,
-        "",
-    );
+    let turned = boom([-9.0, 0.0, 2.0], [0.9, 0.3, 0.4], "rotated([1, 1, 1], 120 deg)", along_x, "");
     let size = expected[0];
     assert_close("turned", &frequencies(&turned, None), &expected, 1e-9, size);
     // the same beam described along -y of a frame that is turned back
-    let described = boom(
-        [0.0, 2.0, -9.0],
-        [0.3, 0.4, 0.9],
-        "",
-        "along: -y, up: z",
-        "rotated(z, 90 deg)",
-    );
+    let described = boom([0.0, 2.0, -9.0], [0.3, 0.4, 0.9], "", "along: -y, up: z", "rotated(z, 90 deg)");
     let values = frequencies(&described, None);
     assert_close("described along -y", &values, &expected, 1e-9, size);
 }
@@ -110,15 +96,11 @@ fn round_beams_have_double_frequencies() {
 /// stiffen, is faster and slower by the spin.
 #[test]
 fn a_round_rod_about_its_own_axis_splits_by_the_spin() {
-    let section =
-        "mass_per_length: 0.6 kg/m, stiffness_y: 9 N*m^2, stiffness_z: 9 N*m^2, bending: 4";
+    let section = "mass_per_length: 0.6 kg/m, stiffness_y: 9 N*m^2, stiffness_z: 9 N*m^2, bending: 4";
     let text = round("z", "x", "", section);
     let rest = frequencies(&text, Some(0.0));
     let spin = 3.0;
-    let mut expected: Vec<f64> = rest
-        .chunks(2)
-        .flat_map(|pair| [pair[0] - spin, pair[0] + spin])
-        .collect();
+    let mut expected: Vec<f64> = rest.chunks(2).flat_map(|pair| [pair[0] - spin, pair[0] + spin]).collect();
     expected.sort_by(f64::total_cmp);
     assert!(rest[0] > spin);
     let values = frequencies(&text, Some(spin));
@@ -178,10 +160,7 @@ fn a_beam_clamped_at_both_ends() {
         joint slide: prismatic(x) from ground to beam at [2, 0, 0] m on ground, at tip on beam, cut;
     }";
     let values = frequencies(text, None);
-    for (found, bl) in values
-        .iter()
-        .zip([4.730_040_744_862_704_f64, 7.853_204_624_095_838])
-    {
+    for (found, bl) in values.iter().zip([4.730_040_744_862_704_f64, 7.853_204_624_095_838]) {
         let expected = bl * bl * (8.0_f64 / 0.5).sqrt() / 4.0;
         assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
     }

@@ -5,7 +5,8 @@ use eigentol_oracle::random::Random;
 
 use crate::flexible::judged::{Machine, assert_close, judge};
 
-const SECTIONS: &str = "section: section(mass: 0.6 kg/m, EIy: 9 N*m^2, EIz: 16 N*m^2, GJ: 5 N*m^2, inertia_y: 0.01 kg*m,
+const SECTIONS: &str =
+    "section: section(mass: 0.6 kg/m, EIy: 9 N*m^2, EIz: 16 N*m^2, GJ: 5 N*m^2, inertia_y: 0.01 kg*m,
         inertia_z: 0.02 kg*m, EA: 90 N, GAy: 50 N, GAz: 70 N, center_y: c, center_z: -0.04 m)
     to section(mass: 0.4 kg/m, EIy: 6 N*m^2, EIz: 11 N*m^2, GJ: 4 N*m^2, inertia_y: 0.01 kg*m, inertia_z: 0.01 kg*m,
         EA: 80 N, GAy: 40 N, GAz: 60 N, center_y: 0.01 m)";
@@ -38,10 +39,7 @@ fn machine(way: &str, spin: &str) -> Machine {
 
 #[test]
 fn mass_off_the_axis() {
-    let spins = [
-        "revolute(z) from ground to hub, driven at omega",
-        "revolute([1, 2, 2]) from ground to hub",
-    ];
+    let spins = ["revolute(z) from ground to hub, driven at omega", "revolute([1, 2, 2]) from ground to hub"];
     let mut random = Random::new(12);
     for way in WAYS {
         for spin in spins {

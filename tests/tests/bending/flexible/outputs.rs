@@ -71,15 +71,10 @@ fn reaction(machine: &Machine, state: &State, joint: &str) -> Vec<f64> {
     };
     let names = named(&model);
     let value = |name: &String| known.iter().find(|pair| pair.0 == *name);
-    let q: Vec<f64> = names
-        .iter()
-        .map(|name| value(name).map_or(0.0, |pair| pair.1))
-        .collect();
+    let q: Vec<f64> = names.iter().map(|name| value(name).map_or(0.0, |pair| pair.1)).collect();
     let residual = Kernels::residual(&Oracle::new(&model), [&q, &speeds, &[]]);
     let all = names.iter().zip(residual);
-    all.filter(|(name, _)| *name == "released")
-        .map(|(_, force)| force)
-        .collect()
+    all.filter(|(name, _)| *name == "released").map(|(_, force)| force).collect()
 }
 
 #[test]

@@ -39,12 +39,7 @@ impl Writer {
     fn new(seed: u64) -> Self {
         let mut random = Random::new(seed);
         let spins = random.chance(0.4);
-        Self {
-            random,
-            lines: Vec::new(),
-            names: 0,
-            spins,
-        }
+        Self { random, lines: Vec::new(), names: 0, spins }
     }
 
     fn name(&mut self, what: &str) -> String {
@@ -82,49 +77,29 @@ impl Writer {
     }
 
     fn axis(&mut self) -> String {
-        let axes = [
-            "x",
-            "y",
-            "z",
-            "-y",
-            "[1, 2, 2]",
-            "[0, 3, 4]",
-            "[-2, 1, 0.5]",
-        ];
+        let axes = ["x", "y", "z", "-y", "[1, 2, 2]", "[0, 3, 4]", "[-2, 1, 0.5]"];
         self.random.of(&axes).to_owned()
     }
 
     /// Something that carries the beam: the ground, or a body on a joint.
     fn carrier(&mut self) -> Place {
-        let ground = Place {
-            from: "ground".to_owned(),
-            point: "ground at [0.3, -0.2, 0.5] m".to_owned(),
-        };
+        let ground = Place { from: "ground".to_owned(), point: "ground at [0.3, -0.2, 0.5] m".to_owned() };
         if self.spins {
             let hub = self.name("hub");
             self.lines.push(format!("body {hub}: massless;"));
             let joint = self.name("spin");
-            self.lines.push(format!(
-                "joint {joint}: revolute(z) from ground to {hub}, driven at omega;"
-            ));
-            return Place {
-                point: format!("{hub} at [0.3, -0.2, 0.5] m"),
-                from: hub,
-            };
+            self.lines.push(format!("joint {joint}: revolute(z) from ground to {hub}, driven at omega;"));
+            return Place { point: format!("{hub} at [0.3, -0.2, 0.5] m"), from: hub };
         }
         if self.random.chance(0.3) {
             return ground;
         }
         let carrier = self.name("carrier");
         let mass = self.quantity(0.5, 2.0, "kg");
-        self.lines.push(format!(
-            "body {carrier}: box(mass: {mass}, size: [0.2, 0.3, 0.4] m, center: [0.1, 0, 0.05] m);"
-        ));
+        self.lines
+            .push(format!("body {carrier}: box(mass: {mass}, size: [0.2, 0.3, 0.4] m, center: [0.1, 0, 0.05] m);"));
         self.joint("ground", &carrier);
-        Place {
-            point: format!("{carrier} at [0.3, -0.2, 0.5] m"),
-            from: carrier,
-        }
+        Place { point: format!("{carrier} at [0.3, -0.2, 0.5] m"), from: carrier }
     }
 
     /// A joint of some kind with springs on its coordinates.
@@ -133,54 +108,28 @@ impl Writer {
         let name = self.name("joint");
         let axis = self.axis();
         let [a, b, c, d, e, f] = [(); 6].map(|()| self.name("q"));
-        let (kind, angles, slides): (String, Vec<String>, Vec<String>) = match self.random.below(7)
-        {
+        let (kind, angles, slides): (String, Vec<String>, Vec<String>) = match self.random.below(7) {
             0 => ("fixed".to_owned(), vec![], vec![]),
             1 => (format!("revolute({axis})"), vec![name.clone()], vec![]),
             2 => (format!("prismatic({axis})"), vec![], vec![name.clone()]),
-            3 => (
-                format!("universal({a}: x, {b}: [0, 1, 0.3])"),
-                vec![a, b],
-                vec![],
-            ),
-            4 => (
-                format!("spherical({a}: x, {b}: y, {c}: z)"),
-                vec![a, b, c],
-                vec![],
-            ),
-            5 => (
-                format!("screw({axis}, lead: 0.3 m)"),
-                vec![name.clone()],
-                vec![],
-            ),
-            _ => (
-                format!("free({a}: x, {b}: y, {c}: z, {d}: x, {e}: y, {f}: z)"),
-                vec![d, e, f],
-                vec![a, b, c],
-            ),
+            3 => (format!("universal({a}: x, {b}: [0, 1, 0.3])"), vec![a, b], vec![]),
+            4 => (format!("spherical({a}: x, {b}: y, {c}: z)"), vec![a, b, c], vec![]),
+            5 => (format!("screw({axis}, lead: 0.3 m)"), vec![name.clone()], vec![]),
+            _ => (format!("free({a}: x, {b}: y, {c}: z, {d}: x, {e}: y, {f}: z)"), vec![d, e, f], vec![a, b, c]),
         };
-        self.lines.push(format!(
-            "joint {name}: {kind} from {from} to {to}{placement};"
-        ));
+        self.lines.push(format!("joint {name}: {kind} from {from} to {to}{placement};"));
         for (coordinates, unit) in [(angles, "N*m/rad"), (slides, "N/m")] {
             for coordinate in coordinates {
                 let stiffness = self.quantity(20.0, 80.0, unit);
                 let spring = self.name("spring");
-                self.lines.push(format!(
-                    "force {spring}: spring(on: {coordinate}, stiffness: {stiffness});"
-                ));
+                self.lines.push(format!("force {spring}: spring(on: {coordinate}, stiffness: {stiffness});"));
             }
         }
     }
 
     fn section(&mut self) -> Section {
-        let section = |text: &str| Section {
-            text: text.to_owned(),
-            twists: true,
-            shears: true,
-            round: false,
-            couples: false,
-        };
+        let section =
+            |text: &str| Section { text: text.to_owned(), twists: true, shears: true, round: false, couples: false };
         match self.random.below(9) {
             0 => {
                 let values = [
@@ -206,10 +155,7 @@ impl Writer {
                  shear_stiffness_y: 40 N, shear_stiffness_z: 40 N",
             ),
             2 => {
-                let (w, h) = (
-                    self.quantity(30.0, 60.0, "mm"),
-                    self.quantity(8.0, 20.0, "mm"),
-                );
+                let (w, h) = (self.quantity(30.0, 60.0, "mm"), self.quantity(8.0, 20.0, "mm"));
                 let taper = match self.random.chance(0.5) {
                     true => " to rectangle(width: 20 mm, height: 30 mm)",
                     false => "",
@@ -251,10 +197,7 @@ impl Writer {
                 let inertia = "inertia_y: 0.01 kg*m, inertia_z: 0.02 kg*m";
                 let root = self.stiffness();
                 let tip = match self.random.chance(0.3) {
-                    true => {
-                        "EA: 30 N, GAy: 40 N, GAz: 25 N, GJ: 7 N*m^2, EIy: 6 N*m^2, EIz: 9 N*m^2"
-                            .to_owned()
-                    }
+                    true => "EA: 30 N, GAy: 40 N, GAz: 25 N, GJ: 7 N*m^2, EIy: 6 N*m^2, EIz: 9 N*m^2".to_owned(),
                     false => format!("stiffness: {}", self.stiffness()),
                 };
                 Section {
@@ -290,18 +233,7 @@ impl Writer {
     /// geometric mean of their own, also where design variables change.
     fn stiffness(&mut self) -> String {
         let own = [60.0, 40.0, 20.0, 9.0, 5.0, 15.0].map(|x| x * self.number(0.8, 1.2));
-        let all = [
-            (0, 3),
-            (0, 4),
-            (0, 5),
-            (1, 2),
-            (1, 3),
-            (1, 5),
-            (2, 4),
-            (3, 4),
-            (3, 5),
-            (4, 5),
-        ];
+        let all = [(0, 3), (0, 4), (0, 5), (1, 2), (1, 3), (1, 5), (2, 4), (3, 4), (3, 5), (4, 5)];
         let some = [(); 2].map(|()| self.random.of(&all));
         let is_full = self.random.chance(0.5);
         let mut rows = [(); 6].map(|()| [(); 6].map(|()| String::new()));
@@ -365,13 +297,7 @@ impl Writer {
         let name = self.name("beam");
         let section = self.section();
         let spins = section.round && self.random.chance(0.6);
-        let axes = [
-            ("x", "z"),
-            ("x", "y"),
-            ("-z", "x"),
-            ("[1, 2, 2]", "[2, 1, -2]"),
-            ("[3, 4, 0]", "z"),
-        ];
+        let axes = [("x", "z"), ("x", "y"), ("-z", "x"), ("[1, 2, 2]", "[2, 1, -2]"), ("[3, 4, 0]", "z")];
         let (along, up) = self.random.of(&axes);
         let length = self.quantity(0.7, 1.4, "m");
         let kind = match spins {
@@ -421,10 +347,7 @@ impl Writer {
         let clamp = self.name("clamp");
         let placement = self.placement();
         match self.random.below(10) {
-            0..=5 => self.lines.push(format!(
-                "joint {clamp}: fixed from {} to {name}{placement};",
-                carrier.from
-            )),
+            0..=5 => self.lines.push(format!("joint {clamp}: fixed from {} to {name}{placement};", carrier.from)),
             6 | 7 => self.joint(&carrier.from, &name),
             // the other way round
             _ => {
@@ -432,16 +355,10 @@ impl Writer {
                     true => "",
                     false => &placement,
                 };
-                self.lines.push(format!(
-                    "joint {clamp}: fixed from {name} to {}{placement};",
-                    carrier.from
-                ));
+                self.lines.push(format!("joint {clamp}: fixed from {name} to {}{placement};", carrier.from));
             }
         }
-        let place = |at: &str| Place {
-            from: format!("{name} at {at}"),
-            point: format!("{name} at {at}"),
-        };
+        let place = |at: &str| Place { from: format!("{name} at {at}"), point: format!("{name} at {at}") };
         vec![place("tip"), place("0.4 length"), place("root")]
     }
 
@@ -451,11 +368,8 @@ impl Writer {
             true => "[0, 0, -2]",
             false => "[1, -3, 2]",
         };
-        let all = [
-            format!("force: {force} N/m"),
-            "follower: [0.5, -1, 2] N/m".to_owned(),
-            "damping: 0.8 N*s/m^2".to_owned(),
-        ];
+        let all =
+            [format!("force: {force} N/m"), "follower: [0.5, -1, 2] N/m".to_owned(), "damping: 0.8 N*s/m^2".to_owned()];
         let mut given: Vec<&str> = Vec::new();
         for argument in &all {
             if self.random.chance(0.6) {
@@ -467,8 +381,7 @@ impl Writer {
         }
         let name = self.name("load");
         let given = given.join(", ");
-        self.lines
-            .push(format!("force {name}: distributed(on: {beam}, {given});"));
+        self.lines.push(format!("force {name}: distributed(on: {beam}, {given});"));
     }
 
     fn attach(&mut self, place: &Place) {
@@ -476,21 +389,15 @@ impl Writer {
             0 => {
                 let pod = self.name("pod");
                 let mass = self.quantity(0.1, 0.5, "kg");
-                self.lines.push(format!(
-                    "body {pod}: box(mass: {mass}, size: [0.2, 0.1, 0.3] m, center: [0.05, 0.1, 0] m);"
-                ));
+                self.lines
+                    .push(format!("body {pod}: box(mass: {mass}, size: [0.2, 0.1, 0.3] m, center: [0.05, 0.1, 0] m);"));
                 self.joint(&place.from, &pod);
             }
             1 => {
                 let pod = self.name("pod");
-                self.lines.push(format!(
-                    "body {pod}: point(mass: 0.3 kg, center: [0.1, 0.02, 0.05] m);"
-                ));
+                self.lines.push(format!("body {pod}: point(mass: 0.3 kg, center: [0.1, 0.02, 0.05] m);"));
                 let joint = self.name("weld");
-                self.lines.push(format!(
-                    "joint {joint}: fixed from {} to {pod};",
-                    place.from
-                ));
+                self.lines.push(format!("joint {joint}: fixed from {} to {pod};", place.from));
             }
             _ => {}
         }
@@ -503,8 +410,7 @@ impl Writer {
             true => " rotated([1, 2, 2], 0.7 rad)",
             false => "",
         };
-        self.lines
-            .push(format!("point {point}: {}{turned};", place.point));
+        self.lines.push(format!("point {point}: {}{turned};", place.point));
         point
     }
 
@@ -513,9 +419,7 @@ impl Writer {
             0 => {
                 let (a, b) = (self.point(from), self.point(to));
                 let stiffness = self.quantity(10.0, 60.0, "N/m");
-                format!(
-                    "spring_damper(from: {a}, to: {b}, stiffness: {stiffness}, damping: 3 N*s/m, length: 0.4 m)"
-                )
+                format!("spring_damper(from: {a}, to: {b}, stiffness: {stiffness}, damping: 3 N*s/m, length: 0.4 m)")
             }
             1 => {
                 let (a, b) = (self.point(from), self.point(to));
@@ -572,10 +476,7 @@ impl Writer {
             self.attach(&place);
         }
         for _ in 0..2 {
-            let (a, b) = (
-                self.random.below(places.len()),
-                self.random.below(places.len()),
-            );
+            let (a, b) = (self.random.below(places.len()), self.random.below(places.len()));
             let (a, b) = (places[a].clone(), places[b].clone());
             let from = match self.spins || self.random.chance(0.5) {
                 true => carrier.clone(),
@@ -649,24 +550,13 @@ fn random_beams_obey_lagrange_many_times() {
 /// Judges so many machines, and requires every feature and combination in at least a number of them.
 fn obey(machines: u64, least: usize) {
     let accepted: Vec<String> = thread::scope(|scope| {
-        let half = |parity| {
-            scope.spawn(move || {
-                (0..machines / 2)
-                    .filter_map(|k| judged(2 * k + parity))
-                    .collect::<Vec<_>>()
-            })
-        };
+        let half =
+            |parity| scope.spawn(move || (0..machines / 2).filter_map(|k| judged(2 * k + parity)).collect::<Vec<_>>());
         let halves = [0, 1].map(half);
-        let joined = halves
-            .into_iter()
-            .map(|half| half.join().expect("no machine is wrong"));
+        let joined = halves.into_iter().map(|half| half.join().expect("no machine is wrong"));
         joined.flatten().collect()
     });
-    assert!(
-        6 * accepted.len() as u64 > 5 * machines,
-        "{}",
-        accepted.len()
-    );
+    assert!(6 * accepted.len() as u64 > 5 * machines, "{}", accepted.len());
     for what in OFTEN {
         let has = |text: &&String| what.iter().all(|x| text.contains(x));
         let count = accepted.iter().filter(has).count();

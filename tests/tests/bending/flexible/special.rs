@@ -100,13 +100,7 @@ fn open_part(text: &str) {
         let motion = [&state.acceleration, &state.velocity, &state.q].map(|x| ordered(x));
         let motion = motion.each_ref().map(Vec::as_slice);
         let expected = energy::residual(&model, motion, &speeds, &[]);
-        let arguments: [&[f64]; 5] = [
-            &state.acceleration,
-            &state.velocity,
-            &state.q,
-            &state.u,
-            &state.b,
-        ];
+        let arguments: [&[f64]; 5] = [&state.acceleration, &state.velocity, &state.q, &state.u, &state.b];
         let found = &machine.evaluate("motion_residual", &arguments)[0];
         let size = 1.0 + largest(&expected);
         assert_close("without reactions", &ordered(found), &expected, 1e-10, size);
@@ -154,17 +148,10 @@ fn a_floating_beam_keeps_momentum_and_energy() {
             place.expect("a slide")
         });
         for slide in slides {
-            let changes = rate(&machine, &state, &model, |motion| {
-                momentum(&model, motion, slide)
-            });
-            assert!(
-                changes.abs() < 1e-6,
-                "momentum {slide} changes by {changes}"
-            );
+            let changes = rate(&machine, &state, &model, |motion| momentum(&model, motion, slide));
+            assert!(changes.abs() < 1e-6, "momentum {slide} changes by {changes}");
         }
-        let changes = rate(&machine, &state, &model, |motion| {
-            energy::energies(&model, motion, &[], &[]).iter().sum()
-        });
+        let changes = rate(&machine, &state, &model, |motion| energy::energies(&model, motion, &[], &[]).iter().sum());
         assert!(changes.abs() < 1e-5, "energy changes by {changes}");
     }
 }
@@ -191,22 +178,14 @@ fn lag_takes_energy_away() {
         let kept = rate(&elastic, &state, &model, total);
         let lost = rate(&lagging, &state, &model, total);
         assert!(kept.abs() < 1e-5, "{kept}");
-        let mut straight = State {
-            q: vec![0.0; state.q.len()],
-            ..lagging.state(&mut random)
-        };
+        let mut straight = State { q: vec![0.0; state.q.len()], ..lagging.state(&mut random) };
         straight.velocity.clone_from(&state.velocity);
         let damping = &lagging.evaluate("linear", &[&straight.q, &straight.u, &straight.b])[1];
         let n = straight.q.len();
-        let power: f64 = (0..n * n)
-            .map(|k| state.velocity[k / n] * damping[k] * state.velocity[k % n])
-            .sum();
+        let power: f64 = (0..n * n).map(|k| state.velocity[k / n] * damping[k] * state.velocity[k % n]).sum();
         let at_straight = rate(&lagging, &straight, &model, total);
         assert!(lost < 0.0, "{lost}");
-        assert!(
-            (at_straight + power).abs() < 1e-5 * power,
-            "{at_straight} {power}"
-        );
+        assert!((at_straight + power).abs() < 1e-5 * power, "{at_straight} {power}");
     }
 }
 
@@ -218,11 +197,7 @@ fn kernels_of_beams_are_consistent() {
                 [-4, 0, 0, 10 * ratio, 9, 0], [0, 6, 0, 0, 0, 16]])
             to section(mass: 0.5 kg/m, EA: 60 N, GAy: 40 N, GAz: 50 N, GJ: 7 N*m^2, EIy: 5 N*m^2, EIz: 8 N*m^2),
         prebend_y: -0.7 rad, prebend_z: 2 rad * ratio, twist: ratio * 1 rad, bending: 2, torsion: 1, shear: 1, stretch: 1";
-    for section in [
-        SPATIAL,
-        curved,
-        "mass_per_length: 0.6 kg/m, stiffness_z: 9 N*m^2, bending_z: 3",
-    ] {
+    for section in [SPATIAL, curved, "mass_per_length: 0.6 kg/m, stiffness_z: 9 N*m^2, bending_z: 3"] {
         consistent(&format!(
             "mechanism Kernels {{
                 input omega: rad/s; design l = 0.9 m; design lag = 0.02 s; design ratio = 0.3;
@@ -258,9 +233,7 @@ fn the_two_derivations_of_the_oracle_agree_on_mass() {
     let oracle = Oracle::new(&model);
     let [mass, _] = Kernels::motion(&oracle, &state.velocity, [&state.q, &[], &[]]);
     let n = state.q.len();
-    let form: f64 = (0..n * n)
-        .map(|k| state.velocity[k / n] * mass[k] * state.velocity[k % n] / 2.0)
-        .sum();
+    let form: f64 = (0..n * n).map(|k| state.velocity[k / n] * mass[k] * state.velocity[k % n] / 2.0).sum();
     let [kinetic, _] = energy::energies(&model, [&state.velocity, &state.q], &[], &[]);
     assert!((form - kinetic).abs() < 1e-12 * kinetic, "{form} {kinetic}");
 }
@@ -293,9 +266,7 @@ fn quadrature_is_that_of_gauss() {
             .collect();
         expected.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let sections = machine.compiled.mechanism.beams[0].sections.iter();
-        let mut values: Vec<[f64; 2]> = sections
-            .map(|(place, weight, _)| [*place, *weight])
-            .collect();
+        let mut values: Vec<[f64; 2]> = sections.map(|(place, weight, _)| [*place, *weight]).collect();
         values.sort_by(|a, b| a[0].total_cmp(&b[0]));
         assert_close("points", &values.concat(), &expected.concat(), 1e-13, 1.0);
     }

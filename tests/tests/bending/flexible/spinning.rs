@@ -66,16 +66,9 @@ fn a_floating_shaft_keeps_angular_momentum_and_energy() {
             let first = model.free().iter().position(|x| model.step(*x).name == "a");
             let first = first.expect("a turn");
             let size = momentum(&model, [&state.velocity, &state.q], &speeds, first);
-            let changes = rate(&machine, &state, &model, |motion| {
-                momentum(&model, motion, &speeds, first)
-            });
-            assert!(
-                changes.abs() < 1e-6 * (1.0 + size.abs()),
-                "momentum changes by {changes}"
-            );
-            let changes = rate(&machine, &state, &model, |motion| {
-                jacobi(&model, motion, &speeds)
-            });
+            let changes = rate(&machine, &state, &model, |motion| momentum(&model, motion, &speeds, first));
+            assert!(changes.abs() < 1e-6 * (1.0 + size.abs()), "momentum changes by {changes}");
+            let changes = rate(&machine, &state, &model, |motion| jacobi(&model, motion, &speeds));
             assert!(changes.abs() < 1e-5, "energy changes by {changes}");
         }
     }
@@ -83,12 +76,9 @@ fn a_floating_shaft_keeps_angular_momentum_and_energy() {
 
 /// Eigenvalues of a machine at a speed.
 fn eigenvalues(text: &str, speed: f64) -> Vec<Complex> {
-    let machine =
-        Interpreted::from_text(text).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes:?}"));
+    let machine = Interpreted::from_text(text).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes:?}"));
     let study = Study::new(machine).input(Input::new(0), speed);
-    let modes = study
-        .modes()
-        .unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let modes = study.modes().unwrap_or_else(|error| panic!("{error}\n{text}"));
     modes.modes.iter().map(|mode| mode.s).collect()
 }
 
@@ -121,10 +111,7 @@ fn spins_like_on_a_hub(strains: &str) {
     for s in here {
         let nearest = all.iter().map(|other| (s - other).norm());
         let nearest = nearest.fold(f64::INFINITY, f64::min);
-        assert!(
-            nearest < 1e-7 * s.norm(),
-            "{s} is {nearest:e} from any of {all:?}"
-        );
+        assert!(nearest < 1e-7 * s.norm(), "{s} is {nearest:e} from any of {all:?}");
     }
 }
 
@@ -147,23 +134,14 @@ fn the_shear_of_a_spinning_shaft_lags_with_its_material() {
                 joint clamp: fixed from ground to shaft;
             }}"
         ));
-        judge(
-            "lagging shaft",
-            &machine,
-            &machine.state(&mut Random::new(3)),
-        );
+        judge("lagging shaft", &machine, &machine.state(&mut Random::new(3)));
     }
 }
 
 /// Integrals from 0 of the Legendre polynomials of `[0, 1]`: `I_0 = x`, `I_j = (P_(j+1) - P_(j-1)) / (2 (2 j + 1))`.
 fn turns(x: f64) -> [f64; 3] {
     let y = 2.0 * x - 1.0;
-    let p = [
-        1.0,
-        y,
-        (3.0 * y * y - 1.0) / 2.0,
-        (5.0 * y * y * y - 3.0 * y) / 2.0,
-    ];
+    let p = [1.0, y, (3.0 * y * y - 1.0) / 2.0, (5.0 * y * y * y - 3.0 * y) / 2.0];
     [x, (p[2] - p[0]) / 6.0, (p[3] - p[1]) / 10.0]
 }
 
@@ -205,53 +183,28 @@ fn forces_along_a_beam_do_the_work_of_force_times_velocity() {
     ];
     let mut random = Random::new(8);
     for (law, fixed, follower, damping) in loads {
-        let loaded = cart(
-            &places,
-            &format!("force load: distributed(on: blade, {law});"),
-        );
+        let loaded = cart(&places, &format!("force load: distributed(on: blade, {law});"));
         let state = free.state(&mut random);
         judge(law, &loaded, &state);
         let residual = |machine: &Machine| {
-            let State {
-                acceleration,
-                velocity,
-                q,
-                u,
-                b,
-            } = &state;
-            machine
-                .evaluate("motion_residual", &[acceleration, velocity, q, u, b])
-                .remove(0)
+            let State { acceleration, velocity, q, u, b } = &state;
+            machine.evaluate("motion_residual", &[acceleration, velocity, q, u, b]).remove(0)
         };
         let (with, without) = (residual(&loaded), residual(&free));
         let all = with.iter().zip(&without).zip(&state.velocity);
-        let found: f64 = all
-            .map(|((with, without), speed)| (without - with) * speed)
-            .sum();
+        let found: f64 = all.map(|((with, without), speed)| (without - with) * speed).sum();
 
         let at = |h: f64| {
             let moved = state.q.iter().zip(&state.velocity).map(|(q, v)| q + h * v);
-            free.evaluate("outputs", &[&moved.collect::<Vec<_>>(), &state.u, &state.b])
-                .concat()
+            free.evaluate("outputs", &[&moved.collect::<Vec<_>>(), &state.u, &state.b]).concat()
         };
         let central = |h: f64| -> Vec<f64> {
-            at(h)
-                .iter()
-                .zip(at(-h))
-                .map(|(ahead, behind)| (ahead - behind) / (2.0 * h))
-                .collect()
+            at(h).iter().zip(at(-h)).map(|(ahead, behind)| (ahead - behind) / (2.0 * h)).collect()
         };
         let velocities = central(1e-3).into_iter().zip(central(2e-3));
-        let velocities: Vec<f64> = velocities
-            .map(|(fine, coarse)| (4.0 * fine - coarse) / 3.0)
-            .collect();
-        let names: Vec<String> = free
-            .compiled
-            .functions
-            .unknowns
-            .iter()
-            .map(|unknown| unknown.name.to_string())
-            .collect();
+        let velocities: Vec<f64> = velocities.map(|(fine, coarse)| (4.0 * fine - coarse) / 3.0).collect();
+        let names: Vec<String> =
+            free.compiled.functions.unknowns.iter().map(|unknown| unknown.name.to_string()).collect();
         let value = |name: &str| {
             let place = names.iter().position(|x| x == name);
             state.q[place.unwrap_or_else(|| panic!("{name} is not in {names:?}"))]
@@ -260,11 +213,7 @@ fn forces_along_a_beam_do_the_work_of_force_times_velocity() {
         let mut expected = 0.0;
         for (k, (place, weight, _)) in sections.iter().enumerate() {
             let (vx, vz) = (velocities[2 * k], velocities[2 * k + 1]);
-            let turned: f64 = bends
-                .iter()
-                .zip(turns(*place))
-                .map(|(q, shape)| q * shape)
-                .sum();
+            let turned: f64 = bends.iter().zip(turns(*place)).map(|(q, shape)| q * shape).sum();
             // a turn about y moves x towards -z
             let (sine, cosine) = (turned + value("clamp")).sin_cos();
             let [along, up] = follower;

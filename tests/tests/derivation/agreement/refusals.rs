@@ -114,10 +114,7 @@ impl Motion {
     /// each component of the twists, in the ground and in the body.
     fn powers(&self, oracle: &Oracle, at @ [q, _, b]: At) -> DMatrix<f64> {
         let residual = DVector::from(Kernels::residual(oracle, at));
-        let powers = self
-            .coordinates
-            .iter()
-            .map(|(k, share)| share * residual[*k]);
+        let powers = self.coordinates.iter().map(|(k, share)| share * residual[*k]);
         if self.bodies.is_empty() {
             return DMatrix::from_element(1, 1, powers.sum());
         }
@@ -126,10 +123,7 @@ impl Motion {
         for (k, &body) in self.bodies.iter().enumerate() {
             let rates = oracle.twists(q, b, body);
             let rates = DMatrix::from_fn(6, rates.len(), |i, j| rates[j][i]);
-            let inverse = rates
-                .clone()
-                .pseudo_inverse(1e-9)
-                .expect("a positive limit");
+            let inverse = rates.clone().pseudo_inverse(1e-9).expect("a positive limit");
             for twist in self.twists(poses[body]) {
                 let own = &inverse * twist;
                 let mut column = vec![residual.dot(&own)];
@@ -146,9 +140,7 @@ impl Motion {
     /// The twists about the ground's origin of a body with the given pose: those constant in the ground, then those
     /// constant in the body.
     fn twists(&self, (origin, rotation): Place) -> Vec<Vector6<f64>> {
-        let in_ground = (0..6)
-            .filter(|&k| self.twist[k])
-            .map(|k| Vector6::ith(k, 1.0));
+        let in_ground = (0..6).filter(|&k| self.twist[k]).map(|k| Vector6::ith(k, 1.0));
         let turns = self.twist[..3].contains(&true);
         let in_body = (0..3).flat_map(|k| {
             let axis = Vector3::from(rotation.map(|row| row[k]));

@@ -16,32 +16,18 @@ pub(crate) struct Closing {
 
 impl Closing {
     pub(crate) const fn new(placed: bool, by_constraints: bool) -> Self {
-        Self {
-            placed,
-            by_constraints,
-        }
+        Self { placed, by_constraints }
     }
 }
 
 /// Coordinates of the free joint.
-pub(crate) const LOOSE: [&str; 6] = [
-    "loose_x", "loose_y", "loose_z", "loose_a", "loose_b", "loose_c",
-];
+pub(crate) const LOOSE: [&str; 6] = ["loose_x", "loose_y", "loose_z", "loose_a", "loose_b", "loose_c"];
 
 /// The declaration with the joint cut and a free joint in its place.
-pub(crate) fn cut_text(
-    model: &Model,
-    joint: usize,
-    embedding: &Embedding,
-    closing: Closing,
-) -> String {
+pub(crate) fn cut_text(model: &Model, joint: usize, embedding: &Embedding, closing: Closing) -> String {
     let original = &model.joints[joint];
-    let slides = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
-        .map(|axis| Step::new(Motion::Slide, axis));
-    let turns = embedding
-        .turns
-        .axes()
-        .map(|axis| Step::new(Motion::Turn, axis));
+    let slides = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| Step::new(Motion::Slide, axis));
+    let turns = embedding.turns.axes().map(|axis| Step::new(Motion::Turn, axis));
     let steps = slides.into_iter().chain(turns).zip(LOOSE);
     let steps = steps.map(|(step, name)| step.named(name)).collect();
     let mut double = model.clone();
@@ -51,18 +37,13 @@ pub(crate) fn cut_text(
         loose.to_placement = original.to_placement.clone();
     }
     double.joints[joint] = loose;
-    let ends = [
-        ("from_end", original.from, &original.from_placement),
-        ("to_end", original.to, &original.to_placement),
-    ];
+    let ends = [("from_end", original.from, &original.from_placement), ("to_end", original.to, &original.to_placement)];
     if closing.by_constraints {
-        double
-            .points
-            .extend(ends.map(|(name, frame, placement)| Point {
-                name: name.to_owned(),
-                frame,
-                placement: placement.clone(),
-            }));
+        double.points.extend(ends.map(|(name, frame, placement)| Point {
+            name: name.to_owned(),
+            frame,
+            placement: placement.clone(),
+        }));
     }
     let text = declaration(&double);
     let end = text.rfind('}').expect("a closing brace");
@@ -76,10 +57,7 @@ pub(crate) fn cut_text(
 fn cut_joint(model: &Model, joint: &Joint) -> String {
     let start = format!("joint {}:", joint.name);
     let open = declaration(model);
-    let line = open
-        .lines()
-        .map(str::trim)
-        .find(|line| line.starts_with(&start));
+    let line = open.lines().map(str::trim).find(|line| line.starts_with(&start));
     let line = line.expect("the joint is declared");
     format!("{}, cut;", line.trim_end_matches(';'))
 }
@@ -91,9 +69,7 @@ fn constraints(joint: &Joint) -> String {
         (Word::Fixed, _) => "constraint square: aligned(from: from_end, to: to_end);".to_owned(),
         (Word::Revolute, [step]) => {
             let [x, y, z] = step.axis;
-            format!(
-                "constraint parallel: aligned(from: from_end, to: to_end, axis: [{x:?}, {y:?}, {z:?}]);"
-            )
+            format!("constraint parallel: aligned(from: from_end, to: to_end, axis: [{x:?}, {y:?}, {z:?}]);")
         }
         _ => String::new(),
     };
@@ -112,9 +88,7 @@ pub(crate) fn without_forces_on(mut model: Model, joint: usize) -> Model {
         found
     };
     model.forces.retain(|force| match &force.law {
-        ForceLaw::Spring { coordinate, .. } | ForceLaw::Damper { coordinate, .. } => {
-            coordinate.joint != joint
-        }
+        ForceLaw::Spring { coordinate, .. } | ForceLaw::Damper { coordinate, .. } => coordinate.joint != joint,
         ForceLaw::Generalized { coordinate, value } => coordinate.joint != joint && !on(value),
         ForceLaw::Potential { energy } => !on(energy),
         _ => true,

@@ -25,11 +25,7 @@ struct Compiled {
 impl Compiled {
     fn new(text: &str) -> Result<Self, Vec<String>> {
         let tokens = text.parse().expect("tokens");
-        let none = Limits {
-            explicit_partials: 0,
-            partial_operations: usize::MAX,
-            motion_linear: 0,
-        };
+        let none = Limits { explicit_partials: 0, partial_operations: usize::MAX, motion_linear: 0 };
         let found = compile(tokens, none).map_err(|mistakes| {
             let messages = mistakes.iter().map(|mistake| mistake.message.clone());
             messages.collect::<Vec<_>>()
@@ -56,15 +52,7 @@ impl Compiled {
         let residual = evaluate("residual");
         let linear = evaluate("linear");
         let partials = evaluate("residual_partials");
-        [
-            &residual[0],
-            &linear[0],
-            &linear[1],
-            &linear[2],
-            &partials[0],
-            &partials[1],
-        ]
-        .map(|array| matrix(array))
+        [&residual[0], &linear[0], &linear[1], &linear[2], &partials[0], &partials[1]].map(|array| matrix(array))
     }
 }
 
@@ -103,9 +91,7 @@ impl Pair {
             };
             word && !driven
         };
-        let places: Vec<usize> = (0..tree.joints.len())
-            .filter(|&place| can_be_cut(&tree.joints[place]))
-            .collect();
+        let places: Vec<usize> = (0..tree.joints.len()).filter(|&place| can_be_cut(&tree.joints[place])).collect();
         // choose a kind first, because most joints are hinges
         let kinds: BTreeSet<Word> = places.iter().map(|&k| tree.joints[k].word).collect();
         let kinds: Vec<Word> = kinds.into_iter().collect();
@@ -113,10 +99,7 @@ impl Pair {
             return None;
         }
         let kind = random.of(&kinds);
-        let of_kind: Vec<usize> = places
-            .into_iter()
-            .filter(|&k| tree.joints[k].word == kind)
-            .collect();
+        let of_kind: Vec<usize> = places.into_iter().filter(|&k| tree.joints[k].word == kind).collect();
         let joint = random.of(&of_kind);
         let model = without_forces_on(tree, joint);
         if model.free().is_empty() {
@@ -126,27 +109,14 @@ impl Pair {
 
         let case = Case::random(&model, plan.seed);
         let free = model.free();
-        let values: Vec<f64> = free
-            .iter()
-            .zip(&case.at[0])
-            .filter(|(coordinate, _)| coordinate.joint == joint)
-            .map(|(_, &q)| q)
-            .collect();
+        let values: Vec<f64> =
+            free.iter().zip(&case.at[0]).filter(|(coordinate, _)| coordinate.joint == joint).map(|(_, &q)| q).collect();
         let embedding = embedding(&model.joints[joint], &values, &case.at[2], closing.placed);
         let text = cut_text(&model, joint, &embedding, closing);
         // A body on a ball joint that turns freely about the vertical: this rotation is a coordinate of the double but
         // not of the ball joint.
         let cut = resisted(&text)?;
-        Some(Self {
-            model,
-            joint,
-            closing,
-            case,
-            embedding,
-            open,
-            cut,
-            text,
-        })
+        Some(Self { model, joint, closing, case, embedding, open, cut, text })
     }
 
     /// `dQ/dq`, one row per coordinate of the double.
@@ -175,12 +145,7 @@ impl Pair {
     /// The assembled state with random reactions.
     fn state(&self, seed: u64) -> Vec<f64> {
         let mut random = Random::new(seed ^ 0xC0FF_EE00);
-        let mut x: Vec<f64> = self
-            .cut
-            .names
-            .iter()
-            .map(|_| random.between(-9.0, 9.0))
-            .collect();
+        let mut x: Vec<f64> = self.cut.names.iter().map(|_| random.between(-9.0, 9.0)).collect();
         let free = self.model.free();
         for (coordinate, q) in free.iter().zip(&self.case.at[0]) {
             if coordinate.joint != self.joint {
@@ -203,9 +168,7 @@ impl Pair {
             }
             let own = &self.embedding.curvature[one.step][other.step];
             let terms = LOOSE.iter().zip(own);
-            terms
-                .map(|(name, second)| residual[(self.row(name), 0)] * second)
-                .sum()
+            terms.map(|(name, second)| residual[(self.row(name), 0)] * second).sum()
         })
     }
 
@@ -237,14 +200,7 @@ impl Pair {
         let size = jacobian.amax() * tangent.amax();
         report.compare("Phi_q P", &motion, &(0.0 * &motion), size);
 
-        let names = [
-            "residual",
-            "mass",
-            "damping",
-            "stiffness",
-            "by input",
-            "by design",
-        ];
+        let names = ["residual", "mass", "damping", "stiffness", "by input", "by design"];
         // If the free joint has no placements, the state itself moves with the design.
         let compared = if self.closing.placed { 6 } else { 5 };
         for k in 0..compared {
@@ -274,11 +230,7 @@ struct Report {
 impl Report {
     fn compare(&mut self, what: &str, d_matrix: &DMatrix<f64>, expected: &DMatrix<f64>, size: f64) {
         if d_matrix.shape() != expected.shape() {
-            self.text += &format!(
-                "{what}: {:?}, not {:?}\n",
-                d_matrix.shape(),
-                expected.shape()
-            );
+            self.text += &format!("{what}: {:?}, not {:?}\n", d_matrix.shape(), expected.shape());
             return;
         }
         for (one, other) in d_matrix.iter().zip(expected) {

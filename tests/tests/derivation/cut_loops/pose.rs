@@ -46,12 +46,8 @@ impl Pose {
     }
 
     fn then(self, inner: Self) -> Self {
-        let columns: [[Hyper; 3]; 3] = std::array::from_fn(|j| {
-            times(
-                &self.rotation,
-                std::array::from_fn(|i| inner.rotation[i][j]),
-            )
-        });
+        let columns: [[Hyper; 3]; 3] =
+            std::array::from_fn(|j| times(&self.rotation, std::array::from_fn(|i| inner.rotation[i][j])));
         let moved = times(&self.rotation, inner.origin);
         Self {
             rotation: std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i])),
@@ -61,10 +57,7 @@ impl Pose {
 
     fn inverse(self) -> Self {
         let rotation = std::array::from_fn(|i| std::array::from_fn(|j| self.rotation[j][i]));
-        Self {
-            rotation,
-            origin: times(&rotation, self.origin).map(|x| -x),
-        }
+        Self { rotation, origin: times(&rotation, self.origin).map(|x| -x) }
     }
 }
 
@@ -81,38 +74,20 @@ fn value(value: Value, design: &[f64]) -> f64 {
 
 fn placement(placement: &Placement, design: &[f64]) -> Pose {
     let origin = placement.offset.map(|one| number(value(one, design)));
-    let start = Pose {
-        origin,
-        ..at_rest()
-    };
-    placement
-        .rotations
-        .iter()
-        .fold(start, |pose, (axis, angle)| {
-            let rotation = turn(*axis, number(value(*angle, design)));
-            pose.then(Pose {
-                rotation,
-                ..at_rest()
-            })
-        })
+    let start = Pose { origin, ..at_rest() };
+    placement.rotations.iter().fold(start, |pose, (axis, angle)| {
+        let rotation = turn(*axis, number(value(*angle, design)));
+        pose.then(Pose { rotation, ..at_rest() })
+    })
 }
 
 fn step(step: &Step, q: Hyper, design: &[f64]) -> Pose {
     let length = step.axis.iter().map(|x| x * x).sum::<f64>().sqrt();
     let along = |size: Hyper| step.axis.map(|x| number(x / length) * size);
     match step.motion {
-        Motion::Slide => Pose {
-            origin: along(q),
-            ..at_rest()
-        },
-        Motion::Turn => Pose {
-            rotation: turn(step.axis, q),
-            ..at_rest()
-        },
-        Motion::Screw { lead } => Pose {
-            rotation: turn(step.axis, q),
-            origin: along(q * number(value(lead, design))),
-        },
+        Motion::Slide => Pose { origin: along(q), ..at_rest() },
+        Motion::Turn => Pose { rotation: turn(step.axis, q), ..at_rest() },
+        Motion::Screw { lead } => Pose { rotation: turn(step.axis, q), origin: along(q * number(value(lead, design))) },
     }
 }
 
@@ -134,16 +109,8 @@ impl Turns {
 
     fn angles(self, r: &Matrix) -> [Hyper; 3] {
         match self {
-            Self::Zyx => [
-                r[1][0].atan2(r[0][0]),
-                (-r[2][0]).asin(),
-                r[2][1].atan2(r[2][2]),
-            ],
-            Self::Zxz => [
-                r[0][2].atan2(-r[1][2]),
-                r[2][2].acos(),
-                r[2][0].atan2(r[2][1]),
-            ],
+            Self::Zyx => [r[1][0].atan2(r[0][0]), (-r[2][0]).asin(), r[2][1].atan2(r[2][2])],
+            Self::Zxz => [r[0][2].atan2(-r[1][2]), r[2][2].acos(), r[2][0].atan2(r[2][1])],
         }
     }
 }
@@ -170,8 +137,7 @@ pub(crate) fn embedding(joint: &Joint, q: &[f64], design: &[f64], placed: bool) 
         if placed {
             return motion;
         }
-        let [from, to] =
-            [&joint.from_placement, &joint.to_placement].map(|one| placement(one, design));
+        let [from, to] = [&joint.from_placement, &joint.to_placement].map(|one| placement(one, design));
         from.then(motion).then(to.inverse())
     };
     let here = pose([None; 2]);
@@ -191,8 +157,6 @@ pub(crate) fn embedding(joint: &Joint, q: &[f64], design: &[f64], placed: bool) 
         turns,
         value: part([None; 2], 0),
         slope: (0..count).map(|i| part([Some(i), None], 1)).collect(),
-        curvature: (0..count)
-            .map(|i| (0..count).map(|j| part([Some(i), Some(j)], 3)).collect())
-            .collect(),
+        curvature: (0..count).map(|i| (0..count).map(|j| part([Some(i), Some(j)], 3)).collect()).collect(),
     }
 }

@@ -26,10 +26,7 @@ fn near(values: &[Vec<f64>], expected: &[Vec<f64>], name: &str, kernel: &str) {
         assert_eq!(found.len(), expected.len(), "{name} {kernel}");
         let largest = expected.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
         for (one, other) in found.iter().zip(expected) {
-            assert!(
-                (one - other).abs() <= 1e-10 * largest,
-                "{name} {kernel}: compiler {one:e}, runtime {other:e}"
-            );
+            assert!((one - other).abs() <= 1e-10 * largest, "{name} {kernel}: compiler {one:e}, runtime {other:e}");
         }
     }
 }
@@ -42,20 +39,12 @@ struct Agreement {
 }
 
 impl Visitor for Agreement {
-    fn visit<M: Mechanism + Copy>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, declaration: &'static str, machine: M) {
         let program = interpreted(name, declaration);
         let mut numbers = Numbers::new(1);
         for kernel in &program.kernels {
-            let parameters: Vec<(&str, usize)> = kernel
-                .parameters
-                .iter()
-                .map(|parameter| (parameter.name, parameter.entries.len()))
-                .collect();
+            let parameters: Vec<(&str, usize)> =
+                kernel.parameters.iter().map(|parameter| (parameter.name, parameter.entries.len())).collect();
             for _ in 0..5 {
                 let arguments = numbers.arguments(&machine, &parameters);
                 let slices: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
@@ -88,19 +77,13 @@ impl Visitor for Agreement {
             self.kernels += 1;
         }
         self.machines += 1;
-        assert_eq!(
-            M::DESCRIPTION.kernels.len(),
-            program.kernels.len(),
-            "{name}"
-        );
+        assert_eq!(M::DESCRIPTION.kernels.len(), program.kernels.len(), "{name}");
     }
 }
 
 /// The pose margin from generated code at `q`, `u`, `b`.
 fn pose_margin(machine: &dyn Kernels, arguments: &[Vec<f64>]) -> Option<f64> {
-    let [q, u, b] = arguments else {
-        panic!("three arguments")
-    };
+    let [q, u, b] = arguments else { panic!("three arguments") };
     machine.pose_margin(q, u, b).map(|pose| pose.margin)
 }
 
@@ -120,12 +103,7 @@ struct Requirements {
 }
 
 impl Visitor for Requirements {
-    fn visit<M: Mechanism + Copy>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, declaration: &'static str, machine: M) {
         self.check(name, declaration, &machine);
     }
 }
@@ -145,13 +123,8 @@ impl Requirements {
                 let mut design = nominal.clone();
                 design[j] = value;
                 let values = &kernel.evaluate(&[&inputs, &design])[0];
-                let expected = values
-                    .iter()
-                    .copied()
-                    .find(|value| value.is_nan() || *value <= 0.0);
-                let found = machine
-                    .violation(&inputs, &design)
-                    .map(|violation| violation.value);
+                let expected = values.iter().copied().find(|value| value.is_nan() || *value <= 0.0);
+                let found = machine.violation(&inputs, &design).map(|violation| violation.value);
                 assert_eq!(
                     found.map(f64::to_bits),
                     expected.map(f64::to_bits),
@@ -177,24 +150,13 @@ struct Columns {
 }
 
 impl Visitor for Columns {
-    fn visit<M: Mechanism + Copy>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
-        if M::DESCRIPTION
-            .kernels
-            .iter()
-            .any(|kernel| kernel.name == "linear_partials")
-        {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, declaration: &'static str, machine: M) {
+        if M::DESCRIPTION.kernels.iter().any(|kernel| kernel.name == "linear_partials") {
             return;
         }
         self.machines += 1;
         let everything = Limits::NONE;
-        let program = compile(tokens(declaration), everything)
-            .expect("it compiles")
-            .program;
+        let program = compile(tokens(declaration), everything).expect("it compiles").program;
         let kernel = program.kernel("linear_partials").expect("no limit");
         let arguments = Numbers::new(2).point(&machine);
         let slices: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
@@ -203,14 +165,9 @@ impl Visitor for Columns {
         assert_eq!(found.len(), expected.len());
         for (found, expected) in found.iter().zip(&expected) {
             assert_eq!(found.len(), expected.len());
-            let scale = expected
-                .iter()
-                .fold(0.0, |most: f64, value| most.max(value.abs()));
+            let scale = expected.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
             for (one, other) in found.iter().zip(expected) {
-                assert!(
-                    (one - other).abs() <= 1e-12 * scale,
-                    "{name}: {one:e}, not {other:e}"
-                );
+                assert!((one - other).abs() <= 1e-12 * scale, "{name}: {one:e}, not {other:e}");
             }
         }
     }
@@ -265,11 +222,7 @@ fn filled<M: Mechanism>(value: f64) -> Square<M, f64> {
 
 /// An initial buffer for partial derivatives.
 fn zeros<M: Mechanism>() -> Box<PartialsOf<M, f64>> {
-    let zero = Linear {
-        mass: filled::<M>(0.0),
-        damping: filled::<M>(0.0),
-        stiffness: filled::<M>(0.0),
-    };
+    let zero = Linear { mass: filled::<M>(0.0), damping: filled::<M>(0.0), stiffness: filled::<M>(0.0) };
     Box::new(LinearPartials {
         by_coordinate: Array::filled(zero),
         by_input: Array::filled(zero),
@@ -278,15 +231,9 @@ fn zeros<M: Mechanism>() -> Box<PartialsOf<M, f64>> {
 }
 
 fn entries<M: Mechanism>(partials: &PartialsOf<M, f64>) -> Vec<f64> {
-    let lists = [
-        partials.by_coordinate.as_ref(),
-        partials.by_input.as_ref(),
-        partials.by_design.as_ref(),
-    ];
-    let matrices = lists
-        .into_iter()
-        .flatten()
-        .flat_map(|one: &Linear<Square<M, f64>>| [&one.mass, &one.damping, &one.stiffness]);
+    let lists = [partials.by_coordinate.as_ref(), partials.by_input.as_ref(), partials.by_design.as_ref()];
+    let matrices =
+        lists.into_iter().flatten().flat_map(|one: &Linear<Square<M, f64>>| [&one.mass, &one.damping, &one.stiffness]);
     let rows = matrices.flat_map(|matrix| matrix.as_ref());
     rows.flat_map(|row| row.as_ref()).copied().collect()
 }
@@ -302,10 +249,7 @@ fn partials_into_a_used_result_are_those_of_a_new_one() {
 /// A keyword that no machine uses is not covered by the tests above.
 #[test]
 fn the_corpus_uses_the_whole_language() {
-    let text: String = declarations()
-        .iter()
-        .map(|(_, declaration)| *declaration)
-        .collect();
+    let text: String = declarations().iter().map(|(_, declaration)| *declaration).collect();
     let words: Vec<String> = tokens(&text).into_iter().flat_map(words_of).collect();
     for word in [
         "input",
@@ -390,18 +334,13 @@ fn the_corpus_uses_the_whole_language() {
         "potential_energy",
         "pi",
     ] {
-        assert!(
-            words.iter().any(|known| known == word),
-            "no machine uses `{word}`"
-        );
+        assert!(words.iter().any(|known| known == word), "no machine uses `{word}`");
     }
 }
 
 fn words_of(token: proc_macro2::TokenTree) -> Vec<String> {
     match token {
-        proc_macro2::TokenTree::Group(group) => {
-            group.stream().into_iter().flat_map(words_of).collect()
-        }
+        proc_macro2::TokenTree::Group(group) => group.stream().into_iter().flat_map(words_of).collect(),
         other => vec![other.to_string()],
     }
 }

@@ -25,9 +25,7 @@ const CLOSING: [&str; 11] = [
 ];
 
 fn in_space(closing: &str) -> String {
-    let closing = closing
-        .replace(", 0.2, 0.3]", ", 0.2, 0.3] m")
-        .replace(", 0.1, 0.2]", ", 0.1, 0.2] m");
+    let closing = closing.replace(", 0.2, 0.3]", ", 0.2, 0.3] m").replace(", 0.1, 0.2]", ", 0.1, 0.2] m");
     format!(
         "mechanism Space {{
             gravity 9.81 m/s^2 along -z;
@@ -45,27 +43,15 @@ fn in_space(closing: &str) -> String {
 /// Returns how many position and velocity equations were compared.
 fn compare(name: &str, declaration: &str) -> [usize; 2] {
     let tokens = declaration.parse().expect("tokens");
-    let compilation =
-        compile(tokens, Limits::default()).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
+    let compilation = compile(tokens, Limits::default()).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
     let role = |i: usize| compilation.functions.unknowns[i].role;
     let n = compilation.functions.unknowns.len();
-    let nominal: Vec<f64> = compilation
-        .mechanism
-        .design
-        .iter()
-        .map(|value| value.nominal)
-        .collect();
+    let nominal: Vec<f64> = compilation.mechanism.design.iter().map(|value| value.nominal).collect();
     let mut numbers = Numbers(ChaCha8Rng::seed_from_u64(7));
     let mut compared = [0; 2];
     for _ in 0..3 {
-        let (q, u) = (
-            numbers.list(n),
-            numbers.list(compilation.mechanism.inputs.len()),
-        );
-        let linear = compilation
-            .program
-            .evaluate("linear", &[&q, &u, &nominal])
-            .expect("in the contract");
+        let (q, u) = (numbers.list(n), numbers.list(compilation.mechanism.inputs.len()));
+        let linear = compilation.program.evaluate("linear", &[&q, &u, &nominal]).expect("in the contract");
         let damping = |i: usize, j: usize| linear[1][i * n + j];
         let stiffness = |i: usize, j: usize| linear[2][i * n + j];
         for row in 0..n {
@@ -82,9 +68,7 @@ fn compare(name: &str, declaration: &str) -> [usize; 2] {
             }
             let moves = |&j: &usize| matches!(role(j), Role::Position(_) | Role::Speed(_));
             let motions = (0..n).filter(moves);
-            let most = motions
-                .clone()
-                .fold(0.0_f64, |most, j| most.max(by_rate(j).abs()));
+            let most = motions.clone().fold(0.0_f64, |most, j| most.max(by_rate(j).abs()));
             assert!(most > 0.0, "{name}: nothing moves constraint {row}");
             for j in motions {
                 let (held, demanded) = (stiffness(j, row), by_rate(j));
@@ -127,9 +111,6 @@ fn reactions_do_no_work() {
 /// constraints.
 #[test]
 fn reactions_in_space_do_no_work() {
-    let equations: usize = CLOSING
-        .into_iter()
-        .map(|closing| compare(closing, &in_space(closing))[0])
-        .sum();
+    let equations: usize = CLOSING.into_iter().map(|closing| compare(closing, &in_space(closing))[0]).sum();
     assert_eq!(equations, 3 * (30 + 8));
 }

@@ -15,25 +15,13 @@ use eigentol_tests::wheels::{RollingDisk, TowedCaster, caster, disk};
 use super::Numbers;
 
 /// Kernels whose only arguments are `q`, `u`, `b`.
-const AT: [&str; 6] = [
-    "residual",
-    "residual_parts",
-    "linear",
-    "residual_partials",
-    "outputs",
-    "output_partials",
-];
+const AT: [&str; 6] = ["residual", "residual_parts", "linear", "residual_partials", "outputs", "output_partials"];
 
 fn assert_close(values: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     assert_eq!(values.len(), expected.len(), "{what}");
-    let scale = expected
-        .iter()
-        .fold(1e-3, |most: f64, value| most.max(value.abs()));
+    let scale = expected.iter().fold(1e-3, |most: f64, value| most.max(value.abs()));
     for (one, other) in values.iter().zip(expected) {
-        assert!(
-            (one - other).abs() <= tolerance * scale,
-            "{what}: {one:e}, not {other:e} (largest {scale:e})"
-        );
+        assert!((one - other).abs() <= tolerance * scale, "{what}: {one:e}, not {other:e} (largest {scale:e})");
     }
 }
 
@@ -43,10 +31,8 @@ struct SinglePrecision(usize);
 impl Visitor for SinglePrecision {
     fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, _: &'static str, machine: M) {
         let arguments = Numbers::new(3).point(&machine);
-        let single: Vec<Vec<f32>> = arguments
-            .iter()
-            .map(|list| list.iter().map(|&value| value as f32).collect())
-            .collect();
+        let single: Vec<Vec<f32>> =
+            arguments.iter().map(|list| list.iter().map(|&value| value as f32).collect()).collect();
         for kernel in AT {
             let expected = evaluate(&machine, kernel, &arguments).expect("in the contract");
             let found = evaluate_at(&machine, kernel, &single).expect("in the contract");
@@ -75,38 +61,22 @@ struct Duals {
 }
 
 /// `d kernel / d argument[which][entry]`, with all returned arrays concatenated.
-fn slope(
-    program: &Program,
-    kernel: &str,
-    arguments: &[Vec<f64>],
-    direction: &[Vec<f64>],
-) -> Vec<Vec<f64>> {
+fn slope(program: &Program, kernel: &str, arguments: &[Vec<f64>], direction: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let duals: Vec<Vec<Dual>> = arguments
         .iter()
         .zip(direction)
-        .map(|(values, slopes)| {
-            values
-                .iter()
-                .zip(slopes)
-                .map(|(&x, &dx)| Dual::new(x, dx))
-                .collect()
-        })
+        .map(|(values, slopes)| values.iter().zip(slopes).map(|(&x, &dx)| Dual::new(x, dx)).collect())
         .collect();
     let slices: Vec<&[Dual]> = duals.iter().map(Vec::as_slice).collect();
     let kernel = program.kernel(kernel).expect("in the contract");
     let arrays = interpret(kernel, &slices);
-    arrays
-        .iter()
-        .map(|array| array.iter().map(|value| value.slope()).collect())
-        .collect()
+    arrays.iter().map(|array| array.iter().map(|value| value.slope()).collect()).collect()
 }
 
 /// Zero except for a one in one place of one argument.
 fn unit(lengths: &[usize], which: usize, entry: usize) -> Vec<Vec<f64>> {
     let zeros = |(argument, &length): (usize, &usize)| {
-        (0..length)
-            .map(|k| f64::from(argument == which && k == entry))
-            .collect()
+        (0..length).map(|k| f64::from(argument == which && k == entry)).collect()
     };
     lengths.iter().enumerate().map(zeros).collect()
 }
@@ -122,20 +92,11 @@ fn form(matrix: &[f64], x: &[f64]) -> f64 {
 
 /// `x^T A y`, with `A` by rows.
 fn bilinear(x: &[f64], matrix: &[f64], y: &[f64]) -> f64 {
-    matrix
-        .chunks(y.len())
-        .zip(x)
-        .map(|(row, x_i)| x_i * dot(row, y))
-        .sum()
+    matrix.chunks(y.len()).zip(x).map(|(row, x_i)| x_i * dot(row, y)).sum()
 }
 
 impl Visitor for Duals {
-    fn visit<M: Mechanism + Copy>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, declaration: &'static str, machine: M) {
         const TIGHT: f64 = 1e-12;
         let tokens = declaration.parse().expect("the text has tokens");
         let program = program(tokens).expect("a declaration of the corpus");
@@ -143,53 +104,33 @@ impl Visitor for Duals {
         let at = numbers.point(&machine);
         let sizes = [at[0].len(), at[1].len(), at[2].len()];
         let n = sizes[0];
-        let value = |kernel: &str, arguments: &[Vec<f64>]| {
-            evaluate(&machine, kernel, arguments).expect("in the contract")
-        };
+        let value =
+            |kernel: &str, arguments: &[Vec<f64>]| evaluate(&machine, kernel, arguments).expect("in the contract");
         let linear = value("linear", &at);
 
         // A Jacobian assembled from its columns, by rows.
         let jacobian = |kernel: &str, arguments: &[Vec<f64>], which: usize| -> Vec<f64> {
             let lengths: Vec<usize> = arguments.iter().map(Vec::len).collect();
             let columns: Vec<Vec<f64>> = (0..lengths[which])
-                .map(|entry| {
-                    slope(&program, kernel, arguments, &unit(&lengths, which, entry)).swap_remove(0)
-                })
+                .map(|entry| slope(&program, kernel, arguments, &unit(&lengths, which, entry)).swap_remove(0))
                 .collect();
             let rows = value(kernel, arguments)[0].len();
-            (0..rows)
-                .flat_map(|i| columns.iter().map(move |column| column[i]))
-                .collect()
+            (0..rows).flat_map(|i| columns.iter().map(move |column| column[i])).collect()
         };
         let stiffness = jacobian("residual", &at, 0);
         assert_close(&stiffness, &linear[2], TIGHT, &format!("{name} Khat"));
         let partials = value("residual_partials", &at);
         for (which, expected) in [(1, &partials[0]), (2, &partials[1])] {
-            assert_close(
-                &jacobian("residual", &at, which),
-                expected,
-                TIGHT,
-                &format!("{name} dg"),
-            );
+            assert_close(&jacobian("residual", &at, which), expected, TIGHT, &format!("{name} dg"));
         }
         let at_rest: Vec<Vec<f64>> = [vec![vec![0.0; n]; 2], at.clone()].concat();
         for (which, expected) in [(0, &linear[0]), (1, &linear[1]), (2, &linear[2])] {
             let found = jacobian("motion_residual", &at_rest, which);
-            assert_close(
-                &found,
-                expected,
-                TIGHT,
-                &format!("{name} of motion, {which}"),
-            );
+            assert_close(&found, expected, TIGHT, &format!("{name} of motion, {which}"));
         }
         let output_partials = value("output_partials", &at);
         for (which, expected) in output_partials.iter().enumerate() {
-            assert_close(
-                &jacobian("outputs", &at, which),
-                expected,
-                TIGHT,
-                &format!("{name} outputs"),
-            );
+            assert_close(&jacobian("outputs", &at, which), expected, TIGHT, &format!("{name} outputs"));
         }
 
         // Second derivatives.
@@ -213,10 +154,7 @@ impl Visitor for Duals {
 
         // Gradients of a = phi^T (K - lambda M) phi and of w^T g, and their directional derivatives.
         let (phi, lambda, w) = (numbers.list(n), numbers.next(), numbers.list(n));
-        let gradients = value(
-            "mode_gradient",
-            &[at.clone(), vec![phi.clone(), vec![lambda]]].concat(),
-        );
+        let gradients = value("mode_gradient", &[at.clone(), vec![phi.clone(), vec![lambda]]].concat());
         let pulls = value("residual_gradient", &[at.clone(), vec![w.clone()]].concat());
         for which in 0..3 {
             let mut found = Vec::new();
@@ -227,18 +165,8 @@ impl Visitor for Duals {
                 found.push(form(&change[2], &phi) - lambda * form(&change[0], &phi));
                 pulled.push(dot(&slope(&program, "residual", &at, &direction)[0], &w));
             }
-            assert_close_to(
-                &found,
-                &gradients[which],
-                TIGHT * largest(&gradients),
-                &format!("{name} gradient"),
-            );
-            assert_close_to(
-                &pulled,
-                &pulls[which],
-                TIGHT * largest(&pulls),
-                &format!("{name} pull"),
-            );
+            assert_close_to(&found, &gradients[which], TIGHT * largest(&gradients), &format!("{name} gradient"));
+            assert_close_to(&pulled, &pulls[which], TIGHT * largest(&pulls), &format!("{name} pull"));
         }
         let (dphi, dlambda, dw) = (numbers.list(n), numbers.next(), numbers.list(n));
         let mode = [at.clone(), vec![phi, vec![lambda]]].concat();
@@ -246,12 +174,7 @@ impl Visitor for Duals {
         let found = slope(&program, "mode_gradient", &mode, &mode_along);
         let expected = value("mode_gradient_along", &[mode, mode_along].concat());
         for (found, expected) in found.iter().zip(&expected) {
-            assert_close(
-                found,
-                expected,
-                TIGHT,
-                &format!("{name} mode_gradient_along"),
-            );
+            assert_close(found, expected, TIGHT, &format!("{name} mode_gradient_along"));
         }
         let vectors: Vec<Vec<f64>> = (0..4).map(|_| numbers.list(n)).collect();
         let pencil = [at.clone(), vectors.clone()].concat();
@@ -285,36 +208,22 @@ impl Visitor for Duals {
         let residual = [at, vec![w]].concat();
         let residual_along = [along, vec![dw]].concat();
         let found = slope(&program, "residual_gradient", &residual, &residual_along);
-        let expected = value(
-            "residual_gradient_along",
-            &[residual, residual_along].concat(),
-        );
+        let expected = value("residual_gradient_along", &[residual, residual_along].concat());
         for (found, expected) in found.iter().zip(&expected) {
-            assert_close(
-                found,
-                expected,
-                TIGHT,
-                &format!("{name} residual_gradient_along"),
-            );
+            assert_close(found, expected, TIGHT, &format!("{name} residual_gradient_along"));
         }
         self.machines += 1;
     }
 }
 
 fn largest(arrays: &[Vec<f64>]) -> f64 {
-    arrays
-        .iter()
-        .flatten()
-        .fold(0.0, |most: f64, value| most.max(value.abs()))
+    arrays.iter().flatten().fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
 fn assert_close_to(values: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     assert_eq!(values.len(), expected.len(), "{what}");
     for (one, other) in values.iter().zip(expected) {
-        assert!(
-            (one - other).abs() <= tolerance,
-            "{what}: {one:e}, not {other:e}"
-        );
+        assert!((one - other).abs() <= tolerance, "{what}: {one:e}, not {other:e}");
     }
 }
 
@@ -333,49 +242,28 @@ fn duals_agree_with_every_derivative_kernel() {
 struct AlongMotion(usize);
 
 impl Visitor for AlongMotion {
-    fn visit<M: Mechanism + Copy>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, declaration: &'static str, machine: M) {
         let program = program(declaration.parse().expect("tokens")).expect("it compiles");
         let kernel = program.kernel("motion_residual").expect("in the contract");
         let sizes = machine.sizes();
         let n = sizes.coordinates;
-        let lengths = [
-            ("acceleration", n),
-            ("velocity", n),
-            ("q", n),
-            ("u", sizes.inputs),
-            ("b", sizes.design),
-        ];
+        let lengths = [("acceleration", n), ("velocity", n), ("q", n), ("u", sizes.inputs), ("b", sizes.design)];
         let arguments = Numbers::new(8).arguments(&machine, &lengths);
         let [acceleration, velocity, q] = [0, 1, 2].map(|k| Array::view(&arguments[k]));
         let (u, b) = (Array::view(&arguments[3]), Array::view(&arguments[4]));
         let found = machine.motion_linear::<f64>(acceleration, velocity, q, u, b);
-        for (list, matrix) in [found.mass, found.damping, found.stiffness]
-            .iter()
-            .enumerate()
-        {
+        for (list, matrix) in [found.mass, found.damping, found.stiffness].iter().enumerate() {
             for j in 0..n {
                 let duals: Vec<Vec<Dual>> = arguments
                     .iter()
                     .enumerate()
                     .map(|(l, values)| {
                         let slope = |k: usize| if (l, k) == (list, j) { 1.0 } else { 0.0 };
-                        values
-                            .iter()
-                            .enumerate()
-                            .map(|(k, &value)| Dual::new(value, slope(k)))
-                            .collect()
+                        values.iter().enumerate().map(|(k, &value)| Dual::new(value, slope(k))).collect()
                     })
                     .collect();
                 let slices: Vec<&[Dual]> = duals.iter().map(Vec::as_slice).collect();
-                let expected: Vec<f64> = interpret(kernel, &slices)[0]
-                    .iter()
-                    .map(|entry| entry.slope())
-                    .collect();
+                let expected: Vec<f64> = interpret(kernel, &slices)[0].iter().map(|entry| entry.slope()).collect();
                 let rows = matrix.as_ref().iter();
                 let column: Vec<f64> = rows.map(|row| row.as_ref()[j]).collect();
                 let scale = flat_largest(matrix.as_ref());
@@ -392,10 +280,7 @@ impl Visitor for AlongMotion {
 }
 
 fn flat_largest(matrix: &[impl AsRef<[f64]>]) -> f64 {
-    matrix
-        .iter()
-        .flat_map(AsRef::as_ref)
-        .fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
+    matrix.iter().flat_map(AsRef::as_ref).fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
 }
 
 /// Generated for most machines; for the largest, differentiated column by column in the runtime's own duals.

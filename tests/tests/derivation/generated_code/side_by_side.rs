@@ -26,9 +26,7 @@ fn check(machine: &dyn Kernels, kernel: Kernel, numbers: &mut Numbers, name: &st
     // The third argument are the design variables.
     let lengths = lengths.map(|(k, item)| (["", "b"][usize::from(k == 2)], count(*item, sizes)));
     let lengths: Vec<(&str, usize)> = lengths.collect();
-    let sets: Vec<Vec<Vec<f64>>> = (0..WIDTH)
-        .map(|_| numbers.arguments(machine, &lengths))
-        .collect();
+    let sets: Vec<Vec<Vec<f64>>> = (0..WIDTH).map(|_| numbers.arguments(machine, &lengths)).collect();
     let lanes: Vec<Vec<Batch>> = (0..lengths.len())
         .map(|k| {
             let entry = |i: usize| Batch::from_fn(|lane| sets[lane][k][i]);
@@ -36,13 +34,8 @@ fn check(machine: &dyn Kernels, kernel: Kernel, numbers: &mut Numbers, name: &st
         })
         .collect();
     let shapes = kernel.results().iter();
-    let shapes: Vec<usize> = shapes
-        .map(|[rows, columns]| count(*rows, sizes) * count(*columns, sizes))
-        .collect();
-    let mut together: Vec<Vec<Batch>> = shapes
-        .iter()
-        .map(|count| vec![Batch::all(7.0); *count])
-        .collect();
+    let shapes: Vec<usize> = shapes.map(|[rows, columns]| count(*rows, sizes) * count(*columns, sizes)).collect();
+    let mut together: Vec<Vec<Batch>> = shapes.iter().map(|count| vec![Batch::all(7.0); *count]).collect();
     let arguments: Vec<&[Batch]> = lanes.iter().map(Vec::as_slice).collect();
     let mut to: Vec<&mut [Batch]> = together.iter_mut().map(Vec::as_mut_slice).collect();
     machine.evaluate_batch(kernel, &arguments, &mut to);
@@ -53,11 +46,7 @@ fn check(machine: &dyn Kernels, kernel: Kernel, numbers: &mut Numbers, name: &st
         machine.evaluate(kernel, &arguments, &mut to);
         for (together, alone) in together.iter().flatten().zip(alone.iter().flatten()) {
             let (found, expected) = (together.0[lane], *alone);
-            assert!(
-                found.to_bits() == expected.to_bits(),
-                "{name} {}: {found:e} {expected:e}",
-                kernel.name()
-            );
+            assert!(found.to_bits() == expected.to_bits(), "{name} {}: {found:e} {expected:e}", kernel.name());
         }
     }
 }
@@ -69,22 +58,13 @@ struct SideBySide {
 }
 
 impl Visitor for SideBySide {
-    fn visit<M: Mechanism + Copy>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, declaration: &'static str, machine: M) {
         let mut numbers = Numbers::new(9);
         let interpreted = Interpreted::from_text(declaration).expect("a declaration");
         let excited = machine.sizes().excitations > 0;
         let gradients = [Kernel::PencilGradient, Kernel::ForcedGradient];
         // Without excitations the last has no kernel.
-        let kernels = if excited {
-            &gradients[..]
-        } else {
-            &gradients[..1]
-        };
+        let kernels = if excited { &gradients[..] } else { &gradients[..1] };
         for &kernel in kernels {
             check(&machine, kernel, &mut numbers, name);
             check(&interpreted, kernel, &mut numbers, name);

@@ -1,9 +1,7 @@
 //! `W1`, `W2`, `W3`: frequencies of bars in series and their first derivatives, at bent and straight equilibria.
 
 use eigentol_oracle::truth::Truth;
-use eigentol_tests::corpus::{
-    chain_of_eight, chain_of_four, rotating_double_pendulum, rotating_pendulum,
-};
+use eigentol_tests::corpus::{chain_of_eight, chain_of_four, rotating_double_pendulum, rotating_pendulum};
 use eigentol_tests::rederived::{Derived, Machine};
 
 use super::common::{assert_within, largest};

@@ -2,20 +2,11 @@
 
 /// Requires every error to be at most `tolerance`, relative to the larger of the expected value and `scale`.
 #[track_caller]
-pub(crate) fn assert_within(
-    tolerance: f64,
-    values: &[f64],
-    expected: &[f64],
-    scale: f64,
-    what: &str,
-) {
+pub(crate) fn assert_within(tolerance: f64, values: &[f64], expected: &[f64], scale: f64, what: &str) {
     assert_eq!(values.len(), expected.len(), "{what}");
     for (k, (one, other)) in values.iter().zip(expected).enumerate() {
         let error = (one - other).abs();
-        assert!(
-            error <= tolerance * other.abs().max(scale),
-            "{what}, number {k}: {one:e}, not {other:e}"
-        );
+        assert!(error <= tolerance * other.abs().max(scale), "{what}, number {k}: {one:e}, not {other:e}");
     }
 }
 

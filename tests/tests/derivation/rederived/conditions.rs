@@ -14,12 +14,8 @@ struct Variables {
 
 impl Variables {
     fn new(condition: &Truth, design: &[&str]) -> Self {
-        let names: Vec<String> = condition
-            .get("design")
-            .list()
-            .iter()
-            .map(|variable| variable.get("name").text())
-            .collect();
+        let names: Vec<String> =
+            condition.get("design").list().iter().map(|variable| variable.get("name").text()).collect();
         let place = |name: &String| {
             let design_place = design.iter().position(|value| value == name);
             design_place.unwrap_or_else(|| {
@@ -53,20 +49,10 @@ impl Variables {
         assert_close(&[derived.value], &[truth.get(value).number()], 1e-6, &what);
         let expected = self.by_name(&truth.get(gradient), Truth::number);
         let scale = 1e-2 * largest(&expected);
-        assert_close(
-            &self.gradient(derived),
-            &expected,
-            scale,
-            &format!("{what} gradient"),
-        );
+        assert_close(&self.gradient(derived), &expected, scale, &format!("{what} gradient"));
         let expected = truth.get(hessian).matrix();
         let scale = 1e-2 * largest(&expected);
-        assert_close(
-            &self.hessian(derived),
-            &expected,
-            scale,
-            &format!("{what} Hessian"),
-        );
+        assert_close(&self.hessian(derived), &expected, scale, &format!("{what} Hessian"));
     }
 
     fn check_complex(&self, complex_derived: &ComplexDerived, truth: &Truth, what: &str) {
@@ -77,10 +63,7 @@ impl Variables {
             .iter()
             .flat_map(|row| row.list().iter().map(Truth::numbers).collect::<Vec<_>>())
             .collect();
-        for (k, part) in [&complex_derived.re, &complex_derived.im]
-            .into_iter()
-            .enumerate()
-        {
+        for (k, part) in [&complex_derived.re, &complex_derived.im].into_iter().enumerate() {
             let values = |list: &[Vec<f64>]| list.iter().map(|pair| pair[k]).collect::<Vec<_>>();
             let what = format!("{what} part {k} of s");
             assert_close(&[part.value], &[truth.get("s").numbers()[k]], 1.0, &what);
@@ -102,10 +85,7 @@ fn check(declaration: &str, file: &str, design: &[&str]) -> usize {
     for condition in Truth::load(file).get("conditions").list() {
         let what = format!("{file} {}", condition.get("label").text());
         let parameters = condition.get("parameters");
-        let b: Vec<f64> = design
-            .iter()
-            .map(|name| parameters.get(name).number())
-            .collect();
+        let b: Vec<f64> = design.iter().map(|name| parameters.get(name).number()).collect();
         let start = condition.get("q_start").numbers();
         let state = machine.at(&[parameters.get("Omega").number()], &b, &start);
         let variables = Variables::new(&condition, design);

@@ -20,35 +20,12 @@ fn operation(name: &str) -> Option<Operation> {
     Some(match name {
         "governor" => (
             &[16.0],
-            &[
-                ("lift_right", 0.84),
-                ("lift_left", 0.84),
-                ("slide", -0.15),
-                ("knee_right", -1.7),
-                ("knee_left", -1.7),
-            ],
+            &[("lift_right", 0.84), ("lift_left", 0.84), ("slide", -0.15), ("knee_right", -1.7), ("knee_left", -1.7)],
         ),
-        "porter_governor" => (
-            &[16.0],
-            &[("lift_right", 0.84), ("lift_left", 0.84), ("slide", -0.15)],
-        ),
-        "slider_crank" => (
-            &[14.0],
-            &[("crank_angle", 0.42), ("pin", -0.51), ("guide", 0.27)],
-        ),
-        "five_bar" => (
-            &[9.0],
-            &[
-                ("left", 1.94),
-                ("right", 1.08),
-                ("left_elbow", -1.0),
-                ("right_elbow", 1.2),
-            ],
-        ),
-        "four_bar" => (
-            &[9.0],
-            &[("crank_angle", 1.6), ("elbow", -1.4), ("rocker_angle", 1.8)],
-        ),
+        "porter_governor" => (&[16.0], &[("lift_right", 0.84), ("lift_left", 0.84), ("slide", -0.15)]),
+        "slider_crank" => (&[14.0], &[("crank_angle", 0.42), ("pin", -0.51), ("guide", 0.27)]),
+        "five_bar" => (&[9.0], &[("left", 1.94), ("right", 1.08), ("left_elbow", -1.0), ("right_elbow", 1.2)]),
+        "four_bar" => (&[9.0], &[("crank_angle", 1.6), ("elbow", -1.4), ("rocker_angle", 1.8)]),
         "geared_rotors" | "geared_coasting" => (&[120.0], &[("run", -72.0)]),
         "geared_unbalance" => (&[100.0], &[("slow", -40.0)]),
         "shaken_linkage" => (&[30.0], &[("a", 0.3), ("b", -0.3), ("d", 0.2)]),
@@ -76,12 +53,10 @@ impl Every {
         u[..inputs.len()].copy_from_slice(inputs);
         let start = Vector::from_fn(description.coordinates.len(), |i| {
             let own = &description.coordinates[i].name;
-            near.iter()
-                .find(|(name, _)| *own == *name)
-                .map_or(0.0, |(_, x)| *x)
+            near.iter().find(|(name, _)| *own == *name).map_or(0.0, |(_, x)| *x)
         });
-        let at = equilibrium(machine, &u, &b, &start, Policy::Nearest)
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let at =
+            equilibrium(machine, &u, &b, &start, Policy::Nearest).unwrap_or_else(|error| panic!("{name}: {error}"));
         let state = Machine::new(declaration).at(&u, &b, &at.coordinates);
         let shift = equilibrium_shift(machine, &at).expect("a shift");
         for (i, solved) in state.equilibrium().into_iter().enumerate() {
@@ -95,8 +70,8 @@ impl Every {
                 self.1 += 1;
             }
         }
-        let general = modes_of(&at.linear, Family::General, &at.description)
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let general =
+            modes_of(&at.linear, Family::General, &at.description).unwrap_or_else(|error| panic!("{name}: {error}"));
         self.0.general(name, machine, &at, &general, &state);
     }
 }

@@ -6,9 +6,7 @@ use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::undamped_modes;
 use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
 use eigentol_tests::corpus::declarations;
-use eigentol_tests::rederived::{
-    Comparison, ComplexDerived, Derived, GeneralMode, State, every_machine,
-};
+use eigentol_tests::rederived::{Comparison, ComplexDerived, Derived, GeneralMode, State, every_machine};
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::common::assert_within;
@@ -40,13 +38,7 @@ struct Gradients {
 }
 
 impl Comparison for Gradients {
-    fn compare(
-        &mut self,
-        what: &str,
-        machine: &dyn CurvatureKernels,
-        at: &Equilibrium,
-        state: &State,
-    ) {
+    fn compare(&mut self, what: &str, machine: &dyn CurvatureKernels, at: &Equilibrium, state: &State) {
         self.points += 1;
         let variables = [&at.design[..], &at.inputs].concat();
 
@@ -54,10 +46,7 @@ impl Comparison for Gradients {
         for (i, q) in state.equilibrium().into_iter().enumerate() {
             let found = [&shift.by_design[i][..], &shift.by_input[i]].concat();
             // An angle or a displacement may be zero and still move.
-            let q = Derived {
-                value: q.value.abs() + 1e-3,
-                ..q
-            };
+            let q = Derived { value: q.value.abs() + 1e-3, ..q };
             assert_gradient(&found, &q, &variables, &format!("{what} coordinate {i}"));
             self.shifts += q.gradient.iter().filter(|x| x.abs() > 1e-6).count();
         }
@@ -131,22 +120,14 @@ struct Pencils {
 impl Comparison for Pencils {
     fn compare(&mut self, what: &str, _: &dyn CurvatureKernels, _: &Equilibrium, state: &State) {
         let n = state.coordinates.len();
-        let matrices = state
-            .matrices()
-            .map(|matrix| DMatrix::from_row_iterator(n, n, matrix.iter().map(complex)));
+        let matrices = state.matrices().map(|matrix| DMatrix::from_row_iterator(n, n, matrix.iter().map(complex)));
         for (r, mode) in state.general_modes().into_iter().enumerate() {
             let mode = mode.unwrap_or_else(|| panic!("{what} mode {r} is repeated"));
             let numbers = [&mode.s.re, &mode.s.im, &mode.magnitude, &mode.damping_ratio];
             let shapes = mode.right.iter().chain(&mode.left);
-            for number in numbers
-                .into_iter()
-                .chain(shapes.flat_map(|x| [&x.re, &x.im]))
-            {
+            for number in numbers.into_iter().chain(shapes.flat_map(|x| [&x.re, &x.im])) {
                 let derivatives = number.hessian.iter().flatten().chain(&number.gradient);
-                assert!(
-                    derivatives.chain([&number.value]).all(|x| x.is_finite()),
-                    "{what} {r}"
-                );
+                assert!(derivatives.chain([&number.value]).all(|x| x.is_finite()), "{what} {r}");
             }
             assert_pair(&mode, &matrices, what);
             self.modes += 1;
@@ -175,23 +156,14 @@ fn assert_pair(mode: &GeneralMode, [m, c, k]: &[DMatrix<Complex<f64>>; 3], what:
     let pencil = m * (s * s) + c * s + k;
     let terms = [m.camax() * s.norm_sqr(), c.camax() * s.norm(), k.camax()];
     let scale = 1e-10 * terms.into_iter().sum::<f64>();
-    let sides = [
-        (&mode.right, pencil.clone()),
-        (&mode.left, pencil.transpose()),
-    ];
+    let sides = [(&mode.right, pencil.clone()), (&mode.left, pencil.transpose())];
     for ((shape, pencil), lead) in sides.into_iter().zip(mode.leads) {
         let shape = DVector::from_iterator(shape.len(), shape.iter().map(value));
-        assert!(
-            (pencil * &shape).camax() <= scale * shape.camax(),
-            "{what}: {shape}"
-        );
+        assert!((pencil * &shape).camax() <= scale * shape.camax(), "{what}: {shape}");
         // Large components cancel in the sum, so its rounding is relative to its terms.
         let sizes = shape.map(|x| x.norm());
         let terms = sizes.dot(&(m.map(|x| x.norm()) * &sizes));
-        assert!(
-            (shape.dotc(&(m * &shape)) - 1.0).norm() < 1e-12_f64.max(1e-15 * terms),
-            "{what}: {shape}"
-        );
+        assert!((shape.dotc(&(m * &shape)) - 1.0).norm() < 1e-12_f64.max(1e-15 * terms), "{what}: {shape}");
         let leading = shape[lead];
         let most = shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
         assert!(leading.re >= most * (1.0 - 1e-8), "{what}: {shape}");

@@ -7,10 +7,7 @@ use eigentol_tests::rederived::{Derived, Machine, State, operating_points};
 use super::common::largest;
 
 /// All quantities of a state, with lead components and eigenvalues followed from `modes`.
-fn numbers(
-    state: &State,
-    modes: &[(nalgebra::Complex<f64>, [usize; 2])],
-) -> Vec<(String, Derived)> {
+fn numbers(state: &State, modes: &[(nalgebra::Complex<f64>, [usize; 2])]) -> Vec<(String, Derived)> {
     let mut list = Vec::new();
     let mut push = |name: String, derived: &Derived| list.push((name, derived.clone()));
     for (i, q) in state.equilibrium().iter().enumerate() {
@@ -24,9 +21,7 @@ fn numbers(
         }
     }
     for (r, (s, leads)) in modes.iter().enumerate() {
-        let mode = state
-            .general_mode(*s, leads.map(Some))
-            .expect("a simple mode");
+        let mode = state.general_mode(*s, leads.map(Some)).expect("a simple mode");
         push(format!("Re s {r}"), &mode.s.re);
         push(format!("Im s {r}"), &mode.s.im);
         push(format!("|s| {r}"), &mode.magnitude);
@@ -52,10 +47,7 @@ fn check(name: &str, declaration: &str, relative_step: f64) -> usize {
         .into_iter()
         .map(|mode| {
             let mode = mode.expect("a simple mode");
-            (
-                nalgebra::Complex::new(mode.s.re.value, mode.s.im.value),
-                mode.leads,
-            )
+            (nalgebra::Complex::new(mode.s.re.value, mode.s.im.value), mode.leads)
         })
         .collect();
     let here = numbers(&state, &modes);
@@ -77,8 +69,7 @@ fn check(name: &str, declaration: &str, relative_step: f64) -> usize {
             // Fourth order.
             let difference = |of: &dyn Fn(&Derived) -> f64| {
                 let slope = |pair: &(Vec<_>, Vec<_>), width: f64| {
-                    let (up, down): (&(String, Derived), &(String, Derived)) =
-                        (&pair.0[k], &pair.1[k]);
+                    let (up, down): (&(String, Derived), &(String, Derived)) = (&pair.0[k], &pair.1[k]);
                     (of(&up.1) - of(&down.1)) / (width * step)
                 };
                 (4.0 * slope(&near, 2.0) - slope(&far, 4.0)) / 3.0
@@ -88,17 +79,11 @@ fn check(name: &str, declaration: &str, relative_step: f64) -> usize {
             let rate = number.gradient[variable];
             let error = (difference(&|x| x.value) - rate).abs();
             let scale = rate.abs() + 1e-1 * size / width;
-            assert!(
-                error <= 1e-6 * scale,
-                "{what}: {rate:e} is off by {error:e}"
-            );
+            assert!(error <= 1e-6 * scale, "{what}: {rate:e} is off by {error:e}");
             for (other, curvature) in number.hessian[variable].iter().enumerate() {
                 let error = (difference(&|x| x.gradient[other]) - curvature).abs();
                 let scale = largest(&number.hessian[other]) + number.gradient[other].abs() / width;
-                assert!(
-                    error <= 1e-6 * scale + 1e-9 * size,
-                    "{what} and {other}: {curvature:e} is off by {error:e}"
-                );
+                assert!(error <= 1e-6 * scale + 1e-9 * size, "{what} and {other}: {curvature:e} is off by {error:e}");
                 compared += 1;
             }
         }

@@ -39,10 +39,7 @@ impl Expected {
             hessian: vec![vec![0.0; x.gradient.len()]; x.gradient.len()],
         };
         let shape: Vec<[Derived; 2]> = mode.shape.iter().map(|x| [x.clone(), zero(x)]).collect();
-        let s = mode
-            .omega
-            .as_ref()
-            .map(|omega| [zero(omega), omega.clone()]);
+        let s = mode.omega.as_ref().map(|omega| [zero(omega), omega.clone()]);
         let omega = mode.omega.iter();
         Self {
             s,

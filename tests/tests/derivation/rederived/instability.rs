@@ -20,9 +20,7 @@ impl Column {
 
     /// At `P = p k / l`.
     fn at(&self, p: f64) -> State {
-        let [_, l, k, _] = self.design[..] else {
-            panic!("four variables")
-        };
+        let [_, l, k, _] = self.design[..] else { panic!("four variables") };
         self.machine.at(&[p * k / l], &self.design, &[0.0; 2])
     }
 
@@ -41,9 +39,7 @@ fn growth(state: &State) -> f64 {
 #[test]
 fn frequencies_under_a_follower_force() {
     let column = Column::new(0.0);
-    let [_, l, k, _] = column.design[..] else {
-        panic!("four variables")
-    };
+    let [_, l, k, _] = column.design[..] else { panic!("four variables") };
     for p in [0.0, 0.5, 1.5, 2.0, 2.08, 5.0, 6.0] {
         let state = column.at(p);
         // 2 x^2 - h x + 1 = 0.
@@ -129,17 +125,12 @@ fn flutter_of_the_damped_column() {
 fn a_rigid_body_mode() {
     let machine = Machine::new(sliding_pair::DECLARATION);
     let nominal = machine.nominal().to_vec();
-    let [m1, m2, _, coupling] = nominal[..] else {
-        panic!("four variables")
-    };
+    let [m1, m2, _, coupling] = nominal[..] else { panic!("four variables") };
     let free = [m1, m2, 0.0, coupling];
     let elastic = (coupling * (m1 + m2) / (m1 * m2)).sqrt();
     let complexes = machine.eigenvalues(&[], &free, &[0.0, 0.05]);
     let (last, drifting) = complexes.split_last().expect("eigenvalues");
-    assert!(
-        (last.im - elastic).abs() < 1e-10 * elastic && last.re.abs() < 1e-10,
-        "{last}"
-    );
+    assert!((last.im - elastic).abs() < 1e-10 * elastic && last.re.abs() < 1e-10, "{last}");
     // One or both of the double zero, depending on rounding.
     assert!(!drifting.is_empty());
     for s in drifting {

@@ -9,9 +9,7 @@ use eigentol::second_order::{mode_curvature, output_curvature};
 use eigentol::sensitivity::{Quantity, sensitivities};
 use eigentol::shapes::shape_sensitivity;
 use eigentol::{Complex, Description, Error, Output, Role, Sensitivities};
-use eigentol_tests::rederived::{
-    Comparison, ComplexDerived, Derived, State, every_machine, ordered,
-};
+use eigentol_tests::rederived::{Comparison, ComplexDerived, Derived, State, every_machine, ordered};
 
 use super::expected::Expected;
 
@@ -40,11 +38,7 @@ fn sizes(at: &Equilibrium) -> Vec<f64> {
 impl Product {
     fn note(&mut self, kind: usize, error: f64, allowed: f64, what: &str) {
         // NaN is the worst error of all.
-        let ratio = if error.is_nan() {
-            f64::INFINITY
-        } else {
-            error / allowed
-        };
+        let ratio = if error.is_nan() { f64::INFINITY } else { error / allowed };
         if ratio > self.worst[kind].0 {
             self.worst[kind] = (ratio, what.to_owned());
         }
@@ -60,14 +54,7 @@ impl Product {
         }
     }
 
-    fn second(
-        &mut self,
-        values: &[Vec<f64>],
-        expected: &Derived,
-        b: &[f64],
-        size: f64,
-        what: &str,
-    ) {
+    fn second(&mut self, values: &[Vec<f64>], expected: &Derived, b: &[f64], size: f64, what: &str) {
         for (i, row) in values.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
                 let exact = expected.hessian[i][j];
@@ -79,48 +66,24 @@ impl Product {
         }
     }
 
-    fn shape(
-        &mut self,
-        rates: &[Complex],
-        expected: &[[Derived; 2]],
-        k: usize,
-        b: f64,
-        what: &str,
-    ) {
-        let most = expected
-            .iter()
-            .map(|[x, y]| f64::hypot(x.value, y.value))
-            .fold(0.0, f64::max);
+    fn shape(&mut self, rates: &[Complex], expected: &[[Derived; 2]], k: usize, b: f64, what: &str) {
+        let most = expected.iter().map(|[x, y]| f64::hypot(x.value, y.value)).fold(0.0, f64::max);
         for (rate, [x, y]) in rates.iter().zip(expected) {
             for (found, exact) in [(rate.re, x.gradient[k]), (rate.im, y.gradient[k])] {
                 let scale = exact.abs() + 1e-2 * most / b;
-                self.note(
-                    2,
-                    (found - exact).abs(),
-                    SHAPES * scale,
-                    &format!("{what} by {k}"),
-                );
+                self.note(2, (found - exact).abs(), SHAPES * scale, &format!("{what} by {k}"));
                 self.shapes += 1;
             }
         }
     }
 
     /// Every output.
-    fn outputs(
-        &mut self,
-        what: &str,
-        machine: &dyn CurvatureKernels,
-        at: &Equilibrium,
-        expected: &[Derived],
-    ) {
+    fn outputs(&mut self, what: &str, machine: &dyn CurvatureKernels, at: &Equilibrium, expected: &[Derived]) {
         let b = sizes(at);
         for (o, expected) in expected.iter().enumerate() {
             let what = format!("{what} output {o}");
             let found = output_curvature(machine, at, Output::new(o));
-            let derivatives = expected
-                .gradient
-                .iter()
-                .chain(expected.hessian.iter().flatten());
+            let derivatives = expected.gradient.iter().chain(expected.hessian.iter().flatten());
             if !derivatives.into_iter().all(|value| value.is_finite()) {
                 let reason = NoDerivative::NotSmooth;
                 assert_eq!(found, Err(Error::NoSensitivity { reason }), "{what}");
@@ -148,8 +111,7 @@ impl Product {
     ) {
         let b = sizes(at);
         let mode = &all.modes[r];
-        let curvature =
-            mode_curvature(machine, at, modes, r).unwrap_or_else(|error| panic!("{what}: {error}"));
+        let curvature = mode_curvature(machine, at, modes, r).unwrap_or_else(|error| panic!("{what}: {error}"));
         let size = modes.modes[r].s.norm();
         if let Some(lambda) = &expected.lambda {
             let found = [&mode.lambda.by_design[..], &mode.lambda.by_input].concat();
@@ -158,9 +120,7 @@ impl Product {
             self.second(&found, lambda, &b, size * size, &format!("{what} lambda"));
         }
         if let Some(s) = &expected.s {
-            let slopes = mode
-                .s()
-                .unwrap_or_else(|| panic!("{what} has no derivative"));
+            let slopes = mode.s().unwrap_or_else(|| panic!("{what} has no derivative"));
             let slopes = [&slopes.by_design[..], &slopes.by_input].concat();
             let second = ordered(curvature.eigenvalue.as_ref().expect("second derivatives"));
             for (part, number) in s.iter().enumerate() {
@@ -168,10 +128,7 @@ impl Product {
                 let what = format!("{what} part {part} of s");
                 let values: Vec<f64> = slopes.iter().map(of).collect();
                 self.first(&values, number, &b, size, &what);
-                let values: Vec<Vec<f64>> = second
-                    .iter()
-                    .map(|row| row.iter().map(of).collect())
-                    .collect();
+                let values: Vec<Vec<f64>> = second.iter().map(|row| row.iter().map(of).collect()).collect();
                 self.second(&values, number, &b, size, &what);
             }
         }
@@ -182,18 +139,13 @@ impl Product {
                 assert!(!oscillates, "{what} has no derivative");
                 continue;
             };
-            let size = if *quantity == Quantity::DampingRatio {
-                1.0
-            } else {
-                size
-            };
+            let size = if *quantity == Quantity::DampingRatio { 1.0 } else { size };
             let found = [&slopes.by_design[..], &slopes.by_input].concat();
             self.first(&found, number, &b, size, &what);
             let found = ordered(&curvature.of(*quantity).expect("as the first"));
             self.second(&found, number, &b, size, &what);
         }
-        let shapes = shape_sensitivity(machine, at, modes, r)
-            .unwrap_or_else(|error| panic!("{what}: {error}"));
+        let shapes = shape_sensitivity(machine, at, modes, r).unwrap_or_else(|error| panic!("{what}: {error}"));
         for (k, &b) in b.iter().enumerate() {
             let design = at.design.len();
             let (right, left) = if k < design {
@@ -213,24 +165,18 @@ impl Product {
 /// velocity constraints, the largest of all unknowns.
 fn leads(mode: &Mode, description: &Description) -> [usize; 2] {
     let roles = || description.coordinates.iter().map(|info| info.role);
-    let motions = roles()
-        .filter(|role| matches!(role, Role::Position | Role::Speed))
-        .count();
+    let motions = roles().filter(|role| matches!(role, Role::Position | Role::Speed)).count();
     let holonomic = roles().all(|role| matches!(role, Role::Position | Role::PositionReaction));
     let unknowns = description.coordinates.len();
     let of_left = if holonomic { motions } else { unknowns };
     [(&mode.shape[..], motions), (mode.left(), of_left)].map(|(shape, count)| {
         let real = (0..count).filter(|&i| shape[i].im.abs() <= 1e-12 * shape[i].re);
-        real.max_by(|&i, &j| shape[i].re.total_cmp(&shape[j].re))
-            .expect("a real component")
+        real.max_by(|&i, &j| shape[i].re.total_cmp(&shape[j].re)).expect("a real component")
     })
 }
 
 fn assert_shape(mode: &Mode, expected: &Expected, what: &str) {
-    for (shape, exact) in [
-        (&mode.shape[..], &expected.right),
-        (mode.left(), &expected.left),
-    ] {
+    for (shape, exact) in [(&mode.shape[..], &expected.right), (mode.left(), &expected.left)] {
         let most = shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
         for (x, [re, im]) in shape.iter().zip(exact) {
             let error = f64::hypot(x.re - re.value, x.im - im.value);
@@ -240,13 +186,7 @@ fn assert_shape(mode: &Mode, expected: &Expected, what: &str) {
 }
 
 impl Comparison for Product {
-    fn compare(
-        &mut self,
-        what: &str,
-        machine: &dyn CurvatureKernels,
-        at: &Equilibrium,
-        state: &State,
-    ) {
+    fn compare(&mut self, what: &str, machine: &dyn CurvatureKernels, at: &Equilibrium, state: &State) {
         self.outputs(what, machine, at, &state.outputs());
         let general = eigentol::modes::modes_of(&at.linear, Family::General, &at.description)
             .unwrap_or_else(|error| panic!("{what}: {error}"));
@@ -257,16 +197,12 @@ impl Comparison for Product {
             Err(Error::NonsymmetricStiffness { .. }) => return,
             Err(error) => panic!("{what}: {error}"),
         };
-        let all =
-            sensitivities(machine, at, &undamped).unwrap_or_else(|error| panic!("{what}: {error}"));
+        let all = sensitivities(machine, at, &undamped).unwrap_or_else(|error| panic!("{what}: {error}"));
         for (r, mode) in state.undamped_modes().into_iter().enumerate() {
             let what = format!("{what} undamped mode {r}");
             let Some(mode) = mode else {
                 let refused = mode_curvature(machine, at, &undamped, r);
-                assert!(
-                    matches!(refused, Err(Error::ClusteredMode { .. })),
-                    "{what}"
-                );
+                assert!(matches!(refused, Err(Error::ClusteredMode { .. })), "{what}");
                 continue;
             };
             let expected = Expected::undamped(mode);
@@ -287,8 +223,7 @@ impl Product {
         general: &Modes,
         state: &State,
     ) {
-        let all =
-            sensitivities(machine, at, general).unwrap_or_else(|error| panic!("{what}: {error}"));
+        let all = sensitivities(machine, at, general).unwrap_or_else(|error| panic!("{what}: {error}"));
         for (r, mode) in general.modes.iter().enumerate() {
             let what = format!("{what} general mode {r}");
             let near = nalgebra::Complex::new(mode.s.re, mode.s.im);
@@ -304,11 +239,7 @@ impl Product {
             let expected = Expected::general(solved);
             let [re, im] = expected.s.as_ref().expect("of a general mode");
             let error = f64::hypot(re.value - mode.s.re, im.value - mode.s.im);
-            assert!(
-                error <= 1e-10 * mode.s.norm(),
-                "{what}: {error:e} of {}",
-                mode.s
-            );
+            assert!(error <= 1e-10 * mode.s.norm(), "{what}: {error:e} of {}", mode.s);
             assert_shape(mode, &expected, &what);
             self.mode(&what, machine, at, (general, &all), r, &expected);
         }
@@ -328,13 +259,7 @@ impl Product {
 fn every_derivative_of_every_mode() {
     let mut product = Product::default();
     every_machine(&mut product);
-    let Product {
-        second,
-        shapes,
-        one_sided,
-        outputs,
-        ..
-    } = product;
+    let Product { second, shapes, one_sided, outputs, .. } = product;
     assert!(second > 10_000 && shapes > 5_000 && one_sided > 20 && outputs > 40);
     product.judge(150);
 }

@@ -72,13 +72,8 @@ fn check(state: &State, equation: &Equation, what: &str) {
 
 /// Both shapes are normalised: `y = +-i x` for every pair of an isotropic machine.
 fn assert_circular(mode: &GeneralMode) {
-    let [x, y] = &mode.right[..] else {
-        panic!("two coordinates")
-    };
-    let (x, y) = (
-        C::new(x.re.value, x.im.value),
-        C::new(y.re.value, y.im.value),
-    );
+    let [x, y] = &mode.right[..] else { panic!("two coordinates") };
+    let (x, y) = (C::new(x.re.value, x.im.value), C::new(y.re.value, y.im.value));
     assert!((y * y + x * x).norm() < 1e-9 * x.norm_sqr(), "{x} {y}");
     assert_eq!(mode.leads, [0, 0]);
 }
@@ -87,18 +82,9 @@ fn assert_circular(mode: &GeneralMode) {
 fn a_rotor_with_damping_that_turns() {
     let machine = Machine::new(jeffcott_rotor::DECLARATION);
     let b = machine.nominal().to_vec();
-    let [m, k, external, internal] = b[..] else {
-        panic!("four variables")
-    };
+    let [m, k, external, internal] = b[..] else { panic!("four variables") };
     let onset = (k / m).sqrt() * (1.0 + external / internal);
-    for speed in [
-        0.0,
-        0.3 * onset,
-        0.999 * onset,
-        onset,
-        1.001 * onset,
-        3.0 * onset,
-    ] {
+    for speed in [0.0, 0.3 * onset, 0.999 * onset, onset, 1.001 * onset, 3.0 * onset] {
         let state = machine.at(&[speed], &b, &[0.0; 2]);
         // z0 = -i m g / (k - i W c_i).
         let stiffness = C::new(k, -speed * internal);
@@ -142,9 +128,7 @@ fn a_rotor_with_damping_that_turns() {
 fn conical_whirl() {
     let machine = Machine::new(overhung_rotor::DECLARATION);
     let b = machine.nominal().to_vec();
-    let [it, ip, k] = b[..] else {
-        panic!("three variables")
-    };
+    let [it, ip, k] = b[..] else { panic!("three variables") };
     let synchronous = (k / (it - ip)).sqrt();
     for speed in [20.0, synchronous, 500.0] {
         let state = machine.at(&[speed], &b, &[0.0; 2]);
@@ -165,12 +149,7 @@ fn conical_whirl() {
         let found = [modes[0].s.im.value, modes[1].s.im.value];
         assert_close(&found, &[root - half, root + half], 0.0, "whirl");
         if speed == synchronous {
-            assert_close(
-                &found[1..],
-                &[speed],
-                0.0,
-                "forward whirl at the critical speed",
-            );
+            assert_close(&found[1..], &[speed], 0.0, "forward whirl at the critical speed");
         }
         modes.iter().for_each(assert_circular);
         assert_eq!(state.undamped_modes(), [None, None]);
@@ -181,9 +160,7 @@ fn conical_whirl() {
 fn a_sleeping_top() {
     let machine = Machine::new(sleeping_top::DECLARATION);
     let b = machine.nominal().to_vec();
-    let [m, h, transverse, c] = b[..] else {
-        panic!("four variables")
-    };
+    let [m, h, transverse, c] = b[..] else { panic!("four variables") };
     let (a, weight) = (transverse + m * h * h, 9.81 * m * h);
     let least = 2.0 * (a * weight).sqrt() / c;
     for spin in [0.5 * least, 1.01 * least, 3.0 * least] {
@@ -208,12 +185,7 @@ fn a_sleeping_top() {
             for (mode, (s, rates)) in found.iter().zip(roots) {
                 let number = [mode.s.re.value, mode.s.im.value];
                 assert_close(&number, &[s.re, s.im], s.norm(), "falling");
-                assert_close(
-                    &[mode.magnitude.value],
-                    &[(weight / a).sqrt()],
-                    0.0,
-                    "falling",
-                );
+                assert_close(&[mode.magnitude.value], &[(weight / a).sqrt()], 0.0, "falling");
                 for (k, rate) in rates.iter().enumerate() {
                     let found = [mode.s.re.gradient[k], mode.s.im.gradient[k]];
                     assert_close(&found, &[rate.re, rate.im], largest(&found), "falling");

@@ -46,11 +46,7 @@ impl Random {
 }
 
 /// The results of a kernel.
-pub(crate) fn results(
-    machine: &dyn Kernels,
-    kernel: Kernel,
-    arguments: &[&[f64]],
-) -> Vec<Vec<f64>> {
+pub(crate) fn results(machine: &dyn Kernels, kernel: Kernel, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
     let mut all = room(machine, kernel);
     let mut results: Vec<&mut [f64]> = all.iter_mut().map(Vec::as_mut_slice).collect();
     machine.evaluate(kernel, arguments, &mut results);
@@ -61,9 +57,7 @@ pub(crate) fn results(
 pub(crate) fn room(machine: &dyn Kernels, kernel: Kernel) -> Vec<Vec<f64>> {
     let shapes = kernel.results().iter();
     let length = |extent: &Extent| length(machine, *extent);
-    shapes
-        .map(|shape| vec![f64::NAN; shape.iter().map(length).product()])
-        .collect()
+    shapes.map(|shape| vec![f64::NAN; shape.iter().map(length).product()]).collect()
 }
 
 pub(crate) fn length(machine: &dyn Kernels, extent: Extent) -> usize {
@@ -115,13 +109,7 @@ pub(crate) fn compare(machine: &Machine, seed: u64) -> Result<Outcome, String> {
             (coordinate.name.to_string(), (value, change))
         })
         .collect();
-    let twins = Twins {
-        machine,
-        excited,
-        explicit,
-        state,
-        time: 2.0 * random.number(),
-    };
+    let twins = Twins { machine, excited, explicit, state, time: 2.0 * random.number() };
     Ok(twins.compare())
 }
 
@@ -163,11 +151,7 @@ impl Twins<'_> {
                         "velocity" => 1.0 / w,
                         _ => -1.0 / (w * w),
                     };
-                let lag = if *quantity == "velocity" {
-                    90_f64.to_radians()
-                } else {
-                    0.0
-                };
+                let lag = if *quantity == "velocity" { 90_f64.to_radians() } else { 0.0 };
                 let (sine, cosine) = (w * self.time + phase - lag).sin_cos();
                 [size * cosine, -size * w * sine, -size * w * w * cosine]
             }
@@ -177,29 +161,19 @@ impl Twins<'_> {
     /// Rows and outputs of the explicit machine.
     fn explicit(&self, eps: f64) -> (Vec<f64>, Vec<f64>) {
         let description = self.explicit.description();
-        let motions: Vec<[f64; 3]> = description
-            .coordinates
-            .iter()
-            .map(|coordinate| self.motion(&coordinate.name, eps))
-            .collect();
+        let motions: Vec<[f64; 3]> =
+            description.coordinates.iter().map(|coordinate| self.motion(&coordinate.name, eps)).collect();
         let [q, velocity, acceleration]: [Vec<f64>; 3] =
             [0, 1, 2].map(|k| motions.iter().map(|motion| motion[k]).collect());
         let input = |name: &str| {
-            let excitation = self
-                .machine
-                .excitations
-                .iter()
-                .find(|excitation| name == format!("{}_now", excitation.name));
+            let excitation =
+                self.machine.excitations.iter().find(|excitation| name == format!("{}_now", excitation.name));
             excitation.map_or(eps, |excitation| {
                 eps * (self.frequency(&excitation.frequency) * self.time + excitation.phase).cos()
             })
         };
         let u: Vec<f64> = description.inputs.iter().map(|x| input(&x.name)).collect();
-        let b: Vec<f64> = description
-            .design
-            .iter()
-            .map(|value| value.nominal)
-            .collect();
+        let b: Vec<f64> = description.design.iter().map(|value| value.nominal).collect();
         let explicit: &dyn MotionKernels = &self.explicit;
         let residual = explicit.motion_residual(&acceleration, &velocity, &q, &u, &b);
         let outputs = results(explicit, Kernel::Outputs, &[&q, &u, &b]).swap_remove(0);
@@ -227,10 +201,7 @@ impl Twins<'_> {
                 })
                 .collect()
         };
-        (
-            extrapolated([&steps[0].0, &steps[1].0, &steps[2].0]),
-            extrapolated([&steps[0].1, &steps[1].1, &steps[2].1]),
-        )
+        (extrapolated([&steps[0].0, &steps[1].0, &steps[2].0]), extrapolated([&steps[0].1, &steps[1].1, &steps[2].1]))
     }
 
     /// What remains of the explicit machine's rows besides their first order falls with the square of `eps`.
@@ -238,33 +209,18 @@ impl Twins<'_> {
         let rest = |eps: f64| -> f64 {
             let (still, moved) = (self.explicit(0.0).0, self.explicit(eps).0);
             let rows = still.iter().zip(&moved).zip(slopes);
-            rows.map(|((still, moved), slope)| (moved - still - eps * slope).powi(2))
-                .sum::<f64>()
-                .sqrt()
+            rows.map(|((still, moved), slope)| (moved - still - eps * slope).powi(2)).sum::<f64>().sqrt()
         };
         let (coarse, fine) = (rest(2e-3), rest(1e-3));
-        assert!(
-            fine < coarse / 3.5 + 1e-11,
-            "{coarse} {fine}\n{}",
-            self.machine.excited()
-        );
+        assert!(fine < coarse / 3.5 + 1e-11, "{coarse} {fine}\n{}", self.machine.excited());
     }
 
     fn compare(&self) -> Outcome {
         let description = self.excited.description();
-        let states: Vec<_> = description
-            .coordinates
-            .iter()
-            .map(|coordinate| self.state[&*coordinate.name])
-            .collect();
+        let states: Vec<_> = description.coordinates.iter().map(|coordinate| self.state[&*coordinate.name]).collect();
         let q: Vec<f64> = states.iter().map(|state| state.0).collect();
-        let [z, z1, z2]: [Vec<f64>; 3] =
-            [0, 1, 2].map(|k| states.iter().map(|state| state.1[k]).collect());
-        let b: Vec<f64> = description
-            .design
-            .iter()
-            .map(|value| value.nominal)
-            .collect();
+        let [z, z1, z2]: [Vec<f64>; 3] = [0, 1, 2].map(|k| states.iter().map(|state| state.1[k]).collect());
+        let b: Vec<f64> = description.design.iter().map(|value| value.nominal).collect();
         let at: [&[f64]; 3] = [&q, &[], &b];
         let n = q.len();
         let outputs = description.outputs.len();
@@ -295,26 +251,15 @@ impl Twins<'_> {
         self.the_rest_is_of_second_order(&rows);
         let row_of = |name: &str| {
             let mut all = self.explicit.description().coordinates.iter();
-            all.position(|x| *x.name == *name)
-                .unwrap_or_else(|| panic!("no row {name}\n{}", self.machine.explicit()))
+            all.position(|x| *x.name == *name).unwrap_or_else(|| panic!("no row {name}\n{}", self.machine.explicit()))
         };
         let mut pairs = Vec::new();
         for (k, coordinate) in description.coordinates.iter().enumerate() {
-            if self
-                .machine
-                .rates_coupled
-                .iter()
-                .any(|name| *coordinate.name == *name)
-            {
+            if self.machine.rates_coupled.iter().any(|name| *coordinate.name == *name) {
                 continue;
             }
             let force = forced([0, 3], n, k);
-            pairs.push((
-                moved(&linear, k) - force,
-                rows[row_of(&coordinate.name)],
-                force,
-                coordinate.name.to_string(),
-            ));
+            pairs.push((moved(&linear, k) - force, rows[row_of(&coordinate.name)], force, coordinate.name.to_string()));
         }
         let mut same = 0;
         for (k, (name, _, check)) in self.machine.outputs.iter().enumerate() {
@@ -328,9 +273,7 @@ impl Twins<'_> {
             let direct = forced([2, 4], outputs, k);
             pairs.push((moved(&motion, k) + direct, expected, direct, name.clone()));
         }
-        let size = pairs
-            .iter()
-            .fold(1.0_f64, |most, pair| most.max(pair.1.abs()));
+        let size = pairs.iter().fold(1.0_f64, |most, pair| most.max(pair.1.abs()));
         let mut outcome = Outcome::default();
         for (found, expected, force, name) in pairs {
             let difference = (found - expected).abs() / (size + expected.abs());

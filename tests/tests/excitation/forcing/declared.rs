@@ -121,12 +121,7 @@ pub(crate) fn across(axis: V) -> [V; 2] {
 
 impl Machine {
     pub(crate) fn body(&mut self, name: &str, shape: &str, center: V) -> &mut Self {
-        self.bodies.push(Body {
-            name: name.into(),
-            shape: shape.into(),
-            center,
-            axis: None,
-        });
+        self.bodies.push(Body { name: name.into(), shape: shape.into(), center, axis: None });
         self
     }
 
@@ -158,25 +153,14 @@ impl Machine {
         self
     }
 
-    pub(crate) fn unbalance(
-        &mut self,
-        body: &str,
-        deviation: Deviation,
-        size: f64,
-        angle: f64,
-    ) -> &mut Self {
+    pub(crate) fn unbalance(&mut self, body: &str, deviation: Deviation, size: f64, angle: f64) -> &mut Self {
         let law = Law::Unbalance(body.into(), deviation, size, angle);
         self.excite(law, Frequency::Own(0.0), 0.0)
     }
 
     pub(crate) fn excite(&mut self, law: Law, frequency: Frequency, phase: f64) -> &mut Self {
         let name = format!("shake{}", self.excitations.len());
-        self.excitations.push(Excitation {
-            name,
-            law,
-            frequency,
-            phase,
-        });
+        self.excitations.push(Excitation { name, law, frequency, phase });
         self
     }
 
@@ -187,21 +171,13 @@ impl Machine {
 
     /// An output that both machines have.
     pub(crate) fn output(&mut self, expression: &str) -> &mut Self {
-        self.outputs.push((
-            format!("out{}", self.outputs.len()),
-            expression.into(),
-            Check::Output,
-        ));
+        self.outputs.push((format!("out{}", self.outputs.len()), expression.into(), Check::Output));
         self
     }
 
     /// A reaction, which is the force along a coordinate of the explicit machine.
     pub(crate) fn reaction(&mut self, expression: &str, coordinate: &str) -> &mut Self {
-        self.outputs.push((
-            format!("out{}", self.outputs.len()),
-            expression.into(),
-            Check::Row(coordinate.into()),
-        ));
+        self.outputs.push((format!("out{}", self.outputs.len()), expression.into(), Check::Row(coordinate.into())));
         self
     }
 
@@ -231,9 +207,7 @@ impl Machine {
                     _ => "/s^2",
                 };
                 let frequency = Self::frequency(frequency);
-                format!(
-                    ", {name} shaken({quantity}: {amplitude:?} {unit}{time}, {frequency}, phase: {phase:?} rad)"
-                )
+                format!(", {name} shaken({quantity}: {amplitude:?} {unit}{time}, {frequency}, phase: {phase:?} rad)")
             }
         }
     }
@@ -254,9 +228,7 @@ impl Machine {
         for joint in &self.joints {
             let several = joint.coordinates.len() > 1;
             let clauses = joint.coordinates.iter();
-            let clauses: String = clauses
-                .map(|clause| Self::clause(clause, several))
-                .collect();
+            let clauses: String = clauses.map(|clause| Self::clause(clause, several)).collect();
             let _ = writeln!(text, "    {}{clauses};", joint.declaration);
         }
         text.push_str(&self.others);
@@ -270,20 +242,12 @@ impl Machine {
     }
 
     fn excitation(&self, excitation: &Excitation) -> String {
-        let Excitation {
-            name,
-            law,
-            frequency,
-            phase,
-        } = excitation;
+        let Excitation { name, law, frequency, phase } = excitation;
         let when = format!("{}, phase: {phase:?} rad", Self::frequency(frequency));
         match law {
             Law::Unbalance(body, deviation, size, angle) => {
                 let (what, at) = match deviation {
-                    Deviation::Amount(at) => (
-                        format!("amount: {size:?} kg*m"),
-                        format!(", at {} m", text(*at)),
-                    ),
+                    Deviation::Amount(at) => (format!("amount: {size:?} kg*m"), format!(", at {} m", text(*at))),
                     Deviation::Eccentricity => (format!("eccentricity: {size:?} m"), String::new()),
                     Deviation::Tilt => (format!("tilt: {size:?} rad"), String::new()),
                 };
@@ -296,14 +260,8 @@ impl Machine {
             ),
             Law::On(coordinate, value) => {
                 let slides = self.coordinate(coordinate).is_some_and(|x| x.slides);
-                let (word, unit) = if slides {
-                    ("force", "N")
-                } else {
-                    ("moment", "N*m")
-                };
-                format!(
-                    "force {name}: harmonic(on: {coordinate}, {word}: {value:?} {unit}, {when})"
-                )
+                let (word, unit) = if slides { ("force", "N") } else { ("moment", "N*m") };
+                format!("force {name}: harmonic(on: {coordinate}, {word}: {value:?} {unit}, {when})")
             }
         }
     }
@@ -373,10 +331,7 @@ impl Machine {
                 }
                 Deviation::Amount(at) => {
                     let (moved, at) = (place(*at, direction * *size), self::text(*at));
-                    let _ = write!(
-                        added,
-                        " + point(mass: 1 kg) at {moved} - point(mass: 1 kg) at {at} m"
-                    );
+                    let _ = write!(added, " + point(mass: 1 kg) at {moved} - point(mass: 1 kg) at {at} m");
                 }
             }
         }

@@ -17,11 +17,7 @@ const FIRST: f64 = 1e-10;
 const SECOND: f64 = 1e-8;
 
 /// By the number of derivatives by time.
-const MEASURES: [Measure; 3] = [
-    Measure::Displacement,
-    Measure::Velocity,
-    Measure::Acceleration,
-];
+const MEASURES: [Measure; 3] = [Measure::Displacement, Measure::Velocity, Measure::Acceleration];
 
 /// Numbers of a declaration that become variables.
 const VARIABLES: usize = 6;
@@ -52,8 +48,7 @@ fn with_variables(text: &str, random: &mut Random) -> (String, Vec<f64>) {
     while places.len() > VARIABLES {
         places.remove(random.below(places.len()));
     }
-    let (mut declared, mut inputs, mut body, mut done) =
-        (String::new(), Vec::new(), String::new(), 0);
+    let (mut declared, mut inputs, mut body, mut done) = (String::new(), Vec::new(), String::new(), 0);
     for (k, (start, end, unit)) in places.into_iter().enumerate() {
         let number = &text[start..end];
         let name = format!("variable{k}");
@@ -82,9 +77,9 @@ fn quantities(text: &str) -> Vec<(usize, usize, &'static str)> {
     for (space, _) in text.match_indices(' ') {
         let after = &text[space + 1..];
         let of_unit = |unit: &&&str| {
-            after.strip_prefix(**unit).is_some_and(|rest| {
-                !rest.starts_with(|c: char| c.is_alphanumeric() || "*/^".contains(c))
-            })
+            after
+                .strip_prefix(**unit)
+                .is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || "*/^".contains(c)))
         };
         let Some(unit) = UNITS.iter().find(of_unit) else {
             continue;
@@ -167,9 +162,7 @@ impl Seen {
         for (i, one) in sizes() {
             let (found, exact) = (first[i], expected.gradient[i]);
             let scale = exact.abs() + 1e-2 * size / one;
-            self.note(0, (found - exact).abs() / (FIRST * scale), || {
-                format!("{what} by {i}: {found} {exact}")
-            });
+            self.note(0, (found - exact).abs() / (FIRST * scale), || format!("{what} by {i}: {found} {exact}"));
             for (j, other) in sizes() {
                 let (found, exact) = (second[i][j], expected.hessian[i][j]);
                 let scale = exact.abs() + 1e-2 * size / (one * other);
@@ -199,19 +192,12 @@ impl Seen {
     /// Every output of a machine in every harmonic.
     fn machine(&mut self, what: &str, all: &ForcedCurvature, state: &State, variables: &[f64]) {
         for (h, harmonic) in all.first.response.harmonics.iter().enumerate() {
-            let members: Vec<usize> = harmonic
-                .shares
-                .iter()
-                .map(|share| share.excitation)
-                .collect();
+            let members: Vec<usize> = harmonic.shares.iter().map(|share| share.excitation).collect();
             for (rate, measure) in MEASURES.into_iter().enumerate() {
                 let expected = state.vibration(&members, rate);
                 let what = format!("{what} harmonic {h} {measure:?}");
                 let w = &expected.frequency;
-                assert!(
-                    (harmonic.frequency - w.value).abs() <= 1e-13 * w.value,
-                    "{what}"
-                );
+                assert!((harmonic.frequency - w.value).abs() <= 1e-13 * w.value, "{what}");
                 let first = flat(&all.first.harmonics[h].frequency);
                 let second = ordered(&all.harmonics[h].frequency);
                 self.compare(&what, (&first, &second), w, (w.value, variables));
@@ -241,12 +227,7 @@ impl Seen {
         assert!(error <= 1e-11 * size, "{what}: {y} {own:?}");
         let first = all.first.complex(h, output, measure).expect("slopes");
         let second = all.complex(h, output, measure).expect("curvature");
-        self.complex(
-            what,
-            (&flat(&first), &ordered(&second)),
-            own,
-            (size, variables),
-        );
+        self.complex(what, (&flat(&first), &ordered(&second)), own, (size, variables));
         // a modulus bends without bound where it is zero
         if modulus.value < size {
             return;
@@ -255,12 +236,7 @@ impl Seen {
         let first = all.first.modulus(h, output, measure).expect("slopes");
         let second = all.modulus(h, output, measure).expect("curvature");
         let what = format!("{what} modulus");
-        self.compare(
-            &what,
-            (&flat(&first), &ordered(&second)),
-            modulus,
-            (size, variables),
-        );
+        self.compare(&what, (&flat(&first), &ordered(&second)), modulus, (size, variables));
     }
 }
 
@@ -269,12 +245,7 @@ fn check(seen: &mut Seen, seed: u64) -> Option<()> {
     let declared = standing(seed).excited();
     let (text, u) = with_variables(&declared, &mut Random::new(seed + 77));
     let machine = Interpreted::from_text(&text).ok()?;
-    let Description {
-        design,
-        coordinates,
-        excitations,
-        ..
-    } = machine.description();
+    let Description { design, coordinates, excitations, .. } = machine.description();
     let b: Vec<f64> = design.iter().map(|value| value.nominal).collect();
     let starts = coordinates.iter().map(|coordinate| match coordinate.role {
         Role::Speed => 3.0,
@@ -297,24 +268,13 @@ fn check(seen: &mut Seen, seed: u64) -> Option<()> {
     let variables: Vec<f64> = b.iter().chain(&u).map(|value| value.abs()).collect();
     seen.machine(&format!("{seed}"), &all, &state, &variables);
     seen.machines += 1;
-    let has =
-        |role: Role| usize::from(coordinates.iter().any(|coordinate| coordinate.role == role));
+    let has = |role: Role| usize::from(coordinates.iter().any(|coordinate| coordinate.role == role));
     seen.coasting += has(Role::Speed);
     seen.loops += has(Role::PositionReaction);
-    let bent = |(coordinate, q): (&CoordinateInfo, &f64)| {
-        coordinate.role == Role::Position && q.abs() > 1e-3
-    };
+    let bent = |(coordinate, q): (&CoordinateInfo, &f64)| coordinate.role == Role::Position && q.abs() > 1e-3;
     seen.bent += usize::from(coordinates.iter().zip(&at.coordinates).any(bent));
-    for (count, kind) in seen
-        .kinds
-        .iter_mut()
-        .zip(["unbalance", "harmonic", "shaken"])
-    {
-        *count += usize::from(
-            excitations
-                .iter()
-                .any(|excitation| excitation.kind == *kind),
-        );
+    for (count, kind) in seen.kinds.iter_mut().zip(["unbalance", "harmonic", "shaken"]) {
+        *count += usize::from(excitations.iter().any(|excitation| excitation.kind == *kind));
     }
     Some(())
 }
@@ -336,15 +296,7 @@ fn derivatives_agree(hundreds: usize) {
     for seed in 0..107 * hundreds as u64 {
         check(&mut seen, seed);
     }
-    let Seen {
-        machines,
-        bent,
-        loops,
-        coasting,
-        kinds,
-        moduli,
-        ..
-    } = seen;
+    let Seen { machines, bent, loops, coasting, kinds, moduli, .. } = seen;
     assert!(
         machines >= 33 * hundreds
             && bent >= 30 * hundreds
@@ -353,10 +305,7 @@ fn derivatives_agree(hundreds: usize) {
             && moduli >= 166 * hundreds,
         "{machines} {bent} {loops} {coasting} {moduli}"
     );
-    assert!(
-        kinds.iter().all(|&count| count >= 16 * hundreds),
-        "{kinds:?}"
-    );
+    assert!(kinds.iter().all(|&count| count >= 16 * hundreds), "{kinds:?}");
     for (ratio, what) in seen.worst {
         assert!(ratio <= 1.0, "{what}: {ratio:.1e} of the allowed error");
     }

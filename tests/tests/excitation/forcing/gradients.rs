@@ -21,9 +21,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 fn moved(at: &Lists, along: &Lists, step: f64) -> Lists {
     let pairs = at.iter().zip(along);
-    pairs
-        .map(|(at, along)| at.iter().zip(along).map(|(a, d)| a + step * d).collect())
-        .collect()
+    pairs.map(|(at, along)| at.iter().zip(along).map(|(a, d)| a + step * d).collect()).collect()
 }
 
 /// The derivative of lists along a step, by central differences, extrapolated twice.
@@ -36,18 +34,11 @@ fn slope(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
     };
     let better = |coarse: &[f64], fine: &[f64], power: f64| -> Vec<f64> {
         let pairs = coarse.iter().zip(fine);
-        pairs
-            .map(|(coarse, fine)| (power * fine - coarse) / (power - 1.0))
-            .collect()
+        pairs.map(|(coarse, fine)| (power * fine - coarse) / (power - 1.0)).collect()
     };
-    let mut columns: Vec<Vec<f64>> = (0..4)
-        .map(|k| difference(STEP / f64::from(1 << k)))
-        .collect();
+    let mut columns: Vec<Vec<f64>> = (0..4).map(|k| difference(STEP / f64::from(1 << k))).collect();
     for power in [4.0, 16.0, 64.0] {
-        columns = columns
-            .windows(2)
-            .map(|pair| better(&pair[0], &pair[1], power))
-            .collect();
+        columns = columns.windows(2).map(|pair| better(&pair[0], &pair[1], power)).collect();
     }
     columns.swap_remove(0)
 }
@@ -103,20 +94,10 @@ fn check(machine: &dyn CurvatureKernels, name: &str, seed: u64) {
     let mut random = Random::new(seed);
     let description = machine.description();
     let sizes = machine.sizes();
-    let nominal = description
-        .design
-        .iter()
-        .map(|value| value.nominal)
-        .collect();
+    let nominal = description.design.iter().map(|value| value.nominal).collect();
     let at: Lists = vec![
-        random
-            .numbers(sizes.coordinates)
-            .iter()
-            .map(|x| 0.3 * x)
-            .collect(),
-        (0..sizes.inputs)
-            .map(|_| 20.0 + 5.0 * random.number())
-            .collect(),
+        random.numbers(sizes.coordinates).iter().map(|x| 0.3 * x).collect(),
+        (0..sizes.inputs).map(|_| 20.0 + 5.0 * random.number()).collect(),
         nominal,
     ];
     let along = directions(machine, &at, &mut random);
@@ -131,8 +112,7 @@ fn check(machine: &dyn CurvatureKernels, name: &str, seed: u64) {
         for k in 0..at[list].len() {
             let mut one: Lists = at.iter().map(|list| vec![0.0; list.len()]).collect();
             one[list][k] = along[list][k];
-            let expected =
-                slope(|step| vec![functional(machine, &moved(&at, &one, step), &weights)]);
+            let expected = slope(|step| vec![functional(machine, &moved(&at, &one, step), &weights)]);
             let found = [gradient[list][k] * along[list][k]];
             let scale = functional(machine, &at, &weights).abs();
             let error = (found[0] - expected[0]).abs();
@@ -143,57 +123,30 @@ fn check(machine: &dyn CurvatureKernels, name: &str, seed: u64) {
         }
     }
 
-    for (kernel, curvature) in [
-        (Kernel::Forcing, Curvature::Forcing),
-        (Kernel::OutputMotion, Curvature::OutputMotion),
-    ] {
+    for (kernel, curvature) in [(Kernel::Forcing, Curvature::Forcing), (Kernel::OutputMotion, Curvature::OutputMotion)]
+    {
         let found = curved(machine, curvature, &at, &along);
         let parts = found.len();
         for (part, found) in found.iter().enumerate() {
-            let expected = slope(|step| {
-                results(machine, kernel, &views(&moved(&at, &along, step))).swap_remove(part)
-            });
-            assert_near(
-                found,
-                &expected,
-                &format!("{name}: {curvature:?} {part} of {parts}"),
-            );
+            let expected = slope(|step| results(machine, kernel, &views(&moved(&at, &along, step))).swap_remove(part));
+            assert_near(found, &expected, &format!("{name}: {curvature:?} {part} of {parts}"));
         }
     }
     let along: Lists = arguments
         .iter()
         .enumerate()
-        .map(|(k, list)| {
-            along
-                .get(k)
-                .cloned()
-                .unwrap_or_else(|| random.numbers(list.len()))
-        })
+        .map(|(k, list)| along.get(k).cloned().unwrap_or_else(|| random.numbers(list.len())))
         .collect();
     let found = curved(machine, Curvature::ForcedGradient, &arguments, &along);
     for (part, found) in found.iter().enumerate() {
         let expected = slope(|step| {
-            results(
-                machine,
-                Kernel::ForcedGradient,
-                &views(&moved(&arguments, &along, step)),
-            )
-            .swap_remove(part)
+            results(machine, Kernel::ForcedGradient, &views(&moved(&arguments, &along, step))).swap_remove(part)
         });
-        assert_near(
-            found,
-            &expected,
-            &format!("{name}: curvature of gradient {part}"),
-        );
+        assert_near(found, &expected, &format!("{name}: curvature of gradient {part}"));
     }
 }
 
-fn curved(
-    machine: &dyn CurvatureKernels,
-    kernel: Curvature,
-    arguments: &Lists,
-    along: &Lists,
-) -> Lists {
+fn curved(machine: &dyn CurvatureKernels, kernel: Curvature, arguments: &Lists, along: &Lists) -> Lists {
     let mut all = room(machine, kernel.into());
     let mut results: Vec<&mut [f64]> = all.iter_mut().map(Vec::as_mut_slice).collect();
     machine.evaluate_curvature(kernel, &views(arguments), &views(along), &mut results);
@@ -203,12 +156,7 @@ fn curved(
 struct Checked(usize);
 
 impl Visitor for Checked {
-    fn visit<M: Mechanism + Copy>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, declaration: &'static str, machine: M) {
         if M::DESCRIPTION.excitations.is_empty() {
             return;
         }
@@ -225,25 +173,13 @@ impl Visitor for Checked {
 /// Compiled and interpreted, bit for bit.
 fn alike(twin: &dyn CurvatureKernels, machine: &dyn CurvatureKernels, name: &str) {
     let mut random = Random::new(7);
-    for kernel in [
-        Kernel::Forcing,
-        Kernel::OutputMotion,
-        Kernel::ForcedGradient,
-    ] {
+    for kernel in [Kernel::Forcing, Kernel::OutputMotion, Kernel::ForcedGradient] {
         let mut list = |extent: &Extent| random.numbers(length(machine, *extent));
         let arguments: Lists = kernel.arguments().iter().map(&mut list).collect();
         let [one, other] = [twin, machine].map(|x| results(x, kernel, &views(&arguments)));
-        assert_eq!(
-            format!("{one:?}"),
-            format!("{other:?}"),
-            "{name} {kernel:?}"
-        );
+        assert_eq!(format!("{one:?}"), format!("{other:?}"), "{name} {kernel:?}");
     }
-    for curvature in [
-        Curvature::Forcing,
-        Curvature::OutputMotion,
-        Curvature::ForcedGradient,
-    ] {
+    for curvature in [Curvature::Forcing, Curvature::OutputMotion, Curvature::ForcedGradient] {
         let kernel = Kernel::from(curvature);
         let mut list = |extent: &Extent| random.numbers(length(machine, *extent));
         let arguments: Lists = kernel.arguments().iter().map(&mut list).collect();
@@ -252,10 +188,7 @@ fn alike(twin: &dyn CurvatureKernels, machine: &dyn CurvatureKernels, name: &str
         for (one, other) in one.iter().zip(&other) {
             for (one, other) in one.iter().zip(other) {
                 let near = (one - other).abs() <= 1e-12 * one.abs().max(1e-9);
-                assert!(
-                    near || one.is_nan() && other.is_nan(),
-                    "{name} {curvature:?}: {one} {other}"
-                );
+                assert!(near || one.is_nan() && other.is_nan(), "{name} {curvature:?}: {one} {other}");
             }
         }
     }

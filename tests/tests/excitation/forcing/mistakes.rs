@@ -113,10 +113,7 @@ fn mistakes_never_panic() {
             Err(mistakes) => {
                 refused += 1;
                 for mistake in mistakes.iter() {
-                    assert!(
-                        mistake.line > 0 && !mistake.message.is_empty(),
-                        "{mistake:?}"
-                    );
+                    assert!(mistake.line > 0 && !mistake.message.is_empty(), "{mistake:?}");
                 }
             }
         }

@@ -46,17 +46,10 @@ fn seated(seat: &Seat) -> bool {
 
 impl Builder {
     fn new(seed: u64) -> Self {
-        let ground = Seat {
-            name: "ground".into(),
-            axes: Rotation3::identity(),
-            turned: None,
-        };
+        let ground = Seat { name: "ground".into(), axes: Rotation3::identity(), turned: None };
         Self {
             random: Random::new(seed),
-            machine: Machine {
-                kernels_only: true,
-                ..Machine::default()
-            },
+            machine: Machine { kernels_only: true, ..Machine::default() },
             seats: vec![ground],
             running: Vec::new(),
             free: Vec::new(),
@@ -64,11 +57,7 @@ impl Builder {
     }
 
     fn vector(&mut self, size: f64) -> V {
-        v(
-            self.random.number(),
-            self.random.number(),
-            self.random.number(),
-        ) * size
+        v(self.random.number(), self.random.number(), self.random.number()) * size
     }
 
     fn frequency(&mut self) -> Frequency {
@@ -97,11 +86,7 @@ impl Builder {
     }
 
     /// Ends of a joint, which may lead from the body to its parent; the body's axes.
-    fn ends(
-        &mut self,
-        parent: usize,
-        body: &str,
-    ) -> (String, bool, Rotation3<f64>, Rotation3<f64>) {
+    fn ends(&mut self, parent: usize, body: &str) -> (String, bool, Rotation3<f64>, Rotation3<f64>) {
         let reversed = self.random.chance(30);
         let name = self.seats[parent].name.clone();
         let (placement, turn) = self.placement(reversed.then_some(&name));
@@ -117,9 +102,7 @@ impl Builder {
         if self.random.chance(75) {
             return Motion::Free;
         }
-        let quantity = self
-            .random
-            .one_of(&["amplitude", "velocity", "acceleration"]);
+        let quantity = self.random.one_of(&["amplitude", "velocity", "acceleration"]);
         let amplitude = 0.2 + 0.1 * self.random.number();
         Motion::Shaken(quantity, amplitude, self.frequency(), self.random.number())
     }
@@ -129,39 +112,24 @@ impl Builder {
         let parent = self.random.below(self.seats.len());
         let name = format!("link{k}");
         let center = self.vector(0.3);
-        self.machine
-            .body(&name, "box(mass: 2 kg, size: [0.5, 0.7, 0.4] m)", center);
+        self.machine.body(&name, "box(mass: 2 kg, size: [0.5, 0.7, 0.4] m)", center);
         let (ends, _, axes_of_body, _) = self.ends(parent, &name);
         let (a, _) = self.random.one_of(&axes());
         let tilted = self.random.one_of(&["x", "y", "[3, 0, 4]", "[0, -1, 1]"]);
         let (kind, names): (String, Vec<String>) = match self.random.below(6) {
             0 | 1 => (format!("revolute({a})"), vec![format!("j{k}")]),
             2 => (format!("prismatic({a})"), vec![format!("/j{k}")]),
-            3 => (
-                format!("cylindrical(j{k}s: {a}, j{k}t: {a})"),
-                vec![format!("/j{k}s"), format!("j{k}t")],
-            ),
-            4 => (
-                format!("universal(j{k}a: z, j{k}b: {tilted})"),
-                vec![format!("j{k}a"), format!("j{k}b")],
-            ),
+            3 => (format!("cylindrical(j{k}s: {a}, j{k}t: {a})"), vec![format!("/j{k}s"), format!("j{k}t")]),
+            4 => (format!("universal(j{k}a: z, j{k}b: {tilted})"), vec![format!("j{k}a"), format!("j{k}b")]),
             _ => (
                 format!("spherical(j{k}a: z, j{k}b: y, j{k}c: x)"),
                 vec![format!("j{k}a"), format!("j{k}b"), format!("j{k}c")],
             ),
         };
-        let coordinates: Vec<(&str, Motion)> = names
-            .iter()
-            .map(|name| (name.as_str(), self.motion()))
-            .collect();
+        let coordinates: Vec<(&str, Motion)> = names.iter().map(|name| (name.as_str(), self.motion())).collect();
         let single = names.len() == 1;
-        let joint = if single {
-            names[0].trim_start_matches('/').to_owned()
-        } else {
-            format!("joint{k}")
-        };
-        self.machine
-            .joint(&format!("joint {joint}: {kind} {ends}"), &coordinates);
+        let joint = if single { names[0].trim_start_matches('/').to_owned() } else { format!("joint{k}") };
+        self.machine.joint(&format!("joint {joint}: {kind} {ends}"), &coordinates);
         for (name, motion) in &coordinates {
             if let Motion::Free = motion {
                 let name = name.trim_start_matches('/');
@@ -172,21 +140,12 @@ impl Builder {
             && a.contains("1.0, 0.0, 0.0")
             && let Motion::Shaken(..) = coordinates[0].1
         {
-            let function = if names[0].starts_with('/') {
-                "force"
-            } else {
-                "moment"
-            };
+            let function = if names[0].starts_with('/') { "force" } else { "moment" };
             let sign = if a.contains('-') { "-" } else { "" };
-            self.machine
-                .reaction(&format!("{sign}reaction_{function}({joint}).x"), &joint);
+            self.machine.reaction(&format!("{sign}reaction_{function}({joint}).x"), &joint);
         }
         let turned = self.seats[parent].turned;
-        self.seats.push(Seat {
-            name,
-            axes: axes_of_body,
-            turned,
-        });
+        self.seats.push(Seat { name, axes: axes_of_body, turned });
     }
 
     /// A body of revolution that turns about its axis, perhaps with another on it.
@@ -208,30 +167,19 @@ impl Builder {
         self.machine.rotor(&name, &shape, along, sense);
         let speed = 4.0 + 2.0 * self.random.number();
         let motion = match self.random.chance(70) {
-            true => Motion::Driven(if self.random.chance(50) {
-                speed
-            } else {
-                -speed
-            }),
+            true => Motion::Driven(if self.random.chance(50) { speed } else { -speed }),
             false => Motion::Coasting,
         };
         let coasts = matches!(motion, Motion::Coasting);
         let coordinate = format!("spin{k}");
-        self.machine.joint(
-            &format!("joint {coordinate}: revolute({word}) {ends}"),
-            &[(&coordinate, motion)],
-        );
+        self.machine.joint(&format!("joint {coordinate}: revolute({word}) {ends}"), &[(&coordinate, motion)]);
         if word.contains("1.0, 0.0, 0.0") && !coasts {
             let sign = if word.contains('-') { "-" } else { "" };
             let moment = format!("{sign}reaction_moment({coordinate}).x");
             self.machine.reaction(&moment, &coordinate);
         }
         let turned = axes_of_body * sense;
-        self.seats.push(Seat {
-            name: name.clone(),
-            axes: axes_of_body,
-            turned: Some(turned),
-        });
+        self.seats.push(Seat { name: name.clone(), axes: axes_of_body, turned: Some(turned) });
         self.running.push(coordinate);
         if self.random.chance(25) {
             self.carried(k, &name, &word, sense, turned);
@@ -243,23 +191,14 @@ impl Builder {
         let name = format!("hub{k}");
         let (kind, slides) = self.random.one_of(&[("revolute", ""), ("prismatic", "/")]);
         let along = axis * 0.2;
-        self.machine.rotor(
-            &name,
-            &format!("disk(mass: 1 kg, radius: 0.4 m, axis: {word})"),
-            along,
-            axis,
-        );
+        self.machine.rotor(&name, &format!("disk(mass: 1 kg, radius: 0.4 m, axis: {word})"), along, axis);
         self.machine.joint(
             &format!("joint twist{k}: {kind}({word}) from {on} to {name}"),
             &[(&format!("{slides}twist{k}"), Motion::Free)],
         );
         self.free.push(format!("twist{k}"));
         let axes = self.seats.last().expect("the rotor").axes;
-        self.seats.push(Seat {
-            name,
-            axes,
-            turned: Some(turned),
-        });
+        self.seats.push(Seat { name, axes, turned: Some(turned) });
     }
 
     fn excite(&mut self) {
@@ -270,22 +209,14 @@ impl Builder {
             let axis = seat.axes.inverse() * turned;
             // components that vanish but for rounding
             let axis = axis.map(|x| if x.abs() < 1e-15 { 0.0 } else { x });
-            let body = self
-                .machine
-                .bodies
-                .iter_mut()
-                .find(|body| body.name == name);
+            let body = self.machine.bodies.iter_mut().find(|body| body.name == name);
             let body = body.expect("declared");
             if body.axis.is_none() {
                 body.axis = Some(axis);
             }
             for _ in 0..1 + self.random.below(2) {
                 let at = self.vector(0.5);
-                let deviation = self.random.one_of(&[
-                    Deviation::Amount(at),
-                    Deviation::Eccentricity,
-                    Deviation::Tilt,
-                ]);
+                let deviation = self.random.one_of(&[Deviation::Amount(at), Deviation::Eccentricity, Deviation::Tilt]);
                 let size = 0.2 + 0.1 * self.random.number();
                 let angle = 3.0 * self.random.number();
                 self.machine.unbalance(&name, deviation, size, angle);
@@ -301,11 +232,9 @@ impl Builder {
         if self.random.chance(50) && still.len() > 1 {
             let body = self.random.one_of(&still[1..]);
             let (at, force, moment) = (self.vector(0.5), self.vector(3.0), self.vector(3.0));
-            self.machine
-                .other(&format!("point pushed: {body} at {} m;", text(at)));
+            self.machine.other(&format!("point pushed: {body} at {} m;", text(at)));
             let (frequency, phase) = (self.frequency(), self.random.number());
-            self.machine
-                .excite(Law::Load("pushed".into(), force, moment), frequency, phase);
+            self.machine.excite(Law::Load("pushed".into(), force, moment), frequency, phase);
             self.machine.output("position(pushed).x");
         }
     }
@@ -325,9 +254,7 @@ impl Builder {
             let slides = self.machine.coordinate(free).is_some_and(|x| x.slides);
             let unit = if slides { "N*s/m" } else { "N*m*s/rad" };
             if self.random.chance(30) {
-                self.machine.other(&format!(
-                    "force c{k}: damper(on: {free}, damping: 2 {unit});"
-                ));
+                self.machine.other(&format!("force c{k}: damper(on: {free}, damping: 2 {unit});"));
             }
         }
         let still = self.still();

@@ -8,8 +8,7 @@ use eigentol_interpreter::Interpreted;
 
 /// Shows the greatest errors of sigma and of the 99 % quantile of every output along an input.
 fn greatest_errors(text: &str, input: &str, values: &[f64]) -> (f64, f64) {
-    let machine =
-        Interpreted::from_text(&format!("mechanism Machine {{ {text} }}")).expect("a declaration");
+    let machine = Interpreted::from_text(&format!("mechanism Machine {{ {text} }}")).expect("a declaration");
     let mut worst = (0.0_f64, 0.0_f64);
     for &value in values {
         let study = Study::new(machine.clone());
@@ -22,24 +21,14 @@ fn greatest_errors(text: &str, input: &str, values: &[f64]) -> (f64, f64) {
                 Response::Vibration(Vibration::new::<eigentol::Any>(of.0, of.1))
             })
             .collect();
-        let (state, modes) = (
-            study.equilibrium().expect("stands"),
-            study.modes().expect("vibrates"),
-        );
+        let (state, modes) = (study.equilibrium().expect("stands"), study.modes().expect("vibrates"));
         let responses = Responses::new(&machine, &state, &modes, wanted).expect("vibrations");
         let tolerances = study.tolerances().expect("tolerances");
-        let sampling = Sampling::default()
-            .points(Points::Sobol)
-            .samples(2048)
-            .randomisations(4);
-        let checks =
-            check_vibrations(&machine, &responses, &tolerances, &sampling).expect("solved");
+        let sampling = Sampling::default().points(Points::Sobol).samples(2048).randomisations(4);
+        let checks = check_vibrations(&machine, &responses, &tolerances, &sampling).expect("solved");
         for check in checks.into_iter().flatten() {
             println!("{value} {check:?}");
-            worst = (
-                worst.0.max(check.sigma.abs()),
-                worst.1.max(check.upper.abs()),
-            );
+            worst = (worst.0.max(check.sigma.abs()), worst.1.max(check.upper.abs()));
         }
     }
     worst
@@ -68,8 +57,7 @@ fn bands_of_a_rotor_with_two_equal_modes() {
         output wx = x;
         output fx = reaction_force(spin).x;
     ";
-    let (sigma, upper) =
-        greatest_errors(rotor, "omega", &[200.0, 380.0, 397.0, 398.0, 400.0, 450.0]);
+    let (sigma, upper) = greatest_errors(rotor, "omega", &[200.0, 380.0, 397.0, 398.0, 400.0, 450.0]);
     assert!(sigma < 0.01 && upper < 0.01, "{sigma} {upper}");
 }
 
@@ -111,11 +99,7 @@ fn long_chain() -> String {
     ",
     );
     for i in 0..10 {
-        let before = if i == 0 {
-            "ground".to_owned()
-        } else {
-            format!("b{}", i - 1)
-        };
+        let before = if i == 0 { "ground".to_owned() } else { format!("b{}", i - 1) };
         text += &format!(
             "body b{i}: rigid(mass: m, inertia: [1, 1, 1] kg*m^2);
              joint x{i}: prismatic(x) from {before} to b{i};

@@ -80,24 +80,14 @@ fn compare(
 ) {
     let study = Study::new(machine.clone());
     let input = study.find_input(input).expect("an input");
-    let study = study
-        .input(input, value)
-        .guess(eigentol::Coordinate::new(0), 0.5);
+    let study = study.input(input, value).guess(eigentol::Coordinate::new(0), 0.5);
     let all = study.forced_curvature().expect("vibrates");
     let (output, measure) = (Output::new(output), Measure::Displacement);
-    let y = all.first.response.harmonics[0]
-        .amplitude(output, measure)
-        .expect("an output");
+    let y = all.first.response.harmonics[0].amplitude(output, measure).expect("an output");
     let four = |y: Complex| [y.re, y.im, y.norm(), y.arg()];
     let expected = place_of.map(|k| values[k]);
     for (k, (found, exact)) in four(y).into_iter().zip(expected).enumerate() {
-        close(
-            &format!("value {k} at {value}"),
-            found,
-            exact,
-            1e-3 * expected[2],
-            1e-12,
-        );
+        close(&format!("value {k} at {value}"), found, exact, 1e-3 * expected[2], 1e-12);
     }
     let (complex, modulus, phase) = (
         all.first.complex(0, output, measure).expect("slopes"),
@@ -120,12 +110,8 @@ fn compare(
             true => complex.by_input[k],
             false => complex.by_design[k],
         };
-        let found = [
-            dy.re,
-            dy.im,
-            pick(&modulus.by_input, &modulus.by_design),
-            pick(&phase.by_input, &phase.by_design),
-        ];
+        let found =
+            [dy.re, dy.im, pick(&modulus.by_input, &modulus.by_design), pick(&phase.by_input, &phase.by_design)];
         // What a change of the variable by its own size would do.
         let variable = match of_input {
             true => study.input_values()[k],
@@ -160,13 +146,7 @@ fn an_unbalanced_rotor_vibrates_as_its_closed_form() {
     for case in truth["cases"].as_array().expect("cases") {
         let speed = case["Omega"].as_f64().expect("a speed");
         let values = numbers(&case["re_im_amplitude_phase"]);
-        compare(
-            &machine,
-            ("Omega", speed),
-            (0, [0, 1, 2, 3]),
-            &values,
-            &case["derivatives"],
-        );
+        compare(&machine, ("Omega", speed), (0, [0, 1, 2, 3]), &values, &case["derivatives"]);
     }
 }
 
@@ -179,31 +159,16 @@ fn the_peak_of_an_unbalanced_rotor_is_that_of_its_closed_form() {
     let found = study.peaks(vibration, speed, 100.0, 900.0).expect("peaks");
     assert_eq!(found.peaks.len(), 1);
     let peak = &found.peaks[0];
-    let [before, after] = peak
-        .half_power
-        .each_ref()
-        .map(|half| half.place().expect("inside"));
+    let [before, after] = peak.half_power.each_ref().map(|half| half.place().expect("inside"));
     let factor = peak.amplification.as_ref().expect("both sides");
     let values = numbers(&truth["peak"]["values"]);
-    for (k, own) in [&peak.place, &peak.height, before, after, factor]
-        .into_iter()
-        .enumerate()
-    {
+    for (k, own) in [&peak.place, &peak.height, before, after, factor].into_iter().enumerate() {
         close(&format!("{k}"), own.value, values[k], 0.0, 1e-9);
-        for (name, exact) in truth["peak"]["derivatives"]
-            .as_object()
-            .expect("by variable")
-        {
+        for (name, exact) in truth["peak"]["derivatives"].as_object().expect("by variable") {
             let j = study.find_design(name).expect("a variable").index();
             let exact = numbers(&exact["first"])[k];
             let size = 1e-3 * own.value / study.design_values()[j];
-            close(
-                &format!("{k} by {name}"),
-                own.by_design[j],
-                exact,
-                size,
-                1e-7,
-            );
+            close(&format!("{k} by {name}"), own.by_design[j], exact, size, 1e-7);
         }
     }
 }
@@ -215,12 +180,6 @@ fn a_shaken_pendulum_vibrates_as_its_closed_form() {
     for case in truth["cases"].as_array().expect("cases") {
         let values = numbers(&case["values"]);
         let w = case["w"].as_f64().expect("a frequency");
-        compare(
-            &machine,
-            ("w", w),
-            (0, [2, 3, 4, 5]),
-            &values,
-            &case["derivatives"],
-        );
+        compare(&machine, ("w", w), (0, [2, 3, 4, 5]), &values, &case["derivatives"]);
     }
 }

@@ -60,28 +60,18 @@ fn share(w: f64, limit: f64) -> f64 {
 #[ignore = "ten million designs, and some thousand solved anew"]
 fn the_probability_of_exceeding_a_limit_is_that_of_ten_million_designs() {
     let machine = Interpreted::from_text(ROTOR).expect("a declaration");
-    for (w, limit) in [
-        (380.0, 5e-4),
-        (398.0, 9e-4),
-        (398.0, 1.2e-3),
-        (430.0, 3.4e-4),
-    ] {
+    for (w, limit) in [(380.0, 5e-4), (398.0, 9e-4), (398.0, 1.2e-3), (430.0, 3.4e-4)] {
         let exact = share(w, limit);
         let study = Study::new(machine.clone());
         let speed = study.find_input("w").expect("an input");
         let study = study.input(speed, w).samples(20_000);
         let vibration = Vibration::new::<Interpreted>(Output::new(0), Excitation::new(0));
         let wanted = Requirement::at_most(Response::Vibration(vibration), limit);
-        let chances = study
-            .chances(std::slice::from_ref(&wanted))
-            .expect("sampled");
+        let chances = study.chances(std::slice::from_ref(&wanted)).expect("sampled");
         let error = (exact * (1.0 - exact) / 20_000.0).sqrt();
         let second_order_failure = chances.all.failure();
         println!("{w} {limit}: {exact} sampled {second_order_failure}");
-        assert!(
-            (second_order_failure - exact).abs() < 4.5 * error,
-            "{w} {limit}: {second_order_failure} {exact}"
-        );
+        assert!((second_order_failure - exact).abs() < 4.5 * error, "{w} {limit}: {second_order_failure} {exact}");
         let judged = study.probability(&[wanted]).expect("judged");
         println!("{judged}");
     }

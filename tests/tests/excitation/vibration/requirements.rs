@@ -32,11 +32,7 @@ fn shake() -> Vibration {
 }
 
 fn peak(low: f64, high: f64, quantity: PeakQuantity) -> Response {
-    Response::Peak {
-        vibration: shake(),
-        range: Range::new(Input::new(0), low, high),
-        quantity,
-    }
+    Response::Peak { vibration: shake(), range: Range::new(Input::new(0), low, high), quantity }
 }
 
 /// A response and its derivatives.
@@ -46,9 +42,7 @@ fn answer(study: &Study<Interpreted>, wanted: Response) -> (Option<f64>, Option<
     let all = Responses::new(study.mechanism(), &state, &modes, vec![wanted]).expect("responses");
     let found = all.with_gradients(&mut all.workspace(), &state.design);
     let found = found.expect("a realisation");
-    let slopes = found.gradients[0]
-        .as_ref()
-        .map(|gradient| gradient.to_vec());
+    let slopes = found.gradients[0].as_ref().map(|gradient| gradient.to_vec());
     (found.values[0], slopes)
 }
 
@@ -57,19 +51,13 @@ fn a_peak_is_the_one_that_peaks_find() {
     let study = rotor();
     let found = study.peaks(shake(), Input::new(0), 200.0, 600.0);
     let own = &found.expect("peaks").peaks[0];
-    for (quantity, expected) in [
-        (PeakQuantity::Height, &own.height),
-        (PeakQuantity::Place, &own.place),
-    ] {
+    for (quantity, expected) in [(PeakQuantity::Height, &own.height), (PeakQuantity::Place, &own.place)] {
         for (low, high) in [(200.0, 600.0), (600.0, 200.0)] {
             let (value, slopes) = answer(&study, peak(low, high, quantity));
             let value = value.expect("a peak");
             assert!((value / expected.value - 1.0).abs() < 1e-11, "{value}");
             for (slope, exact) in slopes.expect("slopes").iter().zip(&expected.by_design) {
-                assert!(
-                    (slope - exact).abs() <= 1e-8 * exact.abs(),
-                    "{slope} {exact}"
-                );
+                assert!((slope - exact).abs() <= 1e-8 * exact.abs(), "{slope} {exact}");
             }
         }
     }
@@ -80,17 +68,12 @@ fn without_a_peak_an_end_is_greatest() {
     let study = rotor();
     let (value, slopes) = answer(&study, peak(200.0, 300.0, PeakQuantity::Height));
     let there = study.forced_sensitivities().expect("a vibration");
-    let modulus = there.response.harmonics[0].outputs[0]
-        .expect("an amplitude")
-        .norm();
+    let modulus = there.response.harmonics[0].outputs[0].expect("an amplitude").norm();
     assert!((value.expect("an end") / modulus - 1.0).abs() < 1e-12);
     let exact = there.modulus(0, Output::new(0), shake().measure);
     let exact = exact.expect("smooth").by_design;
     for (slope, exact) in slopes.expect("slopes").iter().zip(&exact) {
-        assert!(
-            (slope - exact).abs() <= 1e-9 * exact.abs(),
-            "{slope} {exact}"
-        );
+        assert!((slope - exact).abs() <= 1e-9 * exact.abs(), "{slope} {exact}");
     }
     let none = answer(&study, peak(200.0, 300.0, PeakQuantity::Place));
     assert_eq!(none, (None, None));
@@ -110,10 +93,7 @@ fn derivatives_are_those_of_differences() {
             };
             let difference = (end(STEP) - end(-STEP)) / (2.0 * STEP * at);
             let size = slope.abs() + 1e-4 * end(0.0) / at;
-            assert!(
-                (difference - slope).abs() <= 1e-6 * size,
-                "{k}: {difference} {slope}"
-            );
+            assert!((difference - slope).abs() <= 1e-6 * size, "{k}: {difference} {slope}");
         }
     }
 }
@@ -147,10 +127,7 @@ fn are_limited(both: bool) {
         assert!((own.value - share).abs() < 0.05, "{distances:?} {share}");
     }
     let text = found.to_string();
-    let names = [
-        "greatest shake under u along speed",
-        "speed at the peak of shake under u",
-    ];
+    let names = ["greatest shake under u along speed", "speed at the peak of shake under u"];
     for name in &names[usize::from(!both)..] {
         assert!(text.contains(name), "{text}");
     }

@@ -129,12 +129,7 @@ fn real(rows: [[f64; 4]; 4]) -> D {
 /// Inertia of a body of mass `m`, with its centre at the height `z` and the moment `j` across the axis about it.
 fn inertia(m: f64, z: f64, j: f64) -> D {
     let (s, j) = (m * z, j + m * z * z);
-    real([
-        [m, 0.0, 0.0, s],
-        [0.0, m, -s, 0.0],
-        [0.0, -s, j, 0.0],
-        [s, 0.0, 0.0, j],
-    ])
+    real([[m, 0.0, 0.0, s], [0.0, m, -s, 0.0], [0.0, -s, j, 0.0], [s, 0.0, 0.0, j]])
 }
 
 /// Gyroscopic matrix of a unit of `P W`.
@@ -178,11 +173,7 @@ fn solved(stiffness: [f64; 4], w: f64) -> (Z, Vec<(&'static str, Z, f64)>) {
         let [outer, inner] = [outer, inner].map(|diameter| 0.25 * diameter * diameter);
         let own = DENSITY * std::f64::consts::PI * (outer - inner) * length;
         let squares = outer + inner;
-        m += inertia(
-            own,
-            station(k) + 0.5 * length,
-            own * (3.0 * squares + length * length) / 12.0,
-        );
+        m += inertia(own, station(k) + 0.5 * length, own * (3.0 * squares + length * length) / 12.0);
         polar += 0.5 * own * squares;
     }
     let (of_speed, square) = (I * w, C::from(-w * w));
@@ -202,55 +193,34 @@ fn solved(stiffness: [f64; 4], w: f64) -> (Z, Vec<(&'static str, Z, f64)>) {
     };
     let by_speed = c * I + turning * (I * 2.0 * w) - m * C::from(2.0 * w);
     let slopes = vec![
-        (
-            "mass",
-            softer(inertia(1.0, station(DISK), 0.0) * square),
-            mass,
-        ),
+        ("mass", softer(inertia(1.0, station(DISK), 0.0) * square), mass),
         ("across", softer(inertia(0.0, 0.0, 1.0) * square), across),
         ("about", softer(gyroscopic() * C::from(w) * of_speed), about),
         ("kxx", unit(0), stiffness[0]),
         ("kxy", unit(1), 1e6),
         ("kyx", unit(2), 1e6),
         ("kyy", unit(3), stiffness[3]),
-        (
-            "c",
-            softer(bearings([1.0, 0.0, 0.0, 1.0]) * of_speed),
-            DAMPING,
-        ),
+        ("c", softer(bearings([1.0, 0.0, 0.0, 1.0]) * of_speed), DAMPING),
         ("amount0", solve(forces[0]), AMOUNTS[0][0]),
         ("amount1", solve(forces[1]), AMOUNTS[1][0]),
         ("angle1", solve(other * I), AMOUNTS[1][1]),
-        (
-            "omega",
-            solve((one + other) * C::from(2.0 / w) - by_speed * z),
-            w,
-        ),
+        ("omega", solve((one + other) * C::from(2.0 / w) - by_speed * z), w),
     ];
     (z, slopes)
 }
 
-fn compare(
-    study: &Study<Interpreted>,
-    forced_sensitivities: &ForcedSensitivities,
-    expected: (Z, Vec<(&str, Z, f64)>),
-) {
+fn compare(study: &Study<Interpreted>, forced_sensitivities: &ForcedSensitivities, expected: (Z, Vec<(&str, Z, f64)>)) {
     let (z, slopes) = expected;
     let measure = Measure::Displacement;
     let rows = OBSERVED.iter().flat_map(|&k| seen(station(k)));
     for (o, row) in rows.enumerate() {
         let output = Output::new(o);
-        let distance =
-            |complex: Complex, exact: C| (complex.re - exact.re).hypot(complex.im - exact.im);
-        let y = forced_sensitivities.response.harmonics[0]
-            .amplitude(output, measure)
-            .expect("an output");
+        let distance = |complex: Complex, exact: C| (complex.re - exact.re).hypot(complex.im - exact.im);
+        let y = forced_sensitivities.response.harmonics[0].amplitude(output, measure).expect("an output");
         let exact = row.dot(&z);
         let error = distance(y, exact) / exact.norm();
         assert!(error < 1e-12, "{o}: {y} {exact} {error:e}");
-        let own = forced_sensitivities
-            .complex(0, output, measure)
-            .expect("slopes");
+        let own = forced_sensitivities.complex(0, output, measure).expect("slopes");
         for (name, slope, size) in &slopes {
             let slope = row.dot(slope);
             let dy = match study.find_input(name) {

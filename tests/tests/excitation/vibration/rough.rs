@@ -33,11 +33,7 @@ fn of_smooth(found: &ForcedSensitivities, first: usize) -> Vec<String> {
         .map(|output| {
             let value = found.response.harmonics[0].amplitude(output, Measure::Displacement);
             let slopes = found.complex(0, output, Measure::Displacement);
-            format!(
-                "{:?} {:?}",
-                value.expect("a value"),
-                slopes.expect("slopes")
-            )
+            format!("{:?} {:?}", value.expect("a value"), slopes.expect("slopes"))
         })
         .collect()
 }
@@ -53,33 +49,20 @@ fn without_derivative_in_any_design() {
         "norm(reaction_force(spin)) * cos(up / (1 m))",
     ] {
         let study = study(&format!("output load = {output}; {SMOOTH}"));
-        let found = study
-            .forced_sensitivities()
-            .unwrap_or_else(|error| panic!("{output}: {error}"));
+        let found = study.forced_sensitivities().unwrap_or_else(|error| panic!("{output}: {error}"));
         let harmonic = &found.response.harmonics[0];
         assert_eq!(harmonic.outputs[0], None, "{output}");
         assert_eq!(harmonic.shares[0].outputs[0], None, "{output}");
         assert_eq!(found.complex(0, Output::new(0), Measure::Velocity), None);
         assert_eq!(of_smooth(&found, 1), expected, "{output}");
         let text = found.to_string();
-        assert!(
-            text.contains("output `load` has a value here but no derivative"),
-            "{text}"
-        );
+        assert!(text.contains("output `load` has a value here but no derivative"), "{text}");
         let json = serde_json::to_string(&found).expect("JSON");
         let back: ForcedSensitivities = serde_json::from_str(&json).expect("a result");
         assert_eq!(back, found);
         let second = study.forced_curvature().expect("second derivatives");
-        assert!(
-            second
-                .complex(0, Output::new(0), Measure::Displacement)
-                .is_none()
-        );
-        assert!(
-            second
-                .complex(0, Output::new(1), Measure::Displacement)
-                .is_some()
-        );
+        assert!(second.complex(0, Output::new(0), Measure::Displacement).is_none());
+        assert!(second.complex(0, Output::new(1), Measure::Displacement).is_some());
     }
 }
 
@@ -88,19 +71,13 @@ fn without_derivative_in_any_design() {
 fn with_derivative() {
     for (output, expected) in [
         ("norm(reaction_force(spin) + [0, 0, 1] * 3 N)", 0.0),
-        (
-            "norm(reaction_force(spin)) * reaction_force(spin).x / (1 N)",
-            0.0,
-        ),
+        ("norm(reaction_force(spin)) * reaction_force(spin).x / (1 N)", 0.0),
         ("norm(reaction_force(spin) + [1, 0, 0] * 3 N)", 1.0),
     ] {
         let study = study(&format!("output load = {output}; {SMOOTH}"));
         let found = study.forced_sensitivities().expect("derivatives");
         let [load, fx] = [0, 1].map(|k| found.response.harmonics[0].outputs[k].expect("smooth"));
-        assert!(
-            (load - fx * expected).norm() <= 1e-12 * fx.norm(),
-            "{output}: {load}"
-        );
+        assert!((load - fx * expected).norm() <= 1e-12 * fx.norm(), "{output}: {load}");
     }
 }
 
@@ -112,13 +89,7 @@ fn without_derivative_by_value() {
     assert_eq!(found.harmonics[0].outputs[0], None);
     assert!(found.harmonics[0].outputs[1].is_some());
     let error = study.forced_sensitivities().expect_err("no derivative");
-    assert!(
-        matches!(&error, Error::NotSmooth { output } if output == "radius"),
-        "{error}"
-    );
+    assert!(matches!(&error, Error::NotSmooth { output } if output == "radius"), "{error}");
     let text = found.to_string();
-    assert!(
-        text.contains("output `radius` has a value here but no derivative"),
-        "{text}"
-    );
+    assert!(text.contains("output `radius` has a value here but no derivative"), "{text}");
 }

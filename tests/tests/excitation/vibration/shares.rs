@@ -11,17 +11,11 @@ fn fan() -> Study<Interpreted> {
     let all = declarations();
     let own = all.iter().find(|pair| pair.0 == "balanced_fan");
     let machine = Interpreted::from_text(own.expect("the fan").1).expect("a declaration");
-    Study::new(machine)
-        .input(Input::new(0), 150.0)
-        .input(Input::new(1), 90.0)
+    Study::new(machine).input(Input::new(0), 150.0).input(Input::new(1), 90.0)
 }
 
 /// Compares derivatives of numbers with central differences.
-fn compare(
-    study: &Study<Interpreted>,
-    of: impl Fn(&Study<Interpreted>) -> Vec<Complex>,
-    slopes: &[Slopes<Complex>],
-) {
+fn compare(study: &Study<Interpreted>, of: impl Fn(&Study<Interpreted>) -> Vec<Complex>, slopes: &[Slopes<Complex>]) {
     const STEP: f64 = 1e-5;
     let values = of(study);
     assert_eq!(values.len(), slopes.len());
@@ -31,10 +25,7 @@ fn compare(
         for (k, exact) in exact.into_iter().enumerate() {
             let difference = (ends[1][k] - ends[0][k]) / (2.0 * STEP * at);
             let size = exact.norm() + (values[k] / at).norm();
-            assert!(
-                (difference - exact).norm() <= 1e-6 * size,
-                "{name}, {k}: {difference} {exact}"
-            );
+            assert!((difference - exact).norm() <= 1e-6 * size, "{name}, {k}: {difference} {exact}");
         }
     };
     for (k, &at) in inputs.iter().enumerate() {
@@ -55,48 +46,36 @@ fn shares_have_the_derivatives_of_differences() {
     let study = fan();
     let found = study.share_sensitivities().expect("shares");
     let count = study.description().excitations.len();
-    let excitations: Vec<usize> = (found.response.harmonics.iter())
-        .map(|harmonic| harmonic.shares[0].excitation)
-        .collect();
+    let excitations: Vec<usize> =
+        (found.response.harmonics.iter()).map(|harmonic| harmonic.shares[0].excitation).collect();
     assert_eq!(excitations, (0..count).collect::<Vec<_>>());
     let shares = |study: &Study<Interpreted>| {
         let response = study.forced_response().expect("a vibration");
         let harmonics = response.harmonics.iter();
         let mut all: Vec<_> = harmonics.flat_map(|harmonic| &harmonic.shares).collect();
         all.sort_by_key(|x| x.excitation);
-        let values = all
-            .iter()
-            .flat_map(|x| x.outputs.iter().map(|y| y.expect("an amplitude")));
+        let values = all.iter().flat_map(|x| x.outputs.iter().map(|y| y.expect("an amplitude")));
         values.collect()
     };
-    let slopes = found
-        .harmonics
-        .iter()
-        .flat_map(|harmonic| harmonic.outputs.iter());
+    let slopes = found.harmonics.iter().flat_map(|harmonic| harmonic.outputs.iter());
     let slopes: Vec<_> = slopes.map(|slope| slope.clone().expect("smooth")).collect();
     compare(&study, shares, &slopes);
     let text = found.to_string();
-    assert!(
-        text.contains("across under screw") && text.contains("rad/s"),
-        "{text}"
-    );
+    assert!(text.contains("across under screw") && text.contains("rad/s"), "{text}");
 }
 
 #[test]
 fn shares_add_up_to_the_vibration() {
     let study = fan();
-    let (all, each) = (
-        study.forced_sensitivities().expect("a vibration"),
-        study.share_sensitivities().expect("shares"),
-    );
+    let (all, each) =
+        (study.forced_sensitivities().expect("a vibration"), study.share_sensitivities().expect("shares"));
     for (of, harmonic) in all.response.harmonics.iter().zip(&all.harmonics) {
         for (output, slopes) in harmonic.outputs.iter().enumerate() {
             let slopes = slopes.as_ref().expect("smooth");
             let mut sum = vec![Complex::ZERO; slopes.iter().count()];
             let mut size = 0.0;
             for share in &of.shares {
-                let own =
-                    each.complex(share.excitation, Output::new(output), Measure::Displacement);
+                let own = each.complex(share.excitation, Output::new(output), Measure::Displacement);
                 for (sum, slope) in sum.iter_mut().zip(own.expect("smooth").iter()) {
                     *sum += slope;
                     size += slope.norm();
@@ -117,10 +96,7 @@ fn orbits_have_the_derivatives_of_differences() {
     let harmonics = found.harmonics.len();
     let squares = |study: &Study<Interpreted>| {
         let response = study.forced_response().expect("a vibration");
-        let orbits = response
-            .harmonics
-            .iter()
-            .map(|harmonic| harmonic.orbit(x, y));
+        let orbits = response.harmonics.iter().map(|harmonic| harmonic.orbit(x, y));
         let both = orbits.flat_map(|orbit| {
             let own = orbit.expect("outputs");
             [own.forward, own.backward].map(|part| Complex::from(part.norm_sqr()))

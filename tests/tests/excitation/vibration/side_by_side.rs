@@ -38,20 +38,14 @@ fn vibrations_of_designs_in_vectors_are_those_of_designs_one_by_one() {
         let shake = Vibration::new::<Interpreted>(Output::new(0), Excitation::new(0));
         let wanted = [
             Response::Vibration(shake),
-            Response::Mode {
-                mode: 0,
-                quantity: Quantity::Frequency,
-            },
+            Response::Mode { mode: 0, quantity: Quantity::Frequency },
             Response::Vibration(shake.measure(eigentol::forced::Measure::Velocity)),
         ];
         let sampling = Sampling::default().samples(1500);
         let together = study.sample_responses(&wanted, &sampling).expect("sampled");
         let alone = study.vectors(None).sample_responses(&wanted, &sampling);
         let alone = alone.expect("sampled");
-        assert_eq!(
-            (how(&together), how(&alone)),
-            ("side by side", "one by one")
-        );
+        assert_eq!((how(&together), how(&alone)), ("side by side", "one by one"));
         let (together, alone) = (together.propagation(), alone.propagation());
         let (together, alone) = (together.expect("complete"), alone.expect("complete"));
         for (a, b) in together.spreads.iter().zip(&alone.spreads) {
@@ -59,10 +53,7 @@ fn vibrations_of_designs_in_vectors_are_those_of_designs_one_by_one() {
             let scale = b.mean.value;
             let (sigma, other) = (a.sigma.expect("a sigma"), b.sigma.expect("a sigma"));
             for (a, b) in [(a.mean, b.mean), (sigma, other)] {
-                assert!(
-                    (a.value - b.value).abs() < 1e-9 * scale,
-                    "{speed}: {a:?} {b:?}"
-                );
+                assert!((a.value - b.value).abs() < 1e-9 * scale, "{speed}: {a:?} {b:?}");
             }
             assert!(sigma.value > 1e-4 * scale);
         }

@@ -250,14 +250,8 @@ pub(crate) const TOLERANCES: &str = "
     }";
 
 /// All of them, for tests that only compare.
-pub(crate) const DECLARATIONS: [&str; 6] = [
-    DOUBLE_PENDULUM,
-    EVERYTHING,
-    OPEN_MECHANISM,
-    CLOSED_MECHANISM,
-    TOLERANCES,
-    WITHOUT_BODIES,
-];
+pub(crate) const DECLARATIONS: [&str; 6] =
+    [DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, CLOSED_MECHANISM, TOLERANCES, WITHOUT_BODIES];
 
 pub(crate) fn read(source: &str) -> Ast {
     let tokens = source.parse().expect("the source consists of Rust tokens");
@@ -270,9 +264,5 @@ pub(crate) fn resolved(source: &str) -> Mechanism {
 
 /// The nominal design of a mechanism.
 pub(crate) fn nominal(mechanism: &Mechanism) -> Vec<f64> {
-    mechanism
-        .design
-        .iter()
-        .map(|design| design.nominal)
-        .collect()
+    mechanism.design.iter().map(|design| design.nominal).collect()
 }

@@ -3,9 +3,7 @@
 use eigentol_compiler::base::ids::{ConstraintId, CoordinateId, JointId, PointId};
 use eigentol_compiler::model::evaluate::evaluate;
 use eigentol_compiler::model::expression::{Expr, Vector};
-use eigentol_compiler::model::mechanism::{
-    ConstraintLaw, CoordinateQuantity, Mechanism, Motion, Output,
-};
+use eigentol_compiler::model::mechanism::{ConstraintLaw, CoordinateQuantity, Mechanism, Motion, Output};
 use eigentol_compiler::syntax::print::print;
 
 use super::common::{CLOSED_MECHANISM, nominal, read, resolved};
@@ -79,18 +77,10 @@ fn every_kind_keeps_what_was_given() {
 #[test]
 fn a_wheel_has_an_axle_and_a_ball_has_none() {
     let mechanism = resolved(CLOSED_MECHANISM);
-    for (name, expected_axis, expected_normal) in [
-        ("contact", Some([0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]),
-        ("bounce", None, [0.0, 0.6, 0.8]),
-    ] {
-        let ConstraintLaw::Rolling {
-            wheel,
-            axis,
-            radius,
-            on,
-            normal,
-        } = law(&mechanism, name)
-        else {
+    for (name, expected_axis, expected_normal) in
+        [("contact", Some([0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]), ("bounce", None, [0.0, 0.6, 0.8])]
+    {
+        let ConstraintLaw::Rolling { wheel, axis, radius, on, normal } = law(&mechanism, name) else {
             panic!("a rolling constraint");
         };
         assert_eq!(*wheel, point(&mechanism, "hub"));
@@ -133,36 +123,11 @@ fn a_coupling_is_the_equation_of_its_coordinates() {
     let mechanism = resolved(CLOSED_MECHANISM);
     // theta1 = -z2/z1 theta2 + 5 deg, x = 3 cm/rad theta1, theta1 = 50 rad/m x + 5 deg.
     for (name, at, expected, unit) in [
-        (
-            "mesh",
-            [("turn1", 0.5), ("turn2", 0.3)],
-            0.5 + 35.0 / 20.0 * 0.3 - 5f64.to_radians(),
-            "rad",
-        ),
-        (
-            "rack",
-            [("slide", 0.1), ("turn1", 0.5)],
-            0.1 - 0.03 * 0.5,
-            "m",
-        ),
-        (
-            "pinion",
-            [("turn1", 0.5), ("slide", 0.1)],
-            0.5 - 50.0 * 0.1,
-            "rad",
-        ),
-        (
-            "tandem",
-            [("slide", 0.1), ("lift", 0.4)],
-            0.1 - 0.4 + 0.02,
-            "m",
-        ),
-        (
-            "belt",
-            [("spin", 0.5), ("idle", 0.25)],
-            0.5 - 2.0 * 0.25,
-            "rad",
-        ),
+        ("mesh", [("turn1", 0.5), ("turn2", 0.3)], 0.5 + 35.0 / 20.0 * 0.3 - 5f64.to_radians(), "rad"),
+        ("rack", [("slide", 0.1), ("turn1", 0.5)], 0.1 - 0.03 * 0.5, "m"),
+        ("pinion", [("turn1", 0.5), ("slide", 0.1)], 0.5 - 50.0 * 0.1, "rad"),
+        ("tandem", [("slide", 0.1), ("lift", 0.4)], 0.1 - 0.4 + 0.02, "m"),
+        ("belt", [("spin", 0.5), ("idle", 0.25)], 0.5 - 2.0 * 0.25, "rad"),
     ] {
         let (value, symbol) = equation_at(&mechanism, name, at);
         assert!(near(value, expected), "{name}: {value} {expected}");
@@ -201,12 +166,8 @@ fn coordinates_coast_by_name_or_all_together() {
 #[test]
 fn a_cut_joint_is_marked_and_the_tables_stay_consistent() {
     let mechanism = resolved(CLOSED_MECHANISM);
-    let cut: Vec<String> = mechanism
-        .joints
-        .iter()
-        .filter(|joint| joint.cut)
-        .map(|joint| joint.name.to_string())
-        .collect();
+    let cut: Vec<String> =
+        mechanism.joints.iter().filter(|joint| joint.cut).map(|joint| joint.name.to_string()).collect();
     assert_eq!(cut, ["lower", "ball", "plate"]);
     for (index, joint) in mechanism.joints.iter().enumerate() {
         for step in &joint.steps {
@@ -245,10 +206,7 @@ fn reactions_are_those_of_joints_and_constraints() {
         assert_eq!(output.value, expected, "{output_name}");
         assert_eq!(output.unit.symbol, unit, "{output_name}");
     }
-    let lower = mechanism
-        .joints
-        .iter()
-        .position(|joint| joint.name == "lower");
+    let lower = mechanism.joints.iter().position(|joint| joint.name == "lower");
     let lower = JointId::new(lower.expect("a joint"));
     assert_eq!(output(&mechanism, "o9").value, Expr::Reaction(lower, 3));
     let pull = output(&mechanism, "pull").value.leaves().len();
@@ -258,11 +216,8 @@ fn reactions_are_those_of_joints_and_constraints() {
 #[test]
 fn the_speed_of_a_coasting_coordinate_is_an_output() {
     let mechanism = resolved(CLOSED_MECHANISM);
-    for (name, of, unit) in [
-        ("speed", "forward", "m/s"),
-        ("yawing", "yaw", "rad/s"),
-        ("wheel_speed", "idle", "rad/s"),
-    ] {
+    for (name, of, unit) in [("speed", "forward", "m/s"), ("yawing", "yaw", "rad/s"), ("wheel_speed", "idle", "rad/s")]
+    {
         let output = output(&mechanism, name);
         let id = coordinate(&mechanism, of);
         assert_eq!(output.value, Expr::Rate(id));
@@ -315,11 +270,8 @@ fn the_words_of_clauses_are_names_too() {
         assert!(text.contains(line), "{line}\n{text}");
     }
     let mechanism = resolved(source);
-    let motions: Vec<bool> = mechanism
-        .coordinates
-        .iter()
-        .map(|coordinate| coordinate.motion == Motion::Coasting)
-        .collect();
+    let motions: Vec<bool> =
+        mechanism.coordinates.iter().map(|coordinate| coordinate.motion == Motion::Coasting).collect();
     assert_eq!(motions, [true, false, false, true, false, true, false]);
     assert!(mechanism.joints[2].cut && !mechanism.joints[0].cut);
 }

@@ -22,10 +22,7 @@ fn refusals(text: &str) -> usize {
 }
 
 fn kernel(compilation: &Compilation, name: &str, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
-    interpret(
-        compilation.program.kernel(name).expect("a kernel"),
-        arguments,
-    )
+    interpret(compilation.program.kernel(name).expect("a kernel"), arguments)
 }
 
 /// The forces that `every` adds to the coordinates, as text.
@@ -40,18 +37,13 @@ fn of_every(mechanism: &Mechanism) -> Vec<String> {
 #[test]
 fn every_free_coordinate_gets_what_it_has_not() {
     let gripper = compiled(every::DECLARATION);
-    let without: String = every::DECLARATION
-        .split_inclusive(';')
-        .filter(|item| !item.trim_start().starts_with("every"))
-        .collect();
+    let without: String =
+        every::DECLARATION.split_inclusive(';').filter(|item| !item.trim_start().starts_with("every")).collect();
     let without = compiled(&without);
     assert_eq!(gripper.topology, without.topology);
     assert_eq!(gripper.topology.cut.len(), 1);
     assert_eq!(of_every(&without.mechanism), Vec::<String>::new());
-    assert_eq!(
-        of_every(&gripper.mechanism),
-        EXPECTED.map(|line| format!("every {line}"))
-    );
+    assert_eq!(of_every(&gripper.mechanism), EXPECTED.map(|line| format!("every {line}")));
 }
 
 const EXPECTED: [&str; 10] = [
@@ -99,8 +91,7 @@ fn it_is_short_for_one_force_each() {
     );
     let state = [[0.3, -0.2, 0.1], [1.1, 0.7, -0.4], [0.2, 0.5, -0.9]];
     let [a, v, q] = &state;
-    let at =
-        |compilation: &Compilation| kernel(compilation, "motion_residual", &[a, v, q, &[], &[]]);
+    let at = |compilation: &Compilation| kernel(compilation, "motion_residual", &[a, v, q, &[], &[]]);
     assert_eq!(at(&short), at(&long));
 }
 
@@ -157,14 +148,8 @@ fn without_a_steady_motion_there_are_kernels() {
     let alone = compiled(&spinning("kernels only;"));
     // Positions first: (1/3) m l^2 and zero. For a speed, (1/2) m r^2 multiplies its rate, in the damping matrix.
     let matrices = kernel(&alone, "linear", &[&[0.0; 3], &[], &[]]);
-    assert_eq!(
-        matrices[0][..],
-        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
-    );
-    assert_eq!(
-        matrices[1][..],
-        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.5]
-    );
+    assert_eq!(matrices[0][..], [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!(matrices[1][..], [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.5]);
 }
 
 /// A study of a mechanism without a steady motion gives a result or a reason: a drifting bar, a falling bar, and a bar
@@ -173,11 +158,7 @@ fn without_a_steady_motion_there_are_kernels() {
 fn a_study_of_kernels_alone_answers() {
     const LIGHT: &str = "body frame: massless; joint shake: prismatic(x) from bar to frame;";
     const GRAVITY: &str = "gravity 9.81 m/s^2 along -z;";
-    for (more, expected) in [
-        ("", "Neutral"),
-        (GRAVITY, "NoEquilibrium"),
-        (LIGHT, "SingularMass"),
-    ] {
+    for (more, expected) in [("", "Neutral"), (GRAVITY, "NoEquilibrium"), (LIGHT, "SingularMass")] {
         let text = format!(
             "mechanism Bar {{
                 kernels only;

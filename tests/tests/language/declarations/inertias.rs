@@ -17,11 +17,7 @@ struct Mass {
 
 impl Mass {
     fn moved(self, turn: Rotation3<f64>, offset: Vector3<f64>) -> Self {
-        Self {
-            mass: self.mass,
-            center: offset + turn * self.center,
-            inertia: turn * self.inertia * turn.transpose(),
-        }
+        Self { mass: self.mass, center: offset + turn * self.center, inertia: turn * self.inertia * turn.transpose() }
     }
 }
 
@@ -29,11 +25,7 @@ impl Mass {
 /// the sum of all three.
 fn surplus(masses: &[Mass]) -> f64 {
     let total: f64 = masses.iter().map(|m| m.mass).sum();
-    let center = masses
-        .iter()
-        .map(|m| m.mass * m.center)
-        .sum::<Vector3<f64>>()
-        / total;
+    let center = masses.iter().map(|m| m.mass * m.center).sum::<Vector3<f64>>() / total;
     let mut inertia = Matrix3::zeros();
     for m in masses {
         let arm = m.center - center;
@@ -69,21 +61,11 @@ fn list(v: Vector3<f64>) -> String {
 
 fn rigid(m: &Mass, scale: &str) -> String {
     let j = &m.inertia;
-    let (diagonal, products) = (
-        Vector3::new(j[(0, 0)], j[(1, 1)], j[(2, 2)]),
-        Vector3::new(j[(0, 1)], j[(1, 2)], j[(0, 2)]),
-    );
-    let entries: Vec<String> = diagonal
-        .iter()
-        .chain(products.iter())
-        .map(|entry| format!("({entry:?} kg*m^2) * {scale}"))
-        .collect();
-    format!(
-        "rigid(mass: {:?} kg, inertia: [{}], center: {} m)",
-        m.mass,
-        entries.join(", "),
-        list(m.center)
-    )
+    let (diagonal, products) =
+        (Vector3::new(j[(0, 0)], j[(1, 1)], j[(2, 2)]), Vector3::new(j[(0, 1)], j[(1, 2)], j[(0, 2)]));
+    let entries: Vec<String> =
+        diagonal.iter().chain(products.iter()).map(|entry| format!("({entry:?} kg*m^2) * {scale}")).collect();
+    format!("rigid(mass: {:?} kg, inertia: [{}], center: {} m)", m.mass, entries.join(", "), list(m.center))
 }
 
 /// Two bodies welded with placements on both sides, and a third welded to the second in the other direction.
@@ -100,22 +82,13 @@ impl Weld {
             center: random.vector(0.1),
             inertia: random.inertia(),
         });
-        let sides = [(); 4].map(|()| {
-            (
-                random.vector(1.0),
-                3.0 * random.signed(),
-                random.vector(0.3),
-            )
-        });
+        let sides = [(); 4].map(|()| (random.vector(1.0), 3.0 * random.signed(), random.vector(0.3)));
         Self { masses, sides }
     }
 
     fn side(&self, k: usize, factor: f64) -> (Rotation3<f64>, Vector3<f64>) {
         let (axis, angle, offset) = self.sides[k];
-        (
-            Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle),
-            offset * factor,
-        )
+        (Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle), offset * factor)
     }
 
     /// The masses in the frame of the first one; the last mass and the offsets of the first joint scale with the
@@ -138,11 +111,7 @@ impl Weld {
     fn source(&self, nominal: f64) -> String {
         let placed = |k: usize, factor: &str| {
             let (axis, angle, offset) = self.sides[k];
-            format!(
-                "at {factor} * {} m rotated({}, {angle:?})",
-                list(offset),
-                list(axis)
-            )
+            format!("at {factor} * {} m rotated({}, {angle:?})", list(offset), list(axis))
         };
         format!(
             "mechanism Welded {{
@@ -224,10 +193,7 @@ fn what_is_welded_to_the_ground_may_be_anything() {
     assert_eq!(compiled(&source("fixed from ground to plate")).err(), None);
     let loose = source("revolute(y) from ground to plate");
     let text = compiled(&loose).expect_err("a plate that no body is");
-    assert!(
-        text.contains("Jxx + Jyy = 2 kg*m^2 is less than Jzz = 30 kg*m^2"),
-        "{text}"
-    );
+    assert!(text.contains("Jxx + Jyy = 2 kg*m^2 is less than Jzz = 30 kg*m^2"), "{text}");
 }
 
 /// Moments by an expression of design variables, about the centre of mass or another point, against the mass matrix of a
@@ -245,9 +211,7 @@ fn moments_by_an_expression() {
         );
         let compilation = compiled(&source).unwrap_or_else(|text| panic!("{text}"));
         let linear = |design: [f64; 2]| {
-            let values = compilation
-                .program
-                .evaluate("linear", &[&[0.0], &[], &design]);
+            let values = compilation.program.evaluate("linear", &[&[0.0], &[], &design]);
             values.expect("a kernel")[0][0]
         };
         [[2.0, 0.03], [2.5, 0.04]].map(linear)
@@ -255,26 +219,18 @@ fn moments_by_an_expression() {
     for (axis, factor) in [("x", 1.0), ("y", 2.0), ("z", 2.5)] {
         let own = |[m, r]: [f64; 2]| factor * m * r * r;
         let expected = [[2.0, 0.03], [2.5, 0.04]].map(own);
-        for inertia in [
-            "inertia: m * r^2 * [1, 2, 2.5]",
-            "inertia: m * (r * r) * s",
-            "inertia: (m * r) * [r, 2 * r, 2.5 * r]",
-        ] {
+        for inertia in
+            ["inertia: m * r^2 * [1, 2, 2.5]", "inertia: m * (r * r) * s", "inertia: (m * r) * [r, 2 * r, 2.5 * r]"]
+        {
             let found = found(inertia, axis);
             for (found, expected) in found.iter().zip(expected) {
                 assert!((found / expected - 1.0).abs() < 1e-14, "{inertia}: {found}");
             }
         }
         let numbers = found("inertia: (2 kg) * [9, 18, 22.5] cm^2", axis);
-        assert!(
-            (numbers[0] / expected[0] - 1.0).abs() < 1e-14,
-            "{numbers:?}"
-        );
+        assert!((numbers[0] / expected[0] - 1.0).abs() < 1e-14, "{numbers:?}");
         // The centre is 1 m along x; about the hinge the moments across x are larger by m (1 m)^2.
-        let moved = found(
-            "inertia: m * [1, 2, 2.5] m^2, center: [1, 0, 0] m, about: [0, 0, 0]",
-            axis,
-        );
+        let moved = found("inertia: m * [1, 2, 2.5] m^2, center: [1, 0, 0] m, about: [0, 0, 0]", axis);
         assert!((moved[1] / (2.5 * factor) - 1.0).abs() < 1e-14, "{moved:?}");
     }
 }

@@ -5,8 +5,7 @@ use std::f64::consts::{PI, TAU};
 use eigentol_compiler::model::evaluate::evaluate;
 use eigentol_compiler::model::expression::Expr;
 use eigentol_compiler::model::mechanism::{
-    Body, Coordinate, CoordinateQuantity, Force, ForceLaw, Frame, Joint, Mechanism, Motion, Shape,
-    StepMotion,
+    Body, Coordinate, CoordinateQuantity, Force, ForceLaw, Frame, Joint, Mechanism, Motion, Shape, StepMotion,
 };
 use eigentol_compiler::topology::build::build;
 
@@ -107,10 +106,7 @@ fn joints_are_sequences_of_motions() {
         panic!("two steps");
     };
     assert_eq!(mechanism.coordinates[lag.coordinate.index()].name, "lag");
-    assert_eq!(
-        lag.axis.each_ref().map(|x| value(&mechanism, x)),
-        [0.0, 0.0, 1.0]
-    );
+    assert_eq!(lag.axis.each_ref().map(|x| value(&mechanism, x)), [0.0, 0.0, 1.0]);
 }
 
 #[test]
@@ -183,14 +179,8 @@ fn a_sum_keeps_its_terms_in_order() {
 fn points_have_axes() {
     let mechanism = mechanism();
     let anchor = &mechanism.points[1];
-    assert_eq!(
-        (anchor.frame, anchor.placement.rotations.len()),
-        (Frame::Ground, 2)
-    );
-    assert_eq!(
-        mechanism.points[3].placement.offset,
-        [0.0; 3].map(Expr::Number)
-    );
+    assert_eq!((anchor.frame, anchor.placement.rotations.len()), (Frame::Ground, 2));
+    assert_eq!(mechanism.points[3].placement.offset, [0.0; 3].map(Expr::Number));
     assert_eq!(mechanism.points[3].placement.rotations.len(), 1);
 }
 
@@ -198,42 +188,22 @@ fn points_have_axes() {
 fn forces_keep_what_was_given_and_are_zero_otherwise() {
     let mechanism = mechanism();
     let zero = [0.0; 3].map(Expr::Number);
-    let ForceLaw::Bushing {
-        stiffness,
-        damping,
-        turning_stiffness,
-        turning_damping,
-        ..
-    } = force(&mechanism, "f8")
+    let ForceLaw::Bushing { stiffness, damping, turning_stiffness, turning_damping, .. } = force(&mechanism, "f8")
     else {
         panic!("a bushing");
     };
     assert_eq!(
-        stiffness
-            .each_ref()
-            .map(|row| row.each_ref().map(|k| value(&mechanism, k))),
+        stiffness.each_ref().map(|row| row.each_ref().map(|k| value(&mechanism, k))),
         [[1e3, 0.0, 0.0], [0.0, 2e3, 0.0], [0.0, 0.0, 3e3]]
     );
     let none = [(); 3].map(|()| zero.clone());
     assert_eq!((&**damping, &**turning_stiffness), (&none, &none));
     assert_eq!(turning_damping[2][2], Expr::Number(0.1));
-    let ForceLaw::Load {
-        force: load,
-        moment,
-        following,
-        ..
-    } = force(&mechanism, "f10")
-    else {
+    let ForceLaw::Load { force: load, moment, following, .. } = force(&mechanism, "f10") else {
         panic!("a load");
     };
     assert!((value(&mechanism, &load[2]), moment, *following) == (11.0, &zero, false));
-    assert!(matches!(
-        force(&mechanism, "f12"),
-        ForceLaw::Load {
-            following: true,
-            ..
-        }
-    ));
+    assert!(matches!(force(&mechanism, "f12"), ForceLaw::Load { following: true, .. }));
     let ForceLaw::Drag { damping, .. } = force(&mechanism, "f14") else {
         panic!("a drag");
     };

@@ -11,17 +11,9 @@ use proc_macro2::{TokenStream, TokenTree};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::common::{
-    CLOSED_MECHANISM, DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, TOLERANCES, read, resolved,
-};
+use super::common::{CLOSED_MECHANISM, DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, TOLERANCES, read, resolved};
 
-const FUZZED: [&str; 5] = [
-    DOUBLE_PENDULUM,
-    EVERYTHING,
-    OPEN_MECHANISM,
-    CLOSED_MECHANISM,
-    TOLERANCES,
-];
+const FUZZED: [&str; 5] = [DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, CLOSED_MECHANISM, TOLERANCES];
 
 /// Runs the front half of the compiler; counts how many inputs reach each stage.
 fn survive(tokens: TokenStream, stages: &mut [usize; 3]) {
@@ -57,14 +49,8 @@ fn survive(tokens: TokenStream, stages: &mut [usize; 3]) {
 
 fn survived(errors: Diagnostics) {
     for diagnostic in errors.iter() {
-        assert!(
-            !diagnostic.message.contains("bug of eigentol"),
-            "{diagnostic:?}"
-        );
-        assert!(
-            !diagnostic.text().contains("does not know why"),
-            "{diagnostic:?}"
-        );
+        assert!(!diagnostic.message.contains("bug of eigentol"), "{diagnostic:?}");
+        assert!(!diagnostic.text().contains("does not know why"), "{diagnostic:?}");
     }
     assert!(!errors.into_compile_errors().is_empty());
 }
@@ -75,10 +61,7 @@ fn mutate(tokens: TokenStream, random: &mut ChaCha8Rng, pool: &[TokenTree]) -> T
     for token in tokens {
         let token = match token {
             TokenTree::Group(group) => {
-                let mut inner = proc_macro2::Group::new(
-                    group.delimiter(),
-                    mutate(group.stream(), random, pool),
-                );
+                let mut inner = proc_macro2::Group::new(group.delimiter(), mutate(group.stream(), random, pool));
                 inner.set_span(group.span());
                 TokenTree::Group(inner)
             }
@@ -128,9 +111,7 @@ fn token_soup_is_refused() {
         flat(source.parse().unwrap(), &mut pool);
     }
     for _ in 0..500 {
-        let soup: TokenStream = (0..40)
-            .map(|_| pool[random.next_u32() as usize % pool.len()].clone())
-            .collect();
+        let soup: TokenStream = (0..40).map(|_| pool[random.next_u32() as usize % pool.len()].clone()).collect();
         let inside = quote_mechanism(soup.clone());
         survive(soup, &mut [0; 3]);
         survive(inside, &mut [0; 3]);
@@ -151,23 +132,14 @@ fn huge_expressions_are_refused_not_overflowed() {
     let signs = format!("{}1", "-".repeat(5000));
     let powers = vec!["1"; 5000].join(" ^ ");
     let components = format!("a{}", ".x".repeat(5000));
-    let mixed = (0..60).fold("1".to_string(), |inner, _| {
-        format!("({inner}{})", " + 1".repeat(250))
-    });
+    let mixed = (0..60).fold("1".to_string(), |inner, _| format!("({inner}{})", " + 1".repeat(250)));
     for value in [deep, long, signs, powers, components, mixed] {
         let source = format!("mechanism M {{ let a = {value}; }}");
         let errors = parse(source.parse().unwrap()).expect_err("too large");
-        assert!(
-            errors
-                .iter()
-                .all(|error| error.message.contains("too large"))
-        );
+        assert!(errors.iter().all(|error| error.message.contains("too large")));
     }
-    let chain: String = (0..20_000)
-        .map(|index| format!("let a{index} = a{} + 1;", index + 1))
-        .collect();
-    let source = format!(
-        "mechanism M {{ {chain} let a20000 = 1; body b: massless; joint j: revolute(z) from ground to b; }}"
-    );
+    let chain: String = (0..20_000).map(|index| format!("let a{index} = a{} + 1;", index + 1)).collect();
+    let source =
+        format!("mechanism M {{ {chain} let a20000 = 1; body b: massless; joint j: revolute(z) from ground to b; }}");
     assert_eq!(resolved(&source).constants.len(), 20_001);
 }

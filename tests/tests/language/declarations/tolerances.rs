@@ -22,18 +22,11 @@ fn design(value: &str) -> (f64, Tolerance) {
 }
 
 fn input(unit: &str) -> Tolerance {
-    with_item(&format!("input x: {unit};")).inputs[0]
-        .tolerance
-        .clone()
+    with_item(&format!("input x: {unit};")).inputs[0].tolerance.clone()
 }
 
 fn tolerance(upper: f64, lower: f64, law: Law) -> Tolerance {
-    Tolerance {
-        lower,
-        upper,
-        relative: false,
-        law,
-    }
+    Tolerance { lower, upper, relative: false, law }
 }
 
 fn assert_near(tolerance: Tolerance, expected: Tolerance, what: &str) {
@@ -110,10 +103,7 @@ fn other_sums_are_sums() {
 
 #[test]
 fn a_law_follows_the_limits() {
-    let beta = Law::Beta {
-        alpha: 2.0,
-        beta: 3.5,
-    };
+    let beta = Law::Beta { alpha: 2.0, beta: 3.5 };
     for (text, law) in [
         ("", Law::Normal),
         ("normal", Law::Normal),
@@ -124,13 +114,7 @@ fn a_law_follows_the_limits() {
         ("weibull", Law::Weibull),
         ("beta(2, 7 / 2)", beta),
     ] {
-        for limits in [
-            "+/- 0.5",
-            "+/- 10 %",
-            "+/- (1 / 2)",
-            "+0.5 -0.5",
-            "+10% -10%",
-        ] {
+        for limits in ["+/- 0.5", "+/- 10 %", "+/- (1 / 2)", "+0.5 -0.5", "+10% -10%"] {
             let text = format!("5 {limits} {text}");
             assert_near(design(&text).1, tolerance(0.5, -0.5, law.clone()), &text);
         }
@@ -143,28 +127,14 @@ fn a_law_follows_the_limits() {
 #[test]
 fn a_list_says_what_a_value_may_be() {
     for (text, values) in [
-        (
-            "2 mm one of [1.9, 2.0, 2.1] mm",
-            [(1.9, 1.0), (2.0, 1.0), (2.1, 1.0)].as_slice(),
-        ),
-        (
-            "2 mm one of [2.1 mm, 1900 um] weighted [1, 3]",
-            &[(2.1, 1.0), (1.9, 3.0)],
-        ),
-        (
-            "2 mm one of [2.05, 2.05, 2.01] mm",
-            &[(2.05, 1.0), (2.05, 1.0), (2.01, 1.0)],
-        ),
+        ("2 mm one of [1.9, 2.0, 2.1] mm", [(1.9, 1.0), (2.0, 1.0), (2.1, 1.0)].as_slice()),
+        ("2 mm one of [2.1 mm, 1900 um] weighted [1, 3]", &[(2.1, 1.0), (1.9, 3.0)]),
+        ("2 mm one of [2.05, 2.05, 2.01] mm", &[(2.05, 1.0), (2.05, 1.0), (2.01, 1.0)]),
         ("2 mm one of [2.5 * 1 mm] weighted [0.5]", &[(2.5, 0.5)]),
-        (
-            "2 mm one of [0, -1, 1] mm weighted [1, 0, 2 * 2]",
-            &[(0.0, 1.0), (-1.0, 0.0), (1.0, 4.0)],
-        ),
+        ("2 mm one of [0, -1, 1] mm weighted [1, 0, 2 * 2]", &[(0.0, 1.0), (-1.0, 0.0), (1.0, 4.0)]),
     ] {
         let (nominal, found) = design(text);
-        let Law::OneOf(places) = &found.law else {
-            panic!("{text}: {found:?}")
-        };
+        let Law::OneOf(places) = &found.law else { panic!("{text}: {found:?}") };
         assert!(!found.relative && found.lower <= found.upper && places.len() == values.len());
         for ((place, weight), (value, expected)) in places.iter().zip(values) {
             let arrived = nominal + found.lower + place * (found.upper - found.lower);
@@ -181,40 +151,16 @@ fn what_is_no_list_of_values_is_refused() {
     for (text, expected) in [
         ("2 mm one of 1.9 mm", "the values are listed in brackets"),
         ("2 mm one of [] mm", "no value is listed"),
-        (
-            "2 mm one of [1, 2] kg",
-            "must be a length (mm), this is a mass (kg)",
-        ),
+        ("2 mm one of [1, 2] kg", "must be a length (mm), this is a mass (kg)"),
         ("2 mm one of [1 mm, 2 kg]", "one dimension"),
-        (
-            "2 mm one of [1, 2]",
-            "`[1, 2]` has no unit; a length is expected",
-        ),
-        (
-            "2 mm one of [1, 2] mm weighted [1]",
-            "1 weights for 2 values",
-        ),
-        (
-            "2 mm one of [1, 2] mm weighted [1, -1]",
-            "a weight is not negative",
-        ),
-        (
-            "2 mm one of [1, 2] mm weighted [0, 0]",
-            "all weights are zero",
-        ),
-        (
-            "2 mm one of [1, 2] mm weighted [1, 2] mm",
-            "a weight must be",
-        ),
+        ("2 mm one of [1, 2]", "`[1, 2]` has no unit; a length is expected"),
+        ("2 mm one of [1, 2] mm weighted [1]", "1 weights for 2 values"),
+        ("2 mm one of [1, 2] mm weighted [1, -1]", "a weight is not negative"),
+        ("2 mm one of [1, 2] mm weighted [0, 0]", "all weights are zero"),
+        ("2 mm one of [1, 2] mm weighted [1, 2] mm", "a weight must be"),
         ("2 mm one of [m, 2] mm", "listed values are"),
-        (
-            "2 mm one off [1, 2] mm",
-            "write `one of [1.9, 2.0, 2.1] mm`",
-        ),
-        (
-            "2 mm one of [1, 2] mm uniform",
-            "the list says how they are distributed",
-        ),
+        ("2 mm one off [1, 2] mm", "write `one of [1.9, 2.0, 2.1] mm`"),
+        ("2 mm one of [1, 2] mm uniform", "the list says how they are distributed"),
         ("2 mm +/- 1 mm one of [1, 2] mm", "unknown law `one`"),
     ] {
         let source = format!(
@@ -227,48 +173,28 @@ fn what_is_no_list_of_values_is_refused() {
             Ok(ast) => resolve(&ast).expect_err(text),
         };
         let messages: Vec<String> = found.iter().map(|x| x.text()).collect();
-        assert!(
-            messages.iter().any(|own| own.contains(expected)),
-            "{text}: {messages:?}"
-        );
+        assert!(messages.iter().any(|own| own.contains(expected)), "{text}: {messages:?}");
     }
     let source = "mechanism Bar { input x: N one of [1, 2] N; body bar: rod(mass: 1 kg, length: 1 m, along: -z);
         joint theta: revolute(y) from ground to bar; }";
     let refused = resolve(&read(source)).expect_err("an input");
-    assert!(
-        refused
-            .to_string()
-            .contains("an input has no value of its own"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("an input has no value of its own"), "{refused}");
 }
 
 #[test]
 fn an_input_wanders() {
-    let relative = |upper, lower, law| Tolerance {
-        relative: true,
-        ..tolerance(upper, lower, law)
-    };
+    let relative = |upper, lower, law| Tolerance { relative: true, ..tolerance(upper, lower, law) };
     assert_eq!(input("rad/s"), Tolerance::NONE);
     for (text, expected) in [
         ("rad/s +/- 1%", relative(0.01, -0.01, Law::Normal)),
         ("rad/s +2 -1 % uniform", relative(0.02, -0.01, Law::Uniform)),
         ("rad/s 0 -1% weibull", relative(0.0, -0.01, Law::Weibull)),
-        (
-            "rad/s +/- 0.5 rad/s uniform",
-            tolerance(0.5, -0.5, Law::Uniform),
-        ),
+        ("rad/s +/- 0.5 rad/s uniform", tolerance(0.5, -0.5, Law::Uniform)),
         ("kN +1 -0 N", tolerance(1.0, 0.0, Law::Normal)),
         ("1 +/- 3 triangular", tolerance(3.0, -3.0, Law::Triangular)),
         ("1 +2 -1", tolerance(2.0, -1.0, Law::Normal)),
-        (
-            "1 +/- sqrt(0.25) * cos(0) * norm([3, 0, 4]) * atan2(0, 1)",
-            tolerance(0.0, 0.0, Law::Normal),
-        ),
-        (
-            "1 +/- sqrt(0.25) * cos(0) * norm([3, 0, 4])",
-            tolerance(2.5, -2.5, Law::Normal),
-        ),
+        ("1 +/- sqrt(0.25) * cos(0) * norm([3, 0, 4]) * atan2(0, 1)", tolerance(0.0, 0.0, Law::Normal)),
+        ("1 +/- sqrt(0.25) * cos(0) * norm([3, 0, 4])", tolerance(2.5, -2.5, Law::Normal)),
     ] {
         assert_near(input(text), expected, text);
     }
@@ -303,17 +229,11 @@ fn the_canonical_text_keeps_what_was_written() {
         ("3 +2-1%truncated normal", "3.0 +2.0 -1.0% truncated normal"),
         ("3 +/- 5e-1 % beta(2,3)", "3.0 +/- 0.5% beta(2.0, 3.0)"),
         ("2 mm one of[1.9,2]mm", "2.0 mm one of [1.9, 2.0] mm"),
-        (
-            "2 one of [1, 2 + 1] weighted [3, 4]",
-            "2.0 one of [1.0, 2.0 + 1.0] weighted [3.0, 4.0]",
-        ),
+        ("2 one of [1, 2 + 1] weighted [3, 4]", "2.0 one of [1.0, 2.0 + 1.0] weighted [3.0, 4.0]"),
     ] {
         let source = format!("mechanism M {{ design x = {text}; }}");
         let printed = print(&read(&source));
-        assert!(
-            printed.contains(&format!("design x = {canonical};\n")),
-            "{printed}"
-        );
+        assert!(printed.contains(&format!("design x = {canonical};\n")), "{printed}");
         assert_eq!(read(&printed), read(&source));
     }
 }
@@ -349,10 +269,7 @@ fn one_of<'a, T>(random: &mut ChaCha8Rng, list: &'a [T]) -> &'a T {
 fn random_tolerances_arrive_as_written() {
     let mut random = ChaCha8Rng::seed_from_u64(7);
     let random = &mut random;
-    let beta = Law::Beta {
-        alpha: 0.5,
-        beta: 3.0,
-    };
+    let beta = Law::Beta { alpha: 0.5, beta: 3.0 };
     let laws = [
         ("", Law::Normal),
         ("normal", Law::Normal),
@@ -367,31 +284,18 @@ fn random_tolerances_arrive_as_written() {
     for _ in 0..2000 {
         let &(nominal, value) = one_of(
             random,
-            &[
-                ("20 mm", 0.02),
-                ("-5 mm", -5e-3),
-                ("0.4 m", 0.4),
-                ("2 * 10 mm", 0.02),
-                ("1 m - 1 cm", 0.99),
-            ],
+            &[("20 mm", 0.02), ("-5 mm", -5e-3), ("0.4 m", 0.4), ("2 * 10 mm", 0.02), ("1 m - 1 cm", 0.99)],
         );
         let numbers = [-0.041, -0.02, 0.0, 0.0, 0.021, 0.1, 2.0];
         let (upper, lower) = (*one_of(random, &numbers), *one_of(random, &numbers));
-        let &(unit, scale) = one_of(
-            random,
-            &[("mm", 1e-3), ("um", 1e-6), ("%", 0.01 * f64::abs(value))],
-        );
+        let &(unit, scale) = one_of(random, &[("mm", 1e-3), ("um", 1e-6), ("%", 0.01 * f64::abs(value))]);
         let (law_text, law) = one_of(random, &laws);
         let signed = |random: &mut ChaCha8Rng, number: f64| match number {
             0.0 => (*one_of(random, &["0", "+0", "-0"])).to_string(),
             number => format!("{number:+}"),
         };
         let space = *one_of(random, &["", " "]);
-        let unit_of_upper = if *one_of(random, &[true, false]) {
-            unit
-        } else {
-            ""
-        };
+        let unit_of_upper = if *one_of(random, &[true, false]) { unit } else { "" };
         let text = format!(
             "mechanism M {{ design x = {nominal} {}{space}{unit_of_upper} {}{space}{unit} {law_text};
                 body bar: rod(mass: 3 kg, length: 1 m, along: -z); joint theta: revolute(y) from ground to bar; }}",
@@ -411,10 +315,7 @@ fn random_tolerances_arrive_as_written() {
                 accepted += 1;
             }
             Err(mistakes) => {
-                assert!(
-                    !is_right && mistakes.iter().count() == 1,
-                    "{text}\n{mistakes}"
-                );
+                assert!(!is_right && mistakes.iter().count() == 1, "{text}\n{mistakes}");
                 refused += 1;
             }
         }

@@ -35,27 +35,14 @@ fn the_double_pendulum_arrives_in_si() {
     assert_eq!(mechanism.gravity, [0.0, 0.0, -9.81].map(Expr::Number));
     assert_eq!(mechanism.coordinates.len(), 3);
     assert!(matches!(mechanism.coordinates[0].motion, Motion::Driven(_)));
-    let units: Vec<&str> = mechanism
-        .outputs
-        .iter()
-        .map(|output| output.unit.symbol.as_str())
-        .collect();
+    let units: Vec<&str> = mechanism.outputs.iter().map(|output| output.unit.symbol.as_str()).collect();
     assert_eq!(units, ["m", "m", "rad"]);
     let b = nominal(&mechanism);
-    let [
-        Part {
-            shape: Shape::Rod { center, .. },
-            ..
-        },
-    ] = mechanism.bodies[1].parts.as_slice()
-    else {
+    let [Part { shape: Shape::Rod { center, .. }, .. }] = mechanism.bodies[1].parts.as_slice() else {
         panic!("a rod");
     };
     assert_eq!(evaluate(&mechanism, &center[2], &[0.0], &b), -0.5);
-    assert_eq!(
-        evaluate(&mechanism, &mechanism.constants[0].value, &[0.0], &b),
-        6.0
-    );
+    assert_eq!(evaluate(&mechanism, &mechanism.constants[0].value, &[0.0], &b), 6.0);
 }
 
 #[test]
@@ -68,10 +55,7 @@ fn values_of_a_full_declaration() {
     assert_eq!(mechanism.design[2].tolerance.upper, 0.125);
     assert_eq!(mechanism.inputs[3].unit.symbol, "kg/(m*s^2)");
     let constant = |name: &str| {
-        let constant = mechanism
-            .constants
-            .iter()
-            .find(|constant| constant.name == name);
+        let constant = mechanism.constants.iter().find(|constant| constant.name == name);
         evaluate(&mechanism, &constant.unwrap().value, &u, &b)
     };
     let r = 0.2;
@@ -82,11 +66,7 @@ fn values_of_a_full_declaration() {
     let s1 = -r.powi(-4) - r.powi(4) / 16.0;
     assert!((constant("s1") - s1).abs() < 1e-9, "{}", constant("s1"));
     // Prerequisites first, whatever the order of declaration.
-    let order: Vec<String> = mechanism
-        .constants
-        .iter()
-        .map(|c| c.name.to_string())
-        .collect();
+    let order: Vec<String> = mechanism.constants.iter().map(|c| c.name.to_string()).collect();
     let place = |name: &str| order.iter().position(|other| other == name).unwrap();
     assert!(place("early") < place("late"));
     let joint = &mechanism.joints[0];
@@ -104,12 +84,8 @@ fn the_forest_visits_parents_first() {
         assert!(seen.contains(&branch.parent));
         seen.push(Frame::Body(branch.body));
     }
-    let reversed: Vec<JointId> = topology
-        .branches
-        .iter()
-        .filter(|branch| branch.reversed)
-        .map(|branch| branch.joint)
-        .collect();
+    let reversed: Vec<JointId> =
+        topology.branches.iter().filter(|branch| branch.reversed).map(|branch| branch.joint).collect();
     assert_eq!(reversed, [JointId(2)]);
     assert_eq!(topology.driven, [CoordinateId(1), CoordinateId(2)]);
     assert_eq!(topology.free.len(), 4);

@@ -8,9 +8,7 @@ use serde_json::Value;
 use super::reference::{Robot, TOLERANCE, options, texts};
 
 pub(crate) fn truth(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("truth")
-        .join(path)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("truth").join(path)
 }
 
 pub(crate) fn read(path: &Path) -> String {
@@ -20,10 +18,7 @@ pub(crate) fn read(path: &Path) -> String {
 fn panda() -> (Robot, Value) {
     let robot = Robot::new(&read(&truth("urdf/panda.urdf")), &options(false), &[]);
     let numbers = read(&truth("robots/Panda.json"));
-    (
-        robot.expect("a robot"),
-        serde_json::from_str(&numbers).expect("JSON"),
-    )
+    (robot.expect("a robot"), serde_json::from_str(&numbers).expect("JSON"))
 }
 
 /// Two fingers, one of which follows the other.

@@ -12,8 +12,7 @@ use super::reference::{Robot, options, texts};
 
 /// The folder with the robots, and the interpreter.
 pub(crate) fn package() -> Result<(PathBuf, PathBuf), String> {
-    let python =
-        env::var_os("EIGENTOL_PYTHON").map_or_else(|| PathBuf::from("python3"), PathBuf::from);
+    let python = env::var_os("EIGENTOL_PYTHON").map_or_else(|| PathBuf::from("python3"), PathBuf::from);
     let ask = "import sysconfig; print(sysconfig.get_paths()['purelib'])";
     let output = Command::new(&python).args(["-c", ask]).output();
     let output = output.map_err(|error| format!("no Python: {error}"))?;
@@ -21,10 +20,7 @@ pub(crate) fn package() -> Result<(PathBuf, PathBuf), String> {
     let robots = Path::new(&site).join("cmeel.prefix/share/example-robot-data/robots");
     match robots.is_dir() {
         true => Ok((robots, python)),
-        false => Err(format!(
-            "`{}` has no package example-robot-data",
-            python.display()
-        )),
+        false => Err(format!("`{}` has no package example-robot-data", python.display())),
     }
 }
 
@@ -43,10 +39,7 @@ pub(crate) fn urdf_files(folder: &Path) -> Vec<PathBuf> {
             let path = entry.path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path
-                .extension()
-                .is_some_and(|extension| extension == "urdf")
-            {
+            } else if path.extension().is_some_and(|extension| extension == "urdf") {
                 files.push(path);
             }
         }
@@ -67,17 +60,12 @@ fn reference(python: &Path, request: &Value) -> Option<Value> {
         .spawn()
         .expect("Python starts");
     let mut stdin = child.stdin.take().expect("a pipe");
-    stdin
-        .write_all(request.to_string().as_bytes())
-        .expect("Python reads");
+    stdin.write_all(request.to_string().as_bytes()).expect("Python reads");
     drop(stdin);
     let output = child.wait_with_output().expect("Python ends");
     let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
     if complaint.contains("ModuleNotFoundError") {
-        println!(
-            "skipped: numbers of Pinocchio: {}",
-            complaint.trim().lines().last().unwrap_or_default()
-        );
+        println!("skipped: numbers of Pinocchio: {}", complaint.trim().lines().last().unwrap_or_default());
         return None;
     }
     assert!(output.status.success(), "{complaint}");
@@ -87,28 +75,16 @@ fn reference(python: &Path, request: &Value) -> Option<Value> {
 /// The robots of `truth/robots` whose inertias are unchanged from their files.
 #[test]
 fn robots_of_the_truth_are_those_of_pinocchio() {
-    const FILES: [&str; 9] = [
-        "Baxter",
-        "G1",
-        "Icub",
-        "Kinova",
-        "Panda",
-        "Solo12Free",
-        "TalosArm",
-        "Ur5",
-        "Xarm7",
-    ];
+    const FILES: [&str; 9] = ["Baxter", "G1", "Icub", "Kinova", "Panda", "Solo12Free", "TalosArm", "Ur5", "Xarm7"];
     let Some((folder, _)) = package_or_skip("robots of the truth from URDF files") else {
         return;
     };
     for name in FILES {
-        let truth: Value =
-            serde_json::from_str(&read(&truth(&format!("robots/{name}.json")))).expect("JSON");
+        let truth: Value = serde_json::from_str(&read(&truth(&format!("robots/{name}.json")))).expect("JSON");
         let floating = truth["base"] == "free";
         let file = folder.join(truth["source"].as_str().expect("a file"));
         let options = options(floating).nearest_inertias(true);
-        let robot = Robot::new(&read(&file), &options, &[])
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let robot = Robot::new(&read(&file), &options, &[]).unwrap_or_else(|error| panic!("{name}: {error}"));
         let states = truth["states"].as_array().expect("states");
         let worst = robot.assert_right(name, &texts(&truth["coordinates"]), states, &[]);
         println!("{name}: {worst:.1e}");
@@ -127,8 +103,7 @@ fn every_file_gives_the_numbers_of_pinocchio() {
         let text = read(&file);
         for floating in [false, true] {
             let replacing = options(floating).nearest_inertias(true);
-            let given =
-                Robot::new(&text, &options(floating), &[]).map(|robot| (robot, options(floating)));
+            let given = Robot::new(&text, &options(floating), &[]).map(|robot| (robot, options(floating)));
             let Ok((robot, options)) = given.or_else(|_| {
                 let robot = Robot::new(&text, &replacing, &[]);
                 robot.map(|x| (x, replacing))
@@ -161,18 +136,9 @@ fn every_file_gives_the_numbers_of_pinocchio() {
     for ((robot, points), one) in robots.iter().zip(numbers.as_array().expect("a list")) {
         let what = format!("{} floating {}", one["file"], one["floating"]);
         let states = one["states"].as_array().expect("states");
-        assert_eq!(
-            one["nearest"] == true,
-            one["replaced"]
-                .as_array()
-                .is_some_and(|own| !own.is_empty()),
-            "{what}"
-        );
+        assert_eq!(one["nearest"] == true, one["replaced"].as_array().is_some_and(|own| !own.is_empty()), "{what}");
         let error = robot.assert_right(&what, &texts(&one["coordinates"]), states, points);
         worst = worst.max(error);
     }
-    println!(
-        "{} imports, the worst number off by {worst:.1e}",
-        robots.len()
-    );
+    println!("{} imports, the worst number off by {worst:.1e}", robots.len());
 }

@@ -11,11 +11,7 @@ pub(crate) const TOLERANCE: f64 = 1e-9;
 
 /// The import options assumed by the reference numbers: springs and dampers on every coordinate, and no others.
 pub(crate) fn options(floating: bool) -> Options {
-    let base = if floating {
-        Base::Floating
-    } else {
-        Base::Fixed
-    };
+    let base = if floating { Base::Floating } else { Base::Fixed };
     Options::default().base(base).damping(false)
 }
 
@@ -32,14 +28,10 @@ impl Robot {
         let mut declaration = import.declaration.clone();
         let end = declaration.rfind('}').expect("a closing brace");
         let outputs = points.iter().enumerate().flat_map(|(k, point)| {
-            ["x", "y", "z"]
-                .map(|axis| format!("output place_{k}_{axis} = position({point}).{axis};\n"))
+            ["x", "y", "z"].map(|axis| format!("output place_{k}_{axis} = position({point}).{axis};\n"))
         });
         declaration.insert_str(end, &outputs.collect::<String>());
-        let limits = Limits {
-            explicit_partials: 0,
-            ..Limits::default()
-        };
+        let limits = Limits { explicit_partials: 0, ..Limits::default() };
         let subject = Subject::new(&declaration, limits).map_err(|mistakes| mistakes.join("\n"))?;
         Ok(Self { import, subject })
     }
@@ -74,22 +66,14 @@ impl Robot {
 
     /// The largest error of each quantity over all states. Reactions of couplings are set to zero, as if nothing were
     /// coupled.
-    pub(crate) fn errors(
-        &self,
-        names: &[&str],
-        states: &[Value],
-        points: &[String],
-    ) -> Vec<(&'static str, f64)> {
+    pub(crate) fn errors(&self, names: &[&str], states: &[Value], points: &[String]) -> Vec<(&'static str, f64)> {
         let (own, n) = (self.coordinates(), self.subject.unknowns.len());
         let place = |name: &&str| names.iter().position(|other| other == name);
         let order: Option<Vec<usize>> = own.iter().map(place).collect();
         let order = order.unwrap_or_else(|| panic!("{own:?} are among {names:?}"));
         assert_eq!(own.len(), names.len());
         let kernel = |name: &str, arguments: &[&[f64]]| {
-            interpret(
-                self.subject.program.kernel(name).expect("a kernel"),
-                arguments,
-            )
+            interpret(self.subject.program.kernel(name).expect("a kernel"), arguments)
         };
         let mut worst: Vec<(&'static str, f64)> = Vec::new();
         let mut compare = |what, values: &[f64], expected: &[f64]| {
@@ -118,20 +102,11 @@ impl Robot {
             let (q, v, a, w) = (unknowns("q"), unknowns("v"), unknowns("a"), unknowns("w"));
             let times = |matrix: &[f64]| -> Vec<f64> {
                 let rows = matrix.chunks_exact(n).take(own.len());
-                rows.map(|row| row.iter().zip(&w).map(|(m, w)| m * w).sum())
-                    .collect()
+                rows.map(|row| row.iter().zip(&w).map(|(m, w)| m * w).sum()).collect()
             };
-            compare(
-                "gravity",
-                &kernel("residual", &[&q, &[], &[]])[0],
-                &get("tau_rest"),
-            );
+            compare("gravity", &kernel("residual", &[&q, &[], &[]])[0], &get("tau_rest"));
             let moving: [&[f64]; 5] = [&a, &v, &q, &[], &[]];
-            compare(
-                "torque",
-                &kernel("motion_residual", &moving)[0],
-                &get("tau"),
-            );
+            compare("torque", &kernel("motion_residual", &moving)[0], &get("tau"));
             let motion = kernel("motion", &[&v, &q, &[], &[]]);
             let bias: Vec<f64> = motion[1].iter().map(|force| -force).collect();
             compare("bias", &bias, &get("bias"));
@@ -145,9 +120,7 @@ impl Robot {
                 compare("damping along a motion", &times(&along[1]), &get("dv_w"));
                 compare("stiffness along a motion", &times(&along[2]), &get("dq_w"));
             }
-            let expected = points
-                .iter()
-                .flat_map(|point| numbers(&state["points"][self.original(point)]));
+            let expected = points.iter().flat_map(|point| numbers(&state["points"][self.original(point)]));
             let expected: Vec<f64> = expected.collect();
             if !expected.is_empty() {
                 let found = kernel("outputs", &[&q, &[], &[]]);
@@ -158,37 +131,22 @@ impl Robot {
     }
 
     /// Panics if any quantity is wrong.
-    pub(crate) fn assert_right(
-        &self,
-        what: &str,
-        names: &[&str],
-        states: &[Value],
-        points: &[String],
-    ) -> f64 {
+    pub(crate) fn assert_right(&self, what: &str, names: &[&str], states: &[Value], points: &[String]) -> f64 {
         let errors = self.errors(names, states, points);
         assert!(errors.len() >= 5, "{what}: {errors:?}");
         for (quantity, error) in &errors {
-            assert!(
-                *error <= TOLERANCE,
-                "{what}: {quantity} is off by {error:e}"
-            );
+            assert!(*error <= TOLERANCE, "{what}: {quantity} is off by {error:e}");
         }
-        errors
-            .iter()
-            .fold(0.0, |worst, (_, error)| worst.max(*error))
+        errors.iter().fold(0.0, |worst, (_, error)| worst.max(*error))
     }
 }
 
 pub(crate) fn numbers(value: &Value) -> Vec<f64> {
-    let list = value
-        .as_array()
-        .unwrap_or_else(|| panic!("a list, not {value}"));
+    let list = value.as_array().unwrap_or_else(|| panic!("a list, not {value}"));
     list.iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
 pub(crate) fn texts(value: &Value) -> Vec<&str> {
-    let list = value
-        .as_array()
-        .unwrap_or_else(|| panic!("a list, not {value}"));
+    let list = value.as_array().unwrap_or_else(|| panic!("a list, not {value}"));
     list.iter().filter_map(Value::as_str).collect()
 }

@@ -33,11 +33,7 @@ struct Row {
 fn imported(text: &str, options: &Options) -> Result<(Import, usize), ImportError> {
     let import = import(text, options)?;
     let tokens = import.declaration.parse().expect("tokens");
-    let limits = Limits {
-        explicit_partials: 0,
-        partial_operations: usize::MAX,
-        motion_linear: 0,
-    };
+    let limits = Limits { explicit_partials: 0, partial_operations: usize::MAX, motion_linear: 0 };
     let compiled = compile(tokens, limits).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let unknowns = compiled.topology.free.len();
     Ok((import, unknowns))
@@ -53,11 +49,7 @@ fn said(error: &ImportError) -> String {
         })
         .collect();
     let is_inertia = |reason: &Reason| matches!(reason, Reason::Inertia { .. });
-    let mut reasons = match error
-        .mistakes
-        .iter()
-        .all(|mistake| is_inertia(&mistake.reason))
-    {
+    let mut reasons = match error.mistakes.iter().all(|mistake| is_inertia(&mistake.reason)) {
         true => vec![format!("inertias that no body has: {}", reasons.join(", "))],
         false => reasons,
     };
@@ -95,9 +87,7 @@ fn row(folder: &Path, file: &Path) -> Row {
             }
             Err(error) => {
                 let _ = write!(result, "{}. ", said(&error));
-                let is = |wanted: fn(&Reason) -> bool| {
-                    error.mistakes.iter().all(|one| wanted(&one.reason))
-                };
+                let is = |wanted: fn(&Reason) -> bool| error.mistakes.iter().all(|one| wanted(&one.reason));
                 if attempt < 3 && is(|reason| matches!(reason, Reason::Inertia { .. })) {
                     result += "With `nearest_inertias`: ";
                     options = options.nearest_inertias(true);
@@ -127,11 +117,7 @@ fn remarks(import: &Import) -> String {
     if !import.names.is_empty() {
         remarks.push(format!("{} names changed", import.names.len()));
     }
-    let driven = import
-        .notes
-        .iter()
-        .filter(|note| matches!(note, Note::Driven { .. }))
-        .count();
+    let driven = import.notes.iter().filter(|note| matches!(note, Note::Driven { .. })).count();
     if driven > 0 {
         remarks.push(format!("{driven} without mass driven at 0"));
     }
@@ -149,11 +135,7 @@ fn the_table_says_what_happens() {
     let mut table = HEAD.to_owned();
     table += "| file | links | joints | free | resisted | result |\n| --- | ---: | ---: | ---: | ---: | --- |\n";
     for file in urdf_files(&folder) {
-        let Row {
-            file,
-            counts,
-            result,
-        } = row(&folder, &file);
+        let Row { file, counts, result } = row(&folder, &file);
         let _ = writeln!(table, "| {file} | {counts} | {result} |");
     }
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../macros/urdf/ROBOTS.md");

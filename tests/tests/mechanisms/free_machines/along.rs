@@ -20,9 +20,7 @@ fn critical_speeds_beside_a_free_motion() {
             force e: spring(on: ay, stiffness: 2000 N/m); force f: spring(on: by, stiffness: 1000 N/m);
         }",
     );
-    let found = study
-        .campbell(Input::new(0), &[0.0, 40.0], &[] as &[f64])
-        .expect("a diagram");
+    let found = study.campbell(Input::new(0), &[0.0, 40.0], &[] as &[f64]).expect("a diagram");
     assert_eq!(found.critical.len(), 2);
     for (event, k) in found.critical.iter().zip([1000.0_f64, 2000.0]) {
         let speed = (k / 2.0).sqrt();
@@ -55,16 +53,9 @@ fn a_ball_on_a_turning_table() {
     for travel in ["", "px coasting, py coasting,"] {
         let study = ball(travel, "driven at omega").input(Input::new(0), 3.0);
         let modes = study.modes().expect("modes").modes;
-        let free = modes
-            .iter()
-            .filter(|mode| mode.behaviour == Behaviour::Free);
+        let free = modes.iter().filter(|mode| mode.behaviour == Behaviour::Free);
         assert_eq!((free.count(), modes.len()), (2, 3));
-        close(
-            modes[2].frequency().expect("it goes round"),
-            6.0 / 7.0,
-            1e-12,
-            "rate",
-        );
+        close(modes[2].frequency().expect("it goes round"), 6.0 / 7.0, 1e-12, "rate");
         let slopes = study.sensitivities().expect("derivatives");
         let by_speed = slopes.modes[2].frequency().expect("of the rate").by_input[0];
         close(by_speed, 2.0 / 7.0, 1e-10, "by the table's rate");
@@ -87,11 +78,7 @@ fn a_ball_on_a_coasting_table() {
             point center: ball; point plate: table;
             constraint contact: rolling(wheel: center, radius: 5 cm, on: plate); }",
     );
-    let speed = study
-        .description()
-        .coordinates
-        .iter()
-        .position(|coordinate| coordinate.name == *"turn");
+    let speed = study.description().coordinates.iter().position(|coordinate| coordinate.name == *"turn");
     let study = study.start(Coordinate::new(speed.expect("a speed")), 3.0);
     let modes = study.modes().expect("modes").modes;
     let round: Vec<f64> = modes.iter().filter_map(|mode| mode.frequency()).collect();
@@ -145,9 +132,7 @@ fn members_of_a_family_along_an_input() {
             });
             close(own, other, 1e-10, "the frequency");
         }
-        let diagram = study
-            .campbell(Input::new(0), &[1.0, 2.0], &[1.0])
-            .expect("a diagram");
+        let diagram = study.campbell(Input::new(0), &[1.0, 2.0], &[1.0]).expect("a diagram");
         for crossing in &diagram.crossings {
             let there = study.clone().input(Input::new(0), crossing.value);
             let modes = there.modes().expect("modes").modes;
@@ -159,17 +144,8 @@ fn members_of_a_family_along_an_input() {
         let branch = &branches.branches[0];
         let last = branch.points.last().expect("a point");
         close(last.value, 2.0, 1e-12, "the end of the branch");
-        let expected = study
-            .clone()
-            .input(Input::new(0), 2.0)
-            .equilibrium()
-            .expect("a state");
-        for (a, b) in last
-            .equilibrium
-            .coordinates
-            .iter()
-            .zip(&expected.coordinates)
-        {
+        let expected = study.clone().input(Input::new(0), 2.0).equilibrium().expect("a state");
+        for (a, b) in last.equilibrium.coordinates.iter().zip(&expected.coordinates) {
             close(*a, *b, 1e-9, "a coordinate at the end");
         }
     }
@@ -185,19 +161,12 @@ fn an_upright_pendulum_along_an_input() {
             body bar: rod(mass: 3 kg, length: 1 m, along: -z); joint q: revolute(y) from shaft to bar; }",
     );
     let upright = study.start(Coordinate::new(0), std::f64::consts::PI);
-    let found = upright
-        .sweep(Input::new(0), &[0.0, 1.0, 3.0])
-        .expect("a sweep");
+    let found = upright.sweep(Input::new(0), &[0.0, 1.0, 3.0]).expect("a sweep");
     for point in &found.points {
         let state = point.equilibrium.as_ref().expect("a state");
         let modes = point.modes.as_ref().expect("modes");
         close(state.coordinates[0], std::f64::consts::PI, 1e-12, "upright");
         let growth = (1.5 * 9.81 + point.value * point.value).sqrt();
-        assert!(
-            modes
-                .modes
-                .iter()
-                .any(|own| (own.s.re - growth).abs() < 1e-10)
-        );
+        assert!(modes.modes.iter().any(|own| (own.s.re - growth).abs() < 1e-10));
     }
 }

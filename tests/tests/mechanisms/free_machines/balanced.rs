@@ -30,22 +30,14 @@ fn lift_that_equals_weight() {
         let [m, n, k] = [decimals(10.0), decimals(10.0), decimals(100.0)];
         let text = balloon([m, n, k]);
         let study = study(&text).input(Input::new(0), 1.0);
-        let state = study
-            .equilibrium()
-            .unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let state = study.equilibrium().unwrap_or_else(|error| panic!("{error}\n{text}"));
         assert_eq!(state.stability, Stability::Neutral { zero: 1 }, "{text}");
         let sag = -n * 9.81 / k;
-        assert!(
-            (state.coordinates[1] - sag).abs() < 1e-12 * sag.abs(),
-            "{text}"
-        );
+        assert!((state.coordinates[1] - sag).abs() < 1e-12 * sag.abs(), "{text}");
         let modes = study.modes().expect("modes");
         let expected = (k / m + k / n).sqrt();
         let frequency = modes.modes[1].s.im;
-        assert!(
-            (frequency / expected - 1.0).abs() < 1e-12,
-            "{frequency} {expected}"
-        );
+        assert!((frequency / expected - 1.0).abs() < 1e-12, "{frequency} {expected}");
     }
 }
 
@@ -79,20 +71,14 @@ fn machines_float_where_they_are() {
     for k in 0..20_u32 {
         let text = drone(1.0 + 0.07 * f64::from(k));
         let study = study(&text);
-        let state = study
-            .equilibrium()
-            .unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let state = study.equilibrium().unwrap_or_else(|error| panic!("{error}\n{text}"));
         assert_eq!(state.stability, Stability::Neutral { zero: 4 }, "{text}");
         let far = state.coordinates.iter().all(|value| value.abs() < 2.0);
         assert!(far, "{:?}\n{text}", state.coordinates);
         let there = [(0, 3.0), (1, -2.0), (5, 0.7)].into_iter();
-        let there = there.fold(study.clone(), |study, (unknown, value)| {
-            study.start(Coordinate::new(unknown), value)
-        });
+        let there = there.fold(study.clone(), |study, (unknown, value)| study.start(Coordinate::new(unknown), value));
         let [here, there] = [&study, &there].map(|study| {
-            let modes = study
-                .modes()
-                .unwrap_or_else(|error| panic!("{error}\n{text}"));
+            let modes = study.modes().unwrap_or_else(|error| panic!("{error}\n{text}"));
             modes.frequencies()
         });
         for (k, (here, there)) in here.iter().zip(&there).enumerate() {

@@ -16,22 +16,14 @@ pub(crate) fn number(value: &Value) -> f64 {
 }
 
 pub(crate) fn numbers(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .expect("a list")
-        .iter()
-        .map(number)
-        .collect()
+    value.as_array().expect("a list").iter().map(number).collect()
 }
 
 /// Declares the parameters of a machine as design variables.
 pub(crate) fn designs(truth: &Value, units: &[(&str, &str)]) -> String {
     let parameters = truth["parameters"].as_object().expect("parameters");
     let line = |(name, value): (&String, &Value)| {
-        let unit = units
-            .iter()
-            .find(|(known, _)| known == name)
-            .map_or("", |(_, unit)| unit);
+        let unit = units.iter().find(|(known, _)| known == name).map_or("", |(_, unit)| unit);
         format!("design {name}_ = {} {unit};\n", number(value))
     };
     parameters.iter().map(line).collect()

@@ -53,25 +53,12 @@ fn a_coin_in_a_circle() {
     let [lean, yaw, spin] = ["lean", "yaw", "spin"].map(|name| unknown(&coin(), name));
     let height = unknown(&coin(), "height");
     let start = coin().guess(height, 0.5);
-    let by_yaw = (start.clone())
-        .hold(lean, parameter("lean"))
-        .hold(yaw, parameter("yaw_rate"))
-        .guess(spin, 4.0);
-    let by_spin = start
-        .hold(lean, parameter("lean"))
-        .hold(spin, parameter("spin"))
-        .guess(yaw, -1.0);
-    for (study, name) in [
-        (by_yaw, "held_lean_and_yaw_rate"),
-        (by_spin, "held_lean_and_spin"),
-    ] {
+    let by_yaw = (start.clone()).hold(lean, parameter("lean")).hold(yaw, parameter("yaw_rate")).guess(spin, 4.0);
+    let by_spin = start.hold(lean, parameter("lean")).hold(spin, parameter("spin")).guess(yaw, -1.0);
+    for (study, name) in [(by_yaw, "held_lean_and_yaw_rate"), (by_spin, "held_lean_and_spin")] {
         let state = &study.equilibrium().expect(name);
         let modes = study.modes().expect(name);
-        assert!(
-            state.notes.contains(&Note::Member { dimension: 2 }),
-            "{:?}",
-            state.notes
-        );
+        assert!(state.notes.contains(&Note::Member { dimension: 2 }), "{:?}", state.notes);
         let at = |unknown: Coordinate<_>| state.coordinates[unknown.index()];
         close(at(spin), values[1], 1e-11, "spin");
         close(at(yaw), values[2], 1e-11, "yaw rate");
@@ -79,19 +66,9 @@ fn a_coin_in_a_circle() {
         assert_eq!(found.len(), 1, "{modes:?}");
         close(found[0], values[0], 1e-10, "frequency");
         let slopes = study.sensitivities().expect("derivatives");
-        let r = modes
-            .modes
-            .iter()
-            .position(|mode| mode.frequency().is_some());
-        let own = slopes.modes[r.expect("it wobbles")]
-            .frequency()
-            .expect("derivatives");
-        close(
-            own.by_design[1],
-            number(&truth[name]["first"]["r"][0]),
-            1e-9,
-            "by radius",
-        );
+        let r = modes.modes.iter().position(|mode| mode.frequency().is_some());
+        let own = slopes.modes[r.expect("it wobbles")].frequency().expect("derivatives");
+        close(own.by_design[1], number(&truth[name]["first"]["r"][0]), 1e-9, "by radius");
         assert!(own.by_design[0].abs() < 1e-9);
     }
 }
@@ -100,11 +77,7 @@ fn a_coin_in_a_circle() {
 fn too_many_or_dependent_unknowns_are_refused() {
     let [lean, yaw, spin] = ["lean", "yaw", "spin"].map(|name| unknown(&coin(), name));
     let all = coin().hold(lean, 0.3).hold(yaw, -1.0).hold(spin, 4.0);
-    assert!(
-        matches!(all.equilibrium(), Err(Error::NotHeld { dimension: 2, .. })),
-        "{:?}",
-        all.equilibrium()
-    );
+    assert!(matches!(all.equilibrium(), Err(Error::NotHeld { dimension: 2, .. })), "{:?}", all.equilibrium());
 }
 
 /// The frequency of the coin, by `(r, lean, x)` with `x` the other unknown held: value, gradient, second derivatives.
@@ -142,36 +115,19 @@ impl Wobble {
     ) {
         let state = study.equilibrium().expect("a steady motion");
         let modes = &study.modes().expect("a steady motion").modes;
-        assert!(
-            state.notes.contains(&Note::Member { dimension: 2 }),
-            "{:?}",
-            state.notes
-        );
+        assert!(state.notes.contains(&Note::Member { dimension: 2 }), "{:?}", state.notes);
         let mode = modes.iter().position(|mode| mode.frequency().is_some());
         let mode = mode.expect("it wobbles");
-        close(
-            modes[mode].frequency().expect("a frequency"),
-            self.value,
-            1e-10,
-            "frequency",
-        );
+        close(modes[mode].frequency().expect("a frequency"), self.value, 1e-10, "frequency");
         let slopes = study.sensitivities().expect("derivatives");
-        let first = slopes.modes[mode]
-            .frequency()
-            .expect("derivatives")
-            .by_design;
+        let first = slopes.modes[mode].frequency().expect("derivatives").by_design;
         let second = study.mode_curvature(mode).expect("second derivatives");
-        let second = second
-            .of(Quantity::Frequency)
-            .expect("of a frequency")
-            .by_design;
+        let second = second.of(Quantity::Frequency).expect("of a frequency").by_design;
         for (a, own) in by.iter().enumerate() {
             let expected: f64 = own.iter().zip(self.first).map(|(x, slope)| x * slope).sum();
             close(first[a], expected, 1e-9, &format!("by {a}"));
             for (b, other) in by.iter().enumerate() {
-                let mut expected: f64 = (by_two(a, b).iter().zip(self.first))
-                    .map(|(x, slope)| x * slope)
-                    .sum();
+                let mut expected: f64 = (by_two(a, b).iter().zip(self.first)).map(|(x, slope)| x * slope).sum();
                 for (x, row) in own.iter().zip(&self.second) {
                     let along: f64 = row.iter().zip(other).map(|(d, y)| d * y).sum();
                     expected += x * along;
@@ -195,31 +151,21 @@ fn declared_values() {
     let with = |text: String| coin_with(&text).guess(of("height"), 0.5);
 
     let by_yaw = Wobble::new(&truth, "held_lean_and_yaw_rate", "yaw_rate");
-    let study = with(format!(
-        "design a = {lean} +/- 1%; design w = {yaw} rad/s +/- 2%; steady lean = a; steady yaw = w;"
-    ));
+    let study =
+        with(format!("design a = {lean} +/- 1%; design w = {yaw} rad/s +/- 2%; steady lean = a; steady yaw = w;"));
     let by = [NOTHING, UNIT[0], UNIT[1], UNIT[2]];
     by_yaw.check(&study.guess(of("spin"), 4.0), &by, |_, _| NOTHING);
 
     let by_spin = Wobble::new(&truth, "held_lean_and_spin", "spin");
-    let study = with(format!(
-        "design a = {lean} rad; design w = {spin} rad/s; steady spin = w; steady lean = a;"
-    ));
+    let study = with(format!("design a = {lean} rad; design w = {spin} rad/s; steady spin = w; steady lean = a;"));
     by_spin.check(&study.guess(of("yaw"), -1.0), &by, |_, _| NOTHING);
 
     // lean = c a^2, spin = v / r
     let (a, v) = (0.5, spin * 0.5);
     let c = lean / (a * a);
-    let text = format!(
-        "design a = {a}; design v = {v} m/s; let c = {c}; steady lean = c * a^2; steady spin = v / r_;"
-    );
+    let text = format!("design a = {a}; design v = {v} m/s; let c = {c}; steady lean = c * a^2; steady spin = v / r_;");
     let r = 0.5;
-    let by = [
-        NOTHING,
-        [1.0, 0.0, -v / (r * r)],
-        [0.0, 2.0 * c * a, 0.0],
-        [0.0, 0.0, 1.0 / r],
-    ];
+    let by = [NOTHING, [1.0, 0.0, -v / (r * r)], [0.0, 2.0 * c * a, 0.0], [0.0, 0.0, 1.0 / r]];
     let by_two = |i: usize, j: usize| match (i.min(j), i.max(j)) {
         (1, 1) => [0.0, 0.0, 2.0 * v / (r * r * r)],
         (1, 3) => [0.0, 0.0, -1.0 / (r * r)],
@@ -274,41 +220,24 @@ fn declared_values_follow_inputs_and_samples() {
     let parameter = |name: &str| number(&truth["parameters"][name]);
     let (lean, spin) = (parameter("lean"), parameter("spin"));
     let of = |name: &str| unknown(&coin(), name);
-    let study = coin_with(&format!(
-        "input v: m/s; design a = {lean} +/- 1%; steady lean = a; steady spin = v / r_;"
-    ));
-    let study = study
-        .guess(of("height"), 0.5)
-        .guess(of("yaw"), -1.0)
-        .input(Input::new(0), spin * 0.5);
+    let study = coin_with(&format!("input v: m/s; design a = {lean} +/- 1%; steady lean = a; steady spin = v / r_;"));
+    let study = study.guess(of("height"), 0.5).guess(of("yaw"), -1.0).input(Input::new(0), spin * 0.5);
     let modes = study.modes().expect("a steady motion");
-    let mode = modes
-        .modes
-        .iter()
-        .position(|mode| mode.frequency().is_some());
+    let mode = modes.modes.iter().position(|mode| mode.frequency().is_some());
     let mode = mode.expect("it wobbles");
     let slopes = study.sensitivities().expect("derivatives");
     let own = slopes.modes[mode].frequency().expect("derivatives");
     let wobble = Wobble::new(&truth, "held_lean_and_spin", "spin");
     close(own.by_input[0], wobble.first[2] / 0.5, 1e-9, "by the input");
     close(own.by_design[2], wobble.first[1], 1e-9, "by the lean");
-    let faster = study
-        .clone()
-        .input(Input::new(0), 3.0)
-        .equilibrium()
-        .expect("faster");
+    let faster = study.clone().input(Input::new(0), 3.0).equilibrium().expect("faster");
     close(faster.coordinates[of("spin").index()], 6.0, 1e-12, "spin");
     close(faster.coordinates[of("lean").index()], lean, 1e-12, "lean");
 
     let spread = study.first_order().expect("a spread");
     let spread = &spread.modes[mode];
     let sigma = spread.frequency().expect("a frequency").sigma;
-    close(
-        sigma,
-        (wobble.first[1] * lean * 0.01 / 3.0).abs(),
-        1e-8,
-        "spread",
-    );
+    close(sigma, (wobble.first[1] * lean * 0.01 / 3.0).abs(), 1e-8, "spread");
     let study = study.samples(500);
     let sampled = study;
     let found = sampled.monte_carlo().expect("samples");
@@ -333,30 +262,19 @@ fn declared_values_and_others() {
     };
     let (lean, spin, yaw) = (of("lean"), of("spin"), of("yaw"));
     let twenty = 20.0_f64.to_radians();
-    let places = |study| {
-        held(study)
-            .into_iter()
-            .map(|pair| pair.0)
-            .collect::<Vec<_>>()
-    };
+    let places = |study| held(study).into_iter().map(|pair| pair.0).collect::<Vec<_>>();
     let sorted = |mut places: [usize; 2]| {
         places.sort_unstable();
         places
     };
     let found = held(declared.clone());
     assert!(found.contains(&(spin.index(), 4.0)), "{found:?}");
-    let own = found
-        .iter()
-        .find(|pair| pair.0 == lean.index())
-        .expect("lean");
+    let own = found.iter().find(|pair| pair.0 == lean.index()).expect("lean");
     close(own.1, twenty, 1e-12, "lean");
     // what the user holds replaces what is declared
     let found = held(declared.clone().hold(lean, 0.3));
     assert!(found.contains(&(spin.index(), 4.0)), "{found:?}");
-    let own = found
-        .iter()
-        .find(|pair| pair.0 == lean.index())
-        .expect("lean");
+    let own = found.iter().find(|pair| pair.0 == lean.index()).expect("lean");
     close(own.1, 0.3, 1e-12, "lean");
     let two = declared.clone().hold(yaw, -1.2).hold(spin, 4.0);
     assert_eq!(places(two), sorted([yaw.index(), spin.index()]));
@@ -366,10 +284,7 @@ fn declared_values_and_others() {
     // too many, or none to select
     let three = coin_with("steady lean = 0.3; steady spin = 4 rad/s; steady yaw = -1 rad/s;");
     let refused = three.guess(of("height"), 0.5).equilibrium();
-    assert!(
-        matches!(refused, Err(Error::NotHeld { dimension: 2, .. })),
-        "{refused:?}"
-    );
+    assert!(matches!(refused, Err(Error::NotHeld { dimension: 2, .. })), "{refused:?}");
     let pendulum = study_of_pendulum().equilibrium();
     assert!(
         matches!(&pendulum, Err(Error::NotHeld { dimension: 0, unknowns }) if unknowns == &["theta"]),
@@ -406,19 +321,13 @@ fn a_conical_pendulum() {
         }",
     );
     for w in [3.0, 5.0] {
-        let study = declared
-            .clone()
-            .input(Input::new(0), w)
-            .start(Coordinate::new(0), 0.9);
+        let study = declared.clone().input(Input::new(0), w).start(Coordinate::new(0), 0.9);
         let modes = study.modes().expect("it goes round");
         let at = |w: f64, l: f64, n: f64| {
             let cosine = 3.0 * 9.81 / (2.0 * l * (n * w).powi(2));
             n * w * (1.0 + 3.0 * cosine * cosine).sqrt()
         };
-        let mode = modes
-            .modes
-            .iter()
-            .position(|mode| mode.frequency().is_some());
+        let mode = modes.modes.iter().position(|mode| mode.frequency().is_some());
         let mode = mode.expect("it nods");
         let found = modes.modes[mode].frequency().expect("a frequency");
         close(found, at(w, 0.8, 2.0), 1e-11, "frequency");
@@ -429,11 +338,6 @@ fn a_conical_pendulum() {
         let by_speed = found * (1.0 - 2.0 * share / (1.0 + share));
         close(own.by_input[0], by_speed / w, 1e-10, "by the speed");
         close(own.by_design[1], by_speed / 2.0, 1e-10, "by the ratio");
-        close(
-            own.by_design[0],
-            -found * share / (1.0 + share) / 0.8,
-            1e-10,
-            "by the length",
-        );
+        close(own.by_design[0], -found * share / (1.0 + share) / 0.8, 1e-10, "by the length");
     }
 }

@@ -47,8 +47,7 @@ fn eigenvalues(linear: &Linear) -> Vec<Complex> {
     let matrix = |matrix: &Matrix| DMatrix::from_fn(6, 6, |i, j| matrix[i][j]);
     let [mass, damping, stiffness] = [&linear.mass, &linear.damping, &linear.stiffness].map(matrix);
     let factors = mass.lu();
-    let [damping, stiffness] =
-        [damping, stiffness].map(|matrix| factors.solve(&matrix).expect("masses"));
+    let [damping, stiffness] = [damping, stiffness].map(|matrix| factors.solve(&matrix).expect("masses"));
     let whole = DMatrix::from_fn(12, 12, |i, j| match (i < 6, j < 6) {
         (true, true) => 0.0,
         (true, false) => f64::from(u8::from(i + 6 == j)),
@@ -77,13 +76,9 @@ fn modes_of_floating_rows_between_thrusts() {
     for k in 0..80 {
         let text = row(&mut random, k % 2 == 0);
         let study = study(&text);
-        let at = study
-            .equilibrium()
-            .unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let at = study.equilibrium().unwrap_or_else(|error| panic!("{error}\n{text}"));
         let expected = eigenvalues(&at.linear);
-        let modes = study
-            .modes()
-            .unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let modes = study.modes().unwrap_or_else(|error| panic!("{error}\n{text}"));
         let found: Vec<Complex> = modes.modes.iter().map(|mode| mode.s).collect();
         assert_eq!(found[..3], [Complex::ZERO; 3], "{found:?}\n{text}");
         let (found, whole) = (&found[3..], (&found, &expected));
@@ -118,8 +113,7 @@ fn derivatives_of_floating_rows_between_thrusts() {
             let Some(slopes) = found[k].s() else { continue };
             let [low, high] = ends.each_ref().map(|modes| {
                 let others = modes.iter().map(|other| other.s);
-                let near =
-                    |a: &Complex, b: &Complex| (a - mode.s).norm().total_cmp(&(b - mode.s).norm());
+                let near = |a: &Complex, b: &Complex| (a - mode.s).norm().total_cmp(&(b - mode.s).norm());
                 others.min_by(near).expect("a mode")
             });
             let difference = (high - low) / (2.0 * step);
@@ -222,10 +216,7 @@ impl Missile {
                 stiffness[(i + 1, i + 1)] -= own * acceleration * centre[i + 1];
             }
             if k > 0 {
-                let (spring, damper) = (
-                    number(5.0, 20.0),
-                    if damped { number(0.05, 0.5) } else { 0.0 },
-                );
+                let (spring, damper) = (number(5.0, 20.0), if damped { number(0.05, 0.5) } else { 0.0 });
                 let bend = DVector::from_fn(size, |i, _| f64::from(i == k + 1) - f64::from(i == k));
                 stiffness += spring * &bend * bend.transpose();
                 damping += damper * &bend * bend.transpose();
@@ -236,16 +227,12 @@ impl Missile {
                     k - 1
                 );
                 if damped {
-                    text +=
-                        &format!("force d{k}: damper(on: j{k}, damping: {damper} N*m*s/rad);\n");
+                    text += &format!("force d{k}: damper(on: j{k}, damping: {damper} N*m*s/rad);\n");
                 }
             }
         }
         stiffness[(0, 1)] -= thrust;
-        Self {
-            text: text + "}",
-            matrices: [mass, stiffness, damping],
-        }
+        Self { text: text + "}", matrices: [mass, stiffness, damping] }
     }
 
     /// The eigenvalues that are not zero, above and on the real axis.
@@ -253,8 +240,7 @@ impl Missile {
         let [mass, stiffness, damping] = &self.matrices;
         let n = mass.nrows();
         let factors = mass.clone().lu();
-        let [stiffness, damping] =
-            [stiffness, damping].map(|matrix| factors.solve(matrix).expect("masses"));
+        let [stiffness, damping] = [stiffness, damping].map(|matrix| factors.solve(matrix).expect("masses"));
         let whole = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
             (true, _) => f64::from(u8::from(i + n == j)),
             (false, true) => -stiffness[(i - n, j)],
@@ -280,32 +266,16 @@ fn missiles_under_thrust() {
         let modes = modes.unwrap_or_else(|error| panic!("{error}\n{thrust} {}", missile.text));
         let found: Vec<Complex> = modes.modes.iter().map(|mode| mode.s).collect();
         let expected = missile.eigenvalues();
-        assert_eq!(
-            found[..3],
-            [Complex::ZERO; 3],
-            "{found:?}\n{}",
-            missile.text
-        );
+        assert_eq!(found[..3], [Complex::ZERO; 3], "{found:?}\n{}", missile.text);
         let whole = (thrust, &found, &expected);
         assert!(among(&found[3..], &expected), "{whole:?}\n{}", missile.text);
         assert!(among(&expected, &found[3..]), "{whole:?}\n{}", missile.text);
-        let shapes = modes
-            .modes
-            .iter()
-            .flat_map(|mode| mode.shape.iter().chain(mode.left()));
-        assert!(
-            shapes.into_iter().all(|x| x.is_finite()),
-            "{}",
-            missile.text
-        );
+        let shapes = modes.modes.iter().flat_map(|mode| mode.shape.iter().chain(mode.left()));
+        assert!(shapes.into_iter().all(|x| x.is_finite()), "{}", missile.text);
         let grows = expected.iter().any(|s| s.re > 1e-7 * s.norm());
         let at = study.equilibrium().expect("an equilibrium");
         let neutral = at.stability == Stability::Neutral { zero: 3 };
-        assert_eq!(
-            neutral, !grows,
-            "{:?} {whole:?}\n{}",
-            at.stability, missile.text
-        );
+        assert_eq!(neutral, !grows, "{:?} {whole:?}\n{}", at.stability, missile.text);
     }
 }
 
@@ -315,17 +285,12 @@ fn two_rods_under_thrust() {
     let text = include_str!("../../../truth/strangers/thrust_two_rods.mechanism");
     for thrust in [0.0, 0.1, 1.0, 3.7, 5.96, 7.0, 7.99, 8.0, 8.01, 12.0] {
         let study = study(text).input(eigentol::Input::new(0), thrust);
-        let modes = study
-            .modes()
-            .unwrap_or_else(|error| panic!("{thrust}: {error}"));
+        let modes = study.modes().unwrap_or_else(|error| panic!("{thrust}: {error}"));
         let lambda: Vec<f64> = modes.modes.iter().map(|mode| mode.lambda).collect();
         assert_eq!(lambda[..3], [0.0; 3], "{thrust}");
         for lambda in &lambda[3..] {
             let expected = 24.0 - 3.0 * thrust;
-            assert!(
-                (lambda - expected).abs() < 1e-11,
-                "{thrust}: {lambda} {expected}"
-            );
+            assert!((lambda - expected).abs() < 1e-11, "{thrust}: {lambda} {expected}");
         }
         let stability = study.equilibrium().expect("an equilibrium").stability;
         let expected = match thrust {
@@ -341,9 +306,7 @@ fn two_rods_under_thrust() {
 fn launcher(random: &mut RandomNumbers, damped: bool) -> (String, f64) {
     let mut number = |low: f64, high: f64| low * f64::powf(high / low, random.fraction());
     let rods = number(2.0, 5.0) as usize;
-    let each: Vec<[f64; 3]> = (0..rods)
-        .map(|_| [number(0.1, 10.0), number(0.3, 3.0), number(0.3, 3.0)])
-        .collect();
+    let each: Vec<[f64; 3]> = (0..rods).map(|_| [number(0.1, 10.0), number(0.3, 3.0), number(0.3, 3.0)]).collect();
     let whole: f64 = each.iter().map(|rod| rod[0]).sum();
     let mut text = format!("input thrust: N; gravity thrust / ({whole} kg) along -x;");
     for (k, [mass, length, stiffness]) in each.iter().enumerate() {
@@ -363,13 +326,8 @@ fn launcher(random: &mut RandomNumbers, damped: bool) -> (String, f64) {
         }
     }
     text += "point nozzle: b0; force engine: follower(at: nozzle, force: [thrust, 0, 0]);";
-    let softest = each[1..]
-        .iter()
-        .fold(f64::INFINITY, |least, rod| least.min(rod[2]));
-    (
-        format!("mechanism Launcher {{ {text} }}"),
-        number(3.0, 30.0) * softest,
-    )
+    let softest = each[1..].iter().fold(f64::INFINITY, |least, rod| least.min(rod[2]));
+    (format!("mechanism Launcher {{ {text} }}"), number(3.0, 30.0) * softest)
 }
 
 /// Along a thrust that turns with a free machine, what a list says is what the eigenvalues of the whole system of first
@@ -392,8 +350,7 @@ fn events_along_a_thrust_are_those_of_counting() {
         let matrix = |matrix: &Matrix| DMatrix::from_fn(n, n, |i, j| matrix[i][j]);
         let factors = matrix(&still.mass).lu();
         let solved = |m: &Matrix| -> DMatrix<f64> { factors.solve(&matrix(m)).expect("masses") };
-        let [c, k0, k1]: [DMatrix<f64>; 3] =
-            [&still.damping, &still.stiffness, &pushed.stiffness].map(solved);
+        let [c, k0, k1]: [DMatrix<f64>; 3] = [&still.damping, &still.stiffness, &pushed.stiffness].map(solved);
         let count = |share: f64| {
             let k = &k0 + (&k1 - &k0) * share;
             let whole = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
@@ -406,16 +363,12 @@ fn events_along_a_thrust_are_those_of_counting() {
             all.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
             // Six zeros: two that drift, and a turn that accelerates one of them.
             let grows = all[6..].iter().filter(|s| s.re > 1e-6 * s.norm());
-            let (turning, straight): (Vec<&Complex>, Vec<&Complex>) =
-                grows.partition(|s| s.im.abs() > 1e-6 * s.norm());
+            let (turning, straight): (Vec<&Complex>, Vec<&Complex>) = grows.partition(|s| s.im.abs() > 1e-6 * s.norm());
             [turning.len() / 2, straight.len()]
         };
         let share = |j: usize| (j as f64 + 0.5) / VALUES as f64;
         let counts: Vec<_> = (0..VALUES).map(|j| count(share(j))).collect();
-        let expected = counts
-            .windows(2)
-            .enumerate()
-            .filter(|(_, two)| two[0] != two[1]);
+        let expected = counts.windows(2).enumerate().filter(|(_, two)| two[0] != two[1]);
         let expected: Vec<f64> = expected.map(|(j, _)| most * share(j)).collect();
         let values: Vec<f64> = (0..=20).map(|j| most * f64::from(j) / 20.0).collect();
         let sweep = study.sweep(input, &values).expect("a sweep");
@@ -424,14 +377,8 @@ fn events_along_a_thrust_are_those_of_counting() {
         let found: Vec<f64> = critical.chain(flutter).collect();
         let close = |a: f64, b: f64| (a - b).abs() < 2.5 * most / VALUES as f64;
         let whole = format!("{expected:?} {found:?}\n{text}");
-        assert!(
-            expected.iter().all(|a| found.iter().any(|b| close(*a, *b))),
-            "{whole}"
-        );
-        assert!(
-            found.iter().all(|a| expected.iter().any(|b| close(*a, *b))),
-            "{whole}"
-        );
+        assert!(expected.iter().all(|a| found.iter().any(|b| close(*a, *b))), "{whole}");
+        assert!(found.iter().all(|a| expected.iter().any(|b| close(*a, *b))), "{whole}");
         changes += expected.len();
     }
     assert!(changes > 8, "{changes}");

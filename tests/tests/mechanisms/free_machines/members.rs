@@ -61,9 +61,7 @@ fn at(study: &Study<Interpreted>, w: f64) -> Study<Interpreted> {
 #[test]
 fn tolerances_of_inputs_act_through_steady_values() {
     let w = 4.0;
-    let study = at(&conical(""), w)
-        .relative_tolerance(Parameter::Input(Input::new(0)), 0.05)
-        .samples(4000);
+    let study = at(&conical(""), w).relative_tolerance(Parameter::Input(Input::new(0)), 0.05).samples(4000);
     let modes = &study.modes().expect("it goes round").modes;
     let mode = modes.iter().position(|mode| mode.frequency().is_some());
     let mode = mode.expect("it nods");
@@ -118,14 +116,10 @@ fn critical_states_of_families_have_derivatives() {
     close(found.value, value, 1e-11, "critical speed");
     assert!(matches!(found.kind, SpecialKind::Pitchfork { .. }));
     let [length, ratio] = [0, 1].map(DesignVariable::new);
-    let study = study
-        .relative_tolerance(Parameter::Design(length), 0.01)
-        .relative_tolerance(Parameter::Design(ratio), 0.02);
+    let study =
+        study.relative_tolerance(Parameter::Design(length), 0.01).relative_tolerance(Parameter::Design(ratio), 0.02);
     let event = study.critical_tolerance(Input::new(0), 0.5, 4.0);
-    let spread = event
-        .expect("a critical state")
-        .spread
-        .expect("derivatives");
+    let spread = event.expect("a critical state").spread.expect("derivatives");
     close(spread.by_design[0], -value / (2.0 * LENGTH), 1e-9, "by l");
     close(spread.by_design[1], -value / RATIO, 1e-9, "by n");
     let second = study.critical_curvature(Input::new(0), 0.5, 4.0);
@@ -157,10 +151,7 @@ fn samples_of_members_stay_on_their_branch() {
     let scatter = 4.0 * (4000.0 * slower * (1.0 - slower)).sqrt();
     let mode = found.modes[mode.expect("it nods")].as_ref();
     let count = mode.expect("statistics").count as f64;
-    assert!(
-        (count - expected).abs() < scatter,
-        "{count}, not {expected}"
-    );
+    assert!((count - expected).abs() < scatter, "{count}, not {expected}");
 }
 
 /// Unknowns that are held have one value in a search, at whatever bounds the others start.
@@ -226,8 +217,7 @@ fn heights_of_a_coin_along_an_input() {
         close(value(height), radius * lean_asked.cos(), 1e-10, "height");
         let (polar, diameter) = (radius * radius / 2.0, radius * radius / 4.0);
         let (sine, tangent) = (lean_asked.sin(), lean_asked.tan());
-        let about_axis =
-            (G * radius * tangent / rate - diameter * rate * sine) / (polar + radius * radius);
+        let about_axis = (G * radius * tangent / rate - diameter * rate * sine) / (polar + radius * radius);
         close(value(spin), about_axis + rate * sine, 1e-9, "spin");
     }
 }
@@ -256,15 +246,9 @@ fn sleeping() -> f64 {
 /// Two frequencies of the top merge where it falls asleep: the same place in either direction, without a derivative.
 #[test]
 fn a_top_falls_asleep_in_either_direction() {
-    for (family, spin) in ["driven at w;", "coasting; steady spin = w;"]
-        .iter()
-        .enumerate()
-    {
+    for (family, spin) in ["driven at w;", "coasting; steady spin = w;"].iter().enumerate() {
         for (low, high, change) in [(0.0, 300.0, Change::End), (300.0, 0.0, Change::Onset)] {
-            let study = top(spin)
-                .start(Coordinate::new(0), 0.0)
-                .start(Coordinate::new(1), 0.0)
-                .stay();
+            let study = top(spin).start(Coordinate::new(0), 0.0).start(Coordinate::new(1), 0.0).stay();
             let diagram = study.campbell(Input::new(0), &[low, high], &[] as &[f64]);
             let diagram = diagram.expect("a diagram");
             let of = format!("family {family}, {low} to {high}: {diagram}");
@@ -272,10 +256,7 @@ fn a_top_falls_asleep_in_either_direction() {
             let found = found.expect("events");
             // At rest it falls in two directions alike; the least spin makes a flutter of them, at the end of the range.
             let spins = |value: f64| value > 1e-6;
-            let crossings = found
-                .crossings
-                .iter()
-                .filter(|crossing| spins(crossing.value));
+            let crossings = found.crossings.iter().filter(|crossing| spins(crossing.value));
             let merged: Vec<_> = crossings.clone().filter(|x| x.merging).collect();
             let changes: Vec<_> = crossings.map(|crossing| crossing.change).collect();
             assert_eq!((merged.len(), &changes[..]), (1, &[change][..]), "{of}");
@@ -299,11 +280,8 @@ fn samples_of_a_top_that_was_asked_to_stay() {
     let w = 1.02 * sleeping();
     let moment: DesignVariable<Interpreted> = DesignVariable::new(3);
     for spin in ["driven at w;", "coasting; steady spin = w;"] {
-        let study = top(spin)
-            .input(Input::new(0), w)
-            .stay()
-            .relative_tolerance(Parameter::Design(moment), 0.06)
-            .samples(2000);
+        let study =
+            top(spin).input(Input::new(0), w).stay().relative_tolerance(Parameter::Design(moment), 0.06).samples(2000);
         let state = study.equilibrium().expect("it sleeps");
         assert!(state.stability.holds());
         assert!(!matches!(state.stability, Stability::Flutter { .. }));
@@ -312,11 +290,7 @@ fn samples_of_a_top_that_was_asked_to_stay() {
         let falls = 0.163_446_f64;
         let scatter = 4.0 * (2000.0 * falls * (1.0 - falls)).sqrt();
         let count = found.counts.flutter as f64;
-        assert!(
-            (count - 2000.0 * falls).abs() < scatter,
-            "{spin} {:?}",
-            found.counts
-        );
+        assert!((count - 2000.0 * falls).abs() < scatter, "{spin} {:?}", found.counts);
         assert_eq!(found.counts.stable + found.counts.flutter, 2000);
     }
 }

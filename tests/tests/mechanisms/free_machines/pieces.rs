@@ -20,18 +20,10 @@ type Point = [DVector<f64>; 3];
 impl Pieces {
     /// Pieces in a row, tied by bushings or by plain springs, each to one before it; each third of them stands on one
     /// before it, if asked.
-    fn new(
-        random: &mut RandomNumbers,
-        count: usize,
-        (springs, decades): (bool, f64),
-        mixed: bool,
-    ) -> Self {
+    fn new(random: &mut RandomNumbers, count: usize, (springs, decades): (bool, f64), mixed: bool) -> Self {
         let mut number = |middle: f64| middle * 10_f64.powf(decades * (random.fraction() - 0.5));
-        let mut pieces = Self {
-            text: String::new(),
-            masses: Vec::new(),
-            stiffness: DMatrix::zeros(3 * count, 3 * count),
-        };
+        let mut pieces =
+            Self { text: String::new(), masses: Vec::new(), stiffness: DMatrix::zeros(3 * count, 3 * count) };
         for k in 0..count {
             let (mass, inertia) = (number(1.0), number(0.01));
             pieces.masses.extend([mass, mass, inertia]);
@@ -60,11 +52,7 @@ impl Pieces {
     }
 
     fn point(&self, piece: usize, [x, y]: [f64; 2]) -> Point {
-        let unit = |k: usize| {
-            DVector::from_fn(self.masses.len(), |i, _| {
-                f64::from(u8::from(i == 3 * piece + k))
-            })
-        };
+        let unit = |k: usize| DVector::from_fn(self.masses.len(), |i, _| f64::from(u8::from(i == 3 * piece + k)));
         [unit(0) - unit(2) * y, unit(1) + unit(2) * x, unit(2)]
     }
 
@@ -103,23 +91,11 @@ impl Pieces {
     /// The frequencies above zero, and what rounding adds to their squares.
     fn frequencies(&self, free: usize) -> (Vec<f64>, f64) {
         let n = self.masses.len();
-        let scaled = DMatrix::from_fn(n, n, |i, j| {
-            self.stiffness[(i, j)] / (self.masses[i] * self.masses[j]).sqrt()
-        });
-        let mut squares: Vec<f64> = SymmetricEigen::new(scaled)
-            .eigenvalues
-            .iter()
-            .copied()
-            .collect();
+        let scaled = DMatrix::from_fn(n, n, |i, j| self.stiffness[(i, j)] / (self.masses[i] * self.masses[j]).sqrt());
+        let mut squares: Vec<f64> = SymmetricEigen::new(scaled).eigenvalues.iter().copied().collect();
         squares.sort_by(f64::total_cmp);
         let rounding = 1e-14 * n as f64 * squares[n - 1];
-        (
-            squares
-                .drain(free..)
-                .map(|square| square.max(0.0).sqrt())
-                .collect(),
-            rounding,
-        )
+        (squares.drain(free..).map(|square| square.max(0.0).sqrt()).collect(), rounding)
     }
 
     fn text(&self) -> String {
@@ -138,10 +114,7 @@ impl Pieces {
         for (mode, expected) in modes.modes.iter().skip(free).zip(expected) {
             let found = mode.frequency().unwrap_or(0.0);
             let error = (found * found - expected * expected).abs();
-            assert!(
-                error <= 1e-9 * expected * expected + rounding,
-                "{found} {expected}\n{text}"
-            );
+            assert!(error <= 1e-9 * expected * expected + rounding, "{found} {expected}\n{text}");
         }
     }
 }
@@ -162,12 +135,7 @@ fn long_rows_of_equal_pieces() {
     let mut random = RandomNumbers::new(58, 2);
     for count in [5, 11, 40] {
         let mut row = Pieces::new(&mut random, count, (false, 0.0), false);
-        row.text = row
-            .text
-            .split("point")
-            .next()
-            .unwrap_or_default()
-            .to_owned();
+        row.text = row.text.split("point").next().unwrap_or_default().to_owned();
         row.stiffness.fill(0.0);
         for k in 1..count {
             row.bushing([k - 1, k], [1e9, 1e6, 1e3]);
@@ -196,8 +164,5 @@ fn a_load_on_one_piece_moves_the_whole() {
     row.text += "force push: load(at: r3, force: [0, 2, 0] N);";
     let mistakes = eigentol_interpreter::Interpreted::from_text(&row.text()).err();
     let message = mistakes.expect("a refusal").to_string();
-    assert!(
-        message.contains("`push` acts along translation of the whole along y, which nothing holds"),
-        "{message}"
-    );
+    assert!(message.contains("`push` acts along translation of the whole along y, which nothing holds"), "{message}");
 }

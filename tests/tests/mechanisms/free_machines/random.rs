@@ -34,9 +34,7 @@ impl Chain {
         Self {
             lengths: (0..count).map(|_| any(&[1.0, 0.5])).collect(),
             masses: (0..count).map(|_| any(&[1.0, 2.0])).collect(),
-            hinges: (1..count)
-                .map(|_| (40.0 * any(&[1.0]), any(&[0.0, 0.5]) - 0.3))
-                .collect(),
+            hinges: (1..count).map(|_| (40.0 * any(&[1.0]), any(&[0.0, 0.5]) - 0.3)).collect(),
             struts: (2..count).map(|k| (k - 2, k, 20.0 * any(&[1.0]))).collect(),
             drag: None,
         }
@@ -53,34 +51,20 @@ impl Chain {
             let _ = writeln!(text, "point e{k}: b{k} at [l{k}, 0, 0];");
             let _ = writeln!(text, "point c{k}: b{k} at [l{k} / 2, 0, 0];");
         }
-        let _ = writeln!(
-            text,
-            "joint place: planar(px: x, py: y, turn: z) from ground to b{root};"
-        );
+        let _ = writeln!(text, "joint place: planar(px: x, py: y, turn: z) from ground to b{root};");
         for k in 1..count {
             let (stiffness, rest) = self.hinges[k - 1];
             let _ = writeln!(text, "design k{k} = {stiffness} N*m/rad;");
             // The angle of bar k from bar k - 1, whichever carries the other.
             let (joint, spring) = if k > root {
                 let before = k - 1;
-                (
-                    format!("revolute(z) from b{before} to b{k} at [l{before}, 0, 0]"),
-                    rest,
-                )
+                (format!("revolute(z) from b{before} to b{k} at [l{before}, 0, 0]"), rest)
             } else {
                 let before = k - 1;
-                (
-                    format!(
-                        "revolute(z) from b{k} to b{before}, at [l{before}, 0, 0] on b{before}"
-                    ),
-                    -rest,
-                )
+                (format!("revolute(z) from b{k} to b{before}, at [l{before}, 0, 0] on b{before}"), -rest)
             };
             let _ = writeln!(text, "joint q{k}: {joint};");
-            let _ = writeln!(
-                text,
-                "force s{k}: spring(on: q{k}, stiffness: k{k}, rest: {spring});"
-            );
+            let _ = writeln!(text, "force s{k}: spring(on: q{k}, stiffness: k{k}, rest: {spring});");
         }
         for (i, (from, to, stiffness)) in self.struts.iter().enumerate() {
             let _ = writeln!(text, "design t{i} = {stiffness} N/m;");
@@ -90,10 +74,7 @@ impl Chain {
             );
         }
         if let Some((bar, drag)) = self.drag {
-            let _ = writeln!(
-                text,
-                "design d = {drag} N*s/m;\nforce air: drag(at: c{bar}, damping: d);"
-            );
+            let _ = writeln!(text, "design d = {drag} N*s/m;\nforce air: drag(at: c{bar}, damping: d);");
         }
         text.push('}');
         text
@@ -124,11 +105,8 @@ fn numbers(study: &Study<Interpreted>) -> Vec<Derived> {
                 None => Quantity::Growth,
             };
             let own = slopes.of(quantity).expect("derivatives").by_design;
-            let mut derived: Vec<(String, f64)> = design
-                .iter()
-                .zip(&own)
-                .map(|(info, slope)| (info.name.to_string(), *slope))
-                .collect();
+            let mut derived: Vec<(String, f64)> =
+                design.iter().zip(&own).map(|(info, slope)| (info.name.to_string(), *slope)).collect();
             derived.sort_by(|a, b| a.0.cmp(&b.0));
             (mode.s.re, mode.s.im, derived)
         })
@@ -141,24 +119,14 @@ fn compare(chain: &Chain, free: usize) {
     let reference = numbers(&chain.study(0));
     for root in 0..chain.lengths.len() {
         let study = chain.study(root);
-        assert_eq!(
-            study.description().free_directions,
-            free,
-            "{}",
-            chain.text(root)
-        );
+        assert_eq!(study.description().free_directions, free, "{}", chain.text(root));
         let found = numbers(&study);
         assert_eq!(found.len(), reference.len(), "{}", chain.text(root));
         for ((re, im, slopes), (other_re, other_im, others)) in found.iter().zip(&reference) {
             let what = format!("about bar {root} of\n{}", chain.text(0));
             let size = other_im.hypot(*other_re);
-            assert!(
-                (re - other_re).hypot(im - other_im) <= 1e-11 * size,
-                "{re} {im} {what}"
-            );
-            let most = others
-                .iter()
-                .fold(0.0_f64, |most, (_, slope)| most.max(slope.abs()));
+            assert!((re - other_re).hypot(im - other_im) <= 1e-11 * size, "{re} {im} {what}");
+            let most = others.iter().fold(0.0_f64, |most, (_, slope)| most.max(slope.abs()));
             for ((name, slope), (_, other)) in slopes.iter().zip(others) {
                 assert!(
                     (slope - other).abs() <= 1e-9 * other.abs().max(1e-3 * most),
@@ -196,18 +164,10 @@ fn drivetrains_in_absolute_relative_and_mixed_coordinates() {
     for _ in 0..40 {
         let count = 3 + (3.0 * random.fraction()) as usize;
         let inertia: Vec<f64> = (0..count).map(|_| pick(&mut random, &[1.0, 0.1])).collect();
-        let parents: Vec<usize> = (1..count)
-            .map(|k| (k as f64 * random.fraction()) as usize)
-            .collect();
+        let parents: Vec<usize> = (1..count).map(|k| (k as f64 * random.fraction()) as usize).collect();
         // A shaft of this stiffness, or a gear of this ratio.
-        let links: Vec<(bool, f64)> = (1..count)
-            .map(|_| {
-                (
-                    random.fraction() < 0.7,
-                    pick(&mut random, &[1.0, -2.0, 0.5]),
-                )
-            })
-            .collect();
+        let links: Vec<(bool, f64)> =
+            (1..count).map(|_| (random.fraction() < 0.7, pick(&mut random, &[1.0, -2.0, 0.5]))).collect();
         let shafts = links.iter().filter(|link| link.0).count();
         if shafts == 0 {
             continue;
@@ -218,16 +178,10 @@ fn drivetrains_in_absolute_relative_and_mixed_coordinates() {
             for k in 0..count {
                 let j = inertia[k];
                 let _ = writeln!(text, "design j{k} = {j} kg*m^2;");
-                let _ = writeln!(
-                    text,
-                    "body w{k}: rigid(mass: 1 kg, inertia: [5 kg*m^2, 5 kg*m^2, j{k}]);"
-                );
+                let _ = writeln!(text, "body w{k}: rigid(mass: 1 kg, inertia: [5 kg*m^2, 5 kg*m^2, j{k}]);");
                 let on_shaft = k > 0 && links[k - 1].0 && relative(k);
                 let (from, own) = match on_shaft {
-                    true => (
-                        format!("w{}", parents[k - 1]),
-                        format!("({} + p{k})", angle[parents[k - 1]]),
-                    ),
+                    true => (format!("w{}", parents[k - 1]), format!("({} + p{k})", angle[parents[k - 1]])),
                     false => ("ground".to_owned(), format!("p{k}")),
                 };
                 let _ = writeln!(text, "joint p{k}: revolute(z) from {from} to w{k};");
@@ -258,14 +212,9 @@ fn drivetrains_in_absolute_relative_and_mixed_coordinates() {
             assert_eq!(study.description().free_directions, 1, "{coordinates}");
             for ((_, im, slopes), (_, other, others)) in numbers(&study).iter().zip(&absolute) {
                 close(*im, *other, 1e-11, &coordinates);
-                let most = others
-                    .iter()
-                    .fold(0.0_f64, |most, (_, slope)| most.max(slope.abs()));
+                let most = others.iter().fold(0.0_f64, |most, (_, slope)| most.max(slope.abs()));
                 for ((name, slope), (_, other)) in slopes.iter().zip(others) {
-                    assert!(
-                        (slope - other).abs() <= 1e-9 * other.abs().max(1e-3 * most),
-                        "{name} {coordinates}"
-                    );
+                    assert!((slope - other).abs() <= 1e-9 * other.abs().max(1e-3 * most), "{name} {coordinates}");
                 }
             }
         }

@@ -11,17 +11,12 @@ use super::common::{close, designs, frequencies, machine, number, numbers, study
 fn oscillating(study: &Study<Interpreted>) -> Vec<usize> {
     let modes = study.modes().expect("modes").modes;
     let all = modes.iter().enumerate();
-    all.filter(|(_, mode)| mode.frequency().is_some())
-        .map(|(r, _)| r)
-        .collect()
+    all.filter(|(_, mode)| mode.frequency().is_some()).map(|(r, _)| r).collect()
 }
 
 fn free(study: &Study<Interpreted>) -> usize {
     let modes = study.modes().expect("modes").modes;
-    modes
-        .iter()
-        .filter(|mode| mode.behaviour == Behaviour::Free)
-        .count()
+    modes.iter().filter(|mode| mode.behaviour == Behaviour::Free).count()
 }
 
 /// Compares first derivatives of frequencies, and Hessians where they are stored.
@@ -31,36 +26,21 @@ fn check_derivatives(
     second: impl Fn(&str, &str, usize) -> Option<f64>,
 ) {
     let (first_tolerance, second_tolerance) = (1e-9, 1e-8);
-    let names: Vec<String> = (study.description().design.iter())
-        .map(|info| info.name.trim_end_matches('_').to_owned())
-        .collect();
+    let names: Vec<String> =
+        (study.description().design.iter()).map(|info| info.name.trim_end_matches('_').to_owned()).collect();
     let slopes = study.sensitivities().expect("derivatives");
     let mut compared = 0;
     for (k, r) in oscillating(study).into_iter().enumerate() {
-        let own = slopes.modes[r]
-            .frequency()
-            .expect("derivatives of a frequency");
+        let own = slopes.modes[r].frequency().expect("derivatives of a frequency");
         let curvature = study.mode_curvature(r).expect("second derivatives");
-        let hessian = curvature
-            .of(Quantity::Frequency)
-            .expect("of a frequency")
-            .by_design;
+        let hessian = curvature.of(Quantity::Frequency).expect("of a frequency").by_design;
         let largest = (0..names.len())
             .flat_map(|i| (0..names.len()).map(move |j| (i, j)))
             .fold(0.0_f64, |most, (i, j)| most.max(hessian[i][j].abs()));
-        assert!(
-            curvature.asymmetry < 1e-9,
-            "asymmetry {}",
-            curvature.asymmetry
-        );
+        assert!(curvature.asymmetry < 1e-9, "asymmetry {}", curvature.asymmetry);
         for (i, name) in names.iter().enumerate() {
             if let Some(expected) = first(name, k) {
-                close(
-                    own.by_design[i],
-                    expected,
-                    first_tolerance,
-                    &format!("d{k}/d{name}"),
-                );
+                close(own.by_design[i], expected, first_tolerance, &format!("d{k}/d{name}"));
                 compared += 1;
             }
             for (j, other) in names.iter().enumerate() {
@@ -80,8 +60,7 @@ fn check_derivatives(
 }
 
 fn entry<'a>(of: &'a Value, a: &str, b: &str) -> Option<&'a Value> {
-    of.get(format!("{a} {b}"))
-        .or_else(|| of.get(format!("{b} {a}")))
+    of.get(format!("{a} {b}")).or_else(|| of.get(format!("{b} {a}")))
 }
 
 const TRAIN: [(&str, &str); 7] = [
@@ -96,12 +75,8 @@ const TRAIN: [(&str, &str); 7] = [
 
 /// The geared train in absolute angles, in relative ones, and in a mixture.
 fn trains(truth: &Value, extra: &str) -> Vec<(&'static str, String)> {
-    let wheel = |name: &str, j: &str| {
-        format!("body {name}: rigid(mass: 1 kg, inertia: [1 kg*m^2, 1 kg*m^2, {j}]);\n")
-    };
-    let bodies = [("w1", "J1_"), ("w2", "J2_"), ("w3", "J3_"), ("w4", "J4_")]
-        .map(|(name, j)| wheel(name, j))
-        .concat();
+    let wheel = |name: &str, j: &str| format!("body {name}: rigid(mass: 1 kg, inertia: [1 kg*m^2, 1 kg*m^2, {j}]);\n");
+    let bodies = [("w1", "J1_"), ("w2", "J2_"), ("w3", "J3_"), ("w4", "J4_")].map(|(name, j)| wheel(name, j)).concat();
     let designs = designs(truth, &TRAIN);
     let absolute = "
         joint p1: revolute(z) from ground to w1;
@@ -131,16 +106,12 @@ fn trains(truth: &Value, extra: &str) -> Vec<(&'static str, String)> {
         force s1: spring(on: d2, stiffness: k1_);
         force s2: spring(on: d3, stiffness: k2_);
     ";
-    [
-        ("absolute", absolute),
-        ("relative", relative),
-        ("mixed", mixed),
-    ]
-    .map(|(name, joints)| {
-        let text = format!("mechanism Train {{\n{designs}{bodies}{joints}{extra}}}");
-        (name, text)
-    })
-    .into()
+    [("absolute", absolute), ("relative", relative), ("mixed", mixed)]
+        .map(|(name, joints)| {
+            let text = format!("mechanism Train {{\n{designs}{bodies}{joints}{extra}}}");
+            (name, text)
+        })
+        .into()
 }
 
 #[test]
@@ -205,12 +176,7 @@ fn a_free_body_in_the_plane() {
         }
         let state = study.equilibrium().expect("modes");
         let q = &state.coordinates;
-        close(
-            q[3],
-            number(&truth["equilibrium"]),
-            1e-12,
-            "angle of the arm",
-        );
+        close(q[3], number(&truth["equilibrium"]), 1e-12, "angle of the arm");
         for (j, value) in place.into_iter().enumerate() {
             assert!((q[j] - value).abs() < 1e-12, "it moved: {q:?}");
         }
@@ -234,14 +200,7 @@ fn a_free_body_in_the_plane() {
 #[test]
 fn a_disc_on_an_incline() {
     let truth = truth("N3_disc_on_incline");
-    let units = [
-        ("m", "kg"),
-        ("r", "m"),
-        ("k", "N/m"),
-        ("l0", "m"),
-        ("h", "m"),
-        ("slope", "rad"),
-    ];
+    let units = [("m", "kg"), ("r", "m"), ("k", "N/m"), ("l0", "m"), ("h", "m"), ("slope", "rad")];
     let text = format!(
         "mechanism DiscOnIncline {{
             {}
@@ -317,11 +276,7 @@ fn a_free_spacecraft() {
         for (found, expected) in found.iter().zip(numbers(&truth["frequencies"])) {
             close(*found, expected, 1e-10, "frequency");
         }
-        check_derivatives(
-            &study,
-            |b, k| truth["first"].get(b).map(|values| number(&values[k])),
-            |_, _, _| None,
-        );
+        check_derivatives(&study, |b, k| truth["first"].get(b).map(|values| number(&values[k])), |_, _, _| None);
     }
 }
 
@@ -338,30 +293,20 @@ fn a_geared_train_with_drag() {
         let study = study(&text);
         let modes = study.modes().expect(name).modes;
         assert_eq!(free(&study), 1, "{name}");
-        let moving: Vec<usize> = (0..modes.len())
-            .filter(|&r| modes[r].behaviour != Behaviour::Free)
-            .collect();
+        let moving: Vec<usize> = (0..modes.len()).filter(|&r| modes[r].behaviour != Behaviour::Free).collect();
         let expected = truth_of["eigenvalues"].as_array().expect("a list");
         assert_eq!(moving.len(), expected.len(), "{name} {modes:?}");
         let slopes = study.sensitivities().expect("derivatives");
         for (k, &r) in moving.iter().enumerate() {
             let own = numbers(&expected[k]);
             let error = (modes[r].s.re - own[0]).hypot(modes[r].s.im - own[1]);
-            assert!(
-                error <= 1e-12 * own[0].hypot(own[1]),
-                "{name}: {} {own:?}",
-                modes[r].s
-            );
+            assert!(error <= 1e-12 * own[0].hypot(own[1]), "{name}: {} {own:?}", modes[r].s);
             let s = slopes.modes[r].s().expect("derivatives").by_design;
             for (i, info) in study.description().design.iter().enumerate() {
                 let name = info.name.trim_end_matches('_');
                 let own = numbers(&truth_of["first"][name][k]);
                 let error = (s[i].re - own[0]).hypot(s[i].im - own[1]);
-                assert!(
-                    error <= 1e-9 * own[0].hypot(own[1]),
-                    "{name}: {} {own:?}",
-                    s[i]
-                );
+                assert!(error <= 1e-9 * own[0].hypot(own[1]), "{name}: {} {own:?}", s[i]);
             }
         }
     }

@@ -74,13 +74,9 @@ fn an_inverted_rod() {
         let state = elsewhere.equilibrium().expect("hanging");
         assert_eq!((state.stability, state.notes.len()), (Stability::Stable, 0));
     }
-    let near = study(&text)
-        .start(Coordinate::new(0), HALF_TURN - 0.3)
-        .stay();
+    let near = study(&text).start(Coordinate::new(0), HALF_TURN - 0.3).stay();
     let state = near.equilibrium().expect("upright");
-    assert!(
-        matches!(state.notes[..], [Note::Far { unknown: 0, distance }] if (distance - 0.3).abs() < 1e-9)
-    );
+    assert!(matches!(state.notes[..], [Note::Far { unknown: 0, distance }] if (distance - 0.3).abs() < 1e-9));
     check(&near, &truth, 2);
 }
 
@@ -99,9 +95,7 @@ fn a_pole_on_a_cart() {
         }}",
         designs(&truth, &units)
     );
-    let study = study(&text)
-        .start(Coordinate::new(0), 0.4)
-        .start(Coordinate::new(1), HALF_TURN);
+    let study = study(&text).start(Coordinate::new(0), 0.4).start(Coordinate::new(1), HALF_TURN);
     let state = study.equilibrium().expect("upright");
     assert_eq!(state.notes, [Note::Stays]);
     assert_eq!(state.coordinates[0], 0.4);
@@ -111,12 +105,7 @@ fn a_pole_on_a_cart() {
 #[test]
 fn a_middle_axis() {
     let truth = unstable("middle");
-    let units = [
-        ("A", "kg*m^2"),
-        ("B", "kg*m^2"),
-        ("C", "kg*m^2"),
-        ("omega", "rad/s"),
-    ];
+    let units = [("A", "kg*m^2"), ("B", "kg*m^2"), ("C", "kg*m^2"), ("omega", "rad/s")];
     let designs = designs(&truth, &units);
     let text = format!(
         "mechanism Middle {{
@@ -127,22 +116,14 @@ fn a_middle_axis() {
             joint tilt: universal(a: x, b: y) from shaft to top;
         }}"
     );
-    let named = study(&text)
-        .start(Coordinate::new(0), 0.0)
-        .start(Coordinate::new(1), 0.0);
+    let named = study(&text).start(Coordinate::new(0), 0.0).start(Coordinate::new(1), 0.0);
     check(&named, &truth, 1);
 }
 
 #[test]
 fn a_truss_between_its_folds() {
     let truth = unstable("truss");
-    let units = [
-        ("b", "m"),
-        ("h", "m"),
-        ("k", "N/m"),
-        ("m", "kg"),
-        ("F", "N"),
-    ];
+    let units = [("b", "m"), ("h", "m"), ("k", "N/m"), ("m", "kg"), ("F", "N")];
     let text = format!(
         "mechanism Truss {{
             {}
@@ -185,27 +166,18 @@ fn samples_stay_where_it_is_unstable() {
         joint q: revolute(y) from cart to pole;
         force rail: spring(on: x, stiffness: 30 N/m);
     }";
-    let study = study(text)
-        .start(Coordinate::new(1), HALF_TURN)
-        .samples(4000)
-        .keep_samples(true);
+    let study = study(text).start(Coordinate::new(1), HALF_TURN).samples(4000).keep_samples(true);
     let state = study.equilibrium().expect("upright");
     assert_eq!(state.notes, [Note::Stays]);
     let spread = study.first_order().expect("a spread");
     let found = study.monte_carlo().expect("samples");
     assert_eq!((found.counts.divergent, found.counts.stable), (4000, 0));
-    let rates: Vec<f64> = (found.all.iter().flatten())
-        .map(|sample| sample.eigenvalues[0].expect("found").re)
-        .collect();
+    let rates: Vec<f64> = (found.all.iter().flatten()).map(|sample| sample.eigenvalues[0].expect("found").re).collect();
     let mean = rates.iter().sum::<f64>() / rates.len() as f64;
     let square = rates.iter().map(|rate| (rate - mean).powi(2)).sum::<f64>();
     let sigma = (square / (rates.len() - 1) as f64).sqrt();
     let growth = spread.modes[0].growth().expect("a growth");
-    assert!(
-        (sigma / growth.sigma - 1.0).abs() < 0.04,
-        "{sigma} {}",
-        growth.sigma
-    );
+    assert!((sigma / growth.sigma - 1.0).abs() < 0.04, "{sigma} {}", growth.sigma);
     let swing = spread.modes[1].frequency().expect("a frequency");
     let sampled = found.modes[1].as_ref().expect("statistics");
     assert_eq!(sampled.count, 4000);

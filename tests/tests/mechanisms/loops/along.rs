@@ -36,9 +36,7 @@ fn check_events<M: Mechanism>(machine: M, name: &'static str) -> usize {
         let (low, high) = (0.9 * value, 1.05 * value);
         let what = format!("{name}: {} at {value}", event.get("kind").text());
         if event.get("kind").text() == "fold" {
-            let state = study
-                .critical_state(speed, 0.0, high)
-                .unwrap_or_else(|error| panic!("{what}: {error}"));
+            let state = study.critical_state(speed, 0.0, high).unwrap_or_else(|error| panic!("{what}: {error}"));
             assert_eq!(state.kind, SpecialKind::Fold, "{what}");
             for (i, unknown) in study.description().coordinates.iter().enumerate() {
                 if let Some(expected) = event.get("coordinates").find(&unknown.name) {
@@ -52,16 +50,12 @@ fn check_events<M: Mechanism>(machine: M, name: &'static str) -> usize {
             continue;
         }
         let line = event.get("line").number();
-        let crossings = study
-            .crossings(speed, low, high, line)
-            .unwrap_or_else(|error| panic!("{what}: {error}"));
+        let crossings = study.crossings(speed, low, high, line).unwrap_or_else(|error| panic!("{what}: {error}"));
         assert_eq!(crossings.len(), 1, "{what}");
         assert!(matches!(crossings[0].condition, Condition::Line(_)));
         let mode = &crossings[0].modes.modes[crossings[0].mode];
         assert_near(mode.s, complex(&event.get("s")), 0.0, &what);
-        let found = study
-            .crossing_tolerances(speed, low, high, line)
-            .expect("a crossing");
+        let found = study.crossing_tolerances(speed, low, high, line).expect("a crossing");
         check_spread(&case, event, &found[0], &what);
     }
     events.len()
@@ -85,9 +79,7 @@ fn check_sweep<M: Mechanism>(machine: M, name: &'static str) {
     let points = case.points();
     let last = points.last().expect("a point").input;
     let speeds: Vec<f64> = (0..=100).map(|k| last * f64::from(k) / 100.0).collect();
-    let sweep = study(machine, &case, &points[0])
-        .sweep(Input::new(0), &speeds)
-        .expect("a sweep");
+    let sweep = study(machine, &case, &points[0]).sweep(Input::new(0), &speeds).expect("a sweep");
     assert!(sweep.critical.is_empty(), "{name}");
     let modes = |at: usize| sweep.points[at].modes.as_ref().expect("modes");
     let labels: Vec<usize> = modes(0).modes.iter().map(|mode| mode.label).collect();

@@ -9,25 +9,14 @@ use super::common::{Case, Point, assert_close};
 use super::study::study;
 
 /// Assembled with the named coordinates held at the file's values and the others starting near them.
-fn assembled(
-    study: &Study<impl Mechanism>,
-    case: &Case,
-    point: &Point,
-    held: &[&str],
-) -> Result<Assembly, Error> {
+fn assembled(study: &Study<impl Mechanism>, case: &Case, point: &Point, held: &[&str]) -> Result<Assembly, Error> {
     let mut start = study.start_values().to_vec();
     let place = |name: &&str| study.find_coordinate(name).expect("declared").any();
     let places: Vec<Coordinate> = held.iter().map(place).collect();
     for (name, place) in held.iter().zip(&places) {
         start[place.index()] = point.truth.get("coordinates").get(name).number();
     }
-    assemble(
-        study.mechanism(),
-        &[point.input],
-        &case.design,
-        &start,
-        &places,
-    )
+    assemble(study.mechanism(), &[point.input], &case.design, &start, &places)
 }
 
 fn check(machine: impl Mechanism, name: &'static str) -> AssemblyMode {
@@ -36,8 +25,7 @@ fn check(machine: impl Mechanism, name: &'static str) -> AssemblyMode {
     let mut modes = Vec::new();
     for point in case.points() {
         let study = study(machine.clone(), &case, &point);
-        let found = assembled(&study, &case, &point, &held)
-            .unwrap_or_else(|error| panic!("{}: {error}", point.what));
+        let found = assembled(&study, &case, &point, &held).unwrap_or_else(|error| panic!("{}: {error}", point.what));
         for (i, unknown) in study.description().coordinates.iter().enumerate() {
             if let Some(expected) = point.truth.get("coordinates").find(&unknown.name) {
                 let what = format!("{}: {}", point.what, unknown.name);
@@ -48,10 +36,7 @@ fn check(machine: impl Mechanism, name: &'static str) -> AssemblyMode {
         assert_eq!(found.constraints.freedom, held.len(), "{}", point.what);
         modes.push(found.mode.expect("no dead centre"));
     }
-    assert!(
-        modes.iter().all(|mode| *mode == modes[0]),
-        "{name}: {modes:?}"
-    );
+    assert!(modes.iter().all(|mode| *mode == modes[0]), "{name}: {modes:?}");
     modes[0]
 }
 
@@ -72,12 +57,7 @@ fn the_five_bar_holds_both_cranks() {
 fn bars_that_do_not_reach_are_told() {
     let case = Case::new("four_bar_open").with("spacing", 0.9);
     let point = case.points().remove(1);
-    let refused = assembled(
-        &study(FourBar, &case, &point),
-        &case,
-        &point,
-        &["crank_angle"],
-    );
+    let refused = assembled(&study(FourBar, &case, &point), &case, &point, &["crank_angle"]);
     let Err(error) = refused else {
         panic!("bars of 0.63 m do not reach 0.9 m");
     };
@@ -90,14 +70,6 @@ fn bars_that_do_not_reach_are_told() {
 fn too_much_held_is_told() {
     let case = Case::new("four_bar_open").with("rocker", 0.23);
     let point = case.points().remove(1);
-    let refused = assembled(
-        &study(FourBar, &case, &point),
-        &case,
-        &point,
-        &["crank_angle", "rocker_angle"],
-    );
-    assert!(
-        matches!(refused, Err(Error::NotAssembled { .. })),
-        "{refused:?}"
-    );
+    let refused = assembled(&study(FourBar, &case, &point), &case, &point, &["crank_angle", "rocker_angle"]);
+    assert!(matches!(refused, Err(Error::NotAssembled { .. })), "{refused:?}");
 }

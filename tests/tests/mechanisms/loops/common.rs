@@ -2,8 +2,7 @@
 
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{
-    five_bar, four_bar, geared_coasting, geared_motor, geared_rotors, governor, porter_governor,
-    slider_crank,
+    five_bar, four_bar, geared_coasting, geared_motor, geared_rotors, governor, porter_governor, slider_crank,
 };
 use nalgebra::Complex;
 
@@ -109,10 +108,7 @@ pub(crate) fn assert_near(complex: Complex<f64>, expected: Complex<f64>, scale: 
     let off = (complex - expected).norm();
     // NaN is not agreement.
     let agrees = off <= TIGHT * expected.norm().max(scale);
-    assert!(
-        agrees,
-        "{what}: {complex}, not {expected}: off by {off:e}, of a scale of {scale:e}"
-    );
+    assert!(agrees, "{what}: {complex}, not {expected}: off by {off:e}, of a scale of {scale:e}");
 }
 
 #[track_caller]

@@ -39,10 +39,7 @@ mechanism! {
 /// The folded crank with the rod beside it turns as one: the slider stays where it is, or moves as if the crank were half
 /// of it. The spring turns either to the pose where both meet.
 fn folding(from: f64, rest: f64) -> Study<Folding> {
-    Study::new(Folding)
-        .design(Folding::rest, rest)
-        .start(Folding::crank_angle, from)
-        .guess(Folding::bend, -2.0 * from)
+    Study::new(Folding).design(Folding::rest, rest).start(Folding::crank_angle, from).guess(Folding::bend, -2.0 * from)
 }
 
 #[test]
@@ -58,10 +55,7 @@ fn a_folded_crank_is_singular_wherever_the_search_starts() {
             Err(error) => panic!("{degrees}: {error}"),
         }
         let modes = study.modes();
-        assert!(
-            matches!(modes, Err(Error::SingularConfiguration { .. })),
-            "{degrees}"
-        );
+        assert!(matches!(modes, Err(Error::SingularConfiguration { .. })), "{degrees}");
     }
 }
 
@@ -76,8 +70,7 @@ fn beside_the_fold_frequencies_are_known_or_refused() {
         let sine = rest.sin();
         // Kinetic energy by the crank's speed: the rod's middle is at (3/2 r cos a, 1/2 r sin a) and it turns backwards.
         let middle = (1.5 * sine).powi(2) + (0.5 * rest.cos()).powi(2);
-        let inertia =
-            r * r * (crank / 3.0 + rod * (middle + 1.0 / 12.0) + piston * (2.0 * sine).powi(2));
+        let inertia = r * r * (crank / 3.0 + rod * (middle + 1.0 / 12.0) + piston * (2.0 * sine).powi(2));
         let omega = (25.0 / inertia).sqrt();
         let study = folding(1.0, rest);
         let state = study.equilibrium().expect("an equilibrium");
@@ -97,13 +90,8 @@ fn beside_the_fold_frequencies_are_known_or_refused() {
 fn a_flat_parallelogram_is_singular_wherever_the_search_starts() {
     for degrees in [0.0, 1e-6, 1e-3, 1.0, 5.0, 30.0] {
         let angle = f64::to_radians(degrees);
-        let study = Study::new(Flat)
-            .start(Flat::al, angle)
-            .guess(Flat::be, -angle)
-            .guess(Flat::ga, angle);
-        let state = study
-            .equilibrium()
-            .unwrap_or_else(|error| panic!("{degrees}: {error}"));
+        let study = Study::new(Flat).start(Flat::al, angle).guess(Flat::be, -angle).guess(Flat::ga, angle);
+        let state = study.equilibrium().unwrap_or_else(|error| panic!("{degrees}: {error}"));
         assert!(state.constraints.singular, "{degrees}: {state}");
         assert_eq!(state.stability, Stability::Undecided);
     }
@@ -132,10 +120,7 @@ fn beside_the_flat_parallelogram_nothing_is_held_by_reactions_without_bound() {
             if parallel && !state.constraints.singular {
                 let modes = study.modes().expect("modes");
                 let found = modes.modes[0].frequency().expect("it oscillates");
-                assert!(
-                    (found / omega - 1.0).abs() < 2e-3,
-                    "{rest} {start}: {found}"
-                );
+                assert!((found / omega - 1.0).abs() < 2e-3, "{rest} {start}: {found}");
             }
         }
     }

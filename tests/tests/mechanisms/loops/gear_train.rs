@@ -38,10 +38,7 @@ mechanism! {
 
 fn close(value: f64, expected: f64, what: &str) {
     let off = (value - expected).abs();
-    assert!(
-        off <= 1e-11 * expected.abs().max(1e-3),
-        "{what}: {value}, not {expected}"
-    );
+    assert!(off <= 1e-11 * expected.abs().max(1e-3), "{what}: {value}, not {expected}");
 }
 
 #[test]
@@ -52,38 +49,18 @@ fn geared_disks_have_closed_forms() {
         let study = Study::new(GearTrain).input(GearTrain::speed, speed);
         let at = study.equilibrium().expect("a steady motion");
         assert_eq!(at.stability, Stability::Stable);
-        close(
-            at.coordinates[GearTrain::twist_1.index()],
-            0.0,
-            "first twist",
-        );
+        close(at.coordinates[GearTrain::twist_1.index()], 0.0, "first twist");
         let twist = air * ratio * speed / 70.0;
-        close(
-            at.coordinates[GearTrain::twist_2.index()],
-            twist,
-            "second twist",
-        );
+        close(at.coordinates[GearTrain::twist_2.index()], twist, "second twist");
         let mut unknowns = at.description.coordinates.iter();
         let run = unknowns.position(|one| one.role == Role::Speed);
-        close(
-            at.coordinates[run.expect("a speed")],
-            -ratio * speed,
-            "speed",
-        );
+        close(at.coordinates[run.expect("a speed")], -ratio * speed, "speed");
 
         let outputs = study.outputs().expect("outputs");
         close(outputs.values[0], -air * ratio * speed, "tooth");
         let by_design = outputs.by_design[0].as_ref().expect("derivatives");
-        close(
-            by_design[GearTrain::ratio.index()],
-            -air * speed,
-            "tooth by ratio",
-        );
-        close(
-            by_design[GearTrain::air.index()],
-            -ratio * speed,
-            "tooth by air",
-        );
+        close(by_design[GearTrain::ratio.index()], -air * speed, "tooth by ratio");
+        close(by_design[GearTrain::air.index()], -ratio * speed, "tooth by air");
         let by_input = outputs.by_input[1].as_ref().expect("derivatives");
         close(by_input[0], -ratio, "speed by speed");
 
@@ -91,9 +68,7 @@ fn geared_disks_have_closed_forms() {
         let [slow, fast] = &modes.modes[..] else {
             panic!("two modes, not {}", modes.modes.len());
         };
-        for (mode, damping, inertia, stiffness) in
-            [(slow, air, inertia_2, 70.0), (fast, loss, inertia_1, 40.0)]
-        {
+        for (mode, damping, inertia, stiffness) in [(slow, air, inertia_2, 70.0), (fast, loss, inertia_1, 40.0)] {
             let growth = -damping / (2.0 * inertia);
             close(mode.s.re, growth, "growth");
             let natural: f64 = stiffness / inertia;

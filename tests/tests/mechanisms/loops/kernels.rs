@@ -41,23 +41,14 @@ impl Loop {
         let design = found.mechanism.design.iter();
         Self {
             unknowns: unknowns.collect(),
-            outputs: found
-                .mechanism
-                .outputs
-                .iter()
-                .map(|output| output.name.to_string())
-                .collect(),
-            design: design
-                .map(|one| (one.name.to_string(), one.nominal))
-                .collect(),
+            outputs: found.mechanism.outputs.iter().map(|output| output.name.to_string()).collect(),
+            design: design.map(|one| (one.name.to_string(), one.nominal)).collect(),
             program: found.program,
         }
     }
 
     fn evaluate(&self, kernel: &str, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
-        self.program
-            .evaluate(kernel, arguments)
-            .unwrap_or_else(|| panic!("there is a kernel {kernel}"))
+        self.program.evaluate(kernel, arguments).unwrap_or_else(|| panic!("there is a kernel {kernel}"))
     }
 
     fn linear(&self, at: &[&[f64]; 3]) -> Linear {
@@ -71,9 +62,7 @@ impl Loop {
 
     fn matrices(&self, arrays: &[Vec<f64>]) -> Linear {
         let n = self.unknowns.len();
-        Linear(std::array::from_fn(|k| {
-            DMatrix::from_row_slice(n, n, &arrays[k])
-        }))
+        Linear(std::array::from_fn(|k| DMatrix::from_row_slice(n, n, &arrays[k])))
     }
 
     /// The file's coordinates, and the reactions that hold them: the rest of the residual must vanish.
@@ -90,10 +79,7 @@ impl Loop {
         let reactions: Vec<usize> = (0..n).filter(|&i| self.unknowns[i].1).collect();
         let columns = stiffness.select_columns(&reactions);
         let size = columns.amax();
-        let held = columns
-            .svd(true, true)
-            .solve(&-&residual, 1e-12 * size)
-            .expect("vectors were asked for");
+        let held = columns.svd(true, true).solve(&-&residual, 1e-12 * size).expect("vectors were asked for");
         for (&reaction, value) in reactions.iter().zip(held.iter()) {
             x[reaction] = *value;
         }
@@ -101,10 +87,7 @@ impl Loop {
         let terms = residual.amax().max(1.0);
         for (i, rest) in arrays[0].iter().enumerate() {
             let (what, name) = (&point.what, &self.unknowns[i].0);
-            assert!(
-                rest.abs() <= 1e-12 * terms,
-                "{what}: the equation of {name} is off by {rest:e}"
-            );
+            assert!(rest.abs() <= 1e-12 * terms, "{what}: the equation of {name} is off by {rest:e}");
         }
         x
     }
@@ -123,8 +106,7 @@ fn null(matrix: &DMatrix<Complex<f64>>) -> [DVector<Complex<f64>>; 2] {
 fn solve(matrix: &DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
     let size = matrix.amax();
     let svd = matrix.clone().svd(true, true);
-    svd.solve(right, 1e-13 * size)
-        .expect("vectors were asked for")
+    svd.solve(right, 1e-13 * size).expect("vectors were asked for")
 }
 
 fn check_point(machine: &Loop, case: &Case, point: &Point) {
@@ -159,9 +141,7 @@ fn check_point(machine: &Loop, case: &Case, point: &Point) {
     }
 
     let units = |count: usize, index: Option<usize>| -> Vec<f64> {
-        (0..count)
-            .map(|i| f64::from(u8::from(Some(i) == index)))
-            .collect()
+        (0..count).map(|i| f64::from(u8::from(Some(i) == index))).collect()
     };
     let along: Vec<[Vec<f64>; 3]> = (0..variables)
         .map(|j| {
@@ -212,10 +192,7 @@ fn check_outputs(machine: &Loop, case: &Case, point: &Point, x: &[f64], along: &
                 .map(|kind| {
                     let direction = &along[j][kind];
                     let row = &partials[kind][k * direction.len()..][..direction.len()];
-                    row.iter()
-                        .zip(direction)
-                        .map(|(slope, step)| slope * step)
-                        .sum::<f64>()
+                    row.iter().zip(direction).map(|(slope, step)| slope * step).sum::<f64>()
                 })
                 .sum();
             let expected = truth("outputs_by").get(name).get(variable).number();
@@ -233,10 +210,7 @@ fn equations_hold_in_minimal_coordinates() {
         let design: Vec<String> = machine.design.iter().map(|one| one.0.clone()).collect();
         assert_eq!(design, case.variables[..design.len()], "{name}");
         for (value, expected) in machine.design.iter().zip(&case.design) {
-            assert!(
-                (value.1 - expected).abs() <= 1e-15 * expected.abs(),
-                "{value:?}"
-            );
+            assert!((value.1 - expected).abs() <= 1e-15 * expected.abs(), "{value:?}");
         }
         for point in case.points() {
             check_point(&machine, &case, &point);
@@ -281,8 +255,6 @@ fn another_length_is_another_mechanism() {
     ];
     let residual = &machine.evaluate("residual", &arguments)[0];
     let equations = machine.unknowns.iter().zip(residual);
-    let gap = equations
-        .filter(|(unknown, _)| unknown.1)
-        .fold(0.0_f64, |most, (_, gap)| most.max(gap.abs()));
+    let gap = equations.filter(|(unknown, _)| unknown.1).fold(0.0_f64, |most, (_, gap)| most.max(gap.abs()));
     assert!(gap > 1e-8, "{gap:e}");
 }

@@ -43,10 +43,7 @@ fn what_cannot_change_alone_has_no_derivative() {
         ([fixed; 3], "10 * l"),
         (["l"; 3], "10 * l"),
     ];
-    for ((lengths, pivot), rest) in cases
-        .into_iter()
-        .flat_map(|case| RESTS.map(|rest| (case, rest)))
-    {
+    for ((lengths, pivot), rest) in cases.into_iter().flat_map(|case| RESTS.map(|rest| (case, rest))) {
         let study = cranks(lengths, pivot, rest);
         let errors = [
             study.sensitivities().expect_err("no derivatives"),
@@ -54,9 +51,7 @@ fn what_cannot_change_alone_has_no_derivative() {
             study.first_order().expect_err("no derivatives"),
         ];
         for error in errors {
-            let Error::ClosesHereOnly { variable, .. } = error else {
-                panic!("{lengths:?} {pivot} {rest}: {error}")
-            };
+            let Error::ClosesHereOnly { variable, .. } = error else { panic!("{lengths:?} {pivot} {rest}: {error}") };
             assert_eq!(variable, "l");
         }
     }

@@ -24,16 +24,9 @@ fn check(study: &Study<impl Kernels>, unknowns: &[(&str, f64)], outputs: &[f64])
     for &(name, expected) in unknowns {
         let found = unknown(&state, name);
         assert!((found - expected).abs() < 1e-9 * WEIGHT, "{name}: {found}");
-        let line = report
-            .lines()
-            .find(|line| line.trim_start().starts_with(name));
+        let line = report.lines().find(|line| line.trim_start().starts_with(name));
         let line = line.unwrap_or_else(|| panic!("no {name} in\n{report}"));
-        let value: f64 = line
-            .split_whitespace()
-            .nth(2)
-            .expect("a value")
-            .parse()
-            .expect("a number");
+        let value: f64 = line.split_whitespace().nth(2).expect("a value").parse().expect("a number");
         assert!((value - expected).abs() < 1e-5 * WEIGHT, "{line}");
     }
     let values = study.outputs().expect("outputs").values;
@@ -83,11 +76,7 @@ fn a_hook_pulls_a_weight_up_and_the_weight_pulls_the_hook_down() {
     let held = [("held.x", -3.0), ("held.z", WEIGHT)];
     check(&Study::new(Hooked), &held, &held.map(|(_, value)| value));
     let held = held.map(|(name, value)| (name, -value));
-    check(
-        &Study::new(HookedFromBelow),
-        &held,
-        &held.map(|(_, value)| value),
-    );
+    check(&Study::new(HookedFromBelow), &held, &held.map(|(_, value)| value));
 }
 
 mechanism! {
@@ -109,9 +98,7 @@ mechanism! {
 fn a_rod_is_pulled_by_what_hangs_and_pushed_by_what_stands() {
     let study = Study::new(Pendulum).guess(Pendulum::z, -0.4);
     check(&study, &[("rod", WEIGHT)], &[WEIGHT]);
-    let study = Study::new(Pendulum)
-        .guess(Pendulum::z, 0.4)
-        .policy(Policy::Nearest);
+    let study = Study::new(Pendulum).guess(Pendulum::z, 0.4).policy(Policy::Nearest);
     check(&study, &[("rod", -WEIGHT)], &[-WEIGHT]);
 }
 
@@ -220,15 +207,9 @@ fn a_cut_joint_has_the_sign_of_every_joint() {
 #[test]
 fn the_road_carries_a_wheel() {
     // Upright at rest: only the weight acts.
-    let study = Study::new(RollingDisk)
-        .guess(RollingDisk::height, 0.25)
-        .policy(Policy::Nearest);
+    let study = Study::new(RollingDisk).guess(RollingDisk::height, 0.25).policy(Policy::Nearest);
     let weight = 3.0 * 9.81;
-    check(
-        &study,
-        &[("contact.normal", weight), ("contact.lateral", 0.0)],
-        &[0.0, weight],
-    );
+    check(&study, &[("contact.normal", weight), ("contact.lateral", 0.0)], &[0.0, weight]);
     // On a circle to the left, the road pushes to the left.
     let study = study.input(Input::new(0), 4.0).input(Input::new(1), 0.2);
     let state = study.equilibrium().expect("an equilibrium");
@@ -238,9 +219,6 @@ fn the_road_carries_a_wheel() {
     assert!((unknown(&state, "contact.normal") - up).abs() < 1e-9 * weight);
     assert!(aside > 1.0 && (up - weight).abs() < 1e-9 * weight);
     // A push against drag, which the wheel, free on its axle, does not transmit.
-    let state = Study::new(PushedCart)
-        .input(Input::new(0), 2.0)
-        .equilibrium()
-        .expect("an equilibrium");
+    let state = Study::new(PushedCart).input(Input::new(0), 2.0).equilibrium().expect("an equilibrium");
     assert!(unknown(&state, "contact.forward").abs() < 1e-9);
 }

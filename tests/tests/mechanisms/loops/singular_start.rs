@@ -28,23 +28,15 @@ mechanism! {
 /// `w^2 (e + sin a) cos a = 2 g sin a`, with both arms at the same angle and the sleeve at `-2 cos a`.
 #[test]
 fn a_branch_from_hanging_arms_meets_both_rods() {
-    let study = Study::new(Hanging)
-        .start(Hanging::a, 0.6)
-        .guess(Hanging::b, 0.6)
-        .guess(Hanging::h, -1.6);
+    let study = Study::new(Hanging).start(Hanging::a, 0.6).guess(Hanging::b, 0.6).guess(Hanging::h, -1.6);
     let found = study.branches(Hanging::speed, 0.0, 8.0).expect("branches");
     assert_eq!(found.branches.len(), 1);
     let branch = &found.branches[0];
     assert_eq!(branch.ends, [BranchEnd::Low, BranchEnd::High]);
     for point in &branch.points {
-        let [a, b, h, pulls @ ..] = &point.equilibrium.coordinates[..] else {
-            panic!("five unknowns")
-        };
+        let [a, b, h, pulls @ ..] = &point.equilibrium.coordinates[..] else { panic!("five unknowns") };
         let what = format!("{}: {}", point.value, point.equilibrium);
-        assert!(
-            (a - b).abs() < 1e-6 && (h + 2.0 * a.cos()).abs() < 1e-9,
-            "{what}"
-        );
+        assert!((a - b).abs() < 1e-6 && (h + 2.0 * a.cos()).abs() < 1e-9, "{what}");
         let force = point.value.powi(2) * (0.1 + a.sin()) * a.cos() - 20.0 * a.sin();
         assert!(force.abs() < 1e-6, "{what}");
         // Each rod carries half of the sleeve.

@@ -4,8 +4,7 @@
 use eigentol::Mechanism;
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{
-    FiveBar, FourBar, GearedCoasting, GearedMotor, GearedRotors, Governor, PorterGovernor,
-    SliderCrank,
+    FiveBar, FourBar, GearedCoasting, GearedMotor, GearedRotors, Governor, PorterGovernor, SliderCrank,
 };
 use eigentol_tests::sampled::{Compared, compare};
 
@@ -26,11 +25,7 @@ fn moments(case: &Case, mode: &Truth) -> [f64; 2] {
     let all = || 0..design.len();
     let shift = all().map(|i| second(i, i) * variance(i) / 2.0).sum::<f64>();
     let first = all().map(|i| slope(i).powi(2) * variance(i)).sum::<f64>();
-    let bend = |i: usize| {
-        all()
-            .map(|j| second(i, j).powi(2) * variance(i) * variance(j) / 2.0)
-            .sum::<f64>()
-    };
+    let bend = |i: usize| all().map(|j| second(i, j).powi(2) * variance(i) * variance(j) / 2.0).sum::<f64>();
     [shift, (first + all().map(bend).sum::<f64>()).sqrt()]
 }
 
@@ -72,11 +67,7 @@ fn second_order_and_samples() {
 }
 
 /// Samples at every point, in vectors and one by one.
-fn in_vectors<M: Mechanism + Copy>(
-    machine: M,
-    name: &'static str,
-    samples: usize,
-) -> Vec<(String, [Compared; 2])> {
+fn in_vectors<M: Mechanism + Copy>(machine: M, name: &'static str, samples: usize) -> Vec<(String, [Compared; 2])> {
     let case = Case::new(name);
     let points = case.points().into_iter();
     let compared = points.map(|point| {
@@ -112,12 +103,6 @@ fn compare_all(samples: usize) {
     let all = all.concat();
     println!("{all:#?}");
     let [own, wide] = Compared::sum(all.iter().map(|(_, x)| *x));
-    assert!(
-        own.samples > 10 * samples && 10 * own.in_vectors > 8 * own.samples,
-        "{own:?}"
-    );
-    assert!(
-        wide.samples > 5 * samples / 2 && 10 * wide.in_vectors > 6 * wide.samples,
-        "{wide:?}"
-    );
+    assert!(own.samples > 10 * samples && 10 * own.in_vectors > 8 * own.samples, "{own:?}");
+    assert!(wide.samples > 5 * samples / 2 && 10 * wide.in_vectors > 6 * wide.samples, "{wide:?}");
 }

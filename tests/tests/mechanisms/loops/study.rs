@@ -3,16 +3,11 @@
 
 use eigentol::equilibrium::Stability;
 use eigentol::second_order::SecondDerivatives;
-use eigentol::sensitivity::{
-    EquilibriumShift, Slopes, equilibrium_shift, sensitivities, sensitivities_explicit,
-};
-use eigentol::{
-    Complex, Coordinate, Equilibrium, Input, Kernels, Mechanism, Mode, Modes, Role, Study,
-};
+use eigentol::sensitivity::{EquilibriumShift, Slopes, equilibrium_shift, sensitivities, sensitivities_explicit};
+use eigentol::{Complex, Coordinate, Equilibrium, Input, Kernels, Mechanism, Mode, Modes, Role, Study};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{
-    FiveBar, FourBar, GearedCoasting, GearedMotor, GearedRotors, Governor, PorterGovernor,
-    SliderCrank,
+    FiveBar, FourBar, GearedCoasting, GearedMotor, GearedRotors, Governor, PorterGovernor, SliderCrank,
 };
 
 use super::common::{Case, Point, assert_close, assert_near, complex};
@@ -20,9 +15,7 @@ use super::common::{Case, Point, assert_close, assert_near, complex};
 /// A study of a point that starts from angles rounded to a tenth of a radian and displacements rounded to a centimetre,
 /// so that no loop is closed; speeds start from zero.
 pub(super) fn study<M: Mechanism>(machine: M, case: &Case, point: &Point) -> Study<M> {
-    let mut study = Study::new(machine)
-        .input(Input::new(0), point.input)
-        .threads(1);
+    let mut study = Study::new(machine).input(Input::new(0), point.input).threads(1);
     let description = Kernels::description(study.mechanism());
     for (i, unknown) in description.coordinates.iter().enumerate() {
         if unknown.role == Role::Position {
@@ -57,9 +50,7 @@ fn check(machine: impl Mechanism, name: &'static str) {
     }
     for point in case.points() {
         let study = study(machine.clone(), &case, &point);
-        let at = study
-            .equilibrium()
-            .unwrap_or_else(|error| panic!("{}: {error}", point.what));
+        let at = study.equilibrium().unwrap_or_else(|error| panic!("{}: {error}", point.what));
         check_equilibrium(&machine, &case, &point, &at);
         check_outputs(&study, &case, &point);
         check_modes(&study, &case, &point, &at);
@@ -142,11 +133,7 @@ fn check_modes(study: &Study<impl Mechanism>, case: &Case, point: &Point, at: &E
             }
         }
         let curvature = study.mode_curvature(r).expect("second derivatives");
-        assert!(
-            curvature.asymmetry < 1e-9,
-            "{what}: {}",
-            curvature.asymmetry
-        );
+        assert!(curvature.asymmetry < 1e-9, "{what}: {}", curvature.asymmetry);
         let second = curvature.eigenvalue.as_ref().expect("second derivatives");
         check_second(case, point, second, truth, s, &what);
 

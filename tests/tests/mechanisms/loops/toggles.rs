@@ -58,10 +58,7 @@ fn toggle(bend: f64, side: f64, offset: f64) -> Toggle {
     // Along the line from the pivot to the pin, and across it.
     let along = (square + UPPER * UPPER - LOWER * LOWER) / (2.0 * square);
     let across = UPPER * LOWER * bend.sin() / square;
-    let elbow = [
-        along * pin[0] - across * pin[1],
-        along * pin[1] + across * pin[0],
-    ];
+    let elbow = [along * pin[0] - across * pin[1], along * pin[1] + across * pin[0]];
     Toggle { elbow, pin }
 }
 
@@ -140,11 +137,7 @@ impl Circle {
 }
 
 fn circles(offset: f64) -> [Circle; 4] {
-    [(1.0, true), (1.0, false), (-1.0, true), (-1.0, false)].map(|(side, mirrored)| Circle {
-        side,
-        mirrored,
-        offset,
-    })
+    [(1.0, true), (1.0, false), (-1.0, true), (-1.0, false)].map(|(side, mirrored)| Circle { side, mirrored, offset })
 }
 
 /// The force that a lower bar exerts on its pin, from moments about the elbow for the lower bar and about the pivot for
@@ -250,10 +243,7 @@ fn from(a: f64, b: f64, bent: f64) -> Study<Toggles> {
 #[test]
 fn single_starts_end_at_the_one_stable_place_beside_the_straight_toggles() {
     let circle = circles(OFFSET)[0];
-    let bend = circle
-        .stationary()
-        .into_iter()
-        .find(|bend| bend.abs() < 0.1);
+    let bend = circle.stationary().into_iter().find(|bend| bend.abs() < 0.1);
     let bend = bend.expect("a place of rest");
     let omega = (circle.curvature(bend) / circle.inertia(bend)).sqrt();
     let angle = |i: i32| 0.02 + 0.05 * f64::from(i);
@@ -302,10 +292,7 @@ fn starts_in_and_beside_the_singular_configuration_leave_it() {
 #[test]
 fn equilibria_near_a_singular_configuration_are_kept_until_rounding_hides_them() {
     for offset in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
-        let circle = Circle {
-            offset,
-            ..circles(OFFSET)[0]
-        };
+        let circle = Circle { offset, ..circles(OFFSET)[0] };
         // The offset moves the place in proportion, except for its third power.
         let bend = -0.862_069 * offset;
         let omega = (circle.curvature(bend) / circle.inertia(bend)).sqrt();
@@ -343,14 +330,7 @@ fn branches_are_found_once_each_and_stay_on_the_circles() {
     let mut counts = Vec::new();
     for starts in [5, 60] {
         let search = search(starts, 7);
-        let found = branches(
-            &Toggles,
-            &[0.0],
-            &[OFFSET],
-            &[0.0; 9],
-            &settings,
-            Some(&search),
-        );
+        let found = branches(&Toggles, &[0.0], &[OFFSET], &[0.0; 9], &settings, Some(&search));
         let found = found.expect("branches");
         assert!(!found.truncated);
         for point in found.branches.iter().flat_map(|branch| &branch.points) {
@@ -394,9 +374,7 @@ fn reactions_that_a_load_explains_may_be_great() {
     let weight = 2.0 * GRAVITY;
     for sag in [1e-1, 1e-3, 1e-4, 1e-5] {
         let length = 0.5_f64.hypot(sag);
-        let study = Study::new(Taut)
-            .design(Taut::length, length)
-            .guess(Taut::z, -0.1);
+        let study = Study::new(Taut).design(Taut::length, length).guess(Taut::z, -0.1);
         let state = study.equilibrium().expect("an equilibrium");
         assert!(!state.constraints.singular && state.stability == Stability::Stable);
         let expected = 0.5 * weight * length / sag;
@@ -408,9 +386,7 @@ fn reactions_that_a_load_explains_may_be_great() {
         }
     }
     // Lengths that just reach, to rounding, hold no weight.
-    let study = Study::new(Taut)
-        .design(Taut::length, 0.5)
-        .guess(Taut::z, -0.1);
+    let study = Study::new(Taut).design(Taut::length, 0.5).guess(Taut::z, -0.1);
     match study.equilibrium() {
         Err(Error::UnboundedReactions { .. } | Error::NoEquilibrium { .. }) => {}
         other => panic!("{other:?}"),

@@ -62,11 +62,7 @@ fn an_unloaded_slider_crank_rests_where_its_spring_does() {
         for (coordinate, right) in state.coordinates.iter().zip(right) {
             assert_close(*coordinate, right, 1e-12, &format!("{moment}"));
         }
-        assert!(
-            state.coordinates[3..]
-                .iter()
-                .all(|reaction| reaction.abs() < 1e-13)
-        );
+        assert!(state.coordinates[3..].iter().all(|reaction| reaction.abs() < 1e-13));
         assert_eq!(state.stability, Stability::Stable);
     }
 }
@@ -75,11 +71,7 @@ fn an_unloaded_slider_crank_rests_where_its_spring_does() {
 fn every_sample_of_an_unloaded_slider_crank_rests() {
     let study = idle(1.0).samples(500);
     for vectors in [None, Some(Instructions::best())] {
-        let sampled = study
-            .clone()
-            .vectors(vectors)
-            .monte_carlo()
-            .expect("samples");
+        let sampled = study.clone().vectors(vectors).monte_carlo().expect("samples");
         assert_eq!(sampled.counts.stable, 500, "{vectors:?}");
     }
 }

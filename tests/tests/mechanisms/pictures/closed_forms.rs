@@ -51,10 +51,7 @@ fn slider_crank() {
         assert!(norm(subtract(coupler, pin)) < 1e-12, "{coupler:?} {pin:?}");
         let slider = body("slider").pose.position;
         let expected = [base + crank * cosine + reach, 0.0, height];
-        assert!(
-            norm(subtract(slider, expected)) < 1e-9,
-            "{slider:?} {expected:?}"
-        );
+        assert!(norm(subtract(slider, expected)) < 1e-9, "{slider:?} {expected:?}");
     }
 }
 
@@ -120,60 +117,30 @@ fn museum() -> (Interpreted, Scene) {
 fn every_shape_is_what_was_declared() {
     let (_, seen) = museum();
     let solids = &seen.bodies[0].solids;
-    let (center, shape): (Vec<_>, Vec<_>) = solids
-        .iter()
-        .map(|solid| (solid.center, &solid.shape))
-        .unzip();
-    assert_eq!(
-        (center[0], shape[0]),
-        ([1.0, 2.0, 3.0], &Shape::Point { mass: 3.0 })
-    );
-    let rod = Shape::Rod {
-        along: [0.0, 1.0, 0.0],
-        length: 2.0,
-    };
+    let (center, shape): (Vec<_>, Vec<_>) = solids.iter().map(|solid| (solid.center, &solid.shape)).unzip();
+    assert_eq!((center[0], shape[0]), ([1.0, 2.0, 3.0], &Shape::Point { mass: 3.0 }));
+    let rod = Shape::Rod { along: [0.0, 1.0, 0.0], length: 2.0 };
     assert_eq!((center[1], shape[1]), ([0.0, 1.0, 0.0], &rod));
     // z has become -y.
-    assert!(
-        norm(subtract(center[2], [1.0, -2.0, 0.0])) < 1e-15,
-        "{center:?}"
-    );
-    let Shape::Disk { axis, radius } = shape[2] else {
-        panic!("{shape:?}")
-    };
+    assert!(norm(subtract(center[2], [1.0, -2.0, 0.0])) < 1e-15, "{center:?}");
+    let Shape::Disk { axis, radius } = shape[2] else { panic!("{shape:?}") };
     assert!(norm(subtract(*axis, [0.0, -1.0, 0.0])) < 1e-15 && *radius == 0.3);
-    let cylinder = Shape::Cylinder {
-        axis: [1.0, 0.0, 0.0],
-        radius: 0.3,
-        length: 2.0,
-    };
+    let cylinder = Shape::Cylinder { axis: [1.0, 0.0, 0.0], radius: 0.3, length: 2.0 };
     assert_eq!(shape[3], &cylinder);
-    let tube = Shape::Tube {
-        axis: [1.0, 0.0, 0.0],
-        inner: 0.1,
-        outer: 0.3,
-        length: 2.0,
-    };
+    let tube = Shape::Tube { axis: [1.0, 0.0, 0.0], inner: 0.1, outer: 0.3, length: 2.0 };
     assert_eq!(shape[4], &tube);
-    let Shape::Box { edges, size } = shape[5] else {
-        panic!("{shape:?}")
-    };
+    let Shape::Box { edges, size } = shape[5] else { panic!("{shape:?}") };
     assert_eq!(*size, [1.0, 2.0, 3.0]);
     let h = FRAC_1_SQRT_2;
     let expected = [[h, h, 0.0], [-h, h, 0.0], [0.0, 0.0, 1.0]];
     assert!(difference(edges.as_flattened(), expected.as_flattened()) < 1e-15);
     assert_eq!(shape[6], &Shape::Sphere { radius: 0.3 });
-    let Shape::Ellipsoid { semi_axes, .. } = shape[7] else {
-        panic!("{shape:?}")
-    };
+    let Shape::Ellipsoid { semi_axes, .. } = shape[7] else { panic!("{shape:?}") };
     let expected = [1.0, 2.0, 3.0].map(|edge: f64| edge * (5.0_f64 / 12.0).sqrt());
     assert!(difference(semi_axes, &expected) < 1e-14, "{semi_axes:?}");
     assert_eq!(shape[8], &Shape::Sphere { radius: 0.1 });
     let holes: Vec<bool> = solids.iter().map(|solid| solid.hole).collect();
-    assert_eq!(
-        holes,
-        [false, false, false, false, false, false, false, false, true]
-    );
+    assert_eq!(holes, [false, false, false, false, false, false, false, false, true]);
 }
 
 #[test]
@@ -190,10 +157,7 @@ fn points_and_links_are_what_was_declared() {
     let box_y = (1.0 + 2.0) / 2.0 * FRAC_1_SQRT_2;
     assert!((low[0] + 1.0).abs() < 1e-15, "{low:?}");
     assert!((high[0] - (0.5 + 1.0 + 0.3)).abs() < 1e-15, "{high:?}");
-    assert!(
-        (low[1] + 2.0).abs() < 1e-15 && high[1] == 2.0,
-        "{low:?} {box_y}"
-    );
+    assert!((low[1] + 2.0).abs() < 1e-15 && high[1] == 2.0, "{low:?} {box_y}");
     assert!(high[2] == 3.0, "{high:?}");
 }
 
@@ -220,14 +184,8 @@ fn wrong_lists_are_refused() {
     let (machine, _) = museum();
     for (q, b) in [(vec![], vec![0.3, 2.0]), (vec![0.1], vec![0.3])] {
         let error = scene(&machine, &q, &[], &b).unwrap_err();
-        assert!(
-            matches!(error, eigentol::Error::WrongLength { .. }),
-            "{error}"
-        );
+        assert!(matches!(error, eigentol::Error::WrongLength { .. }), "{error}");
     }
     let error = scene(&machine, &[f64::NAN], &[], &[0.3, 2.0]).unwrap_err();
-    assert!(
-        matches!(error, eigentol::Error::OutsideDomain { .. }),
-        "{error}"
-    );
+    assert!(matches!(error, eigentol::Error::OutsideDomain { .. }), "{error}");
 }

@@ -22,15 +22,10 @@ type State = [Vec<f64>; 3];
 /// `truth/loops.json`.
 fn state(machine: &Machine) -> State {
     let description = machine.picture.description();
-    let mut q: Vec<f64> = (0..description.coordinates.len())
-        .map(|k| 0.3 * (1.0 + 2.3 * k as f64).sin())
-        .collect();
+    let mut q: Vec<f64> = (0..description.coordinates.len()).map(|k| 0.3 * (1.0 + 2.3 * k as f64).sin()).collect();
     let mut u = vec![1.3; description.inputs.len()];
     let b: Vec<f64> = description.design.iter().map(|info| info.nominal).collect();
-    let constrained = description
-        .coordinates
-        .iter()
-        .any(|unknown| unknown.name.contains('.'));
+    let constrained = description.coordinates.iter().any(|unknown| unknown.name.contains('.'));
     let constrained = constrained || machine_of_loops(machine.name).is_some();
     if let Some(truth) = machine_of_loops(machine.name) {
         let point = &truth.get("points").list()[0];
@@ -44,10 +39,7 @@ fn state(machine: &Machine) -> State {
     }
     if constrained {
         let assembled = assemble(&*machine.kernels, &u, &b, &q, &[]);
-        q = assembled
-            .expect("a mechanism that closes")
-            .coordinates
-            .to_vec();
+        q = assembled.expect("a mechanism that closes").coordinates.to_vec();
     }
     [q, u, b]
 }
@@ -55,8 +47,7 @@ fn state(machine: &Machine) -> State {
 fn machine_of_loops(name: &str) -> Option<Truth> {
     let name = match name {
         "four_bar" => "four_bar_open",
-        "five_bar" | "geared_coasting" | "geared_motor" | "geared_rotors" | "porter_governor"
-        | "slider_crank" => name,
+        "five_bar" | "geared_coasting" | "geared_motor" | "geared_rotors" | "porter_governor" | "slider_crank" => name,
         _ => return None,
     };
     Some(Truth::load("loops").get("mechanisms").get(name))
@@ -67,9 +58,7 @@ fn shown(machine: &Machine, [q, u, b]: &State) -> Scene {
 }
 
 fn direction(scene: &Scene, body: Option<usize>, direction: Vector) -> Vector {
-    body.map_or(direction, |body| {
-        scene.bodies[body].pose.direction(direction)
-    })
+    body.map_or(direction, |body| scene.bodies[body].pose.direction(direction))
 }
 
 #[test]
@@ -104,10 +93,7 @@ fn both_sides_of_a_joint_meet() {
             assert!(gap < TOLERANCE, "{what} gapes by {gap}");
             if same_axis {
                 let (one, other) = axes.expect("an axis");
-                assert!(
-                    norm(subtract(one, other)) < TOLERANCE,
-                    "{what}: {one:?}, {other:?}"
-                );
+                assert!(norm(subtract(one, other)) < TOLERANCE, "{what}: {one:?}, {other:?}");
             }
             joints += 1;
             cut += u32::from(joint.closes_loop);
@@ -117,12 +103,7 @@ fn both_sides_of_a_joint_meet() {
 }
 
 /// These components of a machine's points, from its outputs; `None` if one of them is not constant in steady motion.
-fn outputs(
-    machine: &Machine,
-    [q, u, b]: &State,
-    scene: &Scene,
-    axes: &[usize],
-) -> Option<Vec<f64>> {
+fn outputs(machine: &Machine, [q, u, b]: &State, scene: &Scene, axes: &[usize]) -> Option<Vec<f64>> {
     let mut text = machine.declaration.to_owned();
     let end = text.rfind('}').expect("a declaration ends");
     let outputs = scene.points.iter().flat_map(|point| {
@@ -133,16 +114,9 @@ fn outputs(
         })
     });
     text.insert_str(end, &outputs.collect::<String>());
-    let limits = Limits {
-        explicit_partials: 0,
-        partial_operations: usize::MAX,
-        motion_linear: 0,
-    };
+    let limits = Limits { explicit_partials: 0, partial_operations: usize::MAX, motion_linear: 0 };
     let mut compilation = compile_text(&text, limits).ok()?;
-    compilation
-        .program
-        .kernels
-        .retain(|kernel| kernel.name == "outputs");
+    compilation.program.kernels.retain(|kernel| kernel.name == "outputs");
     let twin = Interpreted::new(&compilation);
     let mut values = vec![0.0; twin.sizes().outputs];
     twin.outputs_into(q, u, b, &mut values);
@@ -197,12 +171,7 @@ fn wheels_touch_their_planes() {
                 (1.0 - dot(axle, normal).powi(2)).sqrt()
             });
             let expected = wheel.radius * inclined;
-            assert!(
-                (height - expected).abs() < TOLERANCE,
-                "{}: {}",
-                machine.name,
-                wheel.name
-            );
+            assert!((height - expected).abs() < TOLERANCE, "{}: {}", machine.name, wheel.name);
             let low = add(center.1, scaled(-height, normal));
             let held = (0..3).all(|i| scene.bounds[0][i] <= low[i] + TOLERANCE);
             assert!(held, "{}: {:?}", machine.name, scene.bounds);

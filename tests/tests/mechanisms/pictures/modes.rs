@@ -31,9 +31,8 @@ fn frames_are_scenes_along_the_shape() {
         for (k, frame) in swing.frames.iter().enumerate() {
             let angle = std::f64::consts::TAU * k as f64 / 8.0;
             let shape = &modes.modes[mode].shape;
-            let q: Vec<f64> = (at.coordinates.iter().zip(shape))
-                .map(|(q, phi)| q + swing.amplitude * angle.cos() * phi.re)
-                .collect();
+            let q: Vec<f64> =
+                (at.coordinates.iter().zip(shape)).map(|(q, phi)| q + swing.amplitude * angle.cos() * phi.re).collect();
             let there = scene(study.mechanism(), &q, &at.inputs, &at.design).expect("a scene");
             for (pose, body) in frame.iter().zip(&there.bodies) {
                 let apart = norm(subtract(pose.position, body.pose.position));
@@ -64,19 +63,14 @@ fn what_moves_most_moves_by_the_share_of_the_size() {
         });
         let farthest = farthest.fold(0.0, f64::max);
         let expected = share * rest.size();
-        assert!(
-            (farthest / expected - 1.0).abs() < 1e-3,
-            "{farthest} {expected}"
-        );
+        assert!((farthest / expected - 1.0).abs() < 1e-3, "{farthest} {expected}");
     }
 }
 
 /// The two sides of every revolute joint meet in every frame, and the slider stays on its guide.
 #[test]
 fn loops_stay_closed() {
-    let study = Study::new(SliderCrank)
-        .input(SliderCrank::omega, 3.0)
-        .start(SliderCrank::crank_angle, 0.6);
+    let study = Study::new(SliderCrank).input(SliderCrank::omega, 3.0).start(SliderCrank::crank_angle, 0.6);
     let rest = study.picture().expect("a picture");
     let swing = study.mode_pictures(0, 12, 0.1).expect("a swing");
     assert!(rest.joints.iter().any(|joint| joint.closes_loop));
@@ -119,12 +113,7 @@ fn whirling_shapes_circle() {
         let swing = study.mode_pictures(mode, 8, 0.05).expect("a swing");
         assert!(swing.amplitude > 0.0);
         let body = rest.bodies.len() - 1;
-        let offset = |k: usize| {
-            subtract(
-                swing.frames[k % 8][body].position,
-                rest.bodies[body].pose.position,
-            )
-        };
+        let offset = |k: usize| subtract(swing.frames[k % 8][body].position, rest.bodies[body].pose.position);
         let radius = norm(offset(0));
         assert!(radius > 0.0);
         for k in 0..8 {
@@ -204,9 +193,7 @@ fn a_forced_vibration_moves_as_its_response_says() {
     let study = Study::new(machine.expect("a declaration")).input(Input::new(0), 115.0);
     let response = study.forced_response().expect("a vibration");
     let unknowns = &response.harmonics[0].unknowns;
-    let moved = study
-        .vibration_pictures(Excitation::new(0), 12, 0.1)
-        .expect("a picture");
+    let moved = study.vibration_pictures(Excitation::new(0), 12, 0.1).expect("a picture");
     assert_eq!(moved.frequency, 115.0);
     let size = study.picture().expect("a picture").size();
     let mut farthest = 0.0_f64;
@@ -216,24 +203,14 @@ fn a_forced_vibration_moves_as_its_response_says() {
         for axis in 0..2 {
             let expected = (turn * unknowns[axis]).re;
             let there = frame[2].position[axis];
-            assert!(
-                (there - expected).abs() < 1e-14,
-                "frame {k}: {there} {expected}"
-            );
+            assert!((there - expected).abs() < 1e-14, "frame {k}: {there} {expected}");
         }
         farthest = farthest.max(norm(frame[2].position));
     }
-    assert!(
-        farthest < 0.1 * size * (1.0 + 1e-6) && farthest > 0.09 * size,
-        "{farthest} {size}"
-    );
-    let error = study
-        .vibration_pictures(Excitation::new(1), 12, 0.1)
-        .unwrap_err();
+    assert!(farthest < 0.1 * size * (1.0 + 1e-6) && farthest > 0.09 * size, "{farthest} {size}");
+    let error = study.vibration_pictures(Excitation::new(1), 12, 0.1).unwrap_err();
     assert!(matches!(error, Error::UnknownHandle { .. }), "{error}");
-    let error = study
-        .vibration_pictures(Excitation::new(0), 12, -0.1)
-        .unwrap_err();
+    let error = study.vibration_pictures(Excitation::new(0), 12, -0.1).unwrap_err();
     assert!(matches!(error, Error::Setting { .. }), "{error}");
 }
 
@@ -241,10 +218,7 @@ fn a_forced_vibration_moves_as_its_response_says() {
 fn what_makes_no_sense_is_refused() {
     let study = double_pendulum();
     let error = study.mode_pictures(7, 8, 0.1).unwrap_err();
-    assert!(
-        matches!(error, Error::NoSuchMode { mode: 7, count: 2 }),
-        "{error}"
-    );
+    assert!(matches!(error, Error::NoSuchMode { mode: 7, count: 2 }), "{error}");
     for amplitude in [-0.1, f64::NAN, f64::INFINITY] {
         let error = study.mode_pictures(0, 8, amplitude).unwrap_err();
         assert!(matches!(error, Error::Setting { .. }), "{error}");

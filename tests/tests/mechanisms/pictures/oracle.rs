@@ -37,12 +37,7 @@ fn differences(model: &Model, scene: &Scene, case: &Case) -> Vec<String> {
     let origin = |frame, placement: &Placement| oracle.place(q, b, frame, placement).0;
 
     assert_eq!(scene.bodies.len(), model.bodies.len());
-    for ((shown, declared), (position, rotation)) in scene
-        .bodies
-        .iter()
-        .zip(&model.bodies)
-        .zip(oracle.poses(q, b))
-    {
+    for ((shown, declared), (position, rotation)) in scene.bodies.iter().zip(&model.bodies).zip(oracle.poses(q, b)) {
         let name = &declared.name;
         assert!(shown.name == name.as_str());
         same(format!("place of {name}"), &shown.pose.position, &position);
@@ -69,35 +64,17 @@ fn differences(model: &Model, scene: &Scene, case: &Case) -> Vec<String> {
         let name = &declared.name;
         assert!(shown.name == name.as_str() && !shown.closes_loop);
         let sides = [
-            (
-                shown.from,
-                declared.from,
-                &declared.from_placement,
-                directions.first(),
-            ),
-            (
-                shown.to,
-                declared.to,
-                &declared.to_placement,
-                directions.last(),
-            ),
+            (shown.from, declared.from, &declared.from_placement, directions.first()),
+            (shown.to, declared.to, &declared.to_placement, directions.last()),
         ];
         for (seat, frame, placement, axis) in sides {
             let Seat { place, .. } = seat;
             assert_eq!(seat.body, body(frame));
             let place = scene.place(seat.body, place);
-            same(
-                format!("place of {name}"),
-                &place,
-                &origin(frame, placement),
-            );
+            same(format!("place of {name}"), &place, &origin(frame, placement));
             let count = |axis: bool| f64::from(u8::from(axis));
             let (found, expected) = (seat.axis.is_some(), axis.is_some());
-            same(
-                format!("axes of {name}"),
-                &[count(found)],
-                &[count(expected)],
-            );
+            same(format!("axes of {name}"), &[count(found)], &[count(expected)]);
             if let (Some(axis), Some(expected)) = (seat.axis, axis) {
                 let start = scene.place(seat.body, [0.0; 3]);
                 let axis = add(scene.place(seat.body, axis), scaled(-1.0, start));
@@ -123,9 +100,8 @@ const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 fn of_a_body(inertia: &[[f64; 3]; 3]) -> bool {
     let trace = inertia[0][0] + inertia[1][1] + inertia[2][2];
     let half = (0.5 + 1e-12) * trace;
-    let second: [[f64; 3]; 3] = std::array::from_fn(|i| {
-        std::array::from_fn(|j| if i == j { half } else { 0.0 } - inertia[i][j])
-    });
+    let second: [[f64; 3]; 3] =
+        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { half } else { 0.0 } - inertia[i][j]));
     let [[a, b, c], [_, d, e], [_, _, f]] = second;
     let determinant = a * (d * f - e * e) - b * (b * f - c * e) + c * (b * e - c * d);
     a >= 0.0 && a * d - b * b >= 0.0 && determinant >= 0.0
@@ -161,20 +137,11 @@ fn inertia(shape: &Shape, mass: f64) -> [[f64; 3]; 3] {
         }
         Shape::Rod { along, length } => round(*along, 0.0, length.powi(2) / 12.0),
         Shape::Disk { axis, radius } => round(*axis, radius.powi(2) / 2.0, radius.powi(2) / 4.0),
-        Shape::Cylinder {
-            axis,
-            radius,
-            length,
-        } => {
+        Shape::Cylinder { axis, radius, length } => {
             let across = radius.powi(2) / 4.0 + length.powi(2) / 12.0;
             round(*axis, radius.powi(2) / 2.0, across)
         }
-        Shape::Tube {
-            axis,
-            inner,
-            outer,
-            length,
-        } => {
+        Shape::Tube { axis, inner, outer, length } => {
             if inner >= outer {
                 return WRONG;
             }
@@ -198,11 +165,7 @@ fn inertia(shape: &Shape, mass: f64) -> [[f64; 3]; 3] {
 
 /// A random tree accepted by the compiler, with a state. Only the picture kernel is kept.
 fn compiled(model: &Model, seed: u64) -> Option<(Compilation, Case)> {
-    let limits = Limits {
-        explicit_partials: 0,
-        partial_operations: usize::MAX,
-        motion_linear: 0,
-    };
+    let limits = Limits { explicit_partials: 0, partial_operations: usize::MAX, motion_linear: 0 };
     let mut compilation = compile_text(&declaration(model), limits).ok()?;
     let kernels = &mut compilation.program.kernels;
     kernels.retain(|kernel| kernel.name == "picture");
@@ -221,12 +184,7 @@ fn agree_on(trees: u32) {
         let model = plan.model();
         if let Some((compilation, case)) = compiled(&model, plan.seed) {
             let found = differences(&model, &shown(&compilation, &case), &case);
-            assert!(
-                found.is_empty(),
-                "{}\n{}",
-                found.join("\n"),
-                declaration(&model)
-            );
+            assert!(found.is_empty(), "{}\n{}", found.join("\n"), declaration(&model));
             compared.set(compared.get() + 1);
         }
     });
@@ -238,9 +196,8 @@ fn agree_on(trees: u32) {
 /// body.
 #[test]
 fn only_inertias_that_no_body_has_are_left_out() {
-    let diagonal = |moments: [f64; 3]| {
-        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { moments[i] } else { 0.0 }))
-    };
+    let diagonal =
+        |moments: [f64; 3]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { moments[i] } else { 0.0 }));
     for (moments, possible) in [
         ([1.0, 1.0, 1.0], true),
         ([1.0, 2.0, 3.0], true),

@@ -30,10 +30,6 @@ pub(crate) fn difference(values: &[f64], expected: &[f64]) -> f64 {
     let pairs = values.iter().zip(expected);
     pairs.fold(0.0, |most, (a, b)| {
         let apart = (a - b).abs();
-        if apart.is_nan() {
-            f64::INFINITY
-        } else {
-            apart.max(most)
-        }
+        if apart.is_nan() { f64::INFINITY } else { apart.max(most) }
     })
 }

@@ -4,9 +4,7 @@ use eigentol::{Complex, Study};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::wheels::WhippleBicycle;
 
-use super::common::{
-    TIGHT, at, check_design, check_modes, close, close_real_slopes, complex, design_names, truth,
-};
+use super::common::{TIGHT, at, check_design, check_modes, close, close_real_slopes, complex, design_names, truth};
 use super::projection::onto;
 
 fn bicycle() -> Study<WhippleBicycle> {
@@ -19,10 +17,7 @@ fn same(values: &[Vec<f64>], expected: &[f64], tolerance: f64, what: &str) {
     let found = values.concat();
     let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     for (one, other) in found.iter().zip(expected) {
-        assert!(
-            (one - other).abs() <= tolerance * size,
-            "{what}: {found:?}, not {expected:?}"
-        );
+        assert!((one - other).abs() <= tolerance * size, "{what}: {found:?}, not {expected:?}");
     }
 }
 
@@ -74,10 +69,7 @@ fn published_eigenvalues() {
         for s in row.iter().map(complex) {
             let off = |mode: &eigentol::Mode| (mode.s - s).norm();
             let best = found.modes.iter().map(off).fold(f64::INFINITY, f64::min);
-            assert!(
-                best <= 2e-12 * (1.0 + s.norm()),
-                "{speed} m/s: {s} is missing by {best:e}"
-            );
+            assert!(best <= 2e-12 * (1.0 + s.norm()), "{speed} m/s: {s} is missing by {best:e}");
         }
     }
 }
@@ -98,13 +90,9 @@ fn the_double_root() {
     let study = bicycle().input(WhippleBicycle::v, speed);
     let found = study.modes().expect("modes");
     let near = found.modes.iter().enumerate();
-    let near: Vec<_> = near
-        .filter(|(_, mode)| (mode.s - s).norm() < 1e-6)
-        .collect();
+    let near: Vec<_> = near.filter(|(_, mode)| (mode.s - s).norm() < 1e-6).collect();
     assert!(!near.is_empty(), "{found:?}");
-    let slopes = study
-        .sensitivities()
-        .expect("derivatives, where there are any");
+    let slopes = study.sensitivities().expect("derivatives, where there are any");
     assert!(near.iter().all(|(k, _)| slopes.modes[*k].clustered));
 }
 
@@ -139,13 +127,8 @@ fn curvature_of_the_weave() {
     assert_eq!(order, design_names::<WhippleBicycle>());
     let study = bicycle().input(WhippleBicycle::v, hessian.get("speed").number());
     let modes = study.modes().expect("modes");
-    let weave = modes
-        .modes
-        .iter()
-        .position(|mode| (mode.s - s).norm() < 1e-6);
-    let found = study
-        .mode_curvature(weave.expect("the weave"))
-        .expect("curvature");
+    let weave = modes.modes.iter().position(|mode| (mode.s - s).norm() < 1e-6);
+    let found = study.mode_curvature(weave.expect("the weave")).expect("curvature");
     let found = &found.eigenvalue.as_ref().expect("it oscillates").by_design;
     let rows = |part: &str| -> Vec<Vec<f64>> {
         let rows = hessian.get(part).list();
@@ -156,9 +139,7 @@ fn curvature_of_the_weave() {
     let expected = |i: usize, j: usize| Complex::new(real[i][j], imaginary[i][j]);
     let greatest = (0..26)
         .flat_map(|i| (0..26).map(move |j| (i, j)))
-        .fold(0.0_f64, |most, (i, j)| {
-            most.max((expected(i, j) * values[i] * values[j]).norm())
-        });
+        .fold(0.0_f64, |most, (i, j)| most.max((expected(i, j) * values[i] * values[j]).norm()));
     for i in 0..26 {
         for j in 0..26 {
             let scale = 1e-2 * greatest / (values[i] * values[j]).abs();

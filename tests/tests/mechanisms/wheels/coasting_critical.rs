@@ -45,9 +45,7 @@ fn a_speed_far_beyond_the_reach_of_a_step_is_found() {
 #[test]
 fn pull_out_of_a_motor() {
     let study = Study::new(Motor).start(Motor::spin, 95.0);
-    let found = study
-        .critical_state(Motor::load, 0.0, 2.0)
-        .expect("critical");
+    let found = study.critical_state(Motor::load, 0.0, 2.0).expect("critical");
     assert_eq!(found.kind, SpecialKind::Fold);
     assert!((found.value - 1.0).abs() < 1e-12, "{}", found.value);
     assert!((found.equilibrium.coordinates[0] - 80.0).abs() < 1e-4);
@@ -55,17 +53,13 @@ fn pull_out_of_a_motor() {
     // `v^T J v = 1`.
     assert!((found.v[0] - 10.0).abs() < 1e-12 && (found.w[0] - 10.0).abs() < 1e-12);
 
-    let spread = study
-        .critical_tolerance(Motor::load, 0.0, 2.0)
-        .expect("spread");
+    let spread = study.critical_tolerance(Motor::load, 0.0, 2.0).expect("spread");
     let spread = spread.spread.expect("a derivative");
     for (slope, expected) in spread.by_design.iter().zip([1.0, 0.0, 0.0]) {
         assert!((slope - expected).abs() < 1e-12, "{slope}");
     }
     assert!((spread.sigma - 0.01 / 3.0).abs() < 1e-14);
-    let curvature = study
-        .critical_curvature(Motor::load, 0.0, 2.0)
-        .expect("curvature");
+    let curvature = study.critical_curvature(Motor::load, 0.0, 2.0).expect("curvature");
     let second = curvature.second.as_flattened();
     assert!(second.iter().all(|value| value.abs() < 1e-6), "{second:?}");
 }
@@ -74,9 +68,7 @@ fn pull_out_of_a_motor() {
 fn the_branch_turns_back_at_pull_out() {
     let study = Study::new(Motor).start(Motor::spin, 95.0);
     let found = study.branches(Motor::load, 0.1, 2.0).expect("branches");
-    let [branch] = &found.branches[..] else {
-        panic!("one branch: {found}")
-    };
+    let [branch] = &found.branches[..] else { panic!("one branch: {found}") };
     assert_eq!(branch.ends, [BranchEnd::Low, BranchEnd::Low]);
     assert_eq!(branch.special.len(), 1);
     for point in &branch.points {
@@ -132,38 +124,21 @@ mechanism! {
 /// `u^2 = (a + b)^2 front rear / (m (a front - b rear))`, at which the car diverges sideways.
 #[test]
 fn divergence_speed_of_a_car() {
-    let (m, a, b, front, rear, drag): (f64, f64, f64, f64, f64, f64) =
-        (1500.0, 1.8, 1.0, 60e3, 80e3, 40.0);
+    let (m, a, b, front, rear, drag): (f64, f64, f64, f64, f64, f64) = (1500.0, 1.8, 1.0, 60e3, 80e3, 40.0);
     let length = a + b;
     let surplus = a * front - b * rear;
     let force = drag * (length * length * front * rear / (m * surplus)).sqrt();
-    let study = Study::new(Car)
-        .input(Car::thrust, 800.0)
-        .start(Car::forward, 20.0);
-    let found = study
-        .critical_state(Car::thrust, 200.0, 4000.0)
-        .expect("critical");
+    let study = Study::new(Car).input(Car::thrust, 800.0).start(Car::forward, 20.0);
+    let found = study.critical_state(Car::thrust, 200.0, 4000.0).expect("critical");
     // Beyond it the car settles in a wide turn to either side.
-    let soft = SpecialKind::Pitchfork {
-        supercritical: Some(true),
-    };
+    let soft = SpecialKind::Pitchfork { supercritical: Some(true) };
     assert_eq!(found.kind, soft);
-    let heavy = study
-        .clone()
-        .design(Car::drag, 1000.0)
-        .critical_state(Car::thrust, 5e3, 1e5)
-        .expect("critical");
+    let heavy = study.clone().design(Car::drag, 1000.0).critical_state(Car::thrust, 5e3, 1e5).expect("critical");
     assert_eq!(heavy.kind, soft);
-    assert!(
-        (found.value / force - 1.0).abs() < 1e-9,
-        "{} {force}",
-        found.value
-    );
+    assert!((found.value / force - 1.0).abs() < 1e-9, "{} {force}", found.value);
     assert_eq!(found.equilibrium.stability, Stability::Neutral { zero: 1 });
 
-    let curvature = study
-        .critical_curvature(Car::thrust, 200.0, 4000.0)
-        .expect("curvature");
+    let curvature = study.critical_curvature(Car::thrust, 200.0, 4000.0).expect("curvature");
     let by = [
         -0.5 / m,
         0.0,
@@ -174,29 +149,18 @@ fn divergence_speed_of_a_car() {
         1.0 / drag,
     ];
     for (slope, expected) in curvature.first.iter().zip(by) {
-        assert!(
-            (slope / force - expected).abs() < 1e-7 * expected.abs().max(1e-7),
-            "{slope} {expected}"
-        );
+        assert!((slope / force - expected).abs() < 1e-7 * expected.abs().max(1e-7), "{slope} {expected}");
     }
     let second = |i: usize, j: usize| curvature.second[i][j] / force;
     for (value, expected) in [
         (second(0, 0), 0.75 / (m * m)),
         (second(0, 6), -0.5 / (m * drag)),
-        (
-            second(4, 4),
-            by[4] * by[4] - 0.5 / front.powi(2) + 0.5 * (a / surplus).powi(2),
-        ),
-        (
-            second(2, 5),
-            by[2] * by[5] - 0.5 * b * front / surplus.powi(2),
-        ),
+        (second(4, 4), by[4] * by[4] - 0.5 / front.powi(2) + 0.5 * (a / surplus).powi(2)),
+        (second(2, 5), by[2] * by[5] - 0.5 * b * front / surplus.powi(2)),
     ] {
         assert!((value / expected - 1.0).abs() < 1e-6, "{value} {expected}");
     }
-    let swept = study
-        .sweep(Car::thrust, &[200.0, 1000.0, 2000.0])
-        .expect("sweep");
+    let swept = study.sweep(Car::thrust, &[200.0, 1000.0, 2000.0]).expect("sweep");
     assert_eq!(swept.critical.len(), 1);
     assert!((swept.critical[0].value / force - 1.0).abs() < 1e-9);
 }
@@ -236,27 +200,16 @@ fn limit_point_in_position_and_speed() {
     };
     let (radius, expected) = greatest(20.0);
     let study = Study::new(Slinger).start(Slinger::r, 0.1);
-    let found = study
-        .critical_state(Slinger::moment, 0.0, 1.0)
-        .expect("critical");
+    let found = study.critical_state(Slinger::moment, 0.0, 1.0).expect("critical");
     assert_eq!(found.kind, SpecialKind::Fold);
-    assert!(
-        (found.value / expected - 1.0).abs() < 1e-11,
-        "{} {expected}",
-        found.value
-    );
+    assert!((found.value / expected - 1.0).abs() < 1e-11, "{} {expected}", found.value);
     assert!((found.equilibrium.coordinates[0] - radius).abs() < 1e-6);
     assert_eq!(found.equilibrium.stability, Stability::Neutral { zero: 1 });
-    let tolerance = study
-        .critical_tolerance(Slinger::moment, 0.0, 1.0)
-        .expect("spread");
+    let tolerance = study.critical_tolerance(Slinger::moment, 0.0, 1.0).expect("spread");
     let slope = tolerance.spread.expect("a derivative").by_design[0];
     let step = 1e-3;
     let by_difference = (greatest(20.0 + step).1 - greatest(20.0 - step).1) / (2.0 * step);
-    assert!(
-        (slope / by_difference - 1.0).abs() < 1e-7,
-        "{slope} {by_difference}"
-    );
+    assert!((slope / by_difference - 1.0).abs() < 1e-7, "{slope} {by_difference}");
     let values = [0.2 * expected, 0.9 * expected, 1.1 * expected];
     let swept = study.sweep(Slinger::moment, &values).expect("sweep");
     assert_eq!(swept.critical.len(), 1);
@@ -308,20 +261,13 @@ fn arms_of_a_pitchfork_are_on_the_soft_or_the_hard_side() {
         (-1.5, -1.0, Some(false)),
         (1.0, 1.0, None),
     ] {
-        let speeds = Study::new(Speeds)
-            .design(Speeds::slaved, slaved)
-            .design(Speeds::cubic, cubic);
-        let positions = Study::new(Positions)
-            .design(Positions::slaved, slaved)
-            .design(Positions::cubic, cubic);
-        for found in [
-            speeds.critical_state(Speeds::thrust, 1.0, 8.0),
-            positions.critical_state(Positions::thrust, 1.0, 8.0),
-        ] {
+        let speeds = Study::new(Speeds).design(Speeds::slaved, slaved).design(Speeds::cubic, cubic);
+        let positions = Study::new(Positions).design(Positions::slaved, slaved).design(Positions::cubic, cubic);
+        for found in
+            [speeds.critical_state(Speeds::thrust, 1.0, 8.0), positions.critical_state(Positions::thrust, 1.0, 8.0)]
+        {
             let found = found.expect("critical");
-            let kind = SpecialKind::Pitchfork {
-                supercritical: expected,
-            };
+            let kind = SpecialKind::Pitchfork { supercritical: expected };
             assert_eq!(found.kind, kind, "{slaved} {cubic}");
             assert!((found.value - 5.0).abs() < 1e-9);
         }
@@ -348,16 +294,11 @@ mechanism! {
 #[test]
 fn only_the_loss_of_stability_is_critical() {
     let study = Study::new(Twice);
-    let found = study
-        .critical_state(Twice::thrust, 0.3, 3.0)
-        .expect("critical");
+    let found = study.critical_state(Twice::thrust, 0.3, 3.0).expect("critical");
     assert!((found.value - 1.0).abs() < 1e-9, "{}", found.value);
     for (low, high) in [(1.2, 3.0), (1.7, 3.0), (3.0, 1.2)] {
         let none = study.critical_state(Twice::thrust, low, high);
-        assert!(
-            matches!(none, Err(Error::NotInRange { .. })),
-            "{low} {high}: {none:?}"
-        );
+        assert!(matches!(none, Err(Error::NotInRange { .. })), "{low} {high}: {none:?}");
     }
     // Along an input all of them are listed, also those at which a further motion begins to grow.
     for values in [&[0.3, 3.0][..], &[0.3, 1.2, 1.7, 3.0], &[3.0, 0.3]] {
@@ -392,10 +333,7 @@ fn a_search_passes_a_state_without_stiffness() {
                 .equilibrium()
                 .unwrap_or_else(|error| panic!("{start} {thrust}: {error}"));
             let speed = thrust.cbrt();
-            assert!(
-                (state.coordinates[0] - speed).abs() < 1e-9 * speed.abs(),
-                "{start} {thrust}"
-            );
+            assert!((state.coordinates[0] - speed).abs() < 1e-9 * speed.abs(), "{start} {thrust}");
         }
     }
 }
@@ -404,15 +342,9 @@ fn a_search_passes_a_state_without_stiffness() {
 #[test]
 fn a_sweep_leaves_a_critical_value() {
     let slinger = Study::new(Slinger).start(Slinger::r, 0.1);
-    let fold = slinger
-        .critical_state(Slinger::moment, 0.0, 1.0)
-        .expect("critical")
-        .value;
+    let fold = slinger.critical_state(Slinger::moment, 0.0, 1.0).expect("critical").value;
     let car = Study::new(Car).start(Car::forward, 20.0);
-    let crossing = car
-        .critical_state(Car::thrust, 200.0, 4000.0)
-        .expect("critical")
-        .value;
+    let crossing = car.critical_state(Car::thrust, 200.0, 4000.0).expect("critical").value;
     let swept = [
         slinger.sweep(Slinger::moment, &[0.5 * fold, fold, 0.9 * fold, 0.5 * fold]),
         slinger.sweep(Slinger::moment, &[fold, 0.9 * fold, 0.5 * fold]),
@@ -452,20 +384,10 @@ mechanism! {
 /// `w^2 l = g (1 + 2 ms / mb)`, `moment = 0.1 w`.
 #[test]
 fn a_sweep_leaves_the_pitchfork_of_a_loop() {
-    let study = Study::new(Governor)
-        .start(Governor::spin, 1.0)
-        .start(Governor::a, 0.0)
-        .guess(Governor::h, -0.6);
-    let critical = study
-        .critical_state(Governor::moment, 0.1, 3.0)
-        .expect("critical")
-        .value;
+    let study = Study::new(Governor).start(Governor::spin, 1.0).start(Governor::a, 0.0).guess(Governor::h, -0.6);
+    let critical = study.critical_state(Governor::moment, 0.1, 3.0).expect("critical").value;
     assert!((critical - 0.1 * (9.81 * 2.0 / 0.3_f64).sqrt()).abs() < 1e-9);
-    for values in [
-        [0.1, critical, 0.5],
-        [critical, 0.4, 0.1],
-        [critical, 1.0, 3.0],
-    ] {
+    for values in [[0.1, critical, 0.5], [critical, 0.4, 0.1], [critical, 1.0, 3.0]] {
         let found = study.sweep(Governor::moment, &values).expect("sweep");
         for point in &found.points {
             if let Err(error) = &point.equilibrium {
@@ -494,16 +416,12 @@ mechanism! {
 #[test]
 fn limit_point_without_a_symmetric_stiffness() {
     let study = Study::new(Unequal);
-    let found = study
-        .critical_state(Unequal::thrust, 0.0, 1.0)
-        .expect("critical");
+    let found = study.critical_state(Unequal::thrust, 0.0, 1.0).expect("critical");
     let k = 1.0 + 0.5 * 0.3;
     assert_eq!(found.kind, SpecialKind::Fold);
     assert!((found.value - k * k / 4.0).abs() < 1e-12, "{}", found.value);
     assert_eq!(found.equilibrium.stability, Stability::Neutral { zero: 1 });
-    let curvature = study
-        .critical_curvature(Unequal::thrust, 0.0, 1.0)
-        .expect("curvature");
+    let curvature = study.critical_curvature(Unequal::thrust, 0.0, 1.0).expect("curvature");
     for (slope, expected) in curvature.first.iter().zip([0.15 * k, 0.25 * k]) {
         assert!((slope - expected).abs() < 1e-10, "{slope} {expected}");
     }

@@ -3,9 +3,7 @@
 use eigentol::{Kernels, Mechanism, Study};
 use eigentol_tests::wheels::{CirclingTrailer, PushedCart, RollingDisk, TowedCaster};
 
-use super::common::{
-    at, check_design, check_modes, close, close_real_slopes, design_names, input_names, truth,
-};
+use super::common::{at, check_design, check_modes, close, close_real_slopes, design_names, input_names, truth};
 
 /// Where to find a quantity of the reference: an unknown or an output, by name.
 enum Place {
@@ -67,10 +65,7 @@ fn a_caster_that_shimmies() {
 #[test]
 fn a_trailer_on_a_circle() {
     let study = Study::<CirclingTrailer>::new(CirclingTrailer);
-    let state = [
-        ("angle", Place::Unknown("swing")),
-        ("side_force", Place::Output("side_force")),
-    ];
+    let state = [("angle", Place::Unknown("swing")), ("side_force", Place::Output("side_force"))];
     check(&study, "trailer", &state);
 }
 
@@ -91,9 +86,6 @@ fn a_disk_that_rolls_straight_and_in_circles() {
 #[test]
 fn a_cart_that_finds_its_speed() {
     let study = Study::<PushedCart>::new(PushedCart);
-    let state = [
-        ("speed", Place::Output("pace")),
-        ("angle", Place::Unknown("swing")),
-    ];
+    let state = [("speed", Place::Output("pace")), ("angle", Place::Unknown("swing"))];
     check(&study, "cart", &state);
 }

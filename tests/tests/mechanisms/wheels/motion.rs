@@ -39,17 +39,13 @@ mechanism! {
 fn a_coin_rolls_as_its_equations_say() {
     let (m, r, g) = (0.4, 0.2, 9.81);
     let (across, along) = (0.25 * m * r * r, 0.5 * m * r * r);
-    for [phi, rate, yaw, spin] in [
-        [0.3, 0.2, 1.5, 5.0],
-        [-0.7, 1.1, -2.0, 9.0],
-        [1.1, -0.6, 4.0, -3.0],
-        [0.0, 0.5, 0.0, 2.0],
-    ] {
+    for [phi, rate, yaw, spin] in
+        [[0.3, 0.2, 1.5, 5.0], [-0.7, 1.1, -2.0, 9.0], [1.1, -0.6, 4.0, -3.0], [0.0, 0.5, 0.0, 2.0]]
+    {
         let (s, c) = f64::sin_cos(phi);
         let n = spin + yaw * s;
         let rolled = m * r * r;
-        let lean = (-across * yaw * yaw * s * c + (along + rolled) * n * yaw * c + m * g * r * s)
-            / (across + rolled);
+        let lean = (-across * yaw * yaw * s * c + (along + rolled) * n * yaw * c + m * g * r * s) / (across + rolled);
         let turned = -rolled * yaw * rate * c / (along + rolled);
         let swung = (2.0 * across * yaw * rate * s - along * rate * n) / (across * c);
         // Force of the table on the coin: along the horizontal diameter, the axle, the steepest diameter.

@@ -16,9 +16,7 @@ pub(crate) struct Projected {
 /// Indices of the unknowns with a given role.
 fn places(description: &Description, role: Role) -> Vec<usize> {
     let all = description.coordinates.iter().enumerate();
-    all.filter(|(_, info)| info.role == role)
-        .map(|(place, _)| place)
-        .collect()
+    all.filter(|(_, info)| info.role == role).map(|(place, _)| place).collect()
 }
 
 fn part(matrix: &eigentol::Matrix, rows: &[usize], columns: &[usize]) -> Matrix {
@@ -29,9 +27,7 @@ fn part(matrix: &eigentol::Matrix, rows: &[usize], columns: &[usize]) -> Matrix 
 fn product(a: &Matrix, b: &Matrix) -> Matrix {
     let columns = b.first().map_or(0, Vec::len);
     let entry = |row: &[f64], j: usize| row.iter().zip(b).map(|(x, other)| x * other[j]).sum();
-    a.iter()
-        .map(|row| (0..columns).map(|j| entry(row, j)).collect())
-        .collect()
+    a.iter().map(|row| (0..columns).map(|j| entry(row, j)).collect()).collect()
 }
 
 fn sum(a: &Matrix, b: &Matrix) -> Matrix {
@@ -41,28 +37,16 @@ fn sum(a: &Matrix, b: &Matrix) -> Matrix {
 
 fn transpose(a: &Matrix) -> Matrix {
     let columns = a.first().map_or(0, Vec::len);
-    (0..columns)
-        .map(|j| a.iter().map(|row| row[j]).collect())
-        .collect()
+    (0..columns).map(|j| a.iter().map(|row| row[j]).collect()).collect()
 }
 
 /// `X` with `a X = -b`, by elimination with pivoting; `a` is square and regular.
 fn solve_negative(a: &Matrix, b: &Matrix) -> Matrix {
     let n = a.len();
-    let mut rows: Matrix = a
-        .iter()
-        .zip(b)
-        .map(|(left, right)| {
-            left.iter()
-                .copied()
-                .chain(right.iter().map(|x| -x))
-                .collect()
-        })
-        .collect();
+    let mut rows: Matrix =
+        a.iter().zip(b).map(|(left, right)| left.iter().copied().chain(right.iter().map(|x| -x)).collect()).collect();
     for k in 0..n {
-        let pivot = (k..n)
-            .max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))
-            .expect("rows are left");
+        let pivot = (k..n).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs())).expect("rows are left");
         assert!(rows[pivot][k].abs() > 1e-12, "a singular matrix");
         rows.swap(k, pivot);
         let lead: Vec<f64> = rows[k].iter().map(|x| x / rows[k][k]).collect();
@@ -87,15 +71,8 @@ pub(crate) fn onto(linear: &Linear, description: &Description, kept: &[usize]) -
     let rest: Vec<usize> = q.iter().copied().filter(|i| !kept.contains(i)).collect();
     let (stiffness, damping) = (&linear.stiffness, &linear.damping);
 
-    let follow = solve_negative(
-        &part(stiffness, &on_positions, &rest),
-        &part(stiffness, &on_positions, kept),
-    );
-    let one = |i: usize| {
-        (0..kept.len())
-            .map(|j| f64::from(u8::from(i == j)))
-            .collect()
-    };
+    let follow = solve_negative(&part(stiffness, &on_positions, &rest), &part(stiffness, &on_positions, kept));
+    let one = |i: usize| (0..kept.len()).map(|j| f64::from(u8::from(i == j))).collect();
     let mut displacements: Matrix = vec![Vec::new(); q.len()];
     for (row, value) in displacements.iter_mut().zip(&q) {
         let among = |list: &[usize]| list.iter().position(|other| other == value);
@@ -114,20 +91,13 @@ pub(crate) fn onto(linear: &Linear, description: &Description, kept: &[usize]) -
 
     // The columns of a speed hold its rate in `Chat` and the speed itself in `Khat`.
     let moving = [&q[..], &v[..]].concat();
-    let beside = |left: Matrix, right: Matrix| -> Matrix {
-        left.into_iter()
-            .zip(right)
-            .map(|(a, b)| [a, b].concat())
-            .collect()
-    };
+    let beside =
+        |left: Matrix, right: Matrix| -> Matrix { left.into_iter().zip(right).map(|(a, b)| [a, b].concat()).collect() };
     let inertia = beside(part(&linear.mass, &moving, &q), part(damping, &moving, &v));
     let resistance = beside(part(damping, &moving, &q), part(stiffness, &moving, &v));
     let restoring = product(&part(stiffness, &moving, &q), &displacements);
     let left = transpose(&virtual_velocities);
-    let damped = sum(
-        &product(&inertia, &carried),
-        &product(&resistance, &virtual_velocities),
-    );
+    let damped = sum(&product(&inertia, &carried), &product(&resistance, &virtual_velocities));
     let stiff = sum(&product(&resistance, &carried), &restoring);
     Projected {
         mass: product(&left, &product(&inertia, &virtual_velocities)),

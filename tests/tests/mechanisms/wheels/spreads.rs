@@ -16,42 +16,23 @@ fn samples_spread_as_the_derivatives_say() {
     let point = truth("bicycle").get("spectra").list().remove(5);
     let s = complex(&hessian.get("s"));
     let mode = point.get("modes").list();
-    let mode = mode
-        .iter()
-        .find(|mode| (complex(&mode.get("s")) - s).norm() < 1e-9);
+    let mode = mode.iter().find(|mode| (complex(&mode.get("s")) - s).norm() < 1e-9);
     let by_design = mode.expect("the weave").get("by_design");
-    let study = Study::new(WhippleBicycle)
-        .input(WhippleBicycle::v, 5.0)
-        .samples(SAMPLES)
-        .seed(11);
-    let order: Vec<String> = hessian
-        .get("order")
-        .list()
-        .iter()
-        .map(Truth::text)
-        .collect();
+    let study = Study::new(WhippleBicycle).input(WhippleBicycle::v, 5.0).samples(SAMPLES).seed(11);
+    let order: Vec<String> = hessian.get("order").list().iter().map(Truth::text).collect();
     let tolerances = study.tolerances().expect("tolerances");
     let sigma = tolerances.sigmas();
     let [real, imaginary] = ["real", "imag"].map(|part| hessian.get(part).matrix());
-    let scaled = |i: usize, j: usize| {
-        Complex::new(real[26 * i + j], imaginary[26 * i + j]) * sigma[i] * sigma[j]
-    };
-    let first: Vec<Complex> = (0..26)
-        .map(|j| complex(&by_design.get(&order[j])) * sigma[j])
-        .collect();
+    let scaled = |i: usize, j: usize| Complex::new(real[26 * i + j], imaginary[26 * i + j]) * sigma[i] * sigma[j];
+    let first: Vec<Complex> = (0..26).map(|j| complex(&by_design.get(&order[j])) * sigma[j]).collect();
     let drawn = study.monte_carlo().expect("samples");
     assert_eq!(drawn.counts.stable, SAMPLES, "{:?}", drawn.counts);
     let modes = study.modes().expect("modes");
-    let weave = modes
-        .modes
-        .iter()
-        .position(|mode| (mode.s - s).norm() < 1e-6);
+    let weave = modes.modes.iter().position(|mode| (mode.s - s).norm() < 1e-6);
     let weave = weave.expect("the weave");
     let mean: f64 = (0..26).map(|i| 0.5 * scaled(i, i).im).sum();
     let linear: f64 = first.iter().map(|slope| slope.im.powi(2)).sum();
-    let curved: f64 = (0..26 * 26)
-        .map(|k| 0.5 * scaled(k / 26, k % 26).im.powi(2))
-        .sum();
+    let curved: f64 = (0..26 * 26).map(|k| 0.5 * scaled(k / 26, k % 26).im.powi(2)).sum();
     let spread = (linear + curved).sqrt();
 
     let first_order = study.first_order().expect("first order");
@@ -68,13 +49,7 @@ fn samples_spread_as_the_derivatives_say() {
     let deviation = omega.sigma.expect("many samples");
     let error = spread / (SAMPLES as f64).sqrt();
     let off = omega.mean - s.im - mean;
-    assert!(
-        off.abs() < 4.0 * error,
-        "the mean is off by {off}, its error {error}"
-    );
+    assert!(off.abs() < 4.0 * error, "the mean is off by {off}, its error {error}");
     let share = deviation / spread - 1.0;
-    assert!(
-        share.abs() < 4.0 / (2.0 * SAMPLES as f64).sqrt(),
-        "sigma is off by {share}"
-    );
+    assert!(share.abs() < 4.0 / (2.0 * SAMPLES as f64).sqrt(), "sigma is off by {share}");
 }

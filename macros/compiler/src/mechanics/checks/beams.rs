@@ -41,11 +41,7 @@ pub(crate) fn notes_on_beams(mechanism: &Mechanism) -> Vec<String> {
 pub(crate) fn notes_on_planes(g: &mut Graph, context: &Context) -> Vec<String> {
     let mechanism = context.mechanism;
     let is_rigid = |beam: &Beam, k: usize| beam.coordinates[k].is_empty();
-    if !mechanism
-        .beams
-        .iter()
-        .any(|beam| is_rigid(beam, 1) || is_rigid(beam, 2))
-    {
+    if !mechanism.beams.iter().any(|beam| is_rigid(beam, 1) || is_rigid(beam, 2)) {
         return Vec::new();
     }
     let running = &context.symbols.running.values;
@@ -55,10 +51,8 @@ pub(crate) fn notes_on_planes(g: &mut Graph, context: &Context) -> Vec<String> {
     for beam in &mechanism.beams {
         let axes = kinematics.of(beam.body).frame.orientation.axes.transpose();
         let moment: Vector3 = axes.apply(g, carried[beam.body.index()].moment);
-        let about: Vec<ExprId> = beam.axes[1..]
-            .iter()
-            .map(|axis| context.values.vector(g, axis).dot(g, moment))
-            .collect();
+        let about: Vec<ExprId> =
+            beam.axes[1..].iter().map(|axis| context.values.vector(g, axis).dot(g, moment)).collect();
         let about = at_rest(g, context.symbols, &about);
         let is_zero = vanish(g, context, &about);
         for (k, name) in [(1, "bending_y"), (2, "bending_z")] {
@@ -90,15 +84,10 @@ fn has(beam: &Beam, body: BodyId) -> bool {
 
 /// Bodies with a mass that are welded to a beam that spins.
 fn welded_to(mechanism: &Mechanism, beam: &Beam) -> Vec<BodyId> {
-    let welds = mechanism
-        .joints
-        .iter()
-        .filter(|joint| joint.steps.is_empty() && spins(beam));
+    let welds = mechanism.joints.iter().filter(|joint| joint.steps.is_empty() && spins(beam));
     let others = welds.filter_map(|joint| match (joint.from, joint.to) {
         (Frame::Body(from), Frame::Body(to)) if has(beam, from) => Some(to),
         _ => None,
     });
-    others
-        .filter(|x| !mechanism.bodies[x.index()].parts.is_empty())
-        .collect()
+    others.filter(|x| !mechanism.bodies[x.index()].parts.is_empty()).collect()
 }

@@ -32,17 +32,13 @@ pub(crate) fn require_determinate_motion(
         let last = motion.last().map_or(0, |&(k, _)| k);
         let named = |&(k, _): &(usize, _)| format!("`{}`", name(k));
         let names: Vec<String> = motion.iter().map(named).collect();
-        let shares: Option<Vec<String>> = motion
-            .iter()
-            .map(|&(k, share)| Some(format!("`{}` by {}", name(k), share?)))
-            .collect();
+        let shares: Option<Vec<String>> =
+            motion.iter().map(|&(k, share)| Some(format!("`{}` by {}", name(k), share?))).collect();
         let (message, help) = match (names.as_slice(), shares) {
             ([only], _) => {
                 without_inertia = Some(last);
                 (
-                    format!(
-                        "no mass moves when only {only} changes, so its motion is undetermined"
-                    ),
+                    format!("no mass moves when only {only} changes, so its motion is undetermined"),
                     "give a mass to a body that this joint carries, or drive or fix the joint",
                 )
             }
@@ -96,29 +92,16 @@ pub(crate) fn require_determinate_motion(
 /// A motion of free and coasting coordinates that moves no mass at any probed state: the coordinates that change, each
 /// with its amount if that is the same at all states. With constraints, only admissible motions must move mass; along
 /// all others `A^T A` replaces the mass matrix, where `A` holds the derivatives of the constraints by the speeds.
-fn massless_motion(
-    g: &Graph,
-    context: &Context,
-    jacobians: &Jacobians,
-) -> Option<Vec<(usize, Option<f64>)>> {
+fn massless_motion(g: &Graph, context: &Context, jacobians: &Jacobians) -> Option<Vec<(usize, Option<f64>)>> {
     let (free, n) = context.moving();
     let by_rate = |matrix: &[Vec<ExprId>], next: &[Vec<ExprId>], row: usize| -> Vec<ExprId> {
         let coordinates = matrix[..free].iter();
         let speeds = next[free..n].iter();
-        coordinates
-            .chain(speeds)
-            .map(|column| column[row])
-            .collect()
+        coordinates.chain(speeds).map(|column| column[row]).collect()
     };
-    let mut roots: Vec<ExprId> = (0..n)
-        .flat_map(|row| by_rate(&jacobians.mass, &jacobians.damping, row))
-        .collect();
+    let mut roots: Vec<ExprId> = (0..n).flat_map(|row| by_rate(&jacobians.mass, &jacobians.damping, row)).collect();
     for (k, row) in context.rows.iter().enumerate() {
-        let demands = if row.of_velocities {
-            &jacobians.damping
-        } else {
-            &jacobians.stiffness
-        };
+        let demands = if row.of_velocities { &jacobians.damping } else { &jacobians.stiffness };
         roots.extend(by_rate(demands, &jacobians.stiffness, n + k));
     }
     let evaluator = Evaluator::new(g, &roots);
@@ -143,22 +126,11 @@ fn massless_motion(
 /// `M + sum a a^T / (a^T D^-1 a)` over the constraints, with `D` the diagonal of `M` where it is not zero: each
 /// constraint counts as much as the masses it moves, whatever the units. One that moves no mass counts as the largest
 /// mass.
-fn with_constraints(
-    n: usize,
-    mass: &[Disturbed],
-    constraints: &[Disturbed],
-    operations: usize,
-) -> Vec<Disturbed> {
+fn with_constraints(n: usize, mass: &[Disturbed], constraints: &[Disturbed], operations: usize) -> Vec<Disturbed> {
     let mut sum = mass.to_vec();
     let masses: Vec<f64> = (0..n)
         .map(|k| &mass[k * n + k])
-        .map(|item| {
-            if item.is_rounding(operations) {
-                0.0
-            } else {
-                item.value()
-            }
-        })
+        .map(|item| if item.is_rounding(operations) { 0.0 } else { item.value() })
         .collect();
     let most = masses.iter().fold(0.0, |most: f64, mass| most.max(*mass));
     for a in constraints.chunks_exact(n.max(1)) {

@@ -33,9 +33,7 @@ pub(crate) fn require_harmonic(
     let mut turning = Turning::new();
     for (excitation, response) in context.mechanism.excitations.iter().zip(responses) {
         turning.push(match &excitation.law {
-            ExcitationLaw::Unbalance { .. } => {
-                turned(g, context, excitation, response, &mut mistakes)
-            }
+            ExcitationLaw::Unbalance { .. } => turned(g, context, excitation, response, &mut mistakes),
             _ => {
                 unturned(g, context, excitation, response, &mut mistakes);
                 Vec::new()
@@ -144,11 +142,7 @@ fn is_turned(context: &Context, excitation: &Excitation) -> bool {
         let Some(branch) = branches.find(|branch| branch.body == body) else {
             return false;
         };
-        if mechanism.joints[branch.joint.index()]
-            .steps
-            .iter()
-            .any(turns)
-        {
+        if mechanism.joints[branch.joint.index()].steps.iter().any(turns) {
             return true;
         }
         frame = branch.parent;
@@ -222,11 +216,7 @@ fn steady_outputs(g: &mut Graph, context: &Context, mistakes: &mut Diagnostics) 
     let by_acceleration = columns(g, &values, &symbols.acceleration);
     for (index, id) in running(context) {
         for (k, output) in context.mechanism.outputs.iter().enumerate() {
-            let rates: Vec<ExprId> = by_velocity
-                .iter()
-                .chain(&by_acceleration)
-                .map(|column| column[k])
-                .collect();
+            let rates: Vec<ExprId> = by_velocity.iter().chain(&by_acceleration).map(|column| column[k]).collect();
             let rates = at_rest(g, symbols, &rates);
             let change = by_symbol(g, &rates, symbols.running.ids[index]);
             if vanish(g, context, &change).into_iter().any(|zero| !zero) {

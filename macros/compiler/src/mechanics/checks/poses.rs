@@ -19,25 +19,15 @@ pub(crate) fn poses(g: &mut Graph, context: &Context) -> Vec<Pose> {
         if let [first, second, third] = turns[..] {
             let normal = first.cross(g, second);
             let margin = normal.dot(g, third);
-            let joint = context.mechanism.joints[branch.joint.index()]
-                .name
-                .to_string();
-            poses.push(Pose {
-                joint,
-                margin,
-                least: 0.0,
-            });
+            let joint = context.mechanism.joints[branch.joint.index()].name.to_string();
+            poses.push(Pose { joint, margin, least: 0.0 });
         }
     }
     for (beam, motion) in context.mechanism.beams.iter().zip(&kinematics.beams) {
         let stations = motion.stations.iter().map(|station| &station.section);
         let sections = motion.sections.iter().chain(stations);
         poses.extend(sections.filter_map(|section| {
-            Some(Pose {
-                joint: beam.name.clone(),
-                margin: section.pose_margin()?,
-                least: BENT_TOO_FAR,
-            })
+            Some(Pose { joint: beam.name.clone(), margin: section.pose_margin()?, least: BENT_TOO_FAR })
         }));
     }
     poses

@@ -7,9 +7,7 @@ use crate::mechanics::setup::{Context, vanish};
 
 /// The properties of `Khat` and `Chat`.
 pub(crate) fn properties(g: &mut Graph, context: &Context, jacobians: &Jacobians) -> Properties {
-    let Jacobians {
-        stiffness, damping, ..
-    } = jacobians;
+    let Jacobians { stiffness, damping, .. } = jacobians;
     let n = stiffness.len();
     let mut asymmetry = Vec::new();
     let mut symmetric_damping = Vec::new();
@@ -27,8 +25,5 @@ pub(crate) fn properties(g: &mut Graph, context: &Context, jacobians: &Jacobians
     } else {
         Damping::General
     };
-    Properties {
-        symmetric_stiffness: all(g, &asymmetry),
-        damping,
-    }
+    Properties { symmetric_stiffness: all(g, &asymmetry), damping }
 }

@@ -21,11 +21,7 @@ use crate::model::welded::{Member, groups};
 const FLATNESS: f64 = 1e-9;
 
 /// The requirements that depend on inputs or design variables; constants are checked with the declaration.
-pub(crate) fn requirements(
-    g: &mut Graph,
-    mechanism: &Mechanism,
-    values: &Values,
-) -> Vec<Requirement> {
+pub(crate) fn requirements(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<Requirement> {
     let mut list = Vec::new();
     for body in &mechanism.bodies {
         let name = &body.name;
@@ -43,11 +39,7 @@ pub(crate) fn requirements(
         if body.parts.iter().any(|part| part.hole) {
             let pieces = MassDistribution::of_body(g, values, body);
             let (mass, second) = central_moments(g, pieces);
-            list.push(Requirement {
-                quantity: format!("mass of {name}"),
-                requirement: "positive",
-                value: mass,
-            });
+            list.push(Requirement { quantity: format!("mass of {name}"), requirement: "positive", value: mass });
             if !is_in_doubt(g, values, body) {
                 list.extend(inertia_of_a_body(g, &name.to_string(), second));
             }
@@ -60,9 +52,9 @@ pub(crate) fn requirements(
         let (quantity, value) = match &constraint.law {
             ConstraintLaw::Distance { length, .. } => ("length", length),
             ConstraintLaw::Rolling { radius, .. } => ("radius", radius),
-            ConstraintLaw::Coincident { .. }
-            | ConstraintLaw::Aligned { .. }
-            | ConstraintLaw::Equation { .. } => continue,
+            ConstraintLaw::Coincident { .. } | ConstraintLaw::Aligned { .. } | ConstraintLaw::Equation { .. } => {
+                continue;
+            }
         };
         list.push(Requirement {
             quantity: format!("{quantity} of {}", constraint.name),
@@ -74,11 +66,7 @@ pub(crate) fn requirements(
         let value = values.scalar(g, value);
         // The parts of a beam that loads split share what was asked of the whole.
         if list.iter().all(|known| known.value != value) {
-            list.push(Requirement {
-                quantity: quantity.clone(),
-                requirement: "positive",
-                value,
-            });
+            list.push(Requirement { quantity: quantity.clone(), requirement: "positive", value });
         }
     }
     list.extend(inside_curves(g, mechanism, values));
@@ -96,15 +84,11 @@ fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<R
         let name = curve.spline.name();
         let ends = [
             (
-                format!(
-                    "distance of the argument from the beginning of curve {name} at {first} (negative: before it)"
-                ),
+                format!("distance of the argument from the beginning of curve {name} at {first} (negative: before it)"),
                 g.sub(argument, low),
             ),
             (
-                format!(
-                    "distance of the argument from the end of curve {name} at {last} (negative: beyond it)"
-                ),
+                format!("distance of the argument from the end of curve {name} at {last} (negative: beyond it)"),
                 g.sub(high, argument),
             ),
         ];
@@ -113,11 +97,7 @@ fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<R
             let value = g.scale(1.0 / curve.unit.scale, value);
             // Curves that share a range and an argument need one check.
             if list.iter().all(|known| known.value != value) {
-                list.push(Requirement {
-                    quantity,
-                    requirement: "positive",
-                    value,
-                });
+                list.push(Requirement { quantity, requirement: "positive", value });
             }
         }
     }
@@ -143,12 +123,7 @@ fn is_in_doubt(g: &mut Graph, values: &Values, body: &Body) -> bool {
 
 /// The requirements on bodies welded together. There are none if each certainly has the inertia of a real body, because
 /// then so does their sum.
-fn inertia_together(
-    g: &mut Graph,
-    mechanism: &Mechanism,
-    values: &Values,
-    group: &[Member],
-) -> Vec<Requirement> {
+fn inertia_together(g: &mut Graph, mechanism: &Mechanism, values: &Values, group: &[Member]) -> Vec<Requirement> {
     let body = |member: &Member| &mechanism.bodies[member.body.index()];
     let mut bodies = group.iter().map(body);
     let Some(first) = bodies.find(|body| is_in_doubt(g, values, body)) else {
@@ -227,11 +202,7 @@ fn inertia_of_a_body(g: &mut Graph, body: &str, [x, y, z]: [Vector3; 3]) -> Vec<
         }
         let normal = x.cross(g, y);
         let determinant = normal.dot(g, z);
-        list.push(require(
-            "the determinant of tr(J)/2 - J",
-            "kg^3*m^6",
-            determinant,
-        ));
+        list.push(require("the determinant of tr(J)/2 - J", "kg^3*m^6", determinant));
     }
     list
 }

@@ -10,7 +10,8 @@ use crate::model::mechanism::Motion;
 
 const INERTIA: &str = "the inertia of";
 const UNBALANCE: &str = "; an eccentric centre or a skew axis of a symmetric body is an `unbalance`; what has unequal moments of inertia across the axis makes the equations of vibration periodic (theory of Floquet), which is not supported";
-const SPINNING: &str = "; a round beam that turns about its axis is held by what does not turn, and is `spinning at` its speed";
+const SPINNING: &str =
+    "; a round beam that turns about its axis is held by what does not turn, and is `spinning at` its speed";
 const BEYOND: &str = "; joints that should not turn come before one that coasts";
 const GRAVITY: &str = "gravity is not parallel to its axis";
 
@@ -33,8 +34,7 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(
     let mut standing = Vec::new();
     let running = &context.symbols.running.values;
     let kinematics = in_common_frame(g, context, running);
-    let residual =
-        Residual::new(g, context, running, &kinematics, ForceSelection::ALL).total(g, context);
+    let residual = Residual::new(g, context, running, &kinematics, ForceSelection::ALL).total(g, context);
     let outputs = outputs(g, context, running, &kinematics);
     let outputs = at_rest(g, context.symbols, &outputs);
     let coordinates: Vec<_> = context.topology.running().collect();
@@ -56,9 +56,7 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(
                 continue;
             }
             if causes.is_empty() {
-                causes.push(
-                    "at least, the contrary could not be shown near the nominal design".to_owned(),
-                );
+                causes.push("at least, the contrary could not be shown near the nominal design".to_owned());
             }
             diagnostics.error_with_help(
                 name.span(),
@@ -118,34 +116,17 @@ fn depends(g: &mut Graph, context: &Context, roots: &[ExprId], symbol: SymbolId)
 /// The individual causes of force that make the equations depend on `symbol`.
 fn causes(g: &mut Graph, context: &Context, kinematics: &Kinematics, symbol: SymbolId) -> Causes {
     let running = &context.symbols.running.values;
-    let none = ForceSelection {
-        inertia: Selection::None,
-        forces: Selection::None,
-        gravity: false,
-        constraints: false,
-    };
-    let mut candidates = vec![(
-        ForceSelection {
-            gravity: true,
-            ..none
-        },
-        GRAVITY.to_owned(),
-    )];
+    let none = ForceSelection { inertia: Selection::None, forces: Selection::None, gravity: false, constraints: false };
+    let mut candidates = vec![(ForceSelection { gravity: true, ..none }, GRAVITY.to_owned())];
     for (index, force) in context.mechanism.forces.iter().enumerate() {
         candidates.push((
-            ForceSelection {
-                forces: Selection::One(ForceId::new(index)),
-                ..none
-            },
+            ForceSelection { forces: Selection::One(ForceId::new(index)), ..none },
             format!("the force `{}` changes with it", force.name),
         ));
     }
     for (index, body) in context.mechanism.bodies.iter().enumerate() {
         candidates.push((
-            ForceSelection {
-                inertia: Selection::One(BodyId::new(index)),
-                ..none
-            },
+            ForceSelection { inertia: Selection::One(BodyId::new(index)), ..none },
             format!("{INERTIA} `{}` changes with it", body.name),
         ));
     }
@@ -155,10 +136,7 @@ fn causes(g: &mut Graph, context: &Context, kinematics: &Kinematics, symbol: Sym
     });
     let mut causes: Vec<String> = candidates.into_iter().map(|(_, cause)| cause).collect();
     let (mut rows, mut slip) = (0, causes.is_empty());
-    let constraints = ForceSelection {
-        constraints: true,
-        ..none
-    };
+    let constraints = ForceSelection { constraints: true, ..none };
     let values = Residual::new(g, context, running, kinematics, constraints).total(g, context);
     for (row, &value) in context.rows.iter().zip(&values[context.moving().1..]) {
         if depends(g, context, &[value], symbol) {

@@ -82,22 +82,12 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
     energy = g.add(energy, strained);
     for force in &context.mechanism.forces {
         let share = match &force.law {
-            ForceLaw::CoordinateSpring {
-                coordinate,
-                stiffness,
-                rest,
-            } => {
+            ForceLaw::CoordinateSpring { coordinate, stiffness, rest } => {
                 let (stiffness, rest) = (values.scalar(g, stiffness), values.scalar(g, rest));
                 let position = kinematics.coordinates[coordinate.index()].position;
                 quadratic(g, stiffness, position, rest)
             }
-            ForceLaw::SpringDamper {
-                from,
-                to,
-                stiffness,
-                length,
-                ..
-            } => {
+            ForceLaw::SpringDamper { from, to, stiffness, length, .. } => {
                 let (stiffness, length) = (values.scalar(g, stiffness), values.scalar(g, length));
                 let [start, end] = [from, to].map(|id| kinematics.points[id.index()].position);
                 let distance = end.sub(g, start).norm(g);

@@ -12,8 +12,7 @@ use crate::base::ids::{BodyId, CoordinateId, DesignId};
 use crate::mechanics::inertia::{Direction, deviation};
 use crate::mechanics::motion::{Kinematics, in_common_frame, in_common_frame_at_zero};
 use crate::mechanics::setup::{
-    Context, CoordinateMotion, Excited, ForceSelection, SymbolList, Symbols, Values, at_rest,
-    by_symbol, vanish,
+    Context, CoordinateMotion, Excited, ForceSelection, SymbolList, Symbols, Values, at_rest, by_symbol, vanish,
 };
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Excitation, ExcitationLaw, Force, ForceLaw, Frame, Mechanism};
@@ -34,31 +33,18 @@ pub(crate) fn excited(g: &mut Graph, context: &Context) -> Vec<Response> {
         return Vec::new();
     }
     let mut symbols = context.symbols.clone();
-    let parameters: Vec<SymbolList> = mechanism
-        .excitations
-        .iter()
-        .map(|excitation| parameters(g, excitation, &mut symbols))
-        .collect();
+    let parameters: Vec<SymbolList> =
+        mechanism.excitations.iter().map(|excitation| parameters(g, excitation, &mut symbols)).collect();
     let excited = additions(g, context, &parameters);
     let mechanism = with_loads(mechanism, &parameters, context.symbols.b.ids.len());
     let values = Values::new(g, &mechanism, &symbols);
-    let context = &Context {
-        mechanism: &mechanism,
-        symbols: &symbols,
-        values: &values,
-        excited: &excited,
-        ..*context
-    };
+    let context = &Context { mechanism: &mechanism, symbols: &symbols, values: &values, excited: &excited, ..*context };
     let running = &symbols.running.values;
     let kinematics = in_common_frame(g, context, running);
-    let mut all =
-        Residual::new(g, context, running, &kinematics, ForceSelection::ALL).total(g, context);
+    let mut all = Residual::new(g, context, running, &kinematics, ForceSelection::ALL).total(g, context);
     all.extend(outputs(g, context, running, &kinematics));
     let zero = g.zero();
-    let none: Vec<_> = parameters
-        .iter()
-        .flat_map(|list| list.ids.iter().map(|&id| (id, zero)))
-        .collect();
+    let none: Vec<_> = parameters.iter().flat_map(|list| list.ids.iter().map(|&id| (id, zero))).collect();
     parameters
         .iter()
         .map(|list| Response {
@@ -99,11 +85,7 @@ fn additions(g: &mut Graph, context: &Context, parameters: &[SymbolList]) -> Exc
     let mut excited = Excited::default();
     for (excitation, list) in context.mechanism.excitations.iter().zip(parameters) {
         match &excitation.law {
-            ExcitationLaw::Unbalance {
-                body,
-                at,
-                deviation: kind,
-            } => {
+            ExcitationLaw::Unbalance { body, at, deviation: kind } => {
                 let directions = across(g, context, &kinematics, *body);
                 for (along, &amount) in directions.into_iter().flatten().zip(&list.values) {
                     let direction = Direction { along, amount };
@@ -128,12 +110,7 @@ fn additions(g: &mut Graph, context: &Context, parameters: &[SymbolList]) -> Exc
 /// Two perpendicular directions across the axis about which a body is turned by the nearest running coordinate, in the
 /// body's frame: along x for an axis along z, y for x, z for y, and for any other axis along the part across it of the
 /// one that belongs to the nearest of these. The second is a quarter of a turn ahead. `None` if nothing turns the body.
-fn across(
-    g: &mut Graph,
-    context: &Context,
-    kinematics: &Kinematics,
-    body: BodyId,
-) -> Option<[Vector3; 2]> {
+fn across(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId) -> Option<[Vector3; 2]> {
     let axis = axis(g, context, kinematics, body)?;
     let unit: [Vector3; 3] = crate::algebra::Matrix3::identity(g).0;
     let size = |k: usize| context.nominal(g, axis.0[k]).abs();
@@ -154,21 +131,12 @@ fn across(
 }
 
 /// The axis of the nearest running coordinate that turns a body, in the body's frame.
-fn axis(
-    g: &mut Graph,
-    context: &Context,
-    kinematics: &Kinematics,
-    body: BodyId,
-) -> Option<Vector3> {
+fn axis(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId) -> Option<Vector3> {
     let runs = |id: CoordinateId| context.mechanism.coordinates[id.index()].motion.runs();
     let mut carrier = body;
     loop {
         let motion = kinematics.of(carrier);
-        let step = motion
-            .steps
-            .iter()
-            .rev()
-            .find(|step| step.turn.is_some() && runs(step.coordinate));
+        let step = motion.steps.iter().rev().find(|step| step.turn.is_some() && runs(step.coordinate));
         if let Some(step) = step {
             if carrier == body {
                 return Some(step.own_axis);
@@ -180,11 +148,7 @@ fn axis(
             let axis = substitute(g, &axis.0, &straight);
             return Some(Vector3([axis[0], axis[1], axis[2]]));
         }
-        let branch = context
-            .topology
-            .branches
-            .iter()
-            .find(|branch| branch.body == carrier)?;
+        let branch = context.topology.branches.iter().find(|branch| branch.body == carrier)?;
         let Frame::Body(parent) = branch.parent else {
             return None;
         };
@@ -202,27 +166,15 @@ fn with_loads(mechanism: &Mechanism, parameters: &[SymbolList], design: usize) -
         let times = |value: &Expr| Expr::Multiply(parameter.clone(), Rc::new(value.clone()));
         let vector = |vector: &Vector| vector.each_ref().map(times);
         let law = match &excitation.law {
-            ExcitationLaw::Load {
-                point,
-                force,
-                moment,
-            } => ForceLaw::Load {
-                point: *point,
-                force: vector(force),
-                moment: vector(moment),
-                following: false,
-            },
-            ExcitationLaw::Generalized { coordinate, value } => ForceLaw::Generalized {
-                coordinate: *coordinate,
-                value: times(value),
-            },
+            ExcitationLaw::Load { point, force, moment } => {
+                ForceLaw::Load { point: *point, force: vector(force), moment: vector(moment), following: false }
+            }
+            ExcitationLaw::Generalized { coordinate, value } => {
+                ForceLaw::Generalized { coordinate: *coordinate, value: times(value) }
+            }
             ExcitationLaw::Unbalance { .. } | ExcitationLaw::Shaken { .. } => continue,
         };
-        mechanism.forces.push(Force {
-            name: excitation.name.clone(),
-            law,
-            of_every: false,
-        });
+        mechanism.forces.push(Force { name: excitation.name.clone(), law, of_every: false });
     }
     mechanism
 }

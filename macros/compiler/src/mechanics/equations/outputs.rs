@@ -12,12 +12,7 @@ use crate::model::mechanism::{ConstraintLaw, Frame};
 use super::energy::{kinetic, potential};
 
 /// The declared outputs.
-pub(crate) fn outputs(
-    g: &mut Graph,
-    context: &Context,
-    running: &[ExprId],
-    kinematics: &Kinematics,
-) -> Vec<ExprId> {
+pub(crate) fn outputs(g: &mut Graph, context: &Context, running: &[ExprId], kinematics: &Kinematics) -> Vec<ExprId> {
     let carried = carried(g, context, running, kinematics);
     let state = Everything {
         kinematics,
@@ -29,10 +24,7 @@ pub(crate) fn outputs(
         potential: potential(g, context, kinematics),
     };
     let outputs = &context.mechanism.outputs;
-    outputs
-        .iter()
-        .map(|output| context.values.scalar_at(g, &output.value, &state))
-        .collect()
+    outputs.iter().map(|output| context.values.scalar_at(g, &output.value, &state)).collect()
 }
 
 /// Everything that an output can use. Unused quantities cost nothing: code is generated only for nodes that a result
@@ -73,28 +65,16 @@ impl State for Everything<'_> {
 
 /// What each body and everything that it carries takes to move as it does, beyond the forces on them: about its origin and
 /// in the common frame, by body id.
-pub(crate) fn carried(
-    g: &mut Graph,
-    context: &Context,
-    running: &[ExprId],
-    kinematics: &Kinematics,
-) -> Vec<Wrench> {
+pub(crate) fn carried(g: &mut Graph, context: &Context, running: &[ExprId], kinematics: &Kinematics) -> Vec<Wrench> {
     let loads = transmitted(g, context, kinematics, ForceSelection::ALL).wrenches;
     let inertial = inertial_wrenches(g, context, running, kinematics);
     let pairs = loads.into_iter().zip(inertial);
-    pairs
-        .map(|(load, inertial)| load.add(g, inertial))
-        .collect()
+    pairs.map(|(load, inertial)| load.add(g, inertial)).collect()
 }
 
 /// The force and moment that the `from` side of each joint exerts on its `to` side, at the origin of the joint frame on
 /// the `from` side and in its axes.
-fn reactions(
-    g: &mut Graph,
-    context: &Context,
-    kinematics: &Kinematics,
-    carried: &[Wrench],
-) -> Vec<[Vector3; 2]> {
+fn reactions(g: &mut Graph, context: &Context, kinematics: &Kinematics, carried: &[Wrench]) -> Vec<[Vector3; 2]> {
     let zero = Vector3::zero(g);
     let mut reactions = vec![[zero; 2]; context.mechanism.joints.len()];
     for branch in &context.topology.branches {
@@ -116,12 +96,7 @@ fn reactions(
 }
 
 /// Inertia minus weight of a body and everything it carries, about its origin and in the common frame, by body id.
-fn inertial_wrenches(
-    g: &mut Graph,
-    context: &Context,
-    running: &[ExprId],
-    kinematics: &Kinematics,
-) -> Vec<Wrench> {
+fn inertial_wrenches(g: &mut Graph, context: &Context, running: &[ExprId], kinematics: &Kinematics) -> Vec<Wrench> {
     let wrenches = inertial_at(g, context, running, ForceSelection::ALL).wrenches;
     let mut axes = vec![kinematics.ground.orientation.axes; wrenches.len()];
     for branch in &context.topology.branches {
@@ -140,21 +115,11 @@ fn inertial_wrenches(
         .collect();
     let vectors = context.in_unknowns(g, &parts);
     let vector = |c: &[ExprId]| Vector3([c[0], c[1], c[2]]);
-    vectors
-        .chunks_exact(6)
-        .map(|c| Wrench {
-            force: vector(&c[..3]),
-            moment: vector(&c[3..]),
-        })
-        .collect()
+    vectors.chunks_exact(6).map(|c| Wrench { force: vector(&c[..3]), moment: vector(&c[3..]) }).collect()
 }
 
 /// The reaction of each constraint; see [`Expr::ConstraintReaction`].
-fn constraint_reactions(
-    g: &mut Graph,
-    context: &Context,
-    kinematics: &Kinematics,
-) -> Vec<[ExprId; 6]> {
+fn constraint_reactions(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Vec<[ExprId; 6]> {
     let force_context = ForceContext::new(context, kinematics);
     let zero = g.zero();
     let ids = (0..context.mechanism.constraints.len()).map(ConstraintId::new);
@@ -186,12 +151,7 @@ fn constraint_reactions(
 }
 
 /// What the beams do at the points of which an output asks for it, see [`Expr::Bent`]; zeros elsewhere.
-fn bent_beams(
-    g: &mut Graph,
-    context: &Context,
-    kinematics: &Kinematics,
-    carried: &[Wrench],
-) -> Vec<[ExprId; 12]> {
+fn bent_beams(g: &mut Graph, context: &Context, kinematics: &Kinematics, carried: &[Wrench]) -> Vec<[ExprId; 12]> {
     let mechanism = context.mechanism;
     let mut all = vec![[g.zero(); 12]; mechanism.points.len()];
     let outputs = mechanism.outputs.iter();
@@ -227,26 +187,16 @@ fn force_inside(
     };
     let axes = kinematics.of(body).frame.orientation.axes.transpose();
     let force = axes.apply(g, carried[body.index()].force).neg(g);
-    let beam_axes = beam
-        .axes
-        .each_ref()
-        .map(|axis| context.values.vector(g, axis));
+    let beam_axes = beam.axes.each_ref().map(|axis| context.values.vector(g, axis));
     Vector3(beam_axes.map(|axis| axis.dot(g, force)))
 }
 
 /// What each force element exerts; only where an output asks for it, zeros elsewhere.
-fn exerted_by_forces(
-    g: &mut Graph,
-    context: &Context,
-    kinematics: &Kinematics,
-) -> Vec<[ExprId; 6]> {
+fn exerted_by_forces(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Vec<[ExprId; 6]> {
     let mechanism = context.mechanism;
     let mut all = vec![[g.zero(); 6]; mechanism.forces.len()];
     let force_context = ForceContext::new(context, kinematics);
-    let leaves = mechanism
-        .outputs
-        .iter()
-        .flat_map(|output| output.value.leaves());
+    let leaves = mechanism.outputs.iter().flat_map(|output| output.value.leaves());
     for leaf in leaves {
         if let Expr::Exerted(id, _) = leaf {
             let force = &mechanism.forces[id.index()];

@@ -27,12 +27,7 @@ impl Residual {
         kinematics: &Kinematics,
         selection: ForceSelection,
     ) -> Self {
-        let Inertial {
-            along: inertial,
-            along_sections,
-            beams,
-            ..
-        } = inertial_at(g, context, running, selection);
+        let Inertial { along: inertial, along_sections, beams, .. } = inertial_at(g, context, running, selection);
         let strained = match selection.forces {
             Selection::All => strained(g, context),
             Selection::One(_) | Selection::None => vec![g.zero(); along_sections.len()],
@@ -45,27 +40,14 @@ impl Residual {
         let zeros = loads.constraints.iter().map(|_| g.zero());
         Self {
             beams,
-            inertial: moving()
-                .map(|id| inertial[id.index()])
-                .chain(zeros)
-                .chain(sections)
-                .collect(),
-            applied: moving()
-                .map(|id| loads.along[id.index()])
-                .chain(loads.constraints.iter().copied())
-                .collect(),
+            inertial: moving().map(|id| inertial[id.index()]).chain(zeros).chain(sections).collect(),
+            applied: moving().map(|id| loads.along[id.index()]).chain(loads.constraints.iter().copied()).collect(),
         }
     }
 
     /// The power of all forces while the unknowns move at some rates: the sum of the equations, each times its rate. Of
     /// beams, the forces on each section are contracted before anything is differentiated.
-    pub(crate) fn power(
-        &self,
-        g: &mut Graph,
-        context: &Context,
-        total: &[ExprId],
-        rates: &[ExprId],
-    ) -> ExprId {
+    pub(crate) fn power(&self, g: &mut Graph, context: &Context, total: &[ExprId], rates: &[ExprId]) -> ExprId {
         if self.beams.is_empty() {
             return weighted_sum(g, rates, total);
         }
@@ -74,10 +56,7 @@ impl Residual {
         let mut terms = vec![weighted_sum(g, rates, &inertial[..rates.len()])];
         for beam in &self.beams {
             let motion = (beam.id, &beam.motion);
-            terms.push(
-                beam.load
-                    .power(g, context.sections, motion, &along_sections),
-            );
+            terms.push(beam.load.power(g, context.sections, motion, &along_sections));
         }
         terms.push(strain_power(g, context, &along_sections));
         let sum = g.sum(terms);
@@ -91,11 +70,8 @@ impl Residual {
         let inertial = context.runs.forces(g, &self.inertial);
         let inertial = context.sections.forces(g, &inertial);
         let inertial = context.in_unknowns(g, &inertial);
-        let sums: Vec<ExprId> = inertial
-            .into_iter()
-            .zip(&self.applied)
-            .map(|(inertial, &applied)| g.add(inertial, applied))
-            .collect();
+        let sums: Vec<ExprId> =
+            inertial.into_iter().zip(&self.applied).map(|(inertial, &applied)| g.add(inertial, applied)).collect();
         let topology = context.topology;
         let coordinates = topology.free.iter().chain(&topology.coasting);
         for (&value, id) in sums.iter().zip(coordinates) {

@@ -38,31 +38,16 @@ impl Equations {
         let parts = Residual::new(g, context, &running, &kinematics, ForceSelection::ALL);
         let motion = parts.total(g, context);
         let variation = variation(g, context, &running);
-        let inertia = Residual::new(g, context, &running, &kinematics, ForceSelection::INERTIA)
-            .total(g, context);
-        let applied = Residual::new(g, context, &running, &kinematics, ForceSelection::APPLIED)
-            .total(g, context);
+        let inertia = Residual::new(g, context, &running, &kinematics, ForceSelection::INERTIA).total(g, context);
+        let applied = Residual::new(g, context, &running, &kinematics, ForceSelection::APPLIED).total(g, context);
         let outputs_in_motion = outputs(g, context, &running, &kinematics);
         let rates = [&symbols.phi, &symbols.pencil.left, &symbols.w];
         let powers = rates.map(|rate| parts.power(g, context, &motion, &rate.values));
         let rest = at_rest(g, symbols, &motion);
         let rest_inertia = at_rest(g, symbols, &inertia);
         let minus_applied = at_rest(g, symbols, &applied);
-        let rest_applied = minus_applied
-            .into_iter()
-            .map(|force| g.neg(force))
-            .collect();
+        let rest_applied = minus_applied.into_iter().map(|force| g.neg(force)).collect();
         let outputs = at_rest(g, symbols, &outputs_in_motion);
-        Self {
-            motion,
-            parts,
-            variation,
-            powers,
-            rest,
-            rest_inertia,
-            rest_applied,
-            outputs_in_motion,
-            outputs,
-        }
+        Self { motion, parts, variation, powers, rest, rest_inertia, rest_applied, outputs_in_motion, outputs }
     }
 }

@@ -30,12 +30,7 @@ pub(crate) struct AugmentedBody {
 impl AugmentedBody {
     pub(super) fn empty(g: &mut Graph) -> Self {
         let zero = g.zero();
-        Self {
-            mass: zero,
-            first: Vector3::zero(g),
-            isotropic: zero,
-            second: [[zero; 3]; 3],
-        }
+        Self { mass: zero, first: Vector3::zero(g), isotropic: zero, second: [[zero; 3]; 3] }
     }
 
     pub(super) fn add(&mut self, g: &mut Graph, piece: &MassDistribution) {
@@ -105,9 +100,7 @@ pub(crate) fn augmented_bodies(
         let name = &context.mechanism.bodies[branch.body.index()].name;
         let carried = bodies[branch.body.index()];
         g.set_name(carried.mass, || format!("{name}_carried_mass"));
-        carried
-            .first
-            .set_name(g, &format!("{name}_augmented_first_moment"));
+        carried.first.set_name(g, &format!("{name}_augmented_first_moment"));
         for (row, i) in carried.second.into_iter().zip(["x", "y", "z"]) {
             for (entry, j) in row.into_iter().zip(["x", "y", "z"]) {
                 g.set_name(entry, || format!("{name}_augmented_second_moment_{i}{j}"));

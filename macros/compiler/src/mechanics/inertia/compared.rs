@@ -37,8 +37,7 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
     let mut exact = columns(g, &along, &symbols.q).concat();
     exact.extend(columns(g, &along, &symbols.velocity).concat());
     let by_acceleration = columns(g, &along, &symbols.acceleration).concat();
-    let blocks = [variation.by_position, variation.by_velocity, variation.mass]
-        .map(|matrix| matrix.concat());
+    let blocks = [variation.by_position, variation.by_velocity, variation.mass].map(|matrix| matrix.concat());
     let entries = blocks.concat();
     let pairs = exact.iter().chain(&by_acceleration).zip(&entries);
     let differences: Vec<ExprId> = pairs.map(|(&one, &other)| g.sub(one, other)).collect();

@@ -28,11 +28,7 @@ pub(crate) struct Composite {
 impl Composite {
     fn empty(g: &mut Graph) -> Self {
         let zero = g.zero();
-        Self {
-            mass: zero,
-            first: Vector3::zero(g),
-            second: [[zero; 3]; 3],
-        }
+        Self { mass: zero, first: Vector3::zero(g), second: [[zero; 3]; 3] }
     }
 
     fn of_body(g: &mut Graph, body: &AugmentedBody, motion: &FrameMotion) -> Self {
@@ -43,18 +39,14 @@ impl Composite {
             let share = axes[k].scale(g, body.first.0[k]);
             this.first = this.first.add(g, share);
             let diagonal = axes[k].scale(g, body.second[k][k]);
-            add_symmetric(g, &mut this.second, |g, i, j| {
-                g.mul(diagonal.0[i], axes[k].0[j])
-            });
+            add_symmetric(g, &mut this.second, |g, i, j| g.mul(diagonal.0[i], axes[k].0[j]));
             for j in k + 1..3 {
                 let weighted = axes[j].scale(g, body.second[k][j]);
                 add_products(g, &mut this.second, axes[k], weighted);
             }
         }
         let zero = g.zero();
-        add_symmetric(g, &mut this.second, |_, i, j| {
-            if i == j { body.isotropic } else { zero }
-        });
+        add_symmetric(g, &mut this.second, |_, i, j| if i == j { body.isotropic } else { zero });
         this
     }
 
@@ -68,18 +60,13 @@ impl Composite {
         let share = vector.scale(g, mass);
         self.mass = g.add(self.mass, mass);
         self.first = self.first.add(g, share);
-        add_symmetric(g, &mut self.second, |g, i, j| {
-            g.mul(vector.0[i], share.0[j])
-        });
+        add_symmetric(g, &mut self.second, |g, i, j| g.mul(vector.0[i], share.0[j]));
     }
 
     /// The composite about the parent's origin, in the axes of the parent's motion. Only `mass` is not part of the
     /// augmented parent.
     fn moved_to_parent(&self, g: &mut Graph, motion: &BodyMotion, mass: ExprId) -> Self {
-        let mut moved = Self {
-            mass: g.zero(),
-            ..*self
-        };
+        let mut moved = Self { mass: g.zero(), ..*self };
         if let Some(rotation) = motion.to_parent {
             moved.first = rotation.apply(g, self.first);
             moved.second = rotation.turn_symmetric(g, self.second);
@@ -177,19 +164,10 @@ pub(crate) struct Composites {
 }
 
 impl Composites {
-    pub(crate) fn new(
-        g: &mut Graph,
-        context: &Context,
-        kinematics: &Kinematics,
-        bodies: &[AugmentedBody],
-    ) -> Self {
+    pub(crate) fn new(g: &mut Graph, context: &Context, kinematics: &Kinematics, bodies: &[AugmentedBody]) -> Self {
         let count = context.mechanism.bodies.len();
         let empty = Composite::empty(g);
-        let mut this = Self {
-            carried: vec![empty; count],
-            whole: vec![empty; count],
-            apart: vec![empty.mass; count],
-        };
+        let mut this = Self { carried: vec![empty; count], whole: vec![empty; count], apart: vec![empty.mass; count] };
         // the bodies that continue the run, without their point masses
         let mut going_on = vec![empty; count];
         for branch in context.topology.branches.iter().rev() {
@@ -200,11 +178,7 @@ impl Composites {
             let behind = whole.mass;
             let composite = Composite::of_body(g, &bodies[index], &motion.frame);
             whole.add(g, &composite);
-            let apart = if rides_on_seat(g, motion) {
-                behind
-            } else {
-                whole.mass
-            };
+            let apart = if rides_on_seat(g, motion) { behind } else { whole.mass };
             (this.whole[index], this.apart[index]) = (whole, apart);
             let Frame::Body(parent) = branch.parent else {
                 continue;
@@ -228,11 +202,7 @@ impl Composites {
 
 /// The columns of the mass matrix with respect to the absolute angles; zero outside the moving coordinates. Only the
 /// accelerations of free coordinates have columns.
-pub(crate) fn mass_matrix(
-    g: &mut Graph,
-    context: &Context,
-    kinematics: &Kinematics,
-) -> Vec<Vec<ExprId>> {
+pub(crate) fn mass_matrix(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Vec<Vec<ExprId>> {
     let topology = context.topology;
     let bodies = augmented_bodies(g, context, kinematics, ForceSelection::ALL);
     let Composites { carried, whole, .. } = Composites::new(g, context, kinematics, &bodies);
@@ -265,8 +235,7 @@ pub(crate) fn mass_matrix(
             let mut load = load;
             // a body that continues the run moves with its seat: no work along this angle, but along those before it
             for next in topology.branches.iter().filter(|next| {
-                next.parent == Frame::Body(branch.body)
-                    && context.runs.layout.of(next.body).continues_run
+                next.parent == Frame::Body(branch.body) && context.runs.layout.of(next.body).continues_run
             }) {
                 let seat = kinematics.of(next.body).frame.offset;
                 let acceleration = step.velocity(g, seat);
@@ -290,10 +259,7 @@ pub(crate) fn mass_matrix(
                     true => shift,
                     false => load.moment,
                 };
-                let seen = Wrench {
-                    moment: turning,
-                    ..load
-                };
+                let seen = Wrench { moment: turning, ..load };
                 set(g, kinematics.of(parent), seen);
                 let Some(next) = tree.branch(parent) else {
                     break;

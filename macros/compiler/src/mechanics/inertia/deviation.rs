@@ -44,10 +44,7 @@ pub(crate) fn size(g: &mut Graph, context: &Context, body: BodyId, kind: &Deviat
     match kind {
         Deviation::Amount(value) | Deviation::Tilt(value) => context.values.scalar(g, value),
         Deviation::Eccentricity(value) => {
-            let (value, mass) = (
-                context.values.scalar(g, value),
-                whole(g, context, body).mass,
-            );
+            let (value, mass) = (context.values.scalar(g, value), whole(g, context, body).mass);
             g.mul(mass, value)
         }
     }
@@ -74,16 +71,8 @@ fn moment(g: &mut Graph, at: Vector3, direction: &Direction) -> MassDistribution
         mass: zero,
         isotropic: zero,
         arms: vec![
-            Arm {
-                direction: direction.along,
-                first: amount,
-                second: vec![zero, amount],
-            },
-            Arm {
-                direction: at,
-                first: zero,
-                second: vec![amount, zero],
-            },
+            Arm { direction: direction.along, first: amount, second: vec![zero, amount] },
+            Arm { direction: at, first: zero, second: vec![amount, zero] },
         ],
     }
 }
@@ -105,14 +94,8 @@ fn tilted(g: &mut Graph, whole: &AugmentedBody, direction: &Direction) -> MassDi
         .map(|i| Arm {
             direction: unit[i],
             first: zero,
-            second: (0..3)
-                .map(|j| g.add(turned[i].0[j], turned[j].0[i]))
-                .collect(),
+            second: (0..3).map(|j| g.add(turned[i].0[j], turned[j].0[i])).collect(),
         })
         .collect();
-    MassDistribution {
-        mass: zero,
-        isotropic: zero,
-        arms,
-    }
+    MassDistribution { mass: zero, isotropic: zero, arms }
 }

@@ -61,11 +61,7 @@ impl BeamInertia {
         let rule = beam.quadrature();
         let zero = g.zero();
         let reach: Vec<Vec<f64>> = rule.points.iter().map(|x| rule.integrals_to(*x)).collect();
-        let masses: Vec<ExprId> = beam
-            .sections
-            .iter()
-            .map(|(_, _, section)| values.scalar(g, &section.mass))
-            .collect();
+        let masses: Vec<ExprId> = beam.sections.iter().map(|(_, _, section)| values.scalar(g, &section.mass)).collect();
         // Equal masses are added as numbers.
         let weighted = |g: &mut Graph, of: &dyn Fn(usize) -> f64| {
             let mut sums: Vec<(ExprId, f64)> = Vec::new();
@@ -120,8 +116,7 @@ impl BeamInertia {
             this.second.push(row);
         }
         for (_, weight, section) in &beam.sections {
-            let [about_y, about_z] =
-                [&section.inertia[0], &section.inertia[1]].map(|value| values.scalar(g, value));
+            let [about_y, about_z] = [&section.inertia[0], &section.inertia[1]].map(|value| values.scalar(g, value));
             let twist = values.scalar(g, &section.twist);
             let share = g.scale(*weight, length);
             let polar = g.add(about_y, about_z);
@@ -156,9 +151,7 @@ impl BeamInertia {
         let speed = v.dot(g, v);
         let mut terms = vec![g.mul(self.mass, speed), self.energy_of_spin];
         let momenta = self.momenta(g, motion);
-        for ((section, momentum), &spin_momentum) in
-            motion.sections.iter().zip(momenta).zip(&self.spin)
-        {
+        for ((section, momentum), &spin_momentum) in motion.sections.iter().zip(momenta).zip(&self.spin) {
             terms.push(section.spin.dot(g, momentum));
             terms.push(g.mul(spin_momentum, section.spin.0[0]));
         }
@@ -176,13 +169,7 @@ impl BeamInertia {
     }
 
     /// Inertia of a beam whose root moves like `root`.
-    pub(crate) fn load(
-        &self,
-        g: &mut Graph,
-        motion: &BeamMotion,
-        root: &FrameMotion,
-        from: &FromStations,
-    ) -> BeamLoad {
+    pub(crate) fn load(&self, g: &mut Graph, motion: &BeamMotion, root: &FrameMotion, from: &FromStations) -> BeamLoad {
         let zero = Vector3::zero(g);
         let mut load = BeamLoad {
             force: zero,
@@ -225,21 +212,12 @@ impl FromStations {
         let zero = Vector3::zero(g);
         let beams = context.mechanism.beams.iter();
         beams
-            .map(|beam| Self {
-                brackets: vec![zero; beam.sections.len()],
-                moments: vec![zero; beam.stations.len()],
-            })
+            .map(|beam| Self { brackets: vec![zero; beam.sections.len()], moments: vec![zero; beam.stations.len()] })
             .collect()
     }
 
     /// Adds the load on a station, about its origin.
-    pub(crate) fn add(
-        &mut self,
-        g: &mut Graph,
-        motion: &BeamMotion,
-        station: usize,
-        [force, moment]: [Vector3; 2],
-    ) {
+    pub(crate) fn add(&mut self, g: &mut Graph, motion: &BeamMotion, station: usize, [force, moment]: [Vector3; 2]) {
         let reach = &motion.stations[station].reach;
         for (bracket, &share) in self.brackets.iter_mut().zip(reach) {
             let part = force.scale(g, share);

@@ -23,11 +23,7 @@ impl MassDistribution {
         let body = &context.mechanism.bodies[id.index()];
         let mut pieces = Self::of_body(g, context.values, body);
         let deviations = context.excited.deviations.iter();
-        pieces.extend(
-            deviations
-                .filter(|(body, _)| *body == id)
-                .map(|(_, deviation)| deviation.clone()),
-        );
+        pieces.extend(deviations.filter(|(body, _)| *body == id).map(|(_, deviation)| deviation.clone()));
         pieces
     }
 
@@ -44,14 +40,7 @@ impl MassDistribution {
                 }
                 piece = piece.placed(g, values, &part.placement);
                 let name = body.name.to_string();
-                piece.set_names(
-                    g,
-                    &if several {
-                        format!("{name}_part{index}")
-                    } else {
-                        name
-                    },
-                );
+                piece.set_names(g, &if several { format!("{name}_part{index}") } else { name });
                 piece
             })
             .collect()
@@ -59,12 +48,7 @@ impl MassDistribution {
 
     /// The mass distribution of a shape about the origin of its frame.
     fn of_shape(g: &mut Graph, values: &Values, shape: &Shape) -> Self {
-        let Reduced {
-            mass,
-            center,
-            spread,
-            ..
-        } = shape.reduced();
+        let Reduced { mass, center, spread, .. } = shape.reduced();
         let mass = values.scalar(g, mass);
         match spread {
             Spread::Point => Self::point(g, values, mass, center),
@@ -73,11 +57,7 @@ impl MassDistribution {
                 let along = values.vector(g, along);
                 Self::line(g, values, mass, length, along, center)
             }
-            Spread::Round {
-                axis,
-                across,
-                along,
-            } => {
+            Spread::Round { axis, across, along } => {
                 let across = second_moment(g, values, mass, &across);
                 let along = second_moment(g, values, mass, &along);
                 let excess = g.sub(along, across);
@@ -95,8 +75,7 @@ impl MassDistribution {
                 Self::point(g, values, mass, center).with(g, isotropic, &[])
             }
             Spread::Tensor { inertia, about } => {
-                let [xx, yy, zz, xy, yz, xz] =
-                    std::array::from_fn(|i| values.scalar(g, &inertia[i]));
+                let [xx, yy, zz, xy, yz, xz] = std::array::from_fn(|i| values.scalar(g, &inertia[i]));
                 let sum = g.sum([xx, yy, zz]);
                 let half_trace = g.scale(0.5, sum);
                 let diagonal = [xx, yy, zz].map(|j| g.sub(half_trace, j));
@@ -163,24 +142,13 @@ impl MassDistribution {
     fn point(g: &mut Graph, values: &Values, mass: ExprId, center: &Vector) -> Self {
         let center = values.vector(g, center);
         let isotropic = g.zero();
-        let mut body = Self {
-            mass,
-            isotropic,
-            arms: Vec::new(),
-        };
+        let mut body = Self { mass, isotropic, arms: Vec::new() };
         body.add_arm(g, center, mass, mass);
         body
     }
 
     /// A bar. If it starts at the origin, it needs one arm for all moments.
-    fn line(
-        g: &mut Graph,
-        values: &Values,
-        mass: ExprId,
-        length: ExprId,
-        along: Vector3,
-        center: &Vector,
-    ) -> Self {
+    fn line(g: &mut Graph, values: &Values, mass: ExprId, length: ExprId, along: Vector3, center: &Vector) -> Self {
         let half_length = g.scale(0.5, length);
         let natural_center = along.scale(g, half_length);
         if values.vector(g, center) != natural_center {
@@ -193,11 +161,7 @@ impl MassDistribution {
         let moment = g.mul(first, length);
         let second = g.scale(2.0 / 3.0, moment);
         let isotropic = g.zero();
-        let mut body = Self {
-            mass,
-            isotropic,
-            arms: Vec::new(),
-        };
+        let mut body = Self { mass, isotropic, arms: Vec::new() };
         body.add_arm(g, along, first, second);
         body
     }
@@ -229,11 +193,7 @@ impl MassDistribution {
             return self.with(g, isotropic, &rest);
         }
         let [xy, yz, xz] = products;
-        let tensor = [
-            [diagonal[0], xy, xz],
-            [xy, diagonal[1], yz],
-            [xz, yz, diagonal[2]],
-        ];
+        let tensor = [[diagonal[0], xy, xz], [xy, diagonal[1], yz], [xz, yz, diagonal[2]]];
         let mut body = self;
         let start = body.arms.len();
         for direction in unit {

@@ -21,16 +21,10 @@ impl Momentum {
         let omega = motion.frame.angular_velocity;
         let columns = body.second.map(|column| omega.cross(g, Vector3(column)));
         let mut second = [[g.zero(); 3]; 3];
-        add_symmetric(g, &mut second, |g, i, j| {
-            g.add(columns[j].0[i], columns[i].0[j])
-        });
+        add_symmetric(g, &mut second, |g, i, j| g.add(columns[j].0[i], columns[i].0[j]));
         let twice = g.scale(2.0, body.isotropic);
         let isotropic = omega.scale(g, twice);
-        Self {
-            linear: omega.cross(g, body.first),
-            angular: spun(g, body.second, omega).add(g, isotropic),
-            second,
-        }
+        Self { linear: omega.cross(g, body.first), angular: spun(g, body.second, omega).add(g, isotropic), second }
     }
 
     fn add(&mut self, g: &mut Graph, other: &Self) {
@@ -42,8 +36,7 @@ impl Momentum {
     /// Names the entries, for readable code.
     fn set_names(&self, g: &mut Graph, body: &str) {
         self.linear.set_name(g, &format!("{body}_momentum"));
-        self.angular
-            .set_name(g, &format!("{body}_angular_momentum"));
+        self.angular.set_name(g, &format!("{body}_angular_momentum"));
         for (row, i) in self.second.into_iter().zip(["x", "y", "z"]) {
             for (entry, j) in row.into_iter().zip(["x", "y", "z"]) {
                 g.set_name(entry, || format!("{body}_second_moment_rate_{i}{j}"));
@@ -113,11 +106,7 @@ pub(crate) fn momenta(
     rates: &[Vector3],
 ) -> Vec<Momentum> {
     let zero = Vector3::zero(g);
-    let still = Momentum {
-        linear: zero,
-        angular: zero,
-        second: [zero.0; 3],
-    };
+    let still = Momentum { linear: zero, angular: zero, second: [zero.0; 3] };
     let mut momenta = vec![still; bodies.len()];
     for branch in context.topology.branches.iter().rev() {
         let index = branch.body.index();

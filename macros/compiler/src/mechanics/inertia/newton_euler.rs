@@ -40,12 +40,7 @@ struct Gathered {
 }
 
 /// [`inertial`] with the running coordinates at `running`.
-pub(crate) fn inertial_at(
-    g: &mut Graph,
-    context: &Context,
-    running: &[ExprId],
-    selection: ForceSelection,
-) -> Inertial {
+pub(crate) fn inertial_at(g: &mut Graph, context: &Context, running: &[ExprId], selection: ForceSelection) -> Inertial {
     let kinematics = for_inertia(g, context, running, selection);
     inertial(g, context, &kinematics, selection)
 }
@@ -70,18 +65,10 @@ pub(crate) fn inertial(
     let mechanism = context.mechanism;
     let zero = Vector3::zero(g);
     let bodies = augmented_bodies(g, context, kinematics, selection);
-    let nothing = Gathered {
-        rest: zero,
-        brackets: [zero; 3],
-        moment: zero,
-        moment_of_run: zero,
-    };
+    let nothing = Gathered { rest: zero, brackets: [zero; 3], moment: zero, moment_of_run: zero };
     let mut gathered = vec![nothing; mechanism.bodies.len()];
     let mut along = vec![g.zero(); mechanism.coordinates.len()];
-    let nothing = Wrench {
-        force: zero,
-        moment: zero,
-    };
+    let nothing = Wrench { force: zero, moment: zero };
     let mut wrenches = vec![nothing; mechanism.bodies.len()];
     let mut along_sections = vec![g.zero(); context.sections.rows.len()];
     let mut beams = Vec::new();
@@ -100,21 +87,12 @@ pub(crate) fn inertial(
             load.add_along(g, context.sections, id, beam, &mut along_sections);
             wrench.force = wrench.force.add(g, load.force);
             wrench.moment = wrench.moment.add(g, load.moment);
-            beams.push(BeamForces {
-                id,
-                motion: beam.clone(),
-                load,
-            });
+            beams.push(BeamForces { id, motion: beam.clone(), load });
         }
         let rest = wrench.force.set_name(g, &format!("{name}_rest_of_force"));
         let by_mass = motion.frame.acceleration.scale(g, bodies[index].mass);
-        let force = by_mass
-            .add(g, rest)
-            .set_name(g, &format!("{name}_inertia_force"));
-        let turning = wrench
-            .moment
-            .add(g, gathered[index].moment)
-            .set_name(g, &format!("{name}_inertia_moment"));
+        let force = by_mass.add(g, rest).set_name(g, &format!("{name}_inertia_force"));
+        let turning = wrench.moment.add(g, gathered[index].moment).set_name(g, &format!("{name}_inertia_moment"));
         for step in &motion.steps {
             along[step.coordinate.index()] = step.project(g, force, turning);
         }
@@ -151,22 +129,12 @@ pub(crate) fn inertial(
         };
         *slot = slot.add(g, moment);
     }
-    Inertial {
-        along,
-        along_sections,
-        beams,
-        wrenches,
-    }
+    Inertial { along, along_sections, beams, wrenches }
 }
 
 /// The part of the force that does not depend on the origin's acceleration, and the moment without the moments passed
 /// on by other bodies.
-fn own_load(
-    g: &mut Graph,
-    body: &AugmentedBody,
-    motion: &FrameMotion,
-    gathered: &Gathered,
-) -> Wrench {
+fn own_load(g: &mut Graph, body: &AugmentedBody, motion: &FrameMotion, gathered: &Gathered) -> Wrench {
     let mut force = gathered.rest;
     let twice = g.scale(2.0, body.isotropic);
     let mut moment = motion.angular_acceleration.scale(g, twice);

@@ -22,9 +22,7 @@
 use crate::algebra::{ExprId, Graph, Vector3};
 use crate::base::ids::BodyId;
 use crate::census::taken;
-use crate::mechanics::motion::{
-    BodyMotion, Kinematics, StepAxis, Tree, Wrench, for_inertia, second_rate,
-};
+use crate::mechanics::motion::{BodyMotion, Kinematics, StepAxis, Tree, Wrench, for_inertia, second_rate};
 use crate::mechanics::setup::{Context, CoordinateMotion, ForceSelection};
 use crate::model::mechanism::Frame;
 
@@ -95,10 +93,7 @@ impl Step {
     fn carry(&self, g: &mut Graph, wrench: &Wrench) -> Wrench {
         let turned = self.turn.cross(g, wrench.moment);
         let moved = self.velocity.cross(g, wrench.force);
-        Wrench {
-            force: self.turn.cross(g, wrench.force),
-            moment: turned.add(g, moved),
-        }
+        Wrench { force: self.turn.cross(g, wrench.force), moment: turned.add(g, moved) }
     }
 }
 
@@ -131,33 +126,17 @@ fn steps(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId
             let turned = acceleration.cross(g, turn);
             let moved = second_rate.apply(g, velocity);
             let carried = spin.cross(g, leaving).scale(g, two);
-            let further = Change {
-                spin,
-                growth: second_rate.apply(g, turn),
-                acceleration: turned.add(g, moved).add(g, carried),
-            };
+            let further =
+                Change { spin, growth: second_rate.apply(g, turn), acceleration: turned.add(g, moved).add(g, carried) };
             let moved = omega.cross(g, velocity);
             let carried = turn.cross(g, leaving);
-            let faster = Change {
-                spin: turn,
-                growth: spin.scale(g, two),
-                acceleration: moved.add(g, carried).scale(g, two),
-            };
-            steps.push(Step {
-                unknown,
-                axis: *axis,
-                turn,
-                velocity,
-                further,
-                faster,
-            });
+            let faster =
+                Change { spin: turn, growth: spin.scale(g, two), acceleration: moved.add(g, carried).scale(g, two) };
+            steps.push(Step { unknown, axis: *axis, turn, velocity, further, faster });
         }
         // the frame before this motion
-        let CoordinateMotion {
-            velocity: rate,
-            acceleration: growth,
-            ..
-        } = kinematics.coordinates[axis.coordinate.index()];
+        let CoordinateMotion { velocity: rate, acceleration: growth, .. } =
+            kinematics.coordinates[axis.coordinate.index()];
         let spin = turn.scale(g, rate);
         let speed = velocity.scale(g, rate);
         omega = omega.sub(g, spin);
@@ -185,11 +164,7 @@ struct Carried {
 impl Carried {
     /// The wrench that a change of the body's motion requires.
     fn wrench(&self, g: &mut Graph, change: &Change) -> Wrench {
-        let Composite {
-            mass,
-            first,
-            second,
-        } = self.mass;
+        let Composite { mass, first, second } = self.mass;
         let two = g.constant(2.0);
         let pushed = change.acceleration.scale(g, mass);
         let growing = change.growth.cross(g, first);
@@ -227,19 +202,15 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
     if context.runs.exist() {
         taken(|| "variation: beside runs".into());
     }
-    let context = &Context {
-        runs: &context.runs.apart(context.symbols),
-        ..*context
-    };
+    let context = &Context { runs: &context.runs.apart(context.symbols), ..*context };
     let kinematics = &for_inertia(g, context, running, ForceSelection::ALL);
     let inertial = inertial(g, context, kinematics, ForceSelection::ALL);
     let bodies = augmented_bodies(g, context, kinematics, ForceSelection::ALL);
     let composites = Composites::new(g, context, kinematics, &bodies);
     let rates = rates(g, context, kinematics);
     let momenta = momenta(g, context, kinematics, &bodies, &composites, &rates);
-    let steps: Vec<Vec<Step>> = (0..bodies.len())
-        .map(|index| steps(g, context, kinematics, BodyId::new(index)))
-        .collect();
+    let steps: Vec<Vec<Step>> =
+        (0..bodies.len()).map(|index| steps(g, context, kinematics, BodyId::new(index))).collect();
 
     let n = context.symbols.q.ids.len();
     let mut this = Variation {
@@ -251,18 +222,11 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
     for branch in &topology.branches {
         let index = branch.body.index();
         let frame = &kinematics.of(branch.body).frame;
-        let whole = Carried {
-            mass: composites.whole[index],
-            momentum: momenta[index],
-        };
+        let whole = Carried { mass: composites.whole[index], momentum: momenta[index] };
         for (position, step) in steps[index].iter().enumerate() {
             let carried = &composites.carried[index];
             let load = accelerating(g, &step.axis, &bodies[index], frame, carried);
-            let mut asks = Change {
-                spin: whole.asks_of_spin(g, step),
-                growth: load.moment,
-                acceleration: load.force,
-            };
+            let mut asks = Change { spin: whole.asks_of_spin(g, step), growth: load.moment, acceleration: load.force };
             let further = whole.wrench(g, &step.further);
             let turned = step.carry(g, &inertial.wrenches[index]);
             this.mass[step.unknown][step.unknown] = asks.load(g, &step.axis);
@@ -291,14 +255,7 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
 
 impl Variation {
     /// Sets the entries that couple a motion with the motions nearer to the ground, at the body that carries them.
-    fn meet(
-        &mut self,
-        g: &mut Graph,
-        step: &Step,
-        before: &[Step],
-        asks: &Change,
-        loads: &[Wrench; 2],
-    ) {
+    fn meet(&mut self, g: &mut Graph, step: &Step, before: &[Step], asks: &Change, loads: &[Wrench; 2]) {
         let k = step.unknown;
         for other in before {
             let i = other.unknown;
@@ -306,8 +263,7 @@ impl Variation {
             (self.mass[i][k], self.mass[k][i]) = (mass, mass);
             self.by_position[i][k] = asks.dot(g, &other.further);
             self.by_velocity[i][k] = asks.dot(g, &other.faster);
-            let [by_position, by_velocity] =
-                loads.map(|load| other.axis.project(g, load.force, load.moment));
+            let [by_position, by_velocity] = loads.map(|load| other.axis.project(g, load.force, load.moment));
             self.by_position[k][i] = by_position;
             self.by_velocity[k][i] = by_velocity;
         }

@@ -1,8 +1,6 @@
 //! Scalars whose gradients contain all design derivatives of a mode.
 
-use crate::algebra::{
-    Array, Direction, ExprId, Graph, SymbolId, derivatives_along, gradient, substitute,
-};
+use crate::algebra::{Array, Direction, ExprId, Graph, SymbolId, derivatives_along, gradient, substitute};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::setup::{Symbols, at_rest};
 
@@ -13,17 +11,8 @@ pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> Expr
     let still: Vec<_> = s.velocity.with(&zeros).collect();
     let power = substitute(g, &e.powers[..1], &still);
     let minus_lambda = g.neg(s.lambda.values[0]);
-    let acceleration: Vec<ExprId> = s
-        .phi
-        .values
-        .iter()
-        .map(|&phi| g.mul(minus_lambda, phi))
-        .collect();
-    let rates = s
-        .acceleration
-        .with(&acceleration)
-        .chain(s.q.with(&s.phi.values))
-        .collect();
+    let acceleration: Vec<ExprId> = s.phi.values.iter().map(|&phi| g.mul(minus_lambda, phi)).collect();
+    let rates = s.acceleration.with(&acceleration).chain(s.q.with(&s.phi.values)).collect();
     let functional = derivatives_along(g, &power, &Direction::new("_mode", rates));
     at_rest(g, s, &functional)[0]
 }
@@ -36,12 +25,7 @@ pub(crate) fn pencil_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> Ex
 }
 
 /// The derivative of a scalar along the acceleration, velocity and position of the pencil, taken at rest.
-pub(crate) fn at_rest_along_motion(
-    g: &mut Graph,
-    s: &Symbols,
-    root: ExprId,
-    suffix: &'static str,
-) -> ExprId {
+pub(crate) fn at_rest_along_motion(g: &mut Graph, s: &Symbols, root: ExprId, suffix: &'static str) -> ExprId {
     let rates = s
         .acceleration
         .with(&s.pencil.acceleration.values)
@@ -54,10 +38,7 @@ pub(crate) fn at_rest_along_motion(
 
 /// Gradient of a scalar by coordinates, inputs and design variables.
 pub(crate) fn state_gradient(g: &mut Graph, s: &Symbols, root: ExprId) -> Vec<Array> {
-    let symbols: Vec<SymbolId> = [&s.q, &s.u, &s.b]
-        .iter()
-        .flat_map(|list| list.ids.clone())
-        .collect();
+    let symbols: Vec<SymbolId> = [&s.q, &s.u, &s.b].iter().flat_map(|list| list.ids.clone()).collect();
     let mut all = gradient(g, root, &symbols).into_iter();
     [("coordinates", &s.q), ("inputs", &s.u), ("design", &s.b)]
         .into_iter()

@@ -14,11 +14,7 @@ pub(crate) fn violation(requirements: &[Requirement], symbols: &Symbols) -> Func
     Function {
         name: KernelName::Violation.name(),
         parameters: vec![parameter("u", &symbols.u), parameter("b", &symbols.b)],
-        results: vec![Array {
-            name: "requirements",
-            shape: vec![values.len()],
-            values,
-        }],
+        results: vec![Array { name: "requirements", shape: vec![values.len()], values }],
     }
 }
 
@@ -27,15 +23,7 @@ pub(crate) fn pose_margin(poses: &[Pose], symbols: &Symbols) -> Function {
     let values: Vec<ExprId> = poses.iter().map(|pose| pose.margin).collect();
     Function {
         name: KernelName::PoseMargin.name(),
-        parameters: vec![
-            parameter("q", &symbols.q),
-            parameter("u", &symbols.u),
-            parameter("b", &symbols.b),
-        ],
-        results: vec![Array {
-            name: "margins",
-            shape: vec![values.len()],
-            values,
-        }],
+        parameters: vec![parameter("q", &symbols.q), parameter("u", &symbols.u), parameter("b", &symbols.b)],
+        results: vec![Array { name: "margins", shape: vec![values.len()], values }],
     }
 }

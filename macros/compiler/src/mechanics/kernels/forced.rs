@@ -1,8 +1,7 @@
 //! What a vibration forced by excitations needs besides the three matrices.
 
 use crate::algebra::{
-    Array, ExprId, Function, Graph, Node, Operator, Parameter, Stage, SymbolId, Unary, rough,
-    substitute,
+    Array, ExprId, Function, Graph, Node, Operator, Parameter, Stage, SymbolId, Unary, rough, substitute,
 };
 use crate::base::ids::CoordinateId;
 use crate::mechanics::checks::Turning;
@@ -31,21 +30,14 @@ struct Harmonic {
 }
 
 impl Excitations {
-    pub(crate) fn new(
-        g: &mut Graph,
-        context: &Context,
-        responses: &[Response],
-        turning: &Turning,
-    ) -> Self {
+    pub(crate) fn new(g: &mut Graph, context: &Context, responses: &[Response], turning: &Turning) -> Self {
         let (mut facts, mut forces): (Vec<Facts>, Vec<Harmonic>) = (Vec::new(), Vec::new());
         let excitations = context.mechanism.excitations.iter();
         for ((excitation, response), turning) in excitations.zip(responses).zip(turning) {
             let (frequency, order) = frequency(g, context, excitation, turning);
             let force = harmonic(g, context, excitation, response, frequency);
             let opposite = g.neg(frequency);
-            let with = forces
-                .iter()
-                .position(|other| [frequency, opposite].contains(&other.frequency));
+            let with = forces.iter().position(|other| [frequency, opposite].contains(&other.frequency));
             facts.push(Facts {
                 name: excitation.name.to_string(),
                 kind: match excitation.law {
@@ -88,10 +80,7 @@ fn frequency(
                     g.scale(*sign, speed)
                 })
                 .collect();
-            let words: Vec<String> = turning
-                .iter()
-                .map(|(id, sign)| format!("{sign} {}", name(id)))
-                .collect();
+            let words: Vec<String> = turning.iter().map(|(id, sign)| format!("{sign} {}", name(id))).collect();
             (g.sum(speeds), words.join(" + "))
         }
     }
@@ -135,18 +124,12 @@ fn harmonic(
     let none = vec![g.zero(); by[0].len()];
     let one = g.constant(1.0);
     let (in_phase, quadrature, size) = match &excitation.law {
-        ExcitationLaw::Unbalance {
-            body, deviation, ..
-        } => {
+        ExcitationLaw::Unbalance { body, deviation, .. } => {
             let size = size(g, context, *body, deviation);
             (by[0].clone(), by[1].clone(), size)
         }
-        ExcitationLaw::Load { .. } | ExcitationLaw::Generalized { .. } => {
-            (by[0].clone(), none, one)
-        }
-        ExcitationLaw::Shaken {
-            measure, amplitude, ..
-        } => {
+        ExcitationLaw::Load { .. } | ExcitationLaw::Generalized { .. } => (by[0].clone(), none, one),
+        ExcitationLaw::Shaken { measure, amplitude, .. } => {
             let [in_phase, quadrature] = shaken(g, &by, *measure, frequency);
             (in_phase, quadrature, context.values.scalar(g, amplitude))
         }
@@ -154,11 +137,7 @@ fn harmonic(
     let phase = context.values.scalar(g, &excitation.phase);
     let (sine, cosine) = (g.unary(Unary::Sin, phase), g.unary(Unary::Cos, phase));
     let (along, across) = (g.mul(size, cosine), g.mul(size, sine));
-    let mut harmonic = Harmonic {
-        cosine: Vec::new(),
-        sine: Vec::new(),
-        frequency,
-    };
+    let mut harmonic = Harmonic { cosine: Vec::new(), sine: Vec::new(), frequency };
     for (&a, &b) in in_phase.iter().zip(&quadrature) {
         let (aa, ba) = (g.mul(along, a), g.mul(across, b));
         harmonic.cosine.push(g.add(aa, ba));
@@ -198,36 +177,19 @@ fn shaken(g: &mut Graph, by: &[Vec<ExprId>], measure: ShakenBy, w: ExprId) -> [V
 }
 
 /// The kernels of forced vibration.
-pub(crate) fn forced(
-    g: &mut Graph,
-    context: &Context,
-    e: &Equations,
-    excitations: &Excitations,
-) -> Vec<Function> {
+pub(crate) fn forced(g: &mut Graph, context: &Context, e: &Equations, excitations: &Excitations) -> Vec<Function> {
     if excitations.forces.is_empty() {
         return Vec::new();
     }
     let s = context.symbols;
     let (n, m) = (e.rest.len(), e.outputs.len());
-    let state = || {
-        vec![
-            parameter("q", &s.q),
-            parameter("u", &s.u),
-            parameter("b", &s.b),
-        ]
-    };
+    let state = || vec![parameter("q", &s.q), parameter("u", &s.u), parameter("b", &s.b)];
     let count = excitations.forces.len();
     let forces = || excitations.forces.iter();
-    let array = |name, shape: Vec<usize>, values: Vec<ExprId>| Array {
-        name,
-        shape,
-        values,
-    };
+    let array = |name, shape: Vec<usize>, values: Vec<ExprId>| Array { name, shape, values };
     let split = |of: fn(&Harmonic) -> &Vec<ExprId>, outputs: bool| -> Vec<ExprId> {
         let range = if outputs { n..n + m } else { 0..n };
-        forces()
-            .flat_map(|force| of(force)[range.clone()].to_vec())
-            .collect()
+        forces().flat_map(|force| of(force)[range.clone()].to_vec()).collect()
     };
     let frequencies: Vec<ExprId> = forces().map(|force| force.frequency).collect();
     let forcing = vec![
@@ -238,24 +200,19 @@ pub(crate) fn forced(
         array("direct_sine", vec![count, m], split(|f| &f.sine, true)),
     ];
     let without_slope = without_slope(g, s, &e.outputs_in_motion);
-    let motion = [
-        ("by_acceleration", &s.acceleration),
-        ("by_velocity", &s.velocity),
-        ("by_position", &s.q),
-    ]
-    .map(|(name, list)| {
-        let columns = columns(g, &e.outputs_in_motion, list);
-        let rows: Vec<ExprId> = (0..m)
-            .flat_map(|k| columns.iter().map(move |column| column[k]))
-            .collect();
-        let mut values = at_rest(g, s, &rows);
-        for (k, slope) in without_slope.iter().enumerate() {
-            if let Some(slope) = slope {
-                values[k * n..(k + 1) * n].fill(*slope);
+    let motion = [("by_acceleration", &s.acceleration), ("by_velocity", &s.velocity), ("by_position", &s.q)].map(
+        |(name, list)| {
+            let columns = columns(g, &e.outputs_in_motion, list);
+            let rows: Vec<ExprId> = (0..m).flat_map(|k| columns.iter().map(move |column| column[k])).collect();
+            let mut values = at_rest(g, s, &rows);
+            for (k, slope) in without_slope.iter().enumerate() {
+                if let Some(slope) = slope {
+                    values[k * n..(k + 1) * n].fill(*slope);
+                }
             }
-        }
-        array(name, vec![m, n], values)
-    });
+            array(name, vec![m, n], values)
+        },
+    );
     let weights = Weights::new(g, context, count);
     let weighted = weights.weighted(g, context, e, excitations);
     let gradient = state_gradient(g, s, weighted);
@@ -267,11 +224,7 @@ pub(crate) fn forced(
     vec![
         function(KernelName::Forcing, vec![], forcing),
         function(KernelName::OutputMotion, vec![], motion.into()),
-        function(
-            KernelName::ForcedGradient,
-            weights.parameters(context),
-            gradient,
-        ),
+        function(KernelName::ForcedGradient, weights.parameters(context), gradient),
     ]
 }
 
@@ -280,10 +233,8 @@ pub(crate) fn forced(
 /// Simplification does not see that: the slope `v / |v|` of a length is a product with zero. What stands in front of the
 /// length decides whether that is its value, as for `v |v|`, or whether there is none.
 fn without_slope(g: &mut Graph, s: &Symbols, outputs: &[ExprId]) -> Vec<Option<ExprId>> {
-    let moving: Vec<SymbolId> = [&s.q, &s.velocity, &s.acceleration]
-        .into_iter()
-        .flat_map(|list| list.ids.iter().copied())
-        .collect();
+    let moving: Vec<SymbolId> =
+        [&s.q, &s.velocity, &s.acceleration].into_iter().flat_map(|list| list.ids.iter().copied()).collect();
     let of_output = |&output: &ExprId| {
         let all: Vec<ExprId> = rough(g, output, &moving).into_flattened();
         let all = at_rest(g, s, &all);
@@ -352,13 +303,7 @@ impl Weights {
     }
 
     /// The functional of `Mechanism::forced_gradient`.
-    fn weighted(
-        &self,
-        g: &mut Graph,
-        context: &Context,
-        e: &Equations,
-        excitations: &Excitations,
-    ) -> ExprId {
+    fn weighted(&self, g: &mut Graph, context: &Context, e: &Equations, excitations: &Excitations) -> ExprId {
         let s = context.symbols;
         let outputs = weighted_sum(g, &self.output.values, &e.outputs_in_motion);
         let mut terms = vec![at_rest_along_motion(g, s, outputs, "_forced")];

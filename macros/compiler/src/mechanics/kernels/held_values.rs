@@ -14,10 +14,6 @@ pub(crate) fn held_values(g: &mut Graph, context: &Context) -> Option<Function> 
     (!values.is_empty()).then(|| Function {
         name: KernelName::HeldValues.name(),
         parameters: vec![parameter("u", &symbols.u), parameter("b", &symbols.b)],
-        results: vec![Array {
-            name: "values",
-            shape: vec![values.len()],
-            values,
-        }],
+        results: vec![Array { name: "values", shape: vec![values.len()], values }],
     })
 }

@@ -4,11 +4,7 @@ use crate::algebra::Parameter;
 use crate::mechanics::setup::{Pencil, SymbolList};
 
 pub(crate) fn parameter(name: &'static str, list: &SymbolList) -> Parameter {
-    Parameter {
-        name,
-        symbols: list.ids.clone(),
-        scalar: false,
-    }
+    Parameter { name, symbols: list.ids.clone(), scalar: false }
 }
 
 pub(crate) fn vectors(pencil: &Pencil) -> Vec<Parameter> {
@@ -23,9 +19,5 @@ pub(crate) fn vectors(pencil: &Pencil) -> Vec<Parameter> {
 }
 
 pub(crate) fn scalar(name: &'static str, list: &SymbolList) -> Parameter {
-    Parameter {
-        name,
-        symbols: list.ids.clone(),
-        scalar: true,
-    }
+    Parameter { name, symbols: list.ids.clone(), scalar: true }
 }

@@ -12,14 +12,11 @@ use crate::algebra::{Array, ExprId, Function, Graph, Matrix3, Vector3};
 use crate::base::ids::{BeamId, JointId, PointId};
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::motion::{Kinematics, in_common_frame_at_zero, offset, unbent};
-use crate::mechanics::picture::{
-    Picture, PictureBeam, PictureBody, PictureJoint, PictureLink, SolidKind,
-};
+use crate::mechanics::picture::{Picture, PictureBeam, PictureBody, PictureJoint, PictureLink, SolidKind};
 use crate::mechanics::setup::{Context, Values};
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{
-    Beam, Body, Constraint, ConstraintLaw, Force, ForceLaw, Joint, Motion, Part, Placement,
-    Section, Shape,
+    Beam, Body, Constraint, ConstraintLaw, Force, ForceLaw, Joint, Motion, Part, Placement, Section, Shape,
 };
 
 use super::parameters::parameter;
@@ -46,11 +43,7 @@ pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
             let motion = &mechanism.coordinates[step.coordinate.index()].motion;
             matches!(motion, Motion::Driven(_)) && motion.runs()
         });
-        PictureJoint {
-            cut,
-            driven,
-            ..numbers.joint(g, joint)
-        }
+        PictureJoint { cut, driven, ..numbers.joint(g, joint) }
     });
     let joints = joints.collect();
     for point in &mechanism.points {
@@ -67,28 +60,16 @@ pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
     let (numbers, computed, values) = numbers.split(g);
     let function = Function {
         name: KernelName::Picture.name(),
-        parameters: vec![
-            parameter("q", &symbols.q),
-            parameter("u", &symbols.u),
-            parameter("b", &symbols.b),
-        ],
-        results: vec![Array {
-            name: "picture",
-            shape: vec![values.len()],
-            values,
-        }],
+        parameters: vec![parameter("q", &symbols.q), parameter("u", &symbols.u), parameter("b", &symbols.b)],
+        results: vec![Array { name: "picture", shape: vec![values.len()], values }],
     };
     let points = mechanism.points.iter();
     let picture = Picture {
         bodies,
         beams,
         joints,
-        points: points
-            .map(|point| (point.name.to_string(), point.frame))
-            .collect(),
-        links: forces(&mechanism.forces)
-            .chain(constraints(&mechanism.constraints))
-            .collect(),
+        points: points.map(|point| (point.name.to_string(), point.frame)).collect(),
+        links: forces(&mechanism.forces).chain(constraints(&mechanism.constraints)).collect(),
         wheels,
         elements: mechanism.elements(),
         numbers,
@@ -111,11 +92,7 @@ fn forces(forces: &[Force]) -> impl Iterator<Item = PictureLink> + '_ {
             | ForceLaw::Distributed { .. }
             | ForceLaw::Drag { .. } => return None,
         };
-        Some(PictureLink {
-            name: force.name.to_string(),
-            kind,
-            ends: [*from, *to],
-        })
+        Some(PictureLink { name: force.name.to_string(), kind, ends: [*from, *to] })
     })
 }
 
@@ -127,11 +104,7 @@ fn constraints(constraints: &[Constraint]) -> impl Iterator<Item = PictureLink> 
             ConstraintLaw::Distance { from, to, .. } => ("distance", from, to),
             ConstraintLaw::Equation { .. } | ConstraintLaw::Rolling { .. } => return None,
         };
-        Some(PictureLink {
-            name: constraint.name.to_string(),
-            kind,
-            ends: [*from, *to],
-        })
+        Some(PictureLink { name: constraint.name.to_string(), kind, ends: [*from, *to] })
     })
 }
 
@@ -215,27 +188,19 @@ impl<'a> Numbers<'a> {
             }
         }
         let first = parts.first()?;
-        Some(PictureBeam {
-            name: first.whole.to_string(),
-            sections,
-            round: first.round,
-        })
+        Some(PictureBeam { name: first.whole.to_string(), sections, round: first.round })
     }
 
     fn body(&mut self, g: &mut Graph, body: &Body) -> PictureBody {
         let solids = body.parts.iter();
         PictureBody {
             name: body.name.to_string(),
-            solids: solids
-                .map(|part| (self.solid(g, part), part.hole))
-                .collect(),
+            solids: solids.map(|part| (self.solid(g, part), part.hole)).collect(),
         }
     }
 
     fn solid(&mut self, g: &mut Graph, part: &Part) -> SolidKind {
-        let Part {
-            shape, placement, ..
-        } = part;
+        let Part { shape, placement, .. } = part;
         let (offset, rotation) = self.values.placement(g, placement);
         let center = self.values.vector(g, shape.reduced().center);
         let position = turned(g, rotation, center).add(g, offset);
@@ -260,24 +225,13 @@ impl<'a> Numbers<'a> {
                 self.number(g, radius);
                 SolidKind::Disk
             }
-            Shape::Cylinder {
-                radius,
-                length,
-                axis,
-                ..
-            } => {
+            Shape::Cylinder { radius, length, axis, .. } => {
                 direction(self, g, axis);
                 self.number(g, radius);
                 self.number(g, length);
                 SolidKind::Cylinder
             }
-            Shape::Tube {
-                inner,
-                outer,
-                length,
-                axis,
-                ..
-            } => {
+            Shape::Tube { inner, outer, length, axis, .. } => {
                 direction(self, g, axis);
                 for value in [inner, outer, length] {
                     self.number(g, value);
@@ -293,12 +247,7 @@ impl<'a> Numbers<'a> {
                 self.number(g, radius);
                 SolidKind::Sphere
             }
-            Shape::Rigid {
-                mass,
-                inertia,
-                about,
-                ..
-            } => {
+            Shape::Rigid { mass, inertia, about, .. } => {
                 self.axes(g, rotation);
                 self.number(g, mass);
                 for entry in inertia {
@@ -349,14 +298,7 @@ impl<'a> Numbers<'a> {
         axes: impl Fn(&mut Graph, PointId) -> Option<Matrix3>,
         constraint: &Constraint,
     ) -> Option<(String, [PointId; 2])> {
-        let ConstraintLaw::Rolling {
-            wheel,
-            axis,
-            radius,
-            on,
-            normal,
-        } = &constraint.law
-        else {
+        let ConstraintLaw::Rolling { wheel, axis, radius, on, normal } = &constraint.law else {
             return None;
         };
         self.number(g, radius);
@@ -378,10 +320,8 @@ impl<'a> Numbers<'a> {
         let known = self.all.iter().map(|&value| g.constant_value(value));
         let numbers = known.clone().map(Option::unwrap_or_default).collect();
         let unknown = (0..).zip(self.all.iter().zip(known));
-        let (computed, values) = unknown
-            .filter(|(_, (_, known))| known.is_none())
-            .map(|(index, (value, _))| (index, value))
-            .unzip();
+        let (computed, values) =
+            unknown.filter(|(_, (_, known))| known.is_none()).map(|(index, (value, _))| (index, value)).unzip();
         (numbers, computed, values)
     }
 }

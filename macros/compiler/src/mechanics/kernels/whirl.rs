@@ -25,9 +25,7 @@
 //! It depends on displacements and spins of bodies, which only the compiler knows: it emits `whirl` where a massive
 //! body is driven to turn (`mechanics/kernels/whirl.rs`).
 
-use crate::algebra::{
-    Array, Direction, ExprId, Function, Graph, Matrix3, Vector3, derivatives_along,
-};
+use crate::algebra::{Array, Direction, ExprId, Function, Graph, Matrix3, Vector3, derivatives_along};
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::motion::{BeamMotion, FrameMotion, in_common_frame_at_zero};
 use crate::mechanics::setup::{Context, MassDistribution, SymbolList, Values, at_rest};
@@ -48,24 +46,12 @@ pub(crate) fn whirl(g: &mut Graph, context: &Context) -> Option<Function> {
             parameter("real", &symbols.real),
             parameter("imaginary", &symbols.imaginary),
         ],
-        results: vec![Array {
-            name: "sums",
-            shape: vec![SUMS.len()],
-            values: sums.to_vec(),
-        }],
+        results: vec![Array { name: "sums", shape: vec![SUMS.len()], values: sums.to_vec() }],
     })
 }
 
 /// The sums, in order.
-const SUMS: [&str; 7] = [
-    "moment",
-    "lateral",
-    "torsional",
-    "axial",
-    "eccentric",
-    "moving",
-    "still",
-];
+const SUMS: [&str; 7] = ["moment", "lateral", "torsional", "axial", "eccentric", "moving", "still"];
 
 /// Added to a divisor that is zero where nothing spins, and then divides zero.
 const TINY: f64 = 1e-300;
@@ -84,34 +70,17 @@ fn sums(g: &mut Graph, context: &Context) -> Option<[ExprId; 7]> {
     for (k, motion) in kinematics.beams.iter().enumerate() {
         pieces.extend(slices(g, context, k, motion));
     }
-    let vectors: Vec<ExprId> = (pieces.iter())
-        .flat_map(|piece| piece.motion)
-        .flat_map(|vector| vector.0)
-        .collect();
+    let vectors: Vec<ExprId> = (pieces.iter()).flat_map(|piece| piece.motion).flat_map(|vector| vector.0).collect();
     let accelerations: Vec<ExprId> = pieces.iter().flat_map(|x| x.acceleration.0).collect();
     let spins = pairs(&at_rest(g, symbols, &vectors));
     let accelerations = at_rest(g, symbols, &accelerations);
     let mut moved = |name, along: &SymbolList| {
         let rates = symbols.velocity.with(&along.values).collect();
-        pairs(&derivatives_along(
-            g,
-            &vectors,
-            &Direction::new(name, rates),
-        ))
+        pairs(&derivatives_along(g, &vectors, &Direction::new(name, rates)))
     };
-    let moved = [
-        moved("_real", &symbols.real),
-        moved("_imaginary", &symbols.imaginary),
-    ];
+    let moved = [moved("_real", &symbols.real), moved("_imaginary", &symbols.imaginary)];
 
-    let [
-        mut moment,
-        mut lateral,
-        mut torsional,
-        mut axial,
-        mut moving,
-        mut still,
-    ] = [zero; 6];
+    let [mut moment, mut lateral, mut torsional, mut axial, mut moving, mut still] = [zero; 6];
     let (mut place, mut gyration, mut spinning) = (Vector3::zero(g), zero, false);
     for (index, piece) in pieces.iter().enumerate() {
         let omega = spins[index][1].add(g, piece.spin);
@@ -246,10 +215,7 @@ impl Piece {
         let (mut center, mut centers) = (Vector3::zero(g), Vec::new());
         let mut moments = Vec::new();
         // `c = sum f_k d_k / m`; about it the second moment has `second_kj - f_k f_j / m`.
-        for MassDistribution {
-            mass: own, arms, ..
-        } in &distributions
-        {
+        for MassDistribution { mass: own, arms, .. } in &distributions {
             let mut own_center = Vector3::zero(g);
             for arm in arms {
                 let share = ratio(g, arm.first, *own);
@@ -333,10 +299,7 @@ fn slices(g: &mut Graph, context: &Context, beam: usize, motion: &BeamMotion) ->
 
 /// Velocity and angular velocity of each piece, or the corresponding displacements.
 fn pairs(components: &[ExprId]) -> Vec<[Vector3; 2]> {
-    components
-        .chunks_exact(6)
-        .map(|c| [Vector3([c[0], c[1], c[2]]), Vector3([c[3], c[4], c[5]])])
-        .collect()
+    components.chunks_exact(6).map(|c| [Vector3([c[0], c[1], c[2]]), Vector3([c[3], c[4], c[5]])]).collect()
 }
 
 /// `a / b`, or exactly one if both are the same node: usually one piece is the whole body, and its arm leads to its

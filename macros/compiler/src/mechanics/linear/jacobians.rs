@@ -56,11 +56,7 @@ impl Jacobians {
             flat.chunks(n.max(1)).map(<[_]>::to_vec).collect()
         };
         let [mass, damping, stiffness] = [mass, damping, stiffness].map(&mut in_unknowns);
-        Self {
-            mass,
-            damping: added(g, &damping, &by_velocity),
-            stiffness: added(g, &stiffness, &by_position),
-        }
+        Self { mass, damping: added(g, &damping, &by_velocity), stiffness: added(g, &stiffness, &by_position) }
     }
 }
 
@@ -71,12 +67,7 @@ impl Jacobians {
 /// most of the work of reading the declaration.
 ///
 /// [`Variation`]: crate::mechanics::inertia::Variation
-fn of_inertia(
-    g: &mut Graph,
-    context: &Context,
-    e: &Equations,
-    mass: Vec<Vec<ExprId>>,
-) -> [Vec<Vec<ExprId>>; 3] {
+fn of_inertia(g: &mut Graph, context: &Context, e: &Equations, mass: Vec<Vec<ExprId>>) -> [Vec<Vec<ExprId>>; 3] {
     let (s, runs, inertial) = (context.symbols, context.runs, &e.parts.inertial);
     let outward = outward(context);
     let still = |g: &mut Graph, roots: &[ExprId]| {
@@ -98,8 +89,7 @@ fn of_inertia(
         cost(g, &with_residual).operations + cost(g, &all).operations
     };
     let composed = e.variation.as_ref().map(|known| {
-        let [damping, stiffness] =
-            [&known.by_velocity, &known.by_position].map(|matrix| all_still(g, matrix));
+        let [damping, stiffness] = [&known.by_velocity, &known.by_position].map(|matrix| all_still(g, matrix));
         // equations of outer coordinates are shorter when differentiated by inner ones than the other way round
         let stiffness = match is_symmetric(g, context, &stiffness) {
             true => {
@@ -108,12 +98,8 @@ fn of_inertia(
             }
             false => stiffness,
         };
-        let apart = &Context {
-            runs: &runs.apart(s),
-            ..*context
-        };
-        let [damping, stiffness] =
-            [damping, stiffness].map(|matrix| summed(g, apart, &matrix, &outward));
+        let apart = &Context { runs: &runs.apart(s), ..*context };
+        let [damping, stiffness] = [damping, stiffness].map(|matrix| summed(g, apart, &matrix, &outward));
         let composed = [known.mass.clone(), damping, stiffness];
         (operations(g, &composed), composed)
     });
@@ -124,8 +110,7 @@ fn of_inertia(
     let stiffness = columns(g, &rest, &runs.position);
     let damping = columns(g, inertial, &runs.velocity);
     let damping = all_still(g, &damping);
-    let [damping, stiffness] =
-        [damping, stiffness].map(|matrix| summed(g, context, &matrix, &outward));
+    let [damping, stiffness] = [damping, stiffness].map(|matrix| summed(g, context, &matrix, &outward));
     let differentiated = [mass, damping, stiffness];
     match composed {
         Some((fewer, composed)) if fewer < operations(g, &differentiated) => {
@@ -137,12 +122,7 @@ fn of_inertia(
 }
 
 /// Transforms a matrix with respect to the absolute angles to one with respect to the unknowns.
-fn summed(
-    g: &mut Graph,
-    context: &Context,
-    columns: &[Vec<ExprId>],
-    outward: &[usize],
-) -> Vec<Vec<ExprId>> {
+fn summed(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>], outward: &[usize]) -> Vec<Vec<ExprId>> {
     let mirrored = if is_mirrored(g, context, columns, Graph::sub) {
         Mirrored::Equal
     } else if !context.sections.rows.is_empty() && is_mirrored(g, context, columns, Graph::add) {

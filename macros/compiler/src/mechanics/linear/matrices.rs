@@ -20,12 +20,7 @@ pub(crate) struct Linear {
 }
 
 impl Linear {
-    pub(crate) fn new(
-        g: &mut Graph,
-        jacobians: &Jacobians,
-        properties: Properties,
-        context: &Context,
-    ) -> Self {
+    pub(crate) fn new(g: &mut Graph, jacobians: &Jacobians, properties: Properties, context: &Context) -> Self {
         let order = context.outward_order();
         let n = order.len();
         let zero = g.zero();
@@ -43,9 +38,7 @@ impl Linear {
                 })
                 .collect()
         };
-        let general = |matrix: &[Vec<ExprId>]| -> Vec<ExprId> {
-            entries(n).map(|(i, j)| matrix[j][i]).collect()
-        };
+        let general = |matrix: &[Vec<ExprId>]| -> Vec<ExprId> { entries(n).map(|(i, j)| matrix[j][i]).collect() };
         let damping = match properties.damping {
             Damping::Zero => vec![zero; n * n],
             Damping::General => general(&jacobians.damping),
@@ -70,21 +63,14 @@ impl Linear {
             true => symmetric(&jacobians.mass),
             false => general(&jacobians.mass),
         };
-        let this = Self {
-            mass,
-            damping,
-            stiffness,
-        };
+        let this = Self { mass, damping, stiffness };
         this.set_names(g, n);
         this
     }
 
     /// Names the entries, for readable code.
     fn set_names(&self, g: &mut Graph, n: usize) {
-        for (name, values) in LINEAR
-            .into_iter()
-            .zip([&self.mass, &self.damping, &self.stiffness])
-        {
+        for (name, values) in LINEAR.into_iter().zip([&self.mass, &self.damping, &self.stiffness]) {
             for ((i, j), &entry) in entries(n).zip(values) {
                 g.set_name(entry, || format!("{name}_{i}_{j}"));
             }
@@ -98,13 +84,7 @@ impl Linear {
 
     /// All entries of the matrices linearised along any motion, unless they take more than `limit` operations. The mass
     /// matrix does not depend on the motion, and the other two are not symmetric.
-    pub(crate) fn along_motion(
-        &self,
-        g: &mut Graph,
-        s: &Symbols,
-        e: &Equations,
-        limit: usize,
-    ) -> Option<Vec<ExprId>> {
+    pub(crate) fn along_motion(&self, g: &mut Graph, s: &Symbols, e: &Equations, limit: usize) -> Option<Vec<ExprId>> {
         let n = e.motion.len();
         let operations = |g: &Graph, roots: &[ExprId]| cost(g, roots).operations;
         if 3 * n * n > limit {
@@ -153,16 +133,8 @@ impl Linear {
         let count = by.ids.len();
         let mut arrays = Vec::new();
         for (k, name) in LINEAR.into_iter().enumerate() {
-            let values = each
-                .iter()
-                .flat_map(|roots| &roots[k * n * n..(k + 1) * n * n])
-                .copied()
-                .collect();
-            arrays.push(Array {
-                name,
-                shape: vec![count, n, n],
-                values,
-            });
+            let values = each.iter().flat_map(|roots| &roots[k * n * n..(k + 1) * n * n]).copied().collect();
+            arrays.push(Array { name, shape: vec![count, n, n], values });
         }
         arrays
     }
@@ -175,11 +147,7 @@ pub(crate) fn linear_arrays(roots: &[ExprId], n: usize) -> Vec<Array> {
     LINEAR
         .into_iter()
         .enumerate()
-        .map(|(k, name)| Array {
-            name,
-            shape: vec![n, n],
-            values: roots[k * n * n..(k + 1) * n * n].to_vec(),
-        })
+        .map(|(k, name)| Array { name, shape: vec![n, n], values: roots[k * n * n..(k + 1) * n * n].to_vec() })
         .collect()
 }
 

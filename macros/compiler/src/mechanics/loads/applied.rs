@@ -39,11 +39,7 @@ impl AppliedForces {
         Self {
             on_bodies: vec![Loads::new(); mechanism.bodies.len()],
             on_coordinates: vec![g.zero(); mechanism.coordinates.len()],
-            on_directions: mechanism
-                .beams
-                .iter()
-                .map(|beam| vec![Vector3::zero(g); beam.sections.len()])
-                .collect(),
+            on_directions: mechanism.beams.iter().map(|beam| vec![Vector3::zero(g); beam.sections.len()]).collect(),
         }
     }
 
@@ -62,16 +58,8 @@ impl AppliedForces {
     }
 
     /// Applies a force and a moment to one side of a constraint, and the opposite to the other side at the same place.
-    pub(crate) fn apply_pair(
-        &mut self,
-        g: &mut Graph,
-        force_context: &ForceContext,
-        pair: &Pair,
-        load: Wrench,
-    ) {
-        let Pair {
-            from, to, reach, ..
-        } = pair;
+    pub(crate) fn apply_pair(&mut self, g: &mut Graph, force_context: &ForceContext, pair: &Pair, load: Wrench) {
+        let Pair { from, to, reach, .. } = pair;
         let closing = force_context.tree.common_ancestor(from.frame, to.frame);
         let arm = to.at.arm.add(g, *reach);
         self.apply_at(g, (to.frame, arm), load, closing);
@@ -82,22 +70,13 @@ impl AppliedForces {
     }
 
     /// Applies a force and a moment at a given arm from the origin of a frame.
-    fn apply_at(
-        &mut self,
-        g: &mut Graph,
-        (frame, arm): (Frame, Vector3),
-        load: Wrench,
-        closing: Frame,
-    ) {
+    fn apply_at(&mut self, g: &mut Graph, (frame, arm): (Frame, Vector3), load: Wrench, closing: Frame) {
         let Frame::Body(body) = frame else { return };
         if frame == closing {
             return;
         }
         let lever = arm.cross(g, load.force);
-        let load = Wrench {
-            force: load.force,
-            moment: load.moment.add(g, lever),
-        };
+        let load = Wrench { force: load.force, moment: load.moment.add(g, lever) };
         add_load(g, &mut self.on_bodies[body.index()], closing, load);
     }
 }

@@ -26,10 +26,7 @@ pub(crate) fn coincident(
     along: [bool; 3],
 ) -> Pair {
     let [from, to] = [from, to].map(|id| force_context.side(id));
-    let demands = (0..3)
-        .filter(|&k| along[k])
-        .map(|k| apart(g, from, to, from.at.axes.0[k], AXES[k]))
-        .collect();
+    let demands = (0..3).filter(|&k| along[k]).map(|k| apart(g, from, to, from.at.axes.0[k], AXES[k])).collect();
     Pair::new(g, from, to, demands)
 }
 
@@ -38,13 +35,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// The displacement along a direction fixed in `from`, given in the common frame.
 fn apart(g: &mut Graph, from: Side, to: Side, direction: Vector3, label: &'static str) -> Demand {
     let gap = to.at.position.sub(g, from.at.position);
-    Demand {
-        label,
-        value: direction.dot(g, gap),
-        force: direction,
-        moment: Vector3::zero(g),
-        of_velocities: false,
-    }
+    Demand { label, value: direction.dot(g, gap), force: direction, moment: Vector3::zero(g), of_velocities: false }
 }
 
 /// Requires all axes of two places, or one direction in both, to agree.
@@ -138,11 +129,7 @@ pub(crate) fn joint_demands(g: &mut Graph, force_context: &ForceContext, joint: 
     let context = force_context.context;
     let from = force_context.placed(g, joint.from, &joint.from_placement);
     let to = force_context.placed(g, joint.to, &joint.to_placement);
-    let axes: Vec<Vector3> = joint
-        .steps
-        .iter()
-        .map(|step| context.values.vector(g, &step.axis))
-        .collect();
+    let axes: Vec<Vector3> = joint.steps.iter().map(|step| context.values.vector(g, &step.axis)).collect();
     let Some(closing) = joint.closing else {
         unreachable!("resolution and topology cut no {} joint", joint.word);
     };
@@ -150,20 +137,15 @@ pub(crate) fn joint_demands(g: &mut Graph, force_context: &ForceContext, joint: 
     let directions: Vec<(&'static str, Vector3)> = match closing {
         Closing::Prismatic | Closing::Cylindrical => {
             let across = perpendiculars(g, context, axes[0]);
-            ["across_1", "across_2"]
-                .into_iter()
-                .zip(across.map(|direction| own.apply(g, direction)))
-                .collect()
+            ["across_1", "across_2"].into_iter().zip(across.map(|direction| own.apply(g, direction))).collect()
         }
         Closing::Planar => vec![("normal", own.apply(g, axes[2]))],
         Closing::Fixed | Closing::Revolute | Closing::Universal | Closing::Spherical => {
             AXES.into_iter().zip(own.0).collect()
         }
     };
-    let mut demands: Vec<Demand> = directions
-        .into_iter()
-        .map(|(label, direction)| apart(g, from, to, direction, label))
-        .collect();
+    let mut demands: Vec<Demand> =
+        directions.into_iter().map(|(label, direction)| apart(g, from, to, direction, label)).collect();
     demands.extend(match closing {
         Closing::Fixed | Closing::Prismatic => turns(g, own, other),
         Closing::Revolute => tilts(g, context, [own, other], axes[0]),

@@ -94,8 +94,7 @@ fn anywhere(g: &mut Graph, context: &Context) -> Vec<ExprId> {
 /// The expression and unit of a constraint that is not geometric.
 fn declared_equation<'a>(context: &Context<'a>, source: Source) -> (&'a Expr, &'a Unit) {
     if let Source::Constraint(id) = source
-        && let ConstraintLaw::Equation { zero, unit } =
-            &context.mechanism.constraints[id.index()].law
+        && let ConstraintLaw::Equation { zero, unit } = &context.mechanism.constraints[id.index()].law
     {
         return (zero, unit);
     }
@@ -114,9 +113,7 @@ fn reaction_unit(unit: &str) -> String {
 /// All sources of equations in order of declaration: joints, then constraints.
 fn sources(context: &Context) -> Vec<Source> {
     let joints = context.topology.cut.iter().copied().map(Source::Joint);
-    let constraints = (0..context.mechanism.constraints.len())
-        .map(ConstraintId::new)
-        .map(Source::Constraint);
+    let constraints = (0..context.mechanism.constraints.len()).map(ConstraintId::new).map(Source::Constraint);
     joints.chain(constraints).collect()
 }
 
@@ -125,32 +122,18 @@ fn geometric(g: &mut Graph, force_context: &ForceContext, source: Source) -> Opt
     let mechanism = force_context.context.mechanism;
     let id = match source {
         Source::Joint(id) => {
-            return Some(joint_demands(
-                g,
-                force_context,
-                &mechanism.joints[id.index()],
-            ));
+            return Some(joint_demands(g, force_context, &mechanism.joints[id.index()]));
         }
         Source::Constraint(id) => id,
     };
     let Constraint { law, .. } = &mechanism.constraints[id.index()];
     Some(match law {
-        ConstraintLaw::Coincident { from, to, along } => {
-            coincident(g, force_context, (*from, *to), *along)
+        ConstraintLaw::Coincident { from, to, along } => coincident(g, force_context, (*from, *to), *along),
+        ConstraintLaw::Aligned { from, to, axis } => aligned(g, force_context, (*from, *to), axis.as_ref()),
+        ConstraintLaw::Distance { from, to, length } => distance(g, force_context, (*from, *to), length),
+        ConstraintLaw::Rolling { wheel, axis, radius, on, normal } => {
+            rolling(g, force_context, *wheel, axis.as_ref(), radius, *on, normal)
         }
-        ConstraintLaw::Aligned { from, to, axis } => {
-            aligned(g, force_context, (*from, *to), axis.as_ref())
-        }
-        ConstraintLaw::Distance { from, to, length } => {
-            distance(g, force_context, (*from, *to), length)
-        }
-        ConstraintLaw::Rolling {
-            wheel,
-            axis,
-            radius,
-            on,
-            normal,
-        } => rolling(g, force_context, *wheel, axis.as_ref(), radius, *on, normal),
         ConstraintLaw::Equation { .. } => return None,
     })
 }
@@ -164,11 +147,7 @@ fn has_running(context: &Context, value: &Expr) -> bool {
 }
 
 /// Evaluates the equations, by row, and adds their reactions to `forces`.
-pub(crate) fn constraints(
-    g: &mut Graph,
-    force_context: &ForceContext,
-    forces: &mut AppliedForces,
-) -> Vec<ExprId> {
+pub(crate) fn constraints(g: &mut Graph, force_context: &ForceContext, forces: &mut AppliedForces) -> Vec<ExprId> {
     let context = force_context.context;
     let mut values = vec![g.zero(); context.rows.len()];
     for source in sources(context) {
@@ -194,9 +173,7 @@ pub(crate) fn constraints(
         }
     }
     for (value, row) in values.iter().zip(context.rows) {
-        g.set_name(*value, || {
-            format!("constraint_{}", row.label.replace('.', "_"))
-        });
+        g.set_name(*value, || format!("constraint_{}", row.label.replace('.', "_")));
     }
     values
 }
@@ -226,35 +203,16 @@ fn equation(
     multiplier: ExprId,
     forces: &mut AppliedForces,
 ) -> ExprId {
-    let ForceContext {
-        context,
-        kinematics,
-        ..
-    } = *force_context;
+    let ForceContext { context, kinematics, .. } = *force_context;
     let (symbols, topology) = (context.symbols, context.topology);
     let (zero, _) = declared_equation(context, source);
-    let state = Running {
-        context,
-        kinematics,
-    };
+    let state = Running { context, kinematics };
     let value = context.values.scalar_at(g, zero, &state);
     let free = topology.free.len();
-    let ids: Vec<_> = symbols.q.ids[..free]
-        .iter()
-        .chain(&symbols.running.ids)
-        .copied()
-        .collect();
+    let ids: Vec<_> = symbols.q.ids[..free].iter().chain(&symbols.running.ids).copied().collect();
     let slopes = gradient(g, value, &ids);
-    let coordinates: Vec<_> = topology
-        .free
-        .iter()
-        .copied()
-        .chain(topology.running())
-        .collect();
-    let positions: Vec<_> = topology
-        .running()
-        .map(|id| kinematics.coordinates[id.index()].position)
-        .collect();
+    let coordinates: Vec<_> = topology.free.iter().copied().chain(topology.running()).collect();
+    let positions: Vec<_> = topology.running().map(|id| kinematics.coordinates[id.index()].position).collect();
     let stopped: Vec<_> = symbols.running.with(&positions).collect();
     let stood = substitute(g, &[vec![value], slopes].concat(), &stopped);
     let (value, slopes) = (stood[0], &stood[1..]);
@@ -266,11 +224,7 @@ fn equation(
         let share = g.mul(slope, kinematics.coordinates[id.index()].velocity);
         rate = g.add(rate, share);
     }
-    let value = if has_running(context, zero) {
-        rate
-    } else {
-        value
-    };
+    let value = if has_running(context, zero) { rate } else { value };
     g.neg(value)
 }
 
@@ -288,8 +242,5 @@ pub(crate) fn held(g: &mut Graph, force_context: &ForceContext, source: Source) 
     let lever = pair.gap(g).cross(g, load.force);
     let moment = load.moment.add(g, lever);
     let to_axes = pair.from.at.axes.transpose();
-    Some(Wrench {
-        force: to_axes.apply(g, load.force),
-        moment: to_axes.apply(g, moment),
-    })
+    Some(Wrench { force: to_axes.apply(g, load.force), moment: to_axes.apply(g, moment) })
 }

@@ -19,18 +19,8 @@ pub(super) struct PerLength<'a> {
 impl AppliedForces {
     /// Forces at `r_a = L sum_k W_ak d_k` from the root: on the root's body with their moment, and `L W_ak F_a` on each
     /// direction `d_k`.
-    pub(super) fn distribute(
-        &mut self,
-        g: &mut Graph,
-        force_context: &ForceContext,
-        id: BeamId,
-        load: &PerLength<'_>,
-    ) {
-        let ForceContext {
-            context,
-            kinematics,
-            ..
-        } = *force_context;
+    pub(super) fn distribute(&mut self, g: &mut Graph, force_context: &ForceContext, id: BeamId, load: &PerLength<'_>) {
+        let ForceContext { context, kinematics, .. } = *force_context;
         let values = context.values;
         let beam = &context.mechanism.beams[id.index()];
         let motion = &kinematics.beams[id.index()];
@@ -41,21 +31,14 @@ impl AppliedForces {
         let damping = values.scalar(g, load.damping);
         let rule = beam.quadrature();
         let zero = Vector3::zero(g);
-        let mut total = Wrench {
-            force: zero,
-            moment: zero,
-        };
+        let mut total = Wrench { force: zero, moment: zero };
         for (a, (&point, &weight)) in rule.points.iter().zip(&rule.weights).enumerate() {
             let share = g.scale(weight, length);
             let along_root = curved(g, values, &beam.sections[a].2).apply(g, follower);
             let axes = motion.sections[a].frame.orientation.axes;
             let along = axes.apply(g, along_root);
             let mut force = fixed.add(g, along);
-            let reach: Vec<_> = rule
-                .integrals_to(point)
-                .into_iter()
-                .map(|part| g.scale(part, length))
-                .collect();
+            let reach: Vec<_> = rule.integrals_to(point).into_iter().map(|part| g.scale(part, length)).collect();
             let (mut arm, mut velocity) = (zero, root.velocity);
             for (direction, &reach) in motion.directions.iter().zip(&reach) {
                 let part = direction.vector.scale(g, reach);

@@ -17,36 +17,22 @@ pub(crate) struct ForceContext<'a> {
 
 impl<'a> ForceContext<'a> {
     pub(crate) fn new(context: &'a Context<'a>, kinematics: &'a Kinematics) -> Self {
-        Self {
-            context,
-            kinematics,
-            tree: Tree::new(context.mechanism, context.topology),
-        }
+        Self { context, kinematics, tree: Tree::new(context.mechanism, context.topology) }
     }
 
     /// A named point as one side of a constraint.
     pub(crate) fn side(&self, point: PointId) -> Side {
-        Side {
-            frame: self.frame(point),
-            at: self.point(point),
-        }
+        Side { frame: self.frame(point), at: self.point(point) }
     }
 
     /// A place in a frame as one side of a constraint.
     pub(crate) fn placed(&self, g: &mut Graph, frame: Frame, placement: &Placement) -> Side {
-        let at = self
-            .kinematics
-            .place(g, self.context.values, frame, placement);
+        let at = self.kinematics.place(g, self.context.values, frame, placement);
         Side { frame, at }
     }
 
     /// Velocity of the second of two frames relative to the first, at a position.
-    pub(crate) fn relative_velocity(
-        &self,
-        g: &mut Graph,
-        (from, to): (Frame, Frame),
-        position: Vector3,
-    ) -> Vector3 {
+    pub(crate) fn relative_velocity(&self, g: &mut Graph, (from, to): (Frame, Frame), position: Vector3) -> Vector3 {
         let closing = self.tree.common_ancestor(from, to);
         let [from, to] = [from, to].map(|frame| self.velocity(g, frame, position, closing).0);
         to.sub(g, from)
@@ -68,7 +54,6 @@ impl<'a> ForceContext<'a> {
         position: Vector3,
         closing: Frame,
     ) -> (Vector3, Vector3) {
-        self.tree
-            .relative_velocity(g, self.kinematics, (frame, position), closing)
+        self.tree.relative_velocity(g, self.kinematics, (frame, position), closing)
     }
 }

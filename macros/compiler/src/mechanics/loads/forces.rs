@@ -18,11 +18,7 @@ use super::distributed::PerLength;
 use super::force_context::ForceContext;
 
 /// Evaluates the force elements.
-pub(crate) fn applied_forces(
-    g: &mut Graph,
-    force_context: &ForceContext,
-    selection: ForceSelection,
-) -> AppliedForces {
+pub(crate) fn applied_forces(g: &mut Graph, force_context: &ForceContext, selection: ForceSelection) -> AppliedForces {
     let mechanism = force_context.context.mechanism;
     let mut applied = AppliedForces::none(g, mechanism);
     for (index, force) in mechanism.forces.iter().enumerate() {
@@ -35,20 +31,12 @@ pub(crate) fn applied_forces(
 
 impl AppliedForces {
     fn act(&mut self, g: &mut Graph, force_context: &ForceContext, force: &Force) {
-        let ForceContext {
-            context,
-            kinematics,
-            ..
-        } = *force_context;
+        let ForceContext { context, kinematics, .. } = *force_context;
         let values = context.values;
         let name = force.name.to_string();
         match &force.law {
             // Q = -stiffness (q - rest)
-            ForceLaw::CoordinateSpring {
-                coordinate,
-                stiffness,
-                rest,
-            } => {
+            ForceLaw::CoordinateSpring { coordinate, stiffness, rest } => {
                 let (stiffness, rest) = (values.scalar(g, stiffness), values.scalar(g, rest));
                 let position = kinematics.coordinates[coordinate.index()].position;
                 let stretch = g.sub(position, rest);
@@ -58,10 +46,7 @@ impl AppliedForces {
                 *slot = g.sub(*slot, load);
             }
             // Q = -damping qdot
-            ForceLaw::CoordinateDamper {
-                coordinate,
-                damping,
-            } => {
+            ForceLaw::CoordinateDamper { coordinate, damping } => {
                 let damping = values.scalar(g, damping);
                 let velocity = kinematics.coordinates[coordinate.index()].velocity;
                 let load = g.mul(damping, velocity);
@@ -95,53 +80,29 @@ impl AppliedForces {
                     self.bushing(g, force_context, (*from, *to), [force, moment], &name);
                 }
             }
-            ForceLaw::Load {
-                point,
-                force,
-                moment,
-                following,
-            } => {
+            ForceLaw::Load { point, force, moment, following } => {
                 let (force, moment) = (values.vector(g, force), values.vector(g, moment));
                 let axes = force_context.point(*point).axes;
                 let load = match following {
-                    true => Wrench {
-                        force: axes.apply(g, force),
-                        moment: axes.apply(g, moment),
-                    },
+                    true => Wrench { force: axes.apply(g, force), moment: axes.apply(g, moment) },
                     false => Wrench { force, moment },
                 };
                 self.apply(g, force_context, *point, load, Frame::Ground);
             }
-            ForceLaw::Distributed {
-                on,
-                force,
-                follower,
-                damping,
-            } => {
-                let load = PerLength {
-                    force,
-                    follower,
-                    damping,
-                };
+            ForceLaw::Distributed { on, force, follower, damping } => {
+                let load = PerLength { force, follower, damping };
                 let beams = context.mechanism.beams.iter().enumerate();
                 for (index, _) in beams.filter(|(_, beam)| beam.whole == *on) {
                     self.distribute(g, force_context, BeamId::new(index), &load);
                 }
             }
             // force = -damping v, moment = -turning_damping omega, both absolute
-            ForceLaw::Drag {
-                point,
-                damping,
-                turning_damping,
-            } => {
-                let [damping, turning_damping] =
-                    [damping, turning_damping].map(|value| values.scalar(g, value));
+            ForceLaw::Drag { point, damping, turning_damping } => {
+                let [damping, turning_damping] = [damping, turning_damping].map(|value| values.scalar(g, value));
                 let position = force_context.point(*point).position;
                 let (velocity, angular) =
                     force_context.velocity(g, force_context.frame(*point), position, Frame::Ground);
-                let force = velocity
-                    .scale(g, damping)
-                    .set_name(g, &format!("minus_{name}_force"));
+                let force = velocity.scale(g, damping).set_name(g, &format!("minus_{name}_force"));
                 let moment = angular.scale(g, turning_damping);
                 let load = Wrench { force, moment }.neg(g);
                 self.apply(g, force_context, *point, load, Frame::Ground);
@@ -150,24 +111,11 @@ impl AppliedForces {
     }
 
     /// Opposite forces along the line between two points.
-    fn pull(
-        &mut self,
-        g: &mut Graph,
-        force_context: &ForceContext,
-        line: &Line,
-        tension: ExprId,
-        name: &str,
-    ) {
+    fn pull(&mut self, g: &mut Graph, force_context: &ForceContext, line: &Line, tension: ExprId, name: &str) {
         g.set_name(tension, || format!("{name}_tension"));
         let density = g.div(tension, line.distance);
-        let force = line
-            .vector
-            .scale(g, density)
-            .set_name(g, &format!("{name}_force"));
-        let pull = Wrench {
-            force,
-            moment: Vector3::zero(g),
-        };
+        let force = line.vector.scale(g, density).set_name(g, &format!("{name}_force"));
+        let pull = Wrench { force, moment: Vector3::zero(g) };
         let push = pull.neg(g);
         self.apply(g, force_context, line.from, pull, line.closing);
         self.apply(g, force_context, line.to, push, line.closing);
@@ -191,10 +139,7 @@ impl AppliedForces {
         let moment = moment.set_name(g, &format!("{name}_moment"));
         // At the place of `to`, seen from the origin of `from`, the force on `from` adds a moment.
         let lever = gap.cross(g, force);
-        let on_from = Wrench {
-            force,
-            moment: moment.add(g, lever),
-        };
+        let on_from = Wrench { force, moment: moment.add(g, lever) };
         self.apply(g, force_context, from, on_from, closing);
         let on_to = Wrench { force, moment }.neg(g);
         self.apply(g, force_context, to, on_to, closing);
@@ -220,16 +165,9 @@ fn tension(g: &mut Graph, force_context: &ForceContext, force: &Force) -> Option
     let values = force_context.context.values;
     let name = force.name.to_string();
     match &force.law {
-        ForceLaw::SpringDamper {
-            from,
-            to,
-            stiffness,
-            damping,
-            length,
-        } => {
+        ForceLaw::SpringDamper { from, to, stiffness, damping, length } => {
             let line = Line::new(g, force_context, *from, *to, &name);
-            let [stiffness, damping, length] =
-                [stiffness, damping, length].map(|value| values.scalar(g, value));
+            let [stiffness, damping, length] = [stiffness, damping, length].map(|value| values.scalar(g, value));
             let stretch = g.sub(line.distance, length);
             let (elastic, viscous) = (g.mul(stiffness, stretch), g.mul(damping, line.rate));
             let tension = g.add(elastic, viscous);
@@ -247,21 +185,12 @@ fn tension(g: &mut Graph, force_context: &ForceContext, force: &Force) -> Option
 /// Force and moment with which a bushing resists the displacement and rotation of `to` relative to `from`, in the axes
 /// of `from`.
 fn resistance(g: &mut Graph, force_context: &ForceContext, force: &Force) -> Option<Wrench> {
-    let ForceLaw::Bushing {
-        from,
-        to,
-        stiffness,
-        damping,
-        turning_stiffness,
-        turning_damping,
-    } = &force.law
-    else {
+    let ForceLaw::Bushing { from, to, stiffness, damping, turning_stiffness, turning_damping } = &force.law else {
         return None;
     };
     let values = force_context.context.values;
     let [stiffness, damping, turning_stiffness, turning_damping] =
-        [stiffness, damping, turning_stiffness, turning_damping]
-            .map(|value| values.matrix(g, value));
+        [stiffness, damping, turning_stiffness, turning_damping].map(|value| values.matrix(g, value));
     let [start, end] = [*from, *to].map(|id| force_context.point(id));
     let frames = [*from, *to].map(|id| force_context.frame(id));
     let closing = force_context.tree.common_ancestor(frames[0], frames[1]);
@@ -307,31 +236,17 @@ struct Line {
 }
 
 impl Line {
-    fn new(
-        g: &mut Graph,
-        force_context: &ForceContext,
-        from: PointId,
-        to: PointId,
-        name: &str,
-    ) -> Self {
+    fn new(g: &mut Graph, force_context: &ForceContext, from: PointId, to: PointId, name: &str) -> Self {
         let ends = [from, to].map(|id| (force_context.frame(id), force_context.point(id).position));
         let closing = force_context.tree.common_ancestor(ends[0].0, ends[1].0);
         let vector = ends[1].1.sub(g, ends[0].1);
         let distance = vector.norm(g);
         g.set_name(distance, || format!("{name}_length"));
-        let [start, end] =
-            ends.map(|(frame, position)| force_context.velocity(g, frame, position, closing).0);
+        let [start, end] = ends.map(|(frame, position)| force_context.velocity(g, frame, position, closing).0);
         let relative = end.sub(g, start);
         let growth = relative.dot(g, vector);
         let rate = g.div(growth, distance);
-        Self {
-            from,
-            to,
-            vector,
-            distance,
-            rate,
-            closing,
-        }
+        Self { from, to, vector, distance, rate, closing }
     }
 }
 

@@ -25,10 +25,7 @@ pub(crate) struct Demand {
 impl Demand {
     /// The load that a multiplier exerts on the `to` side.
     pub(crate) fn held_by(&self, g: &mut Graph, multiplier: ExprId) -> Wrench {
-        Wrench {
-            force: self.force.scale(g, multiplier),
-            moment: self.moment.scale(g, multiplier),
-        }
+        Wrench { force: self.force.scale(g, multiplier), moment: self.moment.scale(g, multiplier) }
     }
 }
 
@@ -50,11 +47,6 @@ impl Pair {
 
     pub(crate) fn new(g: &mut Graph, from: Side, to: Side, demands: Vec<Demand>) -> Self {
         let reach = Vector3::zero(g);
-        Self {
-            from,
-            to,
-            reach,
-            demands,
-        }
+        Self { from, to, reach, demands }
     }
 }

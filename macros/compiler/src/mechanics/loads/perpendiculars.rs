@@ -10,13 +10,7 @@ pub(crate) fn perpendiculars(g: &mut Graph, context: &Context, axis: Vector3) ->
         let is_variable = g.constant_value(component).is_none();
         (context.nominal(g, component).abs(), is_variable)
     });
-    let least = (1..3).fold(0, |least, k| {
-        if leaning[k] < leaning[least] {
-            k
-        } else {
-            least
-        }
-    });
+    let least = (1..3).fold(0, |least, k| if leaning[k] < leaning[least] { k } else { least });
     let unit = Matrix3::identity(g).0[least];
     let along = axis.scale(g, axis.0[least]);
     let first = unit.sub(g, along);

@@ -62,13 +62,8 @@ pub(crate) fn rolling(
     };
     let slip = force_context.relative_velocity(g, (plane.frame, wheel.frame), contact);
     let zero = Vector3::zero(g);
-    let mut demands = vec![Demand {
-        label: "normal",
-        value: height,
-        force: normal,
-        moment: zero,
-        of_velocities: false,
-    }];
+    let mut demands =
+        vec![Demand { label: "normal", value: height, force: normal, moment: zero, of_velocities: false }];
     for (label, direction) in [("forward", forward), ("lateral", sideways)] {
         demands.push(Demand {
             label,
@@ -78,10 +73,5 @@ pub(crate) fn rolling(
             of_velocities: true,
         });
     }
-    Pair {
-        from: plane,
-        to: wheel,
-        reach,
-        demands,
-    }
+    Pair { from: plane, to: wheel, reach, demands }
 }

@@ -19,8 +19,7 @@ pub(super) fn slip_axes(
     let closing = tree.common_ancestor(plane, wheel);
     let below = |frame: Frame| {
         let path = tree.path(frame).into_iter();
-        path.take_while(|frame| *frame != closing)
-            .collect::<Vec<_>>()
+        path.take_while(|frame| *frame != closing).collect::<Vec<_>>()
     };
     let outwards = below(wheel).into_iter().rev();
     let carrier = turning(g, force_context, outwards, normal, Some(center));
@@ -53,10 +52,7 @@ fn turning(
                 if vanish(g, context, &across).contains(&false) {
                     return turning;
                 }
-                if context.mechanism.coordinates[step.coordinate.index()]
-                    .motion
-                    .runs()
-                {
+                if context.mechanism.coordinates[step.coordinate.index()].motion.runs() {
                     turning = Some(frame);
                 }
             }

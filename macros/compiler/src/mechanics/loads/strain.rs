@@ -1,8 +1,6 @@
 //! Elasticity and damping of the material of beams.
 
-use crate::algebra::{
-    Direction, ExprId, Graph, SymbolId, Unary, Vector3, derivatives_along, gradient,
-};
+use crate::algebra::{Direction, ExprId, Graph, SymbolId, Unary, Vector3, derivatives_along, gradient};
 use crate::base::ids::{BeamId, PointId};
 use crate::mechanics::motion::{self, bend, bend_powers};
 use crate::mechanics::setup::{Context, OfBeam, Sections};
@@ -27,11 +25,7 @@ fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>)
     let values = context.values;
     let length = values.scalar(g, &beam.length);
     let stretched = motion::strains(g, context, id, turns);
-    let sections = beam
-        .sections
-        .iter()
-        .zip(&turns.rotations)
-        .zip(&turns.slopes);
+    let sections = beam.sections.iter().zip(&turns.rotations).zip(&turns.slopes);
     sections
         .zip(stretched)
         .map(|((((_, weight, section), turn), slope), stretched)| {
@@ -119,9 +113,7 @@ impl Strain {
 fn stressed(g: &mut Graph, context: &Context, id: BeamId) -> Vec<(Strain, Vec<ExprId>)> {
     let sections = context.sections;
     let beam = &context.mechanism.beams[id.index()];
-    let turns = sections
-        .by_themselves(g, id)
-        .map(|of_beam| of_beam.position);
+    let turns = sections.by_themselves(g, id).map(|of_beam| of_beam.position);
     let spin = context.values.scalar(g, &beam.spin);
     let lag = context.values.scalar(g, &beam.lag);
     let moving = sections.position.with(&sections.velocity.values);
@@ -170,17 +162,12 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
     let sections = context.sections;
     let mut along = vec![g.zero(); sections.rows.len()];
     for id in (0..context.mechanism.beams.len()).map(BeamId::new) {
-        let turns = sections
-            .by_themselves(g, id)
-            .map(|of_beam| of_beam.position);
+        let turns = sections.by_themselves(g, id).map(|of_beam| of_beam.position);
         let beam = &context.mechanism.beams[id.index()];
         let rows = sections.of(id);
         for (k, (strain, stresses)) in stressed(g, context, id).into_iter().enumerate() {
             let section_rows = rows.of_section(k);
-            let ids: Vec<SymbolId> = section_rows
-                .iter()
-                .map(|&row| sections.position.ids[row])
-                .collect();
+            let ids: Vec<SymbolId> = section_rows.iter().map(|&row| sections.position.ids[row]).collect();
             let section = &beam.sections[k].2;
             let twist = context.values.scalar(g, &section.twist);
             let back = g.neg(twist);
@@ -224,20 +211,13 @@ pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [Expr
     let rates = derivatives_along(g, &bent, &moving);
     // material that spins beside its section sees the strain turn backwards
     let (forwards, backwards) = (g.mul(spin, bent[2]), g.mul(spin, bent[1]));
-    let rates = [
-        rates[0],
-        g.add(rates[1], forwards),
-        g.sub(rates[2], backwards),
-    ];
+    let rates = [rates[0], g.add(rates[1], forwards), g.sub(rates[2], backwards)];
     let [x, y, z] = [0, 1, 2].map(|k| {
         let lagging = g.mul(lag, rates[k]);
         g.add(bent[k], lagging)
     });
     let twist = values.scalar(g, &section.twist);
-    let [against_twist, about_y, about_z] = section
-        .stiffness
-        .each_ref()
-        .map(|stiffness| values.scalar(g, stiffness));
+    let [against_twist, about_y, about_z] = section.stiffness.each_ref().map(|stiffness| values.scalar(g, stiffness));
     let curved = motion::curved(g, values, section);
     let [x, y, z] = curved.transpose().apply(g, Vector3([x, y, z])).0;
     let curvatures = along_own_axes(g, [y, z], twist);
@@ -249,11 +229,7 @@ pub(crate) fn bent_at(g: &mut Graph, context: &Context, point: PointId) -> [Expr
     });
     let [shear_y, shear_z] = along_own_axes(g, [shear_y, shear_z], twist);
     let all = [x, curvatures[0], curvatures[1], stretch, shear_y, shear_z];
-    let mut moments = [
-        g.mul(against_twist, x),
-        g.mul(about_y, curvatures[0]),
-        g.mul(about_z, curvatures[1]),
-    ];
+    let mut moments = [g.mul(against_twist, x), g.mul(about_y, curvatures[0]), g.mul(about_z, curvatures[1])];
     for (i, j, stiffness) in &section.coupling {
         let stiffness = values.scalar(g, stiffness);
         for (on, by) in [(*i, *j), (*j, *i)] {

@@ -30,11 +30,7 @@ pub(crate) fn transmitted(
     kinematics: &Kinematics,
     selection: ForceSelection,
 ) -> Transmitted {
-    let Context {
-        mechanism,
-        topology,
-        ..
-    } = *context;
+    let Context { mechanism, topology, .. } = *context;
     let force_context = ForceContext::new(context, kinematics);
     let mut applied = applied_forces(g, &force_context, selection);
     let constraints = match selection.constraints {
@@ -44,15 +40,8 @@ pub(crate) fn transmitted(
     let mut loads: Vec<Loads> = applied.on_bodies.iter().map(|on| negated(g, on)).collect();
 
     let zero = Vector3::zero(g);
-    let mut along: Vec<ExprId> = applied
-        .on_coordinates
-        .iter()
-        .map(|&force| g.neg(force))
-        .collect();
-    let nothing = Wrench {
-        force: zero,
-        moment: zero,
-    };
+    let mut along: Vec<ExprId> = applied.on_coordinates.iter().map(|&force| g.neg(force)).collect();
+    let nothing = Wrench { force: zero, moment: zero };
     let mut wrenches = vec![nothing; mechanism.bodies.len()];
     let mut on_stations = FromStations::nothing(g, context);
     for (on, forces) in on_stations.iter_mut().zip(&applied.on_directions) {
@@ -81,10 +70,7 @@ pub(crate) fn transmitted(
                 && closing != branch.parent
             {
                 let shift = motion.frame.offset.cross(g, load.force);
-                let moved = Wrench {
-                    force: load.force,
-                    moment: load.moment.add(g, shift),
-                };
+                let moved = Wrench { force: load.force, moment: load.moment.add(g, shift) };
                 add_load(g, &mut loads[parent.index()], closing, moved);
             }
         }
@@ -99,16 +85,9 @@ pub(crate) fn transmitted(
     for (id, share) in topology.free.iter().zip(context.sections.forces(g, &all)) {
         along[id.index()] = g.add(along[id.index()], share);
     }
-    Transmitted {
-        along,
-        constraints,
-        wrenches,
-    }
+    Transmitted { along, constraints, wrenches }
 }
 
 fn negated(g: &mut Graph, loads: &Loads) -> Loads {
-    loads
-        .iter()
-        .map(|(&closing, load)| (closing, load.neg(g)))
-        .collect()
+    loads.iter().map(|(&closing, load)| (closing, load.neg(g))).collect()
 }

@@ -88,25 +88,15 @@ impl BeamMotion {
         let own_axes = Matrix3([0, 1, 2].map(|k| values.vector(g, &beam.axes[k])));
         let axes = Matrix3(own_axes.0.map(|axis| root.orientation.express(g, axis)));
         let start = root.departing(g);
-        let mut bent = |turn: &[CoordinateMotion; 3], label: String| {
-            SectionMotion::new(g, &start, own_axes, axes, *turn, &label)
-        };
-        let sections: Vec<SectionMotion> = turns
-            .rotations
-            .iter()
-            .enumerate()
-            .map(|(k, turn)| bent(turn, format!("{name}_section_{k}")))
-            .collect();
-        let ends: Vec<SectionMotion> = turns
-            .stations
-            .iter()
-            .enumerate()
-            .map(|(k, turn)| bent(turn, format!("{name}_station_{k}")))
-            .collect();
+        let mut bent =
+            |turn: &[CoordinateMotion; 3], label: String| SectionMotion::new(g, &start, own_axes, axes, *turn, &label);
+        let sections: Vec<SectionMotion> =
+            turns.rotations.iter().enumerate().map(|(k, turn)| bent(turn, format!("{name}_section_{k}"))).collect();
+        let ends: Vec<SectionMotion> =
+            turns.stations.iter().enumerate().map(|(k, turn)| bent(turn, format!("{name}_station_{k}"))).collect();
         let directions = sections.iter().zip(headings);
-        let directions: Vec<DirectionMotion> = directions
-            .map(|(section, heading)| DirectionMotion::new(g, root, section, heading))
-            .collect();
+        let directions: Vec<DirectionMotion> =
+            directions.map(|(section, heading)| DirectionMotion::new(g, root, section, heading)).collect();
         let mut offsets = Vec::new();
         for (k, (_, _, section)) in beam.sections.iter().enumerate() {
             let offset = offset(g, values, section);
@@ -118,19 +108,11 @@ impl BeamMotion {
         let length = values.scalar(g, &beam.length);
         let rule = beam.quadrature();
         let stations = beam.stations.iter().zip(ends).map(|(station, section)| {
-            let reach: Vec<ExprId> = rule
-                .integrals_to(station.place)
-                .into_iter()
-                .map(|share| g.scale(share, length))
-                .collect();
+            let reach: Vec<ExprId> =
+                rule.integrals_to(station.place).into_iter().map(|share| g.scale(share, length)).collect();
             StationMotion::new(g, &directions, section, own_axes, reach)
         });
-        Self {
-            stations: stations.collect(),
-            sections,
-            directions,
-            offsets,
-        }
+        Self { stations: stations.collect(), sections, directions, offsets }
     }
 
     /// The directions, then the offsets, with the numbers of their sections.
@@ -194,11 +176,7 @@ impl DirectionMotion {
 
     /// Power of a force on the vector per unit rate of the angle of its section, or of each component of the Rodrigues
     /// vector, and of each row of the sections by which it strains.
-    pub(crate) fn project(
-        &self,
-        g: &mut Graph,
-        force: Vector3,
-    ) -> ([ExprId; 3], Vec<(usize, ExprId)>) {
+    pub(crate) fn project(&self, g: &mut Graph, force: Vector3) -> ([ExprId; 3], Vec<(usize, ExprId)>) {
         let (powers, along) = match &self.turned {
             Some(turned) => {
                 let force = self.section.axes.transpose().apply(g, force);
@@ -384,10 +362,6 @@ impl StationMotion {
             ..section.frame
         };
         let frame = frame.rotated(g, Some(own_axes.transpose()));
-        Self {
-            section: SectionMotion { frame, ..section },
-            reach,
-            velocity: rate,
-        }
+        Self { section: SectionMotion { frame, ..section }, reach, velocity: rate }
     }
 }

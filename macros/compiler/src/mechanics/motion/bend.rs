@@ -85,12 +85,7 @@ fn bend_slopes(g: &mut Graph, [turn, slope, bent]: [Vector3; 3]) -> Vec<(ExprId,
 }
 
 /// Power of moments on twist and curvatures per unit rate of each component of the turn and of the slope.
-pub(crate) fn bend_powers(
-    g: &mut Graph,
-    turn: Vector3,
-    slope: Vector3,
-    moment: Vector3,
-) -> [ExprId; 6] {
+pub(crate) fn bend_powers(g: &mut Graph, turn: Vector3, slope: Vector3, moment: Vector3) -> [ExprId; 6] {
     let zero = g.zero();
     if only_axis(g, turn).is_some() {
         let [x, y, z] = moment.0;

@@ -71,10 +71,7 @@ impl FrameMotion {
 
     /// The same frame with zero offset, as the start for the next body.
     pub(crate) fn departing(self, g: &mut Graph) -> Self {
-        Self {
-            offset: Vector3::zero(g),
-            ..self
-        }
+        Self { offset: Vector3::zero(g), ..self }
     }
 
     /// The frame with its origin moved by a body-fixed vector.
@@ -92,21 +89,13 @@ impl FrameMotion {
     /// The frame turned by a constant rotation.
     pub(crate) fn rotated(self, g: &mut Graph, rotation: Option<Matrix3>) -> Self {
         let orientation = self.orientation.then_fixed(g, rotation);
-        Self {
-            orientation,
-            axes_second_rate: self.second_rate.multiply(g, orientation.axes),
-            ..self
-        }
+        Self { orientation, axes_second_rate: self.second_rate.multiply(g, orientation.axes), ..self }
     }
 
     /// The frame after a translation by `direction` (in the axes of the motion) per unit of the coordinate:
     /// `a += W d q + 2 omega x d qdot + d qddot`.
     pub(crate) fn slid(self, g: &mut Graph, direction: Vector3, motion: CoordinateMotion) -> Self {
-        let CoordinateMotion {
-            position,
-            velocity,
-            acceleration,
-        } = motion;
+        let CoordinateMotion { position, velocity, acceleration } = motion;
         let travel = direction.scale(g, position);
         let turning = self.angular_velocity.cross(g, direction);
         let carried = turning.scale(g, position);
@@ -130,12 +119,7 @@ impl FrameMotion {
 
     /// The frame after a translation along `direction`, which turns with the frame, at the coordinate's rate:
     /// `v += d qdot`, `a += d qddot + omega x d qdot`.
-    pub(crate) fn glided(
-        self,
-        g: &mut Graph,
-        direction: Vector3,
-        motion: CoordinateMotion,
-    ) -> Self {
+    pub(crate) fn glided(self, g: &mut Graph, direction: Vector3, motion: CoordinateMotion) -> Self {
         let travel = direction.scale(g, motion.position);
         let speed = direction.scale(g, motion.velocity);
         let growth = direction.scale(g, motion.acceleration);
@@ -235,18 +219,8 @@ impl FrameMotion {
     pub(crate) fn along_own_axes(self, g: &mut Graph) -> Self {
         let to_own = self.orientation.axes.transpose();
         let mut turn = |vector: Vector3| to_own.apply(g, vector);
-        let [
-            velocity,
-            acceleration,
-            angular_velocity,
-            angular_acceleration,
-        ] = [
-            self.velocity,
-            self.acceleration,
-            self.angular_velocity,
-            self.angular_acceleration,
-        ]
-        .map(&mut turn);
+        let [velocity, acceleration, angular_velocity, angular_acceleration] =
+            [self.velocity, self.acceleration, self.angular_velocity, self.angular_acceleration].map(&mut turn);
         let second_rate = second_rate(g, angular_velocity, angular_acceleration);
         Self {
             orientation: Orientation::aligned(g),
@@ -265,8 +239,7 @@ impl FrameMotion {
     pub(crate) fn set_names(&self, g: &mut Graph, name: &str) {
         self.position.set_name(g, &format!("{name}_position"));
         self.velocity.set_name(g, &format!("{name}_velocity"));
-        self.acceleration
-            .set_name(g, &format!("{name}_acceleration"));
+        self.acceleration.set_name(g, &format!("{name}_acceleration"));
         for (column, axis) in ["x", "y", "z"].into_iter().enumerate() {
             self.orientation.axes.0[column].set_name(g, &format!("{name}_axis_{axis}"));
             self.axes_second_rate.0[column].set_name(g, &format!("{name}_axis_{axis}_second_rate"));

@@ -95,19 +95,12 @@ impl Kinematics {
             from_axes: ground.orientation.axes,
             from_origin: ground.position,
             steps: Vec::new(),
-            seat: Seat {
-                arm: ground.position,
-                offset: ground.position,
-            },
+            seat: Seat { arm: ground.position, offset: ground.position },
             to_parent: None,
             flexure: None,
         };
-        let nothing = BeamMotion {
-            sections: Vec::new(),
-            directions: Vec::new(),
-            offsets: Vec::new(),
-            stations: Vec::new(),
-        };
+        let nothing =
+            BeamMotion { sections: Vec::new(), directions: Vec::new(), offsets: Vec::new(), stations: Vec::new() };
         let mut this = Self {
             coordinates,
             ground,
@@ -128,8 +121,7 @@ impl Kinematics {
             };
             if let Some(id) = mechanism.beam(branch.body) {
                 let turns = &turns[id.index()];
-                this.beams[id.index()] =
-                    BeamMotion::new(g, mechanism, values, id, &motion.frame, turns);
+                this.beams[id.index()] = BeamMotion::new(g, mechanism, values, id, &motion.frame, turns);
             }
             this.bodies[branch.body.index()] = motion;
         }
@@ -142,21 +134,11 @@ impl Kinematics {
     }
 
     /// A place fixed in a frame.
-    pub(crate) fn place(
-        &self,
-        g: &mut Graph,
-        values: &Values,
-        frame: Frame,
-        placement: &Placement,
-    ) -> PointMotion {
+    pub(crate) fn place(&self, g: &mut Graph, values: &Values, frame: Frame, placement: &Placement) -> PointMotion {
         let frame = *self.frame(frame);
         let (offset, rotation) = values.placement(g, placement);
         let arm = frame.orientation.express(g, offset);
-        PointMotion {
-            arm,
-            position: frame.position.add(g, arm),
-            axes: frame.orientation.then_fixed(g, rotation).axes,
-        }
+        PointMotion { arm, position: frame.position.add(g, arm), axes: frame.orientation.then_fixed(g, rotation).axes }
     }
 
     /// Motion of a frame.
@@ -193,9 +175,7 @@ impl Kinematics {
         let (outboard_offset, outboard_rotation) = values.placement(g, outboard);
 
         let start = parent.departing(g);
-        let mut moving = start
-            .displaced(g, inboard_offset)
-            .rotated(g, inboard_rotation);
+        let mut moving = start.displaced(g, inboard_offset).rotated(g, inboard_rotation);
         let joint_frame = moving;
         let mut steps = Vec::new();
         let order: Vec<_> = match reversed {
@@ -219,13 +199,7 @@ impl Kinematics {
                 }
             };
             let point = moving.offset;
-            steps.push(StepAxis {
-                coordinate: step.coordinate,
-                turn,
-                slide,
-                own_axis: axis,
-                point,
-            });
+            steps.push(StepAxis { coordinate: step.coordinate, turn, slide, own_axis: axis, point });
             if let Some(slide) = slide {
                 moving = moving.slid(g, slide, motion);
             }
@@ -239,29 +213,22 @@ impl Kinematics {
         }
 
         let backwards = outboard_offset.neg(g);
-        let mut frame = moving
-            .rotated(g, outboard_rotation.map(Matrix3::transpose))
-            .displaced(g, backwards);
+        let mut frame = moving.rotated(g, outboard_rotation.map(Matrix3::transpose)).displaced(g, backwards);
         frame.position = parent.position.add(g, frame.offset);
         frame.set_names(g, name);
         for step in &mut steps {
             step.point = step.point.sub(g, frame.offset);
         }
         let (from_axes, from_origin) = match reversed {
-            false => (
-                joint_frame.orientation.axes,
-                joint_frame.offset.sub(g, frame.offset),
-            ),
-            true => (
-                frame.orientation.then_fixed(g, outboard_rotation).axes,
-                frame.orientation.express(g, outboard_offset),
-            ),
+            false => (joint_frame.orientation.axes, joint_frame.offset.sub(g, frame.offset)),
+            true => {
+                (frame.orientation.then_fixed(g, outboard_rotation).axes, frame.orientation.express(g, outboard_offset))
+            }
         };
         let to_parent = layout.own_axes.then_some(frame.orientation.axes);
         if gliding {
             for step in &mut steps {
-                step.own_axis = outboard_rotation
-                    .map_or(step.own_axis, |to_body| to_body.apply(g, step.own_axis));
+                step.own_axis = outboard_rotation.map_or(step.own_axis, |to_body| to_body.apply(g, step.own_axis));
             }
         } else {
             let axes = self.axes_in_body(g, values, joint, reversed, outboard_rotation);
@@ -286,10 +253,7 @@ impl Kinematics {
             from_axes,
             from_origin,
             steps,
-            seat: Seat {
-                arm: inboard_offset,
-                offset: joint_frame.offset,
-            },
+            seat: Seat { arm: inboard_offset, offset: joint_frame.offset },
             to_parent,
             flexure: None,
         }
@@ -318,10 +282,7 @@ impl Kinematics {
             from_axes: parent.orientation.axes,
             from_origin: back,
             steps: Vec::new(),
-            seat: Seat {
-                arm: zero,
-                offset: zero,
-            },
+            seat: Seat { arm: zero, offset: zero },
             to_parent,
             flexure: Some((beam, station)),
         }

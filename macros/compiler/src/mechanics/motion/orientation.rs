@@ -22,12 +22,7 @@ impl Orientation {
     }
 
     fn fixed(axes: Matrix3) -> Self {
-        Self {
-            base: axes,
-            turn: None,
-            before: None,
-            axes,
-        }
+        Self { base: axes, turn: None, before: None, axes }
     }
 
     /// This rotation followed by a constant one.
@@ -39,13 +34,7 @@ impl Orientation {
     }
 
     /// This rotation followed by one by `angle` about the body's own unit vector `axis`.
-    pub(crate) fn then_turned(
-        self,
-        g: &mut Graph,
-        axis: Vector3,
-        angle: ExprId,
-        name: &str,
-    ) -> Self {
+    pub(crate) fn then_turned(self, g: &mut Graph, axis: Vector3, angle: ExprId, name: &str) -> Self {
         let (base, before) = match self.turn {
             Some((same, before)) if same == axis => {
                 taken(|| "orientation: angles about one axis added".into());
@@ -56,11 +45,7 @@ impl Orientation {
         if g.is(angle, 0.0) {
             return self;
         }
-        let turned = Self {
-            base,
-            before,
-            ..self
-        };
+        let turned = Self { base, before, ..self };
         turned.turned_on(g, axis, angle, name)
     }
 
@@ -82,11 +67,7 @@ impl Orientation {
         }
         let rotation = Matrix3::rotation(g, axis, total);
         let axes = self.base.multiply(g, rotation);
-        Self {
-            turn: Some((axis, total)),
-            axes,
-            ..self
-        }
+        Self { turn: Some((axis, total)), axes, ..self }
     }
 
     /// A body-fixed vector in the axes of the motion. Along the axis of a pure turn this does not need the angle.

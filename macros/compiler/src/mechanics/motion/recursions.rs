@@ -31,15 +31,7 @@ pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprI
         .collect();
     let layout = Layout::common(context.mechanism.bodies.len());
     let still = Vector3::zero(g);
-    Kinematics::new(
-        g,
-        context.mechanism,
-        context.topology,
-        context.values,
-        (motions, turns),
-        &layout,
-        still,
-    )
+    Kinematics::new(g, context.mechanism, context.topology, context.values, (motions, turns), &layout, still)
 }
 
 /// Motion of every body in the form needed for inertia and weight: in the layout of runs, with the ground accelerated
@@ -76,15 +68,7 @@ pub(crate) fn for_inertia(
         false => Vector3::zero(g),
     };
     let layout = &context.runs.layout;
-    Kinematics::new(
-        g,
-        context.mechanism,
-        context.topology,
-        context.values,
-        (motions, turns),
-        layout,
-        ground,
-    )
+    Kinematics::new(g, context.mechanism, context.topology, context.values, (motions, turns), layout, ground)
 }
 
 /// The motion of all coordinates by coordinate id; `free` gives the motion of the free ones.
@@ -95,11 +79,7 @@ fn motions(
     free: impl Fn(usize) -> CoordinateMotion,
 ) -> Vec<CoordinateMotion> {
     let zero = g.zero();
-    let still = CoordinateMotion {
-        position: zero,
-        velocity: zero,
-        acceleration: zero,
-    };
+    let still = CoordinateMotion { position: zero, velocity: zero, acceleration: zero };
     let mut coordinates = vec![still; context.mechanism.coordinates.len()];
     for (k, id) in context.topology.free.iter().enumerate() {
         coordinates[id.index()] = free(k);
@@ -109,11 +89,7 @@ fn motions(
         if let Motion::Driven(speed) = &coordinate.motion {
             let velocity = context.values.scalar(g, speed);
             g.set_name(velocity, || format!("speed_{}", coordinate.name));
-            coordinates[id.index()] = CoordinateMotion {
-                position: running[k],
-                velocity,
-                acceleration: zero,
-            };
+            coordinates[id.index()] = CoordinateMotion { position: running[k], velocity, acceleration: zero };
         }
     }
     for (id, shaken) in &context.excited.shaken {

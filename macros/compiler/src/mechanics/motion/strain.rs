@@ -4,9 +4,7 @@
 //! stretch `e`, so that shear leaves the length of the beam as it is. Stretch and shear are coordinates, or shear follows
 //! statically from the change of the bending moments, `g2 = -(EI3 kappa3)' / kGA2`, `g3 = (EI2 kappa2)' / kGA3`.
 
-use crate::algebra::{
-    Direction, ExprId, Graph, SymbolId, Unary, Vector3, derivatives_along, gradient,
-};
+use crate::algebra::{Direction, ExprId, Graph, SymbolId, Unary, Vector3, derivatives_along, gradient};
 use crate::base::ids::BeamId;
 use crate::mechanics::setup::{Context, OfBeam};
 
@@ -27,12 +25,7 @@ impl Heading {
     /// A vector that only turns.
     pub(super) fn fixed(g: &mut Graph, value: Vector3) -> Self {
         let zero = Vector3::zero(g);
-        Self {
-            value,
-            rate: zero,
-            second: zero,
-            slopes: Vec::new(),
-        }
+        Self { value, rate: zero, second: zero, slopes: Vec::new() }
     }
 }
 
@@ -40,9 +33,7 @@ impl Heading {
 pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool) -> Vec<Heading> {
     let sections = context.sections;
     let rows = sections.of(id);
-    let turns = sections
-        .by_themselves(g, id)
-        .map(|of_beam| of_beam.position);
+    let turns = sections.by_themselves(g, id).map(|of_beam| of_beam.position);
     let strains = strains(g, context, id, &turns);
     let one = g.constant(1.0);
     let zero = Vector3::zero(g);
@@ -56,10 +47,7 @@ pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool
         let section = &context.mechanism.beams[id.index()].sections[k].2;
         let value = curved(g, context.values, section).apply(g, tangent);
         let section_rows = rows.of_section(k);
-        let ids: Vec<SymbolId> = section_rows
-            .iter()
-            .map(|&row| sections.position.ids[row])
-            .collect();
+        let ids: Vec<SymbolId> = section_rows.iter().map(|&row| sections.position.ids[row]).collect();
         let by_component = value.0.map(|component| gradient(g, component, &ids));
         let slopes = section_rows.iter().enumerate().map(|(i, &row)| {
             let slope = Vector3([0, 1, 2].map(|c| by_component[c][i]));
@@ -68,26 +56,15 @@ pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool
         let slopes = slopes.filter(|(_, slope)| !slope.is_zero(g)).collect();
         let (mut rate, mut second) = (zero, zero);
         if moves {
-            let speeds = section_rows
-                .iter()
-                .map(|&row| (sections.position.ids[row], sections.velocity.values[row]));
-            let growths = section_rows.iter().map(|&row| {
-                (
-                    sections.velocity.ids[row],
-                    sections.acceleration.values[row],
-                )
-            });
+            let speeds = section_rows.iter().map(|&row| (sections.position.ids[row], sections.velocity.values[row]));
+            let growths =
+                section_rows.iter().map(|&row| (sections.velocity.ids[row], sections.acceleration.values[row]));
             let along = Direction::new("_rate", speeds.clone().collect());
             rate = vector(&derivatives_along(g, &value.0, &along));
             let along = Direction::new("_rate", speeds.chain(growths).collect());
             second = vector(&derivatives_along(g, &rate.0, &along));
         }
-        headings.push(Heading {
-            value,
-            rate,
-            second,
-            slopes,
-        });
+        headings.push(Heading { value, rate, second, slopes });
     }
     headings
 }
@@ -102,11 +79,7 @@ pub(crate) fn headings_in_unknowns(g: &mut Graph, context: &Context, id: BeamId)
             value: written(heading.value),
             rate: written(heading.rate),
             second: written(heading.second),
-            slopes: heading
-                .slopes
-                .iter()
-                .map(|(row, slope)| (*row, written(*slope)))
-                .collect(),
+            slopes: heading.slopes.iter().map(|(row, slope)| (*row, written(*slope))).collect(),
         })
         .collect()
 }
@@ -116,12 +89,7 @@ fn vector(components: &[ExprId]) -> Vector3 {
 }
 
 /// Stretch, and shear along the second and the third axis, at the sections of a beam that turns like `turns`.
-pub(crate) fn strains(
-    g: &mut Graph,
-    context: &Context,
-    id: BeamId,
-    turns: &OfBeam<ExprId>,
-) -> Vec<[ExprId; 3]> {
+pub(crate) fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>) -> Vec<[ExprId; 3]> {
     let beam = &context.mechanism.beams[id.index()];
     if !beam.static_shear {
         return turns.strains.clone();
@@ -132,10 +100,7 @@ pub(crate) fn strains(
         .sections
         .iter()
         .map(|(_, _, section)| {
-            let [_, about_y, about_z] = section
-                .stiffness
-                .each_ref()
-                .map(|stiffness| values.scalar(g, stiffness));
+            let [_, about_y, about_z] = section.stiffness.each_ref().map(|stiffness| values.scalar(g, stiffness));
             let twist = values.scalar(g, &section.twist);
             turned(g, [about_y, about_z], twist)
         })
@@ -146,8 +111,7 @@ pub(crate) fn strains(
     (0..beam.sections.len())
         .map(|k| {
             let section = &beam.sections[k].2;
-            let [rotation, slope, curl] =
-                [&turns.rotations, &turns.slopes, &turns.curls].map(|list| Vector3(list[k]));
+            let [rotation, slope, curl] = [&turns.rotations, &turns.slopes, &turns.curls].map(|list| Vector3(list[k]));
             let bent = bend(g, rotation, slope);
             let change = bend_change(g, rotation, slope, curl);
             let mut grown = |component: usize| {
@@ -155,10 +119,7 @@ pub(crate) fn strains(
                 if all.clone().all(|x| x == stiffness[k][component]) {
                     return g.zero();
                 }
-                let terms: Vec<ExprId> = all
-                    .zip(&slopes[k])
-                    .map(|(x, share)| g.scale(*share, x))
-                    .collect();
+                let terms: Vec<ExprId> = all.zip(&slopes[k]).map(|(x, share)| g.scale(*share, x)).collect();
                 g.sum(terms)
             };
             let growth = [0, 1, 2].map(&mut grown);
@@ -171,10 +132,8 @@ pub(crate) fn strains(
             let (moments, growing) = (times(g, stiffness[k], change), times(g, growth, bent));
             let about_y = g.add(moments[0], growing[0]);
             let about_z = g.add(moments[1], growing[1]);
-            let [_, shear_y, shear_z] = section
-                .against_strain
-                .each_ref()
-                .map(|against_strain| values.scalar(g, against_strain));
+            let [_, shear_y, shear_z] =
+                section.against_strain.each_ref().map(|against_strain| values.scalar(g, against_strain));
             let one = g.constant(1.0);
             let mut compliance = |stiffness: ExprId| {
                 let of_length = g.mul(stiffness, square);

@@ -47,10 +47,7 @@ impl Tree {
     /// The last common ancestor of two frames.
     pub(crate) fn common_ancestor(&self, a: Frame, b: Frame) -> Frame {
         let path = self.path(a);
-        self.path(b)
-            .into_iter()
-            .find(|frame| path.contains(frame))
-            .unwrap_or(Frame::Ground)
+        self.path(b).into_iter().find(|frame| path.contains(frame)).unwrap_or(Frame::Ground)
     }
 
     /// Velocity of a point of `frame`, given by its position, and angular velocity of `frame`, relative to an ancestor

@@ -26,11 +26,7 @@ pub(super) struct Turned {
 }
 
 impl Turned {
-    pub(super) fn new(
-        g: &mut Graph,
-        (turn, factor, rotation): (Vector3, ExprId, Matrix3),
-        original: Vector3,
-    ) -> Self {
+    pub(super) fn new(g: &mut Graph, (turn, factor, rotation): (Vector3, ExprId, Matrix3), original: Vector3) -> Self {
         let half_factor = g.scale(0.5, factor);
         let half = turn.scale(g, half_factor);
         let denominator = denominator(g, turn);
@@ -57,15 +53,7 @@ impl Turned {
             let all = by_turn.chain(original.0.into_iter().zip(rotation.0));
             g.set_slopes(value, all.map(|(by, slope)| (by, slope.0[c])).collect());
         }
-        Self {
-            turn,
-            factor,
-            half,
-            in_section: original,
-            vector,
-            slopes,
-            rotation,
-        }
+        Self { turn, factor, half, in_section: original, vector, slopes, rotation }
     }
 
     /// The rate of the vector while the turn changes at a rate.

@@ -6,10 +6,7 @@ use crate::model::mechanism::Section;
 
 /// The rotation of the axis of the beam from the root to a section: about one direction across the beam.
 pub(crate) fn curved(g: &mut Graph, values: &Values, section: &Section) -> Matrix3 {
-    let [about_y, about_z] = section
-        .prebend
-        .each_ref()
-        .map(|prebend| values.scalar(g, prebend));
+    let [about_y, about_z] = section.prebend.each_ref().map(|prebend| values.scalar(g, prebend));
     let [_, across, up] = Matrix3::identity(g).0;
     match [about_y, about_z].map(|angle| g.is(angle, 0.0)) {
         [_, true] => Matrix3::rotation(g, across, about_y),
@@ -43,11 +40,7 @@ fn about_both(g: &mut Graph, y: ExprId, z: ExprId) -> Matrix3 {
     let both = g.add(bb, dd);
     let [less_both, less_b, less_d] = [both, bb, dd].map(|x| g.sub(one, x));
     let [minus_cb, minus_cd] = [cb, cd].map(|x| g.neg(x));
-    Matrix3([
-        Vector3([less_both, cd, minus_cb]),
-        Vector3([minus_cd, less_d, bd]),
-        Vector3([cb, bd, less_b]),
-    ])
+    Matrix3([Vector3([less_both, cd, minus_cb]), Vector3([minus_cd, less_d, bd]), Vector3([cb, bd, less_b])])
 }
 
 /// `1 - u/a(1) (1 - u/a(2) (1 - ..))`.
@@ -71,10 +64,7 @@ pub(crate) fn unbent(g: &mut Graph, values: &Values, section: &Section) -> Matri
 
 /// From the axis to the centre of mass of a section, along the axes of the root.
 pub(crate) fn offset(g: &mut Graph, values: &Values, section: &Section) -> Vector3 {
-    let [y, z] = section
-        .center
-        .each_ref()
-        .map(|center| values.scalar(g, center));
+    let [y, z] = section.center.each_ref().map(|center| values.scalar(g, center));
     let vector = Vector3([g.zero(), y, z]);
     unbent(g, values, section).apply(g, vector)
 }

@@ -11,23 +11,14 @@ pub(crate) struct Wrench {
 
 impl Wrench {
     pub(crate) fn zero(g: &mut Graph) -> Self {
-        Self {
-            force: Vector3::zero(g),
-            moment: Vector3::zero(g),
-        }
+        Self { force: Vector3::zero(g), moment: Vector3::zero(g) }
     }
 
     pub(crate) fn add(self, g: &mut Graph, other: Self) -> Self {
-        Self {
-            force: self.force.add(g, other.force),
-            moment: self.moment.add(g, other.moment),
-        }
+        Self { force: self.force.add(g, other.force), moment: self.moment.add(g, other.moment) }
     }
 
     pub(crate) fn neg(self, g: &mut Graph) -> Self {
-        Self {
-            force: self.force.neg(g),
-            moment: self.moment.neg(g),
-        }
+        Self { force: self.force.neg(g), moment: self.moment.neg(g) }
     }
 }

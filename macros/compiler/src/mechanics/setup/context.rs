@@ -61,11 +61,7 @@ impl Context<'_> {
     pub(crate) fn outward_order(&self) -> Vec<usize> {
         let branch_index = |id: &CoordinateId| {
             let joint = self.mechanism.coordinates[id.index()].joint;
-            self.topology
-                .branches
-                .iter()
-                .position(|branch| branch.joint == joint)
-                .unwrap_or(0)
+            self.topology.branches.iter().position(|branch| branch.joint == joint).unwrap_or(0)
         };
         let reactions = self.rows.iter().map(|_| usize::MAX);
         let moving = self.topology.free.iter().chain(&self.topology.coasting);

@@ -12,28 +12,17 @@ pub(crate) fn by_symbol(g: &mut Graph, roots: &[ExprId], symbol: SymbolId) -> Ve
 
 /// Derivatives of `roots` by each symbol of a list: `columns[j][i]`.
 pub(crate) fn columns(g: &mut Graph, roots: &[ExprId], by: &SymbolList) -> Vec<Vec<ExprId>> {
-    by.ids
-        .iter()
-        .map(|&symbol| by_symbol(g, roots, symbol))
-        .collect()
+    by.ids.iter().map(|&symbol| by_symbol(g, roots, symbol)).collect()
 }
 
 /// `roots` with velocities and accelerations set to zero.
 pub(crate) fn at_rest(g: &mut Graph, s: &Symbols, roots: &[ExprId]) -> Vec<ExprId> {
     let zeros = vec![g.zero(); s.q.ids.len()];
-    let still: Vec<_> = s
-        .velocity
-        .with(&zeros)
-        .chain(s.acceleration.with(&zeros))
-        .collect();
+    let still: Vec<_> = s.velocity.with(&zeros).chain(s.acceleration.with(&zeros)).collect();
     substitute(g, roots, &still)
 }
 
 pub(crate) fn weighted_sum(g: &mut Graph, weights: &[ExprId], values: &[ExprId]) -> ExprId {
-    let terms: Vec<ExprId> = weights
-        .iter()
-        .zip(values)
-        .map(|(&weight, &value)| g.mul(weight, value))
-        .collect();
+    let terms: Vec<ExprId> = weights.iter().zip(values).map(|(&weight, &value)| g.mul(weight, value)).collect();
     g.sum(terms)
 }

@@ -31,24 +31,12 @@ impl<Id: PartialEq> Selection<Id> {
 
 impl ForceSelection {
     /// All causes.
-    pub(crate) const ALL: Self = Self {
-        inertia: Selection::All,
-        forces: Selection::All,
-        gravity: true,
-        constraints: true,
-    };
+    pub(crate) const ALL: Self =
+        Self { inertia: Selection::All, forces: Selection::All, gravity: true, constraints: true };
     /// Inertia alone.
-    pub(crate) const INERTIA: Self = Self {
-        inertia: Selection::All,
-        forces: Selection::None,
-        gravity: false,
-        constraints: false,
-    };
+    pub(crate) const INERTIA: Self =
+        Self { inertia: Selection::All, forces: Selection::None, gravity: false, constraints: false };
     /// Everything except inertia.
-    pub(crate) const APPLIED: Self = Self {
-        inertia: Selection::None,
-        forces: Selection::All,
-        gravity: true,
-        constraints: true,
-    };
+    pub(crate) const APPLIED: Self =
+        Self { inertia: Selection::None, forces: Selection::All, gravity: true, constraints: true };
 }

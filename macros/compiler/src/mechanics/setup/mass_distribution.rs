@@ -26,13 +26,7 @@ pub(crate) struct Arm {
 
 impl MassDistribution {
     /// Adds an arm with its weight in the first moment, and in the second with itself.
-    pub(crate) fn add_arm(
-        &mut self,
-        g: &mut Graph,
-        direction: Vector3,
-        first: ExprId,
-        second: ExprId,
-    ) {
+    pub(crate) fn add_arm(&mut self, g: &mut Graph, direction: Vector3, first: ExprId, second: ExprId) {
         if direction.is_zero(g) {
             return;
         }
@@ -42,10 +36,6 @@ impl MassDistribution {
         }
         let mut row = vec![zero; self.arms.len()];
         row.push(second);
-        self.arms.push(Arm {
-            direction,
-            first,
-            second: row,
-        });
+        self.arms.push(Arm { direction, first, second: row });
     }
 }

@@ -12,10 +12,7 @@ const ATTEMPTS: u64 = 16;
 
 /// Values of `roots` at random states, one state after the other: fewer than [`STATES`] only if the equations are rarely
 /// finite.
-pub(crate) fn probe<'a>(
-    evaluator: &'a Evaluator,
-    context: &'a Context,
-) -> impl Iterator<Item = Vec<Disturbed>> + 'a {
+pub(crate) fn probe<'a>(evaluator: &'a Evaluator, context: &'a Context) -> impl Iterator<Item = Vec<Disturbed>> + 'a {
     (1..=ATTEMPTS)
         .map(|seed| evaluator.at(seed, |symbol| exact(context, seed, symbol)))
         .filter(|values| values.iter().all(Disturbed::is_finite))
@@ -37,11 +34,7 @@ pub(crate) fn vanish(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<bool
             }
             states += 1;
             let mut values = values.iter();
-            open.retain(|_| {
-                values
-                    .next()
-                    .is_some_and(|v| v.is_rounding(evaluator.operations()))
-            });
+            open.retain(|_| values.next().is_some_and(|v| v.is_rounding(evaluator.operations())));
             if states == STATES || open.len() < rest.len() {
                 break;
             }
@@ -54,10 +47,7 @@ pub(crate) fn vanish(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<bool
 }
 
 fn exact(context: &Context, seed: u64, symbol: SymbolId) -> Disturbed {
-    let state = RandomState {
-        design: seed,
-        motion: seed,
-    };
+    let state = RandomState { design: seed, motion: seed };
     Disturbed::exact(state.value(context, symbol))
 }
 
@@ -101,9 +91,8 @@ impl RandomState {
 
 /// A number in [0, 1) that depends only on its arguments (SplitMix64).
 fn random(seed: u64, symbol: SymbolId) -> f64 {
-    let mut x = seed
-        .wrapping_mul(0x9e37_79b9_7f4a_7c15)
-        .wrapping_add(u64::from(symbol.0).wrapping_mul(0xd1b5_4a32_d192_ed03));
+    let mut x =
+        seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(u64::from(symbol.0).wrapping_mul(0xd1b5_4a32_d192_ed03));
     for shift in [30, 27] {
         x = (x ^ (x >> shift)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     }

@@ -127,15 +127,10 @@ impl Runs {
         };
         for k in 0..this.before.len() {
             if this.before[k].is_some() {
-                let lists = [
-                    &mut this.position,
-                    &mut this.velocity,
-                    &mut this.acceleration,
-                ];
+                let lists = [&mut this.position, &mut this.velocity, &mut this.acceleration];
                 for list in lists {
                     let symbol = g.symbol_info(list.ids[k]).clone();
-                    (list.ids[k], list.values[k]) =
-                        g.symbol(format!("{}_in_all", symbol.name), symbol.stage);
+                    (list.ids[k], list.values[k]) = g.symbol(format!("{}_in_all", symbol.name), symbol.stage);
                 }
             }
         }
@@ -187,10 +182,7 @@ impl Runs {
 
     /// No runs: every body in its own axes, and the unknowns themselves.
     pub(crate) fn apart(&self, symbols: &Symbols) -> Self {
-        let own_axes = BodyLayout {
-            continues_run: false,
-            own_axes: true,
-        };
+        let own_axes = BodyLayout { continues_run: false, own_axes: true };
         Self {
             layout: Layout(vec![own_axes; self.layout.0.len()]),
             before: vec![None; self.before.len()],
@@ -239,18 +231,10 @@ impl Runs {
     /// it.
     pub(crate) fn forces(&self, g: &mut Graph, along: &[ExprId]) -> Vec<ExprId> {
         let mut summed = vec![None; along.len()];
-        (0..along.len())
-            .map(|k| self.summed(g, &mut summed, &|k| along[k], k))
-            .collect()
+        (0..along.len()).map(|k| self.summed(g, &mut summed, &|k| along[k], k)).collect()
     }
 
-    fn summed(
-        &self,
-        g: &mut Graph,
-        summed: &mut [Option<ExprId>],
-        of: &impl Fn(usize) -> ExprId,
-        k: usize,
-    ) -> ExprId {
+    fn summed(&self, g: &mut Graph, summed: &mut [Option<ExprId>], of: &impl Fn(usize) -> ExprId, k: usize) -> ExprId {
         if let Some(sum) = summed[k] {
             return sum;
         }
@@ -286,20 +270,10 @@ impl Runs {
         let mut rows: Vec<Vec<ExprId>> = Vec::with_capacity(n);
         for i in 0..n {
             let mut summed = vec![None; n];
-            rows.push(
-                (0..n)
-                    .map(|j| self.summed(g, &mut summed, &|j| entry(i, j), j))
-                    .collect(),
-            );
+            rows.push((0..n).map(|j| self.summed(g, &mut summed, &|j| entry(i, j), j)).collect());
         }
         let mut known = vec![vec![None; n]; n];
-        (0..n)
-            .map(|j| {
-                (0..n)
-                    .map(|i| self.entry(g, &mut known, &rows, &ordered, (i, j)))
-                    .collect()
-            })
-            .collect()
+        (0..n).map(|j| (0..n).map(|i| self.entry(g, &mut known, &rows, &ordered, (i, j))).collect()).collect()
     }
 
     /// Sums an entry over the rows that follow as well.
@@ -336,12 +310,7 @@ struct Turn<'a> {
 }
 
 impl<'a> Turn<'a> {
-    fn of(
-        g: &mut Graph,
-        mechanism: &'a Mechanism,
-        values: &Values,
-        branch: &Branch,
-    ) -> Option<Self> {
+    fn of(g: &mut Graph, mechanism: &'a Mechanism, values: &Values, branch: &Branch) -> Option<Self> {
         let joint = &mechanism.joints[branch.joint.index()];
         let [step] = &joint.steps[..] else {
             return None;

@@ -57,9 +57,8 @@ impl<T: Copy> OfBeam<T> {
     }
 
     pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> OfBeam<U> {
-        let mut all = |list: &[Components<T>]| -> Vec<Components<U>> {
-            list.iter().map(|x| x.map(&mut change)).collect()
-        };
+        let mut all =
+            |list: &[Components<T>]| -> Vec<Components<U>> { list.iter().map(|x| x.map(&mut change)).collect() };
         OfBeam {
             rotations: all(&self.rotations),
             slopes: all(&self.slopes),
@@ -142,17 +141,10 @@ impl Sections {
         }
         let stations = beam.stations.iter().enumerate();
         let stations = stations.map(|(k, station)| {
-            [0, 1, 2]
-                .map(|component| row(format!("station_{k}"), component, integrals, station.place))
+            [0, 1, 2].map(|component| row(format!("station_{k}"), component, integrals, station.place))
         });
         let stations = stations.collect();
-        OfBeam {
-            rotations,
-            slopes,
-            curls,
-            strains,
-            stations,
-        }
+        OfBeam { rotations, slopes, curls, strains, stations }
     }
 
     fn push(&mut self, g: &mut Graph, label: &str, weights: Vec<(usize, f64)>) -> Option<usize> {
@@ -169,10 +161,7 @@ impl Sections {
             list.ids.push(id);
             list.values.push(value);
         }
-        self.rows.push(SectionRow {
-            weights,
-            mirrored: None,
-        });
+        self.rows.push(SectionRow { weights, mirrored: None });
         Some(self.rows.len() - 1)
     }
 
@@ -192,12 +181,7 @@ impl Sections {
     }
 
     /// The motion of a beam's sections by the unknowns.
-    pub(crate) fn by_unknowns(
-        &self,
-        g: &mut Graph,
-        symbols: &Symbols,
-        beam: BeamId,
-    ) -> OfBeam<CoordinateMotion> {
+    pub(crate) fn by_unknowns(&self, g: &mut Graph, symbols: &Symbols, beam: BeamId) -> OfBeam<CoordinateMotion> {
         let zero = g.zero();
         self.of(beam).map(|row| {
             let mut sum = |list: &SymbolList| match row {
@@ -268,22 +252,13 @@ impl Sections {
     fn parts(&self, row: usize) -> Vec<(usize, f64, f64)> {
         let weights = &self.rows[row].weights;
         let Some(mirrored) = self.mirrored(row) else {
-            return weights
-                .iter()
-                .map(|(unknown, factor)| (*unknown, *factor, 0.0))
-                .collect();
+            return weights.iter().map(|(unknown, factor)| (*unknown, *factor, 0.0)).collect();
         };
         let there = &self.rows[mirrored].weights;
         let both = weights.iter().zip(there);
         let clean = |factor: f64| if factor.abs() > 1e-15 { factor } else { 0.0 };
-        both.map(|((unknown, here), (_, there))| {
-            (
-                *unknown,
-                clean(0.5 * (here + there)),
-                clean(0.5 * (here - there)),
-            )
-        })
-        .collect()
+        both.map(|((unknown, here), (_, there))| (*unknown, clean(0.5 * (here + there)), clean(0.5 * (here - there))))
+            .collect()
     }
 
     /// The value of a row.
@@ -309,10 +284,7 @@ impl Sections {
             let force = sections[row];
             let (sum, difference) = match self.mirrored(row) {
                 Some(mirrored) if mirrored < row => continue,
-                Some(mirrored) => (
-                    g.add(force, sections[mirrored]),
-                    g.sub(force, sections[mirrored]),
-                ),
+                Some(mirrored) => (g.add(force, sections[mirrored]), g.sub(force, sections[mirrored])),
                 None => (force, force),
             };
             for (unknown, even, odd) in self.parts(row) {
@@ -325,12 +297,7 @@ impl Sections {
     }
 
     /// Transforms a matrix by columns from the unknowns and the sections to the unknowns.
-    pub(crate) fn matrix(
-        &self,
-        g: &mut Graph,
-        columns: &[Vec<ExprId>],
-        mirrored: Mirrored,
-    ) -> Vec<Vec<ExprId>> {
+    pub(crate) fn matrix(&self, g: &mut Graph, columns: &[Vec<ExprId>], mirrored: Mirrored) -> Vec<Vec<ExprId>> {
         if self.rows.is_empty() {
             return columns.to_vec();
         }

@@ -21,10 +21,7 @@ impl SymbolList {
     }
 
     /// Pairs each symbol with a value: a direction or a replacement.
-    pub(crate) fn with<'a>(
-        &'a self,
-        values: &'a [ExprId],
-    ) -> impl Iterator<Item = (SymbolId, ExprId)> + 'a {
+    pub(crate) fn with<'a>(&'a self, values: &'a [ExprId]) -> impl Iterator<Item = (SymbolId, ExprId)> + 'a {
         self.ids.iter().copied().zip(values.iter().copied())
     }
 }
@@ -90,24 +87,11 @@ impl Symbols {
             .iter()
             .copied()
             .map(coordinate)
-            .chain(
-                topology
-                    .coasting
-                    .iter()
-                    .map(|&id| format!("speed_{}", coordinate(id))),
-            )
+            .chain(topology.coasting.iter().map(|&id| format!("speed_{}", coordinate(id))))
             .collect();
         let running: Vec<String> = topology.running().map(coordinate).collect();
-        let inputs: Vec<String> = mechanism
-            .inputs
-            .iter()
-            .map(|x| x.name.to_string())
-            .collect();
-        let design: Vec<String> = mechanism
-            .design
-            .iter()
-            .map(|x| x.name.to_string())
-            .collect();
+        let inputs: Vec<String> = mechanism.inputs.iter().map(|x| x.name.to_string()).collect();
+        let design: Vec<String> = mechanism.design.iter().map(|x| x.name.to_string()).collect();
         let one = |name: &str| vec![name.to_owned()];
         let named = |prefix: &str, names: &[String]| -> Vec<String> {
             names.iter().map(|name| format!("{prefix}{name}")).collect()

@@ -32,10 +32,7 @@ impl State for Stateless {}
 impl<'a> Values<'a> {
     /// Translates the named constants once; each uses only earlier ones.
     pub(crate) fn new(g: &mut Graph, mechanism: &Mechanism, symbols: &'a Symbols) -> Self {
-        let mut values = Self {
-            symbols,
-            constants: Vec::new(),
-        };
+        let mut values = Self { symbols, constants: Vec::new() };
         for constant in &mechanism.constants {
             let value = values.scalar(g, &constant.value);
             g.set_name(value, || constant.name.to_string());
@@ -60,11 +57,7 @@ impl<'a> Values<'a> {
     }
 
     /// A placement as offset and rotation; `None` if there is no rotation.
-    pub(crate) fn placement(
-        &self,
-        g: &mut Graph,
-        placement: &Placement,
-    ) -> (Vector3, Option<Matrix3>) {
+    pub(crate) fn placement(&self, g: &mut Graph, placement: &Placement) -> (Vector3, Option<Matrix3>) {
         let offset = self.vector(g, &placement.offset);
         let mut rotation: Option<Matrix3> = None;
         for (axis, angle) in &placement.rotations {

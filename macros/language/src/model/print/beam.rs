@@ -26,22 +26,9 @@ impl Names<'_> {
             self.scalar(&beam.lag)
         )?;
         for (fraction, weight, section) in &beam.sections {
-            let Section {
-                mass,
-                inertia,
-                center,
-                stiffness,
-                against_strain,
-                coupling,
-                twist,
-                prebend,
-                size,
-            } = section;
-            let [twisting, about_y, about_z] =
-                stiffness.each_ref().map(|stiffness| self.scalar(stiffness));
-            let [axial, shear_y, shear_z] = against_strain
-                .each_ref()
-                .map(|against_strain| self.scalar(against_strain));
+            let Section { mass, inertia, center, stiffness, against_strain, coupling, twist, prebend, size } = section;
+            let [twisting, about_y, about_z] = stiffness.each_ref().map(|stiffness| self.scalar(stiffness));
+            let [axial, shear_y, shear_z] = against_strain.each_ref().map(|against_strain| self.scalar(against_strain));
             let [width, height] = size.each_ref().map(|size| self.scalar(size));
             let [inertia_y, inertia_z] = inertia.each_ref().map(|inertia| self.scalar(inertia));
             write!(

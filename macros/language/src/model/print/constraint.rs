@@ -21,22 +21,12 @@ impl Names<'_> {
             }
             ConstraintLaw::Distance { from, to, length } => {
                 let length = self.scalar(length);
-                format!(
-                    "distance from {} to {} length {length}",
-                    point(from),
-                    point(to)
-                )
+                format!("distance from {} to {} length {length}", point(from), point(to))
             }
             ConstraintLaw::Equation { zero, unit } => {
                 format!("equation zero {}{}", self.scalar(zero), super::unit(unit))
             }
-            ConstraintLaw::Rolling {
-                wheel,
-                axis,
-                radius,
-                on,
-                normal,
-            } => {
+            ConstraintLaw::Rolling { wheel, axis, radius, on, normal } => {
                 let axis = axis.as_ref().map(|axis| self.vector(axis));
                 format!(
                     "rolling wheel {} axis {} radius {} on {} normal {}",

@@ -28,8 +28,7 @@ impl Mechanism {
         let forces = self.forces.iter();
         let forces = forces.map(|force| element(&force.name, &names.law(&force.law)));
         let constraints = self.constraints.iter();
-        let constraints = constraints
-            .map(|constraint| element(&constraint.name, &names.constraint(&constraint.law)));
+        let constraints = constraints.map(|constraint| element(&constraint.name, &names.constraint(&constraint.law)));
         let curves = self.curves.iter().map(|curve| {
             let [first, last] = curve.range();
             let first = curve.in_unit(first);
@@ -37,10 +36,7 @@ impl Mechanism {
             Element {
                 name: curve.spline.name().to_string(),
                 kind: "curve".to_owned(),
-                law: format!(
-                    "through {points} points from {first} to {}",
-                    curve.with_unit(last)
-                ),
+                law: format!("through {points} points from {first} to {}", curve.with_unit(last)),
             }
         });
         let all = gravity.into_iter().chain(drives).chain(forces);
@@ -49,15 +45,7 @@ impl Mechanism {
 }
 
 /// Arguments that are zero if not declared.
-const OPTIONAL: [&str; 7] = [
-    "stiffness",
-    "damping",
-    "turning_stiffness",
-    "turning_damping",
-    "rest",
-    "force",
-    "moment",
-];
+const OPTIONAL: [&str; 7] = ["stiffness", "damping", "turning_stiffness", "turning_damping", "rest", "force", "moment"];
 
 /// A law without its zero arguments.
 fn quiet(law: &str) -> String {
@@ -73,9 +61,5 @@ fn quiet(law: &str) -> String {
 /// An element from the text of its law, which begins with the keyword.
 fn element(name: &impl ToString, text: &str) -> Element {
     let (kind, law) = text.split_once(' ').unwrap_or((text, ""));
-    Element {
-        name: name.to_string(),
-        kind: kind.to_owned(),
-        law: quiet(law),
-    }
+    Element { name: name.to_string(), kind: kind.to_owned(), law: quiet(law) }
 }

@@ -9,11 +9,7 @@ impl Names<'_> {
         let (s, v) = (|value| self.scalar(value), |vector| self.vector(vector));
         let coordinate = |id: &CoordinateId| &self.0.coordinates[id.index()].name;
         let law = match &excitation.law {
-            ExcitationLaw::Unbalance {
-                body,
-                at,
-                deviation,
-            } => {
+            ExcitationLaw::Unbalance { body, at, deviation } => {
                 let (word, value) = match deviation {
                     Deviation::Amount(value) => ("amount", value),
                     Deviation::Eccentricity(value) => ("eccentricity", value),
@@ -22,25 +18,13 @@ impl Names<'_> {
                 let body = &self.0.bodies[body.index()].name;
                 format!("unbalance on {body} at {} {word} {}", v(at), s(value))
             }
-            ExcitationLaw::Load {
-                point,
-                force,
-                moment,
-            } => format!(
-                "harmonic at {} force {} moment {}",
-                self.0.points[point.index()].name,
-                v(force),
-                v(moment)
-            ),
-            ExcitationLaw::Generalized {
-                coordinate: on,
-                value,
-            } => format!("harmonic on {} value {}", coordinate(on), s(value)),
-            ExcitationLaw::Shaken {
-                coordinate: on,
-                measure,
-                amplitude,
-            } => {
+            ExcitationLaw::Load { point, force, moment } => {
+                format!("harmonic at {} force {} moment {}", self.0.points[point.index()].name, v(force), v(moment))
+            }
+            ExcitationLaw::Generalized { coordinate: on, value } => {
+                format!("harmonic on {} value {}", coordinate(on), s(value))
+            }
+            ExcitationLaw::Shaken { coordinate: on, measure, amplitude } => {
                 let word = match measure {
                     ShakenBy::Displacement => "amplitude",
                     ShakenBy::Velocity => "velocity",

@@ -11,27 +11,13 @@ impl Names<'_> {
         let coordinate = |id: &CoordinateId| &self.0.coordinates[id.index()].name;
         let point = |id: &PointId| &self.0.points[id.index()].name;
         match law {
-            ForceLaw::CoordinateSpring {
-                coordinate: on,
-                stiffness,
-                rest,
-            } => format!(
-                "spring on {} stiffness {} rest {}",
-                coordinate(on),
-                s(stiffness),
-                s(rest)
-            ),
-            ForceLaw::CoordinateDamper {
-                coordinate: on,
-                damping,
-            } => format!("damper on {} damping {}", coordinate(on), s(damping)),
-            ForceLaw::SpringDamper {
-                from,
-                to,
-                stiffness,
-                damping,
-                length,
-            } => format!(
+            ForceLaw::CoordinateSpring { coordinate: on, stiffness, rest } => {
+                format!("spring on {} stiffness {} rest {}", coordinate(on), s(stiffness), s(rest))
+            }
+            ForceLaw::CoordinateDamper { coordinate: on, damping } => {
+                format!("damper on {} damping {}", coordinate(on), s(damping))
+            }
+            ForceLaw::SpringDamper { from, to, stiffness, damping, length } => format!(
                 "spring_damper from {} to {} stiffness {} damping {} length {}",
                 point(from),
                 point(to),
@@ -39,25 +25,14 @@ impl Names<'_> {
                 s(damping),
                 s(length)
             ),
-            ForceLaw::Tension { from, to, tension } => format!(
-                "tension from {} to {} law {}",
-                point(from),
-                point(to),
-                s(tension)
-            ),
-            ForceLaw::Generalized {
-                coordinate: on,
-                value,
-            } => format!("generalized on {} value {}", coordinate(on), s(value)),
+            ForceLaw::Tension { from, to, tension } => {
+                format!("tension from {} to {} law {}", point(from), point(to), s(tension))
+            }
+            ForceLaw::Generalized { coordinate: on, value } => {
+                format!("generalized on {} value {}", coordinate(on), s(value))
+            }
             ForceLaw::Potential { energy } => format!("potential energy {}", s(energy)),
-            ForceLaw::Bushing {
-                from,
-                to,
-                stiffness,
-                damping,
-                turning_stiffness,
-                turning_damping,
-            } => format!(
+            ForceLaw::Bushing { from, to, stiffness, damping, turning_stiffness, turning_damping } => format!(
                 "bushing from {} to {} stiffness {} damping {} turning_stiffness {} turning_damping {}",
                 point(from),
                 point(to),
@@ -66,39 +41,19 @@ impl Names<'_> {
                 m(turning_stiffness),
                 m(turning_damping)
             ),
-            ForceLaw::Load {
-                point: at,
-                force,
-                moment,
-                following,
-            } => format!(
+            ForceLaw::Load { point: at, force, moment, following } => format!(
                 "{} at {} force {} moment {}",
                 if *following { "follower" } else { "load" },
                 point(at),
                 v(force),
                 v(moment)
             ),
-            ForceLaw::Distributed {
-                on,
-                force,
-                follower,
-                damping,
-            } => format!(
-                "distributed on {on} force {} follower {} damping {}",
-                v(force),
-                v(follower),
-                s(damping)
-            ),
-            ForceLaw::Drag {
-                point: at,
-                damping,
-                turning_damping,
-            } => format!(
-                "drag at {} damping {} turning_damping {}",
-                point(at),
-                s(damping),
-                s(turning_damping)
-            ),
+            ForceLaw::Distributed { on, force, follower, damping } => {
+                format!("distributed on {on} force {} follower {} damping {}", v(force), v(follower), s(damping))
+            }
+            ForceLaw::Drag { point: at, damping, turning_damping } => {
+                format!("drag at {} damping {} turning_damping {}", point(at), s(damping), s(turning_damping))
+            }
         }
     }
 }

@@ -89,15 +89,7 @@ impl<R: Copy> Signature<R> {
         example: &'static str,
         read: R,
     ) -> Self {
-        Self {
-            word,
-            read,
-            required,
-            optional: &[],
-            choice: Choice::ExactlyOne(&[]),
-            refused: &[],
-            example,
-        }
+        Self { word, read, required, optional: &[], choice: Choice::ExactlyOne(&[]), refused: &[], example }
     }
 
     /// Adds arguments that may be omitted.
@@ -119,10 +111,7 @@ impl<R: Copy> Signature<R> {
     }
 
     /// Adds arguments that are refused, with reasons.
-    pub(super) const fn refusing(
-        mut self,
-        reasons: &'static [(&'static str, &'static str)],
-    ) -> Self {
+    pub(super) const fn refusing(mut self, reasons: &'static [(&'static str, &'static str)]) -> Self {
         self.refused = reasons;
         self
     }
@@ -166,10 +155,7 @@ pub(super) struct Arguments<'a> {
 impl<'a> Arguments<'a> {
     /// The value of an argument, if it was given.
     pub(super) fn get(&self, name: &str) -> Option<&'a Value> {
-        self.given
-            .iter()
-            .find(|(given, _)| *given == name)
-            .map(|(_, value)| *value)
+        self.given.iter().find(|(given, _)| *given == name).map(|(_, value)| *value)
     }
 }
 
@@ -231,10 +217,7 @@ impl Resolver<'_> {
                     given.push((known, &argument.value));
                 }
                 None => {
-                    let refused = signature
-                        .refused
-                        .iter()
-                        .find(|(refused, _)| *refused == name);
+                    let refused = signature.refused.iter().find(|(refused, _)| *refused == name);
                     let near = suggestion(&name, signature.names(), &SYNONYMS);
                     let help = match (refused, near) {
                         (Some((_, reason)), _) => (*reason).to_string(),
@@ -246,13 +229,11 @@ impl Resolver<'_> {
                         None => meant.extend(near),
                     }
                     let message = format!("`{word}` has no argument `{name}`");
-                    self.diagnostics
-                        .error_with_help(&argument.name, message, help);
+                    self.diagnostics.error_with_help(&argument.name, message, help);
                 }
             }
         }
-        let missing = signature
-            .missing(|name| given.iter().any(|(given, _)| *given == name) || meant.contains(&name));
+        let missing = signature.missing(|name| given.iter().any(|(given, _)| *given == name) || meant.contains(&name));
         if !missing.is_empty() {
             self.diagnostics.error_with_help(
                 &call.word,

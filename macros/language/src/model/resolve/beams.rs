@@ -41,8 +41,7 @@ impl Resolver<'_> {
         if let Some(placement) = &beam.placement {
             let message = "a beam starts at the origin of its frame";
             let help = "place the joint instead";
-            self.diagnostics
-                .error_with_help(placement.keyword, message, help);
+            self.diagnostics.error_with_help(placement.keyword, message, help);
             return None;
         }
         static SIGNATURE: Row = BEAM;
@@ -53,12 +52,7 @@ impl Resolver<'_> {
         is_right.then_some(())
     }
 
-    fn beam_of(
-        &mut self,
-        body: &ast::Body,
-        word: &Ident,
-        given: &Arguments<'_>,
-    ) -> Option<Declared> {
+    fn beam_of(&mut self, body: &ast::Body, word: &Ident, given: &Arguments<'_>) -> Option<Declared> {
         let name = &body.name;
         let before = self.requirements.len();
         let spin = match &body.spinning {
@@ -139,30 +133,18 @@ impl Resolver<'_> {
     }
 
     /// The number of coordinates of twist, of bending about the second axis and about the third.
-    fn counts(
-        &mut self,
-        word: &Ident,
-        given: &Arguments<'_>,
-        table: Option<&Table>,
-    ) -> Option<[usize; 3]> {
+    fn counts(&mut self, word: &Ident, given: &Arguments<'_>, table: Option<&Table>) -> Option<[usize; 3]> {
         let mut count = |name: &str| match given.get(name) {
             Some(value) => self.whole(value, name, 0..=MOST).map(Some),
             None => Some(None),
         };
-        let [torsion, bending, y, z] =
-            ["torsion", "bending", "bending_y", "bending_z"].map(&mut count);
+        let [torsion, bending, y, z] = ["torsion", "bending", "bending_y", "bending_z"].map(&mut count);
         let (torsion, bending, y, z) = (torsion?, bending?, y?, z?);
-        let both = bending
-            .or((y.is_none() && z.is_none()).then_some(5))
-            .unwrap_or(0);
+        let both = bending.or((y.is_none() && z.is_none()).then_some(5)).unwrap_or(0);
         let (y, z) = (y.unwrap_or(both), z.unwrap_or(both));
         let twists = table.is_some_and(Table::knows_torsion);
         let resists = table.is_some_and(Table::resists_turning);
-        let default = if twists && resists && y > 0 && z > 0 {
-            2
-        } else {
-            0
-        };
+        let default = if twists && resists && y > 0 && z > 0 { 2 } else { 0 };
         let torsion = torsion.unwrap_or(default);
         let none = |value: &Value| matches!(value.kind, ValueKind::Number(0.0, None));
         let stretches = given.get("stretch").is_some_and(|value| !none(value));
@@ -177,11 +159,7 @@ impl Resolver<'_> {
 
     /// The numbers of coordinates of stretch and of shear along the second and the third axis, and whether shear is
     /// static.
-    fn strains_of_beam(
-        &mut self,
-        given: &Arguments<'_>,
-        counts: Option<[usize; 3]>,
-    ) -> Option<([usize; 3], bool)> {
+    fn strains_of_beam(&mut self, given: &Arguments<'_>, counts: Option<[usize; 3]>) -> Option<([usize; 3], bool)> {
         let stretch = match given.get("stretch") {
             Some(value) => self.whole(value, "stretch", 0..=MOST),
             None => Some(0),
@@ -218,12 +196,7 @@ impl Resolver<'_> {
     }
 
     /// A whole number that is written as one.
-    fn whole(
-        &mut self,
-        value: &Value,
-        name: &str,
-        range: std::ops::RangeInclusive<usize>,
-    ) -> Option<usize> {
+    fn whole(&mut self, value: &Value, name: &str, range: std::ops::RangeInclusive<usize>) -> Option<usize> {
         if let ValueKind::Number(number, None) = value.kind
             && number.fract() == 0.0
             && range.contains(&(number as usize))
@@ -231,11 +204,7 @@ impl Resolver<'_> {
         {
             return Some(number as usize);
         }
-        let message = format!(
-            "`{name}` is a whole number from {} to {}",
-            range.start(),
-            range.end()
-        );
+        let message = format!("`{name}` is a whole number from {} to {}", range.start(), range.end());
         self.diagnostics.error(value.extent, message);
         None
     }
@@ -248,14 +217,12 @@ impl Resolver<'_> {
             let [_, about_y, about_z] = &section.stiffness;
             let [_, shear_y, shear_z] = &section.against_strain;
             let [inertia_y, inertia_z] = &section.inertia;
-            !declared.table.is_coupled()
-                && about_y == about_z
-                && shear_y == shear_z
-                && inertia_y == inertia_z
+            !declared.table.is_coupled() && about_y == about_z && shear_y == shear_z && inertia_y == inertia_z
         });
         let [_, y, z] = declared.counts;
         let round = "use a `circle` or a `tube`, or the same numbers for both planes";
-        let straight = "the material turns about the bent axis, along which it must be the same all round: leave it out";
+        let straight =
+            "the material turns about the bent axis, along which it must be the same all round: leave it out";
         let (problem, help) = if y != z {
             (
                 "bends in one plane more than in the other",
@@ -297,14 +264,7 @@ impl Resolver<'_> {
         None
     }
 
-    fn require_of_beam(
-        &mut self,
-        name: &Ident,
-        what: &str,
-        value: &Expr,
-        dimension: Dimension,
-        at: &Value,
-    ) {
+    fn require_of_beam(&mut self, name: &Ident, what: &str, value: &Expr, dimension: Dimension, at: &Value) {
         self.requirements.push(Requirement {
             what: format!("the {what} of `{name}`"),
             values: vec![value.clone()],
@@ -314,11 +274,7 @@ impl Resolver<'_> {
     }
 
     /// The series of a curved axis hold up to a full turn.
-    fn require_less_than_a_turn(
-        &mut self,
-        (name, word): (&Ident, &Ident),
-        declared: &mut Declared,
-    ) -> Option<()> {
+    fn require_less_than_a_turn(&mut self, (name, word): (&Ident, &Ident), declared: &mut Declared) -> Option<()> {
         let [y, z] = declared.prebend.clone();
         let square = |expr: Expr| simplify::power_integer(expr, 2);
         let turned = simplify::add(square(y), square(z));
@@ -350,11 +306,7 @@ impl Resolver<'_> {
         let mut used = counts;
         let is_twisted = declared.twist != Expr::Number(0.0);
         // what turns a section in one way strains it in another, where its axes have turned
-        let mixed = [
-            (curved_z, 0, 1),
-            (curved_y, 0, 2),
-            (is_twisted || (curved_y && curved_z), 1, 2),
-        ];
+        let mixed = [(curved_z, 0, 1), (curved_y, 0, 2), (is_twisted || (curved_y && curved_z), 1, 2)];
         for (_, a, b) in mixed.iter().filter(|(is_mixed, ..)| *is_mixed) {
             let sum = used[*a] + used[*b];
             (used[*a], used[*b]) = (sum, sum);
@@ -376,35 +328,13 @@ impl Resolver<'_> {
         type Of = fn(&Section) -> &Expr;
         type Asked = &'static [&'static str];
         let demands: [(&str, Dimension, usize, Asked, Of); 7] = [
-            ("mass per length", Dimension::LINE_DENSITY, 1, &[], |x| {
-                &x.mass
-            }),
-            ("torsional stiffness", bending, torsion, &["torsion"], |x| {
-                &x.stiffness[0]
-            }),
-            (
-                "bending stiffness about y",
-                bending,
-                about_y,
-                &["bending_y", "bending"],
-                |x| &x.stiffness[1],
-            ),
-            (
-                "bending stiffness about z",
-                bending,
-                about_z,
-                &["bending_z", "bending"],
-                |x| &x.stiffness[2],
-            ),
-            ("axial stiffness", force, stretch, &["stretch"], |item| {
-                &item.against_strain[0]
-            }),
-            ("shear stiffness along y", force, shear_y, &["shear"], |x| {
-                &x.against_strain[1]
-            }),
-            ("shear stiffness along z", force, shear_z, &["shear"], |x| {
-                &x.against_strain[2]
-            }),
+            ("mass per length", Dimension::LINE_DENSITY, 1, &[], |x| &x.mass),
+            ("torsional stiffness", bending, torsion, &["torsion"], |x| &x.stiffness[0]),
+            ("bending stiffness about y", bending, about_y, &["bending_y", "bending"], |x| &x.stiffness[1]),
+            ("bending stiffness about z", bending, about_z, &["bending_z", "bending"], |x| &x.stiffness[2]),
+            ("axial stiffness", force, stretch, &["stretch"], |item| &item.against_strain[0]),
+            ("shear stiffness along y", force, shear_y, &["shear"], |x| &x.against_strain[1]),
+            ("shear stiffness along z", force, shear_z, &["shear"], |x| &x.against_strain[2]),
         ];
         let mut is_complete = true;
         for (what, dimension, used, asked, of) in demands {

@@ -29,10 +29,7 @@ impl Resolver<'_> {
             };
             let parts = self.parts(body);
             self.parts.push(parts.clone());
-            bodies.extend(parts.map(|parts| Body {
-                name: body.name.clone(),
-                parts,
-            }));
+            bodies.extend(parts.map(|parts| Body { name: body.name.clone(), parts }));
         }
         bodies
     }
@@ -41,15 +38,11 @@ impl Resolver<'_> {
     /// single link: robot files are full of links that carry nothing but a frame. Nothing is reported as long as the
     /// welds are unknown.
     pub(super) fn require_inertias(&mut self, joints: &[Joint]) {
-        let may_weld = |joint: &&ast::Joint| {
-            Kind::find(&joint.kind.to_string()).is_none_or(|kind| kind.motions.is_empty())
-        };
+        let may_weld =
+            |joint: &&ast::Joint| Kind::find(&joint.kind.to_string()).is_none_or(|kind| kind.motions.is_empty());
         let welds = coordinates::joints(self.ast).filter(may_weld).count();
         let known = joints.iter().filter(|joint| joint.steps.is_empty()).count();
-        if welds != known
-            || self.scope.is_ambiguous
-            || self.ast.unread.iter().any(Unread::may_connect)
-        {
+        if welds != known || self.scope.is_ambiguous || self.ast.unread.iter().any(Unread::may_connect) {
             return;
         }
         let names: Vec<String> = self
@@ -68,23 +61,14 @@ impl Resolver<'_> {
             let Some(bodies) = bodies.collect::<Option<Vec<_>>>() else {
                 continue;
             };
-            let in_group =
-                |given: &&GivenInertia| bodies.iter().any(|(name, ..)| *name == given.body);
-            let given: Vec<GivenInertia> = self
-                .given_inertias
-                .iter()
-                .filter(in_group)
-                .cloned()
-                .collect();
+            let in_group = |given: &&GivenInertia| bodies.iter().any(|(name, ..)| *name == given.body);
+            let given: Vec<GivenInertia> = self.given_inertias.iter().filter(in_group).cloned().collect();
             let Some(first) = given.first() else {
                 continue;
             };
             self.requirements.push(Requirement {
                 what: format!("the inertia of `{}`", first.body),
-                values: given
-                    .iter()
-                    .flat_map(|given| given.central.clone())
-                    .collect(),
+                values: given.iter().flat_map(|given| given.central.clone()).collect(),
                 extent: first.extent,
                 demand: Demand::Inertia(Rc::new(Welded { bodies, given })),
             });
@@ -102,16 +86,12 @@ impl Resolver<'_> {
         if let Some(speed) = &body.spinning {
             let message = "only a `beam` can spin about its own bent axis";
             let help = "turn the body by a joint: `revolute(x) ... driven at omega`";
-            self.diagnostics
-                .error_with_help(speed.extent, message, help);
+            self.diagnostics.error_with_help(speed.extent, message, help);
             return None;
         }
         let right = self.first_is_solid(body);
-        let resolved: Vec<Option<Part>> = body
-            .terms
-            .iter()
-            .map(|term| self.part(&body.name.to_string(), term))
-            .collect();
+        let resolved: Vec<Option<Part>> =
+            body.terms.iter().map(|term| self.part(&body.name.to_string(), term)).collect();
         right?;
         let parts: Vec<Part> = resolved.into_iter().collect::<Option<_>>()?;
         if let Some(hole) = body.terms.iter().find(|term| term.hole) {
@@ -138,8 +118,7 @@ impl Resolver<'_> {
         if let Some(placement) = &massless.placement {
             let message = "a massless body has no shape to place";
             let help = "place the joint instead";
-            self.diagnostics
-                .error_with_help(placement.keyword, message, help);
+            self.diagnostics.error_with_help(placement.keyword, message, help);
             return None;
         }
         Some(Vec::new())
@@ -160,10 +139,6 @@ impl Resolver<'_> {
         let signature = self.signature(&term.shape, "shape", SHAPES, &SYNONYMS)?;
         let arguments = self.arguments(&term.shape, signature);
         let shape = (signature.read)(&mut Quantities::new(self, arguments, body));
-        Some(Part {
-            hole: term.hole,
-            shape: shape?,
-            placement: placement?,
-        })
+        Some(Part { hole: term.hole, shape: shape?, placement: placement? })
     }
 }

@@ -62,10 +62,7 @@ impl Resolver<'_> {
                     State::Done => {}
                     State::Open => {
                         let start = path.iter().position(|&(index, _)| index == used);
-                        let cycle: Vec<usize> = path[start.unwrap_or(0)..]
-                            .iter()
-                            .map(|&(index, _)| index)
-                            .collect();
+                        let cycle: Vec<usize> = path[start.unwrap_or(0)..].iter().map(|&(index, _)| index).collect();
                         self.report_cycle(&cycle, &named, &in_cycle);
                         for index in cycle {
                             in_cycle[index] = true;
@@ -84,11 +81,8 @@ impl Resolver<'_> {
         let Some(&first) = cycle.first() else {
             return;
         };
-        let names: Vec<String> = cycle
-            .iter()
-            .chain([&first])
-            .map(|&index| format!("`{}`", named[index].name))
-            .collect();
+        let names: Vec<String> =
+            cycle.iter().chain([&first]).map(|&index| format!("`{}`", named[index].name)).collect();
         let name = &named[first].name;
         let message = format!("`{name}` is defined by itself: {}", names.join(" uses "));
         self.diagnostics.error(name, message);
@@ -110,10 +104,7 @@ impl Resolver<'_> {
         match self.value(value, ValueContext::Parameter)? {
             Typed::Scalar(expr, quantity) => {
                 self.require_finite(std::slice::from_ref(&expr), &what, value.extent);
-                Some(Typed::Scalar(
-                    self.shared(name.clone(), expr),
-                    promoted(quantity),
-                ))
+                Some(Typed::Scalar(self.shared(name.clone(), expr), promoted(quantity)))
             }
             // A vector becomes three constants, so that it is computed once however often it is used.
             Typed::Vector(vector, quantity) => {

@@ -19,25 +19,18 @@ use crate::syntax::ast::{self, ItemKind};
 const OF_COORDINATES: &str = "two points are tied by `coincident`, `aligned` or `distance`";
 
 /// A function that makes a constraint from its arguments.
-type Reader =
-    fn(&mut Resolver<'_>, &ast::Constraint, &Arguments<'_>) -> Option<(ConstraintLaw, Exerted)>;
+type Reader = fn(&mut Resolver<'_>, &ast::Constraint, &Arguments<'_>) -> Option<(ConstraintLaw, Exerted)>;
 
 pub(super) type Row = Signature<Reader>;
 
 pub(super) const KINDS: &[Row] = &[
-    Row::new(
-        "coincident",
-        &["from", "to"],
-        "coincident(from: p, to: q)",
-        |resolver, _, arguments| Some((resolver.coincident(arguments)?, Exerted::Force)),
-    )
+    Row::new("coincident", &["from", "to"], "coincident(from: p, to: q)", |resolver, _, arguments| {
+        Some((resolver.coincident(arguments)?, Exerted::Force))
+    })
     .optional(&["along"]),
-    Row::new(
-        "aligned",
-        &["from", "to"],
-        "aligned(from: p, to: q)",
-        |resolver, _, arguments| Some((resolver.aligned(arguments)?, Exerted::Moment)),
-    )
+    Row::new("aligned", &["from", "to"], "aligned(from: p, to: q)", |resolver, _, arguments| {
+        Some((resolver.aligned(arguments)?, Exerted::Moment))
+    })
     .optional(&["axis"]),
     Row::new(
         "distance",
@@ -48,10 +41,7 @@ pub(super) const KINDS: &[Row] = &[
             Some((law, Exerted::Number(Dimension::FORCE)))
         },
     )
-    .refusing(&[(
-        "stiffness",
-        "an elastic connection is the force `spring_damper`",
-    )]),
+    .refusing(&[("stiffness", "an elastic connection is the force `spring_damper`")]),
     Row::new(
         "coupling",
         &["of", "with", "ratio"],
@@ -60,19 +50,14 @@ pub(super) const KINDS: &[Row] = &[
     )
     .optional(&["offset"])
     .refusing(&[("from", OF_COORDINATES), ("to", OF_COORDINATES)]),
-    Row::new(
-        "equation",
-        &["zero"],
-        "equation(zero: position(p).z - 1 m)",
-        |resolver, _, arguments| resolver.equation(arguments),
-    ),
+    Row::new("equation", &["zero"], "equation(zero: position(p).z - 1 m)", |resolver, _, arguments| {
+        resolver.equation(arguments)
+    }),
     Row::new(
         "rolling",
         &["wheel", "radius", "on"],
         "rolling(wheel: hub, axis: y, radius: 30 cm, on: road)",
-        |resolver, constraint, arguments| {
-            Some((resolver.rolling(constraint, arguments)?, Exerted::Force))
-        },
+        |resolver, constraint, arguments| Some((resolver.rolling(constraint, arguments)?, Exerted::Force)),
     )
     .optional(&["axis", "normal"]),
 ];
@@ -123,10 +108,7 @@ impl Resolver<'_> {
             };
             let (law, exerted) = self.constraint(constraint).unzip();
             self.exerted.push(exerted);
-            constraints.extend(law.map(|law| Constraint {
-                name: constraint.name.clone(),
-                law,
-            }));
+            constraints.extend(law.map(|law| Constraint { name: constraint.name.clone(), law }));
         }
         constraints
     }
@@ -141,8 +123,8 @@ impl Resolver<'_> {
     /// Rejects the names of joints: a joint may close a loop directly and is not declared as a constraint.
     fn is_no_joint(&mut self, constraint: &ast::Constraint) -> Option<()> {
         let word = constraint.law.word.to_string();
-        let is_constraint = KINDS.iter().any(|known| known.word == word)
-            || SYNONYMS.iter().any(|(theirs, _)| *theirs == word);
+        let is_constraint =
+            KINDS.iter().any(|known| known.word == word) || SYNONYMS.iter().any(|(theirs, _)| *theirs == word);
         let mut synonyms = kinds::SYNONYMS.iter();
         let joint = Kind::find(&word).map(|kind| kind.word).or_else(|| {
             let (_, ours) = synonyms.find(|(theirs, _)| *theirs == word)?;
@@ -164,12 +146,7 @@ impl Resolver<'_> {
     }
 
     /// A required length above zero; `what` names it.
-    fn positive_length(
-        &mut self,
-        constraint: &ast::Constraint,
-        arguments: &Arguments,
-        name: &str,
-    ) -> Option<Expr> {
+    fn positive_length(&mut self, constraint: &ast::Constraint, arguments: &Arguments, name: &str) -> Option<Expr> {
         let value = arguments.get(name)?;
         let length = self.scalar_of(value, Dimension::LENGTH, &format!("`{name}`"))?;
         self.requirements.push(Requirement {

@@ -110,24 +110,15 @@ pub(super) fn declared(ast: &Ast) -> Vec<Declared<'_>> {
 fn motion(joint: &Joint, name: &Ident, is_only: bool) -> DeclaredMotion {
     let said = joint.clauses.iter().find_map(|clause| match clause {
         JointClause::Drive(drive) => {
-            let meant = drive
-                .coordinate
-                .as_ref()
-                .map_or(is_only, |coordinate| coordinate == name);
+            let meant = drive.coordinate.as_ref().map_or(is_only, |coordinate| coordinate == name);
             meant.then_some(DeclaredMotion::Driven)
         }
         JointClause::Shake(shake) => {
-            let meant = shake
-                .coordinate
-                .as_ref()
-                .map_or(is_only, |coordinate| coordinate == name);
+            let meant = shake.coordinate.as_ref().map_or(is_only, |coordinate| coordinate == name);
             meant.then_some(DeclaredMotion::Shaken)
         }
         JointClause::Coast(coast) => {
-            let meant = coast
-                .coordinate
-                .as_ref()
-                .is_none_or(|coordinate| coordinate == name);
+            let meant = coast.coordinate.as_ref().is_none_or(|coordinate| coordinate == name);
             meant.then_some(DeclaredMotion::Coasting)
         }
         JointClause::Placement { .. } | JointClause::Cut(_) => None,

@@ -25,38 +25,16 @@ impl Resolver<'_> {
     }
 
     fn curve(&mut self, declared: &ast::Curve) -> Option<Curve> {
-        let ast::Curve {
-            name,
-            arguments,
-            values,
-        } = declared;
+        let ast::Curve { name, arguments, values } = declared;
         let text = name.to_string();
         if is_function(&text) {
             let message = format!("`{text}` is a function already; a curve needs another name");
             self.diagnostics.error(name, message);
         }
-        let (x, y) = (
-            self.listed(arguments, ValueContext::Points),
-            self.listed(values, ValueContext::Points),
-        );
-        let (
-            Listed {
-                numbers: x,
-                quantity: argument,
-                unit,
-            },
-            Listed {
-                numbers: y,
-                quantity: value,
-                ..
-            },
-        ) = (x?, y?);
+        let (x, y) = (self.listed(arguments, ValueContext::Points), self.listed(values, ValueContext::Points));
+        let (Listed { numbers: x, quantity: argument, unit }, Listed { numbers: y, quantity: value, .. }) = (x?, y?);
         if x.len() != y.len() {
-            let message = format!(
-                "each argument has a value: there are {} arguments and {} values",
-                x.len(),
-                y.len()
-            );
+            let message = format!("each argument has a value: there are {} arguments and {} values", x.len(), y.len());
             let commas = y.len() > x.len() && elements(values).is_some_and(decimal_commas);
             self.report(values.extent, message, commas.then(|| DECIMAL_POINT.into()));
             return None;
@@ -68,8 +46,7 @@ impl Resolver<'_> {
         }
         if let Some(k) = (1..x.len()).find(|&k| x[k] <= x[k - 1]) {
             let at = elements(arguments)?[k].extent;
-            let message =
-                "the arguments of a curve grow: this one is not greater than the one before";
+            let message = "the arguments of a curve grow: this one is not greater than the one before";
             self.diagnostics.error(at, message);
             return None;
         }
@@ -79,12 +56,7 @@ impl Resolver<'_> {
             self.diagnostics.error(values.extent, message);
             return None;
         }
-        Some(Curve {
-            spline,
-            argument: argument.dimension(),
-            unit,
-            value: value.dimension(),
-        })
+        Some(Curve { spline, argument: argument.dimension(), unit, value: value.dimension() })
     }
 
     /// The value of a curve. An argument that does not depend on the motion must lie between the first and the last
@@ -99,8 +71,7 @@ impl Resolver<'_> {
         let curve = self.curves.get(index)?.clone()?;
         let [given] = arguments else {
             let message = format!("`{name}` takes {}, not {}", count(1), arguments.len());
-            let help =
-                (arguments.len() > 1 && decimal_commas(arguments)).then(|| DECIMAL_POINT.into());
+            let help = (arguments.len() > 1 && decimal_commas(arguments)).then(|| DECIMAL_POINT.into());
             self.report(name, message, help);
             return None;
         };
@@ -114,10 +85,7 @@ impl Resolver<'_> {
                 demand: Demand::OnCurve(curve.clone()),
                 extent: given.extent,
             });
-            let asked = CurveArgument {
-                curve: curve.clone(),
-                argument: argument.clone(),
-            };
+            let asked = CurveArgument { curve: curve.clone(), argument: argument.clone() };
             if !self.curve_arguments.contains(&asked) {
                 self.curve_arguments.push(asked);
             }
@@ -140,11 +108,6 @@ fn elements(list: &Value) -> Option<&[Value]> {
 
 /// Whether the argument consists only of numbers, inputs, design variables and constants.
 fn is_known_before_the_motion(argument: &Expr) -> bool {
-    let is_known = |leaf: &Expr| {
-        matches!(
-            leaf,
-            Expr::Number(_) | Expr::Input(_) | Expr::Design(_) | Expr::Constant(_)
-        )
-    };
+    let is_known = |leaf: &Expr| matches!(leaf, Expr::Number(_) | Expr::Input(_) | Expr::Design(_) | Expr::Constant(_));
     argument.leaves().into_iter().all(is_known)
 }

@@ -9,11 +9,7 @@ use crate::syntax::ast::{Value, ValueKind};
 
 impl Resolver<'_> {
     /// A unit vector. `x`, `y` and `z` always mean the axes here, whatever else is declared.
-    pub(super) fn direction(
-        &mut self,
-        value: &Value,
-        value_context: ValueContext,
-    ) -> Option<Vector> {
+    pub(super) fn direction(&mut self, value: &Value, value_context: ValueContext) -> Option<Vector> {
         if let Some(axis) = axis(value) {
             return Some(axis);
         }
@@ -48,8 +44,7 @@ impl Resolver<'_> {
         // Scaled first, so that the length of tiny and huge vectors can be computed.
         let largest = vector.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         if largest == 0.0 {
-            self.diagnostics
-                .error(value.extent, "a zero vector has no direction");
+            self.diagnostics.error(value.extent, "a zero vector has no direction");
             return None;
         }
         let scaled = vector.map(|component| component / largest);

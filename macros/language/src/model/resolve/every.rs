@@ -15,20 +15,12 @@ use crate::syntax::ast::{Every, ItemKind};
 
 type Row = Signature<()>;
 
-const ON: (&str, &str) = (
-    "on",
-    "it acts on every free coordinate; on one of them it is a `force`",
-);
+const ON: (&str, &str) = ("on", "it acts on every free coordinate; on one of them it is a `force`");
 
 const LAWS: &[Row] = &[
-    Row::new(
-        "spring",
-        &["stiffness"],
-        "spring(stiffness: 10 N*m/rad)",
-        (),
-    )
-    .optional(&["rest"])
-    .refusing(&[ON, ("damping", "both together are a `spring_damper`")]),
+    Row::new("spring", &["stiffness"], "spring(stiffness: 10 N*m/rad)", ())
+        .optional(&["rest"])
+        .refusing(&[ON, ("damping", "both together are a `spring_damper`")]),
     Row::new("damper", &["damping"], "damper(damping: 0.1 N*m*s/rad)", ())
         .refusing(&[ON, ("stiffness", "both together are a `spring_damper`")]),
     Row::new(
@@ -50,10 +42,8 @@ const SYNONYMS: [(&str, &str); 5] = [
     ("bushing", "spring_damper"),
 ];
 
-const QUANTITIES: [(&str, CoordinateQuantity); 2] = [
-    ("angle", CoordinateQuantity::Angle),
-    ("displacement", CoordinateQuantity::Displacement),
-];
+const QUANTITIES: [(&str, CoordinateQuantity); 2] =
+    [("angle", CoordinateQuantity::Angle), ("displacement", CoordinateQuantity::Displacement)];
 
 /// Other names for the coordinates, and their quantities.
 const SYNONYMS_OF_QUANTITIES: [(&str, &str); 12] = [
@@ -85,21 +75,13 @@ impl Resolver<'_> {
         let mut forces = Vec::new();
         for item in &self.ast.items {
             if let ItemKind::Every(every) = &item.kind {
-                forces.extend(
-                    self.forces_of(every, existing, &mut given)
-                        .unwrap_or_default(),
-                );
+                forces.extend(self.forces_of(every, existing, &mut given).unwrap_or_default());
             }
         }
         forces
     }
 
-    fn forces_of(
-        &mut self,
-        every: &Every,
-        forces: &[Force],
-        given: &mut [Given],
-    ) -> Option<Vec<Force>> {
+    fn forces_of(&mut self, every: &Every, forces: &[Force], given: &mut [Given]) -> Option<Vec<Force>> {
         let index = self.quantity(&every.quantity);
         let signature = self.signature(&every.law, "law of every coordinate", LAWS, &SYNONYMS)?;
         let arguments = self.arguments(&every.law, signature);
@@ -117,10 +99,8 @@ impl Resolver<'_> {
         let rest = self.coefficient_or_zero(&arguments, "rest", rest)?;
         let index = index?;
         let given = &mut given[index];
-        let repeated = [
-            (stiffness.is_some() && given.stiffness, "a spring"),
-            (damping.is_some() && given.damping, "a damper"),
-        ];
+        let repeated =
+            [(stiffness.is_some() && given.stiffness, "a spring"), (damping.is_some() && given.damping, "a damper")];
         given.stiffness |= stiffness.is_some();
         given.damping |= damping.is_some();
         let (word, quantity) = QUANTITIES[index];
@@ -133,8 +113,7 @@ impl Resolver<'_> {
         if coordinates.is_empty() && !self.may_have_more_coordinates() {
             let message = format!("no {word} is free");
             let help = "remove this, or let a joint move";
-            self.diagnostics
-                .error_with_help(&every.quantity, message, help);
+            self.diagnostics.error_with_help(&every.quantity, message, help);
             return None;
         }
         Some(laws(every, forces, &coordinates, stiffness, damping, rest))
@@ -148,12 +127,9 @@ impl Resolver<'_> {
             let meant = suggestion(&word.to_string(), known, &SYNONYMS_OF_QUANTITIES);
             let help = match meant {
                 Some("displacement") => "did you mean `displacement`?",
-                _ => {
-                    "write `every angle` for joints that turn, `every displacement` for those that slide"
-                }
+                _ => "write `every angle` for joints that turn, `every displacement` for those that slide",
             };
-            let message =
-                format!("`every {word}` is neither `every angle` nor `every displacement`");
+            let message = format!("`every {word}` is neither `every angle` nor `every displacement`");
             self.diagnostics.error_with_help(word, message, help);
         }
         index
@@ -162,9 +138,7 @@ impl Resolver<'_> {
     fn free_coordinates(&self, quantity: CoordinateQuantity) -> Vec<CoordinateId> {
         let all = self.coordinates.iter().enumerate();
         all.filter(|(_, coordinate)| {
-            coordinate.quantity == Some(quantity)
-                && coordinate.motion == DeclaredMotion::Free
-                && !coordinate.cut
+            coordinate.quantity == Some(quantity) && coordinate.motion == DeclaredMotion::Free && !coordinate.cut
         })
         .map(|(index, _)| CoordinateId::new(index))
         .collect()
@@ -182,31 +156,18 @@ fn laws(
 ) -> Vec<Force> {
     let mut laws = Vec::new();
     for &id in coordinates {
-        let has_spring = forces.iter().any(|force| {
-            matches!(force.law, ForceLaw::CoordinateSpring { coordinate, .. } if coordinate == id)
-        });
-        let has_damper = forces.iter().any(|force| {
-            matches!(force.law, ForceLaw::CoordinateDamper { coordinate, .. } if coordinate == id)
-        });
+        let has_spring = forces
+            .iter()
+            .any(|force| matches!(force.law, ForceLaw::CoordinateSpring { coordinate, .. } if coordinate == id));
+        let has_damper = forces
+            .iter()
+            .any(|force| matches!(force.law, ForceLaw::CoordinateDamper { coordinate, .. } if coordinate == id));
         if let Some(stiffness) = stiffness.clone().filter(|_| !has_spring) {
-            laws.push(ForceLaw::CoordinateSpring {
-                coordinate: id,
-                stiffness,
-                rest: rest.clone(),
-            });
+            laws.push(ForceLaw::CoordinateSpring { coordinate: id, stiffness, rest: rest.clone() });
         }
         if let Some(damping) = damping.clone().filter(|_| !has_damper) {
-            laws.push(ForceLaw::CoordinateDamper {
-                coordinate: id,
-                damping,
-            });
+            laws.push(ForceLaw::CoordinateDamper { coordinate: id, damping });
         }
     }
-    laws.into_iter()
-        .map(|law| Force {
-            name: every.quantity.clone(),
-            law,
-            of_every: true,
-        })
-        .collect()
+    laws.into_iter().map(|law| Force { name: every.quantity.clone(), law, of_every: true }).collect()
 }

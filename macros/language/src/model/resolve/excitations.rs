@@ -10,42 +10,26 @@ use super::resolver::Resolver;
 use crate::base::dimension::Dimension;
 use crate::base::ids::{CoordinateId, JointId};
 use crate::model::expression::Expr;
-use crate::model::mechanism::{
-    CoordinateQuantity, Deviation, Excitation, ExcitationLaw, Frame, Frequency, ShakenBy,
-};
+use crate::model::mechanism::{CoordinateQuantity, Deviation, Excitation, ExcitationLaw, Frame, Frequency, ShakenBy};
 use crate::model::rules::physical::{Demand, Requirement};
-use crate::syntax::ast::{
-    self, Ast, Force, ItemKind, Joint, JointClause, NamedCall, Shake, Unbalance, Value,
-};
+use crate::syntax::ast::{self, Ast, Force, ItemKind, Joint, JointClause, NamedCall, Shake, Unbalance, Value};
 use crate::syntax::parse::GRADE;
 
-const UNBALANCE: &[Signature<()>] = &[Signature::new(
-    "unbalance",
-    &[],
-    "unbalance u: on disk, amount: 20 g*mm, angle: 30 deg;",
-    (),
-)
-.optional(&["angle"])
-.exactly_one(&["amount", "eccentricity", "tilt"])
-.refusing(&[
-    (
-        "mass",
-        "an unbalance is a mass times its distance from the axis: `amount: 20 g*mm`",
-    ),
-    ("grade", GRADE),
-    ("phase", "the phase of an unbalance is its `angle`"),
-    ("order", "an unbalance turns with its body"),
-    ("frequency", "an unbalance turns with its body"),
-])];
+const UNBALANCE: &[Signature<()>] =
+    &[Signature::new("unbalance", &[], "unbalance u: on disk, amount: 20 g*mm, angle: 30 deg;", ())
+        .optional(&["angle"])
+        .exactly_one(&["amount", "eccentricity", "tilt"])
+        .refusing(&[
+            ("mass", "an unbalance is a mass times its distance from the axis: `amount: 20 g*mm`"),
+            ("grade", GRADE),
+            ("phase", "the phase of an unbalance is its `angle`"),
+            ("order", "an unbalance turns with its body"),
+            ("frequency", "an unbalance turns with its body"),
+        ])];
 
-const SHAKEN: &[Signature<()>] = &[Signature::new(
-    "shaken",
-    &[],
-    "shaken(amplitude: 1 mm, frequency: 50 Hz)",
-    (),
-)
-.optional(&["frequency", "order", "phase"])
-.exactly_one(&["amplitude", "velocity", "acceleration"])];
+const SHAKEN: &[Signature<()>] = &[Signature::new("shaken", &[], "shaken(amplitude: 1 mm, frequency: 50 Hz)", ())
+    .optional(&["frequency", "order", "phase"])
+    .exactly_one(&["amplitude", "velocity", "acceleration"])];
 
 fn shakes(joint: &Joint) -> impl Iterator<Item = &Shake> {
     joint.clauses.iter().filter_map(|clause| match clause {
@@ -101,13 +85,9 @@ impl Resolver<'_> {
         let eccentricity = self.amplitude(&arguments, "eccentricity", Dimension::LENGTH);
         let tilt = self.amplitude(&arguments, "tilt", Expected::angle());
         let moves_the_body = eccentricity.is_some() || tilt.is_some();
-        let deviation = amount
-            .map(Deviation::Amount)
-            .or(eccentricity.map(Deviation::Eccentricity))
-            .or(tilt.map(Deviation::Tilt));
-        if let (Some(at), Some(Deviation::Eccentricity(_) | Deviation::Tilt(_))) =
-            (&unbalance.at, &deviation)
-        {
+        let deviation =
+            amount.map(Deviation::Amount).or(eccentricity.map(Deviation::Eccentricity)).or(tilt.map(Deviation::Tilt));
+        if let (Some(at), Some(Deviation::Eccentricity(_) | Deviation::Tilt(_))) = (&unbalance.at, &deviation) {
             let message = "an eccentricity or a tilt moves the whole body: it has no place";
             self.diagnostics.error(at.extent, message);
             return None;
@@ -115,24 +95,18 @@ impl Resolver<'_> {
         if moves_the_body && self.is_massless(&unbalance.on) {
             let message = format!("`{}` has no mass that could be out of place", unbalance.on);
             let help = "give the `amount` of the unbalance, or name the body that has the mass";
-            self.diagnostics
-                .error_with_help(&unbalance.on, message, help);
+            self.diagnostics.error_with_help(&unbalance.on, message, help);
             return None;
         }
         let Frame::Body(body) = frame? else {
             let message = "the ground does not turn";
             let help = "an unbalance is `on` a body that a drive turns";
-            self.diagnostics
-                .error_with_help(&unbalance.on, message, help);
+            self.diagnostics.error_with_help(&unbalance.on, message, help);
             return None;
         };
         Some(Excitation {
             name: unbalance.name.clone(),
-            law: ExcitationLaw::Unbalance {
-                body,
-                at: at?,
-                deviation: deviation?,
-            },
+            law: ExcitationLaw::Unbalance { body, at: at?, deviation: deviation? },
             frequency: Frequency::OfTurning,
             phase: phase?,
         })
@@ -144,18 +118,11 @@ impl Resolver<'_> {
             _ => None,
         });
         let declared = bodies.find(|x| x.name == *body);
-        declared.is_some_and(|declared| {
-            declared
-                .terms
-                .iter()
-                .all(|term| term.shape.word == "massless")
-        })
+        declared.is_some_and(|declared| declared.terms.iter().all(|term| term.shape.word == "massless"))
     }
 
     fn harmonic(&mut self, force: &Force) -> Option<Excitation> {
-        let signature = super::forces::LAWS
-            .iter()
-            .find(|row| force.law.word == row.word)?;
+        let signature = super::forces::LAWS.iter().find(|row| force.law.word == row.word)?;
         let arguments = self.arguments(&force.law, signature);
         let frequency = self.frequency(&arguments, &force.law);
         let phase = self.phase(&arguments, "phase");
@@ -169,19 +136,13 @@ impl Resolver<'_> {
                     self.diagnostics.error(arguments.get("at")?.extent, message);
                     return None;
                 }
-                Some(ExcitationLaw::Load {
-                    point: point?,
-                    force: load?,
-                    moment: moment?,
-                })
+                Some(ExcitationLaw::Load { point: point?, force: load?, moment: moment? })
             }
             (None, Some(_)) => {
                 let (coordinate, quantity) = self.free_coordinate("force", &arguments)?;
                 let (name, other, dimension): (_, _, Expected) = match quantity {
                     CoordinateQuantity::Angle => ("moment", "force", Expected::moment()),
-                    CoordinateQuantity::Displacement => {
-                        ("force", "moment", Dimension::FORCE.into())
-                    }
+                    CoordinateQuantity::Displacement => ("force", "moment", Dimension::FORCE.into()),
                 };
                 if let Some(value) = arguments.get(other) {
                     let message = format!("along this coordinate a `{name}` acts, not a `{other}`");
@@ -205,12 +166,7 @@ impl Resolver<'_> {
                 None
             }
         };
-        Some(Excitation {
-            name: force.name.clone(),
-            law: law?,
-            frequency: frequency?,
-            phase: phase?,
-        })
+        Some(Excitation { name: force.name.clone(), law: law?, frequency: frequency?, phase: phase? })
     }
 
     fn shaken(&mut self, joint: &Joint, id: JointId, shake: &Shake) -> Option<Excitation> {
@@ -236,30 +192,19 @@ impl Resolver<'_> {
             ("velocity", ShakenBy::Velocity, expected(-1)),
             ("acceleration", ShakenBy::Acceleration, expected(-2)),
         ];
-        let given = measures
-            .into_iter()
-            .find(|(name, ..)| arguments.get(name).is_some());
+        let given = measures.into_iter().find(|(name, ..)| arguments.get(name).is_some());
         let (word, measure, expected) = given?;
         let amplitude = self.amplitude(&arguments, word, expected)?;
         Some(Excitation {
             name,
-            law: ExcitationLaw::Shaken {
-                coordinate,
-                measure,
-                amplitude,
-            },
+            law: ExcitationLaw::Shaken { coordinate, measure, amplitude },
             frequency: frequency?,
             phase: phase?,
         })
     }
 
     /// The coordinate that a clause shakes; what is wrong with the clause has been reported with the drives.
-    fn shaken_coordinate(
-        &mut self,
-        joint: &Joint,
-        id: JointId,
-        shake: &Shake,
-    ) -> Option<CoordinateId> {
+    fn shaken_coordinate(&mut self, joint: &Joint, id: JointId, shake: &Shake) -> Option<CoordinateId> {
         Kind::find(&joint.kind.to_string())?;
         let ids = self.coordinates_of(id);
         match &shake.coordinate {
@@ -325,36 +270,20 @@ impl Resolver<'_> {
     }
 
     /// An amplitude, which must not be negative, if it is given.
-    fn amplitude(
-        &mut self,
-        arguments: &Arguments,
-        name: &str,
-        expected: impl Into<Expected>,
-    ) -> Option<Expr> {
+    fn amplitude(&mut self, arguments: &Arguments, name: &str, expected: impl Into<Expected>) -> Option<Expr> {
         let value = arguments.get(name)?;
         let expected = expected.into();
         let demand = Demand::Amplitude(expected.dimension);
         self.demanded(value, expected, &format!("`{name}`"), demand)
     }
 
-    fn positive(
-        &mut self,
-        value: &Value,
-        expected: impl Into<Expected>,
-        what: &str,
-    ) -> Option<Expr> {
+    fn positive(&mut self, value: &Value, expected: impl Into<Expected>, what: &str) -> Option<Expr> {
         let expected = expected.into();
         let demand = Demand::Positive(expected.dimension);
         self.demanded(value, expected, what, demand)
     }
 
-    fn demanded(
-        &mut self,
-        value: &Value,
-        expected: Expected,
-        what: &str,
-        demand: Demand,
-    ) -> Option<Expr> {
+    fn demanded(&mut self, value: &Value, expected: Expected, what: &str, demand: Demand) -> Option<Expr> {
         let expr = self.scalar_of(value, expected, what)?;
         self.requirements.push(Requirement {
             what: what.to_string(),

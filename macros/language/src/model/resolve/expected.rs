@@ -66,16 +66,11 @@ impl Expected {
     /// radians.
     pub(super) fn admits(&self, quantity: Quantity, value: &Value) -> bool {
         let is_number = matches!(self.unit.as_str(), "" | "1" | "rad");
-        quantity.fits(self.dimension)
-            && (is_number || quantity == Quantity::Zero || bare_number(value).is_none())
+        quantity.fits(self.dimension) && (is_number || quantity == Quantity::Zero || bare_number(value).is_none())
     }
 
     fn named(dimension: Dimension, name: &str, unit: &str) -> Self {
-        Self {
-            dimension,
-            name: name.to_string(),
-            unit: unit.to_string(),
-        }
+        Self { dimension, name: name.to_string(), unit: unit.to_string() }
     }
 
     /// The message for a number without a unit where this is expected.

@@ -34,102 +34,93 @@ pub(super) enum Reader {
 
 pub(super) type Row = Signature<Reader>;
 
-pub(super) const LAWS: &[Row] = &[
-    Row::new(
-        "spring",
-        &["on", "stiffness"],
-        "spring(on: theta, stiffness: 10 N*m/rad)",
-        Reader::Law(|resolver, arguments| resolver.spring(arguments)),
-    )
-    .optional(&["rest"])
-    .refusing(&[
-        ("damping", "add a `damper` on the same coordinate"),
-        ("from", BETWEEN_POINTS),
-        ("to", BETWEEN_POINTS),
-    ]),
-    Row::new(
-        "damper",
-        &["on", "damping"],
-        "damper(on: theta, damping: 0.1 N*m*s/rad)",
-        Reader::Law(|resolver, arguments| resolver.damper(arguments)),
-    )
-    .refusing(&[("from", BETWEEN_POINTS), ("to", BETWEEN_POINTS)]),
-    Row::new(
-        "spring_damper",
-        &["from", "to", "stiffness"],
-        "spring_damper(from: p, to: q, stiffness: 100 N/m)",
-        Reader::Law(|resolver, arguments| resolver.spring_damper(arguments)),
-    )
-    .optional(&["damping", "length"])
-    .refusing(&[("on", "on a coordinate there are `spring` and `damper`")]),
-    Row::new(
-        "tension",
-        &["from", "to", "law"],
-        "tension(from: p, to: q, law: 100 N/m * (length - 1 m))",
-        Reader::Law(|resolver, arguments| resolver.tension(arguments)),
-    ),
-    Row::new(
-        "generalized",
-        &["on", "value"],
-        "generalized(on: theta, value: -1 N*m * sin(theta))",
-        Reader::Law(|resolver, arguments| resolver.generalized(arguments)),
-    ),
-    Row::new(
-        "potential",
-        &["energy"],
-        "potential(energy: 1 J * cos(theta))",
-        Reader::Law(|resolver, arguments| resolver.potential(arguments)),
-    ),
-    Row::new(
-        "bushing",
-        &["from", "to"],
-        "bushing(from: p, to: q, stiffness: [1, 1, 1] kN/m)",
-        Reader::Law(|resolver, arguments| resolver.bushing(arguments)),
-    )
-    .at_least_one(&[
-        "stiffness",
-        "damping",
-        "turning_stiffness",
-        "turning_damping",
-    ]),
-    Row::new(
-        "load",
-        &["at"],
-        "load(at: p, force: [0, 0, -1] N)",
-        Reader::Law(|resolver, arguments| resolver.load(arguments, false)),
-    )
-    .at_least_one(&["force", "moment"])
-    .refusing(&ON_A_COORDINATE),
-    Row::new(
-        "follower",
-        &["at"],
-        "follower(at: p, force: [0, 0, -1] N)",
-        Reader::Law(|resolver, arguments| resolver.load(arguments, true)),
-    )
-    .at_least_one(&["force", "moment"])
-    .refusing(&ON_A_COORDINATE),
-    Row::new(
-        "drag",
-        &["at"],
-        "drag(at: p, damping: 1 N*s/m)",
-        Reader::Law(|resolver, arguments| resolver.drag(arguments)),
-    )
-    .at_least_one(&["damping", "turning_damping"]),
-    Row::new(
-        "distributed",
-        &["on"],
-        "distributed(on: blade, force: [0, 0, -5] N/m)",
-        Reader::Law(|resolver, arguments| resolver.distributed(arguments)),
-    )
-    .at_least_one(&["force", "follower", "damping"]),
-    Row::new(
-        "harmonic",
-        &[],
-        "harmonic(at: p, force: [0, 0, 1] N, frequency: 50 Hz)",
-        Reader::Excitation,
-    )
-    .optional(&["at", "on", "force", "moment", "frequency", "order", "phase"]),
-];
+pub(super) const LAWS: &[Row] =
+    &[
+        Row::new(
+            "spring",
+            &["on", "stiffness"],
+            "spring(on: theta, stiffness: 10 N*m/rad)",
+            Reader::Law(|resolver, arguments| resolver.spring(arguments)),
+        )
+        .optional(&["rest"])
+        .refusing(&[
+            ("damping", "add a `damper` on the same coordinate"),
+            ("from", BETWEEN_POINTS),
+            ("to", BETWEEN_POINTS),
+        ]),
+        Row::new(
+            "damper",
+            &["on", "damping"],
+            "damper(on: theta, damping: 0.1 N*m*s/rad)",
+            Reader::Law(|resolver, arguments| resolver.damper(arguments)),
+        )
+        .refusing(&[("from", BETWEEN_POINTS), ("to", BETWEEN_POINTS)]),
+        Row::new(
+            "spring_damper",
+            &["from", "to", "stiffness"],
+            "spring_damper(from: p, to: q, stiffness: 100 N/m)",
+            Reader::Law(|resolver, arguments| resolver.spring_damper(arguments)),
+        )
+        .optional(&["damping", "length"])
+        .refusing(&[("on", "on a coordinate there are `spring` and `damper`")]),
+        Row::new(
+            "tension",
+            &["from", "to", "law"],
+            "tension(from: p, to: q, law: 100 N/m * (length - 1 m))",
+            Reader::Law(|resolver, arguments| resolver.tension(arguments)),
+        ),
+        Row::new(
+            "generalized",
+            &["on", "value"],
+            "generalized(on: theta, value: -1 N*m * sin(theta))",
+            Reader::Law(|resolver, arguments| resolver.generalized(arguments)),
+        ),
+        Row::new(
+            "potential",
+            &["energy"],
+            "potential(energy: 1 J * cos(theta))",
+            Reader::Law(|resolver, arguments| resolver.potential(arguments)),
+        ),
+        Row::new(
+            "bushing",
+            &["from", "to"],
+            "bushing(from: p, to: q, stiffness: [1, 1, 1] kN/m)",
+            Reader::Law(|resolver, arguments| resolver.bushing(arguments)),
+        )
+        .at_least_one(&["stiffness", "damping", "turning_stiffness", "turning_damping"]),
+        Row::new(
+            "load",
+            &["at"],
+            "load(at: p, force: [0, 0, -1] N)",
+            Reader::Law(|resolver, arguments| resolver.load(arguments, false)),
+        )
+        .at_least_one(&["force", "moment"])
+        .refusing(&ON_A_COORDINATE),
+        Row::new(
+            "follower",
+            &["at"],
+            "follower(at: p, force: [0, 0, -1] N)",
+            Reader::Law(|resolver, arguments| resolver.load(arguments, true)),
+        )
+        .at_least_one(&["force", "moment"])
+        .refusing(&ON_A_COORDINATE),
+        Row::new(
+            "drag",
+            &["at"],
+            "drag(at: p, damping: 1 N*s/m)",
+            Reader::Law(|resolver, arguments| resolver.drag(arguments)),
+        )
+        .at_least_one(&["damping", "turning_damping"]),
+        Row::new(
+            "distributed",
+            &["on"],
+            "distributed(on: blade, force: [0, 0, -5] N/m)",
+            Reader::Law(|resolver, arguments| resolver.distributed(arguments)),
+        )
+        .at_least_one(&["force", "follower", "damping"]),
+        Row::new("harmonic", &[], "harmonic(at: p, force: [0, 0, 1] N, frequency: 50 Hz)", Reader::Excitation)
+            .optional(&["at", "on", "force", "moment", "frequency", "order", "phase"]),
+    ];
 
 /// Names of the laws in other tools.
 const SYNONYMS: [(&str, &str); 25] = [
@@ -167,11 +158,7 @@ impl Resolver<'_> {
             if let ItemKind::Force(force) = &item.kind
                 && let Some(law) = self.law(force)
             {
-                forces.push(Force {
-                    name: force.name.clone(),
-                    law,
-                    of_every: false,
-                });
+                forces.push(Force { name: force.name.clone(), law, of_every: false });
             }
         }
         forces

@@ -102,12 +102,7 @@ const MODES: &str = "frequencies and damping of modes are in every answer withou
     an output is a value of the equilibrium, such as `theta` or `distance(p, q)`";
 
 impl Resolver<'_> {
-    pub(super) fn call(
-        &mut self,
-        function: &Ident,
-        arguments: &[Value],
-        value_context: ValueContext,
-    ) -> Option<Typed> {
+    pub(super) fn call(&mut self, function: &Ident, arguments: &[Value], value_context: ValueContext) -> Option<Typed> {
         let name = function.to_string();
         if let Some(Meaning::Curve(index)) = self.scope.find(&name) {
             return self.curve_at(index, function, arguments, value_context);
@@ -118,18 +113,13 @@ impl Resolver<'_> {
             let is_curve = |meaning| matches!(meaning, Meaning::Curve(_));
             let help = match ABOUT_MODES.contains(&name.as_str()) {
                 true => Some(MODES.to_string()),
-                false => advice(&name, words, &SYNONYMS)
-                    .or_else(|| self.scope.nearest(&name, is_curve).map(meant)),
+                false => advice(&name, words, &SYNONYMS).or_else(|| self.scope.nearest(&name, is_curve).map(meant)),
             };
             self.report(function, format!("unknown function `{name}`"), help);
             return None;
         };
         if arguments.len() != parameters.len() {
-            let message = format!(
-                "`{name}` takes {}, not {}",
-                count(parameters.len()),
-                arguments.len()
-            );
+            let message = format!("`{name}` takes {}, not {}", count(parameters.len()), arguments.len());
             let mut help = format!("write `{name}({})`", parameters.join(", "));
             if arguments.len() > parameters.len() && decimal_commas(arguments) {
                 help = format!("{help}; {DECIMAL_POINT}");
@@ -194,12 +184,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn elementary(
-        &mut self,
-        name: &str,
-        argument: &Value,
-        value_context: ValueContext,
-    ) -> Option<Typed> {
+    fn elementary(&mut self, name: &str, argument: &Value, value_context: ValueContext) -> Option<Typed> {
         let (expr, quantity) = self.scalar(argument, value_context)?;
         if name == "sqrt" {
             let half = self.in_range(quantity.dimension().power(1, 2), argument.extent)?;
@@ -217,11 +202,7 @@ impl Resolver<'_> {
 }
 
 /// Why a function cannot be used at this place.
-fn refusal(
-    name: &str,
-    needs: Needs,
-    value_context: ValueContext,
-) -> Option<(String, Option<String>)> {
+fn refusal(name: &str, needs: Needs, value_context: ValueContext) -> Option<(String, Option<String>)> {
     let message = match (needs, value_context) {
         // Whether a rate can be an output depends on the coordinate.
         (Arguments, _)

@@ -46,10 +46,7 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
     };
     if design.tolerance.is_some() {
         let mut mistakes = Diagnostics::new();
-        mistakes.error(
-            &design.name,
-            "a value is expected here, without a tolerance",
-        );
+        mistakes.error(&design.name, "a value is expected here, without a tolerance");
         return Err(mistakes);
     }
     resolved(&ast, |resolver| {
@@ -77,11 +74,7 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
 ///
 /// # Errors
 /// The mistakes in the text.
-pub fn tolerance(
-    text: TokenStream,
-    unit: TokenStream,
-    nominal: f64,
-) -> Result<Tolerance, Diagnostics> {
+pub fn tolerance(text: TokenStream, unit: TokenStream, nominal: f64) -> Result<Tolerance, Diagnostics> {
     read_tolerance(text, unit, nominal, false)
 }
 
@@ -117,11 +110,7 @@ pub fn design_tolerance(
     };
     let nominal = design[variable];
     let tolerance = read_tolerance(text, unit, nominal, true)?;
-    let scale = if tolerance.relative {
-        nominal.abs()
-    } else {
-        1.0
-    };
+    let scale = if tolerance.relative { nominal.abs() } else { 1.0 };
     let mut points = resolver.design_points();
     for (point, value) in points.iter_mut().zip(design) {
         point.nominal = *value;
@@ -148,13 +137,7 @@ fn read_tolerance(
     let half_width = !text.to_string().starts_with(['+', '-', 'o']);
     let sign = half_width.then(|| quote!(+/-));
     let ast = read(quote!(mechanism Given { input given: #unit #sign #text; }))?;
-    let [
-        Item {
-            kind: ItemKind::Input(input),
-            ..
-        },
-    ] = &ast.items[..]
-    else {
+    let [Item { kind: ItemKind::Input(input), .. }] = &ast.items[..] else {
         return not_one(&ast);
     };
     resolved(&ast, |resolver| {
@@ -184,10 +167,7 @@ fn read(declaration: TokenStream) -> Result<Ast, Diagnostics> {
                 Some(found) => format!("unexpected {found}"),
                 None => mistake.message.replace(", found `;`", ", found nothing"),
             };
-            diagnostics.push(Diagnostic {
-                message,
-                ..mistake.clone()
-            });
+            diagnostics.push(Diagnostic { message, ..mistake.clone() });
         }
         diagnostics
     })
@@ -201,10 +181,7 @@ fn not_one<T>(ast: &Ast) -> Result<T, Diagnostics> {
 }
 
 /// The result of a resolution step, or its mistakes.
-fn resolved<T>(
-    ast: &Ast,
-    step: impl FnOnce(&mut Resolver<'_>) -> Option<T>,
-) -> Result<T, Diagnostics> {
+fn resolved<T>(ast: &Ast, step: impl FnOnce(&mut Resolver<'_>) -> Option<T>) -> Result<T, Diagnostics> {
     let mut mistakes = Diagnostics::new();
     let scope = Scope::new(ast, &[], &mut mistakes);
     let mut resolver = Resolver::new(ast, Vec::new(), scope, mistakes);
@@ -260,10 +237,7 @@ mod tests {
     #[test]
     fn what_is_no_value_is_refused() {
         for (text, expected) in [
-            (
-                "3000",
-                "`3000` has no unit; an angular speed is expected, for example `3000 rpm`",
-            ),
+            ("3000", "`3000` has no unit; an angular speed is expected, for example `3000 rpm`"),
             ("3 rmp", "unknown unit `rmp`\nhelp: did you mean `rpm`?"),
             ("3 m", "`speed` must be"),
             ("3 rpm; design other = 4 rpm", "one value"),
@@ -281,29 +255,16 @@ mod tests {
         use crate::model::mechanism::Law;
 
         let symmetric = tolerance(tokens("0.1mm"), tokens("m"), 1.0).unwrap();
-        assert_eq!(
-            (symmetric.lower, symmetric.upper, symmetric.relative),
-            (-1e-4, 1e-4, false)
-        );
+        assert_eq!((symmetric.lower, symmetric.upper, symmetric.relative), (-1e-4, 1e-4, false));
         let uniform = tolerance(tokens("+2% -1% uniform"), tokens("m"), 1.0).unwrap();
-        assert_eq!(
-            (uniform.lower, uniform.upper, uniform.relative),
-            (-0.01, 0.02, true)
-        );
+        assert_eq!((uniform.lower, uniform.upper, uniform.relative), (-0.01, 0.02, true));
         assert_eq!(uniform.law, Law::Uniform);
         let beta = tolerance(tokens("+/- 1 deg beta(2, 3)"), tokens("rad"), 1.0);
         assert!(matches!(beta.unwrap().law, Law::Beta { .. }));
-        let discrete = tolerance(
-            tokens("one of [20, 25, 22] mm weighted [1, 3, 1]"),
-            tokens("mm"),
-            0.021,
-        )
-        .unwrap();
+        let discrete = tolerance(tokens("one of [20, 25, 22] mm weighted [1, 3, 1]"), tokens("mm"), 0.021).unwrap();
         let near = |a: f64, b: f64| (a - b).abs() < 1e-15;
         assert!(near(discrete.lower, -1e-3) && near(discrete.upper, 4e-3));
-        let Law::OneOf(values) = discrete.law else {
-            panic!("a list of values")
-        };
+        let Law::OneOf(values) = discrete.law else { panic!("a list of values") };
         assert!(values[1] == (1.0, 3.0) && values[0] == (0.0, 1.0));
         assert!(near(values[2].0, 0.4) && values[2].1 == 1.0);
     }
@@ -312,10 +273,7 @@ mod tests {
     fn what_is_no_tolerance_is_refused() {
         for (text, expected) in [
             ("3 kg", "this tolerance must be a length (mm)"),
-            (
-                "3",
-                "`3` has no unit; a length is expected, for example `3 mm`\nhelp: or in per cent: `3%`",
-            ),
+            ("3", "`3` has no unit; a length is expected, for example `3 mm`\nhelp: or in per cent: `3%`"),
             ("+3 -2", "for example `-2 mm`\nhelp: or in per cent: `-2%`"),
             ("-3%", "expected"),
             ("3% unifrom", "did you mean `uniform`?"),

@@ -30,10 +30,7 @@ impl Resolver<'_> {
     fn acceleration(&mut self, gravity: &Gravity) -> Option<Vector> {
         let value = &gravity.value;
         let what = "gravity";
-        let direction = gravity
-            .along
-            .as_ref()
-            .map(|along| self.direction(along, ValueContext::Parameter));
+        let direction = gravity.along.as_ref().map(|along| self.direction(along, ValueContext::Parameter));
         let vector = match (self.value(value, ValueContext::Parameter)?, direction) {
             (Typed::Scalar(magnitude, quantity), Some(direction)) => {
                 self.expect(quantity, Dimension::ACCELERATION, what, value)?;

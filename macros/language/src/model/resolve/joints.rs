@@ -84,18 +84,11 @@ impl Resolver<'_> {
     /// The coordinates of a joint, in order.
     pub(super) fn coordinates_of(&self, joint: JointId) -> Vec<CoordinateId> {
         let ids = self.coordinates.iter().enumerate();
-        ids.filter(|(_, coordinate)| coordinate.joint == joint)
-            .map(|(index, _)| CoordinateId::new(index))
-            .collect()
+        ids.filter(|(_, coordinate)| coordinate.joint == joint).map(|(index, _)| CoordinateId::new(index)).collect()
     }
 
     /// Rejects a joint between a body and itself, which constrains nothing.
-    fn distinct(
-        &mut self,
-        joint: &ast::Joint,
-        from: Option<Frame>,
-        to: Option<Frame>,
-    ) -> Option<()> {
+    fn distinct(&mut self, joint: &ast::Joint, from: Option<Frame>, to: Option<Frame>) -> Option<()> {
         if from.is_some() && from == to {
             let message = format!("this joint connects `{}` with itself", joint.to);
             self.diagnostics.error(&joint.to, message);
@@ -108,12 +101,8 @@ impl Resolver<'_> {
         let station = self.station(&joint.from, value);
         if station.is_none() {
             let message = "before `to` stands a place along a beam: `at tip` or `at 0.4 length`";
-            let help = format!(
-                "place the joint after its sides: `from {0} to {1} at ...`",
-                joint.from, joint.to
-            );
-            self.diagnostics
-                .error_with_help(value.extent, message, help);
+            let help = format!("place the joint after its sides: `from {0} to {1} at ...`", joint.from, joint.to);
+            self.diagnostics.error_with_help(value.extent, message, help);
         }
         station.flatten()
     }
@@ -127,9 +116,7 @@ impl Resolver<'_> {
     ) -> Option<(usize, Option<Frame>)> {
         let offset = placement.offset.as_ref()?;
         let sides = [(0, &joint.from), (1, &joint.to)];
-        let meant = sides
-            .into_iter()
-            .filter(|(_, name)| on.is_none_or(|on| on == *name));
+        let meant = sides.into_iter().filter(|(_, name)| on.is_none_or(|on| on == *name));
         let meant: Vec<_> = meant.filter(|(_, name)| self.is_beam(name)).collect();
         let (side, name) = match (&meant[..], &offset.kind) {
             ([only], _) => *only,
@@ -151,10 +138,7 @@ impl Resolver<'_> {
                 continue;
             };
             let station = self.station_of(joint, placement, on.as_ref());
-            let turned = ast::Placement {
-                offset: None,
-                ..placement.clone()
-            };
+            let turned = ast::Placement { offset: None, ..placement.clone() };
             let rest = match station {
                 Some(_) => &turned,
                 None => placement,
@@ -203,10 +187,7 @@ impl Resolver<'_> {
         if *on == joint.to {
             return Some(1);
         }
-        let message = format!(
-            "`{on}` is not a side of this joint; it connects `{}` and `{}`",
-            joint.from, joint.to
-        );
+        let message = format!("`{on}` is not a side of this joint; it connects `{}` and `{}`", joint.from, joint.to);
         self.diagnostics.error(on, message);
         None
     }

@@ -19,10 +19,9 @@ pub(super) struct Listed {
 /// The content of a list and its spelling, for messages.
 fn words(value_context: ValueContext) -> (&'static str, &'static str) {
     match value_context {
-        ValueContext::Points => (
-            "points of a curve",
-            "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`",
-        ),
+        ValueContext::Points => {
+            ("points of a curve", "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`")
+        }
         _ => (
             "values",
             "write `one of [1.9, 2.0, 2.1] mm`, with `weighted [1, 6, 1]` behind it where not all are as frequent",
@@ -40,10 +39,7 @@ impl Resolver<'_> {
             return None;
         };
         let scale = self.optional_unit(unit.as_ref());
-        let numbers: Vec<_> = elements
-            .iter()
-            .map(|element| self.listed_number(element, value_context))
-            .collect();
+        let numbers: Vec<_> = elements.iter().map(|element| self.listed_number(element, value_context)).collect();
         let numbers: Vec<(f64, Quantity)> = numbers.into_iter().collect::<Option<_>>()?;
         let (numbers, quantities): (Vec<f64>, Vec<Quantity>) = numbers.into_iter().unzip();
         let common = self.common_quantity(&quantities, elements, what)?;
@@ -55,25 +51,14 @@ impl Resolver<'_> {
             }
         };
         let unit = match unit {
-            Some(unit) if common.dimension().is_none() => Unit {
-                symbol: print::unit(unit),
-                scale,
-            },
+            Some(unit) if common.dimension().is_none() => Unit { symbol: print::unit(unit), scale },
             None if !elements.is_empty() => self.display_unit(&elements[0], quantity.dimension()),
             _ => Unit::si(quantity.dimension()),
         };
-        Some(Listed {
-            numbers: numbers.into_iter().map(|x| x * scale).collect(),
-            quantity,
-            unit,
-        })
+        Some(Listed { numbers: numbers.into_iter().map(|x| x * scale).collect(), quantity, unit })
     }
 
-    fn listed_number(
-        &mut self,
-        element: &Value,
-        value_context: ValueContext,
-    ) -> Option<(f64, Quantity)> {
+    fn listed_number(&mut self, element: &Value, value_context: ValueContext) -> Option<(f64, Quantity)> {
         match self.scalar(element, value_context)? {
             (Expr::Number(number), quantity) => Some((number, quantity)),
             // Names are refused, and numbers are combined immediately.

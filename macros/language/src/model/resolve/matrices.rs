@@ -19,17 +19,10 @@ impl Resolver<'_> {
         let unit = self.optional_unit(unit);
         if rows.len() != 3 {
             let message = format!("a matrix has 3 rows, this one has {}", rows.len());
-            self.diagnostics.error_with_help(
-                extent,
-                message,
-                "write `[[a, b, c], [d, e, f], [g, h, i]]`",
-            );
+            self.diagnostics.error_with_help(extent, message, "write `[[a, b, c], [d, e, f], [g, h, i]]`");
             return None;
         }
-        let resolved: Vec<_> = rows
-            .iter()
-            .map(|row| self.row(row, value_context))
-            .collect();
+        let resolved: Vec<_> = rows.iter().map(|row| self.row(row, value_context)).collect();
         let resolved: Vec<_> = resolved.into_iter().collect::<Option<_>>()?;
         let (vectors, quantities): (Vec<Vector>, Vec<_>) = resolved.into_iter().unzip();
         let common = self.common_quantity(&quantities, rows, "rows of a matrix")?;
@@ -42,10 +35,7 @@ impl Resolver<'_> {
         if let ValueKind::Vector(entries, _) = &row.bare().kind
             && entries.len() != 3
         {
-            let message = format!(
-                "a row of a matrix has 3 values, this one has {}",
-                entries.len()
-            );
+            let message = format!("a row of a matrix has 3 values, this one has {}", entries.len());
             self.diagnostics.error(row.extent, message);
             return None;
         }
@@ -53,12 +43,7 @@ impl Resolver<'_> {
     }
 
     /// A matrix that must have the given dimension; a vector is taken as its diagonal. `what` names its role.
-    pub(super) fn matrix_of(
-        &mut self,
-        value: &Value,
-        expected: impl Into<Expected>,
-        what: &str,
-    ) -> Option<Matrix> {
+    pub(super) fn matrix_of(&mut self, value: &Value, expected: impl Into<Expected>, what: &str) -> Option<Matrix> {
         let (matrix, quantity) = match self.value(value, ValueContext::Parameter)? {
             Typed::Matrix(matrix, quantity) => (matrix, quantity),
             Typed::Vector(diagonal, quantity) => (simplify::diagonal(diagonal), quantity),

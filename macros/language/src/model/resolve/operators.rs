@@ -34,9 +34,7 @@ impl Resolver<'_> {
             (Typed::Vector(a, of_a), Typed::Vector(b, _)) => {
                 Typed::Vector(simplify::componentwise(a, b, combine), of_a)
             }
-            (Typed::Matrix(a, of_a), Typed::Matrix(b, _)) => {
-                Typed::Matrix(simplify::entrywise(a, b, combine), of_a)
-            }
+            (Typed::Matrix(a, of_a), Typed::Matrix(b, _)) => Typed::Matrix(simplify::entrywise(a, b, combine), of_a),
             (left, right) => {
                 let kinds = match (&left, &right) {
                     (Typed::Matrix(..), _) => [left.describe(), right.describe()],
@@ -62,14 +60,11 @@ impl Resolver<'_> {
                 _ => format!("cannot subtract {} from {}", b.describe(), a.describe()),
             };
             let unitless = |value: &Value, unit: Dimension| {
-                bare_number(value)
-                    .map(|text| format!("give the number a unit: `{text} {}`", unit.si_symbol()))
+                bare_number(value).map(|text| format!("give the number a unit: `{text} {}`", unit.si_symbol()))
             };
             let unitless_name = |value: &Value, dimension: Dimension| {
                 let (name, number) = self.declared_without_unit(value)?;
-                dimension
-                    .is_none()
-                    .then(|| format!("`{name}` is declared without a unit: `{number}`"))
+                dimension.is_none().then(|| format!("`{name}` is declared without a unit: `{number}`"))
             };
             let help = self
                 .swallowed(&binary.left, a, b)
@@ -115,8 +110,7 @@ impl Resolver<'_> {
             }
         };
         if divisor == Expr::Number(0.0) {
-            self.diagnostics
-                .error(binary.right.extent, "division by zero");
+            self.diagnostics.error(binary.right.extent, "division by zero");
             return None;
         }
         let quantity = self.combined(binary, left.quantity(), of_divisor)?;
@@ -134,11 +128,7 @@ impl Resolver<'_> {
     }
 
     /// A dimension, or a message if an exponent is out of range: exponents are small numbers unless a power runs away.
-    pub(super) fn in_range(
-        &mut self,
-        dimension: Option<Dimension>,
-        at: Extent,
-    ) -> Option<Quantity> {
+    pub(super) fn in_range(&mut self, dimension: Option<Dimension>, at: Extent) -> Option<Quantity> {
         if dimension.is_none() {
             let message = "the exponents of this value's unit are out of range";
             self.diagnostics.error(at, message);
@@ -168,8 +158,7 @@ impl Resolver<'_> {
             let n = exponent as i32;
             let quantity = self.in_range(dimension.power(n, 1), binary.sign)?;
             if n < 0 && base == Expr::Number(0.0) {
-                self.diagnostics
-                    .error(binary.left.extent, "division by zero");
+                self.diagnostics.error(binary.left.extent, "division by zero");
                 return None;
             }
             return Some(Typed::Scalar(simplify::power_integer(base, n), quantity));
@@ -178,20 +167,15 @@ impl Resolver<'_> {
             (true, _) => Quantity::Of(Dimension::NONE),
             (false, &Expr::Number(exponent)) => {
                 let Some((numerator, denominator)) = fraction(exponent) else {
-                    let message = format!(
-                        "{} can only be raised to a whole number or a simple fraction",
-                        dimension.describe()
-                    );
+                    let message =
+                        format!("{} can only be raised to a whole number or a simple fraction", dimension.describe());
                     self.diagnostics.error(binary.sign, message);
                     return None;
                 };
                 self.in_range(dimension.power(numerator, denominator), binary.sign)?
             }
             (false, _) => {
-                let message = format!(
-                    "{} can only be raised to a constant power",
-                    dimension.describe()
-                );
+                let message = format!("{} can only be raised to a constant power", dimension.describe());
                 let help = "divide it by a reference value first";
                 self.diagnostics.error_with_help(binary.sign, message, help);
                 return None;
@@ -204,8 +188,7 @@ impl Resolver<'_> {
     pub(super) fn finite(&mut self, typed: Typed, at: Extent) -> Option<Typed> {
         let wrong = |expr: &Expr| matches!(expr, Expr::Number(value) if !value.is_finite());
         if typed.numbers().iter().any(wrong) {
-            self.diagnostics
-                .error(at, "the result of this is not a finite real number");
+            self.diagnostics.error(at, "the result of this is not a finite real number");
             return None;
         }
         Some(typed)

@@ -16,11 +16,7 @@ impl Resolver<'_> {
             };
             let (frame, placement) = self.placed_frame(&point.frame, point.placement.as_ref());
             if let (Some(frame), Some(placement)) = (frame, placement) {
-                points.push(Point {
-                    name: point.name.clone(),
-                    frame,
-                    placement,
-                });
+                points.push(Point { name: point.name.clone(), frame, placement });
             }
         }
         points
@@ -34,12 +30,7 @@ impl Resolver<'_> {
             };
             if let Some((value, quantity)) = self.scalar(&output.value, ValueContext::Output) {
                 let unit = self.unit_of(&value, quantity.dimension());
-                outputs.push(Output {
-                    name: output.name.clone(),
-                    docs: item.docs.clone(),
-                    unit,
-                    value,
-                });
+                outputs.push(Output { name: output.name.clone(), docs: item.docs.clone(), unit, value });
             }
         }
         outputs
@@ -71,9 +62,7 @@ impl Resolver<'_> {
                 _ => None,
             },
             Expr::Divide(a, b) if matches!(**b, Expr::Number(_)) => self.measure(a),
-            Expr::Call(Function::Asin | Function::Acos, _) | Expr::Atan2(..) => {
-                Some(Measure::Angle)
-            }
+            Expr::Call(Function::Asin | Function::Acos, _) | Expr::Atan2(..) => Some(Measure::Angle),
             _ => None,
         }
     }

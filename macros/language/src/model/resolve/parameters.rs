@@ -30,10 +30,7 @@ impl Resolver<'_> {
             inputs.push(Input {
                 name: input.name.clone(),
                 docs: item.docs.clone(),
-                unit: Unit {
-                    symbol,
-                    scale: resolved.map_or(1.0, |(_, scale)| scale),
-                },
+                unit: Unit { symbol, scale: resolved.map_or(1.0, |(_, scale)| scale) },
                 tolerance: tolerance.unwrap_or(Tolerance::NONE),
             });
         }
@@ -69,24 +66,15 @@ impl Resolver<'_> {
             ItemKind::Design(design) => Some(design.name.to_string()),
             _ => None,
         });
-        let points = self
-            .design
-            .iter()
-            .zip(named)
-            .map(|(nominal, name)| match nominal {
-                Some(nominal) => DesignPoint {
-                    name,
-                    nominal: nominal.value,
-                    limits: [nominal.tolerance.lower, nominal.tolerance.upper],
-                    extent: nominal.tolerance_extent,
-                },
-                None => DesignPoint {
-                    name,
-                    nominal: f64::NAN,
-                    limits: [0.0; 2],
-                    extent: None,
-                },
-            });
+        let points = self.design.iter().zip(named).map(|(nominal, name)| match nominal {
+            Some(nominal) => DesignPoint {
+                name,
+                nominal: nominal.value,
+                limits: [nominal.tolerance.lower, nominal.tolerance.upper],
+                extent: nominal.tolerance_extent,
+            },
+            None => DesignPoint { name, nominal: f64::NAN, limits: [0.0; 2], extent: None },
+        });
         points.collect()
     }
 
@@ -125,10 +113,9 @@ impl Resolver<'_> {
             number = operand.bare();
         }
         match &number.kind {
-            ValueKind::Number(_, Some(unit)) => Unit {
-                symbol: print::unit(unit),
-                scale: self.unit(unit).map_or(1.0, |(_, scale)| scale),
-            },
+            ValueKind::Number(_, Some(unit)) => {
+                Unit { symbol: print::unit(unit), scale: self.unit(unit).map_or(1.0, |(_, scale)| scale) }
+            }
             _ => Unit::si(dimension),
         }
     }

@@ -18,10 +18,7 @@ pub(super) fn zero() -> Vector {
 
 /// The identity placement.
 pub(super) fn unplaced() -> Placement {
-    Placement {
-        offset: zero(),
-        rotations: Vec::new(),
-    }
+    Placement { offset: zero(), rotations: Vec::new() }
 }
 
 impl Resolver<'_> {
@@ -36,21 +33,14 @@ impl Resolver<'_> {
         if let Some((placement, offset)) = offset
             && let Some(station) = self.station(frame, offset)
         {
-            let turned = ast::Placement {
-                offset: None,
-                ..placement.clone()
-            };
+            let turned = ast::Placement { offset: None, ..placement.clone() };
             return (station, self.placement(Some(&turned), what));
         }
         (self.frame(frame), self.placement(placement, what))
     }
 
     /// A placement; the identity if none is given. `what` names the thing being placed.
-    pub(super) fn placement(
-        &mut self,
-        placement: Option<&ast::Placement>,
-        what: &str,
-    ) -> Option<Placement> {
+    pub(super) fn placement(&mut self, placement: Option<&ast::Placement>, what: &str) -> Option<Placement> {
         let Some(placement) = placement else {
             return Some(unplaced());
         };
@@ -79,10 +69,7 @@ impl Resolver<'_> {
                 direction.zip(turn)
             })
             .collect();
-        Some(Placement {
-            offset: offset?,
-            rotations: rotations.into_iter().collect::<Option<_>>()?,
-        })
+        Some(Placement { offset: offset?, rotations: rotations.into_iter().collect::<Option<_>>()? })
     }
 }
 

@@ -23,8 +23,7 @@ impl Resolver<'_> {
 
     /// Whether the point is fixed in a body.
     pub(super) fn point_moves(&self, point: PointId) -> bool {
-        self.point_frame(point)
-            .is_some_and(|frame| frame != "ground")
+        self.point_frame(point).is_some_and(|frame| frame != "ground")
     }
 
     /// Two arguments that must be points of different bodies, because nothing ever changes between two points of one
@@ -48,8 +47,7 @@ impl Resolver<'_> {
         } else {
             return Some((from, to));
         };
-        self.diagnostics
-            .error(arguments.get(second)?.extent, message);
+        self.diagnostics.error(arguments.get(second)?.extent, message);
         None
     }
 }

@@ -45,10 +45,7 @@ impl Resolver<'_> {
             Some(Meaning::OnlyCoordinate(id)) => Some(self.coordinates.get(id.index())?.joint),
             other => {
                 let is_right = |meaning| {
-                    matches!(
-                        meaning,
-                        Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Constraint(_)
-                    )
+                    matches!(meaning, Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Constraint(_))
                 };
                 self.wrong_reference(name, kind, other, is_right);
                 None
@@ -57,10 +54,7 @@ impl Resolver<'_> {
     }
 
     /// A coordinate, by its own name or by that of a joint with a single coordinate.
-    pub(super) fn coordinate(
-        &mut self,
-        name: &Ident,
-    ) -> Option<(CoordinateId, CoordinateQuantity)> {
+    pub(super) fn coordinate(&mut self, name: &Ident) -> Option<(CoordinateId, CoordinateQuantity)> {
         match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::OnlyCoordinate(id) | Meaning::Coordinate(id)) => {
                 let declared = self.coordinates.get(id.index())?;
@@ -90,10 +84,7 @@ impl Resolver<'_> {
         };
         let message = match joint.name == *name {
             true => format!("`{name}` is cut, so it has no coordinate"),
-            false => format!(
-                "`{name}` belongs to the cut joint `{}`, which has no coordinates",
-                joint.name
-            ),
+            false => format!("`{name}` belongs to the cut joint `{}`, which has no coordinates", joint.name),
         };
         let help = "cut another joint of the loop, or leave out `cut`: then one that nothing refers to is chosen";
         self.diagnostics.error_with_help(name, message, help);
@@ -111,9 +102,7 @@ impl Resolver<'_> {
             return;
         }
         let coordinates = self.coordinates.iter().filter(|other| other.joint == id);
-        let names: Vec<String> = coordinates
-            .map(|other| format!("`{}`", other.name))
-            .collect();
+        let names: Vec<String> = coordinates.map(|other| format!("`{}`", other.name)).collect();
         if !names.is_empty() {
             let message = format!("`{name}` is a {} joint with several coordinates", kind.word);
             let help = format!("name one of them: {}", names.join(", "));
@@ -135,15 +124,13 @@ impl Resolver<'_> {
             let is = meaning.describe();
             let message = format!("`{name}` is {is}; a {kind} is expected here");
             let help = match meaning {
-                Meaning::Body(_) if kind == "point" => Some(format!(
-                    "declare a point of the body: `point p: {name} at [0, 0, 0];`"
-                )),
+                Meaning::Body(_) if kind == "point" => {
+                    Some(format!("declare a point of the body: `point p: {name} at [0, 0, 0];`"))
+                }
                 Meaning::Coordinate(id) if kind.starts_with("joint") => self
                     .coordinates
                     .get(id.index())
-                    .and_then(|coordinate| {
-                        coordinates::joints(self.ast).nth(coordinate.joint.index())
-                    })
+                    .and_then(|coordinate| coordinates::joints(self.ast).nth(coordinate.joint.index()))
                     .map(|joint| format!("its joint is `{}`", joint.name)),
                 _ => None,
             };
@@ -152,20 +139,13 @@ impl Resolver<'_> {
         }
         let text = name.to_string();
         if text == "ground" {
-            let help =
-                (kind == "point").then(|| "declare a point of it: `point p: ground;`".into());
-            self.report(
-                name,
-                format!("`ground` is a frame; a {kind} is expected here"),
-                help,
-            );
+            let help = (kind == "point").then(|| "declare a point of it: `point p: ground;`".into());
+            self.report(name, format!("`ground` is a frame; a {kind} is expected here"), help);
             return;
         }
         let near = self.scope.nearest(&text, right).map(str::to_string);
         let near = near.or_else(|| {
-            (kind == "body")
-                .then(|| crate::base::nearest::nearest(&text, ["ground"]))?
-                .map(str::to_string)
+            (kind == "body").then(|| crate::base::nearest::nearest(&text, ["ground"]))?.map(str::to_string)
         });
         let help = near.map(|near| format!("did you mean `{near}`?"));
         self.report(name, format!("unknown {kind} `{text}`"), help);

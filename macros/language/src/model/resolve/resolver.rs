@@ -51,12 +51,7 @@ pub(super) struct Resolver<'a> {
 }
 
 impl<'a> Resolver<'a> {
-    pub(super) fn new(
-        ast: &'a Ast,
-        coordinates: Vec<Declared<'a>>,
-        scope: Scope,
-        diagnostics: Diagnostics,
-    ) -> Self {
+    pub(super) fn new(ast: &'a Ast, coordinates: Vec<Declared<'a>>, scope: Scope, diagnostics: Diagnostics) -> Self {
         Self {
             ast,
             diagnostics,
@@ -84,12 +79,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// Records a mistake, with its help if there is any.
-    pub(super) fn report(
-        &mut self,
-        span: impl Into<Extent>,
-        message: impl Into<String>,
-        help: Option<String>,
-    ) {
+    pub(super) fn report(&mut self, span: impl Into<Extent>, message: impl Into<String>, help: Option<String>) {
         let mut diagnostic = Diagnostic::new(span, message);
         diagnostic.help = help;
         self.diagnostics.push(diagnostic);
@@ -136,7 +126,6 @@ impl<'a> Resolver<'a> {
     /// Whether there is a joint of an unknown kind, or an item that could not be read.
     pub(super) fn may_have_more_coordinates(&self) -> bool {
         let unknown = |joint: &Joint| Kind::find(&joint.kind.to_string()).is_none();
-        coordinates::joints(self.ast).any(unknown)
-            || self.ast.unread.iter().any(Unread::may_connect)
+        coordinates::joints(self.ast).any(unknown) || self.ast.unread.iter().any(Unread::may_connect)
     }
 }

@@ -6,9 +6,7 @@ use proc_macro2::Ident;
 
 use super::coordinates::Declared;
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::{
-    BodyId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId,
-};
+use crate::base::ids::{BodyId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId};
 use crate::base::nearest::nearest;
 use crate::syntax::ast::{Ast, ItemKind};
 
@@ -78,11 +76,7 @@ pub(super) struct Scope {
 
 impl Scope {
     /// Enters the name of every item, even if the rest of the item is wrong.
-    pub(super) fn new(
-        ast: &Ast,
-        coordinates: &[Declared<'_>],
-        diagnostics: &mut Diagnostics,
-    ) -> Self {
+    pub(super) fn new(ast: &Ast, coordinates: &[Declared<'_>], diagnostics: &mut Diagnostics) -> Self {
         let mut scope = Self::default();
         let mut counts = [0; 9];
         let mut next = |table: usize| {
@@ -108,10 +102,7 @@ impl Scope {
                 ItemKind::Material(_) => Meaning::Material,
                 ItemKind::Constraint(_) => Meaning::Constraint(ConstraintId::new(next(6))),
                 ItemKind::Output(_) => Meaning::Output,
-                ItemKind::Gravity(_)
-                | ItemKind::KernelsOnly(_)
-                | ItemKind::Every(_)
-                | ItemKind::Steady(_) => continue,
+                ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) | ItemKind::Steady(_) => continue,
             };
             if let Some(name) = item.kind.name() {
                 scope.declare(name, meaning, diagnostics);
@@ -166,10 +157,7 @@ impl Scope {
             let first = &mut self.order[first].1;
             let message = match *first {
                 Meaning::Unclear => format!("`{text}` is declared more than once"),
-                first => format!(
-                    "`{text}` is declared twice: it is {} already",
-                    first.describe()
-                ),
+                first => format!("`{text}` is declared twice: it is {} already", first.describe()),
             };
             *first = Meaning::Unclear;
             diagnostics.error_with_help(name, message, "all kinds of names share one namespace");
@@ -186,8 +174,7 @@ impl Scope {
 
     /// The meaning of a name. An undeclared name may be one that could not be read.
     pub(super) fn find_or_unclear(&self, name: &str) -> Option<Meaning> {
-        self.find(name)
-            .or(self.is_incomplete.then_some(Meaning::Unclear))
+        self.find(name).or(self.is_incomplete.then_some(Meaning::Unclear))
     }
 
     pub(super) fn find(&self, name: &str) -> Option<Meaning> {

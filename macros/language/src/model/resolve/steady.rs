@@ -31,10 +31,7 @@ impl Resolver<'_> {
         let what = format!("the steady value of `{name}`");
         let (dimension, what) = match self.motion_of(coordinate) {
             DeclaredMotion::Free => (dimension(quantity), what),
-            DeclaredMotion::Coasting => (
-                rate_dimension(quantity),
-                format!("the steady speed of `{name}`"),
-            ),
+            DeclaredMotion::Coasting => (rate_dimension(quantity), format!("the steady speed of `{name}`")),
             DeclaredMotion::Driven => {
                 let message = format!("`{name}` is driven: its drive gives its speed");
                 let help = "only a free coordinate, or the speed of a coasting one, can select a steady motion";
@@ -42,18 +39,13 @@ impl Resolver<'_> {
                 return None;
             }
             DeclaredMotion::Shaken => {
-                let message =
-                    format!("`{name}` is shaken about zero: it has no other steady value");
+                let message = format!("`{name}` is shaken about zero: it has no other steady value");
                 self.diagnostics.error(name, message);
                 return None;
             }
         };
         let value = self.scalar_of(value, dimension, &what)?;
-        Some(Steady {
-            coordinate,
-            name: name.clone(),
-            value,
-        })
+        Some(Steady { coordinate, name: name.clone(), value })
     }
 
     fn motion_of(&self, coordinate: CoordinateId) -> DeclaredMotion {

@@ -17,12 +17,7 @@ pub(super) struct Word {
 }
 
 const WORDS: [Word; 2] = [
-    Word {
-        name: "length",
-        meaning: "the distance of the two ends",
-        expr: Expr::Length,
-        dimension: Dimension::LENGTH,
-    },
+    Word { name: "length", meaning: "the distance of the two ends", expr: Expr::Length, dimension: Dimension::LENGTH },
     Word {
         name: "rate",
         meaning: "the rate of the distance of the two ends",
@@ -48,11 +43,8 @@ impl Resolver<'_> {
             if meaning == Meaning::Unclear {
                 return None;
             }
-            let message = format!(
-                "`{name}` is ambiguous here: {}, or {} of that name",
-                word.meaning,
-                meaning.describe()
-            );
+            let message =
+                format!("`{name}` is ambiguous here: {}, or {} of that name", word.meaning, meaning.describe());
             let help = format!("give the declared `{name}` another name");
             self.diagnostics.error_with_help(name, message, help);
             return None;

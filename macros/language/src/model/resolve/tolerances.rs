@@ -22,11 +22,7 @@ struct Limits {
 
 impl Limits {
     fn half_width(half_width: f64, relative: bool) -> Self {
-        Self {
-            lower: -half_width,
-            upper: half_width,
-            relative,
-        }
+        Self { lower: -half_width, upper: half_width, relative }
     }
 
     fn with(self, law: Law) -> Tolerance {
@@ -87,12 +83,7 @@ impl Resolver<'_> {
     }
 
     /// Limits as declared; the upper one must not be below the lower one.
-    fn limits(
-        &mut self,
-        tolerance: &ast::Tolerance,
-        expected: Option<&Expected>,
-        more_help: &str,
-    ) -> Option<Limits> {
+    fn limits(&mut self, tolerance: &ast::Tolerance, expected: Option<&Expected>, more_help: &str) -> Option<Limits> {
         match &tolerance.limits {
             ast::Limits::Percent(percent) => {
                 self.not_negative(*percent, tolerance.extent)?;
@@ -129,15 +120,8 @@ impl Resolver<'_> {
     }
 
     /// The tolerance of a quantity that takes one of several values.
-    fn values(
-        &mut self,
-        of: &ast::Values,
-        extent: Extent,
-        (value, expected): (f64, Expected),
-    ) -> Option<Tolerance> {
-        let Listed {
-            numbers, quantity, ..
-        } = self.listed(&of.values, ValueContext::Values)?;
+    fn values(&mut self, of: &ast::Values, extent: Extent, (value, expected): (f64, Expected)) -> Option<Tolerance> {
+        let Listed { numbers, quantity, .. } = self.listed(&of.values, ValueContext::Values)?;
         self.expect(quantity, expected, "a value that it may have", &of.values)?;
         if numbers.is_empty() {
             let message = "no value is listed";
@@ -156,20 +140,14 @@ impl Resolver<'_> {
             true => (number - least) / (greatest - least),
             false => 0.0,
         };
-        let limits = Limits {
-            lower,
-            upper,
-            relative: false,
-        };
+        let limits = Limits { lower, upper, relative: false };
         let places = numbers.into_iter().map(fraction).zip(weights);
         Some(limits.with(Law::OneOf(places.collect())))
     }
 
     /// The relative frequency of each of `count` values.
     fn weights(&mut self, list: &Value, count: usize) -> Option<Vec<f64>> {
-        let Listed {
-            numbers, quantity, ..
-        } = self.listed(list, ValueContext::Values)?;
+        let Listed { numbers, quantity, .. } = self.listed(list, ValueContext::Values)?;
         self.expect(quantity, Dimension::NONE, "a weight", list)?;
         let message = if numbers.len() != count {
             format!("{} weights for {count} values: each has one", numbers.len())
@@ -185,19 +163,12 @@ impl Resolver<'_> {
     }
 
     /// Requires a deviation to have the dimension of its quantity; a bare number may also be meant in percent.
-    fn expect_deviation(
-        &mut self,
-        quantity: Quantity,
-        expected: &Expected,
-        what: &str,
-        value: &Value,
-    ) -> Option<()> {
+    fn expect_deviation(&mut self, quantity: Quantity, expected: &Expected, what: &str, value: &Value) -> Option<()> {
         match bare_number(value) {
             Some(written) if !expected.admits(quantity, value) => {
                 let message = expected.needs_unit(&written);
                 let help = format!("or in per cent: `{written}%`");
-                self.diagnostics
-                    .error_with_help(value.extent, message, help);
+                self.diagnostics.error_with_help(value.extent, message, help);
                 None
             }
             _ => self.expect(quantity, expected.clone(), what, value),
@@ -214,12 +185,7 @@ impl Resolver<'_> {
         Some(())
     }
 
-    fn deviations(
-        &mut self,
-        deviations: &Deviations,
-        extent: Extent,
-        expected: Option<&Expected>,
-    ) -> Option<Limits> {
+    fn deviations(&mut self, deviations: &Deviations, extent: Extent, expected: Option<&Expected>) -> Option<Limits> {
         let Deviations { upper, lower } = deviations;
         let low = self.deviation(lower, &lower.measure, expected);
         // A wrong unit shared by both is reported once.
@@ -229,9 +195,7 @@ impl Resolver<'_> {
         let high = self.deviation(upper, deviations.upper_measure(), expected);
         let ((low, low_kind), (high, high_kind)) = (low?, high?);
         let relative = match (low_kind, high_kind) {
-            (DeviationKind::Zero, kind) | (kind, DeviationKind::Zero) => {
-                kind == DeviationKind::Fraction
-            }
+            (DeviationKind::Zero, kind) | (kind, DeviationKind::Zero) => kind == DeviationKind::Fraction,
             (low, high) if low == high => low == DeviationKind::Fraction,
             _ => {
                 self.diagnostics.error_with_help(
@@ -242,11 +206,7 @@ impl Resolver<'_> {
                 return None;
             }
         };
-        Some(Limits {
-            lower: low,
-            upper: high,
-            relative,
-        })
+        Some(Limits { lower: low, upper: high, relative })
     }
 
     fn deviation(
@@ -281,11 +241,7 @@ impl Resolver<'_> {
         let unit = if limits.relative { value.abs() } else { 1.0 };
         let (lower, upper) = (unit * limits.lower, unit * limits.upper);
         self.representable(&[value + lower, value + upper, upper - lower], extent)?;
-        Some(Limits {
-            lower,
-            upper,
-            relative: false,
-        })
+        Some(Limits { lower, upper, relative: false })
     }
 
     fn representable(&mut self, limits: &[f64], extent: Extent) -> Option<()> {
@@ -307,10 +263,7 @@ impl Resolver<'_> {
             Some(LawKind::Weibull) => Law::Weibull,
             Some(LawKind::Beta(shapes)) => {
                 let [alpha, beta] = [&shapes[0], &shapes[1]].map(|shape| self.shape(shape));
-                Law::Beta {
-                    alpha: alpha?,
-                    beta: beta?,
-                }
+                Law::Beta { alpha: alpha?, beta: beta? }
             }
         })
     }
@@ -328,24 +281,13 @@ impl Resolver<'_> {
     }
 
     /// Checks that the mean, midway between the limits, is positive, for laws of positive values.
-    fn positive_mean(
-        &mut self,
-        declared: &ast::Tolerance,
-        law: &Law,
-        mean: f64,
-        unit: &str,
-    ) -> Option<()> {
+    fn positive_mean(&mut self, declared: &ast::Tolerance, law: &Law, mean: f64, unit: &str) -> Option<()> {
         let demands = matches!(law, Law::Lognormal | Law::Weibull);
         if !demands || mean > 0.0 {
             return Some(());
         }
-        let extent = declared
-            .law
-            .as_ref()
-            .map_or(declared.extent, |law| law.extent);
-        let message = format!(
-            "a `{law}` value is positive, but its mean, midway between the limits, is {mean} {unit}"
-        );
+        let extent = declared.law.as_ref().map_or(declared.extent, |law| law.extent);
+        let message = format!("a `{law}` value is positive, but its mean, midway between the limits, is {mean} {unit}");
         let help = "choose another law, or declare the amount and write the sign where it is used";
         self.diagnostics.error_with_help(extent, message, help);
         None
@@ -370,8 +312,5 @@ fn exchanged(deviations: &Deviations) -> Deviations {
     if deviations.shares_measure() {
         std::mem::swap(&mut first.measure, &mut second.measure);
     }
-    Deviations {
-        upper: first,
-        lower: second,
-    }
+    Deviations { upper: first, lower: second }
 }

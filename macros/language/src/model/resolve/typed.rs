@@ -84,9 +84,7 @@ impl Typed {
 
     pub(super) fn quantity(&self) -> Quantity {
         match *self {
-            Typed::Scalar(_, quantity)
-            | Typed::Vector(_, quantity)
-            | Typed::Matrix(_, quantity) => quantity,
+            Typed::Scalar(_, quantity) | Typed::Vector(_, quantity) | Typed::Matrix(_, quantity) => quantity,
         }
     }
 
@@ -126,20 +124,14 @@ pub(super) enum ValueContext {
 impl ValueContext {
     /// Whether names of values may be used here.
     pub(super) fn knows_names(self) -> bool {
-        !matches!(
-            self,
-            ValueContext::Nominal | ValueContext::Points | ValueContext::Values
-        )
+        !matches!(self, ValueContext::Nominal | ValueContext::Points | ValueContext::Values)
     }
 
     /// Whether coordinates and points may be used here.
     pub(super) fn knows_places(self) -> bool {
         matches!(
             self,
-            ValueContext::GeneralizedForce
-                | ValueContext::Energy
-                | ValueContext::Equation
-                | ValueContext::Output
+            ValueContext::GeneralizedForce | ValueContext::Energy | ValueContext::Equation | ValueContext::Output
         )
     }
 }

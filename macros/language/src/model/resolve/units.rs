@@ -20,14 +20,12 @@ impl Resolver<'_> {
             let Some(named) = units::find(&factor.name) else {
                 let name = &factor.name;
                 let help = if self.scope.find(name).is_some() {
-                    Some(format!(
-                        "a word after a number is a unit; to multiply by the declared `{name}` write `*`"
-                    ))
+                    Some(format!("a word after a number is a unit; to multiply by the declared `{name}` write `*`"))
                 } else {
                     let respelt = units::respelt(name).map(|text| format!("write `{text}`"));
-                    units::per_cent(name).or(respelt).or_else(|| {
-                        units::suggestion(name).map(|near| format!("did you mean `{near}`?"))
-                    })
+                    units::per_cent(name)
+                        .or(respelt)
+                        .or_else(|| units::suggestion(name).map(|near| format!("did you mean `{near}`?")))
                 };
                 self.report(factor.extent, format!("unknown unit `{name}`"), help);
                 known = false;
@@ -36,11 +34,7 @@ impl Resolver<'_> {
             product = product.and_then(|(dimension, scale)| {
                 let dimension = dimension.times(named.dimension.power(factor.exponent, 1)?)?;
                 let power = named.scale.powi(factor.exponent.abs());
-                let scale = if factor.exponent < 0 {
-                    scale / power
-                } else {
-                    scale * power
-                };
+                let scale = if factor.exponent < 0 { scale / power } else { scale * power };
                 Some((dimension, scale))
             });
         }
@@ -54,12 +48,7 @@ impl Resolver<'_> {
 
     /// In `3 kg * m` the `m` is the metre even if a design variable is called `m`. Returns help if reading the name as
     /// declared would turn the found dimension into the expected one, also inside a `let` that is used here.
-    pub(super) fn swallowed(
-        &self,
-        value: &Value,
-        dimension: Dimension,
-        expected: Dimension,
-    ) -> Option<String> {
+    pub(super) fn swallowed(&self, value: &Value, dimension: Dimension, expected: Dimension) -> Option<String> {
         let meant = |unit: &Unit, index: usize| {
             let factor = &unit.factors[index];
             let declared = self.declared_dimension(&factor.name)?;
@@ -73,9 +62,7 @@ impl Resolver<'_> {
                 let index = others.find(|&index| meant(unit, index).is_some())?;
                 let name = &unit.factors[index].name;
                 let apart = apart(number, unit, index);
-                Some(format!(
-                    "`{name}` after a number is read as a unit; for the declared `{name}` write `{apart}`"
-                ))
+                Some(format!("`{name}` after a number is read as a unit; for the declared `{name}` write `{apart}`"))
             })
         };
         let in_let = |name: &Ident| {
@@ -90,12 +77,7 @@ impl Resolver<'_> {
     }
 
     /// Records a unit in which declared names could have been meant.
-    pub(super) fn may_be_unclear(
-        &mut self,
-        number: Option<f64>,
-        unit: &Unit,
-        value_context: ValueContext,
-    ) {
+    pub(super) fn may_be_unclear(&mut self, number: Option<f64>, unit: &Unit, value_context: ValueContext) {
         if value_context.knows_names() && unit.factors.len() > 1 {
             self.units.push((number, unit.clone(), value_context));
         }
@@ -152,20 +134,12 @@ impl Resolver<'_> {
 
 /// The value written so that its unit ends before one of its factors, which is the name of something declared.
 fn apart(number: Option<f64>, unit: &Unit, index: usize) -> String {
-    let part = |factors: &[UnitFactor]| {
-        print::unit(&Unit {
-            factors: factors.to_vec(),
-            extent: unit.extent,
-        })
-    };
+    let part = |factors: &[UnitFactor]| print::unit(&Unit { factors: factors.to_vec(), extent: unit.extent });
     let number = number.map_or_else(|| "[...]".to_string(), |number| number.to_string());
     let mut text = format!("({number} {})", part(&unit.factors[..index]));
     for (k, factor) in unit.factors.iter().enumerate().skip(index) {
         let sign = if factor.exponent < 0 { '/' } else { '*' };
-        let above = UnitFactor {
-            exponent: factor.exponent.abs(),
-            ..factor.clone()
-        };
+        let above = UnitFactor { exponent: factor.exponent.abs(), ..factor.clone() };
         let symbol = part(&[above]);
         text += &match k == index {
             true => format!(" {sign} {symbol}"),

@@ -51,28 +51,16 @@ impl Resolver<'_> {
         }
     }
 
-    fn number(
-        &mut self,
-        number: f64,
-        unit: Option<&Unit>,
-        value_context: ValueContext,
-    ) -> Option<Typed> {
+    fn number(&mut self, number: f64, unit: Option<&Unit>, value_context: ValueContext) -> Option<Typed> {
         let Some(unit) = unit else {
-            let quantity = if number == 0.0 {
-                Quantity::Zero
-            } else {
-                Quantity::Of(Dimension::NONE)
-            };
+            let quantity = if number == 0.0 { Quantity::Zero } else { Quantity::Of(Dimension::NONE) };
             return Some(Typed::Scalar(Expr::Number(number), quantity));
         };
         let (dimension, scale) = self.unit(unit)?;
         self.may_be_unclear(Some(number), unit, value_context);
         let value = number * scale;
         if !value.is_finite() {
-            self.diagnostics.error(
-                unit.extent,
-                "this value is outside the range of a 64-bit number",
-            );
+            self.diagnostics.error(unit.extent, "this value is outside the range of a 64-bit number");
             return None;
         }
         // Tolerances are no lengths of the mechanism, and nominal values are noted by those who ask for them.
@@ -99,10 +87,7 @@ impl Resolver<'_> {
         if let Some((what, help)) = of_numbers_only(value_context)
             && meaning != Meaning::Unclear
         {
-            let message = format!(
-                "`{text}` is {}; {what} made of numbers only",
-                meaning.describe()
-            );
+            let message = format!("`{text}` is {}; {what} made of numbers only", meaning.describe());
             self.diagnostics.error_with_help(name, message, help);
             return None;
         }
@@ -120,10 +105,7 @@ impl Resolver<'_> {
             Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Coordinate(_) => {
                 let (coordinate, quantity) = self.coordinate(name)?;
                 self.coordinate_is_usable(name, coordinate, value_context)?;
-                Some(Typed::Scalar(
-                    Expr::Coordinate(coordinate),
-                    Quantity::Of(coordinates::dimension(quantity)),
-                ))
+                Some(Typed::Scalar(Expr::Coordinate(coordinate), Quantity::Of(coordinates::dimension(quantity))))
             }
             Meaning::Point(_) if value_context.knows_places() => {
                 self.diagnostics.error_with_help(
@@ -159,21 +141,16 @@ impl Resolver<'_> {
             | Meaning::Constraint(_) => {
                 let help = match meaning {
                     Meaning::Constraint(_) => {
-                        format!(
-                            "what it exerts is an output: `reaction({text})` or `reaction_force({text})`"
-                        )
+                        format!("what it exerts is an output: `reaction({text})` or `reaction_force({text})`")
                     }
                     Meaning::Material => {
-                        "it is the `material` of a beam; name a number by `design` or `let`"
-                            .to_string()
+                        "it is the `material` of a beam; name a number by `design` or `let`".to_string()
                     }
                     Meaning::Force(_) | Meaning::Excitation => {
                         "repeat its expression, or name the shared part with `let`".to_string()
                     }
                     Meaning::Point(_) => {
-                        format!(
-                            "where it is, `position({text})`, is known in outputs and forces only"
-                        )
+                        format!("where it is, `position({text})`, is known in outputs and forces only")
                     }
                     _ => format!(
                         "for a place in it declare `point p: {text};` and use `position(p)`; give a mass or a length a name by `design` or `let`"
@@ -197,9 +174,7 @@ impl Resolver<'_> {
         let reason = match value_context {
             context if context.knows_places() => None,
             ValueContext::Tension => Some("a tension depends on `length` and `rate` only"),
-            _ => Some(
-                "only outputs, generalized forces, potentials and equations may use coordinates",
-            ),
+            _ => Some("only outputs, generalized forces, potentials and equations may use coordinates"),
         };
         if let Some(reason) = reason {
             let message = format!("`{name}` is a coordinate; {reason}");
@@ -210,8 +185,7 @@ impl Resolver<'_> {
         if motion == DeclaredMotion::Coasting && value_context != ValueContext::Equation {
             let rate = format!("use `rate({name})`");
             let help = (value_context != ValueContext::Energy).then_some(rate);
-            let message =
-                format!("`{name}` is coasting: nothing may depend on how far it has gone");
+            let message = format!("`{name}` is coasting: nothing may depend on how far it has gone");
             self.report(name, message, help);
             return None;
         }
@@ -221,9 +195,7 @@ impl Resolver<'_> {
     fn unknown_value(&mut self, name: &Ident, value_context: ValueContext) {
         let text = name.to_string();
         let usable = |meaning| match meaning {
-            Meaning::Input(_) | Meaning::Design(_) | Meaning::Let(_) => {
-                of_numbers_only(value_context).is_none()
-            }
+            Meaning::Input(_) | Meaning::Design(_) | Meaning::Let(_) => of_numbers_only(value_context).is_none(),
             meaning => value_context.knows_places() && meaning.is_coordinate(),
         };
         let near = self.scope.nearest(&text, usable);
@@ -267,10 +239,7 @@ impl Resolver<'_> {
             return self.matrix_literal(components, unit, extent, value_context);
         }
         let unit = self.optional_unit(unit);
-        let resolved: Vec<_> = components
-            .iter()
-            .map(|component| self.scalar(component, value_context))
-            .collect();
+        let resolved: Vec<_> = components.iter().map(|component| self.scalar(component, value_context)).collect();
         if components.len() != 3 {
             let count = components.len();
             let message = format!("a vector has 3 components, this one has {count}");
@@ -287,10 +256,7 @@ impl Resolver<'_> {
     }
 
     /// The dimension and scale of the unit after a vector or a matrix, if there is one.
-    pub(super) fn optional_unit(
-        &mut self,
-        unit: Option<&Unit>,
-    ) -> Option<Option<(Dimension, f64)>> {
+    pub(super) fn optional_unit(&mut self, unit: Option<&Unit>) -> Option<Option<(Dimension, f64)>> {
         match unit {
             Some(unit) => self.unit(unit).map(Some),
             None => Some(None),
@@ -298,12 +264,7 @@ impl Resolver<'_> {
     }
 
     /// The common quantity of all parts of a vector or a matrix; `what` names the parts in messages.
-    pub(super) fn common_quantity(
-        &mut self,
-        quantities: &[Quantity],
-        parts: &[Value],
-        what: &str,
-    ) -> Option<Quantity> {
+    pub(super) fn common_quantity(&mut self, quantities: &[Quantity], parts: &[Value], what: &str) -> Option<Quantity> {
         let mut common = Quantity::Zero;
         for (quantity, part) in quantities.iter().zip(parts) {
             match common.unify(*quantity) {
@@ -324,12 +285,7 @@ impl Resolver<'_> {
     }
 
     /// The bracketed values times the unit after the bracket.
-    pub(super) fn in_unit(
-        &mut self,
-        typed: Typed,
-        unit: Option<(Dimension, f64)>,
-        extent: Extent,
-    ) -> Option<Typed> {
+    pub(super) fn in_unit(&mut self, typed: Typed, unit: Option<(Dimension, f64)>, extent: Extent) -> Option<Typed> {
         let Some((dimension, scale)) = unit else {
             return Some(typed);
         };
@@ -347,12 +303,7 @@ impl Resolver<'_> {
         Some(typed.map(scaled, quantity))
     }
 
-    fn component(
-        &mut self,
-        of: &Value,
-        axis: &Ident,
-        value_context: ValueContext,
-    ) -> Option<Typed> {
+    fn component(&mut self, of: &Value, axis: &Ident, value_context: ValueContext) -> Option<Typed> {
         let (vector, quantity) = self.vector(of, value_context)?;
         let [x, y, z] = vector;
         let component = match axis.to_string().as_str() {
@@ -369,11 +320,7 @@ impl Resolver<'_> {
     }
 
     /// A value that must be one number.
-    pub(super) fn scalar(
-        &mut self,
-        value: &Value,
-        value_context: ValueContext,
-    ) -> Option<(Expr, Quantity)> {
+    pub(super) fn scalar(&mut self, value: &Value, value_context: ValueContext) -> Option<(Expr, Quantity)> {
         match self.value(value, value_context)? {
             Typed::Scalar(expr, quantity) => Some((expr, quantity)),
             Typed::Vector(..) => {
@@ -393,11 +340,7 @@ impl Resolver<'_> {
     }
 
     /// A value that must be a vector.
-    pub(super) fn vector(
-        &mut self,
-        value: &Value,
-        value_context: ValueContext,
-    ) -> Option<(Vector, Quantity)> {
+    pub(super) fn vector(&mut self, value: &Value, value_context: ValueContext) -> Option<(Vector, Quantity)> {
         match self.value(value, value_context)? {
             Typed::Vector(vector, quantity) => Some((vector, quantity)),
             Typed::Scalar(..) => {
@@ -420,12 +363,7 @@ impl Resolver<'_> {
     }
 
     /// A number that must have the given dimension; `what` names its role.
-    pub(super) fn scalar_of(
-        &mut self,
-        value: &Value,
-        expected: impl Into<Expected>,
-        what: &str,
-    ) -> Option<Expr> {
+    pub(super) fn scalar_of(&mut self, value: &Value, expected: impl Into<Expected>, what: &str) -> Option<Expr> {
         let (expr, quantity) = self.scalar(value, ValueContext::Parameter)?;
         self.expect(quantity, expected, what, value)?;
         Some(expr)
@@ -437,12 +375,7 @@ impl Resolver<'_> {
     }
 
     /// A vector that must have the given dimension; `what` names its role.
-    pub(super) fn vector_of(
-        &mut self,
-        value: &Value,
-        expected: impl Into<Expected>,
-        what: &str,
-    ) -> Option<Vector> {
+    pub(super) fn vector_of(&mut self, value: &Value, expected: impl Into<Expected>, what: &str) -> Option<Vector> {
         let (vector, quantity) = self.vector(value, ValueContext::Parameter)?;
         self.expect(quantity, expected, what, value)?;
         self.require_finite(&vector, what, value.extent);
@@ -462,24 +395,18 @@ impl Resolver<'_> {
             return Some(());
         }
         if let Some(written) = bare_number(value) {
-            self.diagnostics
-                .error(value.extent, expected.needs_unit(&written));
+            self.diagnostics.error(value.extent, expected.needs_unit(&written));
             return None;
         }
-        let message = format!(
-            "{what} must be {}, this is {}",
-            expected.describe(),
-            quantity.dimension().describe()
-        );
+        let message = format!("{what} must be {}, this is {}", expected.describe(), quantity.dimension().describe());
         let help = self
             .swallowed(value, quantity.dimension(), expected.dimension)
             .or_else(|| {
                 let (name, number) = self.declared_without_unit(value)?;
                 Some(match value.bare().kind {
-                    ValueKind::Name(_) => format!(
-                        "`{name}` is declared without a unit: write `{number} {}` there",
-                        expected.unit
-                    ),
+                    ValueKind::Name(_) => {
+                        format!("`{name}` is declared without a unit: write `{number} {}` there", expected.unit)
+                    }
                     _ => format!("`{name}` is declared without a unit: `{number}`"),
                 })
             })
@@ -509,14 +436,10 @@ impl Resolver<'_> {
 /// The content of a place that admits no names, and advice on what to do there.
 fn of_numbers_only(value_context: ValueContext) -> Option<(&'static str, &'static str)> {
     match value_context {
-        ValueContext::Nominal => Some((
-            "a nominal value is",
-            "use `let` for a value computed from others",
-        )),
-        ValueContext::Points => Some((
-            "the points of a curve are",
-            "multiply the curve where it is used: `factor * stiffness(speed)`",
-        )),
+        ValueContext::Nominal => Some(("a nominal value is", "use `let` for a value computed from others")),
+        ValueContext::Points => {
+            Some(("the points of a curve are", "multiply the curve where it is used: `factor * stiffness(speed)`"))
+        }
         ValueContext::Values => Some(("listed values are", "write the numbers themselves")),
         _ => None,
     }
@@ -532,7 +455,5 @@ pub(super) fn decimal_commas(values: &[Value]) -> bool {
         _ => false,
     };
     let is_number = |value: &Value| matches!(value.kind, ValueKind::Number(..));
-    values
-        .windows(2)
-        .any(|pair| is_whole(&pair[0]) && is_number(&pair[1]))
+    values.windows(2).any(|pair| is_whole(&pair[0]) && is_number(&pair[1]))
 }

@@ -1,9 +1,7 @@
 //! Rules for several masses together: the remainder of a body with holes, and bodies welded together.
 
 use super::moments::Moments;
-use super::tensor::{
-    Matrix, Vector, inertia, is_inertia_of_a_body, matrix, nearest_of_a_body, principal, trace,
-};
+use super::tensor::{Matrix, Vector, inertia, is_inertia_of_a_body, matrix, nearest_of_a_body, principal, trace};
 use super::violation::{Violation, digits};
 use crate::base::span::Extent;
 use crate::model::evaluate::Values;
@@ -54,10 +52,8 @@ pub(super) fn holes(parts: &[Part], at: &Values) -> Option<String> {
     if whole.mass <= 1e-12 * solid.mass {
         return Some("are as heavy as the rest of it, or heavier: nothing is left".to_string());
     }
-    (!is_body(&whole.second_about_center(), scale)).then(|| {
-        "leave an inertia that no body has: a hole must lie inside the shapes it is cut from"
-            .to_string()
-    })
+    (!is_body(&whole.second_about_center(), scale))
+        .then(|| "leave an inertia that no body has: a hole must lie inside the shapes it is cut from".to_string())
 }
 
 /// The first given inertia that no body can have, unless the bodies welded to it compensate for it.
@@ -84,12 +80,8 @@ pub(super) fn impossible(welded: &Welded, at: &Values) -> Option<Violation> {
         !is_inertia_of_a_body(&central)
     };
     let given = welded.given.iter().find(wrong)?;
-    let others: Vec<String> = welded
-        .bodies
-        .iter()
-        .filter(|(name, ..)| *name != given.body)
-        .map(|(name, ..)| format!("`{name}`"))
-        .collect();
+    let others: Vec<String> =
+        welded.bodies.iter().filter(|(name, ..)| *name != given.body).map(|(name, ..)| format!("`{name}`")).collect();
     let welded_to = match others.as_slice() {
         [] => String::new(),
         others => format!(
@@ -133,10 +125,7 @@ impl GivenInertia {
                 true => "the first is negative",
                 false => "the first two sum to less than the third",
             };
-            return format!(
-                "{about}of its principal moments {}, {which}",
-                moments(values)
-            );
+            return format!("{about}of its principal moments {}, {which}", moments(values));
         }
         let (mut order, [a, b, c]) = ([0, 1, 2], values);
         order.sort_by(|&i, &j| diagonal[i].total_cmp(&diagonal[j]));
@@ -144,13 +133,9 @@ impl GivenInertia {
         if first > second {
             std::mem::swap(&mut first, &mut second);
         }
-        let apart = (6..17)
-            .find(|&n| digits(a + b, n) != digits(c, n))
-            .unwrap_or(17);
+        let apart = (6..17).find(|&n| digits(a + b, n) != digits(c, n)).unwrap_or(17);
         let (sum, greatest_value) = (digits(a + b, apart), digits(c, apart));
-        format!(
-            "{about}{first} + {second} = {sum} kg*m^2 is less than {greatest} = {greatest_value} kg*m^2"
-        )
+        format!("{about}{first} + {second} = {sum} kg*m^2 is less than {greatest} = {greatest_value} kg*m^2")
     }
 
     /// The replacement to suggest.
@@ -163,10 +148,7 @@ impl GivenInertia {
             entries.extend([x[1], y[2], x[2]]);
         }
         // Use as many digits as keep a flat body flat.
-        let entries: Vec<String> = entries
-            .into_iter()
-            .map(|entry| digits(entry, 10).to_string())
-            .collect();
+        let entries: Vec<String> = entries.into_iter().map(|entry| digits(entry, 10).to_string()).collect();
         let entries = entries.join(", ");
         format!("the nearest inertia that a body can have is `[{entries}] kg*m^2`")
     }

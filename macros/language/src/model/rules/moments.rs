@@ -1,8 +1,6 @@
 //! Mass, centre and second moments of shapes in numbers.
 
-use super::tensor::{
-    Matrix, Vector, identity, matrix, product, product_with_vector, second_moment, transposed,
-};
+use super::tensor::{Matrix, Vector, identity, matrix, product, product_with_vector, second_moment, transposed};
 use crate::model::evaluate::Values;
 use crate::model::expression::{self, Expr};
 use crate::model::mechanism::{Part, Placement, Shape};
@@ -57,11 +55,7 @@ impl Moments {
     }
 
     pub(super) fn second_about_center(&self) -> Matrix {
-        let Self {
-            mass,
-            first,
-            second,
-        } = self;
+        let Self { mass, first, second } = self;
         matrix(|i, j| second[i][j] - first[i] * first[j] / mass)
     }
 }
@@ -83,11 +77,7 @@ fn central_moments(shape: &Shape, at: &Values) -> (f64, Vector, Matrix) {
     let per_mass = match &shape.spread {
         Spread::Point => Matrix::default(),
         Spread::Line { length, along } => round(along, 0.0, square(length) / 12.0),
-        Spread::Round {
-            axis,
-            across,
-            along,
-        } => round(axis, mean_square(across), mean_square(along)),
+        Spread::Round { axis, across, along } => round(axis, mean_square(across), mean_square(along)),
         Spread::Box { size } => {
             let edges = at.vector(size);
             matrix(|i, j| identity(i, j) * edges[i] * edges[j] / 12.0)
@@ -117,8 +107,7 @@ fn rotation(placement: &Placement, at: &Values) -> Matrix {
         let [x, y, z] = n;
         let cross = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
         // Rodrigues.
-        let one =
-            matrix(|i, j| cos * identity(i, j) + sin * cross[i][j] + (1.0 - cos) * n[i] * n[j]);
+        let one = matrix(|i, j| cos * identity(i, j) + sin * cross[i][j] + (1.0 - cos) * n[i] * n[j]);
         turned = product(&turned, &one);
     }
     turned

@@ -79,11 +79,7 @@ pub(crate) fn check(
     let (met, violated) = at_nominal(requirements, constants, design, &unknown);
     for violation in violated {
         let message = format!("{} {}", violation.what, violation.problem);
-        diagnostics.push(Diagnostic {
-            span: violation.extent,
-            message,
-            help: violation.help,
-        });
+        diagnostics.push(Diagnostic { span: violation.extent, message, help: violation.help });
     }
     for index in 0..design.len() {
         check_tolerance(&met, constants, design, index, &unknown, diagnostics);
@@ -151,8 +147,7 @@ fn check_tolerance(
         let mut shifted: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
         shifted[index] += deviation;
         let values = Values::new(constants, inputs, &shifted);
-        let in_tolerance =
-            |requirement: &&&Requirement| !matches!(requirement.demand, Demand::Amplitude(_));
+        let in_tolerance = |requirement: &&&Requirement| !matches!(requirement.demand, Demand::Amplitude(_));
         for requirement in requirements.iter().filter(in_tolerance) {
             if let Some(Violation { what, problem, .. }) = violation(requirement, &values) {
                 let name = &variable.name;
@@ -199,36 +194,27 @@ fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
         (Demand::Amplitude(dimension), values) => {
             let value = values.iter().find(|&&value| value < 0.0)?;
             let value = in_unit(*value, *dimension);
-            Some(format!(
-                "is {value}; the opposite direction is a phase or an angle of 180 deg"
-            ))
+            Some(format!("is {value}; the opposite direction is a phase or an angle of 180 deg"))
         }
-        (Demand::Direction, vector) if vector.iter().all(|&value| value == 0.0) => {
-            Some("has no length".to_string())
+        (Demand::Direction, vector) if vector.iter().all(|&value| value == 0.0) => Some("has no length".to_string()),
+        (Demand::BelowOuter, &[inner, outer]) if inner >= outer => {
+            Some(format!("is {} m; it must be smaller than the outer, {} m", rounded(inner), rounded(outer)))
         }
-        (Demand::BelowOuter, &[inner, outer]) if inner >= outer => Some(format!(
-            "is {} m; it must be smaller than the outer, {} m",
-            rounded(inner),
-            rounded(outer)
-        )),
-        (Demand::Lead, [0.0]) => {
-            Some("is zero; a joint that turns without travel is `revolute`".to_string())
+        (Demand::Lead, [0.0]) => Some("is zero; a joint that turns without travel is `revolute`".to_string()),
+        (Demand::Ratio, [0.0]) => {
+            Some("is zero; a coordinate is held in its place by an `equation`, or by a drive at 0".to_string())
         }
-        (Demand::Ratio, [0.0]) => Some(
-            "is zero; a coordinate is held in its place by an `equation`, or by a drive at 0"
-                .to_string(),
-        ),
-        (Demand::Distinct, axes) => parallel(axes)
-            .then(|| "are parallel: the second motion would repeat the first".to_string()),
-        (Demand::Spanning, axes) => in_one_plane(axes)
-            .then(|| "lie in one plane: together they do not reach every place".to_string()),
+        (Demand::Distinct, axes) => {
+            parallel(axes).then(|| "are parallel: the second motion would repeat the first".to_string())
+        }
+        (Demand::Spanning, axes) => {
+            in_one_plane(axes).then(|| "lie in one plane: together they do not reach every place".to_string())
+        }
         (Demand::OnCurve(curve), &[argument]) if !curve.reaches(argument) => {
             let [first, last] = curve.range();
             let (first, last) = (curve.in_unit(first), curve.with_unit(last));
             let argument = curve.with_unit(argument);
-            Some(format!(
-                "is {argument}; this curve goes from {first} to {last}"
-            ))
+            Some(format!("is {argument}; this curve goes from {first} to {last}"))
         }
         (Demand::Holes(parts), _) => composite::holes(parts, at),
         _ => None,

@@ -15,10 +15,7 @@ pub(crate) fn check(ast: &Ast, can_move: bool, diagnostics: &mut Diagnostics) {
         // Modes exist only in free coordinates.
         diagnostics.error_with_help(
             &ast.name,
-            format!(
-                "nothing in `{}` is free to move: every joint is fixed or driven",
-                ast.name
-            ),
+            format!("nothing in `{}` is free to move: every joint is fixed or driven", ast.name),
             "a joint that is not driven, such as `revolute` or `prismatic`, gives a free coordinate",
         );
     }
@@ -26,8 +23,5 @@ pub(crate) fn check(ast: &Ast, can_move: bool, diagnostics: &mut Diagnostics) {
 
 /// Without bodies there is no motion.
 fn has_body(ast: &Ast) -> bool {
-    ast.items
-        .iter()
-        .any(|item| matches!(item.kind, ItemKind::Body(_)))
-        || ast.unread.iter().any(Unread::may_connect)
+    ast.items.iter().any(|item| matches!(item.kind, ItemKind::Body(_))) || ast.unread.iter().any(Unread::may_connect)
 }

@@ -112,10 +112,7 @@ mod tests {
     }
 
     fn near(a: &Matrix, b: &Matrix) -> bool {
-        a.iter()
-            .flatten()
-            .zip(b.iter().flatten())
-            .all(|(a, b)| (a - b).abs() < 1e-14)
+        a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-14)
     }
 
     /// `[[2, -1, 0], [-1, 2, -1], [0, -1, 2]]` has the eigenvalues 2 - sqrt 2, 2, 2 + sqrt 2.
@@ -128,10 +125,7 @@ mod tests {
             assert!((value - exact).abs() < 1e-14);
         }
         let diagonal = matrix(|i, j| values[i] * identity(i, j));
-        assert!(near(
-            &product(&product(&axes, &diagonal), &transposed(&axes)),
-            &a
-        ));
+        assert!(near(&product(&product(&axes, &diagonal), &transposed(&axes)), &a));
         assert!(near(&product(&transposed(&axes), &axes), &matrix(identity)));
     }
 
@@ -143,9 +137,7 @@ mod tests {
         // A slender bar along (1, 1, 1): J = 1 - n n^T.
         let third = 1.0 / 3.0;
         let (moment, product) = (1.0 - third, -third);
-        assert!(possible([
-            moment, moment, moment, product, product, product
-        ]));
+        assert!(possible([moment, moment, moment, product, product, product]));
     }
 
     #[test]
@@ -165,20 +157,12 @@ mod tests {
     /// Compares with a search over a grid of possible bodies, `J = diag(b + c, a + c, a + b)` with `a, b, c >= 0`.
     #[test]
     fn nothing_is_nearer_than_the_nearest() {
-        for given in [
-            [1.0, 1.0, 3.0],
-            [1.0, -1.0, 1.0],
-            [0.1, 0.2, 2.0],
-            [-3.0, 1.0, 1.5],
-            [-1.0; 3],
-        ] {
+        for given in [[1.0, 1.0, 3.0], [1.0, -1.0, 1.0], [0.1, 0.2, 2.0], [-3.0, 1.0, 1.5], [-1.0; 3]] {
             let [x, y, z] = given;
             let nearest = nearest_of_a_body(&full([x, y, z, 0.0, 0.0, 0.0]));
             let moments = [nearest[0][0], nearest[1][1], nearest[2][2]];
             assert!(belongs_to_a_body(principal(&nearest).0), "{nearest:?}");
-            let distance = |other: Vector| -> f64 {
-                other.iter().zip(given).map(|(a, b)| (a - b).powi(2)).sum()
-            };
+            let distance = |other: Vector| -> f64 { other.iter().zip(given).map(|(a, b)| (a - b).powi(2)).sum() };
             let steps = 60;
             let value = |k: usize| 2.0 * k as f64 / steps as f64;
             let mut least = f64::INFINITY;
@@ -191,10 +175,7 @@ mod tests {
             }
             // A grid of 1/30 finds the optimum up to the square of its width.
             let shortest = distance(moments);
-            assert!(
-                shortest <= least + 1e-12 && shortest >= least - 0.01,
-                "{given:?}: {shortest} {least}"
-            );
+            assert!(shortest <= least + 1e-12 && shortest >= least - 0.01, "{given:?}: {shortest} {least}");
         }
     }
 }

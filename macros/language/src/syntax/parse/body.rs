@@ -22,11 +22,7 @@ pub(super) fn body(tokens: &mut Tokens) -> Parsed<ItemKind> {
     loop {
         let shape = named_call(tokens, SHAPE)?;
         let placement = placement(tokens)?;
-        terms.push(Term {
-            hole,
-            shape,
-            placement,
-        });
+        terms.push(Term { hole, shape, placement });
         hole = if tokens.sign('+').is_some() {
             false
         } else if tokens.sign('-').is_some() {
@@ -39,11 +35,7 @@ pub(super) fn body(tokens: &mut Tokens) -> Parsed<ItemKind> {
                 }
                 None => None,
             };
-            return Ok(ItemKind::Body(Body {
-                name,
-                terms,
-                spinning,
-            }));
+            return Ok(ItemKind::Body(Body { name, terms, spinning }));
         };
     }
 }
@@ -55,10 +47,7 @@ pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
         return tokens.expected(what);
     };
     let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) else {
-        return Ok(NamedCall {
-            word,
-            arguments: None,
-        });
+        return Ok(NamedCall { word, arguments: None });
     };
     let mut arguments = Vec::new();
     while !content.is_empty() {
@@ -74,10 +63,7 @@ pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
             content.expect_sign(',', "`,` or an operator")?;
         }
     }
-    Ok(NamedCall {
-        word,
-        arguments: Some(arguments),
-    })
+    Ok(NamedCall { word, arguments: Some(arguments) })
 }
 
 /// Reads a word that could not be a name.

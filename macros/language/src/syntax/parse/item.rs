@@ -3,8 +3,8 @@
 use proc_macro2::Ident;
 
 use super::super::ast::{
-    Argument, Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Material, Named,
-    NamedCall, Point, Unbalance,
+    Argument, Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Material, Named, NamedCall, Point,
+    Unbalance,
 };
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
@@ -22,15 +22,11 @@ use crate::base::span::Extent;
 /// Reads an item up to its semicolon.
 pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let Some(keyword) = tokens.peek_ident() else {
-        let is_comment = ['%', '!', '/', '\'']
-            .iter()
-            .any(|&sign| tokens.peek_sign(sign));
-        return tokens
-            .expected("an item such as `body` or `joint`")
-            .map_err(|error| match is_comment {
-                true => Box::new(error.with_help(COMMENT)),
-                false => error,
-            });
+        let is_comment = ['%', '!', '/', '\''].iter().any(|&sign| tokens.peek_sign(sign));
+        return tokens.expected("an item such as `body` or `joint`").map_err(|error| match is_comment {
+            true => Box::new(error.with_help(COMMENT)),
+            false => error,
+        });
     };
     let read: fn(&mut Tokens) -> Parsed<ItemKind> = match keyword.to_string().as_str() {
         "input" => input,
@@ -65,11 +61,7 @@ fn input(tokens: &mut Tokens) -> Parsed<ItemKind> {
     colon(tokens)?;
     let unit = unit::declared(tokens)?;
     has_no_value(tokens, &name, &print::unit(&unit))?;
-    Ok(ItemKind::Input(Input {
-        name,
-        unit,
-        tolerance: tolerance(tokens)?,
-    }))
+    Ok(ItemKind::Input(Input { name, unit, tolerance: tolerance(tokens)? }))
 }
 
 /// An operating point belongs to a study, not to the mechanism.
@@ -81,28 +73,20 @@ fn has_no_value(tokens: &Tokens, name: &Ident, unit: &str) -> Parsed<()> {
     let help = format!(
         "write `input {name}: {unit};` and give the value to the study with `.input(...)`, or declare a `design` variable"
     );
-    Err(Box::new(
-        Diagnostic::new(tokens.span(), message).with_help(help),
-    ))
+    Err(Box::new(Diagnostic::new(tokens.span(), message).with_help(help)))
 }
 
 fn design(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let name = declared_name(tokens)?;
     equals(tokens, &name)?;
-    Ok(ItemKind::Design(Design {
-        name,
-        nominal: nominal(tokens)?,
-        tolerance: tolerance(tokens)?,
-    }))
+    Ok(ItemKind::Design(Design { name, nominal: nominal(tokens)?, tolerance: tolerance(tokens)? }))
 }
 
 /// Reads the sign between a name and its value, which says its unit.
 fn equals(tokens: &mut Tokens, name: &Ident) -> Parsed<Extent> {
     let read = tokens.expect_sign('=', "`=`");
     read.map_err(|error| match tokens.peek_sign(':') {
-        true => Box::new(error.with_help(format!(
-            "write `{name} = ...`: its unit is that of the value"
-        ))),
+        true => Box::new(error.with_help(format!("write `{name} = ...`: its unit is that of the value"))),
         false => error,
     })
 }
@@ -127,11 +111,7 @@ fn curve(tokens: &mut Tokens) -> Parsed<ItemKind> {
     tokens.expect_sign('-', "`->`")?;
     tokens.expect_sign('>', "`->`")?;
     let values = value(tokens)?;
-    Ok(ItemKind::Curve(Curve {
-        name,
-        arguments,
-        values,
-    }))
+    Ok(ItemKind::Curve(Curve { name, arguments, values }))
 }
 
 const GRAVITY: &str = "write `gravity 9.81 m/s^2 along -z;`";
@@ -139,25 +119,17 @@ const GRAVITY: &str = "write `gravity 9.81 m/s^2 along -z;`";
 fn gravity(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let keyword = tokens.expect_word("gravity")?;
     if tokens.peek_sign('=') {
-        return tokens
-            .expected("a value")
-            .map_err(|error| Box::new(error.with_help(GRAVITY)));
+        return tokens.expected("a value").map_err(|error| Box::new(error.with_help(GRAVITY)));
     }
     let magnitude = value(tokens)?;
     if tokens.peek_sign(',') {
-        return tokens
-            .expected("`along`")
-            .map_err(|error| Box::new(error.with_help(GRAVITY)));
+        return tokens.expected("`along`").map_err(|error| Box::new(error.with_help(GRAVITY)));
     }
     let along = match tokens.word("along") {
         Some(_) => Some(value(tokens)?),
         None => None,
     };
-    Ok(ItemKind::Gravity(Gravity {
-        keyword,
-        value: magnitude,
-        along,
-    }))
+    Ok(ItemKind::Gravity(Gravity { keyword, value: magnitude, along }))
 }
 
 fn force(tokens: &mut Tokens) -> Parsed<ItemKind> {
@@ -167,7 +139,8 @@ fn force(tokens: &mut Tokens) -> Parsed<ItemKind> {
     Ok(ItemKind::Force(Force { name, law }))
 }
 
-const EVERY: &str = "write `every angle: spring(stiffness: 10 N*m/rad);` or `every displacement: spring(stiffness: 10 N/m);`";
+const EVERY: &str =
+    "write `every angle: spring(stiffness: 10 N*m/rad);` or `every displacement: spring(stiffness: 10 N/m);`";
 
 fn every(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let help = |error: Box<Diagnostic>| Box::new(error.with_help(EVERY));
@@ -177,8 +150,7 @@ fn every(tokens: &mut Tokens) -> Parsed<ItemKind> {
     Ok(ItemKind::Every(Every { quantity, law }))
 }
 
-const UNBALANCE: &str =
-    "write `unbalance u: on disk, amount: 20 g*mm, angle: 30 deg, at [0, 0, 10] mm;`";
+const UNBALANCE: &str = "write `unbalance u: on disk, amount: 20 g*mm, angle: 30 deg, at [0, 0, 10] mm;`";
 
 fn unbalance(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let help = |error: Box<Diagnostic>| Box::new(error.with_help(UNBALANCE));
@@ -196,20 +168,10 @@ fn unbalance(tokens: &mut Tokens) -> Parsed<ItemKind> {
         } else if tokens.peek_named() {
             arguments.push(argument(tokens)?);
         } else {
-            return tokens
-                .expected("`at` or a named argument such as `amount: 20 g*mm`")
-                .map_err(help);
+            return tokens.expected("`at` or a named argument such as `amount: 20 g*mm`").map_err(help);
         }
     }
-    Ok(ItemKind::Unbalance(Unbalance {
-        name,
-        on,
-        call: NamedCall {
-            word,
-            arguments: Some(arguments),
-        },
-        at,
-    }))
+    Ok(ItemKind::Unbalance(Unbalance { name, on, call: NamedCall { word, arguments: Some(arguments) }, at }))
 }
 
 const MATERIAL: &str = "write `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
@@ -225,29 +187,17 @@ fn material(tokens: &mut Tokens) -> Parsed<ItemKind> {
     loop {
         let name = tokens.name("a property such as `density`").map_err(help)?;
         let value = value(tokens)?;
-        arguments.push(Argument {
-            name,
-            value,
-            of: None,
-        });
+        arguments.push(Argument { name, value, of: None });
         if tokens.sign(',').is_none() {
             break;
         }
     }
-    Ok(ItemKind::Material(Material {
-        name,
-        call: NamedCall {
-            word,
-            arguments: Some(arguments),
-        },
-    }))
+    Ok(ItemKind::Material(Material { name, call: NamedCall { word, arguments: Some(arguments) } }))
 }
 
 fn kernels_only(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let keyword = tokens.expect_word("kernels")?;
-    let only = tokens
-        .expect_word("only")
-        .map_err(|error| Box::new(error.with_help("write `kernels only;`")))?;
+    let only = tokens.expect_word("only").map_err(|error| Box::new(error.with_help("write `kernels only;`")))?;
     Ok(ItemKind::KernelsOnly(keyword.to(only)))
 }
 
@@ -263,9 +213,5 @@ fn point(tokens: &mut Tokens) -> Parsed<ItemKind> {
     colon(tokens)?;
     let frame = tokens.name("a body or `ground`")?;
     let placement = placement(tokens)?;
-    Ok(ItemKind::Point(Point {
-        name,
-        frame,
-        placement,
-    }))
+    Ok(ItemKind::Point(Point { name, frame, placement }))
 }

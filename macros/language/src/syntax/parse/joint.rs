@@ -34,8 +34,7 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
         match clause(tokens)? {
             Some(clause) => clauses.push(clause),
             None if comma => {
-                let error =
-                    tokens.expected("`at`, `rotated`, `driven`, `coasting`, `shaken` or `cut`");
+                let error = tokens.expected("`at`, `rotated`, `driven`, `coasting`, `shaken` or `cut`");
                 return error.map_err(|error| match decimal {
                     true => Box::new(error.with_help(DECIMAL_POINT)),
                     false => error,
@@ -44,15 +43,7 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
             None => break,
         }
     }
-    Ok(ItemKind::Joint(Joint {
-        name,
-        kind,
-        arguments,
-        from,
-        from_station,
-        to,
-        clauses,
-    }))
+    Ok(ItemKind::Joint(Joint { name, kind, arguments, from, from_station, to, clauses }))
 }
 
 /// Reads values, each with or without a name, to the end of a group.
@@ -84,19 +75,13 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
         return Ok(Some(JointClause::Placement { placement, on }));
     }
     let mut ahead = *tokens;
-    let is_named = ahead.ident().is_some()
-        && ["driven", "coasting", "shaken"]
-            .iter()
-            .any(|word| ahead.peek_word(word));
+    let is_named = ahead.ident().is_some() && ["driven", "coasting", "shaken"].iter().any(|word| ahead.peek_word(word));
     let coordinate = match is_named {
         true => Some(tokens.name("a coordinate")?),
         false => None,
     };
     if let Some(keyword) = tokens.word("coasting") {
-        let coast = Coast {
-            coordinate,
-            keyword,
-        };
+        let coast = Coast { coordinate, keyword };
         return Ok(Some(JointClause::Coast(coast)));
     }
     if tokens.peek_word("shaken") {
@@ -115,9 +100,5 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
     }
     tokens.expect_word("at")?;
     let speed = value(tokens)?;
-    Ok(Some(JointClause::Drive(Drive {
-        coordinate,
-        keyword,
-        speed,
-    })))
+    Ok(Some(JointClause::Drive(Drive { coordinate, keyword, speed })))
 }

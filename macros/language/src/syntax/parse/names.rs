@@ -21,8 +21,8 @@ pub(super) fn declared_name(tokens: &mut Tokens) -> Parsed<Ident> {
         && let Some(rest) = ahead.ident()
     {
         let message = "a name cannot contain `-`";
-        let diagnostic = Diagnostic::new(Extent::from(&name).to(&rest), message)
-            .with_help(format!("write `{name}_{rest}`"));
+        let diagnostic =
+            Diagnostic::new(Extent::from(&name).to(&rest), message).with_help(format!("write `{name}_{rest}`"));
         return Err(Box::new(diagnostic));
     }
     Ok(name)

@@ -21,11 +21,7 @@ pub(super) fn placement(tokens: &mut Tokens) -> Parsed<Option<Placement>> {
     while tokens.word("rotated").is_some() {
         rotations.push(rotation(tokens)?);
     }
-    Ok(Some(Placement {
-        offset,
-        rotations,
-        keyword,
-    }))
+    Ok(Some(Placement { offset, rotations, keyword }))
 }
 
 /// Reads a vector, `tip`, or a fraction of a beam such as `0.4 length` or `1/3 length`.
@@ -43,11 +39,7 @@ pub(super) fn place(tokens: &mut Tokens) -> Parsed<Value> {
 }
 
 fn fraction(tokens: &mut Tokens) -> Option<f64> {
-    let sign = if tokens.sign('-').is_some() {
-        -1.0
-    } else {
-        1.0
-    };
+    let sign = if tokens.sign('-').is_some() { -1.0 } else { 1.0 };
     let number = |tokens: &mut Tokens| tokens.literal()?.to_string().parse().ok();
     let above: f64 = number(tokens)?;
     let below = match tokens.sign('/') {

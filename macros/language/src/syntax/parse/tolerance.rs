@@ -24,16 +24,12 @@ const NO_UNITS: [&str; 9] = {
 
 /// Help for the token after the readable part, if it looks like a tolerance or its law.
 pub(super) fn help(tokens: &Tokens) -> Option<&'static str> {
-    if tokens.cursor.literal().is_some()
-        || ['%', '+', '-'].iter().any(|&sign| tokens.peek_sign(sign))
-    {
+    if tokens.cursor.literal().is_some() || ['%', '+', '-'].iter().any(|&sign| tokens.peek_sign(sign)) {
         return Some("a tolerance is written `+/- 3%` or, with the upper limit first, `+2% -1%`");
     }
     let mut ahead = *tokens;
     ahead.sign(',');
-    LAWS.iter()
-        .any(|law| ahead.peek_word(law))
-        .then_some("a law directly follows a tolerance: `+/- 3% uniform`")
+    LAWS.iter().any(|law| ahead.peek_word(law)).then_some("a law directly follows a tolerance: `+/- 3% uniform`")
 }
 
 /// Reads a value up to a tolerance: two signed numbers at its end are limits, not terms of a sum.
@@ -56,25 +52,15 @@ pub(super) fn tolerance(tokens: &mut Tokens) -> Parsed<Option<Tolerance>> {
         return Ok(None);
     };
     if let Limits::Values(_) = limits {
-        if let Some(word) = tokens
-            .peek_ident()
-            .filter(|word| LAWS.contains(&word.to_string().as_str()))
-        {
+        if let Some(word) = tokens.peek_ident().filter(|word| LAWS.contains(&word.to_string().as_str())) {
             let message = "the list says how they are distributed";
             let help = format!("leave `{word}` away, or give limits in place of the list");
             return Err(Box::new(Diagnostic::new(&word, message).with_help(help)));
         }
-        return Ok(Some(Tolerance {
-            limits,
-            extent,
-            law: None,
-        }));
+        return Ok(Some(Tolerance { limits, extent, law: None }));
     }
     match &limits {
-        Limits::HalfWidth(Value {
-            kind: ValueKind::Number(_, Some(unit)),
-            ..
-        }) => is_no_law(unit)?,
+        Limits::HalfWidth(Value { kind: ValueKind::Number(_, Some(unit)), .. }) => is_no_law(unit)?,
         Limits::Deviations(pair) => {
             if let Measure::Unit(unit) = &pair.lower.measure {
                 is_no_law(unit)?;
@@ -83,11 +69,7 @@ pub(super) fn tolerance(tokens: &mut Tokens) -> Parsed<Option<Tolerance>> {
         _ => {}
     }
     let law = law(tokens)?;
-    Ok(Some(Tolerance {
-        limits,
-        extent,
-        law,
-    }))
+    Ok(Some(Tolerance { limits, extent, law }))
 }
 
 fn limits(tokens: &mut Tokens) -> Parsed<Option<(Limits, Extent)>> {
@@ -100,10 +82,7 @@ fn limits(tokens: &mut Tokens) -> Parsed<Option<(Limits, Extent)>> {
     let start = tokens.span();
     if !is_half_width && tokens.peek_word("one") {
         let values = values(tokens)?;
-        return Ok(Some((
-            Limits::Values(Box::new(values)),
-            Extent::from(start).to(tokens.last),
-        )));
+        return Ok(Some((Limits::Values(Box::new(values)), Extent::from(start).to(tokens.last))));
     }
     let limits = if is_half_width {
         match percentage(tokens) {
@@ -164,10 +143,7 @@ fn deviations(tokens: &mut Tokens) -> Option<(Deviations, Option<Extent>)> {
 }
 
 fn separated(deviations: &Deviations, slash: Extent) -> Box<Diagnostic> {
-    let help = format!(
-        "write `{}`; a quotient here needs parentheses",
-        print::deviations(deviations)
-    );
+    let help = format!("write `{}`; a quotient here needs parentheses", print::deviations(deviations));
     let message = "limits are written one after the other, without `/`";
     Box::new(Diagnostic::new(slash, message).with_help(help))
 }
@@ -191,11 +167,7 @@ fn deviation(tokens: &mut Tokens) -> Option<Deviation> {
         None if tokens.sign('%').is_some() => Measure::Percent,
         None => Measure::Bare,
     };
-    Some(Deviation {
-        number: sign.unwrap_or(1.0) * number,
-        measure,
-        extent: Extent::from(start).to(tokens.last),
-    })
+    Some(Deviation { number: sign.unwrap_or(1.0) * number, measure, extent: Extent::from(start).to(tokens.last) })
 }
 
 /// Rejects a misspelt law after a plain number, where it looks like a unit.
@@ -245,9 +217,9 @@ fn law(tokens: &mut Tokens) -> Parsed<Option<Law>> {
 fn truncated(tokens: &mut Tokens) -> Parsed<LawKind> {
     match tokens.word("normal") {
         Some(_) => Ok(LawKind::TruncatedNormal),
-        None => tokens.expected("`normal`").map_err(|error| {
-            Box::new(error.with_help("only a normal law is truncated: `truncated normal`"))
-        }),
+        None => tokens
+            .expected("`normal`")
+            .map_err(|error| Box::new(error.with_help("only a normal law is truncated: `truncated normal`"))),
     }
 }
 

@@ -12,9 +12,8 @@ use crate::base::span::Extent;
 use crate::base::units;
 
 /// Words of the grammar that may follow a value and are therefore not units.
-const FOLLOWING: [&str; 11] = [
-    "along", "at", "on", "of", "rotated", "driven", "coasting", "shaken", "cut", "from", "to",
-];
+const FOLLOWING: [&str; 11] =
+    ["along", "at", "on", "of", "rotated", "driven", "coasting", "shaken", "cut", "from", "to"];
 
 /// Whether a factor's name may be misspelt or must be known.
 #[derive(Clone, Copy, PartialEq)]
@@ -43,11 +42,7 @@ pub(super) fn declared(tokens: &mut Tokens) -> Parsed<Unit> {
 /// The unit after a number, if there is one. `suffix` is the first name of the unit if it is glued to the number.
 pub(super) fn after_number(tokens: &mut Tokens, suffix: &str) -> Parsed<Option<Unit>> {
     let mut factors = Vec::new();
-    let start = if suffix.is_empty() {
-        tokens.span()
-    } else {
-        tokens.last
-    };
+    let start = if suffix.is_empty() { tokens.span() } else { tokens.last };
     if suffix.is_empty() {
         let mut ahead = *tokens;
         if one(&mut ahead) && ahead.peek_sign('/') {
@@ -57,11 +52,7 @@ pub(super) fn after_number(tokens: &mut Tokens, suffix: &str) -> Parsed<Option<U
         }
     } else {
         let exponent = exponent(tokens)?;
-        factors.push(UnitFactor {
-            name: suffix.to_string(),
-            extent: start.into(),
-            exponent,
-        });
+        factors.push(UnitFactor { name: suffix.to_string(), extent: start.into(), exponent });
     }
     rest(tokens, Names::Known, &mut factors)?;
     let unit = unit(factors, start, tokens);
@@ -76,9 +67,7 @@ fn ends(tokens: &Tokens, unit: &Unit) -> Parsed<()> {
     let Some(name) = ahead.ident() else {
         return Ok(());
     };
-    let is_coordinate = ["driven", "coasting"]
-        .iter()
-        .any(|word| ahead.peek_word(word));
+    let is_coordinate = ["driven", "coasting"].iter().any(|word| ahead.peek_word(word));
     if is_coordinate || units::find(&name.to_string()).is_none() {
         return Ok(());
     }
@@ -87,16 +76,13 @@ fn ends(tokens: &Tokens, unit: &Unit) -> Parsed<()> {
 
 /// The mistake of a unit beside a unit.
 pub(super) fn missing_sign<T>(unit: &Unit, name: &Ident) -> Parsed<T> {
-    let diagnostic = Diagnostic::new(name, "units are multiplied by `*`")
-        .with_help(format!("write `{}*{name}`", print::unit(unit)));
+    let diagnostic =
+        Diagnostic::new(name, "units are multiplied by `*`").with_help(format!("write `{}*{name}`", print::unit(unit)));
     Err(Box::new(diagnostic))
 }
 
 fn unit(factors: Vec<UnitFactor>, start: Span, tokens: &Tokens) -> Unit {
-    Unit {
-        factors,
-        extent: Extent::from(start).to(tokens.last),
-    }
+    Unit { factors, extent: Extent::from(start).to(tokens.last) }
 }
 
 /// Whether a unit starts here: a word that follows a number is its unit, known or not, unless the grammar continues
@@ -141,12 +127,7 @@ fn rest(tokens: &mut Tokens, names: Names, factors: &mut Vec<UnitFactor>) -> Par
 }
 
 /// Reads one named unit with its exponent.
-fn factor(
-    tokens: &mut Tokens,
-    sign: i32,
-    names: Names,
-    factors: &mut Vec<UnitFactor>,
-) -> Parsed<bool> {
+fn factor(tokens: &mut Tokens, sign: i32, names: Names, factors: &mut Vec<UnitFactor>) -> Parsed<bool> {
     let Some(name) = tokens.peek_ident() else {
         return Ok(false);
     };
@@ -155,21 +136,12 @@ fn factor(
         return Ok(false);
     }
     tokens.ident();
-    factors.push(UnitFactor {
-        exponent: sign * exponent(tokens)?,
-        name: text,
-        extent: (&name).into(),
-    });
+    factors.push(UnitFactor { exponent: sign * exponent(tokens)?, name: text, extent: (&name).into() });
     Ok(true)
 }
 
 /// Reads `(a*b)` in a unit. After a number, parentheses belong to the unit only if they contain nothing but units.
-fn group(
-    tokens: &mut Tokens,
-    sign: i32,
-    names: Names,
-    factors: &mut Vec<UnitFactor>,
-) -> Parsed<bool> {
+fn group(tokens: &mut Tokens, sign: i32, names: Names, factors: &mut Vec<UnitFactor>) -> Parsed<bool> {
     let mut ahead = *tokens;
     let Some((_, mut content, _)) = ahead.group(Delimiter::Parenthesis) else {
         return Ok(false);
@@ -185,10 +157,7 @@ fn group(
             Names::Any => content.expected("a unit"),
         };
     }
-    factors.extend(inner.into_iter().map(|factor| UnitFactor {
-        exponent: sign * factor.exponent,
-        ..factor
-    }));
+    factors.extend(inner.into_iter().map(|factor| UnitFactor { exponent: sign * factor.exponent, ..factor }));
     *tokens = ahead;
     Ok(true)
 }

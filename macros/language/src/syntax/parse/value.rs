@@ -63,9 +63,7 @@ fn chain(
 ) -> Parsed<Value> {
     let mut left = operand(tokens, depth)?;
     while !ends(tokens) {
-        let read = operators
-            .iter()
-            .find_map(|&operator| Some((operator, tokens.sign(operator.sign())?)));
+        let read = operators.iter().find_map(|&operator| Some((operator, tokens.sign(operator.sign())?)));
         let Some((operator, sign)) = read else {
             break;
         };
@@ -180,10 +178,8 @@ pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
     })?;
     // A string of digits can overflow to infinity, but never fails or becomes NaN.
     let value = digits.parse::<f64>().unwrap_or(f64::INFINITY);
-    let has_digit = digits
-        .split(['e', 'E'])
-        .next()
-        .is_some_and(|mantissa| mantissa.contains(|digit| ('1'..='9').contains(&digit)));
+    let has_digit =
+        digits.split(['e', 'E']).next().is_some_and(|mantissa| mantissa.contains(|digit| ('1'..='9').contains(&digit)));
     if value.is_infinite() || (value == 0.0 && has_digit) {
         let message = format!("`{literal}` is outside the range of a 64-bit number");
         return Err(Box::new(Diagnostic::new(span, message)));
@@ -204,12 +200,7 @@ pub(super) fn digits_and_suffix(literal: &Literal) -> Option<(String, String)> {
 
 fn binary(operator: Operator, sign: Extent, left: Value, right: Value) -> Parsed<Value> {
     let extent = left.extent.to(right.extent);
-    let binary = Binary {
-        operator,
-        sign,
-        left,
-        right,
-    };
+    let binary = Binary { operator, sign, left, right };
     built(ValueKind::Binary(Box::new(binary)), extent)
 }
 

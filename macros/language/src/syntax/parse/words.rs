@@ -56,26 +56,8 @@ const SYNONYMS: [(&str, &str); 27] = [
 
 /// Words that belong after the name of an item, not before it.
 pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
-    (
-        "body",
-        &[
-            "massless", "rod", "disk", "cylinder", "tube", "box", "sphere", "rigid", "beam",
-        ],
-    ),
-    (
-        "joint",
-        &[
-            "fixed",
-            "revolute",
-            "prismatic",
-            "screw",
-            "cylindrical",
-            "universal",
-            "planar",
-            "spherical",
-            "free",
-        ],
-    ),
+    ("body", &["massless", "rod", "disk", "cylinder", "tube", "box", "sphere", "rigid", "beam"]),
+    ("joint", &["fixed", "revolute", "prismatic", "screw", "cylindrical", "universal", "planar", "spherical", "free"]),
     (
         "force",
         &[
@@ -93,17 +75,7 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
             "harmonic",
         ],
     ),
-    (
-        "constraint",
-        &[
-            "coincident",
-            "aligned",
-            "distance",
-            "coupling",
-            "equation",
-            "rolling",
-        ],
-    ),
+    ("constraint", &["coincident", "aligned", "distance", "coupling", "equation", "rolling"]),
 ];
 
 /// The replacement for an unknown word at the start of an item.
@@ -115,23 +87,12 @@ pub(super) fn instead_of(unknown: &str) -> String {
     let known = KEYWORDS.into_iter().chain(ALSO_NAMES);
     advice(unknown, known, &SYNONYMS).unwrap_or_else(|| {
         let words = KEYWORDS.join(", ");
-        format!(
-            "an item starts with one of {words}, {}",
-            ALSO_NAMES.join(", ")
-        )
+        format!("an item starts with one of {words}, {}", ALSO_NAMES.join(", "))
     })
 }
 
 /// The words that start a law of a tolerance; `truncated normal` is two words.
-pub(super) const LAWS: [&str; 7] = [
-    "normal",
-    "truncated",
-    "uniform",
-    "triangular",
-    "lognormal",
-    "weibull",
-    "beta",
-];
+pub(super) const LAWS: [&str; 7] = ["normal", "truncated", "uniform", "triangular", "lognormal", "weibull", "beta"];
 
 /// Other names for laws.
 const SYNONYMS_OF_LAWS: [(&str, &str); 8] = [

@@ -30,10 +30,7 @@ struct Products {
 
 impl Products {
     fn new(graph: &Graph, uses: &Uses) -> Self {
-        let mut this = Self {
-            nodes: uses.nodes.len(),
-            ..Self::default()
-        };
+        let mut this = Self { nodes: uses.nodes.len(), ..Self::default() };
         for &id in uses.nodes.nodes() {
             let is_product = matches!(graph.node(id), Node::Binary(Operator::Multiply, ..));
             if is_product && !uses.in_product(id) {
@@ -147,10 +144,7 @@ pub(super) fn share_products(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId>
             return None;
         }
         next += 1;
-        let factors: Vec<ExprId> = factors
-            .iter()
-            .map(|&factor| products.build(graph, &uses, factor, images))
-            .collect();
+        let factors: Vec<ExprId> = factors.iter().map(|&factor| products.build(graph, &uses, factor, images)).collect();
         Some(product(graph, &factors))
     })
 }

@@ -21,9 +21,7 @@ pub(super) fn rebuild(
             None => match node {
                 Node::Constant(_) | Node::Symbol(_) => id,
                 Node::Unary(operator, a) => graph.unary(operator, image(&images, a)),
-                Node::Binary(operator, a, b) => {
-                    graph.binary(operator, image(&images, a), image(&images, b))
-                }
+                Node::Binary(operator, a, b) => graph.binary(operator, image(&images, a), image(&images, b)),
             },
         };
         if built != id
@@ -44,7 +42,5 @@ pub(super) fn image(images: &NodeMap, id: ExprId) -> ExprId {
 /// The product of some factors, from the first to the last.
 pub(super) fn product(graph: &mut Graph, factors: &[ExprId]) -> ExprId {
     let one = graph.constant(1.0);
-    factors
-        .iter()
-        .fold(one, |all, &factor| graph.mul(all, factor))
+    factors.iter().fold(one, |all, &factor| graph.mul(all, factor))
 }

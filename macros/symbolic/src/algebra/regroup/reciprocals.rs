@@ -17,11 +17,8 @@ pub(in super::super) fn share_reciprocals(graph: &mut Graph, roots: &[ExprId]) -
     };
     let mut denominators: Vec<ExprId> = nodes.filter_map(denominator).collect();
     denominators.sort_unstable();
-    let shared: Vec<ExprId> = denominators
-        .chunk_by(|a, b| a == b)
-        .filter(|same| same.len() > 2)
-        .map(|same| same[0])
-        .collect();
+    let shared: Vec<ExprId> =
+        denominators.chunk_by(|a, b| a == b).filter(|same| same.len() > 2).map(|same| same[0]).collect();
     let one = graph.constant(1.0);
     rebuild(graph, roots, &uses, |graph, id, images| {
         let Node::Binary(Operator::Divide, a, b) = graph.node(id) else {

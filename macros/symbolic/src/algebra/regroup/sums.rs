@@ -57,18 +57,15 @@ fn most_common(terms: &[Term]) -> Option<ExprId> {
             }
         }
     }
-    let (factor, count) = counts
-        .into_iter()
-        .max_by_key(|&(id, count)| (count, Reverse(id)))?;
+    let (factor, count) = counts.into_iter().max_by_key(|&(id, count)| (count, Reverse(id)))?;
     (count > 1).then_some(factor)
 }
 
 fn sum(graph: &mut Graph, mut terms: Vec<Term>) -> ExprId {
     let mut done: Vec<(bool, ExprId)> = Vec::new();
     while let Some(common) = most_common(&terms) {
-        let (mut with, without): (Vec<Term>, Vec<Term>) = terms
-            .into_iter()
-            .partition(|term| term.factors.len() > 1 && term.factors.contains(&common));
+        let (mut with, without): (Vec<Term>, Vec<Term>) =
+            terms.into_iter().partition(|term| term.factors.len() > 1 && term.factors.contains(&common));
         for term in &mut with {
             if let Some(k) = term.factors.iter().position(|&factor| factor == common) {
                 term.factors.remove(k);
@@ -82,10 +79,8 @@ fn sum(graph: &mut Graph, mut terms: Vec<Term>) -> ExprId {
         done.push((minus, graph.mul(common, rest)));
         terms = without;
     }
-    let products: Vec<(bool, ExprId)> = terms
-        .into_iter()
-        .map(|term| (term.minus, product(graph, &term.factors)))
-        .collect();
+    let products: Vec<(bool, ExprId)> =
+        terms.into_iter().map(|term| (term.minus, product(graph, &term.factors))).collect();
     let all = products.into_iter().chain(done);
     let (minus, plus): (Vec<_>, Vec<_>) = all.partition(|&(minus, _)| minus);
     let mut total = graph.zero();

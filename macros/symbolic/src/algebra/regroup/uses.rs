@@ -87,15 +87,8 @@ impl Uses {
     }
 
     /// The terms of a sum, expanding inner sums that are used nowhere else; `true` for subtracted terms.
-    pub(super) fn terms(
-        &self,
-        graph: &Graph,
-        id: ExprId,
-        minus: bool,
-        list: &mut Vec<(bool, ExprId)>,
-    ) {
-        let Node::Binary(operator @ (Operator::Add | Operator::Subtract), a, b) = graph.node(id)
-        else {
+    pub(super) fn terms(&self, graph: &Graph, id: ExprId, minus: bool, list: &mut Vec<(bool, ExprId)>) {
+        let Node::Binary(operator @ (Operator::Add | Operator::Subtract), a, b) = graph.node(id) else {
             list.push((minus, id));
             return;
         };

@@ -23,16 +23,10 @@ impl Answer for ModeCurvature {
         let mut table = Columns::new("second derivatives", &pairs);
         table.whole("mode", &|_| Some(number));
         names(&mut table, &|pair| pair);
-        table.number("lambda", "1/s^2 per units", &|pair| {
-            Some(pair.scaled(pair.of(&self.lambda, inputs)?))
-        });
+        table.number("lambda", "1/s^2 per units", &|pair| Some(pair.scaled(pair.of(&self.lambda, inputs)?)));
         let s = |pair: &Pair<'_>| pair.of(self.eigenvalue.as_ref()?, inputs);
-        table.number("Re s", "1/s per units", &|pair| {
-            Some(pair.scaled(s(pair)?.re))
-        });
-        table.number("Im s", "1/s per units", &|pair| {
-            Some(pair.scaled(s(pair)?.im))
-        });
+        table.number("Re s", "1/s per units", &|pair| Some(pair.scaled(s(pair)?.re)));
+        table.number("Im s", "1/s per units", &|pair| Some(pair.scaled(s(pair)?.im)));
         data(d, &format!("mode {number}"), table)
     }
 }
@@ -51,9 +45,7 @@ impl Answer for OutputCurvature {
         let pairs = pairs(&variables(d));
         let info = d.outputs.get(self.output.index());
         let info = info.map(|info| (&*info.name, &info.unit));
-        derivatives(d, &pairs, info, &|pair| {
-            pair.of(&self.second, d.inputs.len())
-        })
+        derivatives(d, &pairs, info, &|pair| pair.of(&self.second, d.inputs.len()))
     }
 }
 
@@ -86,10 +78,7 @@ pub(crate) struct Pair<'a> {
 
 pub(crate) fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
     let each = all.iter().copied().enumerate();
-    let pair = |(i, first), (j, second)| Pair {
-        places: [i, j],
-        variables: [first, second],
-    };
+    let pair = |(i, first), (j, second)| Pair { places: [i, j], variables: [first, second] };
     let rows = each.clone();
     let rows = rows.flat_map(|first| each.clone().map(move |second| pair(first, second)));
     rows.collect()
@@ -97,11 +86,7 @@ pub(crate) fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
 
 impl Pair<'_> {
     /// The second derivative with respect to both, inputs first, SI.
-    pub(crate) fn of<T: Copy>(
-        &self,
-        second_derivatives: &SecondDerivatives<T>,
-        inputs: usize,
-    ) -> Option<T> {
+    pub(crate) fn of<T: Copy>(&self, second_derivatives: &SecondDerivatives<T>, inputs: usize) -> Option<T> {
         let [i, j] = self.places;
         match (i.checked_sub(inputs), j.checked_sub(inputs)) {
             (None, None) => entry(&second_derivatives.by_input, i, j),
@@ -138,9 +123,7 @@ fn derivatives(
     names(&mut table, &|pair| pair);
     if let Some((name, unit)) = quantity {
         let units = format!("{} per units", unit.symbol);
-        table.number(name, &units, &|pair| {
-            Some(converted(pair.scaled(of(pair)?), unit))
-        });
+        table.number(name, &units, &|pair| Some(converted(pair.scaled(of(pair)?), unit)));
     }
     data(d, quantity.map_or("?", |(name, _)| name), table)
 }

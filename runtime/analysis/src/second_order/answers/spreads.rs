@@ -18,9 +18,7 @@ impl Answer for SecondOrder {
 
     fn findings(&self) -> Findings {
         let title = title(&self.description, &self.inputs);
-        let mut said = Findings::titled(format!(
-            "{title}: spread of the frequencies to second order"
-        ));
+        let mut said = Findings::titled(format!("{title}: spread of the frequencies to second order"));
         let rows = self.rows();
         spreads(&mut said, &rows);
         if !self.varies {
@@ -73,11 +71,7 @@ const DAMPING_RATIO: Quantity = |mode| &mode.damping_ratio;
 impl SecondOrder {
     fn rows(&self) -> Vec<Row<'_>> {
         let modes = self.modes.iter().zip(&self.doubts).enumerate();
-        let rows = modes.map(|(r, (mode, doubts))| Row {
-            number: r + 1,
-            mode,
-            doubts,
-        });
+        let rows = modes.map(|(r, (mode, doubts))| Row { number: r + 1, mode, doubts });
         rows.collect()
     }
 }
@@ -92,35 +86,15 @@ fn spreads(said: &mut Findings, rows: &[Row<'_>]) {
     moments(&mut table, "damping ratio", "", DAMPING_RATIO);
     table.words("error", &|row| Some(row.mode.as_ref().err()?.to_string()));
     table.words("doubts", &|row| joined(row.doubts));
-    table.cells("nominal [rad/s]", &|row| {
-        row.cell(FREQUENCY, |spread| number(spread.model.value))
-    });
-    table.cells("mean [rad/s]", &|row| {
-        row.cell(FREQUENCY, |spread| number(spread.moments.mean))
-    });
+    table.cells("nominal [rad/s]", &|row| row.cell(FREQUENCY, |spread| number(spread.model.value)));
+    table.cells("mean [rad/s]", &|row| row.cell(FREQUENCY, |spread| number(spread.moments.mean)));
     table.cells("sigma, first order", &|row| {
-        row.cell(FREQUENCY, |spread| {
-            sigma(spread.moments.first_order_sigma, spread.moments.mean)
-        })
+        row.cell(FREQUENCY, |spread| sigma(spread.moments.first_order_sigma, spread.moments.mean))
     });
-    table.cells("sigma [rad/s]", &|row| {
-        row.cell(FREQUENCY, |spread| {
-            sigma(spread.moments.sigma, spread.moments.mean)
-        })
-    });
-    table.cells("skewness", &|row| {
-        row.cell(FREQUENCY, |spread| {
-            format!("{:+.3}", spread.moments.skewness)
-        })
-    });
-    table.cells("damping ratio, mean", &|row| {
-        row.cell(DAMPING_RATIO, |spread| rough(spread.moments.mean))
-    });
-    table.cells("sigma", &|row| {
-        row.cell(DAMPING_RATIO, |spread| {
-            sigma(spread.moments.sigma, spread.moments.mean)
-        })
-    });
+    table.cells("sigma [rad/s]", &|row| row.cell(FREQUENCY, |spread| sigma(spread.moments.sigma, spread.moments.mean)));
+    table.cells("skewness", &|row| row.cell(FREQUENCY, |spread| format!("{:+.3}", spread.moments.skewness)));
+    table.cells("damping ratio, mean", &|row| row.cell(DAMPING_RATIO, |spread| rough(spread.moments.mean)));
+    table.cells("sigma", &|row| row.cell(DAMPING_RATIO, |spread| sigma(spread.moments.sigma, spread.moments.mean)));
     said.columns(table);
 }
 
@@ -136,9 +110,7 @@ fn moments(table: &mut Columns<'_, Row<'_>>, name: &str, unit: &str, of: Quantit
         ("excess kurtosis", "", |x| x.excess_kurtosis),
     ];
     for (what, unit, pick) in picks {
-        table.number(&format!("{what} of {name}"), unit, &|row| {
-            Some(pick(row.moments(of)?))
-        });
+        table.number(&format!("{what} of {name}"), unit, &|row| Some(pick(row.moments(of)?)));
     }
 }
 

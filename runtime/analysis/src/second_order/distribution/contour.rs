@@ -31,19 +31,13 @@ const FARTHEST: f64 = 300.0;
 /// `P(from < X < to)`; `None` if neither ray is suitable.
 pub(super) fn between(terms: &Terms, from: f64, to: f64) -> Option<Estimate> {
     let (from, to) = (beyond(terms, from)?, beyond(terms, to)?);
-    Some(Estimate {
-        value: (from.value - to.value).clamp(0.0, 1.0),
-        error: from.error + to.error,
-    })
+    Some(Estimate { value: (from.value - to.value).clamp(0.0, 1.0), error: from.error + to.error })
 }
 
 /// `P(X > y)`.
 fn beyond(terms: &Terms, y: f64) -> Option<Estimate> {
     if y.is_infinite() {
-        return Some(Estimate {
-            value: f64::from(u8::from(y < 0.0)),
-            error: 0.0,
-        });
+        return Some(Estimate { value: f64::from(u8::from(y < 0.0)), error: 0.0 });
     }
     let right = Ray::new(terms, y, 0.5 * PI - TILT);
     let left = Ray::new(terms, y, 0.5 * PI + TILT);
@@ -67,12 +61,7 @@ impl Ray {
     fn new(terms: &Terms, y: f64, angle: f64) -> Option<Self> {
         // Near the origin the integrand is `r` times at most about `1 + |y|`.
         let start = NOTHING - (1.0 + y.abs()).ln();
-        let mut ray = Self {
-            angle,
-            start,
-            end: start,
-            largest: f64::NEG_INFINITY,
-        };
+        let mut ray = Self { angle, start, end: start, largest: f64::NEG_INFINITY };
         let mut w = start;
         loop {
             w += STRIDE;
@@ -104,10 +93,8 @@ impl Ray {
                 break;
             }
         }
-        let estimate = Estimate {
-            value: (self.angle + step * sum) / PI,
-            error: (change + step * noise) / PI + f64::EPSILON,
-        };
+        let estimate =
+            Estimate { value: (self.angle + step * sum) / PI, error: (change + step * noise) / PI + f64::EPSILON };
         estimate.error.is_finite().then_some(estimate)
     }
 

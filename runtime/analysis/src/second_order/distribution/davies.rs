@@ -29,17 +29,8 @@ impl Rule {
         let (low, high) = (-reach(terms, -1.0), reach(terms, 1.0));
         let step = 2.0 * PI / (high - low);
         let enough = |number: usize| left_out(terms, number as f64 * step) <= ALIASING;
-        let number = if enough(SHORT) {
-            fewest(SHORT, enough)
-        } else {
-            LONG
-        };
-        Self {
-            low,
-            high,
-            step,
-            terms: number,
-        }
+        let number = if enough(SHORT) { fewest(SHORT, enough) } else { LONG };
+        Self { low, high, step, terms: number }
     }
 
     /// Whether the truncation error is as small as the other errors of the sum.
@@ -49,15 +40,9 @@ impl Rule {
 
     pub(super) fn between(&self, terms: &Terms, from: f64, to: f64) -> Estimate {
         if from >= self.high || to <= self.low {
-            return Estimate {
-                value: 0.0,
-                error: ALIASING,
-            };
+            return Estimate { value: 0.0, error: ALIASING };
         }
-        let (from, to) = (
-            (from > self.low).then_some(from),
-            (to < self.high).then_some(to),
-        );
+        let (from, to) = ((from > self.low).then_some(from), (to < self.high).then_some(to));
         let whole = 0.5 * f64::from(u8::from(from.is_none()) + u8::from(to.is_none()));
         let mut sum = 0.0;
         for k in 0..self.terms {
@@ -131,10 +116,7 @@ fn left_out(terms: &Terms, t: f64) -> f64 {
 /// `P(X > K'(u)) <= exp(K(u) - u K'(u))`.
 fn reach(terms: &Terms, side: f64) -> f64 {
     let bound = ALIASING.ln();
-    let most = terms
-        .squares
-        .iter()
-        .fold(0.0, |most: f64, square| most.max(side * square.nu));
+    let most = terms.squares.iter().fold(0.0, |most: f64, square| most.max(side * square.nu));
     // u = limit x / (1 + x), or u = x without a limit; any x > 0 is admissible.
     let at = |x: f64| {
         let u = if most > 0.0 { x / (1.0 + x) / most } else { x };

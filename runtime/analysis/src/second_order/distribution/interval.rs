@@ -10,10 +10,7 @@ impl Terms {
     /// `P(from < X < to)`, in closed form where one exists.
     pub(in crate::second_order) fn between(&self, from: f64, to: f64) -> Estimate {
         if from >= to {
-            return Estimate {
-                value: 0.0,
-                error: 0.0,
-            };
+            return Estimate { value: 0.0, error: 0.0 };
         }
         match self.squares[..] {
             [] => self.straight(from, to),
@@ -58,22 +55,12 @@ mod tests {
     /// formula but the terms.
     #[test]
     fn both_inversions_agree() {
-        for (normal, count, c, nu) in [
-            (0.0, 5, 0.8, 0.7),
-            (0.3, 4, 0.5, -1.2),
-            (0.05, 6, 0.1, 1.0),
-            (1.0, 3, 0.4, 0.05),
-            (0.0, 9, 0.0, 1.0),
-        ] {
-            let squares = (0..count).map(|j| Square {
-                c: c * (1.0 + f64::from(j)).sin(),
-                nu: nu * (2.0 + 1.7 * f64::from(j)).cos(),
-            });
-            let mut terms = Terms {
-                unit: 1.0,
-                normal,
-                squares: squares.collect(),
-            };
+        for (normal, count, c, nu) in
+            [(0.0, 5, 0.8, 0.7), (0.3, 4, 0.5, -1.2), (0.05, 6, 0.1, 1.0), (1.0, 3, 0.4, 0.05), (0.0, 9, 0.0, 1.0)]
+        {
+            let squares = (0..count)
+                .map(|j| Square { c: c * (1.0 + f64::from(j)).sin(), nu: nu * (2.0 + 1.7 * f64::from(j)).cos() });
+            let mut terms = Terms { unit: 1.0, normal, squares: squares.collect() };
             let parts = terms.squares.iter();
             let variance: f64 = parts.map(|t| t.c * t.c + 0.5 * t.nu * t.nu).sum();
             let sigma = (variance + normal * normal).sqrt();
@@ -87,9 +74,7 @@ mod tests {
             for k in -12..=12 {
                 let y = 0.5 * f64::from(k);
                 let axis = rule.between(&terms, y, f64::INFINITY);
-                let Some(ray) = contour::between(&terms, y, f64::INFINITY) else {
-                    panic!("a ray at {y}")
-                };
+                let Some(ray) = contour::between(&terms, y, f64::INFINITY) else { panic!("a ray at {y}") };
                 let apart = (axis.value - ray.value).abs();
                 assert!(apart <= axis.error + ray.error, "{y}: {axis:?} {ray:?}");
                 compared += usize::from(axis.error + ray.error < 1e-9);

@@ -40,10 +40,7 @@ mod tests {
     use super::*;
 
     fn near(value: f64, expected: f64) {
-        assert!(
-            (value - expected).abs() <= 1e-13 * expected,
-            "{value:e}, not {expected:e}"
-        );
+        assert!((value - expected).abs() <= 1e-13 * expected, "{value:e}, not {expected:e}");
     }
 
     #[test]

@@ -19,11 +19,7 @@ pub(in crate::second_order) struct Sampled(Vec<Vec<f64>>);
 
 impl Sampled {
     /// Evaluates the model at points of `joint`, which was built for the same nominal values.
-    pub(in crate::second_order) fn new(
-        model: &Quadratic,
-        joint: &Joint,
-        about: &[f64],
-    ) -> Result<Self, Error> {
+    pub(in crate::second_order) fn new(model: &Quadratic, joint: &Joint, about: &[f64]) -> Result<Self, Error> {
         let count = about.len();
         let (mut point, mut change) = (Vector::zeros(count), Vector::zeros(count));
         let mut all = Vec::new();
@@ -76,9 +72,6 @@ impl Sampled {
         let squares: f64 = shares.iter().map(|share| (share - value).powi(2)).sum();
         // Even randomisations that agree may all miss an event rarer than a few points.
         let resolution = ERRORS / (count * POINTS as f64);
-        Estimate {
-            value,
-            error: (ERRORS * (squares / (count * (count - 1.0))).sqrt()).max(resolution),
-        }
+        Estimate { value, error: (ERRORS * (squares / (count * (count - 1.0))).sqrt()).max(resolution) }
     }
 }

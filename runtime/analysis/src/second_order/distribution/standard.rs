@@ -16,15 +16,11 @@ pub(in crate::second_order) struct Standard {
 }
 
 impl Standard {
-    pub(in crate::second_order) fn new(
-        model: &Quadratic,
-        tolerances: &Tolerances,
-    ) -> Result<Self, Error> {
+    pub(in crate::second_order) fn new(model: &Quadratic, tolerances: &Tolerances) -> Result<Self, Error> {
         model.check(tolerances)?;
         let sigmas = tolerances.sigmas();
         let n = sigmas.len();
-        let symmetric =
-            |i: usize, j: usize| 0.5 * model.curvature[i][j] + 0.5 * model.curvature[j][i];
+        let symmetric = |i: usize, j: usize| 0.5 * model.curvature[i][j] + 0.5 * model.curvature[j][i];
         let mut standard = Self {
             scale: 1.0,
             linear: (0..n).map(|i| model.slopes[i] * sigmas[i]).collect(),
@@ -37,11 +33,7 @@ impl Standard {
         if tolerances.correlation().is_some() {
             let factor = tolerances.factor();
             let root = |row: usize, column: usize| {
-                if sigmas[row] > 0.0 {
-                    factor[row][column] / sigmas[row]
-                } else {
-                    0.0
-                }
+                if sigmas[row] > 0.0 { factor[row][column] / sigmas[row] } else { 0.0 }
             };
             let root: Vec<f64> = (0..n * n).map(|e| root(e / n, e % n)).collect();
             standard.correlate(&root);
@@ -73,9 +65,7 @@ impl Standard {
         let half = transposed_product(root, &self.quadratic, n);
         // C^T B can be transposed because B is symmetric: C^T (C^T B)^T = C^T B C.
         self.quadratic = transposed_product(root, &transposed(&half, n), n);
-        self.linear = (0..n)
-            .map(|i| (0..n).map(|k| root[k * n + i] * self.linear[k]).sum())
-            .collect();
+        self.linear = (0..n).map(|i| (0..n).map(|k| root[k * n + i] * self.linear[k]).sum()).collect();
     }
 
     /// Moments of `value + scale (a^T z + z^T B z / 2)` from traces; infinite where they exceed the range of a double.
@@ -93,11 +83,7 @@ impl Standard {
         let third = 3.0 * dot(a, &bent) + dot(&squared, b);
         let fourth = 12.0 * dot(&bent, &bent) + 3.0 * dot(&squared, &squared);
         let relative = |cumulant: f64, power: f64| {
-            if variance > 0.0 {
-                cumulant / variance.powf(power)
-            } else {
-                0.0
-            }
+            if variance > 0.0 { cumulant / variance.powf(power) } else { 0.0 }
         };
         let mean_shift = self.scale * 0.5 * trace;
         ModelMoments {

@@ -51,11 +51,7 @@ impl Terms {
         if !squares.is_empty() && normal <= rounding {
             normal = 0.0;
         }
-        Some(Self {
-            unit,
-            normal,
-            squares,
-        })
+        Some(Self { unit, normal, squares })
     }
 
     /// Logarithm `K(s)` of the moment generating function `E e^(s X)`, continued analytically off the real axis, and

@@ -67,9 +67,7 @@ impl EventTolerance {
 
     fn meeting(&self) -> Option<(usize, Condition)> {
         match self.event {
-            Event::Crossing {
-                mode, condition, ..
-            } => Some((mode, condition)),
+            Event::Crossing { mode, condition, .. } => Some((mode, condition)),
             Event::Critical => None,
         }
     }
@@ -83,10 +81,7 @@ impl EventTolerance {
 
     fn title(&self) -> String {
         let d = &self.description;
-        let (title, what) = (
-            title_along(d, &self.inputs, self.input),
-            self.what_happens(),
-        );
+        let (title, what) = (title_along(d, &self.inputs, self.input), self.what_happens());
         let location = place(d, self.input, self.value);
         match (&self.spread, d.inputs.get(self.input.index())) {
             (Ok(spread), Some(info)) => format!(
@@ -104,22 +99,15 @@ impl EventTolerance {
     /// The variables that shift it, the largest share first.
     fn variables(&self, said: &mut Findings, spread: &Spread) {
         let d = &self.description;
-        let scale = d
-            .inputs
-            .get(self.input.index())
-            .map_or(1.0, |info| info.unit.scale);
+        let scale = d.inputs.get(self.input.index()).map_or(1.0, |info| info.unit.scale);
         let share = |k: usize| spread.variance_shares[k];
         let mut order: Vec<usize> = (0..d.design.len()).collect();
         order.sort_by(|&a, &b| share(b).abs().total_cmp(&share(a).abs()));
         let matters = |k: &usize| relevant(share(*k), 1.0);
         let (shown, left): (Vec<usize>, Vec<usize>) = order.into_iter().partition(matters);
         let mut table = Columns::new("variables", &shown);
-        table.cells("derivative by", &|&k| {
-            per(&d.design[k].name, &d.design[k].unit)
-        });
-        table.cells("value", &|&k| {
-            rough(spread.by_design[k] * d.design[k].unit.scale / scale)
-        });
+        table.cells("derivative by", &|&k| per(&d.design[k].name, &d.design[k].unit));
+        table.cells("value", &|&k| rough(spread.by_design[k] * d.design[k].unit.scale / scale));
         table.cells("share of variance", &|&k| percent(share(k)));
         said.text(table.finish().1);
         if !left.is_empty() {
@@ -169,12 +157,7 @@ impl Searched {
 }
 
 /// Says what is not resolved.
-pub(crate) fn unresolved(
-    said: &mut Findings,
-    d: &Description,
-    input: Input,
-    searched: Option<&Searched>,
-) {
+pub(crate) fn unresolved(said: &mut Findings, d: &Description, input: Input, searched: Option<&Searched>) {
     let (Some(searched), Some(info)) = (searched, d.inputs.get(input.index())) else {
         return;
     };
@@ -208,10 +191,7 @@ fn multiple(line: Line, name: &str) -> String {
 }
 
 /// The mode that meets each line: mode number, ratio, offset.
-pub(super) fn meetings<R>(
-    table: &mut Columns<'_, R>,
-    of: &dyn Fn(&R) -> Option<(usize, Condition)>,
-) {
+pub(super) fn meetings<R>(table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> Option<(usize, Condition)>) {
     table.whole("mode", &|row| Some(of(row)?.0 + 1));
     let line = |row: &R| match of(row)?.1 {
         Condition::Line(line) => Some(line),
@@ -222,16 +202,11 @@ pub(super) fn meetings<R>(
 }
 
 /// A row for each event, its place along the input and how far tolerances shift it; `None` without events.
-pub(crate) fn event_columns<'a>(
-    name: &str,
-    all: &'a [&'a EventTolerance],
-) -> Option<Columns<'a, &'a EventTolerance>> {
+pub(crate) fn event_columns<'a>(name: &str, all: &'a [&'a EventTolerance]) -> Option<Columns<'a, &'a EventTolerance>> {
     let one = all.first()?;
     let d = &one.description;
     let spread = |event_tolerance: &&'a EventTolerance| event_tolerance.spread.as_ref().ok();
-    let error = |event_tolerance: &&EventTolerance| {
-        Some(event_tolerance.spread.as_ref().err()?.to_string())
-    };
+    let error = |event_tolerance: &&EventTolerance| Some(event_tolerance.spread.as_ref().err()?.to_string());
     let mut table = Columns::new(name, all);
     table.cells("what happens", &|row| row.what_happens());
     varied(&mut table, d, one.input, number, &|x| x.value);

@@ -95,9 +95,7 @@ pub(super) fn critical_columns(all: &[CriticalState]) -> Option<Columns<'_, Crit
     let d = &one.equilibrium.description;
     let mut table = Columns::new("critical states", all);
     varied(&mut table, d, one.input, number, &|x| x.value);
-    table
-        .words("kind", &|row| Some(row.kind.to_string()))
-        .shown();
+    table.words("kind", &|row| Some(row.kind.to_string())).shown();
     table.unknowns(d, &|row| Some(&row.equilibrium.coordinates[..]));
     Some(table)
 }
@@ -110,9 +108,7 @@ fn crossing_columns(all: &[Crossing]) -> Option<Columns<'_, Crossing>> {
     varied(&mut table, d, one.input, number, &|x| x.value);
     meetings(&mut table, &|x| Some((x.mode, x.condition)));
     let frequency = |crossing: &Crossing| crossing.modes.modes.get(crossing.mode)?.frequency();
-    table
-        .number("frequency", "rad/s", &frequency)
-        .digits(number);
+    table.number("frequency", "rad/s", &frequency).digits(number);
     table.unknowns(d, &|row| Some(&row.equilibrium.coordinates[..]));
     let stability = table.words("stability", &|row| Some(row.equilibrium.stability_word()));
     stability.shown().headed("state");

@@ -17,13 +17,7 @@ use crate::{Description, Equilibrium, Input, Mode, Role};
 /// columns. Motions beyond that number are left out; a mechanism of `n` coordinates and speeds has up to `2 n`, or more
 /// where motions are replaced by others.
 #[must_use]
-pub fn sweep_table(
-    d: &Description,
-    inputs: &[f64],
-    input: Input,
-    points: &[SweepPoint],
-    motions: usize,
-) -> Table {
+pub fn sweep_table(d: &Description, inputs: &[f64], input: Input, points: &[SweepPoint], motions: usize) -> Table {
     let columns = columns(d, input, points, motions, &moving(d, points));
     let mut table = columns.finish().0;
     table.operating_point(d, inputs, Some(input));
@@ -76,12 +70,7 @@ fn state(point: &SweepPoint) -> Option<&Equilibrium> {
 
 /// All unknowns that move, reactions too.
 fn moving<'a>(d: &'a Description, points: &[SweepPoint]) -> Moving<'a> {
-    let roles = [
-        Role::Position,
-        Role::Speed,
-        Role::PositionReaction,
-        Role::VelocityReaction,
-    ];
+    let roles = [Role::Position, Role::Speed, Role::PositionReaction, Role::VelocityReaction];
     Moving::of(d, points.iter().filter_map(state), &roles)
 }
 

@@ -76,11 +76,7 @@ impl Curve {
         let [value, _] = cubic(self.jets[piece], self.jets[piece + 1], h, share);
         let bump = share * (1.0 - share);
         let rounding = self.rounding;
-        Estimate {
-            value,
-            rest: 16.0 * self.rests[piece] * bump * bump,
-            rounding,
-        }
+        Estimate { value, rest: 16.0 * self.rests[piece] * bump * bump, rounding }
     }
 
     /// The sign of the slope: 1 or -1 where it is certain, else 0.

@@ -96,25 +96,15 @@ pub(super) struct Interval {
 }
 
 /// Finds the events between two states, no finer than `finest`.
-pub(super) fn divide(
-    source: &mut impl States,
-    wanted: &Wanted,
-    interval: Interval,
-    finest: f64,
-) -> Division {
+pub(super) fn divide(source: &mut impl States, wanted: &Wanted, interval: Interval, finest: f64) -> Division {
     let mut division = Division::default();
-    let Interval {
-        ends: [first, last],
-        outer,
-    } = interval;
+    let Interval { ends: [first, last], outer } = interval;
     let (begin, end) = (first.t, last.t);
     division.places.push(begin);
     let mut open = vec![(first, last)];
     while let Some((a, b)) = open.pop() {
         let width = b.t - a.t;
-        let middle = MIDDLES
-            .iter()
-            .find_map(|share| source.state(a.t + share * width));
+        let middle = MIDDLES.iter().find_map(|share| source.state(a.t + share * width));
         let Some(middle) = middle else {
             division.broken = true;
             division.doubt([a.t, b.t], Kind::Critical);
@@ -138,11 +128,7 @@ pub(super) fn divide(
                 }
                 states.extend(at);
                 states.sort_by(|a, b| b.t.total_cmp(&a.t));
-                open.extend(
-                    states
-                        .windows(2)
-                        .map(|two| (two[1].clone(), two[0].clone())),
-                );
+                open.extend(states.windows(2).map(|two| (two[1].clone(), two[0].clone())));
             }
         }
     }
@@ -177,26 +163,15 @@ impl Division {
 
     /// The states that are at no event. At the others a number touches its threshold, if the states around it show no
     /// change; at an end of the search it may also pass.
-    fn touches(
-        &mut self,
-        wanted: &Wanted,
-        kind: Kind,
-        states: &[Rc<Spectrum>],
-        outer: [bool; 2],
-    ) -> Vec<Rc<Spectrum>> {
+    fn touches(&mut self, wanted: &Wanted, kind: Kind, states: &[Rc<Spectrum>], outer: [bool; 2]) -> Vec<Rc<Spectrum>> {
         let doubtful = |state: &Rc<Spectrum>| wanted.doubtful(kind, state);
-        let groups: Vec<&[Rc<Spectrum>]> =
-            (states.chunk_by(|a, b| doubtful(a) == doubtful(b))).collect();
+        let groups: Vec<&[Rc<Spectrum>]> = (states.chunk_by(|a, b| doubtful(a) == doubtful(b))).collect();
         let last = groups.len() - 1;
         let mut sure = Vec::new();
         for (k, group) in groups.iter().enumerate() {
             let around = [k.checked_sub(1), (k < last).then_some(k + 1)];
             let around = around.map(|k| k.map(|k| groups[k]));
-            let most = around
-                .iter()
-                .flatten()
-                .map(|other| doubtful(&other[0]))
-                .max();
+            let most = around.iter().flatten().map(|other| doubtful(&other[0])).max();
             let new = most.map_or(0, |most| doubtful(&group[0]).saturating_sub(most));
             let (begins, ends) = (around[0].is_none(), around[1].is_none());
             // Between two bands of flutter everything may be neutral.
@@ -257,8 +232,7 @@ fn enclose(
             continue;
         }
         let (width, middle) = (high.t - low.t, 0.5 * (low.t + high.t));
-        let aims =
-            [&low, &high].map(|state| wanted.aim(kind, state, [low.t, high.t], NEWTON * finest));
+        let aims = [&low, &high].map(|state| wanted.aim(kind, state, [low.t, high.t], NEWTON * finest));
         let aims = aims.into_iter().flatten();
         let aim = aims.min_by(|a, b| a.step.total_cmp(&b.step));
         let reach = aim.map_or(finest, |aim| finest.max(4.0 * aim.error));
@@ -275,9 +249,7 @@ fn enclose(
             _ => vec![middle],
         };
         let inside = |t: &f64| *t > low.t + CLOSEST && *t < high.t - CLOSEST;
-        let mut states: Vec<_> = (places.into_iter().filter(inside))
-            .filter_map(|t| source.state(t))
-            .collect();
+        let mut states: Vec<_> = (places.into_iter().filter(inside)).filter_map(|t| source.state(t)).collect();
         if states.is_empty() {
             let mut places = MIDDLES.iter().map(|share| low.t + share * width);
             states.extend(places.find_map(|t| source.state(t)));
@@ -297,9 +269,7 @@ fn enclose(
         }
         states.insert(0, low);
         states.push(high);
-        let brackets = states
-            .windows(2)
-            .map(|two| [two[0].clone(), two[1].clone()]);
+        let brackets = states.windows(2).map(|two| [two[0].clone(), two[1].clone()]);
         open.extend(brackets.map(|two| {
             let slow = two[1].t - two[0].t > 0.5 * width;
             (two, slow && !halve)
@@ -327,17 +297,10 @@ const REAL: f64 = 1e-6;
 impl Wanted {
     /// A place close to an event, moved to it by Newton's method where that converges within its error, and whether two
     /// eigenvalues merge there.
-    fn polished(
-        &self,
-        source: &mut impl States,
-        kind: Kind,
-        (from, merging): (f64, bool),
-        reach: f64,
-    ) -> (f64, bool) {
+    fn polished(&self, source: &mut impl States, kind: Kind, (from, merging): (f64, bool), reach: f64) -> (f64, bool) {
         let everywhere = ([f64::NEG_INFINITY, f64::INFINITY], f64::INFINITY);
         // Near where two merge, the number of either is a root whose slope is no more than rounding.
-        let starts =
-            [true, false].map(|merging| [from, from - reach, from + reach].map(|t| (t, merging)));
+        let starts = [true, false].map(|merging| [from, from - reach, from + reach].map(|t| (t, merging)));
         let mut places = starts.into_iter().flatten().filter_map(|(start, merging)| {
             let (mut t, mut last) = (start, f64::INFINITY);
             while let Some(state) = source.state(t.clamp(0.0, 1.0))
@@ -364,45 +327,28 @@ impl Wanted {
     }
 
     /// The nearest such place of single eigenvalues, or of two that merge.
-    fn aims(
-        &self,
-        kind: Kind,
-        state: &Spectrum,
-        ([low, high], known): ([f64; 2], f64),
-        merging: bool,
-    ) -> Option<Aim> {
+    fn aims(&self, kind: Kind, state: &Spectrum, ([low, high], known): ([f64; 2], f64), merging: bool) -> Option<Aim> {
         let aim = |[value, slope]: [f64; 2], error: f64| {
             let t = state.t - value / slope;
             let error = error / slope.abs();
-            let aim = Aim {
-                t,
-                step: (t - state.t).abs(),
-                error,
-                merging,
-            };
+            let aim = Aim { t, step: (t - state.t).abs(), error, merging };
             let inside = t >= low - CLOSEST && t <= high + CLOSEST;
             (inside && error <= known).then_some(aim)
         };
         let roots = self.roots(kind, state);
-        let relevant = roots
-            .iter()
-            .filter(|root| !merging && self.relevant(kind, root));
+        let relevant = roots.iter().filter(|root| !merging && self.relevant(kind, root));
         let grows = !self.real(kind) && !matches!(kind, Kind::Line(_));
         let single = relevant.filter_map(|root| {
             let (jet, error) = self.number(kind, state, root);
             // Next to another eigenvalue a number within its error has a slope of rounding.
-            let close =
-                |other: &&Root| (other.value - root.value).norm() <= MERGING * root.value.norm();
+            let close = |other: &&Root| (other.value - root.value).norm() <= MERGING * root.value.norm();
             let known = !grows || jet[0].abs() > error || roots.iter().filter(close).count() == 1;
             known.then(|| aim(jet, error))?
         });
         let merges = merging && grows;
         let pairs = (0..roots.len()).filter(|_| merges).flat_map(|i| {
             let conjugate = roots[i].paired.then(|| roots[i].conjugate());
-            conjugate
-                .into_iter()
-                .chain(roots[i + 1..].iter().copied())
-                .map(move |other| (i, other))
+            conjugate.into_iter().chain(roots[i + 1..].iter().copied()).map(move |other| (i, other))
         });
         let both = pairs.filter_map(|(i, other)| {
             let (distance, error) = (roots[i].value - other.value, roots[i].error + other.error);
@@ -428,9 +374,8 @@ impl Division {
                 && b.t - a.t < TOUCH
                 && !a.merging
                 && let Some(state) = source.state(0.5 * (a.t + b.t))
-                && let Some(root) = (wanted.roots(a.kind, &state).iter()).find(|root| {
-                    wanted.touches(a.kind, &state, root) && root.error <= KNOWN * root.value.norm()
-                })
+                && let Some(root) = (wanted.roots(a.kind, &state).iter())
+                    .find(|root| wanted.touches(a.kind, &state, root) && root.error <= KNOWN * root.value.norm())
             {
                 let touch = Found {
                     t: state.t,
@@ -444,26 +389,16 @@ impl Division {
             k += 1;
         }
         // Rounding may part the places at which one number is within its error.
-        let touches: Vec<(Kind, f64)> = (self.events.iter())
-            .filter(|event| event.rises.is_none())
-            .map(|event| (event.kind, event.t))
-            .collect();
+        let touches: Vec<(Kind, f64)> =
+            (self.events.iter()).filter(|event| event.rises.is_none()).map(|event| (event.kind, event.t)).collect();
         self.events.retain(|event| {
-            let earlier = |(kind, t): &(Kind, f64)| {
-                *kind == event.kind && *t < event.t && event.t - *t < TOUCH
-            };
+            let earlier = |(kind, t): &(Kind, f64)| *kind == event.kind && *t < event.t && event.t - *t < TOUCH;
             event.rises.is_some() || !touches.iter().any(earlier)
         });
     }
 
     /// Adds an event for each of the eigenvalues that count on one side only.
-    fn found(
-        &mut self,
-        wanted: &Wanted,
-        kind: Kind,
-        (t, merging): (f64, bool),
-        sides: [Rc<Spectrum>; 2],
-    ) {
+    fn found(&mut self, wanted: &Wanted, kind: Kind, (t, merging): (f64, bool), sides: [Rc<Spectrum>; 2]) {
         let [mut before, mut after] = sides.each_ref().map(|state| {
             let roots = wanted.roots(kind, state);
             let counted = wanted.counted(kind, state).into_iter();

@@ -24,14 +24,7 @@ fn oscillator(c: Jet, k: Jet, roots: &mut Vec<Root>) {
     let mut add = |value: Complex| {
         let slope = -(value * c[1] + k[1]) / (2.0 * value + c[0]);
         let error = 1e-14 * (1.0 + value.norm());
-        roots.push(Root {
-            value,
-            slope,
-            error,
-            paired: value.im > 0.0,
-            neutral: false,
-            grows: value.re > error,
-        });
+        roots.push(Root { value, slope, error, paired: value.im > 0.0, neutral: false, grows: value.re > error });
     };
     let middle = Complex::from(-0.5 * c[0]);
     if inside.im > 0.0 {
@@ -62,12 +55,7 @@ impl<F: Fn(f64) -> (Vec<Root>, Vec<Root>)> States for Family<F> {
             root.slope *= high - low;
         }
         let finite = roots.iter().all(|root| root.slope.is_finite());
-        let state = Rc::new(Spectrum {
-            t,
-            input: [u, high - low],
-            roots,
-            stiffness,
-        });
+        let state = Rc::new(Spectrum { t, input: [u, high - low], roots, stiffness });
         self.solved.push(state.clone());
         self.solved.sort_by(|a, b| a.t.total_cmp(&b.t));
         (finite && self.count < 2000).then_some(state)
@@ -93,12 +81,7 @@ fn search(
     for step in 0..steps {
         let at = |k: usize| low + (high - low) * k as f64 / steps as f64;
         let ends = [at(step), at(step + 1)];
-        let mut family = Family {
-            roots: &roots,
-            count: 0,
-            ends,
-            solved: Vec::new(),
-        };
+        let mut family = Family { roots: &roots, count: 0, ends, solved: Vec::new() };
         let interval = Interval {
             ends: [0.0, 1.0].map(|t| family.state(t).expect("a state")),
             outer: [step == 0, step + 1 == steps],
@@ -137,24 +120,14 @@ fn agree<T: std::fmt::Debug>(
 }
 
 fn general() -> Wanted {
-    Wanted {
-        lines: Vec::new(),
-        growth: true,
-        critical: true,
-        undamped: false,
-        symmetric: false,
-        conservative: false,
-    }
+    Wanted { lines: Vec::new(), growth: true, critical: true, undamped: false, symmetric: false, conservative: false }
 }
 
 struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
@@ -177,11 +150,7 @@ fn onsets_and_ends_of_random_oscillators() {
                 (
                     vec![(a, a + width)],
                     10_f64.powf(random.between(-3.0, 0.5)),
-                    if random.next() < 0.5 {
-                        vec![(b, b + 0.5 * width)]
-                    } else {
-                        vec![]
-                    },
+                    if random.next() < 0.5 { vec![(b, b + 0.5 * width)] } else { vec![] },
                     10_f64.powf(random.between(0.0, 2.0)),
                 )
             })
@@ -223,13 +192,7 @@ fn onsets_and_ends_of_random_oscillators() {
 
 /// Two modes without damping of their own whose frequencies pass each other, coupled by forces without a potential:
 /// `lambda = mean +- sqrt(slope^2 (u - place)^2 - coupling)`; both lose `2 delta s`.
-fn passing(
-    (mean, slope, centre): (f64, f64, f64),
-    coupling: f64,
-    delta: f64,
-    u: f64,
-    roots: &mut Vec<Root>,
-) {
+fn passing((mean, slope, centre): (f64, f64, f64), coupling: f64, delta: f64, u: f64, roots: &mut Vec<Root>) {
     let x = u - centre;
     let inside = slope * slope * x * x - coupling;
     let root = Complex::from(inside).sqrt();
@@ -237,15 +200,9 @@ fn passing(
     for sign in [1.0, -1.0] {
         let (lambda, change) = (mean + sign * root, sign * rate);
         let distance = (delta * delta - lambda).sqrt();
-        let distance = if distance.im < 0.0 {
-            -distance
-        } else {
-            distance
-        };
+        let distance = if distance.im < 0.0 { -distance } else { distance };
         let value = distance - delta;
-        let error = 1e-15
-            * mean.sqrt()
-            * (2.0 + coupling.sqrt() / (root.norm() + 1e-8 * coupling.sqrt() + 1e-300));
+        let error = 1e-15 * mean.sqrt() * (2.0 + coupling.sqrt() / (root.norm() + 1e-8 * coupling.sqrt() + 1e-300));
         roots.push(Root {
             value,
             slope: -change / (2.0 * distance),
@@ -270,11 +227,7 @@ fn bands_in_which_two_modes_merge() {
                 let centre = random.between(0.15, 0.85);
                 // None, one that excludes growth, and one that does not.
                 let delta = [0.0, 0.6, 0.3, 1e-7][case % 4] * width * slope / mean.sqrt();
-                let coupling = if case % 5 == 4 {
-                    0.0
-                } else {
-                    (width * slope).powi(2)
-                };
+                let coupling = if case % 5 == 4 { 0.0 } else { (width * slope).powi(2) };
                 ((mean, slope, centre), coupling, delta)
             })
             .collect();
@@ -312,10 +265,7 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
     let mut random = Random(3);
     let mut most = 0;
     for case in 0..300 {
-        let line = Line {
-            ratio: random.between(-1.0, 2.0),
-            offset: random.between(2.0, 3.0),
-        };
+        let line = Line { ratio: random.between(-1.0, 2.0), offset: random.between(2.0, 3.0) };
         let width = match case % 3 {
             0 => 0.0,
             _ => 10_f64.powf(random.between(-5.0, -0.3)),
@@ -346,12 +296,7 @@ fn every_crossing_of_a_line_also_of_equal_machines() {
             }
             (roots, Vec::new())
         };
-        let wanted = Wanted {
-            lines: vec![line],
-            undamped,
-            symmetric: undamped,
-            ..general()
-        };
+        let wanted = Wanted { lines: vec![line], undamped, symmetric: undamped, ..general() };
         let mut expected = match width {
             0.0 => vec![(None, a)],
             _ => {
@@ -390,20 +335,11 @@ fn bands_beside_a_third_mode() {
         };
         let half = (0.25 - 10.0 * c * c).sqrt();
         let expected = [(Some(true), 2.0 - half), (Some(false), 2.0 + half)];
-        let ends = [
-            [0.01, 4.0],
-            [1.21, 2.9],
-            [0.3, 2.2],
-            [1.81, 3.3],
-            [1.9, 2.1],
-        ][case % 5];
+        let ends = [[0.01, 4.0], [1.21, 2.9], [0.3, 2.2], [1.81, 3.3], [1.9, 2.1]][case % 5];
         let inside = |event: &&(Option<bool>, f64)| event.1 > ends[0] && event.1 < ends[1];
         let expected: Vec<_> = expected.iter().filter(inside).copied().collect();
         for steps in [1, 2, 3, 5, 10, 11, 16] {
-            let wanted = Wanted {
-                critical: slope.abs() < 2.0,
-                ..general()
-            };
+            let wanted = Wanted { critical: slope.abs() < 2.0, ..general() };
             let (events, all, states) = search(roots, &wanted, ends, steps);
             let of_growth = events.into_iter().filter(|event| event.0 == Kind::Growth);
             let events: Vec<_> = of_growth.collect();
@@ -420,9 +356,8 @@ fn bands_beside_a_third_mode() {
 fn critical_speeds_of_rotors() {
     let mut random = Random(5);
     for case in 0..100 {
-        let disks: Vec<[f64; 2]> = (0..1 + case % 3)
-            .map(|_| [random.between(1.0, 6.0), random.between(0.0, 1.6)])
-            .collect();
+        let disks: Vec<[f64; 2]> =
+            (0..1 + case % 3).map(|_| [random.between(1.0, 6.0), random.between(0.0, 1.6)]).collect();
         let lines: Vec<Line> = [1.0, 2.0, 0.5].map(Line::from).to_vec();
         let roots = |u: f64| {
             let mut roots = Vec::new();
@@ -455,22 +390,11 @@ fn critical_speeds_of_rotors() {
             }
         }
         expected.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let wanted = Wanted {
-            lines,
-            growth: false,
-            critical: false,
-            ..general()
-        };
+        let wanted = Wanted { lines, growth: false, critical: false, ..general() };
         for steps in [1, 4, 13] {
             let (events, all, _) = search(roots, &wanted, [0.0, 5.0], steps);
             let is = |event: &FoundEvent, kind: &Kind| event.0 == *kind;
-            agree(
-                (&events, &all),
-                &expected,
-                (1, 1e-8),
-                is,
-                &format!("{disks:?}"),
-            );
+            agree((&events, &all), &expected, (1, 1e-8), is, &format!("{disks:?}"));
         }
     }
 }

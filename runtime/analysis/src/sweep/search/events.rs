@@ -128,13 +128,11 @@ impl Events {
             let ((from, before), (to, after)) = (two[0], two[1]);
             let (least, most) = (from.min(to) - slack, from.max(to) + slack);
             let inside = |value: f64| value >= least && value <= most;
-            let at_end = |value: f64| {
-                inside(value) && !(value > least + 2.0 * slack && value < most - 2.0 * slack)
-            };
+            let at_end = |value: f64| inside(value) && !(value > least + 2.0 * slack && value < most - 2.0 * slack);
             let gap = |gap: &Gap| gap.from.min(gap.to) <= most && gap.from.max(gap.to) >= least;
             // There the way goes on along another branch.
-            let leaves = self.critical.iter().any(|critical| inside(critical.value))
-                || self.searched.gaps.iter().any(gap);
+            let leaves =
+                self.critical.iter().any(|critical| inside(critical.value)) || self.searched.gaps.iter().any(gap);
             let growth = || {
                 let all = self.crossings.iter();
                 all.filter(|x| x.condition == Condition::FlutterOnset && inside(x.value))
@@ -161,11 +159,7 @@ impl Events {
                 };
                 let explained = expected[k] == after[k].cast_signed();
                 if !explained && !self.searched.unresolved.iter().any(known) {
-                    self.searched.unresolved.push(Unresolved {
-                        from,
-                        to,
-                        condition,
-                    });
+                    self.searched.unresolved.push(Unresolved { from, to, condition });
                 }
             }
         }
@@ -205,8 +199,7 @@ impl Route {
         near.truncate(3);
         if let (Some(last), [nearest, next, ..]) = (last, &near[..])
             && piece(last) == index
-            && (value - last).abs()
-                <= (0.5 * (nearest.value - next.value).abs()).max(apart(nearest))
+            && (value - last).abs() <= (0.5 * (nearest.value - next.value).abs()).max(apart(nearest))
         {
             return None;
         }

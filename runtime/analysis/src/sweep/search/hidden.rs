@@ -116,16 +116,13 @@ impl Wanted {
                 if j < i && other.row[1].value.im >= 0.0 {
                     continue;
                 }
-                let [upper, lower] =
-                    [true, false].map(|upper| self.pair(kind, states, [one.row, other.row], upper));
+                let [upper, lower] = [true, false].map(|upper| self.pair(kind, states, [one.row, other.row], upper));
                 let line = matches!(kind, Kind::Line(_));
                 match one.is_pair_with(other) && !line {
                     true => {
                         let parted = one.row.map(|root| root.value.im == 0.0);
                         let apart = |sign: f64| Apart { of: &upper.0, sign };
-                        for (number, oscillates) in
-                            [(&upper, true), (&upper, false), (&lower, false)]
-                        {
+                        for (number, oscillates) in [(&upper, true), (&upper, false), (&lower, false)] {
                             let both = [0, 1, 2].map(|k| number.1[k] && parted[k] != oscillates);
                             let apart = apart(if oscillates { -1.0 } else { 1.0 });
                             let number = Both([&number.0, &apart]);
@@ -141,9 +138,7 @@ impl Wanted {
                 }
             }
         }
-        passings
-            .iter_mut()
-            .try_for_each(|passings| opposed(passings).map_or(Ok(()), Err))
+        passings.iter_mut().try_for_each(|passings| opposed(passings).map_or(Ok(()), Err))
     }
 
     /// The number of one eigenvalue, and at which states it counts.
@@ -151,20 +146,11 @@ impl Wanted {
         let numbers = [0, 1, 2].map(|k| self.number(kind, states[k], &row[k]));
         let curve = Curve::new(states.map(|state| state.t), numbers.map(|x| x.0));
         let error = numbers.iter().fold(0.0, |most: f64, x| most.max(x.1));
-        (
-            Single { curve, error },
-            numbers.map(|(jet, error)| jet[0] > error),
-        )
+        (Single { curve, error }, numbers.map(|(jet, error)| jet[0] > error))
     }
 
     /// The greater or the smaller number of two eigenvalues.
-    fn pair(
-        &self,
-        kind: Kind,
-        states: [&Spectrum; 3],
-        [a, b]: [[Root; 3]; 2],
-        upper: bool,
-    ) -> (Pair, [bool; 3]) {
+    fn pair(&self, kind: Kind, states: [&Spectrum; 3], [a, b]: [[Root; 3]; 2], upper: bool) -> (Pair, [bool; 3]) {
         let t = states.map(|state| state.t);
         let numbers = [a, b].map(|row| [0, 1, 2].map(|k| self.number(kind, states[k], &row[k])));
         let mean = [0, 1, 2].map(|k| {
@@ -216,18 +202,13 @@ impl Followed {
             let radius = x.rest + y.rest + x.rounding + y.rounding;
             (Complex::new(x.value, y.value), radius)
         };
-        Self {
-            disks: grid().map(disk).collect(),
-            row,
-        }
+        Self { disks: grid().map(disk).collect(), row }
     }
 
     /// Whether the two are a pair or real at every state, so that the square of their difference is real.
     fn is_pair_with(&self, other: &Self) -> bool {
         let mut both = self.row.iter().zip(&other.row);
-        both.all(|(a, b)| {
-            a.value.im == -b.value.im && (a.value.im == 0.0 || a.value.re == b.value.re)
-        })
+        both.all(|(a, b)| a.value.im == -b.value.im && (a.value.im == 0.0 || a.value.re == b.value.re))
     }
 
     /// Whether the two may meet between the states.
@@ -236,20 +217,16 @@ impl Followed {
         if (0..3).all(alike) {
             return false;
         }
-        let apart: Vec<Complex> = (self.disks.iter().zip(&other.disks))
-            .map(|(a, b)| a.0 - b.0)
-            .collect();
+        let apart: Vec<Complex> = (self.disks.iter().zip(&other.disks)).map(|(a, b)| a.0 - b.0).collect();
         // Smooth is what keeps farther apart than it moves.
-        apart
-            .chunks(SAMPLES + 1)
-            .zip(self.disks.chunks(SAMPLES + 1))
-            .zip(other.disks.chunks(SAMPLES + 1))
-            .any(|((apart, a), b)| {
+        apart.chunks(SAMPLES + 1).zip(self.disks.chunks(SAMPLES + 1)).zip(other.disks.chunks(SAMPLES + 1)).any(
+            |((apart, a), b)| {
                 let way: f64 = apart.windows(2).map(|two| (two[1] - two[0]).norm()).sum();
                 let reach = a.iter().zip(b).map(|(a, b)| a.1 + b.1).fold(0.0, f64::max);
                 let least = apart.iter().map(|x| x.norm()).fold(f64::INFINITY, f64::min);
                 (way + FAR * reach).is_nan() || least <= way + FAR * reach
-            })
+            },
+        )
     }
 
     /// Whether its number keeps farther from the threshold than the other eigenvalue can bring it.
@@ -344,15 +321,8 @@ impl Number for Pair {
             (mean.value, mean.rest + mean.rounding),
             square.map(|x| (x.value, x.rest + x.rounding + of_square)),
         );
-        let rounded = self.within(
-            (mean.value, mean.rounding),
-            square.map(|x| (x.value, x.rounding + of_square)),
-        );
-        Bounds {
-            low: low - error,
-            high: high + error,
-            settled: high - low <= 4.0 * (rounded[1] - rounded[0]) + error,
-        }
+        let rounded = self.within((mean.value, mean.rounding), square.map(|x| (x.value, x.rounding + of_square)));
+        Bounds { low: low - error, high: high + error, settled: high - low <= 4.0 * (rounded[1] - rounded[0]) + error }
     }
 
     fn turns(&self, piece: usize) -> Vec<f64> {
@@ -413,11 +383,7 @@ struct Both<'a>([&'a dyn Number; 2]);
 impl Number for Both<'_> {
     fn bounds(&self, place: Place) -> Bounds {
         let [a, b] = self.0.map(|number| number.bounds(place));
-        Bounds {
-            low: a.low.min(b.low),
-            high: a.high.min(b.high),
-            settled: a.settled && b.settled,
-        }
+        Bounds { low: a.low.min(b.low), high: a.high.min(b.high), settled: a.settled && b.settled }
     }
 
     fn turns(&self, piece: usize) -> Vec<f64> {

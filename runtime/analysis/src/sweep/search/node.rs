@@ -43,11 +43,7 @@ impl Question<'_> {
         let along = point.direction().scaled(rate);
         let mut inputs = Vector::zeros(state.inputs.len());
         inputs[self.input] = along.p;
-        let direction = Direction {
-            coordinates: along.q,
-            inputs,
-            design: Vector::zeros(state.design.len()),
-        };
+        let direction = Direction { coordinates: along.q, inputs, design: Vector::zeros(state.design.len()) };
         let change = direction.linear(self.mechanism, state);
         let roots = match self.family {
             Family::Undamped => undamped(&modes.modes, &change),
@@ -58,16 +54,7 @@ impl Question<'_> {
             false => Vec::new(),
         };
         let input = [point.place.p + self.deviation, along.p];
-        Ok(Node {
-            spectrum: Rc::new(Spectrum {
-                t,
-                input,
-                roots,
-                stiffness,
-            }),
-            point,
-            modes,
-        })
+        Ok(Node { spectrum: Rc::new(Spectrum { t, input, roots, stiffness }), point, modes })
     }
 }
 
@@ -89,9 +76,8 @@ fn undamped(modes: &[Mode], change: &Linear) -> Vec<Root> {
 
 /// The eigenvalues of a symmetric `Khat` relative to `Mhat`.
 fn stiffness(state: &Equilibrium, change: &Linear) -> Result<Vec<Root>, Error> {
-    let pairs = free_pairs(&state.linear, &state.description).map_err(|trouble| {
-        crate::equilibrium::Failure::from(trouble).explain(&state.description)
-    })?;
+    let pairs = free_pairs(&state.linear, &state.description)
+        .map_err(|trouble| crate::equilibrium::Failure::from(trouble).explain(&state.description))?;
     let shapes: Vec<Vector> = pairs.shapes.iter().map(Vector::from).collect();
     let error = |r: usize| f64::max(pairs.errors[r], state.rounding);
     let neutral = |r: usize| pairs.lambda[r].abs() <= error(r);
@@ -140,9 +126,7 @@ fn general(modes: &[Mode], linear: &Linear, change: &Linear) -> Vec<Root> {
         let s = modes[cluster[0]].s;
         let products = |matrix: &dyn Fn(&[Complex]) -> Vector<Complex>| {
             let images: Vec<_> = cluster.iter().map(|&j| matrix(&modes[j].shape)).collect();
-            Matrix::from_fn(cluster.len(), cluster.len(), |i, j| {
-                dot_complex(modes[cluster[i]].left(), &images[j])
-            })
+            Matrix::from_fn(cluster.len(), cluster.len(), |i, j| dot_complex(modes[cluster[i]].left(), &images[j]))
         };
         let rates = products(&|x| pencil_slope_times(linear, s, x));
         let changes = products(&|x| pencil_times(change, s, x));
@@ -184,11 +168,7 @@ fn quotient(mut a: Matrix<Complex>, mut b: Matrix<Complex>) -> Matrix<Complex> {
 
 /// The derivatives of eigenvalues: those of eigenvalues that are equal to rounding are the eigenvalues of the matrix
 /// that `of` returns for their positions.
-fn slopes(
-    count: usize,
-    near: impl Fn(usize, usize) -> bool,
-    of: impl Fn(&[usize]) -> Matrix<Complex>,
-) -> Vec<Complex> {
+fn slopes(count: usize, near: impl Fn(usize, usize) -> bool, of: impl Fn(&[usize]) -> Matrix<Complex>) -> Vec<Complex> {
     let mut slopes = vec![Complex::ZERO; count];
     let mut done = vec![false; count];
     for first in 0..count {

@@ -8,15 +8,13 @@ use super::events::{Events, Gap, Route, Searched, Unresolved};
 use super::node::{Node, Question, has_stiffness};
 use super::step::{Event, Step};
 use crate::branches::{
-    BranchEnd, Continuation, ContinuationFailure, Curve, CurvePoint, CurvePosition, Located, Pass,
-    SpecialKind, SpecialPoint,
+    BranchEnd, Continuation, ContinuationFailure, Curve, CurvePoint, CurvePosition, Located, Pass, SpecialKind,
+    SpecialPoint,
 };
 use crate::equilibrium::{Held, OperatingPoint, Policy, equilibrium_into};
 use crate::error::NotFound;
 use crate::kernels::DirectionalKernels;
-use crate::modes::{
-    CLUSTER_GAP, Family, Mode, match_with_assurance, merged, near_another, position,
-};
+use crate::modes::{CLUSTER_GAP, Family, Mode, match_with_assurance, merged, near_another, position};
 use crate::sweep::condition::{Change, Condition, Crossing, Line};
 use crate::sweep::points::{CriticalState, SweepPoint};
 use crate::sweep::range::Range;
@@ -85,12 +83,7 @@ pub(crate) fn search(
     enough: impl FnMut(Met<'_>) -> bool,
 ) -> Result<(Events, Route), Error> {
     let description = along.mechanism.description();
-    let Range {
-        input,
-        low,
-        high,
-        steps,
-    } = along.range;
+    let Range { input, low, high, steps } = along.range;
     along.range.check(&description)?;
     for Line { ratio, offset } in &sought.lines {
         if !(ratio.is_finite() && offset.is_finite()) {
@@ -139,14 +132,7 @@ pub(crate) fn search(
             input,
             critical: Vec::new(),
             crossings: Vec::new(),
-            searched: Searched {
-                low,
-                high,
-                states: 0,
-                resolution: 0.0,
-                unresolved: Vec::new(),
-                gaps: Vec::new(),
-            },
+            searched: Searched { low, high, states: 0, resolution: 0.0, unresolved: Vec::new(), gaps: Vec::new() },
             description,
         },
     };
@@ -242,10 +228,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let mut next = None;
         let mut reached = station.clone();
         let mut behind = station.clone();
-        let walk = curve.walk(
-            &station,
-            &station.place,
-            |before, after, located| match self.step(&curve, [before, after], located) {
+        let walk = curve.walk(&station, &station.place, |before, after, located| {
+            match self.step(&curve, [before, after], located) {
                 ControlFlow::Continue(pass) => {
                     if pass == Pass::On {
                         reached = after.clone();
@@ -257,8 +241,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                     next = Some(end);
                     Pass::Stop
                 }
-            },
-        );
+            }
+        });
         let until = match (&next, self.events.critical.last()) {
             (Some(Next::From(_) | Next::Seek(..)), Some(critical)) => critical.value,
             _ => reached.place.p,
@@ -288,10 +272,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
 
     /// The start itself lacks stiffness.
     fn critical_at_start(&mut self, curve: &Curve<'_>, state: &Equilibrium, beside: &CurvePoint) {
-        let curve_position = CurvePosition {
-            q: state.coordinates.clone(),
-            p: self.settings.low,
-        };
+        let curve_position = CurvePosition { q: state.coordinates.clone(), p: self.settings.low };
         let zero = zeros(state).max(1);
         let shapes = (&*beside.direction().q, &*beside.direction().q);
         if self.wanted.critical
@@ -305,14 +286,9 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
     /// The end itself lacks stiffness that a point beside it has.
     fn critical_at_end(&mut self, curve: &Curve<'_>, end: &Equilibrium, beside: &CurvePoint) {
         let zero = zeros(end);
-        let curve_position = CurvePosition {
-            q: end.coordinates.clone(),
-            p: self.settings.high,
-        };
+        let curve_position = CurvePosition { q: end.coordinates.clone(), p: self.settings.high };
         let Continuation { low, high, .. } = *self.settings;
-        let near = |critical_state: &CriticalState| {
-            (critical_state.value - high).abs() <= SAME * (high - low).abs()
-        };
+        let near = |critical_state: &CriticalState| (critical_state.value - high).abs() <= SAME * (high - low).abs();
         let known = self.events.critical.last().is_some_and(near);
         let shapes = (&*beside.direction().q, &*beside.direction().q);
         if self.wanted.critical
@@ -379,11 +355,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                 self.pass(&mut step, fraction);
             }
             match event {
-                Event::Critical {
-                    special,
-                    change,
-                    loses,
-                } => {
+                Event::Critical { special, change, loses } => {
                     let stop = self.critical((*special).clone(), change, loses);
                     let last = located.last().map(|x| &x.special);
                     let ends = |located: &Located| located.ends_arm && located.special == *special;
@@ -393,14 +365,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                         false => self.goes_on(&special, arm, settled(&mut step, t)),
                     };
                 }
-                Event::Met {
-                    value,
-                    condition,
-                    node,
-                    modes,
-                    change,
-                    merging,
-                } => {
+                Event::Met { value, condition, node, modes, change, merging } => {
                     let ends = (t == 0.0 && self.route.points.len() <= 1, t == 1.0 && closes);
                     if counts(condition, change, &node, ends)
                         && self.crossing((value, condition, change), (&node, modes, merging))
@@ -436,11 +401,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
 
     fn doubt(&mut self, [from, to]: [f64; 2], condition: Option<Condition>) {
         let all = &mut self.events.searched.unresolved;
-        all.push(Unresolved {
-            from,
-            to,
-            condition,
-        });
+        all.push(Unresolved { from, to, condition });
     }
 
     /// Passes a state: its modes get the labels of those before.
@@ -473,8 +434,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let order = match_with_assurance(last, node_modes, &node.point.equilibrium.linear);
         // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
         let repeated = |r: usize| merged(node_modes, r) || near_another(node_modes, r, CLUSTER_GAP);
-        let doubtful = (order.iter().flatten())
-            .any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
+        let doubtful =
+            (order.iter().flatten()).any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
         if !doubtful || halvings == 0 {
             return;
         }

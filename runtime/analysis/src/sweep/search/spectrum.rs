@@ -35,11 +35,7 @@ impl Root {
     }
 
     pub(super) fn conjugate(self) -> Self {
-        Self {
-            value: self.value.conj(),
-            slope: self.slope.conj(),
-            ..self
-        }
+        Self { value: self.value.conj(), slope: self.slope.conj(), ..self }
     }
 }
 

@@ -101,15 +101,7 @@ impl<'a, 'b> Step<'a, 'b> {
         left: &'a mut usize,
     ) -> Option<Self> {
         let chord = ends[0].frame.local(&ends[1].place);
-        Some(Self {
-            curve,
-            question,
-            ends,
-            length: chord.norm(),
-            normal: chord.unit()?,
-            nodes: Vec::new(),
-            left,
-        })
+        Some(Self { curve, question, ends, length: chord.norm(), normal: chord.unit()?, nodes: Vec::new(), left })
     }
 
     /// The state at a place.
@@ -175,9 +167,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let reach = ASTRAY * turn + slack;
         let corrected = (self.curve).across(self.ends[0], &predicted, &self.normal, reach);
         let corrected = corrected.ok()?;
-        let tangent = frame
-            .direction(&corrected.direction())
-            .scaled(self.rate(&corrected)?);
+        let tangent = frame.direction(&corrected.direction()).scaled(self.rate(&corrected)?);
         let turned = tangent.plus(-1.0, &rate).norm() * h;
         (turned <= TURNED * turn + slack).then_some(corrected)
     }
@@ -194,9 +184,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let mut findings = Findings::default();
         let mut events = Vec::new();
         let mut broken = false;
-        let mut specials: Vec<(f64, &Located)> = (located.iter())
-            .map(|x| (self.place_of(&x.special), x))
-            .collect();
+        let mut specials: Vec<(f64, &Located)> = (located.iter()).map(|x| (self.place_of(&x.special), x)).collect();
         specials.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The special points that are known divide the step.
         let mut from = (self.state(0.0)?, outer[0]);
@@ -207,10 +195,8 @@ impl<'a, 'b> Step<'a, 'b> {
                 None => Some(self.state(1.0)?),
             };
             if let Some(last) = &last {
-                let interval = Interval {
-                    ends: [from.0.clone(), last.clone()],
-                    outer: [from.1, outer[1] && fraction.is_none()],
-                };
+                let interval =
+                    Interval { ends: [from.0.clone(), last.clone()], outer: [from.1, outer[1] && fraction.is_none()] };
                 let division = divide(self, wanted, interval, finest / self.length);
                 let doubts = division.doubts.into_iter();
                 findings.doubts.extend(doubts.map(|x| (x.between, x.kind)));
@@ -243,27 +229,20 @@ impl<'a, 'b> Step<'a, 'b> {
             let end = self.nodes.last().map(|node| &node.spectrum);
             let beside = self.before(1.0);
             let doubtful = |state: &Spectrum| wanted.doubtful(*kind, state);
-            let more = end
-                .zip(beside)
-                .is_some_and(|(a, b)| doubtful(a) > doubtful(&b.spectrum));
+            let more = end.zip(beside).is_some_and(|(a, b)| doubtful(a) > doubtful(&b.spectrum));
             more && !outer[1]
         };
         broken |= wanted.kinds().iter().any(at_event);
         // A growing pair that becomes real leaves no stiffness.
-        events.retain(|event| {
-            event.kind != Kind::Critical || wanted.real(event.kind) || !event.turns(wanted)
-        });
-        let (critical, met): (Vec<_>, Vec<_>) =
-            (events.into_iter()).partition(|event| event.kind == Kind::Critical);
+        events.retain(|event| event.kind != Kind::Critical || wanted.real(event.kind) || !event.turns(wanted));
+        let (critical, met): (Vec<_>, Vec<_>) = (events.into_iter()).partition(|event| event.kind == Kind::Critical);
         // Next to a special point that the walk has located, a change of the number is that point.
         let known = |group: &&[Found]| {
             let mut places = specials.iter().map(|(t, _)| (t - group[0].t).abs());
             places.any(|away| away * self.length <= ROUGHLY)
         };
-        let groups: Vec<&[Found]> = critical
-            .chunk_by(|a, b| b.t - a.t <= SAME && a.rises == b.rises)
-            .filter(|group| !known(group))
-            .collect();
+        let groups: Vec<&[Found]> =
+            critical.chunk_by(|a, b| b.t - a.t <= SAME && a.rises == b.rises).filter(|group| !known(group)).collect();
         // Where the sign of the determinant changes twice, or that of an eigenvalue, the walk sees it on shorter steps.
         let seen = |group: &&[Found]| {
             let told = wanted.symmetric || group.len() % 2 == 1 && !accelerates(self.ends[1]);
@@ -285,9 +264,8 @@ impl<'a, 'b> Step<'a, 'b> {
                 }
             }
         }
-        let mut criticals: Vec<(f64, SpecialPoint, Option<Change>)> = (specials.iter())
-            .map(|(t, x)| (*t, x.special.clone(), x.ends_arm.then_some(Change::Pass)))
-            .collect();
+        let mut criticals: Vec<(f64, SpecialPoint, Option<Change>)> =
+            (specials.iter()).map(|(t, x)| (*t, x.special.clone(), x.ends_arm.then_some(Change::Pass))).collect();
         for group in groups {
             let t = group[0].t;
             let touches = group[0].rises.is_none().then_some(Change::Touch);
@@ -300,12 +278,7 @@ impl<'a, 'b> Step<'a, 'b> {
     }
 
     /// The state at which a mode meets a condition, with the position of the mode.
-    fn meet(
-        &mut self,
-        wanted: &Wanted,
-        found: &Found,
-        taken: &[(f64, Kind, usize)],
-    ) -> Option<(usize, Event)> {
+    fn meet(&mut self, wanted: &Wanted, found: &Found, taken: &[(f64, Kind, usize)]) -> Option<(usize, Event)> {
         let turning = found.turns(wanted);
         let condition = match found.kind {
             Kind::Line(k) => Condition::Line(wanted.lines[k]),
@@ -360,17 +333,11 @@ impl<'a, 'b> Step<'a, 'b> {
     }
 
     /// Adds the special points of the branch, with what changes there if that is known.
-    fn criticals(
-        &mut self,
-        mut specials: Vec<(f64, SpecialPoint, Option<Change>)>,
-        findings: &mut Findings,
-    ) {
+    fn criticals(&mut self, mut specials: Vec<(f64, SpecialPoint, Option<Change>)>, findings: &mut Findings) {
         specials.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (k, (t, special, change)) in specials.into_iter().enumerate() {
             let sides = [self.before(t), self.after(t)];
-            let counts = sides
-                .each_ref()
-                .map(|node| node.as_deref().map(|node| node.spectrum.divergent()));
+            let counts = sides.each_ref().map(|node| node.as_deref().map(|node| node.spectrum.divergent()));
             let change = match (change, counts) {
                 (Some(change), _) => change,
                 (_, [Some(before), Some(after)]) if before < after => Change::Onset,
@@ -381,14 +348,7 @@ impl<'a, 'b> Step<'a, 'b> {
                 0 => holds(self.ends[0]),
                 _ => self.holds_before(t),
             };
-            findings.events.push((
-                t,
-                Event::Critical {
-                    special: special.into(),
-                    change,
-                    loses,
-                },
-            ));
+            findings.events.push((t, Event::Critical { special: special.into(), change, loses }));
         }
     }
 
@@ -398,12 +358,7 @@ impl<'a, 'b> Step<'a, 'b> {
     }
 
     /// A state as near to a special point as it can be solved, on one side of it and no farther than `limit`.
-    fn beside(
-        &mut self,
-        &(t, special): &(f64, &Located),
-        side: f64,
-        limit: f64,
-    ) -> Option<Rc<Spectrum>> {
+    fn beside(&mut self, &(t, special): &(f64, &Located), side: f64, limit: f64) -> Option<Rc<Spectrum>> {
         let exact = special.special.kind != SpecialKind::Degenerate;
         let least = if exact { 0.0 } else { ROUGHLY / self.length };
         ASIDE.iter().find_map(|aside| {
@@ -418,9 +373,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let (from, to) = (self.ends[0], self.ends[1]);
         let position = match self.node(found.t) {
             Some(node) => node.point.place.clone(),
-            None => from
-                .frame
-                .place(&from.frame.local(&to.place).scaled(found.t)),
+            None => from.frame.place(&from.frame.local(&to.place).scaled(found.t)),
         };
         let side = usize::from(found.rises != Some(false));
         let beside = self.node(found.sides[side].t)?;
@@ -435,44 +388,30 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// The place of a special point along the step.
     fn place_of(&self, special: &SpecialPoint) -> f64 {
-        let local = self.ends[0].frame.local(&CurvePosition {
-            q: special.equilibrium.coordinates.clone(),
-            p: special.value,
-        });
+        let local =
+            self.ends[0].frame.local(&CurvePosition { q: special.equilibrium.coordinates.clone(), p: special.value });
         (local.dot(&self.normal) / self.length).clamp(0.0, 1.0)
     }
 
     /// The last known state before a place.
     fn before(&self, t: f64) -> Option<Rc<Node>> {
-        let index = self
-            .nodes
-            .partition_point(|node| node.spectrum.t < t - SAME);
+        let index = self.nodes.partition_point(|node| node.spectrum.t < t - SAME);
         self.nodes.get(index.checked_sub(1)?).cloned()
     }
 
     /// The first known state after a place.
     fn after(&self, t: f64) -> Option<Rc<Node>> {
-        let index = self
-            .nodes
-            .partition_point(|node| node.spectrum.t <= t + SAME);
+        let index = self.nodes.partition_point(|node| node.spectrum.t <= t + SAME);
         self.nodes.get(index).cloned()
     }
 }
 
 /// The cubic through two positions with their derivatives, and its derivative.
-fn curve_between(
-    a: &[CurvePosition; 2],
-    b: &[CurvePosition; 2],
-    h: f64,
-    share: f64,
-) -> [CurvePosition; 2] {
+fn curve_between(a: &[CurvePosition; 2], b: &[CurvePosition; 2], h: f64, share: f64) -> [CurvePosition; 2] {
     let one = |from: [f64; 2], to: [f64; 2]| cubic(from, to, h, share);
     let unknown = |i: usize| one([a[0].q[i], a[1].q[i]], [b[0].q[i], b[1].q[i]]);
     let input = one([a[0].p, a[1].p], [b[0].p, b[1].p]);
-    [0, 1].map(|k| CurvePosition {
-        q: Vector::from_fn(a[0].q.len(), |i| unknown(i)[k]),
-        p: input[k],
-    })
+    [0, 1].map(|k| CurvePosition { q: Vector::from_fn(a[0].q.len(), |i| unknown(i)[k]), p: input[k] })
 }
 
 /// Whether all stiffness is positive, and the determinant of one that is not symmetric.

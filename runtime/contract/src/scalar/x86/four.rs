@@ -102,15 +102,11 @@ impl Lanes for Four {
             // The selection only looks at the first bit of a lane.
             let odd = _mm256_castsi256_pd(_mm256_slli_epi64::<63>(turns));
             let two = _mm256_set1_epi64x(2);
-            let sign =
-                |turns| _mm256_castsi256_pd(_mm256_slli_epi64::<62>(_mm256_and_si256(turns, two)));
+            let sign = |turns| _mm256_castsi256_pd(_mm256_slli_epi64::<62>(_mm256_and_si256(turns, two)));
             let next = _mm256_add_epi64(turns, _mm256_set1_epi64x(1));
             let s = _mm256_blendv_pd(sine.0, cosine.0, odd);
             let c = _mm256_blendv_pd(cosine.0, sine.0, odd);
-            (
-                Self(_mm256_xor_pd(s, sign(turns))),
-                Self(_mm256_xor_pd(c, sign(next))),
-            )
+            (Self(_mm256_xor_pd(s, sign(turns))), Self(_mm256_xor_pd(c, sign(next))))
         }
     }
 }

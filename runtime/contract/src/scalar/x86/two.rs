@@ -114,10 +114,7 @@ impl Lanes for Two {
             let next = _mm_add_epi64(turns, one);
             let s = Self::choose(even, sine, cosine);
             let c = Self::choose(even, cosine, sine);
-            (
-                Self(_mm_xor_pd(s.0, sign(turns))),
-                Self(_mm_xor_pd(c.0, sign(next))),
-            )
+            (Self(_mm_xor_pd(s.0, sign(turns))), Self(_mm_xor_pd(c.0, sign(next))))
         }
     }
 }

@@ -38,11 +38,7 @@ pub(super) fn improve(
             }
             let s = values[i];
             let trace = logarithmic_derivative(pencil, s, q, order, work);
-            let repulsion: Complex64 = values
-                .iter()
-                .filter(|&&other| other != s)
-                .map(|other| (s - other).inv())
-                .sum();
+            let repulsion: Complex64 = values.iter().filter(|&&other| other != s).map(|other| (s - other).inv()).sum();
             let newton = trace.inv().norm();
             let alone = newton * repulsion.norm() <= 0.5;
             if newton <= SMALL || (newton <= f64::EPSILON * s.norm() && alone) {

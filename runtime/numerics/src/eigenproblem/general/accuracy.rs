@@ -75,14 +75,9 @@ pub(super) fn second_order(solver: &mut PairSolver, computed: &mut ComputedPairs
     }
     let size = |x: &[Complex64]| x.iter().fold(0.0, |most: f64, x| most.max(bound(*x)));
     let n = solver.pencil.n;
-    let vectors = computed
-        .right
-        .chunks_exact(n)
-        .zip(computed.left.chunks_exact(n));
+    let vectors = computed.right.chunks_exact(n).zip(computed.left.chunks_exact(n));
     let pairs = computed.pairs[..computed.count].iter().zip(vectors);
-    let weights: Vec<f64> = pairs
-        .map(|(pair, (right, left))| size(right) * size(left) / modulus(pair.slope))
-        .collect();
+    let weights: Vec<f64> = pairs.map(|(pair, (right, left))| size(right) * size(left) / modulus(pair.slope)).collect();
     for i in (0..computed.count).filter(|&i| open[i]) {
         let pair = &computed.pairs[i];
         let apart = |s: Complex64| {
@@ -135,9 +130,7 @@ fn error(solver: &mut PairSolver, computed: &ComputedPairs, i: usize) -> (f64, b
     // Take a perturbation that moves an eigenvalue by p to first order. If it is one of a pair at distance d that meets
     // in a defective eigenvalue, it moves by delta with delta (1 + delta / d) = p.
     let mut partner = 0.0_f64;
-    solver
-        .pencil
-        .multiply(vector(computed, i), false, &mut solver.of_right);
+    solver.pencil.multiply(vector(computed, i), false, &mut solver.of_right);
     for (s, j, conjugate) in others(computed, i) {
         let distance = modulus(s - pair.s);
         let near = distance < FAR * error;
@@ -160,9 +153,7 @@ impl PairSolver<'_> {
     fn overlap(&self, x: &[Complex64], conjugate: bool) -> Complex64 {
         let weighed = self.pencil.weighed(&self.of_right).iter();
         let products = x.iter().zip(weighed);
-        products
-            .map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass })
-            .sum()
+        products.map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass }).sum()
     }
 }
 
@@ -172,14 +163,9 @@ fn vector<'f>(computed: &'f ComputedPairs, i: usize) -> &'f [Complex64] {
 }
 
 /// The other eigenvalues: value, pair, and whether the value is the conjugate of that pair.
-fn others<'f>(
-    computed: &'f ComputedPairs,
-    i: usize,
-) -> impl Iterator<Item = (Complex64, usize, bool)> + use<'f> {
+fn others<'f>(computed: &'f ComputedPairs, i: usize) -> impl Iterator<Item = (Complex64, usize, bool)> + use<'f> {
     let pairs = &computed.pairs[..computed.count];
     let themselves = pairs.iter().enumerate().filter(move |(j, _)| *j != i);
     let conjugates = pairs.iter().enumerate().filter(|(_, pair)| pair.conjugate);
-    themselves
-        .map(|(j, pair)| (pair.s, j, false))
-        .chain(conjugates.map(|(j, pair)| (pair.s.conj(), j, true)))
+    themselves.map(|(j, pair)| (pair.s, j, false)).chain(conjugates.map(|(j, pair)| (pair.s.conj(), j, true)))
 }

@@ -54,11 +54,7 @@ impl Links {
 
 /// Merges eigenvalues that cannot be distinguished. Returns whether a pair was found twice in place of two different
 /// ones.
-pub(super) fn merge(
-    solver: &mut PairSolver,
-    computed: &mut ComputedPairs,
-    label: &mut [usize],
-) -> bool {
+pub(super) fn merge(solver: &mut PairSolver, computed: &mut ComputedPairs, label: &mut [usize]) -> bool {
     let mut collapsed = false;
     for links in [Links::Loose, Links::Tight] {
         let count = computed.count;
@@ -86,10 +82,7 @@ fn link(links: Links, pairs: &[Pair], label: &mut [usize]) -> bool {
             if !other.merged && links.join(pair, other, modulus(pair.s - other.s)) {
                 any = true;
                 let (old, new) = (label[i].max(label[j]), label[i].min(label[j]));
-                label[..=i]
-                    .iter_mut()
-                    .filter(|label| **label == old)
-                    .for_each(|label| *label = new);
+                label[..=i].iter_mut().filter(|label| **label == old).for_each(|label| *label = new);
             }
         }
     }
@@ -110,11 +103,7 @@ fn merge_one(
     let members = || (0..label.len()).filter(|&i| label[i] == first);
     let real = members().any(|i| links.real(&computed.pairs[i]));
     let weight = |i: usize| {
-        if real && computed.pairs[i].conjugate {
-            2
-        } else {
-            1
-        }
+        if real && computed.pairs[i].conjugate { 2 } else { 1 }
     };
     let multiplicity: usize = members().map(weight).sum();
     if multiplicity < 2 {
@@ -134,16 +123,7 @@ fn merge_one(
         reach = reach.max(computed.pairs[i].reach);
         condition = condition.max(computed.pairs[i].condition);
     }
-    let mut cluster = Cluster {
-        s,
-        multiplicity,
-        spread,
-        radius,
-        reach,
-        condition,
-        nullity: 0,
-        regular: 0,
-    };
+    let mut cluster = Cluster { s, multiplicity, spread, radius, reach, condition, nullity: 0, regular: 0 };
     solver.eigenspaces(&mut cluster);
     if cluster.regular < multiplicity {
         if links == Links::Loose {

@@ -25,10 +25,7 @@ pub fn solve(problem: Eigenproblem) -> Result<Vec<Root>, EigenproblemError> {
 }
 
 /// Like [`solve`], but starts from the roots of a nearby problem if they predict all roots.
-pub fn solve_near(
-    problem: Eigenproblem,
-    near: &[ApproximatePair],
-) -> Result<Vec<Root>, EigenproblemError> {
+pub fn solve_near(problem: Eigenproblem, near: &[ApproximatePair]) -> Result<Vec<Root>, EigenproblemError> {
     let n = problem.size();
     if n == 0 {
         return Ok(Vec::new());
@@ -36,12 +33,7 @@ pub fn solve_near(
     let mut work = Work::new(n);
     let (mut real, mut complex) = (&mut work.real[..], &mut work.complex[..]);
     let (mut indices, mut flags) = (&mut work.indices[..], &mut work.flags[..]);
-    let Scaled {
-        pencil,
-        right: right_units,
-        left: left_units,
-        rate,
-    } = scaled(problem, &mut real)?;
+    let Scaled { pencil, right: right_units, left: left_units, rate } = scaled(problem, &mut real)?;
     if n > DIRECT
         && let Some(oscillations) = oscillations(&pencil)
     {

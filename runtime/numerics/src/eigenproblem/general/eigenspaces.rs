@@ -70,18 +70,14 @@ impl PairSolver<'_> {
         self.orthonormalise(count);
         cluster.nullity = count;
         cluster.regular = self.dualise(cluster.s, count);
-        cluster.regular == count
-            && (0..count).all(|k| self.basis_pair(cluster.s, k).residual <= INACCURATE)
+        cluster.regular == count && (0..count).all(|k| self.basis_pair(cluster.s, k).residual <= INACCURATE)
     }
 
     /// Whether a vector does not belong to the eigenvalue.
     pub(super) fn is_poor(&mut self, cluster: &Cluster, k: usize) -> bool {
         let pair = self.basis_pair(cluster.s, k);
         let n = self.pencil.n;
-        let (right, left) = (
-            &self.basis_right[k * n..(k + 1) * n],
-            &self.basis_left[k * n..(k + 1) * n],
-        );
+        let (right, left) = (&self.basis_right[k * n..(k + 1) * n], &self.basis_left[k * n..(k + 1) * n]);
         pair.residual > INACCURATE
             && (modulus(pair.newton) > 4.0 * cluster.spread + cluster.reach
                 || !self.is_rounding(cluster.s, right, left, 1.0))
@@ -108,10 +104,7 @@ impl PairSolver<'_> {
             cluster.s = next;
         }
         if cluster.s.norm_sqr() < ZERO * ZERO {
-            let zero = Cluster {
-                s: Complex64::ZERO,
-                ..*cluster
-            };
+            let zero = Cluster { s: Complex64::ZERO, ..*cluster };
             if !(0..cluster.nullity).any(|k| self.is_poor(&zero, k)) {
                 cluster.s = zero.s;
             }
@@ -121,10 +114,8 @@ impl PairSolver<'_> {
     fn basis_pair(&mut self, s: Complex64, k: usize) -> Pair {
         let n = self.pencil.n;
         let range = k * n..(k + 1) * n;
-        self.pencil
-            .multiply(&self.basis_right[range.clone()], false, &mut self.of_right);
-        self.pencil
-            .multiply(&self.basis_left[range.clone()], true, &mut self.of_left);
+        self.pencil.multiply(&self.basis_right[range.clone()], false, &mut self.of_right);
+        self.pencil.multiply(&self.basis_left[range.clone()], true, &mut self.of_left);
         self.measure(s, &self.basis_left[range])
     }
 
@@ -160,11 +151,7 @@ impl PairSolver<'_> {
         let n = self.pencil.n;
         let mut tolerance = 0.0_f64;
         for j in 0..nullity {
-            self.pencil.multiply(
-                &self.basis_right[j * n..(j + 1) * n],
-                false,
-                &mut self.of_right,
-            );
+            self.pencil.multiply(&self.basis_right[j * n..(j + 1) * n], false, &mut self.of_right);
             for i in 0..nullity {
                 let left = &self.basis_left[i * n..(i + 1) * n];
                 let pair = self.measure(s, left);
@@ -182,9 +169,7 @@ impl PairSolver<'_> {
         while column < columns {
             let mut best = regular;
             for i in regular..nullity {
-                if bound(self.cross[i * nullity + column])
-                    > bound(self.cross[best * nullity + column])
-                {
+                if bound(self.cross[i * nullity + column]) > bound(self.cross[best * nullity + column]) {
                     best = i;
                 }
             }
@@ -230,11 +215,7 @@ impl PairSolver<'_> {
         let n = self.pencil.n;
         let regular = k < cluster.regular;
         let defective = cluster.nullity - cluster.regular;
-        let vector = if regular {
-            k
-        } else {
-            cluster.regular + (k - cluster.regular) % defective
-        };
+        let vector = if regular { k } else { cluster.regular + (k - cluster.regular) % defective };
         let right = &mut computed.right[index * n..(index + 1) * n];
         let left = &mut computed.left[index * n..(index + 1) * n];
         right.copy_from_slice(&self.basis_right[vector * n..(vector + 1) * n]);
@@ -245,9 +226,7 @@ impl PairSolver<'_> {
             pair.condition = self.condition(&pair, right, left);
             pair.error = MARGIN * pair.doubt() + 2.0 * modulus(pair.newton) + pair.rounding();
         } else {
-            let block = (cluster.multiplicity - cluster.regular)
-                .div_ceil(defective)
-                .max(2);
+            let block = (cluster.multiplicity - cluster.regular).div_ceil(defective).max(2);
             let relative = self.relative();
             let size = self.pencil.rate(pair.s);
             let of_block = |relative: f64| size * relative.powf(1.0 / block as f64);

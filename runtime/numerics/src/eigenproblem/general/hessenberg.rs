@@ -61,12 +61,7 @@ pub(super) struct Hessenberg<'a> {
 const ROWS: usize = 4;
 
 /// Reduces `a` to Hessenberg form by reflections, which take `n^2` numbers. `work` needs `n`.
-pub(super) fn reduce<'a>(
-    n: usize,
-    a: &'a mut [f64],
-    reflections: &'a mut [f64],
-    work: &mut [f64],
-) -> Hessenberg<'a> {
+pub(super) fn reduce<'a>(n: usize, a: &'a mut [f64], reflections: &'a mut [f64], work: &mut [f64]) -> Hessenberg<'a> {
     f64::run(
         #[inline(always)]
         || {
@@ -75,12 +70,7 @@ pub(super) fn reduce<'a>(
             }
         },
     );
-    Hessenberg {
-        n,
-        h: a,
-        reflections,
-        order: (0..n).collect(),
-    }
+    Hessenberg { n, h: a, reflections, order: (0..n).collect() }
 }
 
 /// Like [`reduce`], with rows and columns sorted by size before.
@@ -94,10 +84,7 @@ pub(super) fn reduce_graded<'a>(
     let elements = (0..n * n).map(|k| a[order[k / n] * n + order[k % n]]);
     let sorted: Vec<f64> = elements.collect();
     a.copy_from_slice(&sorted);
-    Hessenberg {
-        order,
-        ..reduce(n, a, reflections, work)
-    }
+    Hessenberg { order, ..reduce(n, a, reflections, work) }
 }
 
 /// The places of rows and columns by their size, great ones first: QR then finds small eigenvalues of graded
@@ -107,10 +94,7 @@ fn by_size(n: usize, matrix: &[f64]) -> Vec<usize> {
     /// Sizes within this factor of the largest are in the first class, and so on.
     const CLASS: f64 = 1.0 / 256.0;
     let size = |i: usize| {
-        let (row, column) = (
-            &matrix[i * n..(i + 1) * n],
-            matrix.iter().skip(i).step_by(n),
-        );
+        let (row, column) = (&matrix[i * n..(i + 1) * n], matrix.iter().skip(i).step_by(n));
         let sizes = row.iter().chain(column).map(|x| x.abs());
         sizes.fold(0.0, f64::max)
     };

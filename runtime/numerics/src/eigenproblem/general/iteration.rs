@@ -100,8 +100,7 @@ impl<'a> Iteration<'a> {
                 }
             }
             let block = &mut self.block[..self.form.n * columns];
-            self.form
-                .rotate_columns(columns, block, &mut self.sums[..columns]);
+            self.form.rotate_columns(columns, block, &mut self.sums[..columns]);
             let shapes = &mut self.shapes[..n * columns];
             linearisation.shapes(columns, block, shapes);
             for (i, row) in shapes.chunks_exact(columns).enumerate() {
@@ -136,11 +135,7 @@ impl<'a> Iteration<'a> {
         self.vector.fill(1.0);
         for (i, x) in self.vector.re.iter_mut().enumerate() {
             // The signs of Walsh's functions.
-            *x = if (i & k).count_ones() % 2 == 1 {
-                -1.0
-            } else {
-                1.0
-            };
+            *x = if (i & k).count_ones() % 2 == 1 { -1.0 } else { 1.0 };
         }
         (0..STEPS).for_each(|_| self.step(side));
     }
@@ -163,12 +158,7 @@ impl<'a> Iteration<'a> {
     }
 
     /// Replaces a residual `r` by the approximate `d` with `Q d = -r`, or `Q^T d = -r`, at the aim.
-    pub(super) fn correct(
-        &mut self,
-        linearisation: &Linearisation,
-        side: Side,
-        rest: &mut [Complex64],
-    ) {
+    pub(super) fn correct(&mut self, linearisation: &Linearisation, side: Side, rest: &mut [Complex64]) {
         let x = &mut self.vector;
         linearisation.load(side, rest, x);
         self.form.rotate_back(x);

@@ -32,11 +32,7 @@ pub(super) enum Side {
 
 impl<'a> Linearisation<'a> {
     /// Builds `A` in `companion`, using `3 n^2 + 2 n` numbers of `store`.
-    pub(super) fn new(
-        pencil: &Pencil,
-        companion: &mut [f64],
-        store: &'a mut [f64],
-    ) -> Result<Self, EigenproblemError> {
+    pub(super) fn new(pencil: &Pencil, companion: &mut [f64], store: &'a mut [f64]) -> Result<Self, EigenproblemError> {
         let n = pencil.n;
         let (lower, store) = store.split_at_mut(n * n);
         let (damping, store) = store.split_at_mut(n * n);
@@ -72,15 +68,7 @@ impl<'a> Linearisation<'a> {
         }
         hessenberg::balance(2 * n, companion, scales);
         let size = frobenius(companion);
-        Ok(Self {
-            n,
-            degree: pencil.degree,
-            lower,
-            damping,
-            stiffness,
-            scales,
-            size,
-        })
+        Ok(Self { n, degree: pencil.degree, lower, damping, stiffness, scales, size })
     }
 
     /// The sum of all eigenvalues: `-tr(M^-1 C)`, or `-tr K` for a first-order pencil.
@@ -105,8 +93,7 @@ impl<'a> Linearisation<'a> {
         for q in (0..columns).step_by(4) {
             let size = |half: &[f64]| {
                 let rows = half.chunks_exact(columns);
-                rows.map(|row| row[q] * row[q] + row[q + 1] * row[q + 1])
-                    .sum::<f64>()
+                rows.map(|row| row[q] * row[q] + row[q + 1] * row[q + 1]).sum::<f64>()
             };
             // Both halves hold the right vector; the larger one is better known.
             let (half, scales) = match size(upper) >= size(lower) {
@@ -132,11 +119,7 @@ impl<'a> Linearisation<'a> {
             (Degree::Two, Side::Right) => [n..2 * n, 0..n],
             (Degree::Two, Side::Left) => [0..n, n..2 * n],
         };
-        for (into, part) in into
-            .both()
-            .into_iter()
-            .zip([|x: &Complex64| x.re, |x: &Complex64| x.im])
-        {
+        for (into, part) in into.both().into_iter().zip([|x: &Complex64| x.re, |x: &Complex64| x.im]) {
             into[empty.clone()].fill(0.0);
             let into = &mut into[filled.clone()];
             for (into, x) in into.iter_mut().zip(rest) {
@@ -217,11 +200,7 @@ impl<'a> Linearisation<'a> {
             }
         }
         for j in 0..n {
-            let square = if small {
-                (product[j] + s * work[j]).norm_sqr()
-            } else {
-                product[j].norm_sqr() / s_square
-            };
+            let square = if small { (product[j] + s * work[j]).norm_sqr() } else { product[j].norm_sqr() / s_square };
             w += square * (up[j] * up[j]);
         }
         at_least_one((x * w).sqrt() / modulus(slope))
@@ -229,11 +208,7 @@ impl<'a> Linearisation<'a> {
 }
 
 fn at_least_one(condition: f64) -> f64 {
-    if condition.is_nan() {
-        f64::INFINITY
-    } else {
-        condition.max(1.0)
-    }
+    if condition.is_nan() { f64::INFINITY } else { condition.max(1.0) }
 }
 
 fn frobenius(matrix: &[f64]) -> f64 {

@@ -34,13 +34,7 @@ impl<'a> Lu<'a> {
                 )
             },
         );
-        Self {
-            n,
-            factors: matrix,
-            rows,
-            columns,
-            unit,
-        }
+        Self { n, factors: matrix, rows, columns, unit }
     }
 
     /// Size of pivot `k` relative to the largest element of the matrix.
@@ -110,11 +104,7 @@ impl<'a> Lu<'a> {
     }
 
     /// The trace of `matrix^-1 right`, given row by row; `work` needs `n^2` numbers.
-    pub(super) fn trace_of_quotient(
-        &self,
-        right: &[Complex64],
-        work: &mut [Complex64],
-    ) -> Complex64 {
+    pub(super) fn trace_of_quotient(&self, right: &[Complex64], work: &mut [Complex64]) -> Complex64 {
         let n = self.n;
         for (row, &from) in work.chunks_exact_mut(n).zip(self.rows) {
             for (x, b) in row.iter_mut().zip(&right[from * n..]) {
@@ -145,12 +135,7 @@ impl<'a> Lu<'a> {
     }
 
     /// Solves `matrix^T x = b` in the same way.
-    pub(super) fn solve_transposed(
-        &self,
-        b: &[Complex64],
-        x: &mut [Complex64],
-        work: &mut [Complex64],
-    ) {
+    pub(super) fn solve_transposed(&self, b: &[Complex64], x: &mut [Complex64], work: &mut [Complex64]) {
         for_size(
             self.n,
             #[inline(always)]
@@ -159,13 +144,7 @@ impl<'a> Lu<'a> {
     }
 
     #[inline(always)]
-    fn solve_transposed_sized(
-        &self,
-        n: usize,
-        b: &[Complex64],
-        x: &mut [Complex64],
-        work: &mut [Complex64],
-    ) {
+    fn solve_transposed_sized(&self, n: usize, b: &[Complex64], x: &mut [Complex64], work: &mut [Complex64]) {
         for i in 0..n {
             let mut sum = b[self.columns[i]] / self.unit;
             for j in 0..i {
@@ -257,9 +236,5 @@ const NOTHING: f64 = 1e-290;
 const TINY: f64 = 1e-100;
 
 fn pivot(z: Complex64) -> Complex64 {
-    if bound(z) < TINY {
-        Complex64::new(TINY, 0.0)
-    } else {
-        z
-    }
+    if bound(z) < TINY { Complex64::new(TINY, 0.0) } else { z }
 }

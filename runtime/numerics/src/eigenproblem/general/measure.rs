@@ -63,11 +63,7 @@ impl Pair {
 
     /// First-order error of `s` caused by rounding of the pencil's elements.
     pub(super) fn doubt(&self) -> f64 {
-        if self.rounding == 0.0 {
-            0.0
-        } else {
-            self.rounding / modulus(self.slope)
-        }
+        if self.rounding == 0.0 { 0.0 } else { self.rounding / modulus(self.slope) }
     }
 
     /// Whether the next step would be pure rounding.
@@ -99,12 +95,7 @@ impl Pair {
 
 impl PairSolver<'_> {
     /// Normalises both vectors and measures them with `s`.
-    pub(super) fn examine(
-        &mut self,
-        s: Complex64,
-        right: &mut [Complex64],
-        left: &mut [Complex64],
-    ) -> Pair {
+    pub(super) fn examine(&mut self, s: Complex64, right: &mut [Complex64], left: &mut [Complex64]) -> Pair {
         self.pencil.multiply(right, false, &mut self.of_right);
         normalise(&self.pencil, right, &mut self.of_right);
         self.pencil.multiply(left, true, &mut self.of_left);
@@ -115,15 +106,7 @@ impl PairSolver<'_> {
     /// Measures `s` with vectors whose products are already computed.
     pub(super) fn measure(&self, s: Complex64, left: &[Complex64]) -> Pair {
         let n = self.pencil.n;
-        let Sums {
-            value,
-            slope,
-            terms,
-            slope_terms,
-            mass_terms,
-            by_right,
-            by_left,
-        } = for_size(
+        let Sums { value, slope, terms, slope_terms, mass_terms, by_right, by_left } = for_size(
             n,
             #[inline(always)]
             |n| Sums::of(n, s, left, &self.of_right, &self.of_left),
@@ -153,32 +136,18 @@ impl PairSolver<'_> {
         }
     }
 
-    pub(super) fn condition(
-        &mut self,
-        pair: &Pair,
-        right: &[Complex64],
-        left: &[Complex64],
-    ) -> f64 {
-        self.linearisation
-            .condition(pair.s, right, left, pair.slope, self.cross)
+    pub(super) fn condition(&mut self, pair: &Pair, right: &[Complex64], left: &[Complex64]) -> f64 {
+        self.linearisation.condition(pair.s, right, left, pair.slope, self.cross)
     }
 
     /// Whether rounding of the vectors, whose products are already computed, explains the residual: a vector that `K`
     /// maps to zero has nothing but rounding in the active rows, so their terms are no measure.
-    pub(super) fn is_rounding(
-        &self,
-        s: Complex64,
-        right: &[Complex64],
-        left: &[Complex64],
-        margin: f64,
-    ) -> bool {
+    pub(super) fn is_rounding(&self, s: Complex64, right: &[Complex64], left: &[Complex64], margin: f64) -> bool {
         let allowed = margin * self.relative() * self.pencil.size(s);
-        let most = |products: &Products| {
-            (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))))
-        };
+        let most =
+            |products: &Products| (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))));
         let largest = |x: &[Complex64]| x.iter().fold(0.0_f64, |most, x| most.max(bound(*x)));
-        most(&self.of_right) <= allowed * largest(right)
-            && most(&self.of_left) <= allowed * largest(left)
+        most(&self.of_right) <= allowed * largest(right) && most(&self.of_left) <= allowed * largest(left)
     }
 }
 
@@ -198,13 +167,7 @@ struct Sums {
 
 impl Sums {
     #[inline(always)]
-    fn of(
-        n: usize,
-        s: Complex64,
-        left: &[Complex64],
-        of_right: &Products,
-        of_left: &Products,
-    ) -> Self {
+    fn of(n: usize, s: Complex64, left: &[Complex64], of_right: &Products, of_left: &Products) -> Self {
         let mut sums = Self {
             value: Complex64::ZERO,
             slope: Complex64::ZERO,
@@ -236,11 +199,7 @@ fn reach(rounding: f64, slope: f64, mass: f64) -> f64 {
 
 /// Scales `x` to `x^H M x = 1` (`x^H x = 1` for a first-order pencil), together with its products.
 pub(super) fn normalise(pencil: &Pencil, x: &mut [Complex64], products: &mut Products) {
-    let square: f64 = x
-        .iter()
-        .zip(pencil.weighed(products))
-        .map(|(x, mass)| x.re * mass.re + x.im * mass.im)
-        .sum();
+    let square: f64 = x.iter().zip(pencil.weighed(products)).map(|(x, mass)| x.re * mass.re + x.im * mass.im).sum();
     let factor = 1.0 / square.sqrt();
     x.iter_mut().for_each(|x| *x *= factor);
     products.scale(factor);
@@ -254,11 +213,7 @@ struct Residual {
 }
 
 impl Residual {
-    const NONE: Self = Self {
-        most: 0.0,
-        terms: 0.0,
-        sum: 0.0,
-    };
+    const NONE: Self = Self { most: 0.0, terms: 0.0, sum: 0.0 };
 
     fn add(&mut self, value: Complex64, terms: f64) {
         let size = bound(value);

@@ -15,10 +15,7 @@
 //! nalgebra's nonsymmetric Schur form may not converge and has no vectors; faer's left vectors are wrong on degenerate
 //! matrices, and it builds for minutes.
 
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 mod aberth;
 mod accuracy;

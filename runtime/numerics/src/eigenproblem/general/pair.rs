@@ -83,10 +83,7 @@ impl PairSolver<'_> {
                 // The existing vectors may be good enough for the improved eigenvalue.
                 let moved = self.measure(s, left);
                 if (settled || moved.is_settled()) && moved.residual <= INACCURATE {
-                    pair = Pair {
-                        second: pair.second,
-                        ..moved
-                    };
+                    pair = Pair { second: pair.second, ..moved };
                     break;
                 }
             }
@@ -109,10 +106,7 @@ impl PairSolver<'_> {
         if pair.s.norm_sqr() < ZERO * ZERO && pair.s != Complex64::ZERO {
             let zero = self.measure(Complex64::ZERO, left);
             if zero.residual < pair.residual {
-                return Pair {
-                    second: pair.second,
-                    ..zero
-                };
+                return Pair { second: pair.second, ..zero };
             }
         }
         pair
@@ -123,13 +117,7 @@ impl PairSolver<'_> {
     /// Vectors that are already close are improved by inverse iteration, which multiplies their error by the distance
     /// of `s`. The convergence of `s` is then of third order, instead of second order with null vectors (Schreiber,
     /// "Nonlinear eigenvalue problems: Newton-type methods and nonlinear Rayleigh functionals", 2008).
-    fn vectors(
-        &mut self,
-        s: Complex64,
-        near: bool,
-        right: &mut [Complex64],
-        left: &mut [Complex64],
-    ) -> f64 {
+    fn vectors(&mut self, s: Complex64, near: bool, right: &mut [Complex64], left: &mut [Complex64]) -> f64 {
         let n = self.pencil.n;
         self.pencil.at(s, self.q);
         let lu = Lu::new(n, self.q, self.order);
@@ -143,21 +131,12 @@ impl PairSolver<'_> {
             lu.null_right(1, 0, right);
             lu.null_left(1, 0, left);
         }
-        if n < 2 {
-            f64::INFINITY
-        } else {
-            lu.pivot(n - 2) * lu.unit
-        }
+        if n < 2 { f64::INFINITY } else { lu.pivot(n - 2) * lu.unit }
     }
 
     /// One step of inverse iteration for both vectors; keeps the better ones.
     #[cold]
-    fn inverse_iteration(
-        &mut self,
-        pair: Pair,
-        right: &mut [Complex64],
-        left: &mut [Complex64],
-    ) -> Pair {
+    fn inverse_iteration(&mut self, pair: Pair, right: &mut [Complex64], left: &mut [Complex64]) -> Pair {
         let n = self.pencil.n;
         self.examine(pair.s, right, left);
         self.pencil.at(pair.s, self.q);
@@ -175,10 +154,7 @@ impl PairSolver<'_> {
         if improved.residual < pair.residual {
             right.copy_from_slice(&self.basis_right[..n]);
             left.copy_from_slice(&self.basis_left[..n]);
-            Pair {
-                second: pair.second,
-                ..improved
-            }
+            Pair { second: pair.second, ..improved }
         } else {
             pair
         }

@@ -65,21 +65,12 @@ impl Pencil<'_> {
         let square = s * s;
         for (i, q) in q.iter_mut().enumerate() {
             let (m, c) = (self.mass[i], self.damping[i]);
-            *q = Complex64::new(
-                square.re * m + (s.re * c + self.stiffness[i]),
-                square.im * m + s.im * c,
-            );
+            *q = Complex64::new(square.re * m + (s.re * c + self.stiffness[i]), square.im * m + s.im * c);
         }
     }
 
     /// `(2 s M + C) x`, or `(2 s M + C)^T x`.
-    pub(super) fn slope_times(
-        &self,
-        s: Complex64,
-        x: &[Complex64],
-        transposed: bool,
-        into: &mut [Complex64],
-    ) {
+    pub(super) fn slope_times(&self, s: Complex64, x: &[Complex64], transposed: bool, into: &mut [Complex64]) {
         let [mass, damping, _] = self.matrices(transposed);
         for_size(
             self.n,
@@ -224,26 +215,14 @@ impl<'a> Products<'a> {
         let (mass_terms, real) = real.split_at_mut(n);
         let (damping_terms, real) = real.split_at_mut(n);
         let (stiffness_terms, parts) = real.split_at_mut(n);
-        Self {
-            mass,
-            damping,
-            stiffness,
-            mass_terms,
-            damping_terms,
-            stiffness_terms,
-            parts,
-        }
+        Self { mass, damping, stiffness, mass_terms, damping_terms, stiffness_terms, parts }
     }
 
     pub(super) fn scale(&mut self, factor: f64) {
         for products in [&mut *self.mass, self.damping, self.stiffness] {
             products.iter_mut().for_each(|x| *x *= factor);
         }
-        for terms in [
-            &mut *self.mass_terms,
-            self.damping_terms,
-            self.stiffness_terms,
-        ] {
+        for terms in [&mut *self.mass_terms, self.damping_terms, self.stiffness_terms] {
             terms.iter_mut().for_each(|x| *x *= factor);
         }
     }

@@ -73,12 +73,7 @@ impl PairSolver<'_> {
     }
 
     /// The second-order error of a pair: the product of its right residual with the correction of its left vector.
-    pub(super) fn second_order(
-        &mut self,
-        pair: &Pair,
-        right: &[Complex64],
-        left: &[Complex64],
-    ) -> f64 {
+    pub(super) fn second_order(&mut self, pair: &Pair, right: &[Complex64], left: &[Complex64]) -> f64 {
         let n = self.pencil.n;
         self.pencil.multiply(right, false, &mut self.of_right);
         self.pencil.multiply(left, true, &mut self.of_left);
@@ -88,10 +83,11 @@ impl PairSolver<'_> {
             iteration.correct(&self.linearisation, Side::Left, &mut change);
         }
         let along = along(&self.pencil, &self.of_left, &change);
-        let parts =
-            change.iter().zip(left).enumerate().map(|(i, (d, x))| {
-                modulus(d - along * x) * modulus(self.of_right.value(pair.s, i))
-            });
+        let parts = change
+            .iter()
+            .zip(left)
+            .enumerate()
+            .map(|(i, (d, x))| modulus(d - along * x) * modulus(self.of_right.value(pair.s, i)));
         parts.sum::<f64>() / modulus(pair.slope)
     }
 

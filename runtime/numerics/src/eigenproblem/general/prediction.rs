@@ -19,12 +19,7 @@ pub struct ApproximatePair<'a> {
 /// Predicts all eigenvalues in units of `rate`, conjugates included, by a Newton step on the Rayleigh functional
 /// `psi^T Q(s) phi`: the error is of second order in the distance of the problems. `false` if the problems are too far
 /// apart, or some eigenvalue has no nearby counterpart.
-pub(super) fn predict(
-    problem: Eigenproblem,
-    near: &[ApproximatePair],
-    rate: f64,
-    values: &mut [Complex64],
-) -> bool {
+pub(super) fn predict(problem: Eigenproblem, near: &[ApproximatePair], rate: f64, values: &mut [Complex64]) -> bool {
     let Eigenproblem::Quadratic(linear) = problem else {
         return false;
     };
@@ -65,11 +60,7 @@ fn improved(linear: &Linear, pair: &ApproximatePair) -> Option<Complex64> {
     }
     let step = value / slope;
     // Real eigenvalues stay real; those that meet on the way are found by the solver from scratch.
-    let next = if s.im > 0.0 {
-        s - step
-    } else {
-        Complex64::new((s - step).re, 0.0)
-    };
+    let next = if s.im > 0.0 { s - step } else { Complex64::new((s - step).re, 0.0) };
     let stays = (s.im > 0.0) == (next.im > 0.0);
     (stays && step.norm() <= NEAR * s.norm()).then_some(next)
 }

@@ -59,11 +59,7 @@ impl Reference {
                 columns: order[n..].to_vec(),
             }
         });
-        Some(Self {
-            pairs: pairs.collect(),
-            units,
-            rate,
-        })
+        Some(Self { pairs: pairs.collect(), units, rate })
     }
 }
 
@@ -81,11 +77,7 @@ fn units(linear: &Linear, motions: usize) -> Option<(Vector, f64)> {
     }
     let of_motions = |matrix: &Matrix| {
         let elements = (0..motions * motions).map(|k| (k / motions, k % motions));
-        largest(
-            &elements
-                .map(|(i, j)| matrix[i][j] * units[i] * units[j])
-                .collect::<Vec<_>>(),
-        )
+        largest(&elements.map(|(i, j)| matrix[i][j] * units[i] * units[j]).collect::<Vec<_>>())
     };
     let size = of_motions(&linear.damping).max(of_motions(&linear.stiffness).sqrt());
     if !(size > 0.0 && size.is_finite()) {
@@ -93,9 +85,7 @@ fn units(linear: &Linear, motions: usize) -> Option<(Vector, f64)> {
     }
     let rate = power_of_two(exponent(size));
     for j in motions..n {
-        let column: Vec<f64> = (0..motions)
-            .map(|i| linear.stiffness[i][j] * units[i])
-            .collect();
+        let column: Vec<f64> = (0..motions).map(|i| linear.stiffness[i][j] * units[i]).collect();
         let size = largest(&column);
         if !(size > 0.0 && size.is_finite()) {
             return None;

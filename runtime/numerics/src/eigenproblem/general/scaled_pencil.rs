@@ -35,10 +35,7 @@ pub(crate) struct Scaled<'a> {
     pub(crate) rate: f64,
 }
 
-pub(crate) fn scaled<'a>(
-    problem: Eigenproblem,
-    store: &mut &'a mut [f64],
-) -> Result<Scaled<'a>, EigenproblemError> {
+pub(crate) fn scaled<'a>(problem: Eigenproblem, store: &mut &'a mut [f64]) -> Result<Scaled<'a>, EigenproblemError> {
     let n = problem.size();
     let mass = take(store, n * n);
     let damping = take(store, n * n);
@@ -68,10 +65,7 @@ pub(crate) fn scaled<'a>(
             (Degree::One, rate)
         }
     };
-    if [&*mass, damping, stiffness]
-        .iter()
-        .any(|matrix| largest(matrix).is_infinite())
-    {
+    if [&*mass, damping, stiffness].iter().any(|matrix| largest(matrix).is_infinite()) {
         return Err(not_found());
     }
     let transposed = [&*mass, damping, stiffness].map(|matrix| {
@@ -83,19 +77,7 @@ pub(crate) fn scaled<'a>(
         }
         &*columns
     });
-    let pencil = Pencil {
-        n,
-        degree,
-        transposed,
-        largest: [&*mass, damping, stiffness].map(largest),
-        mass,
-        damping,
-        stiffness,
-    };
-    Ok(Scaled {
-        pencil,
-        right,
-        left,
-        rate,
-    })
+    let pencil =
+        Pencil { n, degree, transposed, largest: [&*mass, damping, stiffness].map(largest), mass, damping, stiffness };
+    Ok(Scaled { pencil, right, left, rate })
 }

@@ -5,13 +5,7 @@ use super::powers::{exponent, power_of_two};
 
 /// Largest absolute value; infinite if one is not finite.
 pub(crate) fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |most: f64, value| {
-        if value.is_finite() {
-            most.max(value.abs())
-        } else {
-            f64::INFINITY
-        }
-    })
+    x.iter().fold(0.0, |most: f64, value| if value.is_finite() { most.max(value.abs()) } else { f64::INFINITY })
 }
 
 /// Balances, in place, `A = stiffness` to `-D^-1 A D / rate`, with no element much larger than one, and makes `damping`
@@ -28,14 +22,8 @@ pub(super) fn scale_first_order(
         *left = 1.0 / *right;
     }
     let size = largest(stiffness);
-    let rate = if size > 0.0 {
-        power_of_two(exponent(size))
-    } else {
-        1.0
-    };
-    stiffness
-        .iter_mut()
-        .for_each(|value| *value = -(*value / rate));
+    let rate = if size > 0.0 { power_of_two(exponent(size)) } else { 1.0 };
+    stiffness.iter_mut().for_each(|value| *value = -(*value / rate));
     damping.fill(0.0);
     for i in 0..n {
         damping[i * (n + 1)] = 1.0;
@@ -46,13 +34,7 @@ pub(super) fn scale_first_order(
 /// Scales the matrices in place to `D M D`, `D C D / rate`, `D K D / rate^2`, with masses of order one on the diagonal
 /// and nothing much larger than one in damping and stiffness. The diagonal of `D` is written to `units`; returns
 /// `rate`.
-pub(super) fn scale(
-    n: usize,
-    mass: &mut [f64],
-    damping: &mut [f64],
-    stiffness: &mut [f64],
-    units: &mut [f64],
-) -> f64 {
+pub(super) fn scale(n: usize, mass: &mut [f64], damping: &mut [f64], stiffness: &mut [f64], units: &mut [f64]) -> f64 {
     for i in 0..n {
         units[i] = power_of_two(-(exponent(mass[i * n + i]).div_euclid(2)));
     }
@@ -65,14 +47,8 @@ pub(super) fn scale(
     }
     let (c, k) = (largest(damping), largest(stiffness));
     let size = c.max(k.sqrt());
-    let rate = if size > 0.0 {
-        power_of_two(exponent(size))
-    } else {
-        1.0
-    };
+    let rate = if size > 0.0 { power_of_two(exponent(size)) } else { 1.0 };
     damping.iter_mut().for_each(|value| *value /= rate);
-    stiffness
-        .iter_mut()
-        .for_each(|value| *value = *value / rate / rate);
+    stiffness.iter_mut().for_each(|value| *value = *value / rate / rate);
     rate
 }

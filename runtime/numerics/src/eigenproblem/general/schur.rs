@@ -40,12 +40,7 @@ pub(crate) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> 
         if first == last {
             values[last] = Complex64::new(h[last * n + last], 0.0);
         } else {
-            let block = [
-                h[first * n + first],
-                h[first * n + last],
-                h[last * n + first],
-                h[last * n + last],
-            ];
+            let block = [h[first * n + first], h[first * n + last], h[last * n + first], h[last * n + last]];
             [values[first], values[last]] = two(block);
         }
         end = first;
@@ -107,12 +102,7 @@ fn shifts(n: usize, h: &[f64], first: usize, last: usize, step: usize) -> [Compl
         let size = at(first + 1, first).abs() + at(first + 2, first + 1).abs();
         exceptional(at(first, first), size)
     } else {
-        [
-            at(last - 1, last - 1),
-            at(last - 1, last),
-            at(last, last - 1),
-            at(last, last),
-        ]
+        [at(last - 1, last - 1), at(last - 1, last), at(last, last - 1), at(last, last)]
     };
     let size = h11.abs() + h12.abs() + h21.abs() + h22.abs();
     if size == 0.0 {
@@ -128,11 +118,7 @@ fn shifts(n: usize, h: &[f64], first: usize, last: usize, step: usize) -> [Compl
         return [shift, shift.conj()];
     }
     let (high, low) = (mean + root, mean - root);
-    let nearer = if (high - h22).abs() <= (low - h22).abs() {
-        high
-    } else {
-        low
-    };
+    let nearer = if (high - h22).abs() <= (low - h22).abs() { high } else { low };
     [Complex64::new(nearer * size, 0.0); 2]
 }
 
@@ -169,11 +155,7 @@ fn sweep(n: usize, h: &mut [f64], first: usize, last: usize, [one, two]: [Comple
         let three = k + 2 <= last;
         if k > start {
             let column = k - 1;
-            v = [
-                h[k * n + column],
-                h[(k + 1) * n + column],
-                if three { h[(k + 2) * n + column] } else { 0.0 },
-            ];
+            v = [h[k * n + column], h[(k + 1) * n + column], if three { h[(k + 2) * n + column] } else { 0.0 }];
         }
         let (beta, tau, v2, v3) = reflector(v);
         if k > start {
@@ -282,11 +264,7 @@ fn two([a, b, c, d]: [f64; 4]) -> [Complex64; 2] {
         return real(mean, mean);
     }
     let root = b.abs().sqrt() * c.abs().sqrt();
-    if b.is_sign_negative() == c.is_sign_negative() {
-        real(mean + root, mean - root)
-    } else {
-        pair(mean, root)
-    }
+    if b.is_sign_negative() == c.is_sign_negative() { real(mean + root, mean - root) } else { pair(mean, root) }
 }
 
 #[cfg(test)]

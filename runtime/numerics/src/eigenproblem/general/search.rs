@@ -54,27 +54,17 @@ pub(crate) struct Values<'a> {
 impl<'a> Values<'a> {
     /// Eigenvalues of the linearisation.
     pub(super) fn of(values: &'a [Complex64]) -> Self {
-        Self {
-            values,
-            near: false,
-            improved: &[],
-        }
+        Self { values, near: false, improved: &[] }
     }
 
     /// Those predicted from a nearby problem.
     pub(super) fn near(values: &'a [Complex64]) -> Self {
-        Self {
-            near: true,
-            ..Self::of(values)
-        }
+        Self { near: true, ..Self::of(values) }
     }
 
     /// Some of them improved on the pencil.
     pub(super) fn improved(values: &'a [Complex64], improved: &'a [bool]) -> Self {
-        Self {
-            improved,
-            ..Self::of(values)
-        }
+        Self { improved, ..Self::of(values) }
     }
 
     /// Distance from value `i` to the nearest other one.
@@ -91,12 +81,7 @@ impl<'a> Values<'a> {
 
 /// Finds all pairs from these values and, if they are near, from the vectors in `computed`. Returns the number of pairs
 /// that failed; a pair that would be refused counts more than all others.
-pub(super) fn find(
-    solver: &mut PairSolver,
-    computed: &mut ComputedPairs,
-    from: Values,
-    label: &mut [usize],
-) -> usize {
+pub(super) fn find(solver: &mut PairSolver, computed: &mut ComputedPairs, from: Values, label: &mut [usize]) -> usize {
     let n = solver.pencil.n;
     let values = from.values;
     let upper: Vec<Complex64> = values.iter().copied().filter(|s| s.im >= 0.0).collect();
@@ -111,10 +96,7 @@ pub(super) fn find(
         }
         let gap = from.gap(i);
         let range = computed.count * n..(computed.count + 1) * n;
-        let (right, left) = (
-            &mut computed.right[range.clone()],
-            &mut computed.left[range],
-        );
+        let (right, left) = (&mut computed.right[range.clone()], &mut computed.left[range]);
         let mut pair = Pair::NONE;
         if solver.iteration.is_some() && from.improved.get(i) != Some(&true) {
             pair = solver.polished((s, gap), right, left);
@@ -163,16 +145,9 @@ pub(super) fn second_values(
         let crowded = accuracy::is_crowded(computed, i);
         let unsure = solver.noise(pair.condition) > 1e-3 * pair.s.norm();
         let bad = unsure || crowded || accuracy::in_trouble(pair);
-        let reach = pair.newton.norm().max(if crowded {
-            pair.s.norm()
-        } else {
-            f64::EPSILON * pair.s.norm()
-        });
+        let reach = pair.newton.norm().max(if crowded { pair.s.norm() } else { f64::EPSILON * pair.s.norm() });
         let reach = if reach.is_finite() { reach } else { 1.0 };
-        for s in [Some(pair.s), pair.conjugate.then_some(pair.s.conj())]
-            .into_iter()
-            .flatten()
-        {
+        for s in [Some(pair.s), pair.conjugate.then_some(pair.s.conj())].into_iter().flatten() {
             open[filled] = bad;
             second[filled] = s;
             if bad {
@@ -193,12 +168,7 @@ pub(super) fn second_values(
 }
 
 /// The residual of a pair, if it passes the check.
-pub(super) fn accepted(
-    solver: &mut PairSolver,
-    pair: &Pair,
-    right: &[Complex64],
-    left: &[Complex64],
-) -> Option<f64> {
+pub(super) fn accepted(solver: &mut PairSolver, pair: &Pair, right: &[Complex64], left: &[Complex64]) -> Option<f64> {
     if pair.residual <= ACCEPTED {
         return Some(pair.residual);
     }

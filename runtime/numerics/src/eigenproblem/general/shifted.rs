@@ -14,10 +14,7 @@ pub(super) struct Parts {
 
 impl Parts {
     pub(super) fn zeros(n: usize) -> Self {
-        Self {
-            re: vec![0.0; n],
-            im: vec![0.0; n],
-        }
+        Self { re: vec![0.0; n], im: vec![0.0; n] }
     }
 
     pub(super) fn both(&mut self) -> [&mut [f64]; 2] {
@@ -208,10 +205,7 @@ fn dot((a_re, a_im): (&[f64], &[f64]), (b_re, b_im): (&[f64], &[f64])) -> Comple
             im[k] += a[k] * d[k] + b[k] * c[k];
         }
     }
-    let mut sum = Complex64::new(
-        (re[0] + re[2]) + (re[1] + re[3]),
-        (im[0] + im[2]) + (im[1] + im[3]),
-    );
+    let mut sum = Complex64::new((re[0] + re[2]) + (re[1] + re[3]), (im[0] + im[2]) + (im[1] + im[3]));
     for (((a, b), c), d) in a_rest.iter().zip(b_rest).zip(c_rest).zip(d_rest) {
         sum += Complex64::new(a * c - b * d, a * d + b * c);
     }

@@ -27,8 +27,7 @@ pub(crate) fn solve(
         if residuals[r] > INACCURATE {
             moved = true;
             correct(matrices, lambda, shapes, (r, residuals[r]));
-            let residual_of =
-                |shapes: &[f64], value| Residual::new(matrices, value, &shapes[r * n..]);
+            let residual_of = |shapes: &[f64], value| Residual::new(matrices, value, &shapes[r * n..]);
             let mut residual = residual_of(shapes, lambda[r]);
             if residual.rest.relative() > INACCURATE {
                 refine(matrices, lambda, shapes, r);
@@ -37,8 +36,7 @@ pub(crate) fn solve(
             (residuals[r], errors[r]) = (residual.rest.relative(), residual.rest.error(n));
         }
         let shape = &shapes[r * n..(r + 1) * n];
-        (residuals[r], errors[r]) =
-            judged(matrices, (r, lambda), shape, (residuals[r], errors[r]))?;
+        (residuals[r], errors[r]) = judged(matrices, (r, lambda), shape, (residuals[r], errors[r]))?;
     }
     if moved {
         sort(n, lambda, shapes, (residuals, errors));
@@ -46,9 +44,7 @@ pub(crate) fn solve(
     let small = SMALL * largest(lambda);
     for r in (0..n).filter(|&r| lambda[r].abs() <= small) {
         let residual = Residual::new(matrices, lambda[r], &shapes[r * n..]);
-        let parts = shapes
-            .chunks_exact(n)
-            .map(|shape| dot(shape, &residual.values));
+        let parts = shapes.chunks_exact(n).map(|shape| dot(shape, &residual.values));
         errors[r] += second_order(lambda, r, parts);
     }
     shapes.chunks_exact_mut(n).for_each(fix_sign);
@@ -56,11 +52,7 @@ pub(crate) fn solve(
 }
 
 /// Pairs as they come from `L^-1 K L^-T`, `M = L L^T`, sorted.
-fn decompose(
-    matrices: &Matrices,
-    lambda: &mut [f64],
-    shapes: &mut [f64],
-) -> Result<(), EigenproblemError> {
+fn decompose(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64]) -> Result<(), EigenproblemError> {
     let n = matrices.n;
     let mut lower = vec![0.0; n * n];
     dense::cholesky(n, matrices.m, &mut lower).map_err(EigenproblemError::SingularMass)?;
@@ -91,12 +83,7 @@ fn decompose(
 }
 
 /// All residuals, and the errors of the eigenvalues.
-fn measure(
-    matrices: &Matrices,
-    lambda: &[f64],
-    shapes: &[f64],
-    (residuals, errors): (&mut [f64], &mut [f64]),
-) {
+fn measure(matrices: &Matrices, lambda: &[f64], shapes: &[f64], (residuals, errors): (&mut [f64], &mut [f64])) {
     let n = matrices.n;
     let sizes = |x: &[f64]| -> Vec<f64> { x.iter().map(|x| x.abs()).collect() };
     // The matrices are symmetric: row `r` of the product belongs to shape `r`.
@@ -142,12 +129,7 @@ impl Residual {
 }
 
 /// Removes from shape `r` the parts of all others that its residual shows, as long as that helps.
-fn correct(
-    matrices: &Matrices,
-    lambda: &mut [f64],
-    shapes: &mut [f64],
-    (r, mut residual): (usize, f64),
-) {
+fn correct(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64], (r, mut residual): (usize, f64)) {
     let n = matrices.n;
     for _ in 0..CORRECTIONS {
         let old = Residual::new(matrices, lambda[r], &shapes[r * n..]);
@@ -215,9 +197,7 @@ mod tests {
     #[test]
     fn slow_modes_do_not_carry_the_rounding_of_fast_ones() {
         for n in [15, 47] {
-            let masses: Vec<f64> = (0..n)
-                .map(|i| if i % 2 == 1 { 1e-13 } else { 1.0 })
-                .collect();
+            let masses: Vec<f64> = (0..n).map(|i| if i % 2 == 1 { 1e-13 } else { 1.0 }).collect();
             let [stiffness, mass] = chain(&masses, &vec![2.0; n + 1]);
             let pairs = solve(&stiffness, &mass).unwrap();
             // Without them, two springs in series are one of half the stiffness, but those at the ends.
@@ -228,10 +208,7 @@ mod tests {
             let exact = solve(&stiffness, &mass).unwrap();
             for r in 0..count {
                 let (computed, exact) = (pairs.lambda[r], exact.lambda[r]);
-                assert!(
-                    (computed / exact - 1.0).abs() < 1e-11,
-                    "{n} {r}: {computed} {exact}"
-                );
+                assert!((computed / exact - 1.0).abs() < 1e-11, "{n} {r}: {computed} {exact}");
                 assert!(pairs.residuals[r] < INACCURATE && pairs.errors[r] < 1e-11);
             }
         }
@@ -248,9 +225,7 @@ mod tests {
             let exact = if r + 1 == N { 14.0 } else { 2.0 };
             assert!((pairs.lambda[r] - exact).abs() < 1e-13);
             for s in 0..N {
-                let product: f64 = (0..N)
-                    .map(|i| pairs.shapes[r][i] * pairs.shapes[s][i])
-                    .sum();
+                let product: f64 = (0..N).map(|i| pairs.shapes[r][i] * pairs.shapes[s][i]).sum();
                 assert!((product - if r == s { 1.0 } else { 0.0 }).abs() < 1e-13);
             }
         }

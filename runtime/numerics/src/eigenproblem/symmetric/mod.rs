@@ -55,11 +55,7 @@ pub fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, EigenproblemErr
 }
 
 /// Like [`solve`], overwriting existing pairs.
-pub fn solve_into(
-    stiffness: &Matrix,
-    mass: &Matrix,
-    pairs: &mut Pairs,
-) -> Result<(), EigenproblemError> {
+pub fn solve_into(stiffness: &Matrix, mass: &Matrix, pairs: &mut Pairs) -> Result<(), EigenproblemError> {
     let n = mass.row_count();
     let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
     let lambda = pairs.lambda.make_room(n);
@@ -71,15 +67,7 @@ pub fn solve_into(
         3..=SMALL_SIZE => for_size(
             n,
             #[inline(always)]
-            |n| {
-                small(
-                    n,
-                    &k[..n * n],
-                    &m[..n * n],
-                    &mut lambda[..n],
-                    &mut shapes[..n * n],
-                )
-            },
+            |n| small(n, &k[..n * n], &m[..n * n], &mut lambda[..n], &mut shapes[..n * n]),
         )?,
         _ => {}
     }
@@ -101,12 +89,7 @@ pub fn solve_into(
 }
 
 #[inline]
-fn one(
-    k: &[f64],
-    m: &[f64],
-    lambda: &mut [f64],
-    vectors: &mut [f64],
-) -> Result<(), EigenproblemError> {
+fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), EigenproblemError> {
     if !(m[0] > 0.0 && m[0].is_finite()) {
         return Err(EigenproblemError::SingularMass(0));
     }
@@ -117,12 +100,7 @@ fn one(
 
 /// Size two directly: explicit Cholesky reduction and one Jacobi rotation.
 #[inline]
-fn two(
-    k: &[f64],
-    m: &[f64],
-    lambda: &mut [f64],
-    vectors: &mut [f64],
-) -> Result<(), EigenproblemError> {
+fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), EigenproblemError> {
     let threshold = 16.0 * f64::EPSILON;
     if !(m[0] > 0.0 && m[0].is_finite()) {
         return Err(EigenproblemError::SingularMass(0));
@@ -161,13 +139,7 @@ fn two(
 }
 
 /// Sizes from three to eight: from the tridiagonal form of `L^-1 K L^-T`, `M = L L^T`.
-fn small(
-    n: usize,
-    k: &[f64],
-    m: &[f64],
-    lambda: &mut [f64],
-    vectors: &mut [f64],
-) -> Result<(), EigenproblemError> {
+fn small(n: usize, k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), EigenproblemError> {
     let lower = factor(n, m)?;
     let mut reduced = [0.0; SMALL_SIZE * SMALL_SIZE];
     let reduced = &mut reduced[..n * n];
@@ -319,19 +291,11 @@ fn judged(
 
 /// The error for a spectrum that was not found.
 pub(super) fn not_found() -> EigenproblemError {
-    EigenproblemError::Inaccurate {
-        mode: 0,
-        residual: f64::INFINITY,
-    }
+    EigenproblemError::Inaccurate { mode: 0, residual: f64::INFINITY }
 }
 
 #[inline(always)]
-fn sort(
-    n: usize,
-    lambda: &mut [f64],
-    shapes: &mut [f64],
-    (residuals, errors): (&mut [f64], &mut [f64]),
-) {
+fn sort(n: usize, lambda: &mut [f64], shapes: &mut [f64], (residuals, errors): (&mut [f64], &mut [f64])) {
     for i in 1..n {
         let mut j = i;
         while j > 0 && lambda[j] < lambda[j - 1] {

@@ -1,9 +1,6 @@
 //! Inverse iteration for pairs that the eigensolver left inaccurate: where eigenvalues spread over many orders of
 //! magnitude, the small ones carry the rounding of the large ones.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use super::residual::Matrices;
 use crate::algebra::{Lu, Matrix, largest};
@@ -28,13 +25,10 @@ pub(super) fn refine(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64]
     let rounding = f64::EPSILON * largest(matrices.k) / largest(matrices.m);
     for _ in 0..STEPS {
         multiply(matrices.m, shape, weighted);
-        let factors = [value, value + 1e-10 * value.abs() + rounding]
-            .into_iter()
-            .find_map(|shift| {
-                let element =
-                    |i: usize, j: usize| matrices.k[i * n + j] - shift * matrices.m[i * n + j];
-                Lu::of(Matrix::from_fn(n, n, element))
-            });
+        let factors = [value, value + 1e-10 * value.abs() + rounding].into_iter().find_map(|shift| {
+            let element = |i: usize, j: usize| matrices.k[i * n + j] - shift * matrices.m[i * n + j];
+            Lu::of(Matrix::from_fn(n, n, element))
+        });
         let Some(factors) = factors else {
             return;
         };

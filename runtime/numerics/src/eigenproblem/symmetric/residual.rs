@@ -1,8 +1,5 @@
 //! The residual `K phi - lambda M phi` of a pair, and the resulting error of its eigenvalue.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use crate::algebra::{Vector, greater};
 use crate::eigenproblem::dense;
@@ -119,11 +116,7 @@ impl Rest {
 
     #[inline(always)]
     pub(super) fn relative(&self) -> f64 {
-        if self.most == 0.0 {
-            0.0
-        } else {
-            self.most / self.size
-        }
+        if self.most == 0.0 { 0.0 } else { self.most / self.size }
     }
 
     /// Error of `lambda`: rounding of the elements plus twice its distance from the Rayleigh quotient of `phi`.

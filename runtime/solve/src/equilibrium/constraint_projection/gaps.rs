@@ -18,10 +18,7 @@ pub(in crate::equilibrium) struct Gaps {
 /// The constraints on positions; `None` if they are not finite.
 pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Option<Gaps> {
     let structure = point.structure;
-    let (residual, stiffness) =
-        point
-            .mechanism
-            .residual_and_stiffness(x, point.inputs, point.design);
+    let (residual, stiffness) = point.mechanism.residual_and_stiffness(x, point.inputs, point.design);
     let mut gaps = Gaps {
         gaps: residual[structure.position_rows()].into(),
         rows: Matrix::zeros(structure.position_constraints, x.len()),
@@ -30,8 +27,7 @@ pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Opt
         worst: 0,
     };
     for (k, row) in structure.position_rows().enumerate() {
-        gaps.rows[k][..structure.coordinates]
-            .copy_from_slice(&stiffness[row][..structure.coordinates]);
+        gaps.rows[k][..structure.coordinates].copy_from_slice(&stiffness[row][..structure.coordinates]);
         let finite = gaps.gaps[k].is_finite() && gaps.rows[k].iter().all(|v| v.is_finite());
         if !finite {
             return None;
@@ -45,7 +41,5 @@ pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Opt
 
 /// Restricts rows to the coordinates that are not held.
 pub(in crate::equilibrium) fn free(rows: &Matrix, held: &[bool]) -> Matrix {
-    Matrix::from_fn(rows.row_count(), rows.column_count(), |k, j| {
-        if held[j] { 0.0 } else { rows[k][j] }
-    })
+    Matrix::from_fn(rows.row_count(), rows.column_count(), |k, j| if held[j] { 0.0 } else { rows[k][j] })
 }

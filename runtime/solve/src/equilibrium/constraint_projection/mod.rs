@@ -30,11 +30,7 @@ const BETTER: f64 = 0.9;
 ///
 /// A start in which no small motion closes the gaps, such as a mechanism laid out straight or in one point, is left by
 /// a kick.
-pub(super) fn close(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    held: &[bool],
-) -> Result<(Vector, usize), Failure> {
+pub(super) fn close(point: &OperatingPoint<'_>, start: &[f64], held: &[bool]) -> Result<(Vector, usize), Failure> {
     let first = match close_from(point, start, held) {
         Err(failure @ (Failure::NotAssembled { .. } | Failure::OutsideDomain { .. })) => failure,
         other => return other,
@@ -73,17 +69,11 @@ fn open_by(failure: &Failure) -> f64 {
     }
 }
 
-fn close_from(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    held: &[bool],
-) -> Result<(Vector, usize), Failure> {
+fn close_from(point: &OperatingPoint<'_>, start: &[f64], held: &[bool]) -> Result<(Vector, usize), Failure> {
     let structure = point.structure;
     let mut x = Vector::from(start);
-    let mut at = gaps(point, &x).ok_or_else(|| Failure::OutsideDomain {
-        what: "the constraints",
-        coordinates: start.into(),
-    })?;
+    let mut at =
+        gaps(point, &x).ok_or_else(|| Failure::OutsideDomain { what: "the constraints", coordinates: start.into() })?;
     let metric = metric(point, &x);
     let mut radius = FIRST_RADIUS;
     let mut damping = LEAST_DAMPING;
@@ -139,13 +129,7 @@ fn reason(at: &Gaps, dependent_at_start: usize, held: &[bool]) -> NotClosed {
     }
 }
 
-fn not_assembled(
-    structure: Structure,
-    x: &[f64],
-    at: &Gaps,
-    reason: NotClosed,
-    iterations: usize,
-) -> Failure {
+fn not_assembled(structure: Structure, x: &[f64], at: &Gaps, reason: NotClosed, iterations: usize) -> Failure {
     let first = structure.position_rows().start;
     let mut left = Vector::zeros(x.len());
     for k in 0..structure.position_constraints {
@@ -153,22 +137,12 @@ fn not_assembled(
             left[first + k] = at.gaps[k];
         }
     }
-    Failure::NotAssembled {
-        reason,
-        coordinates: x.into(),
-        gaps: left.into(),
-        worst: first + at.worst,
-        iterations,
-    }
+    Failure::NotAssembled { reason, coordinates: x.into(), gaps: left.into(), worst: first + at.worst, iterations }
 }
 
 /// Speeds that meet the constraints on velocities as far as speeds can, by the smallest change and with the held ones
 /// fixed.
-pub(super) fn close_speeds(
-    point: &OperatingPoint<'_>,
-    start: &[f64],
-    held: &[bool],
-) -> Option<Vector> {
+pub(super) fn close_speeds(point: &OperatingPoint<'_>, start: &[f64], held: &[bool]) -> Option<Vector> {
     let structure = point.structure;
     let places = structure.velocity_rows();
     let mut x = Vector::from(start);
@@ -176,11 +150,7 @@ pub(super) fn close_speeds(
     for _ in 0..2 {
         let (residual, stiffness) = point.evaluate_plain(&x)?;
         let rows = Rows::balanced(Matrix::from_fn(places.len(), x.len(), |k, j| {
-            if structure.speed_range().contains(&j) && !held[j] {
-                stiffness[places.start + k][j]
-            } else {
-                0.0
-            }
+            if structure.speed_range().contains(&j) && !held[j] { stiffness[places.start + k][j] } else { 0.0 }
         }));
         add_to(&mut x, -1.0, &rows.shortest(&residual[places.clone()]));
     }

@@ -26,11 +26,7 @@ pub(super) struct Aim<'a> {
 
 impl<'a> Aim<'a> {
     pub(super) fn new(at: &'a Gaps, rows: &'a Rows) -> Self {
-        Self {
-            at,
-            rows,
-            scaled: scaled(&at.gaps, rows),
-        }
+        Self { at, rows, scaled: scaled(&at.gaps, rows) }
     }
 
     fn merit(&self) -> f64 {
@@ -79,12 +75,7 @@ pub(super) fn without_dependent(
 }
 
 /// A Gauss-Newton step of least motion, halved a few times if needed.
-pub(super) fn plain(
-    point: &OperatingPoint<'_>,
-    x: &[f64],
-    aim: &Aim<'_>,
-    radius: &mut f64,
-) -> Option<(Vector, Gaps)> {
+pub(super) fn plain(point: &OperatingPoint<'_>, x: &[f64], aim: &Aim<'_>, radius: &mut f64) -> Option<(Vector, Gaps)> {
     let step = aim.rows.shortest(&aim.at.gaps);
     let size = largest_of(&step);
     let limit = (*radius / size).min(1.0);

@@ -3,9 +3,7 @@
 use super::DeviatingInputs;
 use super::deviations::Deviations;
 use crate::algebra::Vector;
-use crate::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
-};
+use crate::kernels::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
 use crate::scalar::{Batch, Instructions};
 
 /// The arguments passed to the mechanism.
@@ -17,11 +15,7 @@ struct Applied<'a> {
 
 impl Applied<'_> {
     fn point(&self) -> BatchPoint<'_> {
-        BatchPoint {
-            q: self.q,
-            u: &self.u,
-            b: self.b,
-        }
+        BatchPoint { q: self.q, u: &self.u, b: self.b }
     }
 }
 
@@ -42,16 +36,10 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         stiffness: &mut [Batch],
     ) {
         let at = self.applied_batch(at);
-        self.kernels
-            .residual_and_stiffness_batch(instructions, at.point(), residual, stiffness);
+        self.kernels.residual_and_stiffness_batch(instructions, at.point(), residual, stiffness);
     }
 
-    fn linear_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        linear: &mut BatchLinear<'_>,
-    ) {
+    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
         let at = self.applied_batch(at);
         self.kernels.linear_batch(instructions, at.point(), linear);
     }
@@ -64,8 +52,7 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         linear: &mut BatchLinear<'_>,
     ) {
         let at = self.applied_batch(at);
-        self.kernels
-            .parts_and_linear_batch(instructions, at.point(), parts, linear);
+        self.kernels.parts_and_linear_batch(instructions, at.point(), parts, linear);
     }
 
     fn partials_batch(
@@ -80,8 +67,7 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         let mut residual: Vec<Batch> = self.deviations.narrow(by_design.len());
         self.deviations.batch_partials(n * n, matrices, |matrices| {
             let residual = [&mut *by_input, &mut residual[..]];
-            self.kernels
-                .partials_batch(instructions, at.point(), matrices, residual);
+            self.kernels.partials_batch(instructions, at.point(), matrices, residual);
         });
         self.deviations.join_rows(by_design, by_input, &residual);
     }
@@ -96,8 +82,7 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
     ) {
         let at = self.applied_batch(at);
         self.deviations.batch_gradient(gradient, |gradient| {
-            self.kernels
-                .mode_gradient_batch(instructions, at.point(), phi, lambda, gradient);
+            self.kernels.mode_gradient_batch(instructions, at.point(), phi, lambda, gradient);
         });
     }
 
@@ -110,19 +95,14 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
     ) {
         let at = self.applied_batch(at);
         self.deviations.batch_gradient(gradient, |gradient| {
-            self.kernels
-                .residual_gradient_batch(instructions, at.point(), w, gradient);
+            self.kernels.residual_gradient_batch(instructions, at.point(), w, gradient);
         });
     }
 }
 
 impl Deviations {
     /// Converts a gradient of the mechanism.
-    fn batch_gradient(
-        &self,
-        gradient: &mut BatchGradient<'_>,
-        kernel: impl FnOnce(&mut BatchGradient<'_>),
-    ) {
+    fn batch_gradient(&self, gradient: &mut BatchGradient<'_>, kernel: impl FnOnce(&mut BatchGradient<'_>)) {
         let (by_design, deviations) = gradient.design.split_at_mut(self.design());
         kernel(&mut BatchGradient {
             coordinates: &mut *gradient.coordinates,
@@ -142,11 +122,7 @@ impl Deviations {
         kernel: impl FnOnce(&mut BatchPartials<'_>),
     ) {
         fn again<'b>(of: &'b mut BatchLinear<'_>) -> BatchLinear<'b> {
-            BatchLinear {
-                mass: &mut *of.mass,
-                damping: &mut *of.damping,
-                stiffness: &mut *of.stiffness,
-            }
+            BatchLinear { mass: &mut *of.mass, damping: &mut *of.damping, stiffness: &mut *of.stiffness }
         }
         let design = self.design() * entries;
         let by_design = &mut partials.by_design;
@@ -158,11 +134,7 @@ impl Deviations {
         kernel(&mut BatchPartials {
             by_coordinate: again(&mut partials.by_coordinate),
             by_input: again(&mut partials.by_input),
-            by_design: BatchLinear {
-                mass,
-                damping,
-                stiffness,
-            },
+            by_design: BatchLinear { mass, damping, stiffness },
         });
         let by_input = &partials.by_input;
         for (to, from) in [

@@ -47,18 +47,11 @@ impl<'a, K: Kernels + ?Sized> DeviatingInputs<'a, K> {
     /// [`Error::UnknownHandle`] for an input that the mechanism does not have.
     pub fn new(kernels: &'a K, inputs: &[Input]) -> Result<Self, Error> {
         let original = kernels.description();
-        inputs
-            .iter()
-            .try_for_each(|input| check_input(*input, &original))?;
+        inputs.iter().try_for_each(|input| check_input(*input, &original))?;
         let inputs: Vec<usize> = inputs.iter().map(|input| input.index()).collect();
-        let deviations = inputs
-            .iter()
-            .map(|&input| deviation_of(&original.inputs[input]));
+        let deviations = inputs.iter().map(|&input| deviation_of(&original.inputs[input]));
         let design: Vec<DesignInfo> = original.design.iter().cloned().chain(deviations).collect();
-        let description = Description {
-            design: design.into(),
-            ..Description::clone(&original)
-        };
+        let description = Description { design: design.into(), ..Description::clone(&original) };
         Ok(Self {
             kernels,
             deviations: Deviations::new(kernels.sizes().design, inputs),
@@ -85,15 +78,6 @@ impl<'a, K: Kernels + ?Sized> DeviatingInputs<'a, K> {
 }
 
 fn deviation_of(input: &InputInfo) -> DesignInfo {
-    let tolerance = if input.tolerance.relative {
-        ToleranceInfo::NONE
-    } else {
-        input.tolerance.clone()
-    };
-    DesignInfo {
-        name: input.name.clone(),
-        unit: input.unit.clone(),
-        nominal: 0.0,
-        tolerance,
-    }
+    let tolerance = if input.tolerance.relative { ToleranceInfo::NONE } else { input.tolerance.clone() };
+    DesignInfo { name: input.name.clone(), unit: input.unit.clone(), nominal: 0.0, tolerance }
 }

@@ -5,9 +5,8 @@ use core::ops::Add;
 use super::DeviatingInputs;
 use crate::algebra::Vector;
 use crate::kernels::{
-    Costs, Curvature, CurvatureKernels, Directional, DirectionalKernels, Extent, Kernel, Kernels,
-    Linear, MotionKernel, MotionKernels, PartialMatrices, PictureKernels, RestParts, Second, Shape,
-    Sizes,
+    Costs, Curvature, CurvatureKernels, Directional, DirectionalKernels, Extent, Kernel, Kernels, Linear, MotionKernel,
+    MotionKernels, PartialMatrices, PictureKernels, RestParts, Second, Shape, Sizes,
 };
 use crate::mechanism::{Description, PictureInfo, PoseMargin, Shared, Violation};
 
@@ -57,10 +56,7 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
     }
 
     fn sizes(&self) -> Sizes {
-        Sizes {
-            design: self.description.design.len(),
-            ..self.kernels.sizes()
-        }
+        Sizes { design: self.description.design.len(), ..self.kernels.sizes() }
     }
 
     fn input_of_deviation(&self, design: usize) -> Option<usize> {
@@ -86,35 +82,19 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         stiffness: &mut [f64],
     ) {
         let (u, b) = self.applied(u, b);
-        self.kernels
-            .residual_and_stiffness_into(q, &u, b, residual, stiffness);
+        self.kernels.residual_and_stiffness_into(q, &u, b, residual, stiffness);
     }
 
-    fn parts_and_linear_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        parts: &mut RestParts,
-        linear: &mut Linear,
-    ) {
+    fn parts_and_linear_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts, linear: &mut Linear) {
         let (u, b) = self.applied(u, b);
         self.kernels.parts_and_linear_into(q, &u, b, parts, linear);
     }
 
-    fn linear_partials_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        partials: &mut PartialMatrices,
-    ) {
+    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices) {
         let (u, b) = self.applied(u, b);
         let mut partial_matrices = PartialMatrices::zeros(self.kernels.sizes());
-        self.kernels
-            .linear_partials_into(q, &u, b, &mut partial_matrices);
-        self.deviations
-            .partial_matrices(&partial_matrices, partials);
+        self.kernels.linear_partials_into(q, &u, b, &mut partial_matrices);
+        self.deviations.partial_matrices(&partial_matrices, partials);
     }
 
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {
@@ -126,8 +106,7 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
     fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool {
         let (u, b) = self.applied(u, b);
         let (of_design, of_deviations) = self.deviations.split(reach);
-        of_deviations.iter().all(|reach| *reach == 0.0)
-            && self.kernels.possible_within(&u, b, of_design)
+        of_deviations.iter().all(|reach| *reach == 0.0) && self.kernels.possible_within(&u, b, of_design)
     }
 
     fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {
@@ -174,12 +153,7 @@ impl<K: CurvatureKernels + ?Sized> CurvatureKernels for DeviatingInputs<'_, K> {
 }
 
 impl<K: MotionKernels + ?Sized> MotionKernels for DeviatingInputs<'_, K> {
-    fn evaluate_motion(
-        &self,
-        kernel: MotionKernel,
-        arguments: &[&[f64]],
-        results: &mut [&mut [f64]],
-    ) {
+    fn evaluate_motion(&self, kernel: MotionKernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
         let shape = (kernel.arguments(), kernel.results());
         self.evaluated([arguments], shape, results, |[arguments], results| {
             self.kernels.evaluate_motion(kernel, arguments, results);

@@ -11,19 +11,14 @@ use crate::kernels::Linear;
 use crate::modes::deflation;
 use crate::modes::pencil::pencil_transposed_times;
 
-pub(super) fn roots(
-    linear: &Linear,
-    tangent: &Tangent,
-    free: usize,
-) -> Result<Vec<Root>, EigenproblemError> {
+pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Vec<Root>, EigenproblemError> {
     let system = System::new(linear, tangent)?;
     let (matrix, terms) = match free {
         0 => (system.matrix(), Matrix::default()),
         _ => system.matrix_without_rounding(),
     };
-    let reduced = deflation::first_order_roots((&matrix, &terms), free, |matrix| {
-        roots_of(Eigenproblem::FirstOrder(matrix))
-    })?;
+    let reduced =
+        deflation::first_order_roots((&matrix, &terms), free, |matrix| roots_of(Eigenproblem::FirstOrder(matrix)))?;
     let size = match tangent.structure.holonomic() {
         true => Normalisation::Mass,
         false => Normalisation::Largest,
@@ -65,10 +60,7 @@ impl System<'_> {
         let (f, structure) = (self.tangent.freedom, self.tangent.structure);
         let (l_y, l_w) = l.split_at(f);
         let nu = self.combined(l_w, &self.free);
-        let (m, c) = (
-            self.combined(&nu, self.mass.iter()),
-            self.combined(&nu, self.damping.iter()),
-        );
+        let (m, c) = (self.combined(&nu, self.mass.iter()), self.combined(&nu, self.damping.iter()));
         let terms = |a: usize| {
             let forced = self.forced.get(a).map(|forced| forced.iter().zip(&m));
             let forced = forced.into_iter().flatten().map(|(e, m)| -m * e);
@@ -96,21 +88,10 @@ impl System<'_> {
             psi[velocity_row] = Complex::new(re[k], im[k]);
         }
         let rest = pencil_transposed_times(self.linear, s, &psi);
-        let rest = Vector::from_fn(rest.len(), |i| {
-            if i < structure.coordinates {
-                -rest[i]
-            } else {
-                Complex::default()
-            }
-        });
-        let re = self
-            .tangent
-            .positions
-            .multipliers(&rest.map(|value| value.re));
-        let im = self
-            .tangent
-            .positions
-            .multipliers(&rest.map(|value| value.im));
+        let rest =
+            Vector::from_fn(rest.len(), |i| if i < structure.coordinates { -rest[i] } else { Complex::default() });
+        let re = self.tangent.positions.multipliers(&rest.map(|value| value.re));
+        let im = self.tangent.positions.multipliers(&rest.map(|value| value.im));
         for (k, position_row) in structure.position_rows().enumerate() {
             psi[position_row] = Complex::new(re[k], im[k]);
         }
@@ -118,11 +99,7 @@ impl System<'_> {
     }
 
     /// `sum_i amounts_i vectors[i]`, by velocity.
-    fn combined(
-        &self,
-        amounts: &[Complex],
-        vectors: impl IntoIterator<Item = impl AsRef<[f64]>>,
-    ) -> Vector<Complex> {
+    fn combined(&self, amounts: &[Complex], vectors: impl IntoIterator<Item = impl AsRef<[f64]>>) -> Vector<Complex> {
         let mut sum = Vector::zeros(self.velocities());
         for (amount, vector) in amounts.iter().zip(vectors) {
             for (sum, value) in sum.iter_mut().zip(vector.as_ref()) {

@@ -28,13 +28,7 @@ pub(super) struct Measure {
 
 impl Measure {
     /// The first `motions` equations are equations of motion.
-    pub(super) fn new(
-        linear: &Linear,
-        motions: usize,
-        s: Complex,
-        right: &[Complex],
-        left: &[Complex],
-    ) -> Self {
+    pub(super) fn new(linear: &Linear, motions: usize, s: Complex, right: &[Complex], left: &[Complex]) -> Self {
         let of_right = pencil_times(linear, s, right);
         let of_left = pencil_transposed_times(linear, s, left);
         let sizes = sizes(linear, s.norm());
@@ -48,16 +42,8 @@ impl Measure {
         Self {
             residual: by_right.relative.max(by_left.relative),
             rounding_only: by_right.rounding_only && by_left.rounding_only,
-            newton: if value == Complex::default() {
-                value
-            } else {
-                value / slope
-            },
-            doubt: if rounding == 0.0 {
-                0.0
-            } else {
-                rounding / slope.norm()
-            },
+            newton: if value == Complex::default() { value } else { value / slope },
+            doubt: if rounding == 0.0 { 0.0 } else { rounding / slope.norm() },
         }
     }
 }
@@ -67,11 +53,7 @@ fn sizes(linear: &Linear, s: f64) -> Matrix {
     let n = linear.mass.row_count();
     let mut sizes = Matrix::zeros(n, n);
     let elements = sizes.as_flattened_mut().iter_mut();
-    let (m, c, k) = (
-        linear.mass.as_flattened(),
-        linear.damping.as_flattened(),
-        linear.stiffness.as_flattened(),
-    );
+    let (m, c, k) = (linear.mass.as_flattened(), linear.damping.as_flattened(), linear.stiffness.as_flattened());
     for (size, ((m, c), k)) in elements.zip(m.iter().zip(c).zip(k)) {
         *size = s * (s * m.abs() + c.abs()) + k.abs();
     }
@@ -105,17 +87,9 @@ impl Residual {
                 let elements = [greatest(moving), greatest(reacting)];
                 let largest = elements[0].max(elements[1]);
                 // Constraints in their own units are of order one.
-                let unit = if constraints && largest > 0.0 {
-                    largest
-                } else {
-                    1.0
-                };
+                let unit = if constraints && largest > 0.0 { largest } else { 1.0 };
                 let value = product[i].norm() / unit;
-                most = if value.is_finite() {
-                    most.max(value)
-                } else {
-                    f64::INFINITY
-                };
+                most = if value.is_finite() { most.max(value) } else { f64::INFINITY };
                 terms = terms.max(dot(&sizes[i], x) / unit);
                 // A vector that the matrix maps to zero has nothing but rounding in the active terms. Motions are
                 // therefore measured by the largest active term, and so are reactions.
@@ -127,10 +101,7 @@ impl Residual {
                 relative = relative.max(most / terms);
             }
         }
-        Self {
-            relative,
-            rounding_only,
-        }
+        Self { relative, rounding_only }
     }
 }
 
@@ -142,24 +113,16 @@ pub(super) fn inverse_iteration(
     right: &[Complex],
     left: &[Complex],
 ) -> Option<(Vector<Complex>, Vector<Complex>)> {
-    let rate =
-        largest_element(&linear.stiffness) / largest_element(&linear.mass).max(f64::MIN_POSITIVE);
+    let rate = largest_element(&linear.stiffness) / largest_element(&linear.mass).max(f64::MIN_POSITIVE);
     let rate = rate.sqrt();
-    let rate = if rate.is_finite() && rate < 1e150 {
-        rate
-    } else {
-        1.0
-    };
+    let rate = if rate.is_finite() && rate < 1e150 { rate } else { 1.0 };
     let nearby = s + 1e-11 * s.norm() + 1e-14 * rate;
     let solve = |linear: &Linear, start: &[Complex]| {
         let factors = factors(linear, s).or_else(|| factors(linear, nearby))?;
         let solution = factors.solve(&pencil_slope_times(linear, s, start));
         let most = solution.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
         let normalised = solution.map(|x| x / most);
-        normalised
-            .iter()
-            .all(|x| x.is_finite())
-            .then_some(normalised)
+        normalised.iter().all(|x| x.is_finite()).then_some(normalised)
     };
     Some((solve(linear, right)?, solve(&transposed(linear), left)?))
 }
@@ -167,7 +130,5 @@ pub(super) fn inverse_iteration(
 /// Factors of `P(s)`.
 fn factors(linear: &Linear, s: Complex) -> Option<Lu<Complex>> {
     let n = linear.mass.row_count();
-    Lu::new(&Matrix::from_fn(n, n, |i, j| {
-        s * (s * linear.mass[i][j] + linear.damping[i][j]) + linear.stiffness[i][j]
-    }))
+    Lu::new(&Matrix::from_fn(n, n, |i, j| s * (s * linear.mass[i][j] + linear.damping[i][j]) + linear.stiffness[i][j]))
 }

@@ -12,8 +12,7 @@ const UNITS: [f64; 2] = [1.0, 1e6];
 
 fn pencil() -> Linear {
     let square = |rows: [[f64; 5]; 5]| Matrix::from_fn(5, 5, |i, j| rows[i][j]);
-    let diagonal =
-        |values: [f64; 5]| Matrix::from_fn(5, 5, |i, j| if i == j { values[i] } else { 0.0 });
+    let diagonal = |values: [f64; 5]| Matrix::from_fn(5, 5, |i, j| if i == j { values[i] } else { 0.0 });
     let [u, v] = UNITS;
     Linear {
         mass: diagonal([1.0, 3.0, 2.0, 0.0, 0.0]),
@@ -53,16 +52,10 @@ fn measured(s: Complex, right: &[Complex], left: &[Complex]) -> Measure {
 fn an_exact_pair_leaves_rounding() {
     let [right, left] = vectors();
     let measure = measured(root(), &right, &left);
-    assert!(
-        measure.residual < 1e-15 && measure.rounding_only,
-        "{measure:?}"
-    );
+    assert!(measure.residual < 1e-15 && measure.rounding_only, "{measure:?}");
     // What rounding of the elements can do to the root: a few units of its last digit.
     let last = f64::EPSILON * root().norm();
-    assert!(
-        measure.doubt > last && measure.doubt < 100.0 * last,
-        "{measure:?}"
-    );
+    assert!(measure.doubt > last && measure.doubt < 100.0 * last, "{measure:?}");
     assert!(measure.newton.norm() < measure.doubt, "{measure:?}");
 }
 
@@ -73,10 +66,7 @@ fn the_step_is_that_of_the_quadratic() {
         let s = root() + off;
         let exact = (6.0 * s * s + 0.4 * s + 15.5) / (12.0 * s + 0.4);
         let measure = measured(s, &right, &left);
-        assert!(
-            (measure.newton - exact).norm() < 1e-12,
-            "{measure:?} {exact}"
-        );
+        assert!((measure.newton - exact).norm() < 1e-12, "{measure:?} {exact}");
     }
 }
 

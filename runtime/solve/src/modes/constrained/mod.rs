@@ -54,23 +54,12 @@ pub(super) fn general_roots(
 }
 
 /// Completes the motion of a vector with its reactions: `x` with `P(s) x = 0` by coordinate and speed.
-fn with_reactions(
-    linear: &Linear,
-    tangent: &Tangent,
-    s: Complex,
-    motion: &[Complex],
-) -> Vector<Complex> {
+fn with_reactions(linear: &Linear, tangent: &Tangent, s: Complex, motion: &[Complex]) -> Vector<Complex> {
     let force = pencil_times(linear, s, motion).map(|value| -value);
     let re = tangent.multipliers(&force.map(|value| value.re));
     let im = tangent.multipliers(&force.map(|value| value.im));
     let motions = tangent.structure.motions();
-    Vector::from_fn(motion.len(), |i| {
-        if i < motions {
-            motion[i]
-        } else {
-            Complex::new(re[i], im[i])
-        }
-    })
+    Vector::from_fn(motion.len(), |i| if i < motions { motion[i] } else { Complex::new(re[i], im[i]) })
 }
 
 /// `P y`, by coordinate.
@@ -87,9 +76,7 @@ fn lift(tangent: &Tangent, y: &[Complex]) -> Vector<Complex> {
 /// `P^T matrix P`.
 fn projected(matrix: &Matrix, tangent: &Tangent) -> Matrix {
     let images: Vec<_> = tangent.basis.iter().map(|x| times(matrix, x)).collect();
-    Matrix::from_fn(tangent.freedom, tangent.freedom, |i, j| {
-        dot(&tangent.basis[i], &images[j])
-    })
+    Matrix::from_fn(tangent.freedom, tangent.freedom, |i, j| dot(&tangent.basis[i], &images[j]))
 }
 
 /// How the vectors of a mode are normalised.
@@ -120,22 +107,12 @@ impl Normalisation {
     #[doc(hidden)]
     pub fn of(description: &Description) -> (Self, Leading) {
         let structure = Structure::of(description);
-        let motions = if structure.open() {
-            usize::MAX
-        } else {
-            structure.motions()
-        };
+        let motions = if structure.open() { usize::MAX } else { structure.motions() };
         if structure.holonomic() {
-            let leading = Leading {
-                right: motions,
-                left: motions,
-            };
+            let leading = Leading { right: motions, left: motions };
             (Self::Mass, leading)
         } else {
-            let leading = Leading {
-                right: motions,
-                left: description.coordinates.len(),
-            };
+            let leading = Leading { right: motions, left: description.coordinates.len() };
             (Self::Largest, leading)
         }
     }
@@ -157,11 +134,7 @@ fn normalise(x: &mut [Complex], mass: &Matrix, size: Normalisation, leading: usi
         Normalisation::Largest => most.inv(),
         Normalisation::Mass => {
             let weighted = times_complex(mass, x);
-            let square: f64 = x
-                .iter()
-                .zip(&weighted)
-                .map(|(x, w)| (x.conj() * w).re)
-                .sum();
+            let square: f64 = x.iter().zip(&weighted).map(|(x, w)| (x.conj() * w).re).sum();
             most.conj() / (most.norm() * square.sqrt())
         }
     };
@@ -182,12 +155,7 @@ struct Gathered<'a> {
 
 impl<'a> Gathered<'a> {
     fn new(linear: &'a Linear, structure: Structure, size: Normalisation) -> Self {
-        Self {
-            linear,
-            structure,
-            size,
-            roots: Vec::new(),
-        }
+        Self { linear, structure, size, roots: Vec::new() }
     }
 
     /// Normalises vectors.
@@ -205,11 +173,7 @@ impl<'a> Gathered<'a> {
     /// Adds a root as it is.
     fn keep(&mut self, root: Root, mut right: Vector<Complex>, mut left: Vector<Complex>) {
         self.settle(&mut right, &mut left);
-        self.roots.push(Root {
-            right,
-            left,
-            ..root
-        });
+        self.roots.push(Root { right, left, ..root });
     }
 
     /// Adds the pair obtained from a root of the smaller problem. `shared` eigenvalues belong to several vectors and
@@ -224,10 +188,7 @@ impl<'a> Gathered<'a> {
         let motions = self.structure.motions();
         let settle = |right: &mut [Complex], left: &mut [Complex]| self.settle(right, left);
         if !settle(&mut right, &mut left) {
-            return Err(EigenproblemError::Inaccurate {
-                mode: self.roots.len(),
-                residual: f64::INFINITY,
-            });
+            return Err(EigenproblemError::Inaccurate { mode: self.roots.len(), residual: f64::INFINITY });
         }
         let mut s = reduced.s;
         let mut measure = Measure::new(self.linear, motions, s, &right, &left);
@@ -272,19 +233,9 @@ impl<'a> Gathered<'a> {
             }
         }
         let estimate = measure.doubt + 2.0 * measure.newton.norm() + f64::EPSILON * s.norm();
-        let error = if condition.is_finite() && estimate.is_finite() {
-            reduced.error.max(estimate)
-        } else {
-            reduced.error
-        };
-        self.roots.push(Root {
-            s,
-            right,
-            left,
-            residual: measure.residual,
-            error,
-            condition,
-        });
+        let error =
+            if condition.is_finite() && estimate.is_finite() { reduced.error.max(estimate) } else { reduced.error };
+        self.roots.push(Root { s, right, left, residual: measure.residual, error, condition });
         Ok(())
     }
 }

@@ -1,9 +1,6 @@
 //! The symmetric problem `P^T (K_c - lambda M) P y = 0`: gives undamped modes and the number of directions of negative
 //! stiffness.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use super::quadratic::tangent_trouble;
 use super::{measure, projected};
@@ -39,28 +36,20 @@ pub(crate) fn free_pairs_into(
         return deflation::pairs(&linear.stiffness, &linear.mass, free, pairs);
     }
     if !structure.holonomic() {
-        return Err(EigenproblemError::Inaccurate {
-            mode: 0,
-            residual: f64::INFINITY,
-        });
+        return Err(EigenproblemError::Inaccurate { mode: 0, residual: f64::INFINITY });
     }
     let tangent = Tangent::new(linear, structure);
     *pairs = reduced_pairs(linear, &tangent, description.free_directions)?;
     Ok(())
 }
 
-fn reduced_pairs(
-    linear: &Linear,
-    tangent: &Tangent,
-    free: usize,
-) -> Result<Pairs, EigenproblemError> {
+fn reduced_pairs(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Pairs, EigenproblemError> {
     let mut mass = projected(&linear.mass, tangent);
     let mut stiffness = projected(&linear.stiffness, tangent);
     symmetrise(&mut mass);
     symmetrise(&mut stiffness);
     let mut pairs = Pairs::default();
-    deflation::pairs(&stiffness, &mass, free, &mut pairs)
-        .map_err(|trouble| tangent_trouble(trouble, tangent))?;
+    deflation::pairs(&stiffness, &mass, free, &mut pairs).map_err(|trouble| tangent_trouble(trouble, tangent))?;
     let reduced = pairs.shapes;
     pairs.shapes = Matrix::zeros(tangent.freedom, tangent.structure.size());
     for (r, y) in reduced.iter().enumerate() {
@@ -162,8 +151,7 @@ fn residual(linear: &Linear, tangent: &Tangent, lambda: f64, phi: &[f64]) -> f64
     let mut motion = if most == 0.0 { 0.0 } else { most / terms };
     if motion > ACCEPTED {
         // A shape that `K` maps to zero contains nothing but rounding, so its terms are no measure.
-        let matrices =
-            largest_element(&linear.stiffness) + lambda.abs() * largest_element(&linear.mass);
+        let matrices = largest_element(&linear.stiffness) + lambda.abs() * largest_element(&linear.mass);
         if most <= measure::ROUNDING * n as f64 * matrices * largest(phi) {
             motion = measure::ROUNDING;
         }

@@ -7,18 +7,14 @@ use crate::kernels::Linear;
 use crate::modes::deflation;
 use crate::modes::pencil::transposed;
 
-pub(super) fn roots(
-    linear: &Linear,
-    tangent: &Tangent,
-    free: usize,
-) -> Result<Vec<Root>, EigenproblemError> {
+pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Vec<Root>, EigenproblemError> {
     let reduced = Linear {
         mass: projected(&linear.mass, tangent),
         damping: projected(&linear.damping, tangent),
         stiffness: projected(&linear.stiffness, tangent),
     };
-    let reduced = deflation::roots(&reduced, free, general::solve)
-        .map_err(|trouble| tangent_trouble(trouble, tangent))?;
+    let reduced =
+        deflation::roots(&reduced, free, general::solve).map_err(|trouble| tangent_trouble(trouble, tangent))?;
     let transposed = transposed(linear);
     let mut gathered = Gathered::new(linear, tangent.structure, Normalisation::Mass);
     for (i, root) in reduced.iter().enumerate() {
@@ -45,8 +41,5 @@ pub(super) fn tangent_trouble(trouble: EigenproblemError, tangent: &Tangent) -> 
 
 /// Position of the component of largest magnitude.
 pub(super) fn greatest(x: &[f64]) -> usize {
-    (1..x.len()).fold(
-        0,
-        |most, i| if x[i].abs() > x[most].abs() { i } else { most },
-    )
+    (1..x.len()).fold(0, |most, i| if x[i].abs() > x[most].abs() { i } else { most })
 }

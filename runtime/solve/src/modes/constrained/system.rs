@@ -9,10 +9,7 @@
 //! ydot = E_y y + Z_y w
 //! wdot = -Z^T (M_nu E E_y + C_nu E + K_y) y - Z^T (M_nu E Z_y + C_nu Z) w
 //! ```
-#![allow(
-    clippy::needless_range_loop,
-    reason = "index loops read as the formulas they are"
-)]
+#![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use super::quadratic::greatest;
 use crate::algebra::{Cholesky, Matrix, Vector, dot, times};
@@ -53,30 +50,20 @@ impl<'a> System<'a> {
         // A row or column over coordinates and speeds, converted to velocities.
         let by_velocity = |coordinates: &[f64], of_speeds: &[f64]| {
             Vector::from_fn(velocities, |a| {
-                if a < f {
-                    dot(&tangent.basis[a], coordinates)
-                } else {
-                    of_speeds[speeds.start + a - f] * units[a - f]
-                }
+                if a < f { dot(&tangent.basis[a], coordinates) } else { of_speeds[speeds.start + a - f] * units[a - f] }
             })
         };
         // The velocities over all unknowns.
-        let unit = |(index, unit): (usize, &f64)| {
-            Vector::from_fn(structure.size(), |i| if i == index { *unit } else { 0.0 })
-        };
-        let directions: Vec<Vector> = tangent
-            .basis
-            .iter()
-            .cloned()
-            .chain(speeds.clone().zip(&units).map(unit))
-            .collect();
+        let unit =
+            |(index, unit): (usize, &f64)| Vector::from_fn(structure.size(), |i| if i == index { *unit } else { 0.0 });
+        let directions: Vec<Vector> =
+            tangent.basis.iter().cloned().chain(speeds.clone().zip(&units).map(unit)).collect();
         let product = |matrix: &Matrix, a: usize| {
             let image = times(matrix, &directions[a]);
             by_velocity(&image, &image)
         };
         let square = || Matrix::zeros(velocities, velocities);
-        let (mut mass, mut damping, mut stiffness) =
-            (square(), square(), Matrix::zeros(velocities, f));
+        let (mut mass, mut damping, mut stiffness) = (square(), square(), Matrix::zeros(velocities, f));
         for a in 0..velocities {
             let (m, c) = if a < f {
                 let column = product(&linear.stiffness, a);
@@ -100,21 +87,13 @@ impl<'a> System<'a> {
             let of_speeds: f64 = speeds.clone().map(|i| part(b[i], i)).sum();
             let whole = of_speeds + (0..speeds.start).map(|i| part(c[i], i)).sum::<f64>();
             let left = row.iter().map(|x| x * x).sum::<f64>();
-            if left > FOLLOWS * FOLLOWS * whole {
-                row
-            } else {
-                Vector::zeros(velocities)
-            }
+            if left > FOLLOWS * FOLLOWS * whole { row } else { Vector::zeros(velocities) }
         };
         let allowed: Vec<Vector> = rows.clone().map(row).collect();
-        let velocity = Rows::balanced(Matrix::from_fn(rows.len(), velocities, |k, a| {
-            allowed[k][a]
-        }));
+        let velocity = Rows::balanced(Matrix::from_fn(rows.len(), velocities, |k, a| allowed[k][a]));
         let order = &velocity.order[..velocity.rank];
-        let independent = Rows::independent(
-            Matrix::from_fn(order.len(), velocities, |i, a| allowed[order[i]][a]),
-            metric(&mass),
-        );
+        let independent =
+            Rows::independent(Matrix::from_fn(order.len(), velocities, |i, a| allowed[order[i]][a]), metric(&mass));
         let mut free = independent.null_basis(velocities);
         orthonormalise(&mut free, &mass).map_err(|column| {
             let x = Vector::from_fn(structure.size(), |i| {
@@ -123,23 +102,11 @@ impl<'a> System<'a> {
             EigenproblemError::SingularMass(greatest(&x))
         })?;
         let forced = tangent.basis.iter().map(|along| {
-            let right = order
-                .iter()
-                .map(|k| -dot(&linear.stiffness[rows.start + k], along));
+            let right = order.iter().map(|k| -dot(&linear.stiffness[rows.start + k], along));
             independent.shortest(&right.collect::<Vector>())
         });
         let forced = forced.collect();
-        Ok(Self {
-            linear,
-            tangent,
-            units,
-            velocity,
-            free,
-            forced,
-            mass,
-            damping,
-            stiffness,
-        })
+        Ok(Self { linear, tangent, units, velocity, free, forced, mass, damping, stiffness })
     }
 
     pub(super) fn velocities(&self) -> usize {
@@ -153,17 +120,12 @@ impl<'a> System<'a> {
         let mut matrix = Matrix::zeros(size, size);
         // (ydot; v) caused by each variable alone, and the force that resists it.
         for j in 0..size {
-            let nu = if j < f {
-                &self.forced[j]
-            } else {
-                &self.free[j - f]
-            };
+            let nu = if j < f { &self.forced[j] } else { &self.free[j - f] };
             for i in 0..f {
                 matrix[i][j] = nu[i];
             }
-            let turned = Vector::from_fn(self.velocities(), |a| {
-                (0..f).fold(0.0, |sum, b| sum + self.forced[b][a] * nu[b])
-            });
+            let turned =
+                Vector::from_fn(self.velocities(), |a| (0..f).fold(0.0, |sum, b| sum + self.forced[b][a] * nu[b]));
             let (inertia, resistance) = (times(&self.mass, &turned), times(&self.damping, nu));
             let force = Vector::from_fn(self.velocities(), |a| {
                 let elastic = if j < f { self.stiffness[a][j] } else { 0.0 };
@@ -208,13 +170,7 @@ fn metric(mass: &Matrix) -> Vector {
     const LIGHT: f64 = 1e-4;
     let scales = Vector::from_fn(mass.row_count(), |a| mass[a][a].max(0.0).sqrt());
     let greatest = scales.iter().fold(0.0, |a: f64, &b| a.max(b));
-    scales.map(|value| {
-        if greatest > 0.0 {
-            value.max(LIGHT * greatest)
-        } else {
-            1.0
-        }
-    })
+    scales.map(|value| if greatest > 0.0 { value.max(LIGHT * greatest) } else { 1.0 })
 }
 
 /// Makes vectors orthonormal in the mass matrix; `Err` is one that moves no mass.

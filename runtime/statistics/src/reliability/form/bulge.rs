@@ -58,17 +58,11 @@ mod tests {
                 beta,
                 direction: vec![0.6, 0.8],
                 gradient_norm: 5.0,
-                residuals: Residuals {
-                    limit: 0.0,
-                    direction: 0.0,
-                },
+                residuals: Residuals { limit: 0.0, direction: 0.0 },
             })
             .unwrap();
             let added = |z: &[f64]| {
-                let mut limit = LimitValue {
-                    value: 0.0,
-                    gradient: vec![0.0; 2],
-                };
+                let mut limit = LimitValue { value: 0.0, gradient: vec![0.0; 2] };
                 bulge.add_to(&mut limit, z);
                 limit
             };

@@ -44,16 +44,11 @@ impl fmt::Display for Closest {
         write!(f, "the best point has value {}, ", self.value)?;
         match self.residuals {
             None => write!(f, "no gradient")?,
-            Some(residuals) => write!(
-                f,
-                "is {:.1e} off the limit and {:.1e} off its normal",
-                residuals.limit, residuals.direction
-            )?,
+            Some(residuals) => {
+                write!(f, "is {:.1e} off the limit and {:.1e} off its normal", residuals.limit, residuals.direction)?
+            }
         }
-        let Evaluations {
-            total,
-            without_value,
-        } = self.evaluations;
+        let Evaluations { total, without_value } = self.evaluations;
         write!(f, " ({total} evaluations, {without_value} without a value)")
     }
 }
@@ -107,10 +102,7 @@ impl DesignPoint {
     /// section 8.2).
     pub fn sensitivity(&self, limit_by_parameter: f64) -> FormSensitivity {
         let beta = limit_by_parameter / self.gradient_norm;
-        FormSensitivity {
-            beta,
-            probability: -normal::density(self.beta) * beta,
-        }
+        FormSensitivity { beta, probability: -normal::density(self.beta) * beta }
     }
 }
 
@@ -149,11 +141,7 @@ impl Iterate {
             }
         });
         let slope = slope.filter(|slope| slope.residuals.largest().is_finite());
-        Self {
-            point,
-            limit,
-            slope,
-        }
+        Self { point, limit, slope }
     }
 
     pub(super) fn slope(&self) -> Option<&Slope> {
@@ -161,9 +149,7 @@ impl Iterate {
     }
 
     pub(super) fn residual(&self) -> f64 {
-        self.slope
-            .as_ref()
-            .map_or(f64::INFINITY, |slope| slope.residuals.largest())
+        self.slope.as_ref().map_or(f64::INFINITY, |slope| slope.residuals.largest())
     }
 
     pub(super) fn design_point(self) -> Option<DesignPoint> {

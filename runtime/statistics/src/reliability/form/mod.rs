@@ -49,15 +49,8 @@ pub struct FormResult {
 /// # Ok::<(), eigentol_statistics::Error>(())
 /// ```
 pub fn form<L: LimitState>(limit: &L, settings: &FormSettings) -> Result<FormResult, Error> {
-    let FailureRegions {
-        mut design_points,
-        evaluations,
-        ..
-    } = regions::by_restarts(&Counted::new(limit)?, settings)?;
-    Ok(FormResult {
-        design_point: design_points.swap_remove(0),
-        evaluations,
-    })
+    let FailureRegions { mut design_points, evaluations, .. } = regions::by_restarts(&Counted::new(limit)?, settings)?;
+    Ok(FormResult { design_point: design_points.swap_remove(0), evaluations })
 }
 
 /// Finds the design points of several failure regions: those found by [`form`], then those found after placing bulges
@@ -66,9 +59,6 @@ pub fn form<L: LimitState>(limit: &L, settings: &FormSettings) -> Result<FormRes
 /// # Errors
 ///
 /// Those of [`form`].
-pub fn failure_regions<L: LimitState>(
-    limit: &L,
-    settings: &FormSettings,
-) -> Result<FailureRegions, Error> {
+pub fn failure_regions<L: LimitState>(limit: &L, settings: &FormSettings) -> Result<FailureRegions, Error> {
     regions::by_bulges(&Counted::new(limit)?, settings)
 }

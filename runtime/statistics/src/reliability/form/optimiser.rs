@@ -48,11 +48,7 @@ fn minimise(search: &Search, start: Iterate) -> Iterate {
     let tolerance = search.settings.tolerance;
     let radius = search.settings.radius;
     let first = start.point.clone();
-    let progress = RefCell::new(Progress {
-        last: Some(start.clone()),
-        last_point: first.clone(),
-        best: start,
-    });
+    let progress = RefCell::new(Progress { last: Some(start.clone()), last_point: first.clone(), best: start });
     let objective = |z: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
         if let Some(gradient) = gradient {
             gradient.copy_from_slice(z);
@@ -74,17 +70,10 @@ fn minimise(search: &Search, start: Iterate) -> Iterate {
         }
         // On the limit is sufficient: otherwise rounding of g would decide feasibility.
         let value = scale * evaluation.limit.value;
-        if value.abs() < 0.1 * tolerance {
-            0.0
-        } else {
-            value
-        }
+        if value.abs() < 0.1 * tolerance { 0.0 } else { value }
     };
     let limits: [&dyn Func<()>; 1] = [&limit];
-    let stop = StopTols {
-        xtol_rel: 0.1 * tolerance,
-        ..StopTols::default()
-    };
+    let stop = StopTols { xtol_rel: 0.1 * tolerance, ..StopTols::default() };
     // However the optimiser ends, only the residuals of the best point count.
     let _ = minimize(
         objective,

@@ -33,10 +33,7 @@ const REFLECTIONS: usize = 6;
 /// A reflection is a start if its distance from the limit, relative to that from the origin, is smaller.
 const SYMMETRIC: f64 = 0.1;
 
-pub(super) fn by_restarts(
-    limit: &Counted,
-    settings: &FormSettings,
-) -> Result<FailureRegions, Error> {
+pub(super) fn by_restarts(limit: &Counted, settings: &FormSettings) -> Result<FailureRegions, Error> {
     let mut regions = Regions::start(limit, settings)?;
     regions.restart();
     regions.finish()
@@ -68,17 +65,10 @@ impl<'a> Regions<'a> {
         settings.check()?;
         let dimension = limit.dimension();
         let origin = vec![0.0; dimension];
-        let at_origin = limit
-            .evaluate(&origin)
-            .ok_or_else(|| limit.no_value("at the origin"))?;
+        let at_origin = limit.evaluate(&origin).ok_or_else(|| limit.no_value("at the origin"))?;
         let sign = if at_origin.value > 0.0 { 1.0 } else { -1.0 };
         let mut regions = Self {
-            search: Search {
-                limit,
-                settings,
-                sign,
-                bulges: Vec::new(),
-            },
+            search: Search { limit, settings, sign, bulges: Vec::new() },
             random: NormalSamples::new(settings.seed, 0, 0, dimension),
             found: Vec::new(),
             reflected: 0,
@@ -113,11 +103,7 @@ impl<'a> Regions<'a> {
         let opposite = self.found.last().map(|last| scaled(-1.0, &last.point));
         let origin = vec![0.0; self.search.limit.dimension()];
         let starts = [Some(origin), opposite];
-        let ends: Vec<Iterate> = starts
-            .into_iter()
-            .flatten()
-            .filter_map(|start| self.search.from(&start))
-            .collect();
+        let ends: Vec<Iterate> = starts.into_iter().flatten().filter_map(|start| self.search.from(&start)).collect();
         self.search.bulges.clear();
         let before = self.found.len();
         for end in ends {
@@ -134,9 +120,8 @@ impl<'a> Regions<'a> {
         while !self.is_full() && self.reflected < self.found.len() {
             let point = self.found[self.reflected].point.clone();
             self.reflected += 1;
-            let mut large: Vec<usize> = (0..point.len())
-                .filter(|&k| point[k].abs() > REFLECTED * norm(&point))
-                .collect();
+            let mut large: Vec<usize> =
+                (0..point.len()).filter(|&k| point[k].abs() > REFLECTED * norm(&point)).collect();
             large.sort_by(|&a, &b| point[b].abs().total_cmp(&point[a].abs()));
             large.truncate(REFLECTIONS);
             let pairs = (0..large.len()).flat_map(|i| (0..=i).map(move |j| (i, j)));
@@ -215,12 +200,7 @@ impl<'a> Regions<'a> {
                 closest: Box::new(self.best.closest(evaluations)),
             });
         }
-        self.found
-            .sort_by(|a, b| a.beta.abs().total_cmp(&b.beta.abs()));
-        Ok(FailureRegions {
-            design_points: self.found,
-            exhausted,
-            evaluations,
-        })
+        self.found.sort_by(|a, b| a.beta.abs().total_cmp(&b.beta.abs()));
+        Ok(FailureRegions { design_points: self.found, exhausted, evaluations })
     }
 }

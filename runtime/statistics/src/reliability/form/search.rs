@@ -25,8 +25,7 @@ impl Search<'_> {
     }
 
     pub(super) fn is_solved(&self, iterate: &Iterate) -> bool {
-        iterate.residual() <= self.settings.tolerance
-            && norm(&iterate.point) <= self.settings.radius
+        iterate.residual() <= self.settings.tolerance && norm(&iterate.point) <= self.settings.radius
     }
 
     /// The improved Hasofer-Lind-Rackwitz-Fiessler iteration (Zhang and Der Kiureghian 1995, *Two improved algorithms
@@ -61,9 +60,7 @@ impl Search<'_> {
         let mut part = (self.settings.radius / norm(&step).max(f64::MIN_POSITIVE)).min(1.0);
         for _ in 0..12 {
             let next = self.at(&add_scaled(&from.point, part, &step));
-            let better = |next: &Iterate| {
-                merit(next) < merit(from) || next.residual() < 0.5 * from.residual()
-            };
+            let better = |next: &Iterate| merit(next) < merit(from) || next.residual() < 0.5 * from.residual();
             if let Some(next) = next.filter(better) {
                 return Some(next);
             }

@@ -42,16 +42,10 @@ impl Central {
 
     /// The direction towards failure, and where this begins: nearest to the origin of all places where anything changes.
     fn direction(&self) -> Option<Direction> {
-        let changes = self
-            .failing
-            .iter()
-            .flat_map(|(from, to)| [(1.0, *from), (-1.0, -to)]);
+        let changes = self.failing.iter().flat_map(|(from, to)| [(1.0, *from), (-1.0, -to)]);
         let changes = changes.filter(|(_, distance)| distance.is_finite());
         let (sign, distance) = changes.min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-        Some(Direction {
-            along: scaled(sign, &self.direction),
-            distance,
-        })
+        Some(Direction { along: scaled(sign, &self.direction), distance })
     }
 
     /// The failure nearest to the origin.
@@ -87,12 +81,7 @@ impl LineSampler {
     /// Directions in which failures were found, those expected first; the variables along which anything changes; and the
     /// number of evaluations.
     pub(super) fn explore<L: LimitState>(&self, limit: &L) -> (Vec<Direction>, Vec<usize>, u64) {
-        let mut explorer = Explorer {
-            limit,
-            sampler: self,
-            evaluations: 0,
-            moving: Vec::new(),
-        };
+        let mut explorer = Explorer { limit, sampler: self, evaluations: 0, moving: Vec::new() };
         let directions = explorer.directions();
         if explorer.moving.is_empty() {
             explorer.moving.clone_from(&self.variables);
@@ -132,8 +121,7 @@ impl<L: LimitState> Explorer<'_, L> {
             let all = central.chain(points.iter().map(|point| norm(point)));
             let least = all.fold(f64::INFINITY, f64::min);
             points.retain(|point| {
-                norm(point).powi(2) <= least * least + 2.0 * LESS
-                    && !known.iter().any(|x| x.explains(point))
+                norm(point).powi(2) <= least * least + 2.0 * LESS && !known.iter().any(|x| x.explains(point))
             });
             let nearest = points.iter().enumerate();
             let nearest = nearest.min_by(|(_, a), (_, b)| norm(a).total_cmp(&norm(b)));
@@ -161,15 +149,10 @@ impl<L: LimitState> Explorer<'_, L> {
     /// The failures nearest to the origin along lines in all directions, up to a distance away from it.
     fn failures(&mut self, farthest: f64) -> Vec<Vec<f64>> {
         let sampler = self.sampler;
-        let LineSampler {
-            settings,
-            variables,
-            ..
-        } = sampler;
+        let LineSampler { settings, variables, .. } = sampler;
         // Numbers that no line of the estimate takes.
         let first = 1 << 60;
-        let mut samples =
-            NormalSamples::new(settings.seed, settings.stream, first, variables.len());
+        let mut samples = NormalSamples::new(settings.seed, settings.stream, first, variables.len());
         let mut all = Vec::new();
         for k in 0..sampler.mixture.count() {
             let direction = sampler.mixture.direction(k);
@@ -205,9 +188,8 @@ impl<L: LimitState> Explorer<'_, L> {
         for &k in variables {
             let [back, ahead] = [-SHIFT, SHIFT].map(|shift| {
                 let across = scaled(-shift * direction[k], &direction);
-                let across: Vec<f64> = (across.iter().enumerate())
-                    .map(|(j, x)| if j == k { x + shift } else { *x })
-                    .collect();
+                let across: Vec<f64> =
+                    (across.iter().enumerate()).map(|(j, x)| if j == k { x + shift } else { *x }).collect();
                 let around = (distance - AROUND, distance + AROUND);
                 let places = self.line(&across, &direction, around);
                 let changes = places.iter().map(|x| nearest(x) - distance);
@@ -232,12 +214,7 @@ impl<L: LimitState> Explorer<'_, L> {
 
     fn scan(&mut self, across: &[f64], direction: &[f64], stretch: Stretch) -> Scanned {
         let value = LineSampler::along(self.limit, across, direction);
-        let scanned = scan::scan(
-            value,
-            stretch,
-            self.sampler.settings.reach,
-            self.sampler.spacing(),
-        );
+        let scanned = scan::scan(value, stretch, self.sampler.settings.reach, self.sampler.spacing());
         self.evaluations += scanned.evaluations;
         scanned
     }

@@ -57,23 +57,16 @@ impl Mixture {
         };
         known.sort_by(|(_, a), (_, b)| a.total_cmp(b));
         let distances = known.iter().map(|(_, distance)| *distance).collect();
-        known
-            .iter_mut()
-            .for_each(|(_, distance)| *distance = distance.max(0.0));
-        let likely =
-            |distance: f64| (normal::ln_upper(distance) - normal::ln_upper(known[0].1)).exp();
+        known.iter_mut().for_each(|(_, distance)| *distance = distance.max(0.0));
+        let likely = |distance: f64| (normal::ln_upper(distance) - normal::ln_upper(known[0].1)).exp();
         let sum: f64 = known.iter().map(|(_, distance)| likely(*distance)).sum();
         let lines = round.max(FEWEST_OF_EACH * known.len());
         let spare = (lines - FEWEST_OF_EACH * known.len()) as f64;
         let of_each = |distance: f64| FEWEST_OF_EACH + (spare * likely(distance) / sum) as usize;
-        let mut round: Vec<usize> = known
-            .iter()
-            .map(|(_, distance)| of_each(*distance))
-            .collect();
+        let mut round: Vec<usize> = known.iter().map(|(_, distance)| of_each(*distance)).collect();
         let expected: usize = round.iter().sum();
-        let exploring = (lines / EXPLORED_BY_ONE_OF)
-            .max(FEWEST_OF_EACH - 1)
-            .max(if known.is_empty() { lines } else { 0 });
+        let exploring =
+            (lines / EXPLORED_BY_ONE_OF).max(FEWEST_OF_EACH - 1).max(if known.is_empty() { lines } else { 0 });
         let all = (expected + exploring) as f64;
         // Of the directions in which failure is expected by their lines; of the variables, to which nothing is left where
         // the others look, little.
@@ -89,13 +82,7 @@ impl Mixture {
             direction[k] = 1.0;
             directions.push(direction);
         }
-        Self {
-            directions,
-            distances,
-            round,
-            weights,
-            factors,
-        }
+        Self { directions, distances, round, weights, factors }
     }
 
     /// Number of directions.
@@ -120,26 +107,15 @@ impl Mixture {
 
     /// A direction of a group, by a number in (0, 1).
     pub(super) fn pick(&self, group: usize, choice: f64) -> &[f64] {
-        let among = if group < self.expected() {
-            1
-        } else {
-            self.count() - self.expected()
-        };
+        let among = if group < self.expected() { 1 } else { self.count() - self.expected() };
         self.direction(group + (choice * among as f64) as usize)
     }
 
     /// What a line through a point contributes.
-    pub(super) fn weigh(
-        &self,
-        group: usize,
-        scanned: &Scanned,
-        across: &[f64],
-        direction: &[f64],
-    ) -> Line {
+    pub(super) fn weigh(&self, group: usize, scanned: &Scanned, across: &[f64], direction: &[f64]) -> Line {
         let along = self.directions.iter().zip(&self.weights);
-        let along: Vec<[f64; 3]> = along
-            .map(|(other, weight)| [weight.ln(), dot(other, across), dot(other, direction)])
-            .collect();
+        let along: Vec<[f64; 3]> =
+            along.map(|(other, weight)| [weight.ln(), dot(other, across), dot(other, direction)]).collect();
         let density = |t: f64| {
             let all = along.iter().map(|[weight, start, slope]| {
                 let place = start + slope * t;
@@ -165,19 +141,10 @@ impl Mixture {
             let beyond = match *slope {
                 slope if slope > 0.0 => whole((place, f64::INFINITY)),
                 slope if slope < 0.0 => whole((f64::NEG_INFINITY, place)),
-                _ => {
-                    whole((f64::NEG_INFINITY, f64::INFINITY))
-                        * f64::from(u8::from(start >= distance))
-                }
+                _ => whole((f64::NEG_INFINITY, f64::INFINITY)) * f64::from(u8::from(start >= distance)),
             };
             known.push(beyond - normal::cdf(-distance));
         }
-        Line {
-            fails,
-            without_value,
-            known,
-            group,
-            evaluations: scanned.evaluations,
-        }
+        Line { fails, without_value, known, group, evaluations: scanned.evaluations }
     }
 }

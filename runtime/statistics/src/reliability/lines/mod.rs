@@ -44,13 +44,7 @@ pub struct LineSettings {
 
 impl Default for LineSettings {
     fn default() -> Self {
-        Self {
-            seed: 1,
-            stream: 0,
-            evaluations: 10_000,
-            coefficient_of_variation: 0.02,
-            reach: 8.0,
-        }
+        Self { seed: 1, stream: 0, evaluations: 10_000, coefficient_of_variation: 0.02, reach: 8.0 }
     }
 }
 
@@ -134,21 +128,13 @@ impl LineSampler {
         }
         let wished = settings.coefficient_of_variation;
         if !(wished >= 0.0 && wished.is_finite()) {
-            return wrong(
-                "coefficient_of_variation",
-                format!("{wished} is negative or not finite"),
-            );
+            return wrong("coefficient_of_variation", format!("{wished} is negative or not finite"));
         }
         Ok(Self {
             settings: settings.clone(),
             dimension,
             variables: variables.to_vec(),
-            mixture: Mixture::new(
-                dimension,
-                (variables, variables),
-                directions,
-                round(settings),
-            ),
+            mixture: Mixture::new(dimension, (variables, variables), directions, round(settings)),
         })
     }
 
@@ -207,10 +193,7 @@ impl LineSampler {
         let safe = |line: &Line| 1.0 + line.known[0] - line.without_value - line.fails;
         let opposite = 1.0 - without_value.value - probability.value;
         let (rarer, part): (Vec<f64>, f64) = match probability.value <= opposite {
-            true => (
-                lines.iter().map(|line| line.fails).collect(),
-                probability.value,
-            ),
+            true => (lines.iter().map(|line| line.fails).collect(), probability.value),
             false => (lines.iter().map(safe).collect(), opposite),
         };
         let (sum, squares) = (rarer.iter().sum::<f64>(), dot(&rarer, &rarer));
@@ -220,14 +203,10 @@ impl LineSampler {
             true => 0.0,
             false => UNMET * part / lines.len() as f64,
         };
-        let probability = Estimate {
-            standard_error: probability.standard_error.hypot(unmet),
-            ..probability
-        };
+        let probability = Estimate { standard_error: probability.standard_error.hypot(unmet), ..probability };
         LineProbability {
             settled,
-            reached: settled
-                && probability.standard_error <= self.settings.coefficient_of_variation * part,
+            reached: settled && probability.standard_error <= self.settings.coefficient_of_variation * part,
             probability,
             without_value,
             lines: lines.len() as u64,
@@ -286,12 +265,7 @@ impl LineSampler {
         let (directions, explored, spent) = self.explore(limit);
         let variables = (&self.variables[..], &explored[..]);
         let sampler = Self {
-            mixture: Mixture::new(
-                self.dimension,
-                variables,
-                &directions,
-                round(&self.settings),
-            ),
+            mixture: Mixture::new(self.dimension, variables, &directions, round(&self.settings)),
             ..self.clone()
         };
         (sampler, spent)
@@ -304,10 +278,7 @@ impl LineSampler {
         let (mut spent, mut due) = (0, 2);
         for round in 1.. {
             let from = lines.len();
-            let groups = self
-                .mixture
-                .groups()
-                .take(if self.alone() { 1 } else { usize::MAX });
+            let groups = self.mixture.groups().take(if self.alone() { 1 } else { usize::MAX });
             lines.extend(groups.map(|group| self.line(limit, group, &mut samples)));
             spent += evaluations(&lines[from..]);
             let last = spent + spent / round > most || self.alone();
@@ -328,24 +299,14 @@ impl LineSampler {
     /// Whether plain samples, of which enough would fail and enough would not, scatter less for what they cost than lines,
     /// whose scatter is itself known from few of them.
     fn tells_less_than_samples(&self, found: &LineProbability) -> bool {
-        let Estimate {
-            value,
-            standard_error,
-        } = found.probability;
+        let Estimate { value, standard_error } = found.probability;
         let rarer = value.min(1.0 - value - found.without_value.value);
         let spread = standard_error * standard_error * found.evaluations as f64;
-        !self.alone()
-            && rarer * self.settings.evaluations as f64 >= ENOUGH
-            && DOUBT * spread > value * (1.0 - value)
+        !self.alone() && rarer * self.settings.evaluations as f64 >= ENOUGH && DOUBT * spread > value * (1.0 - value)
     }
 
     /// The estimate from plain samples.
-    fn plain<L: LimitState>(
-        &self,
-        limit: &L,
-        most: u64,
-        lines: LineProbability,
-    ) -> LineProbability {
+    fn plain<L: LimitState>(&self, limit: &L, most: u64, lines: LineProbability) -> LineProbability {
         let LineSettings { seed, stream, .. } = self.settings;
         let mut samples = NormalSamples::new(seed, stream, PLAIN, self.variables.len());
         let (mut fails, mut without_value) = (0.0, 0.0);
@@ -394,22 +355,14 @@ fn round(settings: &LineSettings) -> usize {
 /// (control variates: Owen 2013, *Monte Carlo theory, methods and examples*, section 8.9). Its error is the scatter that
 /// is left within each group of directions.
 fn estimate(lines: &[Line], of: fn(&Line) -> f64) -> Estimate {
-    let largest =
-        |of: &dyn Fn(&Line) -> f64| lines.iter().map(of).fold(0.0, |a: f64, b| a.max(b.abs()));
+    let largest = |of: &dyn Fn(&Line) -> f64| lines.iter().map(of).fold(0.0, |a: f64, b| a.max(b.abs()));
     let scale = largest(&of);
     if scale == 0.0 {
-        return Estimate {
-            value: 0.0,
-            standard_error: 0.0,
-        };
+        return Estimate { value: 0.0, standard_error: 0.0 };
     }
     let count = lines.len() as f64;
     let groups: Vec<Vec<usize>> = (0..=lines.iter().map(|line| line.group).max().unwrap_or(0))
-        .map(|group| {
-            (0..lines.len())
-                .filter(|k| lines[*k].group == group)
-                .collect()
-        })
+        .map(|group| (0..lines.len()).filter(|k| lines[*k].group == group).collect())
         .collect();
     let off_mean = |values: &[f64]| {
         let mut off = values.to_vec();
@@ -431,10 +384,7 @@ fn estimate(lines: &[Line], of: fn(&Line) -> f64) -> Estimate {
     let shared = shared.solve(&DVector::from(off_mean(&values)), DEPENDENT);
     if let Ok(factors) = shared {
         for (known, factor) in known.iter().zip(&factors) {
-            values
-                .iter_mut()
-                .zip(known)
-                .for_each(|(x, y)| *x -= factor * y);
+            values.iter_mut().zip(known).for_each(|(x, y)| *x -= factor * y);
         }
     }
     let off = off_mean(&values);

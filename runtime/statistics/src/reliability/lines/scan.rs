@@ -78,20 +78,12 @@ impl Scanned {
 
 /// The sides of a stretch of a line with these values: evaluated first at points of about this spacing, up to `reach` on
 /// either side, beyond which nothing changes any more.
-pub(super) fn scan(
-    value: impl Fn(f64) -> f64,
-    (from, to): Stretch,
-    reach: f64,
-    spacing: f64,
-) -> Scanned {
+pub(super) fn scan(value: impl Fn(f64) -> f64, (from, to): Stretch, reach: f64, spacing: f64) -> Scanned {
     let (low, high) = (from.max(-reach), to.min(reach));
     if low >= high {
         return Scanned::default();
     }
-    let scan = Scan {
-        value,
-        evaluations: Cell::new(0),
-    };
+    let scan = Scan { value, evaluations: Cell::new(0) };
     let steps = ((high - low) / spacing).ceil().max(FEWEST_STEPS);
     let abscissa = |k: i32| match f64::from(k) {
         k if k == steps => high,
@@ -101,10 +93,8 @@ pub(super) fn scan(
     scan.refine(&mut points);
     let first = points[0];
     let moved = |x: &Point| (x.value - first.value).abs() > ROUNDING * first.value.abs();
-    let mut found = Scanned {
-        moves: (points.iter()).any(|x| x.side() != first.side() || moved(x)),
-        ..Scanned::default()
-    };
+    let mut found =
+        Scanned { moves: (points.iter()).any(|x| x.side() != first.side() || moved(x)), ..Scanned::default() };
     found.enter(from, points[0].side());
     for pair in points.windows(2) {
         scan.between(pair[0], pair[1], 0, &mut found);
@@ -113,9 +103,7 @@ pub(super) fn scan(
         *end = to;
     }
     // A single point without a value has no probability.
-    let point = |(from, to, side): &(f64, f64, Side)| {
-        *side == Side::WithoutValue && to - from <= 2.0 * NARROW_JUMP
-    };
+    let point = |(from, to, side): &(f64, f64, Side)| *side == Side::WithoutValue && to - from <= 2.0 * NARROW_JUMP;
     found.stretches.retain(|stretch| !point(stretch));
     found.evaluations = scan.evaluations.get();
     found
@@ -176,11 +164,7 @@ fn may_hide(points: &[Point], k: usize) -> bool {
     let slope = |a: Point, b: Point| (b.value - a.value) / (b.s - a.s);
     let bend = |at: Point, [a, b, c]: [Point; 3]| {
         let second = 2.0 * (slope(b, c) - slope(a, b)) / (c.s - a.s);
-        let towards = if same {
-            at.value.signum()
-        } else {
-            second.signum()
-        };
+        let towards = if same { at.value.signum() } else { second.signum() };
         Some(second * towards * width * width).filter(|bend| bend.is_finite())
     };
     let before = k.checked_sub(2).and_then(|j| bend(a, [points[j], a, b]));
@@ -215,11 +199,7 @@ mod tests {
             };
             stretches.map(probability).sum()
         };
-        Sides {
-            fails: all(Side::Fails),
-            without_value: all(Side::WithoutValue),
-            evaluations: scanned.evaluations,
-        }
+        Sides { fails: all(Side::Fails), without_value: all(Side::WithoutValue), evaluations: scanned.evaluations }
     }
 
     fn everywhere(value: impl Fn(f64) -> f64, steps: u32) -> Sides {
@@ -232,10 +212,7 @@ mod tests {
     }
 
     fn close(value: f64, expected: f64) {
-        assert!(
-            (value - expected).abs() <= 1e-5 * expected,
-            "{value:e}, not {expected:e}"
-        );
+        assert!((value - expected).abs() <= 1e-5 * expected, "{value:e}, not {expected:e}");
     }
 
     #[test]
@@ -245,11 +222,7 @@ mod tests {
         close(fails(|s| (s - 1.0) * (s - 2.0)), cdf(2.0) - cdf(1.0));
         close(fails(|s| 1.0 - s * s), 2.0 * cdf(-1.0));
         let jump = |s: f64| {
-            if s > 0.3 {
-                -f64::INFINITY
-            } else {
-                f64::INFINITY
-            }
+            if s > 0.3 { -f64::INFINITY } else { f64::INFINITY }
         };
         close(fails(jump), cdf(-0.3));
     }
@@ -322,11 +295,7 @@ mod tests {
         assert!(cost(&|s: f64| s.exp() - 9.0) <= 30);
         assert!(cost(&|s: f64| (s + 1.2).atan()) <= 14);
         let jump = |s: f64| {
-            if s > 0.3 {
-                -f64::INFINITY
-            } else {
-                f64::INFINITY
-            }
+            if s > 0.3 { -f64::INFINITY } else { f64::INFINITY }
         };
         assert!(cost(&jump) <= 26);
     }

@@ -29,16 +29,8 @@ pub fn wilson(failures: u64, samples: u64, confidence: f64) -> Result<Interval, 
     let centre = p + z * z / (2.0 * n);
     let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
     let part = 1.0 + z * z / n;
-    let lower = if failures == 0 {
-        0.0
-    } else {
-        (centre - half) / part
-    };
-    let upper = if failures == samples {
-        1.0
-    } else {
-        (centre + half) / part
-    };
+    let lower = if failures == 0 { 0.0 } else { (centre - half) / part };
+    let upper = if failures == samples { 1.0 } else { (centre + half) / part };
     Ok(Interval { lower, upper })
 }
 
@@ -63,16 +55,8 @@ pub fn clopper_pearson(failures: u64, samples: u64, confidence: f64) -> Result<I
     check(failures, samples, confidence)?;
     let tail = 0.5 * (1.0 - confidence);
     let (k, n) = (failures as f64, samples as f64);
-    let lower = if failures == 0 {
-        0.0
-    } else {
-        beta_quantile(k, n - k + 1.0, tail)?
-    };
-    let upper = if failures == samples {
-        1.0
-    } else {
-        1.0 - beta_quantile(n - k, k + 1.0, tail)?
-    };
+    let lower = if failures == 0 { 0.0 } else { beta_quantile(k, n - k + 1.0, tail)? };
+    let upper = if failures == samples { 1.0 } else { 1.0 - beta_quantile(n - k, k + 1.0, tail)? };
     Ok(Interval { lower, upper })
 }
 
@@ -95,10 +79,8 @@ fn beta_quantile(a: f64, b: f64, probability: f64) -> Result<f64, Error> {
         if middle <= left || middle >= right {
             return Ok(middle);
         }
-        let below = checked_beta_reg(a, b, middle).map_err(|error| Error::Setting {
-            setting: "failures",
-            reason: error.to_string(),
-        })?;
+        let below = checked_beta_reg(a, b, middle)
+            .map_err(|error| Error::Setting { setting: "failures", reason: error.to_string() })?;
         if below < probability {
             left = middle;
         } else {
@@ -118,10 +100,7 @@ mod tests {
             let none = clopper_pearson(0, n, 0.95).unwrap();
             let expected = -(0.025_f64.ln() / n as f64).exp_m1();
             assert_eq!(none.lower, 0.0);
-            assert!(
-                (none.upper / expected - 1.0).abs() < 1e-8,
-                "{n}: {none:?} {expected}"
-            );
+            assert!((none.upper / expected - 1.0).abs() < 1e-8, "{n}: {none:?} {expected}");
             let all = clopper_pearson(n, n, 0.95).unwrap();
             assert_eq!(all.upper, 1.0);
             assert!((all.lower + none.upper - 1.0).abs() < 1e-12);

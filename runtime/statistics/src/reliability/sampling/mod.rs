@@ -42,13 +42,7 @@ pub struct SamplingSettings {
 
 impl Default for SamplingSettings {
     fn default() -> Self {
-        Self {
-            seed: 1,
-            stream: 0,
-            samples: 1_000_000,
-            batch: 1000,
-            coefficient_of_variation: 0.05,
-        }
+        Self { seed: 1, stream: 0, samples: 1_000_000, batch: 1000, coefficient_of_variation: 0.05 }
     }
 }
 
@@ -122,24 +116,13 @@ impl<'a, L: LimitState> Sampler<'a, L> {
             }
         }
         if settings.samples == 0 || settings.batch == 0 {
-            return wrong(
-                "samples",
-                "at least one is needed, in batches of one".into(),
-            );
+            return wrong("samples", "at least one is needed, in batches of one".into());
         }
         let wished = settings.coefficient_of_variation;
         if !(wished >= 0.0 && wished.is_finite()) {
-            return wrong(
-                "coefficient_of_variation",
-                format!("{wished} is negative or not finite"),
-            );
+            return wrong("coefficient_of_variation", format!("{wished} is negative or not finite"));
         }
-        Ok(Self {
-            limits,
-            failure,
-            proposal,
-            settings,
-        })
+        Ok(Self { limits, failure, proposal, settings })
     }
 
     /// The sums over samples `range`, each of which depends only on seed, stream and its number.
@@ -184,10 +167,7 @@ impl<'a, L: LimitState> Sampler<'a, L> {
         let scale = ln_scale.exp();
         let mean = |moments: &sums::Moments| {
             let mean = moments.mean(sums.samples.max(1));
-            Estimate {
-                value: scale * mean.value,
-                standard_error: scale * mean.standard_error,
-            }
+            Estimate { value: scale * mean.value, standard_error: scale * mean.standard_error }
         };
         let relative = sums.weights.mean(sums.samples.max(1));
         let some = relative.value > 0.0;

@@ -15,10 +15,7 @@ pub struct Proposal {
 impl Proposal {
     /// The standard normal density itself: plain Monte Carlo.
     pub fn standard(dimension: usize) -> Self {
-        Self {
-            centres: vec![vec![0.0; dimension]],
-            weights: vec![1.0],
-        }
+        Self { centres: vec![vec![0.0; dimension]], weights: vec![1.0] }
     }
 
     /// Densities at the design points, weighted half equally and half by their first-order probabilities.
@@ -29,13 +26,8 @@ impl Proposal {
     ///
     /// If there are no design points, or if they have different numbers of coordinates.
     pub fn around(design_points: &[DesignPoint]) -> Result<Self, Error> {
-        let largest = design_points
-            .iter()
-            .map(DesignPoint::ln_probability)
-            .fold(f64::NEG_INFINITY, f64::max);
-        let relative = design_points
-            .iter()
-            .map(|p| (p.ln_probability() - largest).exp());
+        let largest = design_points.iter().map(DesignPoint::ln_probability).fold(f64::NEG_INFINITY, f64::max);
+        let relative = design_points.iter().map(|p| (p.ln_probability() - largest).exp());
         let relative: Vec<f64> = relative.collect();
         let sum: f64 = relative.iter().sum();
         let equal = 1.0 / design_points.len() as f64;
@@ -44,10 +36,7 @@ impl Proposal {
             beta if beta < 0.0 => vec![0.0; point.point.len()],
             _ => point.point.clone(),
         };
-        Self::mixture(
-            design_points.iter().map(centre).collect(),
-            weights.collect(),
-        )
+        Self::mixture(design_points.iter().map(centre).collect(), weights.collect())
     }
 
     /// Densities at arbitrary centres, with weights in any unit.
@@ -57,26 +46,15 @@ impl Proposal {
     /// If there are no centres, if they have different numbers of coordinates, or if a number is not finite or a weight
     /// is not positive.
     pub fn mixture(centres: Vec<Vec<f64>>, weights: Vec<f64>) -> Result<Self, Error> {
-        let wrong = |setting, reason: &str| {
-            Err(Error::Setting {
-                setting,
-                reason: reason.into(),
-            })
-        };
+        let wrong = |setting, reason: &str| Err(Error::Setting { setting, reason: reason.into() });
         let Some(dimension) = centres.first().map(Vec::len) else {
             return wrong("centres", "at least one is needed");
         };
         let lengths = [(weights.len(), centres.len(), "weights of centres")].into_iter();
-        let coordinates = centres
-            .iter()
-            .map(|c| (c.len(), dimension, "coordinates of a centre"));
+        let coordinates = centres.iter().map(|c| (c.len(), dimension, "coordinates of a centre"));
         for (found, expected, kind) in lengths.chain(coordinates) {
             if found != expected {
-                return Err(Error::WrongLength {
-                    kind,
-                    found,
-                    expected,
-                });
+                return Err(Error::WrongLength { kind, found, expected });
             }
         }
         if centres.iter().flatten().any(|z| !z.is_finite()) {
@@ -86,10 +64,7 @@ impl Proposal {
             return wrong("weights", "one is not positive and finite");
         }
         let sum: f64 = weights.iter().sum();
-        Ok(Self {
-            centres,
-            weights: weights.iter().map(|w| w / sum).collect(),
-        })
+        Ok(Self { centres, weights: weights.iter().map(|w| w / sum).collect() })
     }
 
     /// The same with the standard normal density itself as a component of this weight: it reaches failures far from all
@@ -101,10 +76,7 @@ impl Proposal {
     /// If the weight is not inside (0, 1).
     pub fn defended(mut self, weight: f64) -> Result<Self, Error> {
         if !(weight > 0.0 && weight < 1.0) {
-            return Err(Error::Setting {
-                setting: "weight",
-                reason: format!("{weight} is not inside (0, 1)"),
-            });
+            return Err(Error::Setting { setting: "weight", reason: format!("{weight} is not inside (0, 1)") });
         }
         self.weights.iter_mut().for_each(|x| *x *= 1.0 - weight);
         self.weights.push(weight);

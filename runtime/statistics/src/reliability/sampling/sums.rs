@@ -35,10 +35,7 @@ impl Moments {
         let value = self.sum / n;
         let variance = (self.squares / n - value * value).max(0.0);
         let standard_error = (variance / (n - 1.0).max(1.0)).sqrt();
-        Estimate {
-            value,
-            standard_error,
-        }
+        Estimate { value, standard_error }
     }
 }
 
@@ -89,8 +86,7 @@ impl SampleSums {
         self.failures += other.failures;
         self.without_value += other.without_value;
         self.weights.join(&other.weights);
-        self.weights_without_value
-            .join(&other.weights_without_value);
+        self.weights_without_value.join(&other.weights_without_value);
         for (sum, other) in self.by_mean.iter_mut().zip(&other.by_mean) {
             sum.join(other);
         }

@@ -21,31 +21,20 @@ pub(super) fn principal_curvatures(limit: &Counted, at: &DesignPoint) -> Result<
         None => differences(limit, at, &tangents)?,
     };
     let entry = |i: usize, j: usize| {
-        let (a, b) = (
-            dot(&tangents[i], &products[j]),
-            dot(&tangents[j], &products[i]),
-        );
+        let (a, b) = (dot(&tangents[i], &products[j]), dot(&tangents[j], &products[i]));
         0.5 * (a / at.gradient_norm + b / at.gradient_norm)
     };
     let matrix = DMatrix::from_fn(tangents.len(), tangents.len(), entry);
     let mut curvatures: Vec<f64> = match matrix.nrows() {
         0 => Vec::new(),
-        _ => SymmetricEigen::new(matrix)
-            .eigenvalues
-            .iter()
-            .copied()
-            .collect(),
+        _ => SymmetricEigen::new(matrix).eigenvalues.iter().copied().collect(),
     };
     curvatures.sort_by(f64::total_cmp);
     Ok(curvatures)
 }
 
 /// `H t` for each tangent, by central differences of the gradient; a step that leaves the domain is halved.
-fn differences(
-    limit: &Counted,
-    at: &DesignPoint,
-    tangents: &[Vec<f64>],
-) -> Result<Vec<Vec<f64>>, Error> {
+fn differences(limit: &Counted, at: &DesignPoint, tangents: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, Error> {
     let along = |tangent: &Vec<f64>| {
         let mut step = STEP * at.beta.abs().max(1.0);
         for _ in 0..8 {
@@ -86,11 +75,7 @@ mod tests {
 
     #[test]
     fn tangents_are_orthonormal() {
-        for direction in [
-            vec![1.0, 0.0, 0.0],
-            vec![-0.6, 0.0, 0.8],
-            vec![0.0, -1.0, 0.0],
-        ] {
+        for direction in [vec![1.0, 0.0, 0.0], vec![-0.6, 0.0, 0.8], vec![0.0, -1.0, 0.0]] {
             let mut all = tangent_basis(&direction);
             all.push(direction);
             for (i, a) in all.iter().enumerate() {

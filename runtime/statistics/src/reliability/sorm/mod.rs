@@ -53,11 +53,7 @@ pub fn sorm<L: LimitState>(limit: &L, at: &DesignPoint) -> Result<Sorm, Error> {
         });
     }
     let curvatures = curvature::principal_curvatures(&counted, at)?;
-    Ok(Sorm {
-        beta: at.beta,
-        curvatures,
-        evaluations: counted.evaluations(),
-    })
+    Ok(Sorm { beta: at.beta, curvatures, evaluations: counted.evaluations() })
 }
 
 impl Sorm {
@@ -90,9 +86,7 @@ impl Sorm {
     ///
     /// [`Error::Curvature`] if `psi kappa <= -1`.
     pub fn hohenbichler_rackwitz(&self) -> Result<f64, Error> {
-        self.product("Hohenbichler and Rackwitz", |side| {
-            normal::hazard(side.beta)
-        })
+        self.product("Hohenbichler and Rackwitz", |side| normal::hazard(side.beta))
     }
 
     /// The exact probability of the paraboloid, by numerical integration (Tvedt 1990, *Distribution of quadratic forms
@@ -115,10 +109,7 @@ impl Sorm {
         let side = self.far_side();
         let factor = factor(&side);
         side.require(formula, factor)?;
-        let roots = side
-            .curvatures
-            .iter()
-            .map(|kappa| (1.0 + factor * kappa).sqrt());
+        let roots = side.curvatures.iter().map(|kappa| (1.0 + factor * kappa).sqrt());
         Ok(self.of_failure(normal::cdf(-side.beta) / roots.product::<f64>()))
     }
 
@@ -130,11 +121,7 @@ impl Sorm {
     }
 
     fn refusal(&self, formula: &'static str, curvature: f64) -> Error {
-        Error::Curvature {
-            formula,
-            curvature,
-            beta: self.beta,
-        }
+        Error::Curvature { formula, curvature, beta: self.beta }
     }
 
     /// The same limit with the roles of safe and failing sides exchanged if the origin fails.
@@ -150,10 +137,6 @@ impl Sorm {
     }
 
     fn of_failure(&self, beyond: f64) -> f64 {
-        if self.beta >= 0.0 {
-            beyond
-        } else {
-            1.0 - beyond
-        }
+        if self.beta >= 0.0 { beyond } else { 1.0 - beyond }
     }
 }

@@ -15,11 +15,8 @@ const INTERVALS: usize = 1_000_000;
 /// point to the left of it. Through the saddle point the integrand does not oscillate where it is significant, and the
 /// trapezoidal rule converges exponentially. `None` if there is no room for the line.
 pub(super) fn probability_beyond(beta: f64, curvatures: &[f64]) -> Option<f64> {
-    let branch = curvatures
-        .iter()
-        .filter(|&&kappa| kappa < 0.0)
-        .map(|kappa| 1.0 / kappa)
-        .fold(f64::NEG_INFINITY, f64::max);
+    let branch =
+        curvatures.iter().filter(|&&kappa| kappa < 0.0).map(|kappa| 1.0 / kappa).fold(f64::NEG_INFINITY, f64::max);
     let saddle = saddle_point(beta, curvatures, branch);
     let ln_integrand = |t: f64| {
         let s = Complex64::new(saddle, t);
@@ -47,9 +44,7 @@ pub(super) fn probability_beyond(beta: f64, curvatures: &[f64]) -> Option<f64> {
 /// generating function.
 fn saddle_point(beta: f64, curvatures: &[f64], branch: f64) -> f64 {
     let derivative = |s: f64| {
-        let factors = curvatures
-            .iter()
-            .map(|kappa| 0.5 * kappa / (1.0 - s * kappa));
+        let factors = curvatures.iter().map(|kappa| 0.5 * kappa / (1.0 - s * kappa));
         beta + s + factors.sum::<f64>() - 1.0 / s
     };
     let mut left = branch;
@@ -79,9 +74,7 @@ mod tests {
 
     /// The same probability by conditioning on one curved variable.
     fn by_conditioning(beta: f64, kappa: f64) -> f64 {
-        composite((-10.0, 10.0), 40, |y| {
-            normal::density(y) * normal::cdf(-beta - 0.5 * kappa * y * y)
-        })
+        composite((-10.0, 10.0), 40, |y| normal::density(y) * normal::cdf(-beta - 0.5 * kappa * y * y))
     }
 
     #[test]
@@ -92,10 +85,7 @@ mod tests {
             for kappa in [-0.5, -0.08, 0.02, 0.4, 3.0] {
                 let exact = by_conditioning(beta, kappa);
                 let value = probability_beyond(beta, &[kappa]).unwrap();
-                assert!(
-                    (value / exact - 1.0).abs() < 1e-9,
-                    "{beta} {kappa}: {value} {exact}"
-                );
+                assert!((value / exact - 1.0).abs() < 1e-9, "{beta} {kappa}: {value} {exact}");
             }
         }
     }

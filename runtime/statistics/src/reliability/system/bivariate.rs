@@ -46,16 +46,11 @@ pub(super) fn both_above(h: f64, k: f64, correlation: f64) -> f64 {
         return perfectly_correlated(h, k, correlation);
     }
     let sigma = rest.sqrt();
-    let ln_integrand =
-        |x: f64| -0.5 * (x * x + (2.0 * PI).ln()) + ln_upper((k - correlation * x) / sigma);
+    let ln_integrand = |x: f64| -0.5 * (x * x + (2.0 * PI).ln()) + ln_upper((k - correlation * x) / sigma);
     let highest = maximum(&ln_integrand, h);
     let top = ln_integrand(highest);
     let counts = |x: f64| ln_integrand(x) > top - NEGLIGIBLE;
-    let start = if counts(h) {
-        h
-    } else {
-        boundary(&counts, highest, h)
-    };
+    let start = if counts(h) { h } else { boundary(&counts, highest, h) };
     let end = boundary(&counts, highest, highest + 40.0);
     // The second factor rises from 0 to 1 within a few sigma of this value.
     let rise = k / correlation;
@@ -64,11 +59,7 @@ pub(super) fn both_above(h: f64, k: f64, correlation: f64) -> f64 {
     breaks.extend([rise - width, rise, rise + width]);
     breaks.retain(|x| (start..=end).contains(x));
     breaks.sort_by(f64::total_cmp);
-    let integral = |ends: &[f64]| {
-        composite((ends[0], ends[1]), PANELS, |x| {
-            (ln_integrand(x) - top).exp()
-        })
-    };
+    let integral = |ends: &[f64]| composite((ends[0], ends[1]), PANELS, |x| (ln_integrand(x) - top).exp());
     let sum: f64 = breaks.windows(2).map(integral).sum();
     sum * top.exp()
 }
@@ -81,11 +72,7 @@ fn perfectly_correlated(h: f64, k: f64, correlation: f64) -> f64 {
     if h >= -k {
         return 0.0;
     }
-    if h > 0.0 {
-        cdf(-h) - cdf(k)
-    } else {
-        cdf(-k) - cdf(h)
-    }
+    if h > 0.0 { cdf(-h) - cdf(k) } else { cdf(-k) - cdf(h) }
 }
 
 /// The place of the maximum of a concave function on `x >= least`, by golden section.
@@ -93,10 +80,7 @@ fn maximum(f: &impl Fn(f64) -> f64, least: f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let (mut left, mut right) = (least, least.max(0.0) + 40.0);
     while right - left > 1e-3 {
-        let (a, b) = (
-            right - GOLDEN * (right - left),
-            left + GOLDEN * (right - left),
-        );
+        let (a, b) = (right - GOLDEN * (right - left), left + GOLDEN * (right - left));
         if f(a) >= f(b) {
             right = b;
         } else {

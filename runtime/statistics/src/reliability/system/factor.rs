@@ -31,26 +31,17 @@ pub(super) fn factorise(bounds: &[Interval], correlation: &[Vec<f64>]) -> Result
                 return f64::INFINITY;
             }
             let sigma = variance.sqrt();
-            Slice::between(
-                (bounds[i].lower - mean) / sigma,
-                (bounds[i].upper - mean) / sigma,
-            )
-            .probability
+            Slice::between((bounds[i].lower - mean) / sigma, (bounds[i].upper - mean) / sigma).probability
         };
-        let least = (step..number)
-            .min_by(|&a, &b| probability(order[a]).total_cmp(&probability(order[b])))
-            .unwrap_or(step);
+        let least =
+            (step..number).min_by(|&a, &b| probability(order[a]).total_cmp(&probability(order[b]))).unwrap_or(step);
         order.swap(step, least);
         let pivot = order[step];
         let left = variance(pivot);
         if left < -rounding {
             return Err(not_a_correlation("it is not positive semidefinite"));
         }
-        let sigma = if left <= rounding * rounding {
-            0.0
-        } else {
-            left.sqrt()
-        };
+        let sigma = if left <= rounding * rounding { 0.0 } else { left.sqrt() };
         let column: Vec<f64> = order[step + 1..]
             .iter()
             .map(|&i| match sigma {
@@ -61,10 +52,7 @@ pub(super) fn factorise(bounds: &[Interval], correlation: &[Vec<f64>]) -> Result
         let mean = centre(&rows[pivot], &means);
         means.push(match sigma {
             0.0 => 0.0,
-            _ => truncated_mean(
-                (bounds[pivot].lower - mean) / sigma,
-                (bounds[pivot].upper - mean) / sigma,
-            ),
+            _ => truncated_mean((bounds[pivot].lower - mean) / sigma, (bounds[pivot].upper - mean) / sigma),
         });
         rows[pivot][step] = sigma;
         for (&i, entry) in order[step + 1..].iter().zip(column) {
@@ -93,25 +81,15 @@ fn truncated_mean(lower: f64, upper: f64) -> f64 {
 fn check(bounds: &[Interval], correlation: &[Vec<f64>]) -> Result<(), Error> {
     let number = bounds.len();
     if number == 0 {
-        return Err(Error::Setting {
-            setting: "bounds",
-            reason: "at least one variable is needed".into(),
-        });
+        return Err(Error::Setting { setting: "bounds", reason: "at least one variable is needed".into() });
     }
     let rows = correlation.iter().map(Vec::len);
     for found in [correlation.len()].into_iter().chain(rows) {
         if found != number {
-            return Err(Error::WrongLength {
-                kind: "rows or columns of correlations",
-                found,
-                expected: number,
-            });
+            return Err(Error::WrongLength { kind: "rows or columns of correlations", found, expected: number });
         }
     }
-    if let Some(wrong) = bounds
-        .iter()
-        .find(|b| b.lower.is_nan() || b.upper.is_nan() || b.lower > b.upper)
-    {
+    if let Some(wrong) = bounds.iter().find(|b| b.lower.is_nan() || b.upper.is_nan() || b.lower > b.upper) {
         return Err(Error::Setting {
             setting: "bounds",
             reason: format!("{} to {} is not an interval", wrong.lower, wrong.upper),
@@ -124,9 +102,7 @@ fn check(bounds: &[Interval], correlation: &[Vec<f64>]) -> Result<(), Error> {
         for (j, entry) in row.iter().enumerate() {
             let symmetric = (entry - correlation[j][i]).abs() <= 1e-9;
             if !symmetric || entry.abs() > 1.0 + 1e-9 {
-                return Err(not_a_correlation(
-                    "it is not symmetric with entries up to 1",
-                ));
+                return Err(not_a_correlation("it is not symmetric with entries up to 1"));
             }
         }
     }
@@ -134,8 +110,5 @@ fn check(bounds: &[Interval], correlation: &[Vec<f64>]) -> Result<(), Error> {
 }
 
 fn not_a_correlation(reason: &str) -> Error {
-    Error::Setting {
-        setting: "correlation",
-        reason: reason.into(),
-    }
+    Error::Setting { setting: "correlation", reason: reason.into() }
 }

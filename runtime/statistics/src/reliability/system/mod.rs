@@ -50,20 +50,14 @@ impl FirstOrderSystem {
     /// correlation matrix.
     pub fn new(betas: Vec<f64>, correlation: Vec<Vec<f64>>) -> Result<Self, Error> {
         if let Some(wrong) = betas.iter().find(|beta| !beta.is_finite()) {
-            return Err(Error::Setting {
-                setting: "betas",
-                reason: format!("{wrong} is not finite"),
-            });
+            return Err(Error::Setting { setting: "betas", reason: format!("{wrong} is not finite") });
         }
         let bounds: Vec<Interval> = betas.iter().map(|&beta| safe(beta)).collect();
         factor::factorise(&bounds, &correlation)?;
         let mut order: Vec<usize> = (0..betas.len()).collect();
         order.sort_by(|&a, &b| betas[a].total_cmp(&betas[b]));
         let row = |&i: &usize| order.iter().map(|&j| correlation[i][j]).collect();
-        Ok(Self {
-            betas: order.iter().map(|&i| betas[i]).collect(),
-            correlation: order.iter().map(row).collect(),
-        })
+        Ok(Self { betas: order.iter().map(|&i| betas[i]).collect(), correlation: order.iter().map(row).collect() })
     }
 
     /// Creates a system from design points: one per requirement or, in a series system, several.
@@ -105,10 +99,7 @@ impl FirstOrderSystem {
             lower += (single - sum).max(0.0);
             upper += (single - most).max(0.0);
         }
-        Interval {
-            lower,
-            upper: f64::min(upper, 1.0),
-        }
+        Interval { lower, upper: f64::min(upper, 1.0) }
     }
 
     /// Probability that at least one requirement fails: that the first fails, or the second but not the first, and so
@@ -126,10 +117,7 @@ impl FirstOrderSystem {
             value += part.value;
             variance += part.standard_error.powi(2);
         }
-        Ok(Estimate {
-            value: f64::min(value, 1.0),
-            standard_error: variance.sqrt(),
-        })
+        Ok(Estimate { value: f64::min(value, 1.0), standard_error: variance.sqrt() })
     }
 
     /// Probability that all requirements are met.
@@ -153,11 +141,7 @@ impl FirstOrderSystem {
     }
 
     /// Probability of a box in the leading variables.
-    fn probability_of(
-        &self,
-        bounds: &[Interval],
-        settings: &QuadratureSettings,
-    ) -> Result<Estimate, Error> {
+    fn probability_of(&self, bounds: &[Interval], settings: &QuadratureSettings) -> Result<Estimate, Error> {
         let rows = self.correlation[..bounds.len()].iter();
         let correlation: Vec<Vec<f64>> = rows.map(|row| row[..bounds.len()].to_vec()).collect();
         box_probability(bounds, &correlation, settings)
@@ -166,15 +150,9 @@ impl FirstOrderSystem {
 
 /// The requirement is met: its standard normal variable is below beta.
 fn safe(beta: f64) -> Interval {
-    Interval {
-        lower: f64::NEG_INFINITY,
-        upper: beta,
-    }
+    Interval { lower: f64::NEG_INFINITY, upper: beta }
 }
 
 fn failed(beta: f64) -> Interval {
-    Interval {
-        lower: beta,
-        upper: f64::INFINITY,
-    }
+    Interval { lower: beta, upper: f64::INFINITY }
 }

@@ -20,21 +20,14 @@ pub struct QuadratureSettings {
 
 impl Default for QuadratureSettings {
     fn default() -> Self {
-        Self {
-            points: 2000,
-            shifts: 12,
-            seed: 1,
-        }
+        Self { points: 2000, shifts: 12, seed: 1 }
     }
 }
 
 impl QuadratureSettings {
     pub(super) fn check(&self) -> Result<(), Error> {
         if self.points == 0 || self.shifts < 2 {
-            return Err(Error::Setting {
-                setting: "quadrature",
-                reason: "it needs a point and two shifts".into(),
-            });
+            return Err(Error::Setting { setting: "quadrature", reason: "it needs a point and two shifts".into() });
         }
         Ok(())
     }
@@ -94,10 +87,7 @@ pub fn box_probability(
     let number = means.len() as f64;
     let value = means.iter().sum::<f64>() / number;
     let squares: f64 = means.iter().map(|mean| (mean - value).powi(2)).sum();
-    Ok(Estimate {
-        value,
-        standard_error: (squares / (number * (number - 1.0))).sqrt(),
-    })
+    Ok(Estimate { value, standard_error: (squares / (number * (number - 1.0))).sqrt() })
 }
 
 /// Product of the conditional probabilities of each variable, given a choice of the preceding ones.
@@ -127,10 +117,6 @@ fn integrand(factor: &Factor, point: &[f64]) -> f64 {
 }
 
 fn primes() -> impl Iterator<Item = f64> {
-    let is_prime = |n: &u32| {
-        (2..)
-            .take_while(|d| d * d <= *n)
-            .all(|d| !n.is_multiple_of(d))
-    };
+    let is_prime = |n: &u32| (2..).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(d));
     (2..).filter(is_prime).map(f64::from)
 }

@@ -12,17 +12,9 @@ pub(super) struct Slice {
 impl Slice {
     pub(super) fn between(lower: f64, upper: f64) -> Self {
         let mirrored = lower > 0.0;
-        let (lower, upper) = if mirrored {
-            (-upper, -lower)
-        } else {
-            (lower, upper)
-        };
+        let (lower, upper) = if mirrored { (-upper, -lower) } else { (lower, upper) };
         let below = cdf(lower);
-        Self {
-            mirrored,
-            below,
-            probability: (cdf(upper) - below).max(0.0),
-        }
+        Self { mirrored, below, probability: (cdf(upper) - below).max(0.0) }
     }
 
     /// The value below which the fraction `part` of the slice lies.

@@ -27,9 +27,7 @@ pub(super) struct Places {
 impl Places {
     pub(super) fn of(scale: f64) -> Self {
         let octave = key(scale) / OCTAVE - SMALLEST_SHARE;
-        Self {
-            smallest: octave.max(1) * OCTAVE,
-        }
+        Self { smallest: octave.max(1) * OCTAVE }
     }
 
     #[inline(always)]
@@ -58,10 +56,7 @@ type Octave = Box<[u64; OCTAVE as usize]>;
 /// reference, take no memory.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(into = "Vec<(i32, u64)>", try_from = "Vec<(i32, u64)>")
-)]
+#[cfg_attr(feature = "serde", serde(into = "Vec<(i32, u64)>", try_from = "Vec<(i32, u64)>"))]
 pub(super) struct Buckets {
     /// Index of the first octave.
     first: i32,
@@ -113,9 +108,7 @@ impl Buckets {
             match (octave, other) {
                 (octave @ None, other) => octave.clone_from(other),
                 (Some(own), Some(other)) => {
-                    own.iter_mut()
-                        .zip(&**other)
-                        .for_each(|(x, other)| *x += other);
+                    own.iter_mut().zip(&**other).for_each(|(x, other)| *x += other);
                 }
                 (Some(_), None) => {}
             }
@@ -129,9 +122,7 @@ impl Buckets {
             let counts = counts.iter().flat_map(|counts| counts.iter());
             (octave * OCTAVE..).zip(counts)
         });
-        counts
-            .filter(|(_, count)| **count > 0)
-            .map(|(bin, count)| (bin, *count))
+        counts.filter(|(_, count)| **count > 0).map(|(bin, count)| (bin, *count))
     }
 
     /// The sum of all counts; `None` if the octaves are not those from `least` to `greatest`.
@@ -142,9 +133,7 @@ impl Buckets {
             expected.reach(least, greatest);
         }
         let fits = (expected.first, expected.octaves.len()) == (self.first, self.octaves.len());
-        let sum = self
-            .counted()
-            .try_fold(0_u64, |sum, (_, count)| sum.checked_add(count))?;
+        let sum = self.counted().try_fold(0_u64, |sum, (_, count)| sum.checked_add(count))?;
         fits.then_some(sum)
     }
 }
@@ -205,12 +194,7 @@ mod tests {
         let smallest = 0.5_f64.powi(24);
         assert_eq!(places.edges(0), (-smallest, smallest));
         assert_eq!(places.edges(1).0, smallest);
-        for (deviation, bin) in [
-            (smallest, 1),
-            (-smallest, -1),
-            (0.9999 * smallest, 0),
-            (-0.0, 0),
-        ] {
+        for (deviation, bin) in [(smallest, 1), (-smallest, -1), (0.9999 * smallest, 0), (-0.0, 0)] {
             assert_eq!(places.of_deviation(deviation), bin);
         }
         assert_eq!(places.of_deviation(2.0) - places.of_deviation(1.0), OCTAVE);

@@ -51,10 +51,7 @@ impl Sketch {
         let value = lower.value + part * (upper.value - lower.value);
         let error = (1.0 - part) * lower.error + part * upper.error;
         let rounding = 2.0 * f64::EPSILON * (lower.value.abs() + upper.value.abs());
-        Ok(Estimate {
-            value,
-            error: if error > 0.0 { error + rounding } else { 0.0 },
-        })
+        Ok(Estimate { value, error: if error > 0.0 { error + rounding } else { 0.0 } })
     }
 
     /// A confidence interval for the quantile of the distribution from which the values were drawn, with at least this
@@ -68,11 +65,7 @@ impl Sketch {
         let ranks = binomial::ranks(self.count, p, confidence)?;
         Ok(ranks.map(|ranks| {
             let [lower, upper] = [ranks.lower, ranks.upper].map(|rank| self.at_rank(rank));
-            Interval {
-                lower: lower.value - lower.error,
-                upper: upper.value + upper.error,
-                coverage: ranks.coverage,
-            }
+            Interval { lower: lower.value - lower.error, upper: upper.value + upper.error, coverage: ranks.coverage }
         }))
     }
 
@@ -84,10 +77,7 @@ impl Sketch {
     pub fn cdf(&self, value: f64) -> Result<Estimate, Error> {
         if value.is_nan() {
             let reason = "NaN is not a number".to_owned();
-            return Err(Error::Setting {
-                setting: "value",
-                reason,
-            });
+            return Err(Error::Setting { setting: "value", reason });
         }
         if self.count == 0 {
             return Err(Error::NoValues);
@@ -113,10 +103,7 @@ impl Sketch {
             }
         }
         let (within, count) = (within as f64, self.count as f64);
-        Ok(Estimate {
-            value: (below as f64 + part * within) / count,
-            error: part.max(1.0 - part) * within / count,
-        })
+        Ok(Estimate { value: (below as f64 + part * within) / count, error: part.max(1.0 - part) * within / count })
     }
 
     /// The distribution in `bins` bins, or in a single one if all values are equal.
@@ -127,10 +114,7 @@ impl Sketch {
     pub fn histogram(&self, bins: usize) -> Result<Histogram, Error> {
         if bins == 0 {
             let reason = "there must be at least one".to_owned();
-            return Err(Error::Setting {
-                setting: "bins",
-                reason,
-            });
+            return Err(Error::Setting { setting: "bins", reason });
         }
         let bins = if self.min == self.max { 1 } else { bins };
         let step = (self.max - self.min) / bins as f64;
@@ -171,10 +155,7 @@ impl Sketch {
         let value = bucket.lower + part * width;
         // Both the edges and the deviations were rounded.
         let rounding = 2.0 * f64::EPSILON * (self.reference.abs() + value.abs());
-        Estimate {
-            value,
-            error: part.max(1.0 - part) * width + rounding,
-        }
+        Estimate { value, error: part.max(1.0 - part) * width + rounding }
     }
 
     /// The buckets in the order of their values.
@@ -183,12 +164,7 @@ impl Sketch {
         self.buckets.counted().map(move |(bin, count)| {
             let (lower, upper) = places.edges(bin);
             let within = |deviation: f64| (self.reference + deviation).clamp(self.min, self.max);
-            Bucket {
-                place: bin,
-                lower: within(lower),
-                upper: within(upper),
-                count,
-            }
+            Bucket { place: bin, lower: within(lower), upper: within(upper), count }
         })
     }
 }

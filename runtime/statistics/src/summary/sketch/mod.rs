@@ -65,19 +65,9 @@ impl Sketch {
         check_number("scale", scale)?;
         if scale <= 0.0 {
             let reason = format!("{scale} is not positive");
-            return Err(Error::Setting {
-                setting: "scale",
-                reason,
-            });
+            return Err(Error::Setting { setting: "scale", reason });
         }
-        Ok(Self {
-            reference,
-            scale,
-            buckets: Buckets::default(),
-            count: 0,
-            min: 0.0,
-            max: 0.0,
-        })
+        Ok(Self { reference, scale, buckets: Buckets::default(), count: 0, min: 0.0, max: 0.0 })
     }
 
     /// Adds values.
@@ -91,9 +81,7 @@ impl Sketch {
         }
         let (_, min, max) = lanes::sum_and_range(values, 0.0);
         self.include(values.len() as u64, min, max);
-        values
-            .chunks(CHUNK)
-            .for_each(|values| self.count_all(values));
+        values.chunks(CHUNK).for_each(|values| self.count_all(values));
         Ok(())
     }
 
@@ -142,19 +130,10 @@ impl Sketch {
         }
         // Adding zero turns -0 into 0: which of them comes first depends on the order.
         let (min, max) = (min + 0.0, max + 0.0);
-        self.min = if self.count == 0 || min < self.min {
-            min
-        } else {
-            self.min
-        };
-        self.max = if self.count == 0 || max > self.max {
-            max
-        } else {
-            self.max
-        };
+        self.min = if self.count == 0 || min < self.min { min } else { self.min };
+        self.max = if self.count == 0 || max > self.max { max } else { self.max };
         self.count += count;
-        self.buckets
-            .reach(self.place(self.min), self.place(self.max));
+        self.buckets.reach(self.place(self.min), self.place(self.max));
     }
 
     /// Counts at most [`CHUNK`] values, which lie between `min` and `max`.
@@ -186,10 +165,7 @@ impl Sketch {
         numbers.iter().all(|number| number.abs() <= super::LARGEST)
             && self.scale > 0.0
             && self.min <= self.max
-            && self
-                .buckets
-                .total(self.place(self.min), self.place(self.max))
-                == Some(self.count)
+            && self.buckets.total(self.place(self.min), self.place(self.max)) == Some(self.count)
     }
 
     /// Whether both count the same buckets.

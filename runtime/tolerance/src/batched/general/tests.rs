@@ -79,9 +79,7 @@ fn solved(reference: &Reference, here: &[Linear; WIDTH]) -> LaneEigenvalues {
     let bits = |(all, flags): &LaneEigenvalues| {
         let accepted = all.iter().zip(flags).filter(|(_, flag)| **flag);
         let numbers = accepted.flat_map(|(x, _)| x.iter());
-        let numbers: Vec<_> = numbers
-            .flat_map(|(s, error)| [s.re, s.im, *error].map(f64::to_bits))
-            .collect();
+        let numbers: Vec<_> = numbers.flat_map(|(s, error)| [s.re, s.im, *error].map(f64::to_bits)).collect();
         (numbers, *flags)
     };
     let scalar = Instructions::SCALAR.run(&task);
@@ -122,9 +120,7 @@ fn compare(rounds: usize) -> (usize, usize) {
             for &(s, error) in roots {
                 let both = [Some(s), (s.im > 0.0).then(|| s.conj())];
                 for s in both.into_iter().flatten() {
-                    let same = |other: &(Complex64, f64)| {
-                        (s - other.0).norm() <= error + other.1 + 1e-13 * s.norm()
-                    };
+                    let same = |other: &(Complex64, f64)| (s - other.0).norm() <= error + other.1 + 1e-13 * s.norm();
                     let index = left.iter().position(same);
                     left.remove(index.unwrap_or_else(|| panic!("round {round}: {s} {left:?}")));
                 }
@@ -149,9 +145,7 @@ fn modes_in_lanes_are_those_alone_in_great_number() {
 
 /// Whether a pencil is accepted from a given reference; both are diagonal.
 fn accepted(there: [[f64; 2]; 2], here: [[f64; 2]; 2]) -> bool {
-    let diagonal = |elements: [f64; 2]| {
-        algebra::Matrix::from_fn(2, 2, |i, j| if i == j { elements[i] } else { 0.0 })
-    };
+    let diagonal = |elements: [f64; 2]| algebra::Matrix::from_fn(2, 2, |i, j| if i == j { elements[i] } else { 0.0 });
     let pencil = |[damping, stiffness]: [[f64; 2]; 2]| Linear {
         mass: diagonal([1.0; 2]),
         damping: diagonal(damping),

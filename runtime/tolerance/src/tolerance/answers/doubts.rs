@@ -13,10 +13,7 @@ fn shared(all: &[impl AsRef<[Doubt]>]) -> Vec<(Vec<usize>, &Doubt)> {
     for (mode, doubts) in all.iter().enumerate() {
         for doubt in doubts.as_ref() {
             let of_one = matches!(doubt, Doubt::EqualNeighbours | Doubt::NearNeighbour { .. });
-            match said
-                .iter_mut()
-                .find(|(_, other)| !of_one && *other == doubt)
-            {
+            match said.iter_mut().find(|(_, other)| !of_one && *other == doubt) {
                 Some((modes, _)) => modes.push(mode),
                 None => said.push((vec![mode], doubt)),
             }
@@ -27,8 +24,7 @@ fn shared(all: &[impl AsRef<[Doubt]>]) -> Vec<(Vec<usize>, &Doubt)> {
 
 /// Each doubt in a sentence, with all the modes that share it.
 pub fn doubt_sentences(all: &[impl AsRef<[Doubt]>]) -> Vec<String> {
-    let sentence =
-        |(modes, doubt): &(Vec<usize>, &Doubt)| format!("{}: {doubt}", capital(named(modes)));
+    let sentence = |(modes, doubt): &(Vec<usize>, &Doubt)| format!("{}: {doubt}", capital(named(modes)));
     shared(all).iter().map(sentence).collect()
 }
 
@@ -54,9 +50,7 @@ pub fn doubted(said: &mut Findings, all: &[impl AsRef<[Doubt]>]) {
         }
     }
     if open {
-        said.note(
-            "Distances do not tell how large an error is: `summary` compares sigma with samples.",
-        );
+        said.note("Distances do not tell how large an error is: `summary` compares sigma with samples.");
     }
 }
 
@@ -70,16 +64,12 @@ impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoFrequency => write!(f, "no oscillation, so there is no frequency to spread."),
-            Self::Clustered {
-                defective: true, ..
-            } => write!(
+            Self::Clustered { defective: true, .. } => write!(
                 f,
                 "merged into one defective eigenvalue, which splits as the square root of any change. There is no \
                  sigma at first order."
             ),
-            Self::Clustered {
-                modes, distance, ..
-            } => write!(
+            Self::Clustered { modes, distance, .. } => write!(
                 f,
                 "tolerances mix {}, {} standard deviations apart. None has a sigma of its own: use that of the \
                  mean, of the lowest and of the highest below, or of samples.",
@@ -96,10 +86,9 @@ impl fmt::Display for Doubt {
                 "sigma of the {} is due to values too rare to be among the samples: nothing confirms it.",
                 quantity
             ),
-            Self::NearCritical { distance: 0.0 } => write!(
-                f,
-                "the stiffness is zero within rounding: this is a critical state. Sigma is meaningless here."
-            ),
+            Self::NearCritical { distance: 0.0 } => {
+                write!(f, "the stiffness is zero within rounding: this is a critical state. Sigma is meaningless here.")
+            }
             Self::NearCritical { distance } => write!(
                 f,
                 "the critical state is {} standard deviations away. Within {TRUSTED_DISTANCE} of them the error of sigma \
@@ -114,25 +103,19 @@ impl fmt::Display for Doubt {
                 short(distance.abs())
             ),
             Self::EqualNeighbours => {
-                write!(
-                    f,
-                    "it has nearly equal neighbours and no derivative of its own."
-                )
+                write!(f, "it has nearly equal neighbours and no derivative of its own.")
             }
-            Self::NearNeighbour { distance } => write!(
-                f,
-                "samples may mix it with another mode, {} standard deviations away.",
-                short(*distance)
-            ),
+            Self::NearNeighbour { distance } => {
+                write!(f, "samples may mix it with another mode, {} standard deviations away.", short(*distance))
+            }
             Self::NearInstability { distance: 0.0 } => write!(
                 f,
                 "the vibration neither grows nor decays within rounding. Sigma counts samples that are unstable: see the counts of Monte \
                  Carlo."
             ),
-            Self::NearInstability { distance } if *distance < 0.0 => write!(
-                f,
-                "the vibration grows. Sigma is that of the frequency of a motion that does not stay small."
-            ),
+            Self::NearInstability { distance } if *distance < 0.0 => {
+                write!(f, "the vibration grows. Sigma is that of the frequency of a motion that does not stay small.")
+            }
             Self::NearInstability { distance } => write!(
                 f,
                 "the vibration begins to grow {} standard deviations away. Sigma counts samples that are unstable: see \
@@ -145,10 +128,7 @@ impl fmt::Display for Doubt {
                  {TRUSTED_DISTANCE} of them the error of sigma has no bound.",
                 short(*distance)
             ),
-            Self::Nonlinear {
-                quantity,
-                sigma_error,
-            } => {
+            Self::Nonlinear { quantity, sigma_error } => {
                 let name = quantity;
                 write!(
                     f,
@@ -164,15 +144,9 @@ impl fmt::Display for Doubt {
                 100.0 * error.value.abs(),
                 if error.value < 0.0 { "below" } else { "above" }
             ),
-            Self::Missing {
-                quantity,
-                count,
-                samples,
-            } => write!(
-                f,
-                "only {count} of {samples} samples have its {}.",
-                quantity
-            ),
+            Self::Missing { quantity, count, samples } => {
+                write!(f, "only {count} of {samples} samples have its {}.", quantity)
+            }
             Self::Unchecked { reason } => {
                 write!(f, "sigma was not checked against second order: {reason}.")
             }

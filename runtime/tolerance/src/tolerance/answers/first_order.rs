@@ -16,10 +16,7 @@ pub fn spread_of(spread: &Spread) -> f64 {
 
 /// A distance in standard deviations; `-` if it is infinite.
 pub fn far(distance: f64) -> String {
-    or_dash(
-        Some(distance).filter(|distance| distance.is_finite()),
-        short,
-    )
+    or_dash(Some(distance).filter(|distance| distance.is_finite()), short)
 }
 
 /// Whether no tolerance moves the mode, alone or relative to others.
@@ -44,9 +41,7 @@ impl Answer for FirstOrder {
     fn findings(&self) -> Findings {
         let title = title(&self.description, &self.inputs);
         let mut said = Findings::titled(format!("{title}: first-order spread of the frequencies"));
-        let doubts: Vec<Vec<Doubt>> = (0..self.modes.len())
-            .map(|mode| self.doubts(mode))
-            .collect();
+        let doubts: Vec<Vec<Doubt>> = (0..self.modes.len()).map(|mode| self.doubts(mode)).collect();
         let moved = self.varies && !self.modes.iter().all(unmoved);
         self.spreads(&mut said, &doubts, moved);
         if !self.varies {
@@ -103,11 +98,7 @@ impl FirstOrder {
     fn spreads(&self, said: &mut Findings, doubts: &[Vec<Doubt>], moved: bool) {
         let d = &self.description;
         let modes = self.modes.iter().zip(doubts).enumerate();
-        let rows = modes.map(|(r, (mode, doubts))| Row {
-            number: r + 1,
-            mode,
-            doubts,
-        });
+        let rows = modes.map(|(r, (mode, doubts))| Row { number: r + 1, mode, doubts });
         let rows: Vec<Row<'_>> = rows.collect();
         let mut table = Columns::new("first-order tolerances", &rows);
         if !moved {
@@ -115,33 +106,18 @@ impl FirstOrder {
         }
         table.whole("mode", &|row| Some(row.number)).shown();
         let general = self.family == Family::General;
-        for quantity in [
-            Quantity::Frequency,
-            Quantity::NaturalFrequency,
-            Quantity::DampingRatio,
-            Quantity::Growth,
-        ] {
+        for quantity in [Quantity::Frequency, Quantity::NaturalFrequency, Quantity::DampingRatio, Quantity::Growth] {
             self.spread_columns(&mut table, quantity, general);
         }
         table.words("motion", &|row| Some(row.mode.behaviour.word().to_owned()));
         table.flag("cluster", &|row| Some(row.mode.clustered));
-        table.number("distance to critical", "sigma", &|row| {
-            Some(row.mode.distance_to_critical)
-        });
-        table.number("distance to instability", "sigma", &|row| {
-            Some(row.mode.distance_to_instability)
-        });
-        table.number("distance to neighbour", "sigma", &|row| {
-            Some(row.mode.distance_to_neighbour)
-        });
+        table.number("distance to critical", "sigma", &|row| Some(row.mode.distance_to_critical));
+        table.number("distance to instability", "sigma", &|row| Some(row.mode.distance_to_instability));
+        table.number("distance to neighbour", "sigma", &|row| Some(row.mode.distance_to_neighbour));
         if general {
-            table.cells("to instability [sigma]", &|row| {
-                row.distance(row.mode.distance_to_instability)
-            });
+            table.cells("to instability [sigma]", &|row| row.distance(row.mode.distance_to_instability));
         }
-        table.cells("to critical [sigma]", &|row| {
-            row.distance(row.mode.distance_to_critical)
-        });
+        table.cells("to critical [sigma]", &|row| row.distance(row.mode.distance_to_critical));
         table.words("doubts", &|row| joined(row.doubts));
         table.number("sigma level", "", &|_| Some(self.sigma_level));
         table.shares(d, &Row::shares);
@@ -158,12 +134,8 @@ impl FirstOrder {
         let unit = quantity.unit().symbol;
         let of = |row: &Row<'_>| row.mode.of(quantity).filter(|_| row.alone());
         table.number(&quantity.to_string(), &unit, &|row| Some(of(row)?.mean));
-        table.number(&format!("sigma of {quantity}"), &unit, &|row| {
-            Some(of(row)?.sigma)
-        });
-        table.number(&format!("band of {quantity}"), &unit, &|row| {
-            Some(of(row)?.band)
-        });
+        table.number(&format!("sigma of {quantity}"), &unit, &|row| Some(of(row)?.sigma));
+        table.number(&format!("band of {quantity}"), &unit, &|row| Some(of(row)?.band));
         match quantity {
             Quantity::Frequency => {
                 table.cells("mean [rad/s]", &|row| {
@@ -178,9 +150,7 @@ impl FirstOrder {
                 });
             }
             Quantity::DampingRatio if general => {
-                table.cells("damping ratio", &|row| {
-                    or_dash(row.mode.damping_ratio().map(|x| x.mean), rough)
-                });
+                table.cells("damping ratio", &|row| or_dash(row.mode.damping_ratio().map(|x| x.mean), rough));
                 table.cells("sigma", &|row| row.sigma(row.mode.damping_ratio()));
             }
             _ => {}
@@ -190,9 +160,9 @@ impl FirstOrder {
     /// The rates of modes without a frequency.
     fn rates(&self, said: &mut Findings) {
         for (r, mode) in self.modes.iter().enumerate() {
-            let rate = mode.growth().filter(|item| {
-                mode.behaviour.frequency().is_none() && !mode.clustered && spread_of(item) != 0.0
-            });
+            let rate = mode
+                .growth()
+                .filter(|item| mode.behaviour.frequency().is_none() && !mode.clustered && spread_of(item) != 0.0);
             let Some(rate) = rate else { continue };
             let verb = if rate.mean > 0.0 { "grows" } else { "decays" };
             said.note(format!(

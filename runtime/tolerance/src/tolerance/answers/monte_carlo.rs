@@ -75,38 +75,25 @@ impl MonteCarlo {
             damping: damping.as_ref(),
         });
         let rows: Vec<Row<'_>> = rows.collect();
-        let (told, without): (Vec<usize>, Vec<usize>) =
-            (0..rows.len()).partition(|&r| rows[r].frequency.is_some());
+        let (told, without): (Vec<usize>, Vec<usize>) = (0..rows.len()).partition(|&r| rows[r].frequency.is_some());
         let mut table = Columns::new("Monte Carlo", &rows);
         table.show_rows(told);
         table.whole("mode", &|row| Some(row.mode)).shown();
         statistics(&mut table, "frequency", "rad/s", &|row| row.frequency);
         statistics(&mut table, "damping ratio", "", &|row| row.damping);
         origin(&mut table, self);
-        table.cells("mean [rad/s]", &|row| {
-            row.shown(|row| Some(row.mean), number)
-        });
-        table.cells("std. error", &|row| {
-            row.shown(|row| row.standard_error, short)
-        });
+        table.cells("mean [rad/s]", &|row| row.shown(|row| Some(row.mean), number));
+        table.cells("std. error", &|row| row.shown(|row| row.standard_error, short));
         table.cells("sigma [rad/s]", &|row| row.shown(sigma, rough));
         table.cells("min", &|row| row.shown(|row| Some(row.min), number));
         table.cells("max", &|row| row.shown(|row| Some(row.max), number));
         let complete = |statistics: &Statistics| statistics.count == self.counts.stable as u64;
         if !self.modes.iter().flatten().all(complete) {
-            table.cells("samples", &|row| {
-                row.frequency
-                    .map_or(0, |frequency| frequency.count)
-                    .to_string()
-            });
+            table.cells("samples", &|row| row.frequency.map_or(0, |frequency| frequency.count).to_string());
         }
         if self.family == Family::General {
-            table.cells("damping ratio", &|row| {
-                or_dash(row.damping.map(|damping| damping.mean), rough)
-            });
-            table.cells("sigma", &|row| {
-                or_dash(row.damping.and_then(|damping| damping.sigma), rough)
-            });
+            table.cells("damping ratio", &|row| or_dash(row.damping.map(|damping| damping.mean), rough));
+            table.cells("sigma", &|row| or_dash(row.damping.and_then(|damping| damping.sigma), rough));
         }
         said.columns(table);
         if !without.is_empty() {
@@ -114,9 +101,7 @@ impl MonteCarlo {
             let numbers: Vec<&str> = numbers.iter().map(String::as_str).collect();
             let word = if without.len() == 1 { "Mode" } else { "Modes" };
             let numbers = names(&numbers, "of them");
-            said.note(format!(
-                "{word} {numbers}: no oscillation in any stable sample, so no frequency."
-            ));
+            said.note(format!("{word} {numbers}: no oscillation in any stable sample, so no frequency."));
         }
     }
 
@@ -126,9 +111,7 @@ impl MonteCarlo {
         table.words("outcome", &|row| Some(row.0.to_owned()));
         table.whole("samples", &|row| Some(row.1));
         // Of the stable samples.
-        table.whole("on another branch", &|row| {
-            (row.0 == "stable").then_some(self.left_nominal_branch)
-        });
+        table.whole("on another branch", &|row| (row.0 == "stable").then_some(self.left_nominal_branch));
         origin(&mut table, self);
         said.columns(table);
     }
@@ -143,20 +126,13 @@ impl MonteCarlo {
     /// What one has to know to read the numbers.
     fn remarks(&self, said: &mut Findings) {
         if self.samples < self.planned {
-            said.note(format!(
-                "Not complete: {} samples were asked for.",
-                self.planned
-            ));
+            said.note(format!("Not complete: {} samples were asked for.", self.planned));
         }
         if self.side_by_side {
-            said.note(
-                "Samples were solved side by side in vectors: solved one by one, the last bits would differ.",
-            );
+            said.note("Samples were solved side by side in vectors: solved one by one, the last bits would differ.");
         }
         if self.clustered {
-            said.note(
-                "Modes with equal nominal eigenvalues count in ascending order in each sample.",
-            );
+            said.note("Modes with equal nominal eigenvalues count in ascending order in each sample.");
         }
         if self.left_nominal_branch > 0 {
             said.note(format!(
@@ -195,23 +171,14 @@ impl MonteCarlo {
         head.extend(QUANTILES.map(|p| format!("{} %", given(100.0 * p))));
         let mut table = Grid::new(head);
         let frequencies = self.modes.iter().map(|mode| ("frequency", mode));
-        let dampings = self
-            .damping_ratios
-            .iter()
-            .map(|damping_ratio| ("damping ratio", damping_ratio));
+        let dampings = self.damping_ratios.iter().map(|damping_ratio| ("damping ratio", damping_ratio));
         let both = frequencies.enumerate().chain(dampings.enumerate());
         for (r, (name, statistics)) in both {
-            let Some((statistics, skewness)) =
-                statistics.as_ref().and_then(|x| Some((x, x.skewness?)))
-            else {
+            let Some((statistics, skewness)) = statistics.as_ref().and_then(|x| Some((x, x.skewness?))) else {
                 continue;
             };
-            let moves = statistics
-                .sigma
-                .is_some_and(|sigma| unless_rounding(sigma, statistics.mean) != 0.0);
-            let told = statistics
-                .skewness_error
-                .is_some_and(|error| skewness.abs() > 4.0 * error);
+            let moves = statistics.sigma.is_some_and(|sigma| unless_rounding(sigma, statistics.mean) != 0.0);
+            let told = statistics.skewness_error.is_some_and(|error| skewness.abs() > 4.0 * error);
             if skewness.abs() < SKEWED || !told || !moves {
                 continue;
             }

@@ -50,11 +50,7 @@ impl Answer for OutputTolerances {
         let mut said = Findings::titled(format!("{title}: first-order spread of the outputs"));
         let values = self.values.iter().zip(&self.spreads);
         let rows = d.outputs.iter().zip(values);
-        let rows = rows.map(|(info, (&nominal, spread))| Row {
-            info,
-            nominal,
-            spread: spread.as_ref(),
-        });
+        let rows = rows.map(|(info, (&nominal, spread))| Row { info, nominal, spread: spread.as_ref() });
         let rows: Vec<Row<'_>> = rows.collect();
         let mut table = Columns::new("output tolerances", &rows);
         table.words("output", &|row| Some(row.info.name.to_string()));

@@ -26,9 +26,7 @@ pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table
 #[must_use]
 pub fn numbered_samples_table(run: &MonteCarlo, samples: &[(u64, Sample)]) -> Table {
     let each = samples.iter();
-    let rows: Vec<_> = each
-        .map(|(number, sample)| (*number as usize, sample))
-        .collect();
+    let rows: Vec<_> = each.map(|(number, sample)| (*number as usize, sample)).collect();
     let mut table = samples_columns(&run.description, run.modes.len(), &rows);
     origin(&mut table, run);
     let mut table = table.finish().0;
@@ -55,12 +53,8 @@ pub(super) fn samples_columns<'a>(
     table.unknowns(d, &|(_, x)| x.coordinates.as_deref());
     for r in 0..modes {
         let number = r + 1;
-        table.number(&format!("frequency {number}"), "rad/s", &|(_, x)| {
-            *x.frequencies.get(r)?
-        });
-        table.number(&format!("damping ratio {number}"), "", &|(_, item)| {
-            *item.damping_ratios.get(r)?
-        });
+        table.number(&format!("frequency {number}"), "rad/s", &|(_, x)| *x.frequencies.get(r)?);
+        table.number(&format!("damping ratio {number}"), "", &|(_, item)| *item.damping_ratios.get(r)?);
         let s = move |sample: &Sample| *sample.eigenvalues.get(r)?;
         table.number(&format!("Re s {number}"), "1/s", &|(_, x)| Some(s(x)?.re));
         table.number(&format!("Im s {number}"), "1/s", &|(_, x)| Some(s(x)?.im));

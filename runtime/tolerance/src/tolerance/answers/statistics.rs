@@ -7,16 +7,9 @@ use eigentol_results::{Columns, Table};
 use crate::tolerance::{Counts, Outcome, Statistics};
 
 /// Columns of data about the samples of one quantity.
-pub fn statistics<R>(
-    table: &mut Columns<'_, R>,
-    name: &str,
-    unit: &str,
-    of: &dyn Fn(&R) -> Option<&Statistics>,
-) {
+pub fn statistics<R>(table: &mut Columns<'_, R>, name: &str, unit: &str, of: &dyn Fn(&R) -> Option<&Statistics>) {
     type Pick = fn(&Statistics) -> Option<f64>;
-    table.whole(&format!("samples of {name}"), &|row| {
-        Some(of(row).map_or(0, |x| x.count as usize))
-    });
+    table.whole(&format!("samples of {name}"), &|row| Some(of(row).map_or(0, |x| x.count as usize)));
     let picks: [(&str, &str, Pick); 6] = [
         ("mean", unit, |x| Some(x.mean)),
         ("standard error", unit, |x| x.standard_error),

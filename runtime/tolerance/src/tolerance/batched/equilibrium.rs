@@ -4,9 +4,7 @@ use super::statics::{Forces, Potential, Statics, row};
 use super::{SampleBatch, TaylorModel};
 use crate::algebra::Matrix;
 use crate::batched::POSITIVE;
-use crate::batched::algebra::{
-    self, Row, Square, congruent, for_size_up_to, keep, load_matrix, small,
-};
+use crate::batched::algebra::{self, Row, Square, congruent, for_size_up_to, keep, load_matrix, small};
 use crate::batched::closed::{self, FactoredMatrix};
 use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
 use crate::kernels::{BatchPoint, Kernels};
@@ -61,17 +59,8 @@ pub(super) fn nominal_stiffness<const N: usize>(
     instructions: Instructions,
     batch: &mut SampleBatch<'_>,
 ) {
-    let point = BatchPoint {
-        q: batch.coordinates,
-        u: &prepared.inputs,
-        b: &prepared.design,
-    };
-    prepared.kernels.residual_and_stiffness_batch(
-        instructions,
-        point,
-        batch.residual,
-        batch.stiffness,
-    );
+    let point = BatchPoint { q: batch.coordinates, u: &prepared.inputs, b: &prepared.design };
+    prepared.kernels.residual_and_stiffness_batch(instructions, point, batch.residual, batch.stiffness);
 }
 
 /// Flags samples at rest near the nominal equilibrium whose stiffness stays close to the nominal one all the way. They
@@ -152,10 +141,7 @@ pub(super) fn between_modes<V: Lanes, const N: usize>(
     batch: &mut SampleBatch<'_>,
     at: usize,
 ) {
-    for (from, to) in [
-        (&*batch.linear.mass, &mut *batch.mass),
-        (&*batch.linear.stiffness, &mut *batch.stiffness),
-    ] {
+    for (from, to) in [(&*batch.linear.mass, &mut *batch.mass), (&*batch.linear.stiffness, &mut *batch.stiffness)] {
         let matrix: Square<V, N> = load_matrix(n, from, at);
         let matrix = congruent(n, &matrix, &potential.shapes);
         let to = &mut to[..n * n];
@@ -194,12 +180,7 @@ impl<const N: usize> Potential<N> {
     ///
     /// It is checked here and, using its derivative, from the nominal position to its mirror image.
     #[inline(always)]
-    fn definite_all_the_way<V: Lanes>(
-        &self,
-        n: usize,
-        stiffness: &Square<V, N>,
-        displacement: &Row<V, N>,
-    ) -> V {
+    fn definite_all_the_way<V: Lanes>(&self, n: usize, stiffness: &Square<V, N>, displacement: &Row<V, N>) -> V {
         let mut nearby = *stiffness;
         let mut nominal = [[V::constant(0.0); N]; N];
         for i in 0..n {
@@ -271,12 +252,7 @@ impl<const N: usize> Forces<N> {
 
     /// Whether the stiffness, and that of the nominal design at the same place, are close to the nominal one.
     #[inline(always)]
-    fn both_regular<V: Lanes>(
-        &self,
-        n: usize,
-        stiffness: &Square<V, N>,
-        of_nominal_design: &Square<V, N>,
-    ) -> V {
+    fn both_regular<V: Lanes>(&self, n: usize, stiffness: &Square<V, N>, of_nominal_design: &Square<V, N>) -> V {
         let (_, regular) = self.relative(n, stiffness);
         let (_, nominal) = self.relative(n, of_nominal_design);
         keep(regular, V::constant(1.0).at_most(nominal))
@@ -310,11 +286,7 @@ impl<const N: usize> Forces<N> {
 /// `1/2 d2g/dq2 step step`, the residual that a Newton step leaves. `curvature` holds `1/2 dKhat/dq_k`, doubled off the
 /// diagonal in `k` and `j`.
 #[inline(always)]
-fn curved<V: Lanes, const N: usize>(
-    n: usize,
-    curvature: &[Square<f64, N>],
-    step: &Row<V, N>,
-) -> Row<V, N> {
+fn curved<V: Lanes, const N: usize>(n: usize, curvature: &[Square<f64, N>], step: &Row<V, N>) -> Row<V, N> {
     let mut rest = [V::constant(0.0); N];
     let curvature = &curvature[..n];
     for k in 0..n {

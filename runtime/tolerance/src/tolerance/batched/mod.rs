@@ -31,10 +31,7 @@
 //! A Monte Carlo sample is a long chain of dependent operations. Several batches therefore pass each stage together
 //! (design, prediction, steps, matrices, modes), one stage writing what the next reads: while one batch waits, the
 //! processor works on its neighbours.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "rows and columns of several matrices"
-)]
+#![allow(clippy::needless_range_loop, reason = "rows and columns of several matrices")]
 
 mod equilibrium;
 mod modes;

@@ -62,8 +62,7 @@ pub(super) fn general<V: Lanes, const N: usize>(
     let (all, recognised) = pencil.eigenvalues(reference, damped);
     flag = keep(flag, V::constant(1.0).at_most(recognised));
     // Without dissipation, a motion that stays bounded has imaginary eigenvalues.
-    let conservative =
-        description.symmetric_stiffness && description.damping != DampingKind::General;
+    let conservative = description.symmetric_stiffness && description.damping != DampingKind::General;
     let modes = batch.frequencies.iter_mut().zip(&mut *batch.rates);
     for ((frequency, rate), (s, error)) in modes.zip(all.as_flattened()) {
         s.im.store(frequency, at);

@@ -38,10 +38,7 @@ impl Nominal<'_> {
             let factors = Lu::new(&stiffness)?;
             right.map(|right| factors.solve(&right)).collect()
         };
-        slopes
-            .iter()
-            .all(|slope| all_finite(slope))
-            .then_some(slopes)
+        slopes.iter().all(|slope| all_finite(slope)).then_some(slopes)
     }
 
     /// Coefficients of `db_j db_k`, `j <= k`: half of `d2q*/db_j db_k` for equal variables, all of it for different
@@ -62,10 +59,7 @@ impl Nominal<'_> {
                 let mut b = self.state.design.clone();
                 b[variable] += step;
                 let nominal = self.state.coordinates.iter();
-                let q: Vector = nominal
-                    .zip(&first[k])
-                    .map(|(q, slope)| q + step * slope)
-                    .collect();
+                let q: Vector = nominal.zip(&first[k]).map(|(q, slope)| q + step * slope).collect();
                 self.slopes(&q, &b, varied)
             };
             let (above, below) = (at(step)?, at(-step)?);
@@ -87,25 +81,13 @@ impl Nominal<'_> {
     pub(super) fn reach(&self, varied: &[usize], first: &[Vector], deviations: &[f64]) -> Vector {
         Vector::from_fn(self.state.coordinates.len(), |k| {
             let motions = first.iter().zip(varied);
-            motions.fold(SMALL, |sum, (slope, &j)| {
-                sum + (slope[k] * deviations[j]).abs()
-            })
+            motions.fold(SMALL, |sum, (slope, &j)| sum + (slope[k] * deviations[j]).abs())
         })
     }
 
     /// `dKhat/dq_k` by differences over this displacement; `None` if the stiffness of a mode is too nonlinear over it.
-    pub(super) fn stiffening(
-        &self,
-        reach: &[f64],
-        shapes: &Matrix,
-        lambda: &[f64],
-    ) -> Option<Vec<Matrix>> {
-        let Equilibrium {
-            coordinates,
-            inputs,
-            design,
-            ..
-        } = self.state;
+    pub(super) fn stiffening(&self, reach: &[f64], shapes: &Matrix, lambda: &[f64]) -> Option<Vec<Matrix>> {
+        let Equilibrium { coordinates, inputs, design, .. } = self.state;
         let n = coordinates.len();
         let here = &self.state.linear.stiffness;
         let mut slopes = Vec::with_capacity(n);
@@ -116,13 +98,11 @@ impl Nominal<'_> {
                 self.mechanism.residual_and_stiffness(&q, inputs, design).1
             };
             let (above, below) = (at(reach[k]), at(-reach[k]));
-            let slope =
-                Matrix::from_fn(n, n, |i, j| (above[i][j] - below[i][j]) / (2.0 * reach[k]));
+            let slope = Matrix::from_fn(n, n, |i, j| (above[i][j] - below[i][j]) / (2.0 * reach[k]));
             let bend = Matrix::from_fn(n, n, |i, j| 0.5 * (above[i][j] + below[i][j]) - here[i][j]);
             let bend = between(&bend, shapes);
-            let straight = (0..n).all(|r| {
-                (0..n).all(|s| bend[r][s].abs() <= STRAIGHT * (lambda[r] * lambda[s]).sqrt())
-            });
+            let straight =
+                (0..n).all(|r| (0..n).all(|s| bend[r][s].abs() <= STRAIGHT * (lambda[r] * lambda[s]).sqrt()));
             if !straight || !all_finite_matrix(&slope) {
                 return None;
             }

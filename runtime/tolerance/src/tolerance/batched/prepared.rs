@@ -61,11 +61,7 @@ impl<'a> Prepared<'a> {
     }
 
     /// Solves the members of several batches from their random bits.
-    pub(in crate::tolerance) fn solve(
-        &self,
-        instructions: Instructions,
-        batches: &mut [SampleBatch<'_>],
-    ) {
+    pub(in crate::tolerance) fn solve(&self, instructions: Instructions, batches: &mut [SampleBatch<'_>]) {
         match self {
             Self::Four(model) => model.solve(instructions, batches),
             Self::Eight(model) => model.solve(instructions, batches),
@@ -79,9 +75,7 @@ impl<'a> Prepared<'a> {
 pub fn possible(description: &Description, family: Family) -> bool {
     let undamped = description.damping == DampingKind::Zero;
     (1..=MOST).contains(&description.coordinates.len())
-        && KERNELS
-            .iter()
-            .all(|name| description.kernel(name).is_some())
+        && KERNELS.iter().all(|name| description.kernel(name).is_some())
         && Structure::of(description).holonomic()
         && match family {
             Family::Undamped => undamped && description.symmetric_stiffness,

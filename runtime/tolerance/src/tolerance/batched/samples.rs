@@ -75,17 +75,11 @@ impl Memory {
         let (n, p) = (size.unknowns, size.design);
         let pairs = p.div_ceil(2);
         let of_each = p + 2 * pairs + 2 * n + 2 * size.modes + 4 * n * n + size.damping();
-        Self {
-            numbers: vec![Batch::default(); count * of_each],
-            bits: vec![[[0; WIDTH]; 2]; count * pairs],
-        }
+        Self { numbers: vec![Batch::default(); count * of_each], bits: vec![[[0; WIDTH]; 2]; count * pairs] }
     }
 
     /// The batches.
-    pub(in crate::tolerance) fn batches<const COUNT: usize>(
-        &mut self,
-        size: Size,
-    ) -> [SampleBatch<'_>; COUNT] {
+    pub(in crate::tolerance) fn batches<const COUNT: usize>(&mut self, size: Size) -> [SampleBatch<'_>; COUNT] {
         let (n, p) = (size.unknowns, size.design);
         let pairs = p.div_ceil(2);
         let mut room = BatchArena::new(&mut self.numbers);
@@ -143,8 +137,6 @@ impl SampleBatch<'_> {
 
     /// Whether all samples have come to rest.
     pub(super) fn rests(&self) -> bool {
-        self.resting.0[..self.members]
-            .iter()
-            .all(|rests| *rests >= 1.0)
+        self.resting.0[..self.members].iter().all(|rests| *rests >= 1.0)
     }
 }

@@ -17,17 +17,9 @@ pub(in crate::tolerance) const TOGETHER: usize = 4;
 impl<const N: usize> TaylorModel<'_, N> {
     /// Solves the members of several batches from their random bits.
     pub(super) fn solve(&self, instructions: Instructions, batches: &mut [SampleBatch<'_>]) {
-        instructions.run(Equilibria {
-            prepared: self,
-            instructions,
-            batches,
-        });
+        instructions.run(Equilibria { prepared: self, instructions, batches });
         if let Some(reference) = &self.reference {
-            instructions.run(GeneralModes {
-                prepared: self,
-                reference,
-                batches,
-            });
+            instructions.run(GeneralModes { prepared: self, reference, batches });
         }
         for group in &self.groups {
             for batch in &mut *batches {
@@ -37,11 +29,7 @@ impl<const N: usize> TaylorModel<'_, N> {
     }
 
     fn point<'b>(&'b self, coordinates: &'b [Batch], design: &'b [Batch]) -> BatchPoint<'b> {
-        BatchPoint {
-            q: coordinates,
-            u: &self.inputs,
-            b: design,
-        }
+        BatchPoint { q: coordinates, u: &self.inputs, b: design }
     }
 }
 
@@ -57,11 +45,7 @@ impl<const N: usize> Task for Equilibria<'_, '_, N> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self {
-            prepared,
-            instructions,
-            batches,
-        } = self;
+        let Self { prepared, instructions, batches } = self;
         for_size_up_to::<N>(
             prepared.nominal.coordinates.len(),
             #[inline(always)]
@@ -86,11 +70,7 @@ fn solve_equilibria<V: Lanes, const N: usize>(
         }
         batch.resting = Batch::all(0.0);
         let all = prepared.all_possible && batch.members == WIDTH;
-        batch.flags = if all {
-            Batch::all(1.0)
-        } else {
-            stages::possible(prepared, batch.design, batch.members)
-        };
+        batch.flags = if all { Batch::all(1.0) } else { stages::possible(prepared, batch.design, batch.members) };
     }
     for _ in 0..STEPS {
         let mut moving = false;
@@ -98,12 +78,7 @@ fn solve_equilibria<V: Lanes, const N: usize>(
             if !batch.rests() {
                 moving = true;
                 let point = prepared.point(batch.coordinates, batch.design);
-                prepared.kernels.residual_and_stiffness_batch(
-                    instructions,
-                    point,
-                    batch.residual,
-                    batch.stiffness,
-                );
+                prepared.kernels.residual_and_stiffness_batch(instructions, point, batch.residual, batch.stiffness);
             }
         }
         if !moving {
@@ -133,8 +108,7 @@ fn solve_equilibria<V: Lanes, const N: usize>(
     for batch in &mut *batches {
         for at in (0..WIDTH).step_by(V::WIDTH) {
             let mut flag = equilibrium::continues_nominal::<V, N>(n, prepared, batch, at);
-            if let (None, Statics::Potential(potential)) = (&prepared.reference, &prepared.statics)
-            {
+            if let (None, Statics::Potential(potential)) = (&prepared.reference, &prepared.statics) {
                 flag = modes::undamped::<V, N>(n, potential, batch, flag, at);
             }
             flag.store(&mut batch.flags, at);

@@ -9,17 +9,12 @@ use crate::tolerance::normal_sampling::standard_normal_pair;
 
 /// `b = b_mean + L z`, `z` standard normal; for other distributions, the normal numbers behind them.
 #[inline(always)]
-pub(super) fn draw<V: Lanes, const N: usize>(
-    prepared: &TaylorModel<'_, N>,
-    batch: &mut SampleBatch<'_>,
-    at: usize,
-) {
+pub(super) fn draw<V: Lanes, const N: usize>(prepared: &TaylorModel<'_, N>, batch: &mut SampleBatch<'_>, at: usize) {
     let (design, standard) = (&mut batch.design[..], &mut batch.standard[..]);
     let pairs = batch.bits.iter().zip(standard.chunks_exact_mut(2));
     for (([radius, angle], normal), drawn) in pairs.zip(&prepared.drawn) {
         if *drawn && !batch.given {
-            let (first, second) =
-                standard_normal_pair(V::probability(radius, at), V::probability(angle, at));
+            let (first, second) = standard_normal_pair(V::probability(radius, at), V::probability(angle, at));
             first.store(&mut normal[0], at);
             second.store(&mut normal[1], at);
         }
@@ -29,9 +24,7 @@ pub(super) fn draw<V: Lanes, const N: usize>(
     for (i, (design, (mean, diagonal))) in design.iter_mut().zip(means).enumerate() {
         let start = if prepared.joint.is_some() { 0.0 } else { *mean };
         let mut value = V::constant(start);
-        while let Some((&(_, j, factor), behind)) =
-            shared.split_first().filter(|(one, _)| one.0 == i)
-        {
+        while let Some((&(_, j, factor), behind)) = shared.split_first().filter(|(one, _)| one.0 == i) {
             value = value + V::constant(factor) * V::load(&standard[j], at);
             shared = behind;
         }
@@ -54,11 +47,7 @@ pub(super) fn distribute<const N: usize>(prepared: &TaylorModel<'_, N>, design: 
 }
 
 /// One for the members whose bodies can exist.
-pub(super) fn possible<const N: usize>(
-    prepared: &TaylorModel<'_, N>,
-    design: &[Batch],
-    members: usize,
-) -> Batch {
+pub(super) fn possible<const N: usize>(prepared: &TaylorModel<'_, N>, design: &[Batch], members: usize) -> Batch {
     let mut flags = Batch([0.0; WIDTH]);
     let mut sample_design = prepared.nominal.design.clone();
     for sample in 0..members {

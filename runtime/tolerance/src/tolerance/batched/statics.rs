@@ -50,10 +50,7 @@ impl<const N: usize> Statics<N> {
             return Some(Self::Forces(Forces::new(state, &reference?.units)?));
         }
         let (shapes, lambda) = match modes.family {
-            Family::Undamped => (
-                modes.real_shapes(),
-                modes.modes.iter().map(|mode| mode.lambda).collect(),
-            ),
+            Family::Undamped => (modes.real_shapes(), modes.modes.iter().map(|mode| mode.lambda).collect()),
             Family::General => {
                 let pairs = free_pairs(&state.linear, &modes.description).ok()?;
                 (pairs.shapes, pairs.lambda)
@@ -65,10 +62,7 @@ impl<const N: usize> Statics<N> {
         let slopes = nominal.stiffening(reach, &shapes, &lambda)?;
         Some(Self::Potential(Potential {
             curvature: slopes.iter().enumerate().map(quadratic_terms).collect(),
-            stiffening: slopes
-                .iter()
-                .map(|slope| small(n, &between(slope, &shapes)))
-                .collect(),
+            stiffening: slopes.iter().map(|slope| small(n, &between(slope, &shapes))).collect(),
             shapes: small(n, &shapes),
             lambda: row(&lambda),
         }))
@@ -85,10 +79,7 @@ impl<const N: usize> Forces<N> {
         });
         let columns: Vec<Vector> = columns.collect();
         let inverse = Matrix::from_fn(n, n, |i, j| columns[j][i] / units[i]);
-        Some(Self {
-            inverse: small(n, &inverse),
-            units: row(units),
-        })
+        Some(Self { inverse: small(n, &inverse), units: row(units) })
     }
 }
 
@@ -102,12 +93,10 @@ fn well_conditioned(nominal: &Equilibrium, shapes: &Matrix, lambda: &[f64]) -> b
     let n = lambda.len();
     let linear = &nominal.linear;
     shapes.iter().zip(lambda).all(|(shape, lambda)| {
-        let terms = (0..n)
-            .flat_map(|i| (0..n).map(move |j| (i, j)))
-            .map(|(i, j)| {
-                let size = linear.stiffness[i][j].abs() + lambda * linear.mass[i][j].abs();
-                (shape[i] * shape[j]).abs() * size
-            });
+        let terms = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| {
+            let size = linear.stiffness[i][j].abs() + lambda * linear.mass[i][j].abs();
+            (shape[i] * shape[j]).abs() * size
+        });
         terms.sum::<f64>() * f64::EPSILON <= ROUNDING * lambda
     })
 }

@@ -79,8 +79,7 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
         }
         let p = nominal.design.len();
         let joint = tolerances.joint();
-        let copula =
-            joint.map(|(joint, _)| Matrix::from_fn(p, p, |i, j| joint.normal_factor(i, j)));
+        let copula = joint.map(|(joint, _)| Matrix::from_fn(p, p, |i, j| joint.normal_factor(i, j)));
         let factor = copula.as_ref().unwrap_or(tolerances.factor());
         let shared: Vec<_> = (0..p)
             .flat_map(|i| (0..i).map(move |j| (i, j)))
@@ -90,13 +89,9 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
         let diagonal = Vector::from_fn(p, |i| factor[i][i]);
         let used = |j: usize| diagonal[j] != 0.0 || shared.iter().any(|one| one.1 == j);
         let pairs = 0..p.div_ceil(2);
-        let drawn = pairs
-            .map(|pair| (2 * pair..p.min(2 * pair + 2)).any(used))
-            .collect();
+        let drawn = pairs.map(|pair| (2 * pair..p.min(2 * pair + 2)).any(used)).collect();
         let shifts = tolerances.shifts();
-        let varied: Vec<_> = (0..p)
-            .filter(|&i| tolerances.sigmas()[i] != 0.0 || shifts[i] != 0.0)
-            .collect();
+        let varied: Vec<_> = (0..p).filter(|&i| tolerances.sigmas()[i] != 0.0 || shifts[i] != 0.0).collect();
         let answer = Nominal {
             mechanism: kernels,
             state: nominal,

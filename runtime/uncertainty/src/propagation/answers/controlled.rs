@@ -29,17 +29,10 @@ impl Answer for Controlled {
         table.number("worth of mean", "", &|row| Some(row.result?.worth));
         table.cells("worth", &|row| or_dash(row.result.map(|x| x.worth), short));
         estimates(&mut table, "sigma", &|x| Some(x.as_ref()?.sigma));
-        table.number("worth of sigma", "", &|row| {
-            Some(row.result?.worth_of_sigma)
-        });
-        table.cells("worth", &|row| {
-            or_dash(row.result.map(|x| x.worth_of_sigma), short)
-        });
+        table.number("worth of sigma", "", &|row| Some(row.result?.worth_of_sigma));
+        table.cells("worth", &|row| or_dash(row.result.map(|x| x.worth_of_sigma), short));
         table.words("model", &|row| Some(row.result?.model.to_string()));
-        table.cells("model", &|row| {
-            row.result
-                .map_or_else(|| "not controlled".to_owned(), |x| x.model.to_string())
-        });
+        table.cells("model", &|row| row.result.map_or_else(|| "not controlled".to_owned(), |x| x.model.to_string()));
         said.columns(table);
         said.note("Worth: how many plain samples give the same error as one of these.");
         said.data(outcomes(&self.counts));

@@ -18,9 +18,7 @@ impl Answer for Influence {
     fn findings(&self) -> Findings {
         let d = &self.description;
         let title = title(d, &self.inputs);
-        let mut said = Findings::titled(format!(
-            "{title}: where the scatter of responses comes from"
-        ));
+        let mut said = Findings::titled(format!("{title}: where the scatter of responses comes from"));
         let (total, counts) = (self.counts.total(), &self.counts);
         said.note(format!("{total} designs: {counts}."));
         let mut all = Vec::new();
@@ -51,15 +49,12 @@ fn described(said: &mut Findings, rows: &[Of<'_>], d: &Description) {
         let none = |index: Option<Estimate>| index.is_some_and(|index| !relevant(index.upper, 1.0));
         none(row.result.first) && none(row.result.total)
     };
-    let (left, shown): (Vec<usize>, Vec<usize>) =
-        (0..rows.len()).partition(|&k| negligible(&rows[k]));
+    let (left, shown): (Vec<usize>, Vec<usize>) = (0..rows.len()).partition(|&k| negligible(&rows[k]));
     said.text(influences(rows, shown, d).finish().1);
     if !left.is_empty() {
         let left: Vec<&str> = left.iter().map(|&k| variable(&rows[k], d)).collect();
         let names = names(&left, "variables");
-        said.note(format!(
-            "Left out, certainly {BELOW} of the variance: {names}"
-        ));
+        said.note(format!("Left out, certainly {BELOW} of the variance: {names}"));
     }
     let dependent = |row: &Of<'_>| row.result.first.is_none() && row.result.correlation.is_some();
     if rows.iter().any(dependent) {
@@ -74,18 +69,12 @@ fn variable<'d>(row: &Of<'_>, d: &'d Description) -> &'d str {
     info.map_or("?", |info| &*info.name)
 }
 
-fn influences<'a, 'o>(
-    rows: &'a [Of<'o>],
-    shown: Vec<usize>,
-    d: &Description,
-) -> Columns<'a, Of<'o>> {
+fn influences<'a, 'o>(rows: &'a [Of<'o>], shown: Vec<usize>, d: &Description) -> Columns<'a, Of<'o>> {
     let mut table = Columns::new("influence", rows);
     table.show_rows(shown);
     names_and_units(&mut table);
     let label = rows.first().map_or_else(String::new, Row::label);
-    let of = table.words("of", &|row| {
-        Some(d.design.get(row.result.variable)?.name.to_string())
-    });
+    let of = table.words("of", &|row| Some(d.design.get(row.result.variable)?.name.to_string()));
     of.shown().headed(&label);
     index(&mut table, "first", &|x| x.first);
     index(&mut table, "total", &|x| x.total);
@@ -96,9 +85,7 @@ fn influences<'a, 'o>(
         ("regression", |x| x.regression),
     ];
     for (name, pick) in picks {
-        table
-            .number(name, "", &|row| pick(row.result))
-            .digits(short);
+        table.number(name, "", &|row| pick(row.result)).digits(short);
     }
     let ends: [(&str, Pick); 2] = [("at low", |x| x.at_low), ("at high", |x| x.at_high)];
     for (name, pick) in ends {
@@ -109,24 +96,13 @@ fn influences<'a, 'o>(
 }
 
 /// An index and its interval.
-fn index(
-    table: &mut Columns<'_, Of<'_>>,
-    name: &str,
-    of: &dyn Fn(&VariableInfluence) -> Option<Estimate>,
-) {
+fn index(table: &mut Columns<'_, Of<'_>>, name: &str, of: &dyn Fn(&VariableInfluence) -> Option<Estimate>) {
     let value = table.number(name, "", &|row| Some(of(row.result)?.value));
     value.digits(short);
-    table.number(&format!("{name} from"), "", &|row| {
-        Some(of(row.result)?.lower)
-    });
-    table.number(&format!("{name} to"), "", &|row| {
-        Some(of(row.result)?.upper)
-    });
+    table.number(&format!("{name} from"), "", &|row| Some(of(row.result)?.lower));
+    table.number(&format!("{name} to"), "", &|row| Some(of(row.result)?.upper));
     table.cells("95 %", &|row| {
         let estimate = of(row.result);
-        estimate.map_or_else(
-            || "-".to_owned(),
-            |item| format!("{} to {}", short(item.lower), short(item.upper)),
-        )
+        estimate.map_or_else(|| "-".to_owned(), |item| format!("{} to {}", short(item.lower), short(item.upper)))
     });
 }

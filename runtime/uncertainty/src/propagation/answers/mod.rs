@@ -21,19 +21,11 @@ struct Row<T> {
 
 impl<T> Row<T> {
     fn new(response: &Response, d: &Description, content: T) -> Self {
-        Self {
-            name: response.name(d),
-            unit: response.unit(d),
-            result: content,
-        }
+        Self { name: response.name(d), unit: response.unit(d), result: content }
     }
 
     /// A row for each response.
-    fn each(
-        responses: &[Response],
-        d: &Description,
-        all: impl IntoIterator<Item = T>,
-    ) -> Vec<Self> {
+    fn each(responses: &[Response], d: &Description, all: impl IntoIterator<Item = T>) -> Vec<Self> {
         let pairs = responses.iter().zip(all);
         pairs.map(|(of, x)| Self::new(of, d, x)).collect()
     }
@@ -70,8 +62,6 @@ fn estimates<T>(table: &mut Columns<'_, Row<T>>, name: &str, of: &dyn Fn(&T) -> 
 
 /// The column of the errors of an estimate in the unit of the response.
 fn errors<T>(table: &mut Columns<'_, Row<T>>, name: &str, of: &dyn Fn(&T) -> Option<Estimated>) {
-    let error = table.number(&format!("error of {name}"), "", &|row| {
-        Some(row.in_unit(of(&row.result)?.error?))
-    });
+    let error = table.number(&format!("error of {name}"), "", &|row| Some(row.in_unit(of(&row.result)?.error?)));
     error.digits(short).headed("error");
 }

@@ -26,10 +26,7 @@ impl Answer for Propagation {
         }
         said.note(format!("{} designs: {}.", self.evaluations, self.counts));
         let each = self.spreads.iter().zip(&self.doubts);
-        let each = each.map(|(spread, doubts)| Spread {
-            spread: spread.as_ref(),
-            doubts,
-        });
+        let each = each.map(|(spread, doubts)| Spread { spread: spread.as_ref(), doubts });
         let rows = Row::each(&self.wanted, &self.description, each);
         self.spreads(&mut said, &rows);
         quantiles(&mut said, &rows);
@@ -77,18 +74,12 @@ impl Propagation {
             None => "no value".to_owned(),
         });
         estimates(&mut table, "mean", &|x| Some(x.spread?.mean));
-        table.number("sigma", "", &|row| {
-            Some(row.in_unit(row.result.spread?.sigma?.value))
-        });
+        table.number("sigma", "", &|row| Some(row.in_unit(row.result.spread?.sigma?.value)));
         table.cells("sigma", &|row| optional(row.sigma()));
         errors(&mut table, "sigma", &|x| x.spread?.sigma);
-        let skewness = table.number("skewness", "", &|row| {
-            Some(row.result.spread?.skewness?.value)
-        });
+        let skewness = table.number("skewness", "", &|row| Some(row.result.spread?.skewness?.value));
         skewness.digits(short);
-        let error = table.number("error of skewness", "", &|row| {
-            row.result.spread?.skewness?.error
-        });
+        let error = table.number("error of skewness", "", &|row| row.result.spread?.skewness?.error);
         error.digits(short).headed("error");
         let share = table.number("share", "", &|row| Some(row.result.spread?.share));
         share.digits(percent);
@@ -104,9 +95,7 @@ impl Propagation {
         let mut square = Columns::new("correlations", &all);
         square.cells("correlation", &|(_, row)| row.name.clone());
         for (j, with) in &all {
-            square.cells(&with.name, &|(i, _)| {
-                or_dash(self.correlation(*i, *j), |x| format!("{x:.3}"))
-            });
+            square.cells(&with.name, &|(i, _)| or_dash(self.correlation(*i, *j), |x| format!("{x:.3}")));
         }
         said.text(square.finish().1);
         let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
@@ -130,11 +119,7 @@ fn quantiles(said: &mut Findings, rows: &[Row<Spread<'_>>]) {
     text.cells("quantile", &|row| row.label());
     for (k, p) in QUANTILES.into_iter().enumerate() {
         text.cells(&format!("{:.3} %", 100.0 * p), &|row| {
-            optional(
-                row.quantiles()
-                    .get(k)
-                    .map(|quantile| row.in_unit(quantile.value)),
-            )
+            optional(row.quantiles().get(k).map(|quantile| row.in_unit(quantile.value)))
         });
     }
     said.text(text.finish().1);

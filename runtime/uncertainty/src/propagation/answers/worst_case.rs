@@ -49,16 +49,12 @@ fn extremes(said: &mut Findings, rows: &[Limits<'_>], d: &Description) {
         let value = table.number(name, "", &|row| Some(row.in_unit(pick(row.result)?)));
         value.digits(number);
     }
-    table
-        .flag("monotonic", &|row| Some(row.result.is_monotonic()))
-        .shown();
+    table.flag("monotonic", &|row| Some(row.result.is_monotonic())).shown();
     table.words("turning", &|row| {
         let names = turning(row.result, d);
         (!names.is_empty()).then(|| names.join(" "))
     });
-    table.whole("corners without a value", &|row| {
-        Some(row.result.missing.len())
-    });
+    table.whole("corners without a value", &|row| Some(row.result.missing.len()));
     said.columns(table);
 }
 
@@ -73,10 +69,7 @@ fn reservations(said: &mut Findings, row: &Limits<'_>, d: &Description) {
     let name = &row.name;
     let turning = turning(row.result, d);
     if !turning.is_empty() {
-        said.note(format!(
-            "{name} rises and falls with {}: it may be worse inside the box.",
-            turning.join(", ")
-        ));
+        said.note(format!("{name} rises and falls with {}: it may be worse inside the box.", turning.join(", ")));
     }
     let missing = row.result.missing.len();
     if missing > 0 {

@@ -32,9 +32,7 @@ impl Answer for Chances {
             said.note(NOTHING_VARIES);
         }
         if self.each.iter().any(|tally| tally.untold > 0) {
-            said.note(
-                "Untold: the response does not exist; such a sample counts neither as met nor as failed.",
-            );
+            said.note("Untold: the response does not exist; such a sample counts neither as met nor as failed.");
         }
         let stable = self.counts.stable;
         if stable < samples {
@@ -66,9 +64,7 @@ impl Chances {
         said.data(table.finish().0);
         rows.extend(all);
         let mut text = Columns::new("chances", &rows);
-        text.cells("requirement", &|(number, _)| {
-            number.map_or_else(|| "all".to_owned(), |number| number.to_string())
-        });
+        text.cells("requirement", &|(number, _)| number.map_or_else(|| "all".to_owned(), |number| number.to_string()));
         tallies(&mut text);
         said.text(text.finish().1);
     }
@@ -84,8 +80,7 @@ fn tallies(table: &mut Columns<'_, Row<'_>>) {
     table.number("95 % from", "", &|(_, x)| Some(interval(x)?.lower));
     table.number("95 % to", "", &|(_, x)| Some(interval(x)?.upper));
     table.cells("95 % interval (Clopper-Pearson)", &|(_, item)| {
-        let text =
-            |interval: Interval| format!("{} to {}", short(interval.lower), short(interval.upper));
+        let text = |interval: Interval| format!("{} to {}", short(interval.lower), short(interval.upper));
         interval(item).map_or_else(|| "-".to_owned(), text)
     });
 }

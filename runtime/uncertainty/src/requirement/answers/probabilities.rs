@@ -63,16 +63,9 @@ impl Probabilities {
     fn found(&self, said: &mut Findings) {
         let d = &self.description;
         let each = self.wanted.iter().zip(&self.each).enumerate();
-        let each = each.map(|(k, (wanted, item))| Row {
-            number: Some(k + 1),
-            requirement: wanted.text(d),
-            failure: item,
-        });
-        let any = Row {
-            number: None,
-            requirement: "any".to_owned(),
-            failure: &self.any,
-        };
+        let each =
+            each.map(|(k, (wanted, item))| Row { number: Some(k + 1), requirement: wanted.text(d), failure: item });
+        let any = Row { number: None, requirement: "any".to_owned(), failure: &self.any };
         let rows: Vec<Row<'_>> = each.chain([any]).collect();
         let mut table = Columns::new("probabilities of failure", &rows);
         if self.each.len() == 1 {
@@ -88,9 +81,7 @@ impl Probabilities {
             let Interval { lower, upper } = row.failure.interval;
             format!("{} to {}", probability(lower), probability(upper))
         });
-        table.number("probability without response", "", &|row| {
-            Some(row.failure.untold)
-        });
+        table.number("probability without response", "", &|row| Some(row.failure.untold));
         let by = table.words("found by", &|row| Some(row.failure.by.word().to_owned()));
         by.shown();
         let designs = table.whole("designs", &|row| usize::try_from(row.failure.designs).ok());

@@ -29,10 +29,7 @@ impl Answer for RareFailure {
             failure.without_value
         ));
         if self.contradicted() {
-            said.note(format!(
-                "Not to be relied on: along lines of designs, the probability is {}.",
-                self.judgement
-            ));
+            said.note(format!("Not to be relied on: along lines of designs, the probability is {}.", self.judgement));
         } else if !failure.reached {
             said.note("Not settled: the samples did not reach their target.");
         }

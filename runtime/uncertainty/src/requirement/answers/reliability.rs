@@ -27,9 +27,7 @@ impl Answer for Reliability {
         }
         for k in &self.left_out {
             let number = k + 1;
-            said.note(format!(
-                "Requirement {number} has no design point: sample it."
-            ));
+            said.note(format!("Requirement {number} has no design point: sample it."));
         }
         if let Some(system) = &self.system {
             said.note(format!(
@@ -40,10 +38,7 @@ impl Answer for Reliability {
             ));
         }
         if self.limits.len() + self.left_out.len() > 1 {
-            said.note(format!(
-                "At least one requirement fails, designs solved anew: {}.",
-                self.judgement
-            ));
+            said.note(format!("At least one requirement fails, designs solved anew: {}.", self.judgement));
         }
         said
     }
@@ -81,27 +76,17 @@ fn design_points(said: &mut Findings, rows: &[Row<'_>], d: &Description) {
     table.whole("requirement", &|(x, _)| Some(x.requirement + 1));
     table.words("response", &|(x, _)| Some(x.limit.response()?.name(d)));
     table.number("beta", "", &|(_, x)| Some(x.as_ref()?.beta()));
-    table.number("probability of failure, first order", "", &|(_, item)| {
-        Some(item.as_ref()?.probability())
-    });
-    table.number("probability of failure, second order", "", &|(_, x)| {
-        x.as_ref()?.second_order
-    });
+    table.number("probability of failure, first order", "", &|(_, item)| Some(item.as_ref()?.probability()));
+    table.number("probability of failure, second order", "", &|(_, x)| x.as_ref()?.second_order);
     table.flag("verified", &|(_, x)| Some(x.as_ref()?.verified));
     judged(&mut table, &|(x, _)| &x.judgement);
-    table.words("error", &|(item, _)| {
-        Some(item.design_points.as_ref().err()?.to_string())
-    });
+    table.words("error", &|(item, _)| Some(item.design_points.as_ref().err()?.to_string()));
     said.columns(table);
 }
 
 fn system(system_failure: &SystemFailure) -> Table {
     let mut table = Table::new("system");
-    table.numbers(
-        "probability of failure",
-        "",
-        [system_failure.probability.value],
-    );
+    table.numbers("probability of failure", "", [system_failure.probability.value]);
     table.numbers("from", "", [system_failure.bounds.lower]);
     table.numbers("to", "", [system_failure.bounds.upper]);
     table
@@ -115,18 +100,12 @@ fn limit(said: &mut Findings, limit_reliability: &LimitReliability, d: &Descript
         Ok(_) => format!("Requirement {number}: {text}"),
         Err(error) => format!("Requirement {number}: {text}: {error}."),
     });
-    said.note(format!(
-        "Designs solved anew: probability of failure {}.",
-        limit_reliability.judgement
-    ));
-    let doubtful =
-        |claimed| limit_reliability.judgement.confirms(claimed) && !limit_reliability.verified();
-    let verdict = limit_reliability
-        .probability()
-        .map(|claimed| match doubtful(claimed) {
-            true => "not verified".to_owned(),
-            false => verdict(&limit_reliability.judgement, claimed),
-        });
+    said.note(format!("Designs solved anew: probability of failure {}.", limit_reliability.judgement));
+    let doubtful = |claimed| limit_reliability.judgement.confirms(claimed) && !limit_reliability.verified();
+    let verdict = limit_reliability.probability().map(|claimed| match doubtful(claimed) {
+        true => "not verified".to_owned(),
+        false => verdict(&limit_reliability.judgement, claimed),
+    });
     let verdict = verdict.unwrap_or_default();
     for at in limit_reliability.design_points.iter().flatten() {
         said.note(format!(
@@ -156,16 +135,14 @@ fn entries<'a>(requirement: usize, at: &DesignPoint, d: &'a Description) -> Vec<
     let values = at.design.iter().zip(&at.importance);
     let slopes = at.by_nominal.iter().zip(&at.by_half_width);
     let each = d.design.iter().zip(values.zip(slopes));
-    let entries = each.map(
-        |(info, ((design, importance), (nominal, half_width)))| Entry {
-            requirement,
-            info,
-            design: *design,
-            importance: *importance,
-            by_nominal: nominal.beta,
-            by_half_width: half_width.beta,
-        },
-    );
+    let entries = each.map(|(info, ((design, importance), (nominal, half_width)))| Entry {
+        requirement,
+        info,
+        design: *design,
+        importance: *importance,
+        by_nominal: nominal.beta,
+        by_half_width: half_width.beta,
+    });
     entries.collect()
 }
 
@@ -176,19 +153,13 @@ fn entry_columns<'a, 'e>(rows: &'a [Entry<'e>], shown: Vec<usize>) -> Columns<'a
     table.words("variable", &|row| Some(row.info.name.to_string()));
     table.words("unit", &|row| Some(row.info.unit.symbol.to_string()));
     table.cells("variable", &|row| heading(&row.info.name, &row.info.unit));
-    let design = table.number("design point", "", &|row| {
-        Some(converted(row.design, &row.info.unit))
-    });
+    let design = table.number("design point", "", &|row| Some(converted(row.design, &row.info.unit)));
     design.digits(number);
     let importance = table.number("importance", "", &|row| Some(row.importance));
     importance.digits(|share| format!("{share:.3}"));
-    let slope = table.number("beta by nominal value", "per unit", &|row| {
-        Some(row.by_nominal * row.info.unit.scale)
-    });
+    let slope = table.number("beta by nominal value", "per unit", &|row| Some(row.by_nominal * row.info.unit.scale));
     slope.digits(rough).headed("beta by nominal value");
-    let slope = table.number("beta by half-width", "per unit", &|row| {
-        Some(row.by_half_width * row.info.unit.scale)
-    });
+    let slope = table.number("beta by half-width", "per unit", &|row| Some(row.by_half_width * row.info.unit.scale));
     slope.digits(rough).headed("by half-width");
     table
 }
@@ -196,8 +167,7 @@ fn entry_columns<'a, 'e>(rows: &'a [Entry<'e>], shown: Vec<usize>) -> Columns<'a
 /// The variables that matter at a design point, in the text.
 pub(super) fn variables(said: &mut Findings, at: &DesignPoint, d: &Description) {
     let all = entries(0, at, d);
-    let (shown, left): (Vec<usize>, Vec<usize>) =
-        (0..all.len()).partition(|&k| relevant(all[k].importance, 1.0));
+    let (shown, left): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(|&k| relevant(all[k].importance, 1.0));
     said.text(entry_columns(&all, shown).finish().1);
     if !left.is_empty() {
         let left: Vec<&str> = left.iter().map(|&k| &*all[k].info.name).collect();

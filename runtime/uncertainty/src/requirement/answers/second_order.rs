@@ -20,11 +20,8 @@ impl Answer for SecondOrderFailure {
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let mut said = Findings::titled(format!(
-            "{}: {}, to second order",
-            title(d, &self.inputs),
-            self.wanted.text(d)
-        ));
+        let mut said =
+            Findings::titled(format!("{}: {}, to second order", title(d, &self.inputs), self.wanted.text(d)));
         self.row(&mut said);
         self.slopes(&mut said);
         said.note(format!("Designs solved anew: {}.", self.judgement));
@@ -58,42 +55,27 @@ impl SecondOrderFailure {
             return;
         };
         let (unit, margin) = (response.unit(&self.description), &self.margin);
-        let bands = self
-            .bands
-            .iter()
-            .map(|(low, high)| ends(&[*low, *high], &unit));
+        let bands = self.bands.iter().map(|(low, high)| ends(&[*low, *high], &unit));
         let bands = bands.collect::<Vec<_>>().join(", ");
         let corrected = &margin.corrected;
         let rows = [self];
         let mut table = Columns::new("second-order failure", &rows);
-        table.words("requirement", &|_| {
-            Some(self.wanted.text(&self.description))
-        });
+        table.words("requirement", &|_| Some(self.wanted.text(&self.description)));
         table.words("fails from", &|_| Some(bands.clone())).shown();
-        table
-            .measured("nominal", &unit, &|_| Some(margin.value))
-            .shown();
+        table.measured("nominal", &unit, &|_| Some(margin.value)).shown();
         let sigma = table.measured("sigma", &unit, &|_| Some(margin.sigma));
         sigma.digits(rough);
         let distance = table.number("distance to band", "sigma", &|_| Some(margin.distance));
         distance.digits(short).headed("to band [sigma]");
-        let first = table.number("probability of failure, first order", "", &|_| {
-            Some(margin.first_order)
-        });
-        first
-            .digits(|value| chance(value, 0.0))
-            .headed("first order");
+        let first = table.number("probability of failure, first order", "", &|_| Some(margin.first_order));
+        first.digits(|value| chance(value, 0.0)).headed("first order");
         table.number("probability of failure", "", &|_| Some(corrected.value));
-        table.cells("second order", &|_| {
-            chance(corrected.value, corrected.error)
-        });
+        table.cells("second order", &|_| chance(corrected.value, corrected.error));
         let error = table.number("error of probability", "", &|_| Some(corrected.error));
-        error
-            .digits(|error| format!("{error:.1e}"))
-            .headed(match corrected.model_error {
-                None => "integration error",
-                Some(_) => "error of second order",
-            });
+        error.digits(|error| format!("{error:.1e}")).headed(match corrected.model_error {
+            None => "integration error",
+            Some(_) => "error of second order",
+        });
         judged(&mut table, &|x| &x.judgement);
         said.columns(table);
     }
@@ -111,11 +93,7 @@ impl SecondOrderFailure {
         };
         let pairs = slopes.by_design.iter().zip(&slopes.by_half_width);
         let rows = self.description.design.iter().zip(pairs);
-        let rows = rows.map(|(info, (nominal, half_width))| Slope {
-            info,
-            nominal: *nominal,
-            half_width: *half_width,
-        });
+        let rows = rows.map(|(info, (nominal, half_width))| Slope { info, nominal: *nominal, half_width: *half_width });
         let rows: Vec<Slope<'_>> = rows.collect();
         let still = rows.iter().all(|row| row.largest() == 0.0);
         if still {
@@ -156,13 +134,9 @@ fn slope_table(said: &mut Findings, rows: &[Slope<'_>], told: bool) {
     table.words("by", &|row| Some(row.info.name.to_string()));
     table.words("unit", &|row| Some(row.info.unit.symbol.to_string()));
     table.cells("probability by", &|row| per(&row.info.name, &row.info.unit));
-    let nominal = table.number("by nominal value", "per unit", &|row| {
-        Some(row.nominal * row.info.unit.scale)
-    });
+    let nominal = table.number("by nominal value", "per unit", &|row| Some(row.nominal * row.info.unit.scale));
     nominal.digits(rough).headed("nominal value");
-    let half_width = table.number("by half-width", "per unit", &|row| {
-        Some(row.half_width * row.info.unit.scale)
-    });
+    let half_width = table.number("by half-width", "per unit", &|row| Some(row.half_width * row.info.unit.scale));
     half_width.digits(rough).headed("half-width");
     said.columns(table);
     if told && !left.is_empty() {

@@ -29,12 +29,7 @@ impl Requirement {
             }
             Self::Within { high, .. } => format!("at most {}", ends(&[high], unit)),
             Self::Outside { low, high, .. } => format!("outside {}", ends(&[low, high], unit)),
-            Self::Away {
-                input,
-                order,
-                fraction,
-                ..
-            } => {
+            Self::Away { input, order, fraction, .. } => {
                 let name = name_of(of, input);
                 let multiple = match order {
                     1.0 => name.to_owned(),
@@ -60,10 +55,7 @@ impl EstimatedBy {
 
 /// The ends of a limit, in Hz if that is shorter: a limit given in Hz is a short number in Hz only.
 pub(super) fn ends(all: &[f64], unit: &Unit) -> String {
-    let hertz = Unit {
-        symbol: Text::Static("Hz"),
-        scale: TAU,
-    };
+    let hertz = Unit { symbol: Text::Static("Hz"), scale: TAU };
     let digits = |unit: &Unit| -> usize { all.iter().map(|end| given_in(*end, unit).len()).sum() };
     let unit = match &*unit.symbol == "rad/s" && digits(&hertz) < digits(unit) {
         true => &hertz,

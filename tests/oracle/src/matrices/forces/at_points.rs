@@ -15,13 +15,8 @@ impl Oracle<'_> {
         following: bool,
     ) {
         let (frame, at) = (self.frame_of(point), self.point(moving, point));
-        let [force, moment] = wrench.map(|vector| {
-            if following {
-                at.rotation.now() * vector
-            } else {
-                self.in_ground(vector)
-            }
-        });
+        let [force, moment] =
+            wrench.map(|vector| if following { at.rotation.now() * vector } else { self.in_ground(vector) });
         efforts.push(frame, force, at.origin.now());
         efforts.turn(frame, moment);
     }

@@ -39,8 +39,7 @@ impl Oracle<'_> {
         let (d, r) = (relative.origin, relative.rotation.vee());
         let along_from = |vector| start.rotation.now() * vector;
         let force = along_from(Vector::zero() - stiffness * d.now() - damping * d.rate());
-        let moment =
-            along_from(Vector::zero() - turning_stiffness * r.now() - turning_damping * r.rate());
+        let moment = along_from(Vector::zero() - turning_stiffness * r.now() - turning_damping * r.rate());
         let (here, there) = (self.frame_of(to), self.frame_of(from));
         let place = end.origin.now();
         efforts.push(here, force, place);

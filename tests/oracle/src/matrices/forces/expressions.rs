@@ -34,9 +34,7 @@ impl<D: Scalar> Leaves<'_, D> {
             Expr::Length => self.length[0],
             Expr::LengthRate => self.length[1],
             Expr::Sum(parts) => parts.iter().map(|part| self.of(part)).sum(),
-            Expr::Product(parts) => parts
-                .iter()
-                .fold(D::one(), |product, part| product * self.of(part)),
+            Expr::Product(parts) => parts.iter().fold(D::one(), |product, part| product * self.of(part)),
             Expr::Power(base, exponent) => self.of(base).powi(*exponent),
             Expr::Sine(angle) => self.of(angle).sin(),
             Expr::Cosine(angle) => self.of(angle).cos(),
@@ -52,13 +50,7 @@ impl Oracle<'_> {
     }
 
     /// An expression that may also contain the length of a tension and its rate.
-    pub(super) fn of_length<D: Scalar>(
-        &self,
-        moving: &Moving<D>,
-        expr: &Expr,
-        length: D,
-        rate: D,
-    ) -> D {
+    pub(super) fn of_length<D: Scalar>(&self, moving: &Moving<D>, expr: &Expr, length: D, rate: D) -> D {
         let leaves = Leaves {
             coordinate: &|q| self.position(moving, q),
             rate: &|q| self.speed(moving, q),
@@ -76,12 +68,7 @@ impl Oracle<'_> {
     }
 
     /// `-dV/dp` on each point and `-dV/dq` along each coordinate in the energy.
-    pub(super) fn potential<D: Scalar>(
-        &self,
-        efforts: &mut Efforts<D>,
-        moving: &Moving<D>,
-        energy: &Expr,
-    ) {
+    pub(super) fn potential<D: Scalar>(&self, efforts: &mut Efforts<D>, moving: &Moving<D>, energy: &Expr) {
         let (mut coordinates, mut points) = (Vec::new(), Vec::new());
         energy.leaves(&mut |leaf| match leaf {
             Expr::Coordinate(coordinate) => coordinates.push(*coordinate),
@@ -115,9 +102,7 @@ impl Oracle<'_> {
             rate: &|_| zero,
             position: &|point| {
                 let at = self.ground_position(moving, point).0;
-                Vector(std::array::from_fn(|axis| {
-                    seeded(at[axis], seed == Seed::Position(point, axis))
-                }))
+                Vector(std::array::from_fn(|axis| seeded(at[axis], seed == Seed::Position(point, axis))))
             },
             length: [zero; 2],
             inputs: &still(&moving.state.inputs),

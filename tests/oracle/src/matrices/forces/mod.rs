@@ -61,16 +61,9 @@ impl<D: Scalar> Efforts<'_, D> {
 
 impl Oracle<'_> {
     /// `Q`, ordered as the rows of `B`, and the forces along the free coordinates.
-    pub(crate) fn applied_forces<D: Scalar>(
-        &self,
-        moving: &Moving<D>,
-        mass: &[D],
-    ) -> (Vec<D>, Vec<D>) {
-        let mut efforts = Efforts {
-            at: moving.at,
-            bodies: vec![D::zero(); 6 * mass.len()],
-            free: vec![D::zero(); self.free.len()],
-        };
+    pub(crate) fn applied_forces<D: Scalar>(&self, moving: &Moving<D>, mass: &[D]) -> (Vec<D>, Vec<D>) {
+        let mut efforts =
+            Efforts { at: moving.at, bodies: vec![D::zero(); 6 * mass.len()], free: vec![D::zero(); self.free.len()] };
         let gravity = self.in_ground(vector(&self.model.gravity, &moving.state.design));
         for (body, &mass) in mass.iter().enumerate() {
             let (weight, center) = (gravity.scaled(mass), moving.at.centers[body]);
@@ -93,20 +86,13 @@ impl Oracle<'_> {
         let rows = |m: &[Values; 3]| Matrix(m.each_ref().map(|row| all(row).0));
         match &force.law {
             // Q = -k (q - q0)
-            &ForceLaw::Spring {
-                coordinate,
-                stiffness,
-                rest,
-            } => {
+            &ForceLaw::Spring { coordinate, stiffness, rest } => {
                 let position = self.position(moving, coordinate);
                 let effort = get(stiffness) * (get(rest) - position);
                 self.act(efforts, coordinate, effort);
             }
             // Q = -c qdot
-            &ForceLaw::Damper {
-                coordinate,
-                damping,
-            } => {
+            &ForceLaw::Damper { coordinate, damping } => {
                 let speed = self.speed(moving, coordinate);
                 self.act(efforts, coordinate, -get(damping) * speed);
             }
@@ -116,49 +102,27 @@ impl Oracle<'_> {
             }
             ForceLaw::Potential { energy } => self.potential(efforts, moving, energy),
             // tension = k (d - L) + c ddot
-            &ForceLaw::SpringDamper {
-                from,
-                to,
-                stiffness,
-                damping,
-                length,
-            } => self.tension(efforts, moving, [from, to], |distance, rate| {
-                get(stiffness) * (distance - get(length)) + get(damping) * rate
-            }),
+            &ForceLaw::SpringDamper { from, to, stiffness, damping, length } => {
+                self.tension(efforts, moving, [from, to], |distance, rate| {
+                    get(stiffness) * (distance - get(length)) + get(damping) * rate
+                })
+            }
             ForceLaw::Tension { from, to, tension } => {
                 self.tension(efforts, moving, [*from, *to], |distance, rate| {
                     self.of_length(moving, tension, distance, rate)
                 });
             }
-            ForceLaw::Bushing {
-                from,
-                to,
-                stiffness,
-                damping,
-                turning_stiffness,
-                turning_damping,
-            } => {
+            ForceLaw::Bushing { from, to, stiffness, damping, turning_stiffness, turning_damping } => {
                 let linear = [rows(stiffness), rows(damping)];
                 let turning = [rows(turning_stiffness), rows(turning_damping)];
                 self.bushing(efforts, moving, [*from, *to], linear, turning);
             }
-            ForceLaw::Load {
-                point,
-                force,
-                moment,
-                following,
-            } => self.load(
-                efforts,
-                moving,
-                *point,
-                [all(force), all(moment)],
-                *following,
-            ),
-            &ForceLaw::Drag {
-                point,
-                damping,
-                turning_damping,
-            } => self.drag(efforts, moving, point, [get(damping), get(turning_damping)]),
+            ForceLaw::Load { point, force, moment, following } => {
+                self.load(efforts, moving, *point, [all(force), all(moment)], *following)
+            }
+            &ForceLaw::Drag { point, damping, turning_damping } => {
+                self.drag(efforts, moving, point, [get(damping), get(turning_damping)])
+            }
         }
     }
 

@@ -71,9 +71,7 @@ fn unresisted(system: &System, state: &Linearised) -> Unresisted {
     let mut rates = transposed(&rates(system, state, &wholes));
     let values = |rates: &Vec<Disturbed>| rates.iter().map(Disturbed::value).collect();
     let held = clear_pivots(rates.iter().map(values).collect());
-    let columns: Vec<usize> = (moving..n)
-        .chain((0..free).filter(|k| !held.contains(k)))
-        .collect();
+    let columns: Vec<usize> = (moving..n).chain((0..free).filter(|k| !held.contains(k))).collect();
     let row = |i: usize| columns.iter().map(|&j| state.stiffness[j][i]).collect();
     let null = NullSpace::new((0..n).map(row).collect(), n - moving, state.operations);
     rates.extend(null.vectors.iter().map(|vector| {
@@ -83,11 +81,7 @@ fn unresisted(system: &System, state: &Linearised) -> Unresisted {
         }
         rates
     }));
-    Unresisted {
-        wholes,
-        rates,
-        hidden: null.hidden,
-    }
+    Unresisted { wholes, rates, hidden: null.hidden }
 }
 
 fn transposed(rows: &[Vec<Disturbed>]) -> Vec<Vec<Disturbed>> {
@@ -140,11 +134,7 @@ fn is_idle(state: &Linearised, equation: usize) -> bool {
 }
 
 /// The rates of the free coordinates in each combination, by coordinate.
-pub(super) fn rates(
-    system: &System,
-    state: &Linearised,
-    combinations: &Combinations,
-) -> Vec<Vec<Disturbed>> {
+pub(super) fn rates(system: &System, state: &Linearised, combinations: &Combinations) -> Vec<Vec<Disturbed>> {
     let mut rows = vec![vec![Disturbed::exact(0.0); state.fields.len()]; system.fields.free];
     for (k, field) in state.fields.iter().enumerate() {
         for (&coordinate, &rate) in field.coordinates.iter().zip(&field.rates) {
@@ -163,10 +153,7 @@ fn slips(
 ) -> Vec<Vec<Disturbed>> {
     let rates = rates(system, state, combinations);
     let row = |&k: &usize| state.stiffness[k][..system.fields.free].to_vec();
-    times(
-        &constraints.iter().map(row).collect::<Vec<_>>(),
-        &transposed(&rates),
-    )
+    times(&constraints.iter().map(row).collect::<Vec<_>>(), &transposed(&rates))
 }
 
 /// How many of the constraints on velocities demand what no other constraint does.
@@ -189,12 +176,7 @@ pub(super) fn rank(rows: &[Vec<Disturbed>], operations: usize) -> usize {
 
 /// The number of independent directions of the combinations at an equilibrium, or at a random place if none is found:
 /// on its axis, a turn is no motion.
-fn dimension(
-    system: &System,
-    state: &Linearised,
-    combinations: &Combinations,
-    resting: Option<&Linearised>,
-) -> usize {
+fn dimension(system: &System, state: &Linearised, combinations: &Combinations, resting: Option<&Linearised>) -> usize {
     if combinations.is_empty() {
         return 0;
     }

@@ -59,8 +59,7 @@ impl Fields {
     pub(super) fn new(g: &mut Graph, context: &Context, units: Units) -> Self {
         let topology = context.topology;
         let kinematics = in_common_frame_at_zero(g, context);
-        let mut paths: Vec<Vec<(usize, StepAxis, BodyId)>> =
-            vec![Vec::new(); context.mechanism.bodies.len()];
+        let mut paths: Vec<Vec<(usize, StepAxis, BodyId)>> = vec![Vec::new(); context.mechanism.bodies.len()];
         let mut carriers = Vec::new();
         for branch in &topology.branches {
             let before = match branch.parent {
@@ -72,22 +71,13 @@ impl Fields {
                 let index = topology.free.iter().position(|&id| id == step.coordinate)?;
                 Some((index, *step, branch.body))
             });
-            let path: Vec<_> = before
-                .iter()
-                .copied()
-                .chain(free_steps)
-                .take(RIGID + 1)
-                .collect();
+            let path: Vec<_> = before.iter().copied().chain(free_steps).take(RIGID + 1).collect();
             if path.len() > before.len() && path.len() <= RIGID {
                 carriers.push(Carrier::new(g, context, &kinematics, branch.body, &path));
             }
             paths[branch.body.index()] = path;
         }
-        Self {
-            free: topology.free.len(),
-            units,
-            carriers,
-        }
+        Self { free: topology.free.len(), units, carriers }
     }
 
     /// Number of candidates.
@@ -127,17 +117,13 @@ impl Fields {
             };
             let arms = |values: &[Disturbed]| -> Vec<Vec<Disturbed>> {
                 let arms = values.chunks(3).enumerate();
-                let arm = |(k, arm): (usize, &[Disturbed])| {
-                    arm.iter().map(|x| x.scaled(by(k) * length)).collect()
-                };
+                let arm = |(k, arm): (usize, &[Disturbed])| arm.iter().map(|x| x.scaled(by(k) * length)).collect();
                 arms.map(arm).collect()
             };
             let twists = next(n * RIGID).chunks_exact(RIGID).enumerate();
             let twists: Vec<_> = twists.map(|(k, x)| twist(x, unit(k))).collect();
             let slopes = next(n * n * RIGID).chunks_exact(RIGID).enumerate();
-            let slopes: Vec<_> = slopes
-                .map(|(k, x)| twist(x, unit(k / n) * unit(k % n)))
-                .collect();
+            let slopes: Vec<_> = slopes.map(|(k, x)| twist(x, unit(k / n) * unit(k % n))).collect();
             let places = arms(next(3 + 3 * n));
             let offsets = arms(next(3 * carrier.offsets.len()));
             let inverse = Inverse::new(&twists, operations);
@@ -153,13 +139,10 @@ impl Fields {
                 };
                 let rates = inverse.times(&wanted[0]);
                 let missed = difference(&wanted[0], &combined(&twists, &rates));
-                let slopes = slopes
-                    .chunks_exact(n)
-                    .zip(&wanted[1..])
-                    .map(|(slopes, wanted)| {
-                        let change = combined(slopes, &rates);
-                        inverse.times(&difference(wanted, &change))
-                    });
+                let slopes = slopes.chunks_exact(n).zip(&wanted[1..]).map(|(slopes, wanted)| {
+                    let change = combined(slopes, &rates);
+                    inverse.times(&difference(wanted, &change))
+                });
                 fields.push(Field {
                     slopes: slopes.collect(),
                     coordinates: carrier.coordinates.clone(),
@@ -218,16 +201,11 @@ impl Carrier {
         let slopes = path.iter().map(|(index, ..)| {
             let change = by_symbol(g, &flat, context.symbols.q.ids[*index]);
             let change = change.chunks_exact(RIGID);
-            change
-                .map(|twist| std::array::from_fn(|k| twist[k]))
-                .collect()
+            change.map(|twist| std::array::from_fn(|k| twist[k])).collect()
         });
         let slopes = slopes.collect();
         let wheel = context.mechanism.constraints.iter().find_map(|constraint| {
-            let ConstraintLaw::Rolling {
-                wheel, axis: None, ..
-            } = &constraint.law
-            else {
+            let ConstraintLaw::Rolling { wheel, axis: None, .. } = &constraint.law else {
                 return None;
             };
             let on_body = context.mechanism.points[wheel.index()].frame == Frame::Body(body);
@@ -244,14 +222,7 @@ impl Carrier {
             let offset = place.sub(g, kinematics.points[wheel.index()].position);
             with_slopes(g, offset.0)
         });
-        Self {
-            body,
-            slopes,
-            places,
-            offsets,
-            coordinates: path.iter().map(|(index, ..)| *index).collect(),
-            twists,
-        }
+        Self { body, slopes, places, offsets, coordinates: path.iter().map(|(index, ..)| *index).collect(), twists }
     }
 }
 
@@ -277,12 +248,7 @@ impl Field {
     }
 
     fn impossible(twist: Twist<Disturbed>) -> Self {
-        Self {
-            coordinates: Vec::new(),
-            rates: Vec::new(),
-            slopes: Vec::new(),
-            missed: twist.into(),
-        }
+        Self { coordinates: Vec::new(), rates: Vec::new(), slopes: Vec::new(), missed: twist.into() }
     }
 }
 
@@ -296,9 +262,8 @@ struct Inverse<'a> {
 impl<'a> Inverse<'a> {
     fn new(twists: &'a [Vec<Disturbed>], operations: usize) -> Option<Self> {
         let n = twists.len();
-        let mut factors: Vec<Vec<Disturbed>> = (0..n)
-            .map(|i| (0..n).map(|j| product(&twists[i], &twists[j])).collect())
-            .collect();
+        let mut factors: Vec<Vec<Disturbed>> =
+            (0..n).map(|i| (0..n).map(|j| product(&twists[i], &twists[j])).collect()).collect();
         for k in 0..n {
             let (above, below) = factors.split_at_mut(k + 1);
             let row = &above[k];

@@ -19,22 +19,14 @@ const SAME: f64 = 1e-3;
 
 /// The directions along which the loads of a design do not balance: those along which they do the same work everywhere.
 /// Loads that follow a free motion do not; then the mechanism rests nowhere if it cannot be brought to rest.
-pub(super) fn unbalanced(
-    system: &System,
-    design: u64,
-    symmetries: &Combinations,
-    friction: Friction,
-) -> Vec<Vec<f64>> {
+pub(super) fn unbalanced(system: &System, design: u64, symmetries: &Combinations, friction: Friction) -> Vec<Vec<f64>> {
     let Some(state) = at_random(system, design, friction) else {
         return Vec::new();
     };
     let conserved = conserved(system, design, friction);
     let loaded = |combinations: &Combinations, places: &[Linearised]| {
         let mut directions = readable(system, combinations, state.operations);
-        let along: Vec<_> = directions
-            .iter()
-            .map(|direction| exact(direction))
-            .collect();
+        let along: Vec<_> = directions.iter().map(|direction| exact(direction)).collect();
         let power = |state: &Linearised| powers(state, &along, &state.residual, system.fields.free);
         let here = power(&state);
         let elsewhere: Vec<_> = places.iter().map(power).collect();
@@ -42,14 +34,12 @@ pub(super) fn unbalanced(
         directions.retain(|_| {
             let k = k.next().unwrap_or(0);
             let there = |powers: &Vec<Disturbed>| powers[k].value() / here[k].value() - 1.0;
-            !here[k].is_rounding(state.operations)
-                && elsewhere.iter().all(|powers| there(powers).abs() < SAME)
+            !here[k].is_rounding(state.operations) && elsewhere.iter().all(|powers| there(powers).abs() < SAME)
         });
         independent(system, &state, directions)
     };
     // What rounding let pass changes from place to place.
-    let others =
-        (141..144).filter_map(|motion| system.at(RandomState { design, motion }, friction));
+    let others = (141..144).filter_map(|motion| system.at(RandomState { design, motion }, friction));
     let others: Vec<_> = others.collect();
     let everywhere = loaded(&conserved, &others);
     let dimension = |of: &Combinations| rank(&rates(system, &state, of), state.operations);
@@ -82,20 +72,9 @@ impl Cause<'_> {
 
 /// Every cause of load, with its part of the equations at rest.
 pub(super) fn causes<'a>(g: &mut Graph, context: &Context<'a>) -> Vec<(Cause<'a>, Vec<ExprId>)> {
-    let none = ForceSelection {
-        inertia: Selection::None,
-        forces: Selection::None,
-        gravity: false,
-        constraints: false,
-    };
-    let gravity = ForceSelection {
-        gravity: true,
-        ..none
-    };
-    let mut causes = vec![
-        (Cause::Gravity, gravity),
-        (Cause::Inertia, ForceSelection::INERTIA),
-    ];
+    let none = ForceSelection { inertia: Selection::None, forces: Selection::None, gravity: false, constraints: false };
+    let gravity = ForceSelection { gravity: true, ..none };
+    let mut causes = vec![(Cause::Gravity, gravity), (Cause::Inertia, ForceSelection::INERTIA)];
     for (index, force) in context.mechanism.forces.iter().enumerate() {
         let forces = Selection::One(ForceId::new(index));
         causes.push((Cause::Force(force), ForceSelection { forces, ..none }));
@@ -132,12 +111,7 @@ pub(super) fn mistakes(
 }
 
 /// The causes that do work along a direction.
-fn acting(
-    system: &System,
-    design: u64,
-    along: &[f64],
-    causes: &[(Cause, Vec<ExprId>)],
-) -> Vec<usize> {
+fn acting(system: &System, design: u64, along: &[f64], causes: &[(Cause, Vec<ExprId>)]) -> Vec<usize> {
     let acts = |k: &usize| works(system, design, along, &causes[*k].1);
     (0..causes.len()).filter(acts).collect()
 }
@@ -166,20 +140,12 @@ fn mistake(loads: &[&Cause], directions: &[Direction]) -> Diagnostic {
         }
         loads => loads.iter().map(|load| load.text()).collect(),
     };
-    let along: Vec<String> = directions
-        .iter()
-        .map(|direction| direction.text.clone())
-        .collect();
+    let along: Vec<String> = directions.iter().map(|direction| direction.text.clone()).collect();
     let verb = if names.len() == 1 { "acts" } else { "act" };
-    let message = format!(
-        "{} {verb} along {}, which nothing holds",
-        listed(&names),
-        listed(&along)
-    );
+    let message = format!("{} {verb} along {}, which nothing holds", listed(&names), listed(&along));
     let balance = match names.len() {
         1 => "drive it, or let it coast against a drag",
         _ => "drive it, let it coast against a drag, or make one load a function of the others",
     };
-    Diagnostic::new(span.unwrap_or(directions[0].span), message)
-        .with_help(format!("hold it by a spring, {balance}"))
+    Diagnostic::new(span.unwrap_or(directions[0].span), message).with_help(format!("hold it by a spring, {balance}"))
 }

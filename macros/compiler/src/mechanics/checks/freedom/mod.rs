@@ -50,11 +50,7 @@ pub(crate) fn free_directions(
     let system = System::new(g, context, equations, jacobians, &fields);
     // Without anything that a design could change, one says all.
     let alike = context.symbols.b.ids.is_empty() && context.symbols.u.ids.is_empty();
-    let mut free = FreeDirections {
-        count: usize::MAX,
-        notes: Vec::new(),
-        unbalanced: None,
-    };
+    let mut free = FreeDirections { count: usize::MAX, notes: Vec::new(), unbalanced: None };
     let mut first = None;
     for design in (1..=if alike { 1 } else { DESIGNS }).rev() {
         first = count(&system, design);
@@ -107,11 +103,8 @@ pub(crate) fn free_directions(
     let of_inputs = columns(g, &equations.rest, &context.symbols.u);
     let causes = causes(g, context);
     let system = System::new(g, context, equations, jacobians, &fields);
-    let (chosen, loaded): (Vec<_>, Vec<_>) = loaded.into_iter().partition(|along| {
-        of_inputs
-            .iter()
-            .any(|part| works(&system, NOMINAL, along, part))
-    });
+    let (chosen, loaded): (Vec<_>, Vec<_>) =
+        loaded.into_iter().partition(|along| of_inputs.iter().any(|part| works(&system, NOMINAL, along, part)));
     if !chosen.is_empty() {
         let text = |along: &Vec<f64>| described(context, &fields, along).text;
         let texts: Vec<String> = chosen.iter().map(text).collect();

@@ -55,14 +55,7 @@ impl<'a> System<'a> {
         let mut roots = jacobians.stiffness.concat();
         roots.extend(&equations.rest);
         roots.extend(fields.roots());
-        Self {
-            g,
-            context,
-            fields,
-            rest: &equations.rest,
-            stiffness: &jacobians.stiffness,
-            roots,
-        }
+        Self { g, context, fields, rest: &equations.rest, stiffness: &jacobians.stiffness, roots }
     }
 
     /// Number of unknowns.
@@ -81,12 +74,11 @@ impl<'a> System<'a> {
         let evaluator = Evaluator::new(self.g, &self.roots);
         let consistent = self.place(state);
         let unknowns = &self.context.symbols.q.ids[self.first_of_velocities()..];
-        let values = evaluator.at(state.motion, |symbol| {
-            match friction == Friction::None && unknowns.contains(&symbol) {
+        let values =
+            evaluator.at(state.motion, |symbol| match friction == Friction::None && unknowns.contains(&symbol) {
                 true => Disturbed::exact(0.0),
                 false => self.found(&consistent, state, symbol),
-            }
-        });
+            });
         self.linearised(&values, evaluator.operations())
     }
 
@@ -94,9 +86,7 @@ impl<'a> System<'a> {
     pub(super) fn values(&self, roots: &[ExprId], state: RandomState) -> (Vec<Disturbed>, usize) {
         let consistent = self.place(state);
         let evaluator = Evaluator::new(self.g, roots);
-        let values = evaluator.at(state.motion, |symbol| {
-            self.found(&consistent, state, symbol)
-        });
+        let values = evaluator.at(state.motion, |symbol| self.found(&consistent, state, symbol));
         (self.in_units(&values), evaluator.operations())
     }
 
@@ -104,9 +94,7 @@ impl<'a> System<'a> {
     fn in_units(&self, equations: &[Disturbed]) -> Vec<Disturbed> {
         let units = &self.fields.units;
         let pairs = equations.iter().zip(&units.unknowns);
-        pairs
-            .map(|(x, unit)| x.scaled(unit / units.energy))
-            .collect()
+        pairs.map(|(x, unit)| x.scaled(unit / units.energy)).collect()
     }
 
     /// Linearises where all coordinates are zero; `None` unless this is an equilibrium with some speeds and reactions.
@@ -114,10 +102,7 @@ impl<'a> System<'a> {
         let state = RandomState { design, motion: 1 };
         let free = self.fields.free;
         if self.size() == free {
-            let iterated_values = IteratedValues {
-                values: vec![0.0; free],
-                rounding: vec![0.0; free],
-            };
+            let iterated_values = IteratedValues { values: vec![0.0; free], rounding: vec![0.0; free] };
             return self.at_place(&iterated_values, state);
         }
         let columns = self.stiffness[free..].iter().flatten();
@@ -126,12 +111,7 @@ impl<'a> System<'a> {
         if starts[0].iter().any(|value| *value != 0.0) {
             starts.push(vec![0.0; self.size()]);
         }
-        let linearised = |start| {
-            self.at_place(
-                &self.minimum_norm_newton(state, &roots, start, free)?,
-                state,
-            )
-        };
+        let linearised = |start| self.at_place(&self.minimum_norm_newton(state, &roots, start, free)?, state);
         starts.into_iter().find_map(linearised)
     }
 
@@ -166,34 +146,23 @@ impl<'a> System<'a> {
     /// Linearises where all equations hold.
     fn at_place(&self, iterated_values: &IteratedValues, state: RandomState) -> Option<Linearised> {
         let residual = Evaluator::new(self.g, self.rest);
-        let gaps = residual.at(state.motion, |symbol| {
-            self.found(iterated_values, state, symbol)
-        });
+        let gaps = residual.at(state.motion, |symbol| self.found(iterated_values, state, symbol));
         let holds = |gap: &Disturbed| gap.is_finite() && gap.is_rounding(residual.operations());
         if !gaps.iter().all(holds) {
             return None;
         }
         let evaluator = Evaluator::new(self.g, &self.roots);
-        let values = evaluator.at(state.motion, |symbol| {
-            self.found(iterated_values, state, symbol)
-        });
+        let values = evaluator.at(state.motion, |symbol| self.found(iterated_values, state, symbol));
         self.linearised(&values, evaluator.operations())
     }
 
     /// The value of a symbol where unknowns have been found by iteration.
-    fn found(
-        &self,
-        iterated_values: &IteratedValues,
-        state: RandomState,
-        symbol: SymbolId,
-    ) -> Disturbed {
+    fn found(&self, iterated_values: &IteratedValues, state: RandomState, symbol: SymbolId) -> Disturbed {
         let unknowns = &self.context.symbols.q.ids;
         match unknowns.iter().position(|unknown| *unknown == symbol) {
-            Some(k) if k < iterated_values.values.len() => Disturbed::rounded(
-                iterated_values.values[k],
-                iterated_values.rounding[k],
-                u64::from(symbol.0),
-            ),
+            Some(k) if k < iterated_values.values.len() => {
+                Disturbed::rounded(iterated_values.values[k], iterated_values.rounding[k], u64::from(symbol.0))
+            }
             _ => Disturbed::exact(self.value(state, symbol)),
         }
     }
@@ -240,8 +209,7 @@ impl<'a> System<'a> {
         let unknowns = &self.context.symbols.q.ids[..moving];
         let random = |symbol: &SymbolId| state.value(self.context, *symbol);
         let start = unknowns.iter().map(random).collect();
-        self.minimum_norm_newton(state, &roots, start, 0)
-            .unwrap_or_default()
+        self.minimum_norm_newton(state, &roots, start, 0).unwrap_or_default()
     }
 
     /// Solves equations for some unknowns, `values[first..]`, by Newton's method with the shortest steps. `roots` holds
@@ -261,12 +229,11 @@ impl<'a> System<'a> {
         let (mut least, mut stalled, mut arrived) = (f64::INFINITY, 0, false);
         let mut largest = LARGEST_STEP;
         while stalled < PATIENCE {
-            let entries = evaluate(self.g, roots, |symbol| {
-                match unknowns.iter().position(|unknown| *unknown == symbol) {
+            let entries =
+                evaluate(self.g, roots, |symbol| match unknowns.iter().position(|unknown| *unknown == symbol) {
                     Some(k) => values[k] * units[k],
                     None => self.value(state, symbol),
-                }
-            });
+                });
             let (gaps, slopes) = entries.split_at(count);
             let slopes = slopes.iter().enumerate();
             let slopes = slopes.map(|(k, slope)| slope * units[first + k / count]);
@@ -281,10 +248,7 @@ impl<'a> System<'a> {
                 };
                 let rounding = (0..values.len()).map(rounding).collect();
                 let values = values.iter().zip(units).map(|(value, unit)| value * unit);
-                return Some(IteratedValues {
-                    values: values.collect(),
-                    rounding,
-                });
+                return Some(IteratedValues { values: values.collect(), rounding });
             }
             let coordinates = self.fields.free.saturating_sub(first).min(step.len());
             let share = (largest / size(&step[..coordinates])).min(1.0);
@@ -295,11 +259,7 @@ impl<'a> System<'a> {
             if arrived && gap > 1e-9 * size(&values) {
                 return None;
             }
-            largest = if gap < least {
-                2.0 * largest
-            } else {
-                LARGEST_STEP
-            };
+            largest = if gap < least { 2.0 * largest } else { LARGEST_STEP };
             stalled = if gap < 0.9 * least { 0 } else { stalled + 1 };
             least = least.min(gap);
         }
@@ -320,20 +280,10 @@ const LARGEST_STEP: f64 = 0.5;
 /// the shortest, or that with the least rest. Also the largest gap, by the steps that would close it alone.
 fn shortest_step(gaps: &[f64], slopes: &[f64]) -> Option<(Vec<f64>, f64)> {
     let (m, n) = (gaps.len(), slopes.len() / gaps.len().max(1));
-    let sizes: Vec<f64> = (0..m)
-        .map(|i| {
-            (0..n)
-                .map(|k| slopes[k * m + i] * slopes[k * m + i])
-                .sum::<f64>()
-                .sqrt()
-        })
-        .collect();
+    let sizes: Vec<f64> =
+        (0..m).map(|i| (0..n).map(|k| slopes[k * m + i] * slopes[k * m + i]).sum::<f64>().sqrt()).collect();
     let scaled = |i: usize, value: f64| {
-        if sizes[i] > 0.0 {
-            value / sizes[i]
-        } else {
-            0.0
-        }
+        if sizes[i] > 0.0 { value / sizes[i] } else { 0.0 }
     };
     let entry = |i: usize, k: usize| scaled(i, slopes[k * m + i]);
     let gaps: Vec<f64> = (0..m).map(|i| scaled(i, gaps[i])).collect();
@@ -352,12 +302,7 @@ fn shortest_step(gaps: &[f64], slopes: &[f64]) -> Option<(Vec<f64>, f64)> {
 
 /// `(A A^T + epsilon)^-1 right` for a matrix of `m` rows and `n` columns, by Cholesky factors. The small number lets
 /// dependent rows share.
-fn damped_solution(
-    m: usize,
-    n: usize,
-    entry: impl Fn(usize, usize) -> f64,
-    right: &[f64],
-) -> Option<Vec<f64>> {
+fn damped_solution(m: usize, n: usize, entry: impl Fn(usize, usize) -> f64, right: &[f64]) -> Option<Vec<f64>> {
     let rows: Vec<f64> = (0..m * n).map(|k| entry(k / n, k % n)).collect();
     let row = |i: usize| &rows[i * n..(i + 1) * n];
     let mut factors = vec![0.0; m * m];

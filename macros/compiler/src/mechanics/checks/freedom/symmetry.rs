@@ -77,10 +77,7 @@ fn wholes(system: &System, state: &Linearised, more: usize) -> Combinations {
     let mut join = |i: usize, j: usize| {
         let (from, to) = (parts[i].max(parts[j]), parts[i].min(parts[j]));
         if from != to {
-            parts
-                .iter_mut()
-                .filter(|part| **part == from)
-                .for_each(|part| *part = to);
+            parts.iter_mut().filter(|part| **part == from).for_each(|part| *part = to);
         }
     };
     for (j, column) in state.stiffness.iter().enumerate() {
@@ -118,22 +115,14 @@ fn wholes(system: &System, state: &Linearised, more: usize) -> Combinations {
 }
 
 /// `w . g` for each combination.
-pub(super) fn powers(
-    state: &Linearised,
-    along: &Combinations,
-    loads: &[Disturbed],
-    free: usize,
-) -> Vec<Disturbed> {
+pub(super) fn powers(state: &Linearised, along: &Combinations, loads: &[Disturbed], free: usize) -> Vec<Disturbed> {
     let coasting = loads[free..].iter().copied();
     let power = |field: &Field| {
         let pairs = field.coordinates.iter().zip(&field.rates);
         sum(pairs.map(|(&k, &rate)| rate * loads[k]))
     };
     let row: Vec<Disturbed> = state.fields.iter().map(power).chain(coasting).collect();
-    let row: Vec<Disturbed> = row
-        .into_iter()
-        .take(along.first().map_or(0, Vec::len))
-        .collect();
+    let row: Vec<Disturbed> = row.into_iter().take(along.first().map_or(0, Vec::len)).collect();
     times(&[row], along).concat()
 }
 
@@ -166,11 +155,7 @@ fn found(
             if let Some(found) = &combinations {
                 next = combined(found, &next);
             }
-            confirmed = if next.len() == before {
-                confirmed + 1
-            } else {
-                0
-            };
+            confirmed = if next.len() == before { confirmed + 1 } else { 0 };
             let done = next.is_empty() || confirmed == CONFIRMED;
             combinations = Some(next);
             if done {
@@ -200,9 +185,7 @@ fn missed(system: &System, state: &Linearised, before: usize, after: usize) -> R
     for carrier in &system.fields.carriers {
         let next = first + carrier.len();
         for component in 0..RIGID {
-            let entries = state.fields[first..next]
-                .iter()
-                .map(|field| field.missed[component]);
+            let entries = state.fields[first..next].iter().map(|field| field.missed[component]);
             let others = zeros(state.fields.len() - next + after);
             rows.push(zeros(before + first).chain(entries).chain(others).collect());
         }

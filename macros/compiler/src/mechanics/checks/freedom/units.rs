@@ -16,11 +16,7 @@ pub(super) struct Units {
 
 impl Units {
     pub(super) fn new(g: &Graph, context: &Context, jacobians: &Jacobians) -> Self {
-        let mut units = Self {
-            length: power_of_two(context.mechanism.length),
-            energy: 1.0,
-            unknowns: Vec::new(),
-        };
+        let mut units = Self { length: power_of_two(context.mechanism.length), energy: 1.0, unknowns: Vec::new() };
         let topology = context.topology;
         let moving = topology.free.iter().chain(&topology.coasting);
         let motion = |id: &CoordinateId| match context.mechanism.coordinates[id.index()].quantity {
@@ -28,24 +24,17 @@ impl Units {
             CoordinateQuantity::Displacement => units.length,
         };
         units.unknowns = moving.map(motion).collect();
-        let state = RandomState {
-            design: 1,
-            motion: 1,
-        };
+        let state = RandomState { design: 1, motion: 1 };
         let (free, ids) = (topology.free.len(), &context.symbols.q.ids);
         let columns = jacobians.stiffness[..free].iter();
-        let roots: Vec<_> = columns
-            .flat_map(|column| &column[..free])
-            .copied()
-            .collect();
+        let roots: Vec<_> = columns.flat_map(|column| &column[..free]).copied().collect();
         let stiffness = evaluate(g, &roots, |symbol| {
             let place = ids.iter().position(|id| *id == symbol);
             let unit = place.map_or(1.0, |k| units.unknowns.get(k).copied().unwrap_or(0.0));
             unit * state.value(context, symbol)
         });
-        let work = |(k, stiffness): (usize, &f64)| {
-            stiffness.abs() * units.unknowns[k / free] * units.unknowns[k % free]
-        };
+        let work =
+            |(k, stiffness): (usize, &f64)| stiffness.abs() * units.unknowns[k / free] * units.unknowns[k % free];
         units.energy = power_of_two(stiffness.iter().enumerate().map(work).fold(0.0, f64::max));
         let reaction = |unit: &str| match unit {
             "N" => REACTION * units.energy / units.length,

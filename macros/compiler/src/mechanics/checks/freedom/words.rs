@@ -25,17 +25,10 @@ pub(super) fn note(system: &System, count: &Count, state: &Linearised) -> String
             let all = reduced(&unresisted.rates);
             let moved = |rates: &Vec<f64>| rates.iter().filter(|x| x.abs() > NOTHING).count();
             match all.iter().all(|rates| moved(rates) <= FEW) {
-                true => all
-                    .iter()
-                    .map(|x| together(system.context, system.fields, x))
-                    .collect(),
+                true => all.iter().map(|x| together(system.context, system.fields, x)).collect(),
                 false => wholes
                     .map(|whole| described(system.context, system.fields, &whole).text)
-                    .chain(
-                        others
-                            .iter()
-                            .map(|x| together(system.context, system.fields, x)),
-                    )
+                    .chain(others.iter().map(|x| together(system.context, system.fields, x)))
                     .collect(),
             }
         }
@@ -61,19 +54,12 @@ pub(super) fn note(system: &System, count: &Count, state: &Linearised) -> String
         1 if !list[0].contains(':') => ("it stands", "its"),
         _ => ("they stand", "their"),
     };
-    format!(
-        "free: {}; nothing depends on where {they}, so {their} place is that of the start",
-        list.join(", ")
-    )
+    format!("free: {}; nothing depends on where {they}, so {their} place is that of the start", list.join(", "))
 }
 
 /// Combinations with short descriptions: those of coordinates alone, those of motions of space alone, then all. Some may
 /// mean the same motion.
-pub(super) fn readable(
-    system: &System,
-    combinations: &Combinations,
-    operations: usize,
-) -> Vec<Vec<f64>> {
+pub(super) fn readable(system: &System, combinations: &Combinations, operations: usize) -> Vec<Vec<f64>> {
     let of_space = system.fields.free..system.fields.len();
     let mut all = Vec::new();
     if !of_space.is_empty() {
@@ -92,27 +78,14 @@ pub(super) fn readable(
 }
 
 /// Those combinations in which some candidates have no share.
-fn without(
-    combinations: &Combinations,
-    candidates: impl Iterator<Item = usize>,
-    operations: usize,
-) -> Vec<Vec<f64>> {
-    let shares = candidates.map(|k| {
-        combinations
-            .iter()
-            .map(|combination| combination[k])
-            .collect()
-    });
+fn without(combinations: &Combinations, candidates: impl Iterator<Item = usize>, operations: usize) -> Vec<Vec<f64>> {
+    let shares = candidates.map(|k| combinations.iter().map(|combination| combination[k]).collect());
     let weights = NullSpace::new(shares.collect(), 0, operations).vectors;
     reduced(&combined(combinations, &weights))
 }
 
 /// Of some combinations, the first that are independent motions.
-pub(super) fn independent(
-    system: &System,
-    state: &Linearised,
-    combinations: Vec<Vec<f64>>,
-) -> Vec<Vec<f64>> {
+pub(super) fn independent(system: &System, state: &Linearised, combinations: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let mut chosen: Vec<Vec<f64>> = Vec::new();
     for candidate in combinations {
         chosen.push(candidate);
@@ -141,10 +114,7 @@ const NOTHING: f64 = 1e-9;
 
 /// The same directions in reduced echelon form.
 fn reduced(vectors: &[Vec<Disturbed>]) -> Vec<Vec<f64>> {
-    let mut rows: Vec<Vec<f64>> = vectors
-        .iter()
-        .map(|vector| vector.iter().map(Disturbed::value).collect())
-        .collect();
+    let mut rows: Vec<Vec<f64>> = vectors.iter().map(|vector| vector.iter().map(Disturbed::value).collect()).collect();
     let columns = rows.first().map_or(0, Vec::len);
     let mut done = 0;
     for column in 0..columns {
@@ -162,9 +132,7 @@ fn reduced(vectors: &[Vec<Disturbed>]) -> Vec<Vec<f64>> {
         for (k, row) in rows.iter_mut().enumerate() {
             let factor = row[column];
             if k != done {
-                row.iter_mut()
-                    .zip(&pivot_row)
-                    .for_each(|(x, item)| *x -= factor * item);
+                row.iter_mut().zip(&pivot_row).for_each(|(x, item)| *x -= factor * item);
             }
         }
         done += 1;
@@ -186,40 +154,23 @@ pub(super) fn described(context: &Context, fields: &Fields, combination: &[f64])
     });
     let carried: Vec<_> = carried.filter(|(_, x)| moved(x)).collect();
     let Some((carrier, twist)) = carried.first() else {
-        return Direction {
-            text: together(context, fields, &coordinates),
-            span: span_of(context, &coordinates),
-        };
+        return Direction { text: together(context, fields, &coordinates), span: span_of(context, &coordinates) };
     };
     let names: Vec<String> = carried
         .iter()
         .map(|(carrier, _)| format!("`{}`", context.mechanism.bodies[carrier.body.index()].name))
         .collect();
-    let moves = |k: &usize| {
-        carried
-            .iter()
-            .any(|(carrier, _)| carrier.coordinates.contains(k))
-    };
+    let moves = |k: &usize| carried.iter().any(|(carrier, _)| carrier.coordinates.contains(k));
     let names = match &names[..] {
         few if few.len() <= FEW => names.join(", "),
-        _ if fields
-            .carriers
-            .iter()
-            .all(|other| other.coordinates.iter().any(&moves)) =>
-        {
-            "the whole".to_owned()
-        }
+        _ if fields.carriers.iter().all(|other| other.coordinates.iter().any(&moves)) => "the whole".to_owned(),
         [first, others @ ..] => format!("{first} and {} other bodies", others.len()),
         [] => String::new(),
     };
     let (turn, shift) = twist.split_at(3);
     let (shift, spin) = shift.split_at(3);
     let spin = spin.iter().copied().chain([0.0; 3]);
-    let turn: Vec<f64> = turn
-        .iter()
-        .zip(spin)
-        .map(|(turn, spin)| turn + spin)
-        .collect();
+    let turn: Vec<f64> = turn.iter().zip(spin).map(|(turn, spin)| turn + spin).collect();
     let axis = |vector: &[f64]| -> Option<&str> {
         let present: Vec<usize> = (0..3).filter(|&k| vector[k].abs() > NOTHING).collect();
         match present[..] {
@@ -238,24 +189,13 @@ pub(super) fn described(context: &Context, fields: &Fields, combination: &[f64])
         none if none.is_empty() => motion,
         coordinates => format!("{coordinates} with {motion}"),
     };
-    Direction {
-        text,
-        span: context.mechanism.bodies[carrier.body.index()]
-            .name
-            .span()
-            .into(),
-    }
+    Direction { text, span: context.mechanism.bodies[carrier.body.index()].name.span().into() }
 }
 
 /// Coordinates that change in fixed ratios.
 fn together(context: &Context, fields: &Fields, rates: &[f64]) -> String {
-    let present: Vec<usize> = (0..rates.len())
-        .filter(|&k| rates[k].abs() > NOTHING)
-        .collect();
-    let names: Vec<String> = present
-        .iter()
-        .map(|&k| name(context, k).to_string())
-        .collect();
+    let present: Vec<usize> = (0..rates.len()).filter(|&k| rates[k].abs() > NOTHING).collect();
+    let names: Vec<String> = present.iter().map(|&k| name(context, k).to_string()).collect();
     match &present[..] {
         [] => String::new(),
         [_] => format!("`{}`", names[0]),

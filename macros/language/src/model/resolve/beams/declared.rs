@@ -31,9 +31,7 @@ impl Declared {
     /// The same with this many more coordinates of every component that has any, and as many points.
     pub(super) fn refined(mut self, more: usize) -> Self {
         let counts = self.counts.iter_mut().chain(&mut self.strains);
-        counts
-            .filter(|count| **count > 0)
-            .for_each(|count| *count += more);
+        counts.filter(|count| **count > 0).for_each(|count| *count += more);
         self.points += more;
         self
     }
@@ -44,9 +42,7 @@ impl Declared {
 
     /// Whether the axis is curved about the second and about the third axis before the beam bends.
     pub(super) fn is_curved(&self) -> [bool; 2] {
-        self.prebend
-            .each_ref()
-            .map(|prebend| *prebend != Expr::Number(0.0))
+        self.prebend.each_ref().map(|prebend| *prebend != Expr::Number(0.0))
     }
 
     /// The sections of a part of it: their places within the part, their weights, and what they are.

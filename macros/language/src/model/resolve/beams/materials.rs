@@ -60,11 +60,7 @@ impl Resolver<'_> {
             }
             _ => None,
         };
-        Some(Properties {
-            density,
-            modulus,
-            shear_modulus,
-        })
+        Some(Properties { density, modulus, shear_modulus })
     }
 
     /// `None` if wrong, with an inner `None` if not given.
@@ -97,11 +93,7 @@ impl Resolver<'_> {
     }
 
     /// The material of a beam: one that is declared, or properties of its own.
-    pub(super) fn material_of(
-        &mut self,
-        name: &Ident,
-        given: &Arguments<'_>,
-    ) -> Option<Properties> {
+    pub(super) fn material_of(&mut self, name: &Ident, given: &Arguments<'_>) -> Option<Properties> {
         let properties = self.properties(name, given);
         let Some(value) = given.get("material") else {
             return properties;
@@ -112,14 +104,11 @@ impl Resolver<'_> {
             return None;
         };
         let own_names = ["density", "modulus", "shear_modulus", "poisson"];
-        let other = own_names
-            .into_iter()
-            .find_map(|name| Some((name, given.get(name)?)));
+        let other = own_names.into_iter().find_map(|name| Some((name, given.get(name)?)));
         if let Some((other, value)) = other {
             let message = format!("a beam takes `material` or `{other}`, not both");
             let help = format!("leave out `{other}`, or declare another material");
-            self.diagnostics
-                .error_with_help(value.extent, message, help);
+            self.diagnostics.error_with_help(value.extent, message, help);
             return None;
         }
         let text = wanted.to_string();
@@ -129,9 +118,7 @@ impl Resolver<'_> {
         let known = self.materials.iter().map(|(name, _)| name.as_str());
         let help = match nearest(&text, known) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => format!(
-                "declare it: `material {text}: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`"
-            ),
+            None => format!("declare it: `material {text}: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`"),
         };
         let message = format!("unknown material `{text}`");
         self.diagnostics.error_with_help(wanted, message, help);

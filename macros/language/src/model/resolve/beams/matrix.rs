@@ -16,14 +16,7 @@ use crate::syntax::ast::{Value, ValueKind};
 const ORDER: [usize; 6] = [3, 4, 5, 0, 1, 2];
 
 /// The strains, in the order of the rows.
-const STRAINS: [&str; 6] = [
-    "stretch",
-    "shear along y",
-    "shear along z",
-    "twist",
-    "bending about y",
-    "bending about z",
-];
+const STRAINS: [&str; 6] = ["stretch", "shear along y", "shear along z", "twist", "bending about y", "bending about z"];
 
 /// Share of the geometric mean of two entries of the diagonal by which the two entries beside it may differ.
 const ROUNDING: f64 = 1e-9;
@@ -37,11 +30,11 @@ pub(super) struct Stiffness {
 impl Resolver<'_> {
     /// Six rows of six entries, each with its unit or a plain number in units of the SI.
     pub(super) fn stiffness_matrix(&mut self, name: &Ident, value: &Value) -> Option<Stiffness> {
-        let rows: Vec<&[Value]> = rows_of(value)
-            .filter(|rows| rows.len() == 6 && rows.iter().all(|row| row.len() == 6))
-            .or_else(|| {
+        let rows: Vec<&[Value]> =
+            rows_of(value).filter(|rows| rows.len() == 6 && rows.iter().all(|row| row.len() == 6)).or_else(|| {
                 let message = "`stiffness` is a matrix of six rows with six entries";
-                let help = "write `[[EA, ..], ..]`, in the order stretch, shear along y and z, twist, bending about y and z";
+                let help =
+                    "write `[[EA, ..], ..]`, in the order stretch, shear along y and z, twist, bending about y and z";
                 self.diagnostics.error_with_help(value.extent, message, help);
                 None
             })?;
@@ -61,10 +54,7 @@ impl Resolver<'_> {
                 let (here, there) = (numbers[6 * i + j], numbers[6 * j + i]);
                 let size = (numbers[7 * i] * numbers[7 * j]).abs().sqrt();
                 if at(i, j) != at(j, i) && (here - there).abs() > ROUNDING * size {
-                    let message = format!(
-                        "`stiffness` is not symmetric: {here} here, {there} in row {}",
-                        j + 1
-                    );
+                    let message = format!("`stiffness` is not symmetric: {here} here, {there} in row {}", j + 1);
                     self.diagnostics.error(entry.extent, message);
                     return None;
                 }
@@ -75,17 +65,13 @@ impl Resolver<'_> {
             let extent = rows[k][k].extent;
             let number = self.nominal_of(&pivot);
             if !on_inputs.of(&pivot) && (number.is_nan() || number <= 0.0) {
-                let message =
-                    "`stiffness` is not positive definite: some strain would take no work";
+                let message = "`stiffness` is not positive definite: some strain would take no work";
                 let help = "leave out strains that nothing resists by rows of zeros";
                 self.diagnostics.error_with_help(extent, message, help);
                 return None;
             }
             self.requirements.push(Requirement {
-                what: format!(
-                    "the stiffness of `{name}` against {} with the strains of earlier rows free",
-                    STRAINS[k]
-                ),
+                what: format!("the stiffness of `{name}` against {} with the strains of earlier rows free", STRAINS[k]),
                 values: vec![pivot],
                 demand: Demand::Positive(Dimension::new(if k < 3 { 1 } else { 3 }, 1, -2)),
                 extent,

@@ -20,19 +20,9 @@ const BENDING: Dimension = Dimension::new(3, 1, -2);
 const INERTIA: Dimension = Dimension::new(1, 1, 0);
 
 static KINDS: [Signature<Kind>; 4] = [
-    Signature::new(
-        "rectangle",
-        &["width", "height"],
-        "rectangle(width: 40 mm, height: 6 mm)",
-        Kind::Rectangle,
-    ),
+    Signature::new("rectangle", &["width", "height"], "rectangle(width: 40 mm, height: 6 mm)", Kind::Rectangle),
     Signature::new("circle", &["radius"], "circle(radius: 5 mm)", Kind::Circle),
-    Signature::new(
-        "tube",
-        &["outer", "inner"],
-        "tube(outer: 20 mm, inner: 17 mm)",
-        Kind::Tube,
-    ),
+    Signature::new("tube", &["outer", "inner"], "tube(outer: 20 mm, inner: 17 mm)", Kind::Tube),
     Signature::new(
         "section",
         &["mass"],
@@ -68,12 +58,7 @@ const SYNONYMS: [(&str, &str); 7] = [
 
 impl Resolver<'_> {
     /// The section of a beam, from its arguments.
-    pub(super) fn table(
-        &mut self,
-        name: &Ident,
-        word: &Ident,
-        given: &Arguments<'_>,
-    ) -> Option<Table> {
+    pub(super) fn table(&mut self, name: &Ident, word: &Ident, given: &Arguments<'_>) -> Option<Table> {
         let material = self.material_of(name, given);
         let by_numbers = [
             "mass_per_length",
@@ -94,16 +79,14 @@ impl Resolver<'_> {
             (Some(_), Some((name, value))) => {
                 let message = format!("a beam takes `section` or `{name}`, not both");
                 let help = format!("leave out `{name}`, or give all numbers without a `section`");
-                self.diagnostics
-                    .error_with_help(value.extent, message, help);
+                self.diagnostics.error_with_help(value.extent, message, help);
                 None
             }
             (Some(value), None) => {
                 let ValueKind::Sections(calls) = &value.kind else {
                     let message = "`section` is a shape";
                     let help = "write `section: rectangle(width: 40 mm, height: 6 mm)`";
-                    self.diagnostics
-                        .error_with_help(value.extent, message, help);
+                    self.diagnostics.error_with_help(value.extent, message, help);
                     return None;
                 };
                 let center = self.center(given)?;
@@ -130,8 +113,7 @@ impl Resolver<'_> {
             }
             (None, None) => {
                 let message = "`beam` needs a `section`, or `mass_per_length` and stiffnesses";
-                let help =
-                    "write `section: rectangle(width: 40 mm, height: 6 mm), material: steel`";
+                let help = "write `section: rectangle(width: 40 mm, height: 6 mm), material: steel`";
                 self.diagnostics.error_with_help(word, message, help);
                 None
             }
@@ -140,12 +122,7 @@ impl Resolver<'_> {
 
     /// Mass, stiffness about y, about z and against twist, the two inertias, stiffness against stretch and against shear
     /// along y and z, width and height; zero if not given. And what couples them, if the stiffness is a matrix.
-    fn numbers(
-        &mut self,
-        name: &Ident,
-        given: &Arguments<'_>,
-        names: [&str; NUMBERS],
-    ) -> Option<Numbers> {
+    fn numbers(&mut self, name: &Ident, given: &Arguments<'_>, names: [&str; NUMBERS]) -> Option<Numbers> {
         let dimensions = [
             Dimension::LINE_DENSITY,
             BENDING,
@@ -178,8 +155,7 @@ impl Resolver<'_> {
         if let [Some((size, value)), None] | [None, Some((size, value))] = sizes {
             let message = format!("`{size}` alone is not the size of a section");
             let help = "give `width` and `height`, which pictures show, or neither";
-            self.diagnostics
-                .error_with_help(value.extent, message, help);
+            self.diagnostics.error_with_help(value.extent, message, help);
             return None;
         }
         let Some(value) = given.get("stiffness") else {
@@ -190,8 +166,7 @@ impl Resolver<'_> {
         if let Some(again) = again {
             let message = format!("`stiffness` and `{}` say the same", names[*again]);
             let help = "give the matrix, or its diagonal by names";
-            self.diagnostics
-                .error_with_help(value.extent, message, help);
+            self.diagnostics.error_with_help(value.extent, message, help);
             return None;
         }
         let Stiffness { diagonal, coupling } = self.stiffness_matrix(name, value)?;
@@ -218,8 +193,7 @@ impl Resolver<'_> {
         };
         let message = "the centre of mass is given for the section and for the whole beam";
         let help = "give it once: within `section(...)` it may change along the beam";
-        self.diagnostics
-            .error_with_help(value.extent, message, help);
+        self.diagnostics.error_with_help(value.extent, message, help);
         None
     }
 
@@ -296,19 +270,8 @@ impl Resolver<'_> {
             Kind::Circle => &["radius"],
             Kind::Tube => &["outer", "inner"],
             Kind::Numbers => {
-                let order = [
-                    "mass",
-                    "EIy",
-                    "EIz",
-                    "GJ",
-                    "inertia_y",
-                    "inertia_z",
-                    "EA",
-                    "GAy",
-                    "GAz",
-                    "width",
-                    "height",
-                ];
+                let order =
+                    ["mass", "EIy", "EIz", "GJ", "inertia_y", "inertia_z", "EA", "GAy", "GAz", "width", "height"];
                 return self.numbers(name, given, order);
             }
         };
@@ -322,13 +285,12 @@ impl Resolver<'_> {
             lengths.push((length, value));
         }
         if let (Kind::Tube, [(Some(outer), _), (Some(inner), at)]) = (kind, &lengths[..]) {
-            self.requirements
-                .push(crate::model::rules::physical::Requirement {
-                    what: format!("the inner radius of `{name}`"),
-                    values: vec![inner.clone(), outer.clone()],
-                    demand: Demand::BelowOuter,
-                    extent: at.extent,
-                });
+            self.requirements.push(crate::model::rules::physical::Requirement {
+                what: format!("the inner radius of `{name}`"),
+                values: vec![inner.clone(), outer.clone()],
+                demand: Demand::BelowOuter,
+                extent: at.extent,
+            });
         }
         let lengths = lengths.into_iter().map(|(length, _)| length);
         Some((lengths.collect::<Option<_>>()?, Vec::new()))
@@ -341,11 +303,7 @@ impl Resolver<'_> {
 
     /// A value at the nominal design, with all inputs one.
     pub(super) fn nominal_of(&self, value: &Expr) -> f64 {
-        let design: Vec<f64> = self
-            .design
-            .iter()
-            .map(|value| value.as_ref().map_or(f64::NAN, |x| x.value))
-            .collect();
+        let design: Vec<f64> = self.design.iter().map(|value| value.as_ref().map_or(f64::NAN, |x| x.value)).collect();
         let inputs = vec![1.0; self.inputs.len()];
         let values = crate::model::evaluate::Values::new(&self.constants, &inputs, &design);
         values.of(value)
@@ -353,10 +311,7 @@ impl Resolver<'_> {
 }
 
 /// The same entries at both ends: where only one couples its strains, zero at the other.
-fn both_ends(
-    root: &[(usize, usize, Expr)],
-    tip: &[(usize, usize, Expr)],
-) -> [Vec<(usize, usize, Expr)>; 2] {
+fn both_ends(root: &[(usize, usize, Expr)], tip: &[(usize, usize, Expr)]) -> [Vec<(usize, usize, Expr)>; 2] {
     let completed = |entries: &[(usize, usize, Expr)], other: &[(usize, usize, Expr)]| {
         let mut all = entries.to_vec();
         for (i, j, _) in other {

@@ -8,9 +8,7 @@ use super::super::resolver::Resolver;
 use super::declared::Declared;
 use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId};
 use crate::model::expression::Expr;
-use crate::model::mechanism::{
-    Beam, Body, Coordinate, CoordinateQuantity, Frame, Joint, Motion, Point, Station,
-};
+use crate::model::mechanism::{Beam, Body, Coordinate, CoordinateQuantity, Frame, Joint, Motion, Point, Station};
 use crate::model::simplify;
 use crate::syntax::ast::{ItemKind, Value, ValueKind};
 
@@ -34,16 +32,8 @@ struct Piece {
 impl Resolver<'_> {
     /// The station that a place means on a frame: `tip`, `root` or a fraction of the length of a beam; `None` if it is
     /// an ordinary place, with an inner `None` if it is wrong.
-    pub(in crate::model::resolve) fn station(
-        &mut self,
-        frame: &Ident,
-        value: &Value,
-    ) -> Option<Option<Frame>> {
-        let beam = self
-            .stations
-            .beams
-            .iter()
-            .position(|(name, _)| name == frame);
+    pub(in crate::model::resolve) fn station(&mut self, frame: &Ident, value: &Value) -> Option<Option<Frame>> {
+        let beam = self.stations.beams.iter().position(|(name, _)| name == frame);
         let fraction = match &value.kind {
             ValueKind::Fraction(fraction) => *fraction,
             ValueKind::Name(word) if beam.is_some() && word == "tip" => 1.0,
@@ -53,26 +43,20 @@ impl Resolver<'_> {
         let Some(beam) = beam else {
             let message = format!("`{frame}` is not a beam: it has no places along it");
             let help = format!("place it by a vector: `{frame} at [0.1 m, 0, 0]`");
-            self.diagnostics
-                .error_with_help(value.extent, message, help);
+            self.diagnostics.error_with_help(value.extent, message, help);
             return Some(None);
         };
         if !(0.0..=1.0).contains(&fraction) {
             let message = format!("{fraction} is outside the beam, which goes from 0 to 1 length");
             let help = format!("write a fraction: `{frame} at 0.4 length`, or `{frame} at tip`");
-            self.diagnostics
-                .error_with_help(value.extent, message, help);
+            self.diagnostics.error_with_help(value.extent, message, help);
             return Some(None);
         }
         let root = self.frame(frame);
         if fraction == 0.0 {
             return Some(root);
         }
-        let known = self
-            .stations
-            .used
-            .iter()
-            .position(|x| *x == (beam, fraction));
+        let known = self.stations.used.iter().position(|x| *x == (beam, fraction));
         let index = known.unwrap_or_else(|| {
             self.stations.used.push((beam, fraction));
             self.stations.used.len() - 1
@@ -124,10 +108,7 @@ impl Resolver<'_> {
                 true => "tip".to_owned(),
                 false => format!("station_{index}"),
             };
-            bodies.push(Body {
-                name: self.unused(&format!("{name}_{word}"), name),
-                parts: Vec::new(),
-            });
+            bodies.push(Body { name: self.unused(&format!("{name}_{word}"), name), parts: Vec::new() });
         }
         for (index, (name, declared)) in stations.beams.iter().enumerate() {
             let root = bodies.iter().position(|body| body.name == *name);
@@ -153,23 +134,9 @@ impl Resolver<'_> {
                     1 => name.to_string(),
                     _ => format!("{name}_{}", number + 1),
                 };
-                let within = beam_stations
-                    .iter()
-                    .filter(|(fraction, _)| start.0 < *fraction && *fraction <= end.0);
-                let piece = Piece {
-                    name,
-                    root: start,
-                    end: end.0,
-                    stations: within.copied().collect(),
-                };
-                beams.push(self.piece(
-                    &stations.beams[index].0,
-                    declared,
-                    piece,
-                    beams.len(),
-                    bodies,
-                    joints,
-                ));
+                let within = beam_stations.iter().filter(|(fraction, _)| start.0 < *fraction && *fraction <= end.0);
+                let piece = Piece { name, root: start, end: end.0, stations: within.copied().collect() };
+                beams.push(self.piece(&stations.beams[index].0, declared, piece, beams.len(), bodies, joints));
                 start = *end;
             }
         }
@@ -233,16 +200,8 @@ impl Resolver<'_> {
             body: root,
             length: simplify::multiply(Expr::Number(share), declared.length.clone()),
             axes: declared.axes.clone(),
-            coordinates: [
-                component("torsion", torsion),
-                component("bend_y", y),
-                component("bend_z", z),
-            ],
-            strains: [
-                component("stretch", stretch),
-                component("shear_y", shear_y),
-                component("shear_z", shear_z),
-            ],
+            coordinates: [component("torsion", torsion), component("bend_y", y), component("bend_z", z)],
+            strains: [component("stretch", stretch), component("shear_y", shear_y), component("shear_z", shear_z)],
             static_shear: declared.static_shear,
             root: declared.section(start),
             round: declared.table.is_round(),
@@ -265,19 +224,11 @@ impl Resolver<'_> {
                 _ => continue,
             };
             let arguments = call.arguments.iter().flatten();
-            names.extend(
-                arguments
-                    .flat_map(|argument| argument.value.names())
-                    .map(Ident::to_string),
-            );
+            names.extend(arguments.flat_map(|argument| argument.value.names()).map(Ident::to_string));
         }
         let of_joints = joints.iter().flat_map(|joint| [joint.from, joint.to]);
-        let of_points = points
-            .iter()
-            .filter(|point| names.contains(&point.name.to_string()));
-        of_joints
-            .chain(of_points.map(|point| point.frame))
-            .collect()
+        let of_points = points.iter().filter(|point| names.contains(&point.name.to_string()));
+        of_joints.chain(of_points.map(|point| point.frame)).collect()
     }
 
     /// A name that nothing else has.

@@ -101,38 +101,21 @@ impl Table {
 
     /// Whether mass is off the axis.
     pub(super) fn is_off_axis(&self) -> bool {
-        self.centers
-            .as_flattened()
-            .iter()
-            .any(|center| *center != Expr::Number(0.0))
+        self.centers.as_flattened().iter().any(|center| *center != Expr::Number(0.0))
     }
 
     /// The section at a fraction of the length.
     pub(super) fn section(&self, fraction: f64, turned: (&Expr, &[Expr; 2])) -> Section {
         let [root, tip] = &self.ends;
         let both = root.iter().zip(tip);
-        let at: Vec<Expr> = both
-            .map(|(root, tip)| between(root, tip, fraction))
-            .collect();
+        let at: Vec<Expr> = both.map(|(root, tip)| between(root, tip, fraction)).collect();
         let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], fraction));
         let pairs = self.coupling[0].iter().zip(&self.coupling[1]);
         let pairs = pairs.map(|((i, j, root), (.., tip))| (*i, *j, between(root, tip, fraction)));
         let coupling = pairs.filter(|(.., x)| *x != Expr::Number(0.0)).collect();
         let share = |whole: &Expr| multiply(Expr::Number(fraction), whole.clone());
         let (twist, prebend) = (share(turned.0), turned.1.each_ref().map(share));
-        if let [
-            mass,
-            about_y,
-            about_z,
-            torsion,
-            inertia_y,
-            inertia_z,
-            axial,
-            shear_y,
-            shear_z,
-            width,
-            height,
-        ] = &at[..]
+        if let [mass, about_y, about_z, torsion, inertia_y, inertia_z, axial, shear_y, shear_z, width, height] = &at[..]
         {
             return Section {
                 mass: mass.clone(),
@@ -151,11 +134,7 @@ impl Table {
             Some(modulus) => multiply(modulus.clone(), moment),
             None => Expr::Number(0.0),
         };
-        let Properties {
-            density,
-            modulus,
-            shear_modulus,
-        } = &self.material;
+        let Properties { density, modulus, shear_modulus } = &self.material;
         let shear = match (self.shear_coefficient(&at), shear_modulus) {
             (Some(coefficient), Some(shear_modulus)) => {
                 multiply(coefficient, multiply(shear_modulus.clone(), area.clone()))
@@ -167,11 +146,7 @@ impl Table {
             mass: of(density, area),
             inertia: [of(density, second_y.clone()), of(density, second_z.clone())],
             center,
-            stiffness: [
-                of(shear_modulus, torsion),
-                of(modulus, second_y),
-                of(modulus, second_z),
-            ],
+            stiffness: [of(shear_modulus, torsion), of(modulus, second_y), of(modulus, second_z)],
             coupling,
             twist,
             prebend,
@@ -198,11 +173,7 @@ impl Table {
 
     /// The share of the area that carries shear: of a rectangle and of a circle or tube by Cowper (1966).
     fn shear_coefficient(&self, dimensions: &[Expr]) -> Option<Expr> {
-        let Properties {
-            modulus,
-            shear_modulus,
-            ..
-        } = &self.material;
+        let Properties { modulus, shear_modulus, .. } = &self.material;
         let twice = multiply(Expr::Number(2.0), shear_modulus.clone()?);
         let poisson = subtract(divide(modulus.clone()?, twice), Expr::Number(1.0));
         let line = |constant: f64, slope: f64| {
@@ -218,10 +189,7 @@ impl Table {
         };
         let square = power_integer(add(Expr::Number(1.0), hollow.clone()), 2);
         let above = multiply(line(6.0, 6.0), square.clone());
-        let below = add(
-            multiply(line(7.0, 6.0), square),
-            multiply(line(20.0, 12.0), hollow),
-        );
+        let below = add(multiply(line(7.0, 6.0), square), multiply(line(20.0, 12.0), hollow));
         Some(divide(above, below))
     }
 
@@ -231,20 +199,13 @@ impl Table {
         match (self.kind, dimensions) {
             (Kind::Rectangle, [width, height]) => {
                 let second = |across: &Expr, along: &Expr| {
-                    scaled(
-                        1.0 / 12.0,
-                        multiply(across.clone(), power_integer(along.clone(), 3)),
-                    )
+                    scaled(1.0 / 12.0, multiply(across.clone(), power_integer(along.clone(), 3)))
                 };
                 let torsion = match self.is_flat {
                     true => torsion_of_rectangle(width, height),
                     false => torsion_of_rectangle(height, width),
                 };
-                (
-                    multiply(width.clone(), height.clone()),
-                    [second(width, height), second(height, width)],
-                    torsion,
-                )
+                (multiply(width.clone(), height.clone()), [second(width, height), second(height, width)], torsion)
             }
             (_, [outer, rest @ ..]) => {
                 let power = |n: i32| {
@@ -270,10 +231,9 @@ impl Table {
 fn between(root: &Expr, tip: &Expr, fraction: f64) -> Expr {
     match root == tip {
         true => root.clone(),
-        false => add(
-            multiply(Expr::Number(1.0 - fraction), root.clone()),
-            multiply(Expr::Number(fraction), tip.clone()),
-        ),
+        false => {
+            add(multiply(Expr::Number(1.0 - fraction), root.clone()), multiply(Expr::Number(fraction), tip.clone()))
+        }
     }
 }
 
@@ -286,10 +246,7 @@ fn torsion_of_rectangle(long: &Expr, thick: &Expr) -> Expr {
     let mut sum = Expr::Number(SUM);
     for n in [1.0_f64, 3.0, 5.0] {
         let growing = call(Function::Exp, multiply(Expr::Number(n * PI), ratio.clone()));
-        let missing = divide(
-            Expr::Number(2.0 / n.powi(5)),
-            add(growing, Expr::Number(1.0)),
-        );
+        let missing = divide(Expr::Number(2.0 / n.powi(5)), add(growing, Expr::Number(1.0)));
         sum = subtract(sum, missing);
     }
     let factor = Expr::Number(64.0 / PI.powi(5));

@@ -62,10 +62,8 @@ impl Quantities<'_, '_, '_> {
             Some(unit) => self.resolver.unit(unit).map(Some),
             None => Some(None),
         };
-        let scalars: Vec<_> = entries
-            .iter()
-            .map(|entry| (entry, self.resolver.scalar(entry, ValueContext::Parameter)))
-            .collect();
+        let scalars: Vec<_> =
+            entries.iter().map(|entry| (entry, self.resolver.scalar(entry, ValueContext::Parameter))).collect();
         let scale = scale?;
         let mut tensor = Vec::new();
         for (entry, scalar) in scalars {
@@ -74,17 +72,11 @@ impl Quantities<'_, '_, '_> {
                 Some((dimension, scale)) => {
                     let product = quantity.dimension().times(dimension);
                     let quantity = self.resolver.in_range(product, value.extent)?;
-                    self.resolver
-                        .expect(quantity, Dimension::INERTIA, "`inertia`", value)?;
+                    self.resolver.expect(quantity, Dimension::INERTIA, "`inertia`", value)?;
                     Some(multiply(Expr::Number(scale), expr))
                 }
                 None => {
-                    self.resolver.expect(
-                        quantity,
-                        Dimension::INERTIA,
-                        "an entry of `inertia`",
-                        entry,
-                    )?;
+                    self.resolver.expect(quantity, Dimension::INERTIA, "an entry of `inertia`", entry)?;
                     Some(expr)
                 }
             });
@@ -104,13 +96,10 @@ impl Quantities<'_, '_, '_> {
 
     /// The moments of inertia about the axes, by an expression.
     fn moments(&mut self, value: &Value) -> Option<[Expr; 6]> {
-        let Typed::Vector([x, y, z], quantity) =
-            self.resolver.value(value, ValueContext::Parameter)?
-        else {
+        let Typed::Vector([x, y, z], quantity) = self.resolver.value(value, ValueContext::Parameter)? else {
             return self.wrong_inertia(value);
         };
-        self.resolver
-            .expect(quantity, Dimension::INERTIA, "`inertia`", value)?;
+        self.resolver.expect(quantity, Dimension::INERTIA, "`inertia`", value)?;
         let none = Expr::Number(0.0);
         Some([x, y, z, none.clone(), none.clone(), none])
     }
@@ -130,14 +119,7 @@ fn about_center(inertia: [Expr; 6], mass: &Expr, arm: &Vector) -> [Expr; 6] {
     let [x, y, z] = arm.clone();
     let [xx, yy, zz] = arm.clone().map(|component| power_integer(component, 2));
     let off = |a: &Expr, b: &Expr| multiply(Expr::Number(-1.0), multiply(a.clone(), b.clone()));
-    let shifts = [
-        add(yy.clone(), zz.clone()),
-        add(zz, xx.clone()),
-        add(xx, yy),
-        off(&x, &y),
-        off(&y, &z),
-        off(&x, &z),
-    ];
+    let shifts = [add(yy.clone(), zz.clone()), add(zz, xx.clone()), add(xx, yy), off(&x, &y), off(&y, &z), off(&x, &z)];
     let mut shifts = shifts.into_iter();
     inertia.map(|entry| match shifts.next() {
         Some(shift) => subtract(entry, multiply(mass.clone(), shift)),

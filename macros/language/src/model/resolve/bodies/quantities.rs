@@ -19,16 +19,8 @@ pub(in crate::model::resolve) struct Quantities<'a, 'b, 'c> {
 
 impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
     /// The arguments of a shape of a body.
-    pub(super) fn new(
-        resolver: &'a mut Resolver<'b>,
-        arguments: Arguments<'c>,
-        body: &str,
-    ) -> Self {
-        Self {
-            resolver,
-            arguments,
-            body: body.to_string(),
-        }
+    pub(super) fn new(resolver: &'a mut Resolver<'b>, arguments: Arguments<'c>, body: &str) -> Self {
+        Self { resolver, arguments, body: body.to_string() }
     }
 
     pub(super) fn require(&mut self, what: &str, values: Vec<Expr>, demand: Demand, at: &Value) {
@@ -78,8 +70,7 @@ impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
 
     /// Requires the bore of a tube to leave a wall.
     pub(super) fn inner_below_outer(&mut self, inner: Option<&Expr>, outer: Option<&Expr>) {
-        if let (Some(inner), Some(outer), Some(value)) = (inner, outer, self.arguments.get("inner"))
-        {
+        if let (Some(inner), Some(outer), Some(value)) = (inner, outer, self.arguments.get("inner")) {
             let radii = vec![inner.clone(), outer.clone()];
             self.require("inner radius", radii, Demand::BelowOuter, value);
         }
@@ -93,8 +84,7 @@ impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
     pub(super) fn size(&mut self) -> Option<Vector> {
         let value = self.arguments.get("size")?;
         let (size, quantity) = self.resolver.vector(value, ValueContext::Parameter)?;
-        self.resolver
-            .expect(quantity, Dimension::LENGTH, "`size`", value)?;
+        self.resolver.expect(quantity, Dimension::LENGTH, "`size`", value)?;
         let demand = Demand::Positive(Dimension::LENGTH);
         self.require("size", size.to_vec(), demand, value);
         Some(size)

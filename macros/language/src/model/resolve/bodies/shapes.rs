@@ -20,36 +20,21 @@ const CENTER: &[&str] = &["center"];
 
 pub(in crate::model::resolve) const SHAPES: &[Row] = &[
     Row::new("massless", &[], "massless", |_| None),
-    Row::new("point", &["mass"], "point(mass: 1 kg)", |shape| {
-        shape.point()
-    })
-    .optional(CENTER)
-    .refusing(&[("density", "a point has no volume: give its `mass`")]),
-    Row::new(
-        "rod",
-        &["length", "along"],
-        "rod(mass: 1 kg, length: 1 m, along: -z)",
-        |shape| shape.rod(),
-    )
-    .exactly_one(MASS)
-    .optional(CENTER)
-    .refusing(&[("radius", "a rod is thin; a thick one is a `cylinder`")]),
-    Row::new(
-        "disk",
-        &["radius", "axis"],
-        "disk(mass: 1 kg, radius: 0.1 m, axis: z)",
-        |shape| shape.disk(),
-    )
-    .exactly_one(MASS)
-    .optional(CENTER)
-    .refusing(&[
-        ("length", "a disk is thin; a thick one is a `cylinder`"),
-        ("thickness", "a disk is thin; a thick one is a `cylinder`"),
-        (
-            "inner",
-            "a disk with a bore is a `disk` minus a `disk`, or a `tube`",
-        ),
-    ]),
+    Row::new("point", &["mass"], "point(mass: 1 kg)", |shape| shape.point())
+        .optional(CENTER)
+        .refusing(&[("density", "a point has no volume: give its `mass`")]),
+    Row::new("rod", &["length", "along"], "rod(mass: 1 kg, length: 1 m, along: -z)", |shape| shape.rod())
+        .exactly_one(MASS)
+        .optional(CENTER)
+        .refusing(&[("radius", "a rod is thin; a thick one is a `cylinder`")]),
+    Row::new("disk", &["radius", "axis"], "disk(mass: 1 kg, radius: 0.1 m, axis: z)", |shape| shape.disk())
+        .exactly_one(MASS)
+        .optional(CENTER)
+        .refusing(&[
+            ("length", "a disk is thin; a thick one is a `cylinder`"),
+            ("thickness", "a disk is thin; a thick one is a `cylinder`"),
+            ("inner", "a disk with a bore is a `disk` minus a `disk`, or a `tube`"),
+        ]),
     Row::new(
         "cylinder",
         &["radius", "length", "axis"],
@@ -67,33 +52,15 @@ pub(in crate::model::resolve) const SHAPES: &[Row] = &[
     )
     .exactly_one(MASS)
     .optional(CENTER),
-    Row::new(
-        "box",
-        &["size"],
-        "box(mass: 1 kg, size: [1 m, 2 m, 3 m])",
-        |shape| shape.cuboid(),
-    )
-    .exactly_one(MASS)
-    .optional(CENTER),
-    Row::new(
-        "sphere",
-        &["radius"],
-        "sphere(mass: 1 kg, radius: 0.1 m)",
-        |shape| shape.sphere(),
-    )
-    .exactly_one(MASS)
-    .optional(CENTER),
-    Row::new(
-        "rigid",
-        &["mass", "inertia"],
-        "rigid(mass: 1 kg, inertia: [1, 1, 1] kg*m^2)",
-        |shape| shape.rigid(),
-    )
-    .optional(&["center", "about"])
-    .refusing(&[(
-        "density",
-        "the volume of a `rigid` body is not known: give its `mass`",
-    )]),
+    Row::new("box", &["size"], "box(mass: 1 kg, size: [1 m, 2 m, 3 m])", |shape| shape.cuboid())
+        .exactly_one(MASS)
+        .optional(CENTER),
+    Row::new("sphere", &["radius"], "sphere(mass: 1 kg, radius: 0.1 m)", |shape| shape.sphere())
+        .exactly_one(MASS)
+        .optional(CENTER),
+    Row::new("rigid", &["mass", "inertia"], "rigid(mass: 1 kg, inertia: [1, 1, 1] kg*m^2)", |shape| shape.rigid())
+        .optional(&["center", "about"])
+        .refusing(&[("density", "the volume of a `rigid` body is not known: give its `mass`")]),
     BEAM,
 ];
 
@@ -171,10 +138,7 @@ pub(super) const SYNONYMS: [(&str, &str); 22] = [
 impl Quantities<'_, '_, '_> {
     fn point(&mut self) -> Option<Shape> {
         let (mass, center) = (self.mass(), self.center(|| Some(zero())));
-        Some(Shape::Point {
-            mass: mass?,
-            center: center?,
-        })
+        Some(Shape::Point { mass: mass?, center: center? })
     }
 
     fn rod(&mut self) -> Option<Shape> {
@@ -186,12 +150,7 @@ impl Quantities<'_, '_, '_> {
             let along = along.clone()?;
             Some(along.map(|component| multiply(half.clone(), component)))
         });
-        Some(Shape::Rod {
-            mass: mass?,
-            length: length?,
-            along: along?,
-            center: center?,
-        })
+        Some(Shape::Rod { mass: mass?, length: length?, along: along?, center: center? })
     }
 
     fn disk(&mut self) -> Option<Shape> {
@@ -199,28 +158,16 @@ impl Quantities<'_, '_, '_> {
         let density = Dimension::AREA_DENSITY;
         let mass = self.mass_or_density(density, || Some(circle(radius.clone()?)));
         let center = self.center(|| Some(zero()));
-        Some(Shape::Disk {
-            mass: mass?,
-            radius: radius?,
-            axis: axis?,
-            center: center?,
-        })
+        Some(Shape::Disk { mass: mass?, radius: radius?, axis: axis?, center: center? })
     }
 
     fn cylinder(&mut self) -> Option<Shape> {
         let (radius, length) = (self.length("radius"), self.length("length"));
         let axis = self.direction("axis");
-        let mass = self.mass_or_density(Dimension::DENSITY, || {
-            Some(multiply(circle(radius.clone()?), length.clone()?))
-        });
+        let mass =
+            self.mass_or_density(Dimension::DENSITY, || Some(multiply(circle(radius.clone()?), length.clone()?)));
         let center = self.center(|| Some(zero()));
-        Some(Shape::Cylinder {
-            mass: mass?,
-            radius: radius?,
-            length: length?,
-            axis: axis?,
-            center: center?,
-        })
+        Some(Shape::Cylinder { mass: mass?, radius: radius?, length: length?, axis: axis?, center: center? })
     }
 
     fn tube(&mut self) -> Option<Shape> {
@@ -232,14 +179,7 @@ impl Quantities<'_, '_, '_> {
             Some(multiply(section, length.clone()?))
         });
         let center = self.center(|| Some(zero()));
-        Some(Shape::Tube {
-            mass: mass?,
-            inner: inner?,
-            outer: outer?,
-            length: length?,
-            axis: axis?,
-            center: center?,
-        })
+        Some(Shape::Tube { mass: mass?, inner: inner?, outer: outer?, length: length?, axis: axis?, center: center? })
     }
 
     fn cuboid(&mut self) -> Option<Shape> {
@@ -249,11 +189,7 @@ impl Quantities<'_, '_, '_> {
             Some(multiply(multiply(x, y), z))
         });
         let center = self.center(|| Some(zero()));
-        Some(Shape::Cuboid {
-            mass: mass?,
-            size: size?,
-            center: center?,
-        })
+        Some(Shape::Cuboid { mass: mass?, size: size?, center: center? })
     }
 
     fn sphere(&mut self) -> Option<Shape> {
@@ -263,11 +199,7 @@ impl Quantities<'_, '_, '_> {
             Some(multiply(Expr::Number(4.0 / 3.0 * PI), cube))
         });
         let center = self.center(|| Some(zero()));
-        Some(Shape::Sphere {
-            mass: mass?,
-            radius: radius?,
-            center: center?,
-        })
+        Some(Shape::Sphere { mass: mass?, radius: radius?, center: center? })
     }
 
     fn rigid(&mut self) -> Option<Shape> {

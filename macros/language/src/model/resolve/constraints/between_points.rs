@@ -14,11 +14,7 @@ impl Resolver<'_> {
             None => Some([true; 3]),
         };
         let (from, to) = ends?;
-        Some(ConstraintLaw::Coincident {
-            from,
-            to,
-            along: along?,
-        })
+        Some(ConstraintLaw::Coincident { from, to, along: along? })
     }
 
     pub(super) fn aligned(&mut self, arguments: &Arguments) -> Option<ConstraintLaw> {
@@ -32,19 +28,11 @@ impl Resolver<'_> {
         Some(ConstraintLaw::Aligned { from, to, axis })
     }
 
-    pub(super) fn distance(
-        &mut self,
-        constraint: &ast::Constraint,
-        arguments: &Arguments,
-    ) -> Option<ConstraintLaw> {
+    pub(super) fn distance(&mut self, constraint: &ast::Constraint, arguments: &Arguments) -> Option<ConstraintLaw> {
         let ends = self.tied_points(arguments);
         let length = self.positive_length(constraint, arguments, "length");
         let (from, to) = ends?;
-        Some(ConstraintLaw::Distance {
-            from,
-            to,
-            length: length?,
-        })
+        Some(ConstraintLaw::Distance { from, to, length: length? })
     }
 
     fn tied_points(&mut self, arguments: &Arguments) -> Option<(PointId, PointId)> {

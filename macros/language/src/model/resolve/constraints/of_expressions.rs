@@ -37,17 +37,13 @@ impl Resolver<'_> {
     }
 
     /// The two coordinates, which must be different.
-    fn coupled(
-        &mut self,
-        arguments: &Arguments,
-    ) -> (Option<CoordinateReference>, Option<CoordinateReference>) {
+    fn coupled(&mut self, arguments: &Arguments) -> (Option<CoordinateReference>, Option<CoordinateReference>) {
         let mut find = |name| {
             let name = self.name_of(arguments.get(name)?, "coordinate")?;
             self.coordinate(name)
         };
         let (of, with) = (find("of"), find("with"));
-        if let (Some((first, _)), Some((second, _)), Some(value)) =
-            (of, with, arguments.get("with"))
+        if let (Some((first, _)), Some((second, _)), Some(value)) = (of, with, arguments.get("with"))
             && first == second
         {
             let message = "a coordinate cannot be coupled with itself";
@@ -83,12 +79,7 @@ impl Resolver<'_> {
 
     /// Coordinates that run can be coupled with each other, and so can those at rest; two drives would contradict each
     /// other.
-    fn coupled_motions(
-        &mut self,
-        arguments: &Arguments,
-        of: CoordinateId,
-        with: CoordinateId,
-    ) -> Option<()> {
+    fn coupled_motions(&mut self, arguments: &Arguments, of: CoordinateId, with: CoordinateId) -> Option<()> {
         let extent = arguments.get("with")?.extent;
         let name = |id: CoordinateId| Some(self.coordinates.get(id.index())?.name.to_string());
         let (first, second) = (name(of)?, name(with)?);
@@ -178,8 +169,7 @@ impl Resolver<'_> {
     pub(in crate::model::resolve) fn runs(&self, id: CoordinateId) -> Option<bool> {
         let declared = self.coordinates.get(id.index())?;
         let mut resolved = self.declared_coordinates.iter();
-        let declaration = resolved
-            .find(|resolved| resolved.joint == declared.joint && resolved.name == *declared.name);
+        let declaration = resolved.find(|resolved| resolved.joint == declared.joint && resolved.name == *declared.name);
         declaration.map(|x| x.motion.runs())
     }
 }

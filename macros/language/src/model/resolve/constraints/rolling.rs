@@ -7,11 +7,7 @@ use crate::model::mechanism::ConstraintLaw;
 use crate::syntax::ast;
 
 impl Resolver<'_> {
-    pub(super) fn rolling(
-        &mut self,
-        constraint: &ast::Constraint,
-        arguments: &Arguments,
-    ) -> Option<ConstraintLaw> {
+    pub(super) fn rolling(&mut self, constraint: &ast::Constraint, arguments: &Arguments) -> Option<ConstraintLaw> {
         let whole = "the wheel and the plane";
         let reason = "one does not roll on the other";
         let points = self.point_pair(arguments, ["wheel", "on"], whole, reason);
@@ -27,12 +23,6 @@ impl Resolver<'_> {
             Some(normal) => normal?,
             None => [0.0, 0.0, 1.0].map(Expr::Number),
         };
-        Some(ConstraintLaw::Rolling {
-            wheel,
-            axis,
-            radius: radius?,
-            on,
-            normal,
-        })
+        Some(ConstraintLaw::Rolling { wheel, axis, radius: radius?, on, normal })
     }
 }

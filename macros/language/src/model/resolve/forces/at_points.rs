@@ -13,12 +13,7 @@ impl Resolver<'_> {
         let point = self.moving_point(arguments, "nothing moves under a load there");
         let force = self.vector_or_zero(arguments, "force", Dimension::FORCE);
         let moment = self.vector_or_zero(arguments, "moment", Expected::moment());
-        Some(ForceLaw::Load {
-            point: point?,
-            force: force?,
-            moment: moment?,
-            following,
-        })
+        Some(ForceLaw::Load { point: point?, force: force?, moment: moment?, following })
     }
 
     pub(super) fn distributed(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
@@ -27,8 +22,7 @@ impl Resolver<'_> {
             _ => {
                 let message = "`on` is the name of a beam";
                 let help = "a force at one place of a body is a `load`";
-                self.diagnostics
-                    .error_with_help(value.extent, message, help);
+                self.diagnostics.error_with_help(value.extent, message, help);
                 None
             }
         });
@@ -37,12 +31,7 @@ impl Resolver<'_> {
         let follower = self.vector_or_zero(arguments, "follower", per_length());
         let damping = Some(Dimension::new(-1, 1, -1).into());
         let damping = self.coefficient_or_zero(arguments, "damping", damping);
-        Some(ForceLaw::Distributed {
-            on: on?,
-            force: force?,
-            follower: follower?,
-            damping: damping?,
-        })
+        Some(ForceLaw::Distributed { on: on?, force: force?, follower: follower?, damping: damping? })
     }
 
     pub(super) fn drag(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
@@ -51,19 +40,11 @@ impl Resolver<'_> {
         let damping = self.coefficient_or_zero(arguments, "damping", damping);
         let turning = Some(Expected::rotary_damping());
         let turning_damping = self.coefficient_or_zero(arguments, "turning_damping", turning);
-        Some(ForceLaw::Drag {
-            point: point?,
-            damping: damping?,
-            turning_damping: turning_damping?,
-        })
+        Some(ForceLaw::Drag { point: point?, damping: damping?, turning_damping: turning_damping? })
     }
 
     /// A point of a body. A force at a point of the ground does nothing; `reason` explains this.
-    pub(in crate::model::resolve) fn moving_point(
-        &mut self,
-        arguments: &Arguments,
-        reason: &str,
-    ) -> Option<PointId> {
+    pub(in crate::model::resolve) fn moving_point(&mut self, arguments: &Arguments, reason: &str) -> Option<PointId> {
         let point = self.point_argument(arguments, "at")?;
         if self.point_frame(point)? == "ground" {
             let value = arguments.get("at")?;

@@ -18,13 +18,7 @@ impl Resolver<'_> {
         let length = Some(Dimension::LENGTH.into());
         let length = self.coefficient_or_zero(arguments, "length", length);
         let (from, to) = ends?;
-        Some(ForceLaw::SpringDamper {
-            from,
-            to,
-            stiffness: stiffness?,
-            damping: damping?,
-            length: length?,
-        })
+        Some(ForceLaw::SpringDamper { from, to, stiffness: stiffness?, damping: damping?, length: length? })
     }
 
     /// A tension. The law cannot be evaluated before the motion is known, so only its dimension is checked.
@@ -41,10 +35,8 @@ impl Resolver<'_> {
         let ends = self.ends(arguments, "nothing moves between them");
         let stiffness = self.matrix_or_zero(arguments, "stiffness", Dimension::STIFFNESS);
         let damping = self.matrix_or_zero(arguments, "damping", Dimension::DAMPING);
-        let turning_stiffness =
-            self.matrix_or_zero(arguments, "turning_stiffness", Expected::rotary_stiffness());
-        let turning_damping =
-            self.matrix_or_zero(arguments, "turning_damping", Expected::rotary_damping());
+        let turning_stiffness = self.matrix_or_zero(arguments, "turning_stiffness", Expected::rotary_stiffness());
+        let turning_damping = self.matrix_or_zero(arguments, "turning_damping", Expected::rotary_damping());
         let (from, to) = ends?;
         Some(ForceLaw::Bushing {
             from,

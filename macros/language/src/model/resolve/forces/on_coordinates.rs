@@ -23,11 +23,7 @@ impl Resolver<'_> {
         let stiffness = self.coefficient(arguments, "stiffness", stiffness);
         let rest = pick(Expected::angle(), Dimension::LENGTH);
         let rest = self.coefficient_or_zero(arguments, "rest", rest);
-        Some(ForceLaw::CoordinateSpring {
-            coordinate: target?.0,
-            stiffness: stiffness?,
-            rest: rest?,
-        })
+        Some(ForceLaw::CoordinateSpring { coordinate: target?.0, stiffness: stiffness?, rest: rest? })
     }
 
     pub(super) fn damper(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
@@ -37,10 +33,7 @@ impl Resolver<'_> {
             CoordinateQuantity::Displacement => Dimension::DAMPING.into(),
         });
         let damping = self.coefficient(arguments, "damping", damping);
-        Some(ForceLaw::CoordinateDamper {
-            coordinate: target?.0,
-            damping: damping?,
-        })
+        Some(ForceLaw::CoordinateDamper { coordinate: target?.0, damping: damping? })
     }
 
     /// A free coordinate. A force on a driven coordinate changes no motion, because the drive supplies any force that
@@ -57,7 +50,8 @@ impl Resolver<'_> {
                     let on = print::value(on);
                     format!("a spring on an expression is a potential: `potential(energy: stiffness * ({on})^2 / 2)`")
                 }
-                _ => "write one `generalized` force on each coordinate, with `rate` of the others in its `value`".to_string(),
+                _ => "write one `generalized` force on each coordinate, with `rate` of the others in its `value`"
+                    .to_string(),
             };
             self.diagnostics.error_with_help(
                 on.extent,

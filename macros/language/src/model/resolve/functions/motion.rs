@@ -47,9 +47,7 @@ impl Resolver<'_> {
             }
             ("reaction_force" | "reaction_moment", [joint]) => self.reaction_vector(name, joint)?,
             ("reaction", [constraint]) => self.reaction_number(constraint)?,
-            ("curvature" | "moment" | "strain" | "inner_force", [point]) => {
-                self.bent(name, point)?
-            }
+            ("curvature" | "moment" | "strain" | "inner_force", [point]) => self.bent(name, point)?,
             ("kinetic_energy", []) => Typed::Scalar(Expr::KineticEnergy, energy),
             ("potential_energy", []) => {
                 self.energy_is_known(function)?;
@@ -62,12 +60,7 @@ impl Resolver<'_> {
 
     /// Requires a rate to be a useful result: in steady motion a free coordinate is at rest, and the speed of a driven
     /// one is given.
-    fn rate_is_constant(
-        &mut self,
-        function: &Ident,
-        name: &Ident,
-        coordinate: CoordinateId,
-    ) -> Option<()> {
+    fn rate_is_constant(&mut self, function: &Ident, name: &Ident, coordinate: CoordinateId) -> Option<()> {
         let reason = match self.coordinates.get(coordinate.index())?.motion {
             DeclaredMotion::Coasting => return Some(()),
             DeclaredMotion::Driven => "it is the speed of the drive",
@@ -83,9 +76,7 @@ impl Resolver<'_> {
         let unknown = self.ast.items.iter().find_map(|item| match &item.kind {
             ItemKind::Force(force) => {
                 let word = force.law.word.to_string();
-                WITHOUT_ENERGY
-                    .contains(&word.as_str())
-                    .then_some((&force.name, word))
+                WITHOUT_ENERGY.contains(&word.as_str()).then_some((&force.name, word))
             }
             _ => None,
         });
@@ -174,11 +165,7 @@ impl Resolver<'_> {
     }
 
     /// An argument that must be a name.
-    pub(in crate::model::resolve) fn name_of<'v>(
-        &mut self,
-        value: &'v Value,
-        kind: &str,
-    ) -> Option<&'v Ident> {
+    pub(in crate::model::resolve) fn name_of<'v>(&mut self, value: &'v Value, kind: &str) -> Option<&'v Ident> {
         match &value.bare().kind {
             ValueKind::Name(name) => Some(name),
             _ => {

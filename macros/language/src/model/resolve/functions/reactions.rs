@@ -88,9 +88,7 @@ impl Resolver<'_> {
             _ => None,
         });
         let word = forces.nth(id.index())?.law.word.to_string();
-        ["bushing", "spring_damper", "tension"]
-            .into_iter()
-            .find(|known| *known == word)
+        ["bushing", "spring_damper", "tension"].into_iter().find(|known| *known == word)
     }
 
     fn is_tension(&self, id: ForceId) -> bool {

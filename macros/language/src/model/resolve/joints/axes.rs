@@ -20,12 +20,7 @@ const NEARLY: f64 = 1e-9;
 
 impl Resolver<'_> {
     /// The elementary motions of a joint.
-    pub(super) fn steps(
-        &mut self,
-        joint: &Joint,
-        id: JointId,
-        kind: &'static Kind,
-    ) -> Option<Vec<JointStep>> {
+    pub(super) fn steps(&mut self, joint: &Joint, id: JointId, kind: &'static Kind) -> Option<Vec<JointStep>> {
         let Sorted { axes, leads, stray } = Sorted::new(joint, kind);
         let known = self.stray(joint, kind, &stray);
         let lead = match known {
@@ -35,10 +30,8 @@ impl Resolver<'_> {
         };
         let named = self.names(joint, kind, &axes);
         let counted = self.count(joint, kind, axes.len());
-        let directions: Vec<Option<Vector>> = axes
-            .iter()
-            .map(|axis| self.direction(&axis.value, ValueContext::Parameter))
-            .collect();
+        let directions: Vec<Option<Vector>> =
+            axes.iter().map(|axis| self.direction(&axis.value, ValueContext::Parameter)).collect();
         let directions: Vec<Vector> = directions.into_iter().collect::<Option<_>>()?;
         named.and(counted)?;
         self.conditions(kind, &axes, &directions)?;
@@ -72,8 +65,7 @@ impl Resolver<'_> {
             return None;
         };
         if let Some(second) = more.first() {
-            self.diagnostics
-                .error(second.value.extent, "`lead` is given twice");
+            self.diagnostics.error(second.value.extent, "`lead` is given twice");
             return None;
         }
         let lead = self.scalar_of(&first.value, Dimension::LENGTH, "`lead`")?;
@@ -94,13 +86,8 @@ impl Resolver<'_> {
             let near = nearest(&name.to_string(), kind.is_screw().then_some("lead"));
             let help = match near {
                 Some(near) => format!("did you mean `{near}`?"),
-                None if name == "lead" => {
-                    "a joint that travels along its axis as it turns is `screw`".to_string()
-                }
-                None => format!(
-                    "write `{}`; the coordinate has the name of the joint, `{}`",
-                    kind.example, joint.name
-                ),
+                None if name == "lead" => "a joint that travels along its axis as it turns is `screw`".to_string(),
+                None => format!("write `{}`; the coordinate has the name of the joint, `{}`", kind.example, joint.name),
             };
             self.diagnostics.error_with_help(name, message, help);
         }
@@ -115,15 +102,9 @@ impl Resolver<'_> {
             let (extent, message) = match (&axis.name, kind.motions.len()) {
                 (Some(name), 1) => (
                     name.into(),
-                    format!(
-                        "the only coordinate of `{word}` has the name of the joint, `{}`",
-                        joint.name
-                    ),
+                    format!("the only coordinate of `{word}` has the name of the joint, `{}`", joint.name),
                 ),
-                (None, 2..) => (
-                    axis.value.extent,
-                    format!("each coordinate of `{word}` needs a name"),
-                ),
+                (None, 2..) => (axis.value.extent, format!("each coordinate of `{word}` needs a name")),
                 _ => continue,
             };
             self.diagnostics.error_with_help(extent, message, help);
@@ -146,30 +127,16 @@ impl Resolver<'_> {
                 self.diagnostics.error(extent, message);
                 return None;
             }
-            1 if kind.is_screw() => (
-                format!("`{word}` needs one axis"),
-                format!("write `{example}`"),
-            ),
-            1 => (
-                format!("`{word}` needs one axis"),
-                format!("write `{word}(z)` or `{word}([1, 0, 1])`"),
-            ),
-            several => (
-                format!("`{word}` needs {several} axes, not {given}"),
-                format!("write `{example}`"),
-            ),
+            1 if kind.is_screw() => (format!("`{word}` needs one axis"), format!("write `{example}`")),
+            1 => (format!("`{word}` needs one axis"), format!("write `{word}(z)` or `{word}([1, 0, 1])`")),
+            several => (format!("`{word}` needs {several} axes, not {given}"), format!("write `{example}`")),
         };
         self.diagnostics.error_with_help(&joint.kind, message, help);
         None
     }
 
     /// Checks the conditions that the kind of joint places on its axes.
-    fn conditions(
-        &mut self,
-        kind: &Kind,
-        axes: &[&JointArgument],
-        directions: &[Vector],
-    ) -> Option<()> {
+    fn conditions(&mut self, kind: &Kind, axes: &[&JointArgument], directions: &[Vector]) -> Option<()> {
         let mut right = Some(());
         for condition in kind.conditions {
             match *condition {
@@ -183,22 +150,19 @@ impl Resolver<'_> {
                     let sine = angle_between(directions.get(first)?, directions.get(second)?).0;
                     if sine.is_some_and(|sine| sine > NEARLY) {
                         let message = format!("the two axes of `{}` must be parallel", kind.word);
-                        let help = "for other axes use a `prismatic` and a `revolute` joint with a massless body between them";
+                        let help =
+                            "for other axes use a `prismatic` and a `revolute` joint with a massless body between them";
                         let value = &axes.get(second)?.value;
-                        self.diagnostics
-                            .error_with_help(value.extent, message, help);
+                        self.diagnostics.error_with_help(value.extent, message, help);
                         right = None;
                     }
                 }
                 Condition::Perpendicular(first, second) => {
                     let cosine = angle_between(directions.get(first)?, directions.get(second)?).1;
                     if cosine.is_some_and(|cosine| cosine > NEARLY) {
-                        let message = format!(
-                            "the last axis of `{}` must be perpendicular to the first two",
-                            kind.word
-                        );
-                        self.diagnostics
-                            .error(axes.get(second)?.value.extent, message);
+                        let message =
+                            format!("the last axis of `{}` must be perpendicular to the first two", kind.word);
+                        self.diagnostics.error(axes.get(second)?.value.extent, message);
                         return None;
                     }
                 }
@@ -246,13 +210,10 @@ struct Sorted<'a> {
 impl<'a> Sorted<'a> {
     fn new(joint: &'a Joint, kind: &Kind) -> Self {
         let arguments = joint.arguments.as_deref().unwrap_or_default();
-        let is_lead = |argument: &&JointArgument| {
-            kind.is_screw() && argument.name.as_ref().is_some_and(|name| name == "lead")
-        };
+        let is_lead =
+            |argument: &&JointArgument| kind.is_screw() && argument.name.as_ref().is_some_and(|name| name == "lead");
         let has_axis = arguments.iter().any(|argument| argument.name.is_none());
-        let is_stray = |argument: &&JointArgument| {
-            kind.has_one_coordinate() && has_axis && argument.name.is_some()
-        };
+        let is_stray = |argument: &&JointArgument| kind.has_one_coordinate() && has_axis && argument.name.is_some();
         let (leads, others): (Vec<_>, Vec<_>) = arguments.iter().partition(is_lead);
         let (stray, axes) = others.into_iter().partition(is_stray);
         Self { axes, leads, stray }

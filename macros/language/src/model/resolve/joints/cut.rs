@@ -20,11 +20,7 @@ impl Resolver<'_> {
         }
         let kind = kind?;
         if kind.is_screw() {
-            self.diagnostics.error_with_help(
-                first,
-                "a screw joint cannot be cut",
-                "cut another joint of the loop",
-            );
+            self.diagnostics.error_with_help(first, "a screw joint cannot be cut", "cut another joint of the loop");
             return None;
         }
         if kind.is_free() {

@@ -24,19 +24,10 @@ struct Motions {
 
 impl Resolver<'_> {
     /// The motion of every coordinate of the joint: free, driven at its one declared speed, or coasting.
-    pub(super) fn drives(
-        &mut self,
-        joint: &Joint,
-        id: JointId,
-        kind: Option<&'static Kind>,
-    ) -> Option<Vec<Motion>> {
+    pub(super) fn drives(&mut self, joint: &Joint, id: JointId, kind: Option<&'static Kind>) -> Option<Vec<Motion>> {
         let ids = self.coordinates_of(id);
         let count = ids.len();
-        let mut motions = Motions {
-            ids,
-            said: vec![DeclaredMotion::Free; count],
-            motions: vec![Motion::Free; count],
-        };
+        let mut motions = Motions { ids, said: vec![DeclaredMotion::Free; count], motions: vec![Motion::Free; count] };
         let mut right = Some(());
         for clause in &joint.clauses {
             let clause = match clause {
@@ -50,17 +41,9 @@ impl Resolver<'_> {
         right.map(|()| motions.motions)
     }
 
-    fn drive(
-        &mut self,
-        joint: &Joint,
-        kind: Option<&Kind>,
-        drive: &Drive,
-        motions: &mut Motions,
-    ) -> Option<()> {
+    fn drive(&mut self, joint: &Joint, kind: Option<&Kind>, drive: &Drive, motions: &mut Motions) -> Option<()> {
         let who = (drive.coordinate.as_ref(), drive.keyword);
-        let index = kind.and_then(|kind| {
-            self.given_place(joint, kind, who, &motions.ids, DeclaredMotion::Driven)
-        });
+        let index = kind.and_then(|kind| self.given_place(joint, kind, who, &motions.ids, DeclaredMotion::Driven));
         let Some(index) = index else {
             // Its value may be wrong as well, so check it too.
             self.scalar(&drive.speed, ValueContext::Parameter);
@@ -73,13 +56,7 @@ impl Resolver<'_> {
     }
 
     /// Reads a coasting clause; without a name all coordinates coast.
-    fn coast(
-        &mut self,
-        joint: &Joint,
-        kind: Option<&Kind>,
-        coast: &Coast,
-        motions: &mut Motions,
-    ) -> Option<()> {
+    fn coast(&mut self, joint: &Joint, kind: Option<&Kind>, coast: &Coast, motions: &mut Motions) -> Option<()> {
         self.has_motions(kind?, "coast", coast.keyword)?;
         let places = match &coast.coordinate {
             Some(name) => {
@@ -92,13 +69,7 @@ impl Resolver<'_> {
         self.is_not_cut(joint, "coast", coast.keyword)?;
         let name = coast.coordinate.as_ref();
         for index in places {
-            self.say(
-                motions,
-                index,
-                DeclaredMotion::Coasting,
-                name,
-                coast.keyword,
-            )?;
+            self.say(motions, index, DeclaredMotion::Coasting, name, coast.keyword)?;
             motions.motions[index] = Motion::Coasting;
         }
         Some(())
@@ -124,9 +95,7 @@ impl Resolver<'_> {
                 (DeclaredMotion::Shaken, _) | (_, DeclaredMotion::Shaken) => {
                     "a shaken coordinate moves about zero: keep one of them"
                 }
-                _ => {
-                    "a drive prescribes the speed, a coasting coordinate finds its own: keep one of them"
-                }
+                _ => "a drive prescribes the speed, a coasting coordinate finds its own: keep one of them",
             };
             self.diagnostics.error_with_help(keyword, message, help);
             return None;
@@ -141,13 +110,7 @@ impl Resolver<'_> {
     }
 
     /// A shaken coordinate is held at zero in the steady motion.
-    fn shake(
-        &mut self,
-        joint: &Joint,
-        kind: Option<&Kind>,
-        shake: &Shake,
-        motions: &mut Motions,
-    ) -> Option<()> {
+    fn shake(&mut self, joint: &Joint, kind: Option<&Kind>, shake: &Shake, motions: &mut Motions) -> Option<()> {
         let keyword = Extent::from(shake.call.word.span());
         let who = (shake.coordinate.as_ref(), keyword);
         let index = self.given_place(joint, kind?, who, &motions.ids, DeclaredMotion::Shaken)?;

@@ -42,13 +42,7 @@ use Condition::{Distinct, Parallel, Perpendicular, Spanning};
 use Elementary::{Screw, Slide, Turn};
 
 const KINDS: &[Kind] = &[
-    Kind {
-        word: "fixed",
-        motions: &[],
-        conditions: &[],
-        closing: Some(Closing::Fixed),
-        example: "fixed",
-    },
+    Kind { word: "fixed", motions: &[], conditions: &[], closing: Some(Closing::Fixed), example: "fixed" },
     Kind {
         word: "revolute",
         motions: &[Turn],
@@ -63,13 +57,7 @@ const KINDS: &[Kind] = &[
         closing: Some(Closing::Prismatic),
         example: "prismatic(z)",
     },
-    Kind {
-        word: "screw",
-        motions: &[Screw],
-        conditions: &[],
-        closing: None,
-        example: "screw(z, lead: 5 mm)",
-    },
+    Kind { word: "screw", motions: &[Screw], conditions: &[], closing: None, example: "screw(z, lead: 5 mm)" },
     Kind {
         word: "cylindrical",
         motions: &[Slide, Turn],

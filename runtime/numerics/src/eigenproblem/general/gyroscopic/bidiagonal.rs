@@ -9,12 +9,7 @@ const STEPS: usize = 60;
 /// Diagonalises `B` with `diagonal` and the elements `beside` above it. `diagonal` becomes the singular values, in no
 /// particular order and not negative; rows `k` of `left` and `right`, unit matrices before, become the vectors `u` and
 /// `v` of value `k`, `B v = sigma u`. `false` if the iteration did not converge.
-pub(super) fn singular_values(
-    diagonal: &mut [f64],
-    beside: &mut [f64],
-    left: &mut [f64],
-    right: &mut [f64],
-) -> bool {
+pub(super) fn singular_values(diagonal: &mut [f64], beside: &mut [f64], left: &mut [f64], right: &mut [f64]) -> bool {
     f64::run(
         #[inline(always)]
         || iterate(diagonal, beside, left, right),
@@ -24,10 +19,7 @@ pub(super) fn singular_values(
 #[inline(always)]
 fn iterate(d: &mut [f64], f: &mut [f64], left: &mut [f64], right: &mut [f64]) -> bool {
     let n = d.len();
-    let size = d
-        .iter()
-        .chain(&*f)
-        .fold(0.0, |most: f64, x| most.max(x.abs()));
+    let size = d.iter().chain(&*f).fold(0.0, |most: f64, x| most.max(x.abs()));
     let nothing = f64::EPSILON * f64::EPSILON * size;
     let mut steps = STEPS * n;
     let mut last = n.saturating_sub(1);
@@ -86,13 +78,7 @@ fn split(d: &mut [f64], f: &mut [f64], left: &mut [f64], (zero, last): (usize, u
 
 /// One QR step on rows `first..=last`, the bulge chased down.
 #[inline(always)]
-fn step(
-    d: &mut [f64],
-    f: &mut [f64],
-    left: &mut [f64],
-    right: &mut [f64],
-    (first, last): (usize, usize),
-) {
+fn step(d: &mut [f64], f: &mut [f64], left: &mut [f64], right: &mut [f64], (first, last): (usize, usize)) {
     let n = d.len();
     let shift = shift(d, f, first, last);
     let (mut y, mut z) = (d[first], f[first]);
@@ -134,11 +120,7 @@ fn shift(d: &[f64], f: &[f64], first: usize, last: usize) -> f64 {
 #[inline(always)]
 fn rotation(a: f64, b: f64) -> (f64, f64, f64) {
     let r = a.hypot(b);
-    if r == 0.0 {
-        (1.0, 0.0, 0.0)
-    } else {
-        (a / r, b / r, r)
-    }
+    if r == 0.0 { (1.0, 0.0, 0.0) } else { (a / r, b / r, r) }
 }
 
 /// Rows `i` and `j` become `c i + s j` and `c j - s i`.

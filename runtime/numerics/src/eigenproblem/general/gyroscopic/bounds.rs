@@ -54,10 +54,7 @@ impl Products {
         let sizes: Vec<f64> = complex(phi).map(bound).collect();
         let matrix: Vec<f64> = matrix.iter().map(|x| x.abs()).collect();
         dense::multiply(n, n, &matrix, &sizes, &mut terms.rows);
-        let values = Columns {
-            count: n,
-            rows: complex(&parts).collect(),
-        };
+        let values = Columns { count: n, rows: complex(&parts).collect() };
         Self { values, terms }
     }
 }
@@ -81,19 +78,11 @@ struct Measured {
 
 /// Measures all vectors, given as columns of complex numbers, interleaved. `None` unless they solve the pencil, whose
 /// squared frequencies have this `sum`.
-pub(super) fn measured(
-    pencil: &Pencil,
-    lower: &[f64],
-    phi: &[f64],
-    sum: f64,
-) -> Option<Vec<Oscillation>> {
+pub(super) fn measured(pencil: &Pencil, lower: &[f64], phi: &[f64], sum: f64) -> Option<Vec<Oscillation>> {
     let n = pencil.n;
     let [mass, damping, stiffness] =
         [pencil.mass, pencil.damping, pencil.stiffness].map(|matrix| Products::new(matrix, phi));
-    let vectors = Columns {
-        count: n,
-        rows: complex(phi).collect(),
-    };
+    let vectors = Columns { count: n, rows: complex(phi).collect() };
     let mut rest = Columns::<Complex64>::new(n, n);
     let mut terms = Columns::<f64>::new(n, n);
     let mut oscillations = Vec::with_capacity(n);
@@ -112,10 +101,7 @@ pub(super) fn measured(
         rest.set(r, values.map(|((m, c), k)| (s * (s * m + c) + k) * unit));
         let sizes = mass.terms.column(r).zip(damping.terms.column(r));
         let sizes = sizes.zip(stiffness.terms.column(r));
-        terms.set(
-            r,
-            sizes.map(|((m, c), k)| (omega * (omega * m + c) + k) * unit),
-        );
+        terms.set(r, sizes.map(|((m, c), k)| (omega * (omega * m + c) + k) * unit));
         let most = rest.column(r).map(bound).fold(0.0, f64::max);
         let largest = terms.column(r).fold(0.0, f64::max);
         let residual = if most == 0.0 { 0.0 } else { most / largest };
@@ -142,11 +128,7 @@ pub(super) fn measured(
 /// The positive root of `omega^2 m + omega c - k = 0`, without cancellation.
 fn positive_root(m: f64, c: f64, k: f64) -> f64 {
     let root = (c * c + 4.0 * m * k).sqrt();
-    if c > 0.0 {
-        2.0 * k / (c + root)
-    } else {
-        (root - c) / (2.0 * m)
-    }
+    if c > 0.0 { 2.0 * k / (c + root) } else { (root - c) / (2.0 * m) }
 }
 
 /// Upper bounds on the lengths of `L^-1` times the residuals, given as computed and by the terms in them.
@@ -158,10 +140,7 @@ fn lengths(n: usize, lower: &[f64], rest: &Columns<Complex64>, terms: &Columns<f
     dense::multiply(n, n, &inverse, &terms.rows, &mut rounding.rows);
     let mut parts: Vec<f64> = rest.rows.iter().flat_map(|x| [x.re, x.im]).collect();
     dense::solve_lower(n, lower, 2 * n, &mut parts);
-    let reduced = Columns {
-        count: n,
-        rows: complex(&parts).collect(),
-    };
+    let reduced = Columns { count: n, rows: complex(&parts).collect() };
     let length = |r: usize| {
         let of_rest = reduced.column(r).map(|x| x.norm_sqr()).sum::<f64>();
         let of_rounding = rounding.column(r).map(|x| x * x).sum::<f64>();
@@ -179,10 +158,7 @@ fn relative(n: usize) -> f64 {
 fn bounded(n: usize, mut measured: Vec<Measured>, lengths: &[f64]) -> Vec<Oscillation> {
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| measured[a].omega.total_cmp(&measured[b].omega));
-    let radius: Vec<f64> = order
-        .iter()
-        .map(|&r| lengths[r] / measured[r].length)
-        .collect();
+    let radius: Vec<f64> = order.iter().map(|&r| lengths[r] / measured[r].length).collect();
     let omega: Vec<f64> = order.iter().map(|&r| measured[r].omega).collect();
     // Where intervals meet, as many frequencies as intervals are within the root of the sum of squares of each.
     let mut bounds = vec![0.0; n];
@@ -192,18 +168,10 @@ fn bounded(n: usize, mut measured: Vec<Measured>, lengths: &[f64]) -> Vec<Oscill
             continue;
         }
         let group = first..last + 1;
-        let joint = radius[group.clone()]
-            .iter()
-            .map(|x| x * x)
-            .sum::<f64>()
-            .sqrt();
-        let below = first
-            .checked_sub(1)
-            .map(|k| omega[first] - omega[k] - bounds[k]);
+        let joint = radius[group.clone()].iter().map(|x| x * x).sum::<f64>().sqrt();
+        let below = first.checked_sub(1).map(|k| omega[first] - omega[k] - bounds[k]);
         let above = (last + 1 < n).then(|| omega[last + 1] - radius[last + 1] - omega[last]);
-        let gap = below
-            .unwrap_or(f64::INFINITY)
-            .min(above.unwrap_or(f64::INFINITY));
+        let gap = below.unwrap_or(f64::INFINITY).min(above.unwrap_or(f64::INFINITY));
         for k in group.clone() {
             bounds[k] = match group.len() {
                 1 => joint.min(joint * joint / gap),

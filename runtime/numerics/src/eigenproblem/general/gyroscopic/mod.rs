@@ -79,11 +79,7 @@ pub(super) fn oscillations(pencil: &Pencil) -> Option<Vec<Oscillation>> {
             _ => (&left, 1),
         };
         // Component `k` is that of the symmetric form times `(-i)^k`.
-        let sign = if matches!(index % 4, 0 | 3) {
-            1.0
-        } else {
-            -1.0
-        };
+        let sign = if matches!(index % 4, 0 | 3) { 1.0 } else { -1.0 };
         for (pair, &r) in row.chunks_exact_mut(2).zip(&order) {
             pair[part] = sign * from[r * n + index / 2];
         }

@@ -41,11 +41,7 @@ pub(super) fn tridiagonal(n: usize, mut matrix: Vec<f64>) -> (Reflections, Vec<f
         },
     );
     let vectors = matrix;
-    let reflections = Reflections {
-        n,
-        vectors,
-        factors,
-    };
+    let reflections = Reflections { n, vectors, factors };
     (reflections, beside)
 }
 
@@ -136,9 +132,7 @@ mod tests {
                     rotation[i * N + a] * tridiagonal(a, b) * rotation[j * N + b]
                 });
                 assert!((terms.sum::<f64>() - skew[i * N + j]).abs() < 1e-14);
-                let product: f64 = (0..N)
-                    .map(|k| rotation[i * N + k] * rotation[j * N + k])
-                    .sum();
+                let product: f64 = (0..N).map(|k| rotation[i * N + k] * rotation[j * N + k]).sum();
                 let one = if i == j { 1.0 } else { 0.0 };
                 assert!((product - one).abs() < 1e-14);
             }

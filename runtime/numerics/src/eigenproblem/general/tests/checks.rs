@@ -23,13 +23,7 @@ pub(super) fn check(linear: &Linear, roots: &[Root]) -> Result<(), String> {
 }
 
 fn check_root(linear: &Linear, root: &Root) -> Result<(), String> {
-    let numbers = [
-        root.s.re,
-        root.s.im,
-        root.residual,
-        root.error,
-        root.condition,
-    ];
+    let numbers = [root.s.re, root.s.im, root.residual, root.error, root.condition];
     if numbers.iter().any(|x| x.is_nan()) || !root.s.norm().is_finite() {
         return Err("not a number".into());
     }
@@ -37,10 +31,7 @@ fn check_root(linear: &Linear, root: &Root) -> Result<(), String> {
         return Err("out of range".into());
     }
     for (vector, transposed) in [(&root.right, false), (&root.left, true)] {
-        if vector
-            .iter()
-            .any(|x| !(x.re.is_finite() && x.im.is_finite()))
-        {
+        if vector.iter().any(|x| !(x.re.is_finite() && x.im.is_finite())) {
             return Err("vector not finite".into());
         }
         let norm = mass_product(linear, vector, vector);
@@ -48,10 +39,7 @@ fn check_root(linear: &Linear, root: &Root) -> Result<(), String> {
             return Err(format!("norm {norm}"));
         }
         let most = vector.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
-        if !vector
-            .iter()
-            .any(|x| x.re > 0.0 && x.im == 0.0 && x.re >= most * (1.0 - 1e-8))
-        {
+        if !vector.iter().any(|x| x.re > 0.0 && x.im == 0.0 && x.re >= most * (1.0 - 1e-8)) {
             return Err("largest component not real and positive".into());
         }
         let (by_terms, by_matrices) = residuals(linear, root.s, vector, transposed);
@@ -106,11 +94,7 @@ pub(super) fn check_sum(roots: &[Root], trace: f64) -> Result<(), String> {
         sum += weight * root.s.re;
         error += weight * (root.error + 1e-15 * root.s.norm());
     }
-    if (sum + trace).abs() <= error {
-        Ok(())
-    } else {
-        Err(format!("sum {sum:e} for trace {trace:e}, error {error:e}"))
-    }
+    if (sum + trace).abs() <= error { Ok(()) } else { Err(format!("sum {sum:e} for trace {trace:e}, error {error:e}")) }
 }
 
 /// `product of all s = det K / det M`, within the errors of the roots.
@@ -118,26 +102,16 @@ pub(super) fn check_product(roots: &[Root], quotient: f64) -> Result<(), String>
     let (mut product, mut most) = (1.0, 1.0);
     for root in roots {
         let size = root.s.norm();
-        let factor = if root.s.im > 0.0 {
-            size * size
-        } else {
-            root.s.re
-        };
+        let factor = if root.s.im > 0.0 { size * size } else { root.s.re };
         let upper = size + root.error + 1e-15 * size;
         product *= factor;
-        most *= if root.s.im > 0.0 {
-            upper * upper
-        } else {
-            upper
-        };
+        most *= if root.s.im > 0.0 { upper * upper } else { upper };
     }
     let allowed = most - product.abs() + 1e-13 * most;
     if (product - quotient).abs() <= allowed {
         Ok(())
     } else {
-        Err(format!(
-            "product {product:e} for {quotient:e}, error {allowed:e}"
-        ))
+        Err(format!("product {product:e} for {quotient:e}, error {allowed:e}"))
     }
 }
 

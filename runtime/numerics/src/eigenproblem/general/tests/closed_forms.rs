@@ -7,10 +7,7 @@ use crate::eigenproblem::symmetric;
 fn close(roots: &[Complex64], expected: &[Complex64], tolerance: f64) {
     assert_eq!(roots.len(), expected.len(), "{roots:?}");
     for (root, expected) in roots.iter().zip(expected) {
-        assert!(
-            (root - expected).norm() <= tolerance * (1.0 + expected.norm()),
-            "{root} in place of {expected}"
-        );
+        assert!((root - expected).norm() <= tolerance * (1.0 + expected.norm()), "{root} in place of {expected}");
     }
 }
 
@@ -30,10 +27,7 @@ fn mass_on_spinning_plate() {
     let mass = [[0.5, 0.0], [0.0, 0.5]];
     let stiffness = [[32.0, 0.0], [0.0, 52.0]];
     let undamped = solved(&linear(mass, [[0.0, -4.0], [4.0, 0.0]], stiffness));
-    let expected = [
-        Complex64::new(0.0, 5.791190506937825),
-        Complex64::new(0.0, 14.087658162815892),
-    ];
+    let expected = [Complex64::new(0.0, 5.791190506937825), Complex64::new(0.0, 14.087658162815892)];
     close(&values(&undamped), &expected, 1e-15);
     let damped = solved(&linear(mass, [[0.3, -4.0], [4.0, 0.2]], stiffness));
     let expected = [
@@ -98,29 +92,16 @@ fn proportional_damping() {
         }
     }
     expected.sort_by(|x, y| x.norm().total_cmp(&y.norm()));
-    close(
-        &values(&solved(&linear(mass, damping, stiffness))),
-        &expected,
-        1e-13,
-    );
+    close(&values(&solved(&linear(mass, damping, stiffness))), &expected, 1e-13);
 }
 
 /// Undamped symmetric pencils against the symmetric solver: `s = i sqrt(lambda)`, real shapes, left vectors equal to
 /// right ones.
 #[test]
 fn undamped_modes_of_the_symmetric_solver() {
-    let mass = Matrix::from([
-        [3.0, 0.2, 0.1, 0.0],
-        [0.2, 2.0, 0.3, 0.1],
-        [0.1, 0.3, 4.0, 0.5],
-        [0.0, 0.1, 0.5, 1.0],
-    ]);
-    let stiffness = Matrix::from([
-        [9.0, -2.0, 1.0, 0.5],
-        [-2.0, -6.0, 0.3, 1.0],
-        [1.0, 0.3, 90.0, -4.0],
-        [0.5, 1.0, -4.0, 20.0],
-    ]);
+    let mass = Matrix::from([[3.0, 0.2, 0.1, 0.0], [0.2, 2.0, 0.3, 0.1], [0.1, 0.3, 4.0, 0.5], [0.0, 0.1, 0.5, 1.0]]);
+    let stiffness =
+        Matrix::from([[9.0, -2.0, 1.0, 0.5], [-2.0, -6.0, 0.3, 1.0], [1.0, 0.3, 90.0, -4.0], [0.5, 1.0, -4.0, 20.0]]);
     let pairs = symmetric::solve(&stiffness, &mass).unwrap();
     let roots = solved(&linear(mass, zeros(4), stiffness));
     for root in &roots {
@@ -162,9 +143,7 @@ fn flutter() {
 fn rigid_body_mode() {
     let k = 7.1;
     let roots = solved(&linear(diagonal(&[1.0, 1.3]), zeros(2), [[k, -k], [-k, k]]));
-    let [first, second, elastic] = &roots[..] else {
-        panic!("{roots:?}")
-    };
+    let [first, second, elastic] = &roots[..] else { panic!("{roots:?}") };
     for root in [first, second] {
         assert!(root.s.norm() <= root.error && root.s.im == 0.0);
         assert!(root.error < 1e-6 && root.condition == f64::INFINITY);
@@ -216,19 +195,11 @@ fn small_eigenvalues_beside_great_ones() {
 /// Coordinates in other units (`D M D` and so on) have the same eigenvalues.
 #[test]
 fn units_of_coordinates_do_not_matter() {
-    let pencil = linear(
-        [[2.0, 0.3], [0.3, 1.0]],
-        [[0.1, -3.0], [2.5, 0.4]],
-        [[30.0, 4.0], [-5.0, 20.0]],
-    );
+    let pencil = linear([[2.0, 0.3], [0.3, 1.0]], [[0.1, -3.0], [2.5, 0.4]], [[30.0, 4.0], [-5.0, 20.0]]);
     let scaled = |matrix: &Matrix| {
         let units = [1e-9, 1e7];
         Matrix::from_fn(2, 2, |i, j| matrix[i][j] * units[i] * units[j])
     };
-    let other = linear(
-        scaled(&pencil.mass),
-        scaled(&pencil.damping),
-        scaled(&pencil.stiffness),
-    );
+    let other = linear(scaled(&pencil.mass), scaled(&pencil.damping), scaled(&pencil.stiffness));
     close(&values(&solved(&pencil)), &values(&solved(&other)), 1e-14);
 }

@@ -32,10 +32,7 @@ fn compare(rounds: u64) {
         for (s, error) in with_errors(&special) {
             let nearest = general.iter().map(|(other, x)| (s - other).norm() - x);
             let off = nearest.fold(f64::INFINITY, f64::min);
-            assert!(
-                off <= error,
-                "round {round}: {s} off by {off:e}, error {error:e}"
-            );
+            assert!(off <= error, "round {round}: {s} off by {off:e}, error {error:e}");
         }
         // Vectors of equal frequencies are orthogonal in the energy, which keeps derivatives of clusters right.
         for (a, one) in special.iter().enumerate() {
@@ -69,10 +66,7 @@ fn bounds_cover_a_closed_form() {
         let fast = 0.5 * (spin + (spin * spin + 4.0 * k).sqrt());
         for (root, exact) in roots.iter().zip([k / fast, fast]) {
             let off = (root.s.im - exact).abs();
-            assert!(
-                off <= root.error + 2.0 * f64::EPSILON * exact,
-                "{root:?} {exact}"
-            );
+            assert!(off <= root.error + 2.0 * f64::EPSILON * exact, "{root:?} {exact}");
             assert!(root.error < 1e-14 * exact.max(1e-3 * fast), "{root:?}");
         }
     }
@@ -82,21 +76,9 @@ fn bounds_cover_a_closed_form() {
 fn only_conservative_pencils_are_taken() {
     let wrong = [
         linear(identity(2), [[0.0, -1.0], [1.0, 1e-9]], identity(2)),
-        linear(
-            identity(2),
-            [[0.0, -1.0], [1.0, 0.0]],
-            [[1.0, 0.1], [0.2, 1.0]],
-        ),
-        linear(
-            identity(2),
-            [[0.0, -1.0], [1.0, 0.0]],
-            diagonal(&[1.0, 0.0]),
-        ),
-        linear(
-            identity(2),
-            [[0.0, -1.0], [1.0, 0.0]],
-            diagonal(&[1.0, -1.0]),
-        ),
+        linear(identity(2), [[0.0, -1.0], [1.0, 0.0]], [[1.0, 0.1], [0.2, 1.0]]),
+        linear(identity(2), [[0.0, -1.0], [1.0, 0.0]], diagonal(&[1.0, 0.0])),
+        linear(identity(2), [[0.0, -1.0], [1.0, 0.0]], diagonal(&[1.0, -1.0])),
     ];
     for pencil in wrong {
         assert!(conservative(&pencil).is_none());

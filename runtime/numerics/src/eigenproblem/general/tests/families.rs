@@ -16,9 +16,7 @@ const BOTH: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 const TURN: [[f64; 2]; 2] = [[0.0, -1.0], [1.0, 0.0]];
 
 fn sum(a: &Matrix, factor: f64, b: &Matrix) -> Matrix {
-    Matrix::from_fn(a.row_count(), a.column_count(), |i, j| {
-        a[i][j] + factor * b[i][j]
-    })
+    Matrix::from_fn(a.row_count(), a.column_count(), |i, j| a[i][j] + factor * b[i][j])
 }
 
 fn tridiagonal(n: usize, diagonal: f64, beside: f64) -> Matrix {
@@ -65,9 +63,7 @@ fn bars(n: usize, length: f64) -> Matrix {
 pub(crate) fn spinning_chain(n: usize, speed: f64) -> Linear {
     let bars_of = |n: usize| bars(n, 1.0);
     let mass = bars_of(n / 2);
-    let weight: Vec<f64> = (0..n / 2)
-        .map(|i| 9.81 * ((n / 2 - i) as f64 - 0.5))
-        .collect();
+    let weight: Vec<f64> = (0..n / 2).map(|i| 9.81 * ((n / 2 - i) as f64 - 0.5)).collect();
     let stiffness = sum(&diagonal(&weight), -speed * speed, &mass);
     let [mass, stiffness] = [mass, stiffness].map(|x| mirrored(&in_joint_angles(&x)));
     let coriolis = twice(&mass, TURN).map(|x| 2.0 * speed * x);
@@ -84,9 +80,8 @@ pub(crate) fn rotors(n: usize, coupling: f64, spin: f64) -> Linear {
 /// Two equal damped chains, as a round shaft at rest: every eigenvalue twice, with two vectors.
 pub(crate) fn round_at_rest(n: usize) -> Linear {
     let stiffness = tridiagonal(n / 2, 2.0, -1.0);
-    let damping = Matrix::from_fn(n / 2, n / 2, |i, j| {
-        0.05 * stiffness[i][j] + if i == j && i % 3 == 0 { 0.1 } else { 0.0 }
-    });
+    let damping =
+        Matrix::from_fn(n / 2, n / 2, |i, j| 0.05 * stiffness[i][j] + if i == j && i % 3 == 0 { 0.1 } else { 0.0 });
     linear(identity(n), twice(&damping, BOTH), twice(&stiffness, BOTH))
 }
 
@@ -128,17 +123,9 @@ pub(crate) fn random_conservative(n: usize, seed: u64) -> Linear {
     let (mass, damping, stiffness) = (any(), any(), any());
     let gram = |x: &Matrix, least: f64| {
         let product = |i: usize, j: usize| (0..n).map(|k| x[i][k] * x[j][k]).sum::<f64>();
-        sum(
-            &diagonal(&vec![least; n]),
-            1.0,
-            &Matrix::from_fn(n, n, product),
-        )
+        sum(&diagonal(&vec![least; n]), 1.0, &Matrix::from_fn(n, n, product))
     };
-    linear(
-        gram(&mass, 0.1),
-        symmetric(&damping, -1.0),
-        gram(&stiffness, 0.01),
-    )
+    linear(gram(&mass, 0.1), symmetric(&damping, -1.0), gram(&stiffness, 0.01))
 }
 
 /// A flexible shaft with discs, four coordinates at each node: deflections and turns in two planes. `bearings` are the
@@ -210,11 +197,7 @@ pub(crate) fn undamped_shaft(nodes: usize) -> Linear {
 
 /// A shaft in oil films, whose stiffness is not symmetric.
 pub(crate) fn shaft_in_oil(nodes: usize) -> Linear {
-    shaft(
-        nodes,
-        300.0,
-        ([[4e7, 1e7], [-3e7, 6e7]], [[2e5, 1e4], [1e4, 3e5]]),
-    )
+    shaft(nodes, 300.0, ([[4e7, 1e7], [-3e7, 6e7]], [[2e5, 1e4], [1e4, 3e5]]))
 }
 
 /// A lightly damped, slightly circulatory chain of masses, `share` of whose springs are `ratio` times as stiff.
@@ -241,23 +224,13 @@ pub(crate) fn chain_of_masses(masses: &[f64], springs: &[f64], damping: f64) -> 
 
 /// Springs over fifteen orders of magnitude.
 pub(crate) fn stiff(n: usize) -> Linear {
-    let springs: Vec<f64> = (0..n)
-        .map(|i| {
-            if i % 2 == 1 {
-                10f64.powi((i * 15 / n) as i32)
-            } else {
-                1.0
-            }
-        })
-        .collect();
+    let springs: Vec<f64> = (0..n).map(|i| if i % 2 == 1 { 10f64.powi((i * 15 / n) as i32) } else { 1.0 }).collect();
     chain_of_masses(&vec![1.0; n], &springs, 0.1)
 }
 
 /// Every fourth mass is as good as nothing.
 pub(crate) fn nearly_massless(n: usize) -> Linear {
-    let masses: Vec<f64> = (0..n)
-        .map(|i| if i % 4 == 3 { 1e-12 } else { 1.0 })
-        .collect();
+    let masses: Vec<f64> = (0..n).map(|i| if i % 4 == 3 { 1e-12 } else { 1.0 }).collect();
     chain_of_masses(&masses, &vec![1.0; n], 0.05)
 }
 
@@ -270,11 +243,7 @@ pub(crate) fn hidden(quadratics: &[[f64; 3]], seed: u64) -> Linear {
         delta + 0.5 / (n as f64).sqrt() * uniform(&mut rng)
     });
     let seen = |part: usize| {
-        Matrix::from_fn(n, n, |i, j| {
-            (0..n)
-                .map(|k| coupling[k][i] * quadratics[k][part] * coupling[k][j])
-                .sum::<f64>()
-        })
+        Matrix::from_fn(n, n, |i, j| (0..n).map(|k| coupling[k][i] * quadratics[k][part] * coupling[k][j]).sum::<f64>())
     };
     linear(seen(0), seen(1), seen(2))
 }

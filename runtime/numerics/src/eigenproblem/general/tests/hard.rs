@@ -18,11 +18,7 @@ fn nothing_resists() {
 /// `M s^2 + C s` with regular `C`: zero is semisimple, with as many copies as there are coordinates.
 #[test]
 fn only_dampers() {
-    let pencil = linear(
-        identity(3),
-        [[3.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]],
-        zeros(3),
-    );
+    let pencil = linear(identity(3), [[3.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]], zeros(3));
     let roots = solve(&pencil).unwrap();
     check(&pencil, &roots).unwrap();
     let zeros = &roots[..3];
@@ -48,9 +44,7 @@ fn jordan_block() {
 #[test]
 fn critically_damped() {
     let roots = solve(&linear([[1.0]], [[2.0]], [[1.0]])).unwrap();
-    let [a, b] = &roots[..] else {
-        panic!("{roots:?}")
-    };
+    let [a, b] = &roots[..] else { panic!("{roots:?}") };
     for root in [a, b] {
         assert!((root.s + 1.0).norm() <= root.error && root.error < 1e-6);
     }

@@ -67,11 +67,7 @@ pub(super) fn known(n: usize, rng: &mut ChaCha8Rng, chains: bool) -> Known {
                 roots = block_roots(rng);
             }
         }
-        let size = if chains && i + 1 < n && below(rng, 3) == 0 {
-            2
-        } else {
-            1
-        };
+        let size = if chains && i + 1 < n && below(rng, 3) == 0 { 2 } else { 1 };
         for j in i..i + size {
             damping[j][j] = -(roots[0] + roots[1]).re;
             stiffness[j][j] = (roots[0] * roots[1]).re;
@@ -87,11 +83,7 @@ pub(super) fn known(n: usize, rng: &mut ChaCha8Rng, chains: bool) -> Known {
                     exact.algebraic += algebraic;
                     exact.geometric += 1;
                 }
-                None => spectrum.push(Exact {
-                    s: *s,
-                    algebraic,
-                    geometric: 1,
-                }),
+                None => spectrum.push(Exact { s: *s, algebraic, geometric: 1 }),
             }
         }
         i += size;
@@ -115,10 +107,7 @@ pub(super) fn known(n: usize, rng: &mut ChaCha8Rng, chains: bool) -> Known {
             }
         }
     }
-    Known {
-        linear: linear(mass, damping, stiffness),
-        spectrum,
-    }
+    Known { linear: linear(mass, damping, stiffness), spectrum }
 }
 
 /// Checks an answer against the exact spectrum: every root within its error, the right number of each, and independent
@@ -135,9 +124,7 @@ pub(super) fn check_known(known: &Known) -> Result<(), String> {
     check_product(&roots, determinant.re)?;
     let nearest = |s: Complex64| {
         let distance = |exact: &Exact| (exact.s - s).norm();
-        let nearer = |a: &usize, b: &usize| {
-            distance(&known.spectrum[*a]).total_cmp(&distance(&known.spectrum[*b]))
-        };
+        let nearer = |a: &usize, b: &usize| distance(&known.spectrum[*a]).total_cmp(&distance(&known.spectrum[*b]));
         (0..known.spectrum.len()).min_by(nearer).unwrap()
     };
     let mut counts = vec![0; known.spectrum.len()];
@@ -169,9 +156,7 @@ pub(super) fn check_known(known: &Known) -> Result<(), String> {
                 for other in of.iter().skip(a + 1) {
                     let value = cross(&known.linear, one, one).norm();
                     let theirs = cross(&known.linear, other, other).norm();
-                    let mixed = cross(&known.linear, one, other)
-                        .norm()
-                        .max(cross(&known.linear, other, one).norm());
+                    let mixed = cross(&known.linear, one, other).norm().max(cross(&known.linear, other, one).norm());
                     if mixed > 1e-6 * value.max(theirs) {
                         return Err(format!("{exact:?}: not biorthogonal: {mixed:e}"));
                     }

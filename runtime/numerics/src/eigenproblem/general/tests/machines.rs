@@ -69,14 +69,8 @@ pub(super) fn machine(rng: &mut ChaCha8Rng) -> Linear {
     // Units of coordinates and of time.
     let units = Vector::from_fn(n, |_| 2.0_f64.powi(below(rng, 41) as i32 - 20));
     let rate = 2.0_f64.powi(below(rng, 21) as i32 - 10);
-    let unit = |matrix: &Matrix, power: f64| {
-        Matrix::from_fn(n, n, |i, j| matrix[i][j] * units[i] * units[j] * power)
-    };
-    linear(
-        unit(&mass, 1.0),
-        unit(&damping, rate),
-        unit(&stiffness, rate * rate),
-    )
+    let unit = |matrix: &Matrix, power: f64| Matrix::from_fn(n, n, |i, j| matrix[i][j] * units[i] * units[j] * power);
+    linear(unit(&mass, 1.0), unit(&damping, rate), unit(&stiffness, rate * rate))
 }
 
 /// Counts machines that are refused; writes some to a file for `machines.py`, which knows their eigenvalues to 34 digits.
@@ -85,8 +79,7 @@ fn count(machines: u64, mut written: Option<&mut String>) -> usize {
     for seed in 0..machines {
         let pencil = machine(&mut ChaCha8Rng::seed_from_u64(seed));
         let n = pencil.mass.row_count();
-        let even =
-            |matrix: &Matrix| Matrix::from_fn(n, n, |i, j| 0.5 * (matrix[i][j] + matrix[j][i]));
+        let even = |matrix: &Matrix| Matrix::from_fn(n, n, |i, j| 0.5 * (matrix[i][j] + matrix[j][i]));
         for matrix in [&pencil.damping, &pencil.stiffness] {
             refused += usize::from(symmetric::solve(&even(matrix), &pencil.mass).is_err());
         }
@@ -96,21 +89,14 @@ fn count(machines: u64, mut written: Option<&mut String>) -> usize {
         };
         assert_eq!(all(&roots).len(), 2 * n, "{seed}");
         for root in &roots {
-            assert!(
-                root.s.is_finite() && root.s.im >= 0.0 && !root.error.is_nan(),
-                "{seed}"
-            );
+            assert!(root.s.is_finite() && root.s.im >= 0.0 && !root.error.is_nan(), "{seed}");
         }
         if let Some(text) = &mut written
             && n < 7
         {
             let matrices = [&pencil.mass, &pencil.damping, &pencil.stiffness];
-            let elements = matrices
-                .into_iter()
-                .flat_map(|matrix| matrix.as_flattened());
-            let numbers = roots
-                .iter()
-                .flat_map(|root| [&root.s.re, &root.s.im, &root.error]);
+            let elements = matrices.into_iter().flat_map(|matrix| matrix.as_flattened());
+            let numbers = roots.iter().flat_map(|root| [&root.s.re, &root.s.im, &root.error]);
             let all: Vec<String> = elements.chain(numbers).map(f64::to_string).collect();
             text.push_str(&format!("{seed} {n} {}\n", all.join(" ")));
         }

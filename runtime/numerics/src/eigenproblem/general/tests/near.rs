@@ -26,9 +26,7 @@ fn compare(rounds: usize) {
         // The order of roots of equal size is decided by rounding, and a double root may be a pair or two real roots.
         let mut left = with_errors(&wanted);
         for (s, error) in with_errors(&roots) {
-            let same = |other: &(Complex64, f64)| {
-                (s - other.0).norm() <= error + other.1 + 1e-12 * s.norm()
-            };
+            let same = |other: &(Complex64, f64)| (s - other.0).norm() <= error + other.1 + 1e-12 * s.norm();
             let index = left.iter().position(same);
             left.remove(index.unwrap_or_else(|| panic!("round {round}: {s} {left:?}")));
         }
@@ -63,12 +61,7 @@ fn small_changes_are_predicted_to_second_order() {
             let mut rng = ChaCha8Rng::seed_from_u64(18);
             let here = moved(&there, &mut rng, share);
             let mut values = [Complex64::ZERO; 6];
-            assert!(predict(
-                Eigenproblem::Quadratic(&here),
-                &near(&known),
-                1.0,
-                &mut values
-            ));
+            assert!(predict(Eigenproblem::Quadratic(&here), &near(&known), 1.0, &mut values));
             let wanted = all(&solve(&here).expect("a gyroscopic pencil"));
             let off = values.iter().zip(&wanted).map(|(a, b)| (a - b).norm());
             off.fold(0.0, f64::max)
@@ -83,14 +76,7 @@ fn what_is_far_away_or_incomplete_is_not_predicted() {
     let here = linear(identity(2), zeros(2), diagonal(&[1.0, 4.0]));
     let far = linear(identity(2), zeros(2), diagonal(&[2.0, 4.0]));
     let mut values = [Complex64::ZERO; 4];
-    let mut predicted = |known: &[Root]| {
-        predict(
-            Eigenproblem::Quadratic(&here),
-            &near(known),
-            1.0,
-            &mut values,
-        )
-    };
+    let mut predicted = |known: &[Root]| predict(Eigenproblem::Quadratic(&here), &near(known), 1.0, &mut values);
     let roots = solve(&here).expect("two modes");
     assert!(predicted(&roots));
     assert!(!predicted(&roots[..1]));

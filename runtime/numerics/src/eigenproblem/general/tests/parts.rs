@@ -62,10 +62,7 @@ fn balancing_keeps_the_matrix_similar() {
     hessenberg::balance(3, &mut matrix, &mut scales);
     for i in 0..3 {
         for j in 0..3 {
-            assert_eq!(
-                matrix[3 * i + j],
-                original[3 * i + j] * scales[j] / scales[i]
-            );
+            assert_eq!(matrix[3 * i + j], original[3 * i + j] * scales[j] / scales[i]);
         }
     }
     assert!(matrix.iter().all(|x| x.abs() < 100.0), "{matrix:?}");
@@ -86,25 +83,13 @@ fn both_methods_agree() {
         transposed: [&mass, &[0.3, 1.7, -2.0, 0.1], &[0.9, -0.4, 0.2, 0.5]],
         largest: [1.0, 2.0, 0.9],
     };
-    let mut values: [Complex64; 4] =
-        core::array::from_fn(|i| Complex64::from_polar(1.0, 0.4 + 1.57 * i as f64));
+    let mut values: [Complex64; 4] = core::array::from_fn(|i| Complex64::from_polar(1.0, 0.4 + 1.57 * i as f64));
     let mut open = [true; 4];
     let mut q = [Complex64::ZERO; 4];
     let (mut order, mut work) = ([0; 4], [Complex64::ZERO; 8]);
-    aberth::improve(
-        &pencil,
-        &mut values,
-        &mut open,
-        &mut q,
-        &mut order,
-        &mut work,
-    );
+    aberth::improve(&pencil, &mut values, &mut open, &mut q, &mut order, &mut work);
     aberth::symmetrise(&mut values, &mut [true; 4]);
-    let linear = linear(
-        identity(2),
-        [[0.3, -2.0], [1.7, 0.1]],
-        [[0.9, 0.2], [-0.4, 0.5]],
-    );
+    let linear = linear(identity(2), [[0.3, -2.0], [1.7, 0.1]], [[0.9, 0.2], [-0.4, 0.5]]);
     let roots = all(&solve(&linear).unwrap());
     for root in roots {
         let nearest = values.iter().map(|value| (value - root).norm());
@@ -117,10 +102,7 @@ fn both_methods_agree() {
 fn complete_pivoting_reveals_the_rank() {
     let c = |re, im| Complex64::new(re, im);
     // Rank one: the product of a column and a row.
-    let (column, row) = (
-        [c(1.0, 2.0), c(-0.5, 0.1), c(3.0, 0.0)],
-        [c(0.2, 1.0), c(2.0, 0.0), c(1.0, -1.0)],
-    );
+    let (column, row) = ([c(1.0, 2.0), c(-0.5, 0.1), c(3.0, 0.0)], [c(0.2, 1.0), c(2.0, 0.0), c(1.0, -1.0)]);
     let mut matrix: [Complex64; 9] = core::array::from_fn(|k| column[k / 3] * row[k % 3]);
     let original = matrix;
     let mut order = [0; 6];
@@ -137,16 +119,11 @@ fn complete_pivoting_reveals_the_rank() {
         }
         assert!(right.iter().chain(&left).any(|x| x.norm() >= 1.0));
     }
-    let mut regular: [Complex64; 9] =
-        core::array::from_fn(|k| original[k] + if k % 4 == 0 { 1.0 } else { 0.0 });
+    let mut regular: [Complex64; 9] = core::array::from_fn(|k| original[k] + if k % 4 == 0 { 1.0 } else { 0.0 });
     let original = regular;
     let lu = Lu::new(3, &mut regular, &mut order);
     let b = [c(1.0, 0.0), c(0.0, -2.0), c(0.5, 0.5)];
-    let (mut x, mut y, mut work) = (
-        [Complex64::ZERO; 3],
-        [Complex64::ZERO; 3],
-        [Complex64::ZERO; 3],
-    );
+    let (mut x, mut y, mut work) = ([Complex64::ZERO; 3], [Complex64::ZERO; 3], [Complex64::ZERO; 3]);
     lu.solve(&b, &mut x, &mut work);
     lu.solve_transposed(&b, &mut y, &mut work);
     for i in 0..3 {

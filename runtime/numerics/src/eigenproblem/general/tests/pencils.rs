@@ -7,16 +7,8 @@ use num_complex::Complex64;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 
-pub(crate) fn linear(
-    mass: impl Into<Matrix>,
-    damping: impl Into<Matrix>,
-    stiffness: impl Into<Matrix>,
-) -> Linear {
-    Linear {
-        mass: mass.into(),
-        damping: damping.into(),
-        stiffness: stiffness.into(),
-    }
+pub(crate) fn linear(mass: impl Into<Matrix>, damping: impl Into<Matrix>, stiffness: impl Into<Matrix>) -> Linear {
+    Linear { mass: mass.into(), damping: damping.into(), stiffness: stiffness.into() }
 }
 
 pub(crate) fn zeros(n: usize) -> Matrix {
@@ -79,20 +71,12 @@ pub(crate) fn moved(pencil: &Linear, rng: &mut ChaCha8Rng, share: f64) -> Linear
     let factors = Matrix::from_fn(n, n, |_, _| 0.5 * share * uniform(rng));
     let factor = |i: usize, j: usize| 1.0 + factors[i][j] + factors[j][i];
     let change = |matrix: &Matrix| Matrix::from_fn(n, n, |i, j| matrix[i][j] * factor(i, j));
-    linear(
-        change(&pencil.mass),
-        change(&pencil.damping),
-        change(&pencil.stiffness),
-    )
+    linear(change(&pencil.mass), change(&pencil.damping), change(&pencil.stiffness))
 }
 
 pub(crate) fn near(roots: &[Root]) -> Vec<ApproximatePair<'_>> {
     fn near(root: &Root) -> ApproximatePair<'_> {
-        ApproximatePair {
-            s: root.s,
-            right: &root.right,
-            left: &root.left,
-        }
+        ApproximatePair { s: root.s, right: &root.right, left: &root.left }
     }
     roots.iter().map(near).collect()
 }

@@ -22,12 +22,7 @@ fn qr_steps(pencil: &Linear) -> Option<usize> {
     let mut store = vec![0.0; 3 * n * n + 2 * n];
     let (mut companion, mut reflections) = (vec![0.0; 4 * n * n], vec![0.0; 4 * n * n]);
     Linearisation::new(&scaled.pencil, &mut companion, &mut store).unwrap();
-    hessenberg::reduce(
-        2 * n,
-        &mut companion,
-        &mut reflections,
-        &mut vec![0.0; 2 * n],
-    );
+    hessenberg::reduce(2 * n, &mut companion, &mut reflections, &mut vec![0.0; 2 * n]);
     let mut values = vec![Complex64::ZERO; 2 * n];
     schur::eigenvalues(2 * n, &mut companion, &mut values)
 }
@@ -54,10 +49,7 @@ fn qr_converges_on_uniform_machines() {
 
 #[test]
 fn conservative_machines_need_no_factors() {
-    let only = Census {
-        conservative: 1,
-        ..Census::default()
-    };
+    let only = Census { conservative: 1, ..Census::default() };
     for n in [10, 16, 32, 64] {
         let shaft = ("shaft", undamped_shaft(n / 4));
         let machines = uniform(n).into_iter().chain((n % 4 == 0).then_some(shaft));
@@ -144,10 +136,7 @@ fn degenerate_pencils_are_answered_in_bounded_time() {
             let off = (root.s - Complex64::new(0.0, 2f64.sqrt())).norm();
             assert!(off <= root.error, "{n}: {root:?}");
         }
-        assert!(
-            census.factors <= if n == 16 { 6000 } else { 6 * n },
-            "{census:?}"
-        );
+        assert!(census.factors <= if n == 16 { 6000 } else { 6 * n }, "{census:?}");
         let mut free = chain_of_masses(&vec![1.0; n], &vec![1.0; n], 0.0);
         free.stiffness[0][0] = 1.0;
         let (roots, _) = solved(&free);

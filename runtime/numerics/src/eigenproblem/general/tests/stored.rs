@@ -25,14 +25,8 @@ fn stored() -> Vec<Stored> {
         let linear = linear(square(), square(), square());
         let count = numbers()[0] as usize;
         let values = (0..count).map(|_| numbers());
-        let eigenvalues = values
-            .map(|pair| Complex64::new(pair[0], pair[1]))
-            .collect();
-        pencils.push(Stored {
-            name,
-            linear,
-            eigenvalues,
-        });
+        let eigenvalues = values.map(|pair| Complex64::new(pair[0], pair[1])).collect();
+        pencils.push(Stored { name, linear, eigenvalues });
     }
     pencils
 }
@@ -41,22 +35,14 @@ fn stored() -> Vec<Stored> {
 fn compare(name: &str, roots: &[Root], eigenvalues: &[Complex64]) {
     // An eigenvalue that is almost real may be found as two real ones, and the other way round.
     let mut left: Vec<_> = eigenvalues.to_vec();
-    left.extend(
-        eigenvalues
-            .iter()
-            .filter(|s| s.im > 0.0)
-            .map(Complex64::conj),
-    );
+    left.extend(eigenvalues.iter().filter(|s| s.im > 0.0).map(Complex64::conj));
     for s in all(roots) {
         let root = roots.iter().find(|root| root.s == s || root.s.conj() == s);
         let apart = |other: &Complex64| (s - other).norm();
         let nearest = (0..left.len()).min_by(|&a, &b| apart(&left[a]).total_cmp(&apart(&left[b])));
         let exact = left.swap_remove(nearest.unwrap());
         let (off, error) = (apart(&exact), root.unwrap().error);
-        assert!(
-            off <= error,
-            "{name}: {s} is off by {off:e}, error {error:e}"
-        );
+        assert!(off <= error, "{name}: {s} is off by {off:e}, error {error:e}");
     }
     assert!(left.is_empty(), "{name}: {left:?} not found");
 }
@@ -65,12 +51,7 @@ fn compare(name: &str, roots: &[Root], eigenvalues: &[Complex64]) {
 fn errors_cover_the_stored_eigenvalues() {
     let pencils = stored();
     assert_eq!(pencils.len(), 10);
-    for Stored {
-        name,
-        linear,
-        eigenvalues,
-    } in pencils
-    {
+    for Stored { name, linear, eigenvalues } in pencils {
         let roots = solve(&linear).unwrap();
         check(&linear, &roots).unwrap_or_else(|what| panic!("{name}: {what}"));
         compare(name, &roots, &eigenvalues);
@@ -80,16 +61,7 @@ fn errors_cover_the_stored_eigenvalues() {
 /// The transposed pencil has the same eigenvalues, the one reversed in time the opposite ones.
 #[test]
 fn errors_cover_them_in_every_direction() {
-    for Stored {
-        name,
-        linear: Linear {
-            mass,
-            damping,
-            stiffness,
-        },
-        eigenvalues,
-    } in stored()
-    {
+    for Stored { name, linear: Linear { mass, damping, stiffness }, eigenvalues } in stored() {
         let transposed = linear(mass.clone(), damping.transpose(), stiffness.transpose());
         compare(name, &solve(&transposed).unwrap(), &eigenvalues);
         let backwards = linear(mass, damping.map(|x| -x), stiffness);
@@ -105,19 +77,10 @@ fn units_that_are_powers_of_two_round_nothing() {
     for stored in stored() {
         let n = stored.linear.mass.row_count();
         let units: Vec<f64> = (0..n).map(|i| 2f64.powi((i * 7 % 11) as i32 - 5)).collect();
-        let scaled = |matrix: &Matrix, rate: f64| {
-            Matrix::from_fn(n, n, |i, j| matrix[i][j] * units[i] * units[j] * rate)
-        };
-        let Linear {
-            mass,
-            damping,
-            stiffness,
-        } = &stored.linear;
-        let other = linear(
-            scaled(mass, 1.0),
-            scaled(damping, 1.0 / TIME),
-            scaled(stiffness, 1.0 / TIME / TIME),
-        );
+        let scaled =
+            |matrix: &Matrix, rate: f64| Matrix::from_fn(n, n, |i, j| matrix[i][j] * units[i] * units[j] * rate);
+        let Linear { mass, damping, stiffness } = &stored.linear;
+        let other = linear(scaled(mass, 1.0), scaled(damping, 1.0 / TIME), scaled(stiffness, 1.0 / TIME / TIME));
         let (roots, others) = (solve(&stored.linear).unwrap(), solve(&other).unwrap());
         assert_eq!(roots.len(), others.len(), "{}", stored.name);
         for (root, other) in roots.iter().zip(&others) {

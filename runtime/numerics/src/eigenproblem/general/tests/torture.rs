@@ -9,9 +9,7 @@ use super::pencils::{below, integers, mass, symmetric, uniform};
 use super::*;
 
 fn graded(n: usize, rng: &mut ChaCha8Rng, spread: f64) -> Matrix {
-    Matrix::from_fn(n, n, |_, _| {
-        uniform(rng) * 10.0_f64.powf(spread * uniform(rng))
-    })
+    Matrix::from_fn(n, n, |_, _| uniform(rng) * 10.0_f64.powf(spread * uniform(rng)))
 }
 
 fn companion(n: usize, rng: &mut ChaCha8Rng) -> Matrix {
@@ -98,21 +96,12 @@ fn one(n: usize, rng: &mut ChaCha8Rng, kind: u32) -> Result<(), String> {
             }
             check_integers(damping, stiffness)
         }
-        8 => check_any(&linear(
-            mass(n, rng, 6.0),
-            graded(n, rng, 6.0),
-            graded(n, rng, 12.0),
-        )),
+        8 => check_any(&linear(mass(n, rng, 6.0), graded(n, rng, 6.0), graded(n, rng, 12.0))),
         9 => {
             let units = Vector::from_fn(n, |_| 10.0_f64.powf(6.0 * uniform(rng)));
-            let scaled =
-                |matrix: &Matrix| Matrix::from_fn(n, n, |i, j| matrix[i][j] * units[i] * units[j]);
+            let scaled = |matrix: &Matrix| Matrix::from_fn(n, n, |i, j| matrix[i][j] * units[i] * units[j]);
             let damping = scaled(&integers(n, rng, 2));
-            check_any(&linear(
-                mass(n, rng, 0.0),
-                damping,
-                scaled(&symmetric(&integers(n, rng, 2), 1.0)),
-            ))
+            check_any(&linear(mass(n, rng, 0.0), damping, scaled(&symmetric(&integers(n, rng, 2), 1.0))))
         }
         10 => {
             // Almost defective.

@@ -74,8 +74,7 @@ fn compare(rounds: usize) -> usize {
             if !flag {
                 continue;
             }
-            let wanted = modes(here)
-                .unwrap_or_else(|| panic!("round {round}: accepted, but not found alone"));
+            let wanted = modes(here).unwrap_or_else(|| panic!("round {round}: accepted, but not found alone"));
             assert_eq!(roots.len(), wanted.modes.len(), "round {round}");
             let places = match_modes(&known, &wanted, here);
             for (&(s, error), index) in roots.iter().zip(places) {
