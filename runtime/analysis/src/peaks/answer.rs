@@ -177,6 +177,14 @@ impl Peaks {
                 let value = place(d, input, peak.place.value);
                 said.note(format!("Unstable at {value}: nothing settles in this vibration."));
             }
+            let unknown = |moving: &Moving| moving.by_design.is_empty() && !d.design.is_empty();
+            if unknown(&peak.height) || peak.amplification.as_ref().is_some_and(unknown) {
+                let value = value_of(d, input, peak.place.value);
+                said.note(format!(
+                    "The peak at {value} is so narrow that rounding decides how its height or amplification changes with \
+                     the design: no derivatives of them, and no spread."
+                ));
+            }
             for (side, word) in [(&peak.half_power[0], "before"), (&peak.half_power[1], "after")] {
                 if let Some(reason) = missing(side) {
                     let value = value_of(d, input, peak.place.value);

@@ -102,9 +102,10 @@ impl HalfPower {
 pub struct Moving {
     /// Its value, SI.
     pub value: f64,
-    /// Its total derivatives by the design variables, per SI unit.
+    /// Its total derivatives by the design variables, per SI unit; empty if the peak is so narrow that rounding decides
+    /// them.
     pub by_design: Vector,
-    /// Its spread to first order, if tolerances were given.
+    /// Its spread to first order, if tolerances were given and the derivatives are known.
     pub spread: Option<Spread>,
 }
 
@@ -123,6 +124,19 @@ impl Moving {
     fn new(value: f64, by_design: Vector, tolerances: Option<&Tolerances>) -> Self {
         let spread = tolerances.map(|tolerance| Spread::new(value, by_design.clone(), tolerance));
         Self { value, by_design, spread }
+    }
+
+    /// Without derivatives if those of a state `aside` differ.
+    fn unless_rounding(self, aside: &Vector, design: &[f64]) -> Self {
+        let weighted = |slopes: &Vector| -> f64 {
+            let parts = slopes.iter().zip(design).map(|(slope, value)| slope * value);
+            parts.map(|x| x * x).sum::<f64>().sqrt()
+        };
+        let off = self.by_design.iter().zip(aside).map(|(here, aside)| here - aside).collect();
+        match weighted(&off) <= SMOOTH * weighted(&self.by_design) {
+            true => self,
+            false => Self { value: self.value, by_design: Vector::default(), spread: None },
+        }
     }
 }
 
@@ -190,6 +204,12 @@ struct Half {
 const EXACT: f64 = 1e-8;
 /// Most steps of a search for a zero.
 const STEPS: usize = 80;
+/// Amplification factor beyond which derivatives of height and width may be rounding: as the place moves by many widths,
+/// they are small differences.
+const SHARP: f64 = 1e6;
+/// Share of the width of a sharp peak by which a state lies aside of another, and by which derivatives differ there.
+const ASIDE: f64 = 0.01;
+const SMOOTH: f64 = 0.05;
 
 impl Search<'_> {
     /// Whether the amplitude rises along the range.
@@ -278,22 +298,38 @@ impl Search<'_> {
         let before = self.half_power(&top, (0..k).rev())?;
         let after = self.half_power(&top, k..self.scan.states.len())?;
         let [frequency, _] = line.frequency;
-        let factor = match (&before, &after) {
-            (Ok(a), Ok(b)) => amplification((frequency, &by_design), [a, b]),
-            _ => None,
-        };
         let moving = |value, by_design| Moving::new(value, by_design, self.tolerances);
+        let mut height = moving(square.value.sqrt(), top.modulus_by_design(&top.top_by_design()));
+        let mut amplification = None;
+        if let (Ok(a), Ok(b)) = (&before, &after)
+            && let Some((factor, slopes)) = amplified((frequency, &by_design), [a, b])
+        {
+            let mut found = moving(factor, slopes);
+            if factor > SHARP {
+                let aside = |place: f64| {
+                    let off = ASIDE * (b.place.value - a.place.value);
+                    self.along.curve(place + off, &at.coordinates, self.which)
+                };
+                let beside = aside(top.point.value)?;
+                let [c, d] = [aside(a.place.value)?, aside(b.place.value)?].map(|half| self.half_at(&beside, half));
+                if let Some((_, slopes)) = amplified((frequency, &by_design), [&c, &d]) {
+                    found = found.unless_rounding(&slopes, &at.design);
+                }
+                height = height.unless_rounding(&beside.modulus_by_design(&beside.top_by_design()), &at.design);
+            }
+            amplification = Some(found);
+        }
         let half_power = [before, after].map(|side| match side {
             Ok(half) => HalfPower::At(half.place.into()),
             Err(missing) => missing,
         });
         Ok(Peak {
             place: moving(top.point.value, place),
-            height: moving(square.value.sqrt(), top.modulus_by_design(&top.top_by_design())),
+            height,
             frequency: moving(frequency, by_design),
             phase: line.amplitude[0].arg(),
             half_power,
-            amplification: factor.map(|(value, by_design)| moving(value, by_design)),
+            amplification,
             stable,
             equilibrium: at,
         })
@@ -335,21 +371,26 @@ impl Search<'_> {
             let coordinates = state.equilibrium.coordinates.clone();
             Ok((state, [value - half, slope, value / slope], coordinates))
         })?;
-        let zero = self.along.curve(zero.value, &zero.equilibrium.coordinates, self.which)?;
-        let slope = zero.heard().square().slope;
-        let (at_peak, at_half) = (top.top_by_design(), zero.square_by_design());
-        let pairs = at_peak.iter().zip(&at_half);
-        let by_design: Vector = pairs.map(|(peak, half)| (0.5 * peak - half) / slope).collect();
-        let [frequency, _] = zero.heard().line.frequency;
-        Ok(Half {
-            frequency: (frequency, zero.frequency_by_design(&by_design)),
-            place: Moving::new(zero.point.value, by_design, self.tolerances),
-        })
+        Ok(self.half_at(top, self.along.curve(zero.value, &zero.equilibrium.coordinates, self.which)?))
+    }
+
+    /// A point beside a peak whose power keeps its ratio to that at the peak.
+    fn half_at(&self, top: &Curve, at: Curve) -> Half {
+        let Square { value, slope } = at.heard().square();
+        let ratio = value / top.heard().square().value;
+        let (at_peak, here) = (top.top_by_design(), at.square_by_design());
+        let pairs = at_peak.iter().zip(&here);
+        let by_design: Vector = pairs.map(|(peak, here)| (ratio * peak - here) / slope).collect();
+        let [frequency, _] = at.heard().line.frequency;
+        Half {
+            frequency: (frequency, at.frequency_by_design(&by_design)),
+            place: Moving::new(at.point.value, by_design, self.tolerances),
+        }
     }
 }
 
 /// The amplification factor and its derivatives; `None` if the frequency does not follow the input.
-fn amplification(peak: (f64, &Vector), [a, b]: [&Half; 2]) -> Option<(f64, Vector)> {
+fn amplified(peak: (f64, &Vector), [a, b]: [&Half; 2]) -> Option<(f64, Vector)> {
     let (w, dw) = peak;
     let width = b.frequency.0 - a.frequency.0;
     let (sign, width) = (width.signum(), width.abs());

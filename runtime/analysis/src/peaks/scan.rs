@@ -19,6 +19,8 @@ const AT: f64 = 0.1;
 const LEAST: f64 = 1e-4;
 /// Most divisions of a step: beyond them, a stretch is rounding.
 const DIVISIONS: usize = 44;
+/// Those that one takes where all poles hold: a cubic that keeps turning there is rounding.
+const HOLDING: usize = 6;
 /// Most divisions towards a value at which there is no vibration.
 const TOWARDS_GAP: usize = 20;
 /// Relative rounding of a squared amplitude.
@@ -102,7 +104,7 @@ impl Scan {
 
     /// Adds the states after `a` up to `b`; returns `b`.
     fn divide(&mut self, along: &Along<'_>, a: End, mut b: End, left: usize) -> Result<End, Error> {
-        let mut divided_at = None;
+        let mut division = MIDDLE;
         match (&a, &b) {
             (End::Missing(from, reason), End::Missing(to, _)) => {
                 self.gap(*from, *to, reason);
@@ -121,15 +123,15 @@ impl Scan {
             }
             (End::Taken(index, ..), End::Found(state)) => {
                 let before = &self.states[*index];
-                divided_at = division(before, state);
-                if divided_at.is_none() {
+                let Some(found) = division_between(before, state) else {
                     self.begin(&mut b);
                     return Ok(b);
-                }
+                };
+                division = found;
                 if left == 0 {
-                    let moving = |k: &usize| !still(before.heard(*k), state.heard(*k));
+                    let infinite = |k: &usize| division.cost < HOLDING && !still(before.heard(*k), state.heard(*k));
                     let from = before.value;
-                    if let Some(k) = (0..state.lines.len()).find(moving) {
+                    if let Some(k) = (0..state.lines.len()).find(infinite) {
                         let reason = along.resonance(k, state);
                         self.gap(from, state.value, &reason);
                         self.after_gap.push(self.states.len());
@@ -141,11 +143,12 @@ impl Scan {
             _ => {}
         }
         let (low, high) = (a.value(), b.value());
-        let middle = low + divided_at.unwrap_or(0.5) * (high - low);
+        let middle = low + division.share * (high - low);
+        let left = left.saturating_sub(division.cost);
         let from = a.coordinates(&b.coordinates(&[]));
         let middle = End::new(along, middle, &from)?;
-        let middle = self.divide(along, a, middle, left - 1)?;
-        self.divide(along, middle, b, left - 1)
+        let middle = self.divide(along, a, middle, left)?;
+        self.divide(along, middle, b, left)
     }
 
     fn gap(&mut self, from: f64, to: f64, reason: &Error) {
@@ -156,42 +159,57 @@ impl Scan {
     }
 }
 
-/// Where to divide the stretch between two states, as a share of it; `None` if nothing can hide there.
+/// Where to divide a stretch, as a share of it, and how many of the divisions that are left it takes.
+struct Division {
+    share: f64,
+    cost: usize,
+}
+
+const MIDDLE: Division = Division { share: 0.5, cost: 1 };
+
+/// Where to divide the stretch between two states; `None` if nothing can hide there.
 ///
 /// Away from its own width, a single pole that comes nearer leaves at most a minimum, `|r / (i x) + g|^2` with `g` from all
 /// others. A pole that is passed is found by its place; about it, a few widths are divided until it holds.
-fn division(a: &ResponsePoint, b: &ResponsePoint) -> Option<f64> {
+fn division_between(a: &ResponsePoint, b: &ResponsePoint) -> Option<Division> {
     (0..a.lines.len()).find_map(|k| division_of(a.heard(k), b.heard(k)))
 }
 
-fn division_of(a: Heard<'_>, b: Heard<'_>) -> Option<f64> {
+fn division_of(a: Heard<'_>, b: Heard<'_>) -> Option<Division> {
     if !a.line.audible && !b.line.audible {
         return None;
     }
-    let mut approached = 0;
+    let (mut approached, mut nearest) = (0, 0.5);
     for (from, to, back) in [(a, b, false), (b, a, true)] {
-        let share = |share: f64| Some(if back { 1.0 - share } else { share });
+        let share = |share: f64| if back { 1.0 - share } else { share };
+        let at = |part: f64| Some(Division { share: share(part), cost: 1 });
         for passage in from.passages(to).filter(|passage| !passage.holds) {
             let [here, there] = passage.off;
             let (width, change) = (passage.width, here - there);
             let least = here.abs().min(there.abs());
             if !passage.known {
-                return Some(0.5);
+                return Some(MIDDLE);
             }
             if here * there < 0.0 && least > AT * width {
-                return share((here / change).clamp(LEAST, 1.0 - LEAST));
+                return at((here / change).clamp(LEAST, 1.0 - LEAST));
             }
             if least < NEAR * width {
                 // From the pole outwards, or to either side of it.
                 let beside = (1.2 * NEAR * width).copysign(there - here);
                 let outwards = (beside - here) / (there - here);
-                return share(if outwards > f64::EPSILON && outwards < 0.5 { outwards } else { 0.5 });
+                return at(if outwards > f64::EPSILON && outwards < 0.5 { outwards } else { 0.5 });
             }
             approached += 1;
+            // Features scale with the distance from the pole: the middle is where it is the geometric mean.
+            let middle = share((here / (here + (here * there).sqrt().copysign(here))).clamp(LEAST, 1.0 - LEAST));
+            if (middle - 0.5).abs() > (nearest - 0.5_f64).abs() {
+                nearest = middle;
+            }
         }
     }
     let alone = approached <= 2;
-    (!alone || turns_between(a, b)).then_some(0.5)
+    let cost = if approached == 0 { HOLDING } else { 1 };
+    (!alone || turns_between(a, b)).then_some(Division { share: nearest, cost })
 }
 
 /// Whether the cubic through both ends has a slope whose sign neither end has.

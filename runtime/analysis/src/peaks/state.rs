@@ -248,7 +248,7 @@ pub(super) struct Passage {
 }
 
 /// Part of its distance by which a pole may move along a stretch on which it holds.
-const PART: f64 = 0.35;
+const PART: f64 = 0.5;
 /// Height of a peak, relative to the amplitude beside it, that is none.
 const QUIET: f64 = 1e-6;
 

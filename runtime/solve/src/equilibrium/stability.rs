@@ -1,13 +1,12 @@
 //! Stability of an equilibrium according to the linearised mechanism.
 
 use super::operating_point::Failure;
-use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, for_size, largest_element};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, asymmetry, for_size, largest_element};
 use crate::constraints::{Structure, Tangent};
-use crate::eigenproblem::symmetric;
 use crate::free::FreeDirections;
 use crate::kernels::{Kernels, Linear};
 use crate::modes::{Family, Modes, SYMMETRIC, change_to_zero, deflated, free_pairs, solve_modes};
-use crate::rounding::{self, CheckedState, Sign, of_form, sign};
+use crate::rounding::{self, CheckedState, Sign, sign};
 use crate::{Behaviour, DampingKind, Description, Equilibrium, Mode, Shared, Stability};
 
 /// Condition number beyond which an eigenvalue shares its vector with another.
@@ -224,15 +223,67 @@ fn skew(matrix: &Matrix) -> bool {
     (0..matrix.row_count()).all(|i| (0..=i).all(|j| (matrix[i][j] + matrix[j][i]).abs() <= threshold))
 }
 
-/// Whether no eigenvalue of the symmetric part of `Chat` is negative beyond rounding; `false` where that cannot be told.
+/// Whether the symmetric part of `Chat` feeds no motion with energy, but for rounding of the elements of `Chat`: as that of
+/// gyroscopic terms, which cancel in it.
 fn dissipates(linear: &Linear) -> bool {
+    /// Several times the smallest pivot that a factorisation takes, relative to its element.
+    const MARGIN: f64 = 4.0;
     let damping = &linear.damping;
     let n = damping.row_count();
-    let symmetric_part = Matrix::from_fn(n, n, |i, j| 0.5 * (damping[i][j] + damping[j][i]));
-    symmetric::solve(&symmetric_part, &linear.mass).is_ok_and(|pairs| {
-        (0..n).all(|r| {
-            let error = pairs.errors[r].max(of_form(damping, &pairs.shapes[r]));
-            sign(pairs.lambda[r], error) != Sign::Negative
-        })
-    })
+    let unit = linear.mass.iter().enumerate().map(|(i, row)| row[i].sqrt());
+    let unit: Vector = unit.collect();
+    let rounding = |i: usize| {
+        let elements = (0..n).map(|j| (damping[i][j].abs() + damping[j][i].abs()) / unit[j]);
+        let sum = unit[i] * elements.sum::<f64>();
+        if sum > 0.0 { MARGIN * rounding::of_elements(n) * sum } else { 1.0 }
+    };
+    let symmetric_part = |i: usize, j: usize| 0.5 * (damping[i][j] + damping[j][i]);
+    let raised = |i, j| symmetric_part(i, j) + if i == j { rounding(i) } else { 0.0 };
+    Cholesky::new(&Matrix::from_fn(n, n, raised)).is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `G^T G` with `rank` rows and gyroscopic terms, each unknown in a unit of its own.
+    fn damped(n: usize, rank: usize, seed: u64) -> Linear {
+        let mut state = seed;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let units: Vec<f64> = (0..n).map(|_| 10_f64.powf(6.0 * random())).collect();
+        let rows = Matrix::from_fn(rank, n, |_, j| random() * units[j]);
+        let gyroscopic = Matrix::from_fn(n, n, |_, _| 1e3 * random());
+        let mut linear = Linear::zeros(n);
+        for i in 0..n {
+            linear.mass[i][i] = units[i] * units[i];
+            for j in 0..n {
+                let turned = (gyroscopic[i][j] - gyroscopic[j][i]) * units[i] * units[j];
+                linear.damping[i][j] = turned + (0..rank).map(|k| rows[k][i] * rows[k][j]).sum::<f64>();
+            }
+        }
+        linear
+    }
+
+    #[test]
+    fn damping_of_any_rank_dissipates_and_less_than_it_feeds() {
+        for seed in 0..400 {
+            let n = 1 + seed as usize % 20;
+            let rank = (seed as usize / 3) % n;
+            let mut linear = damped(n, rank, seed);
+            assert!(dissipates(&linear), "{seed}");
+            // Something is negative along a motion that nothing damps.
+            let k = seed as usize % n;
+            let part = 1e-7 * linear.mass[k][k];
+            for j in 0..n {
+                if j != k {
+                    (linear.damping[k][j], linear.damping[j][k]) = (0.0, 0.0);
+                }
+            }
+            linear.damping[k][k] = -part;
+            assert!(!dissipates(&linear), "{seed}");
+        }
+    }
 }
