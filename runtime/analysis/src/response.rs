@@ -7,7 +7,7 @@ use crate::algebra::Vector;
 use crate::along::name_of;
 use crate::clusters::common_slopes;
 pub use crate::forced::Vibration;
-use crate::forced::{self, ForcedResponse, check_output};
+use crate::forced::{self, ForcedResponse, ForcedSensitivities, check_output};
 use crate::kernels::{BatchKernels, CurvatureKernels, Kernels, SummaryKernels};
 use crate::modes::Family;
 use crate::peaks::{self, PeakQuantity};
@@ -384,7 +384,7 @@ impl<'a> Responses<'a> {
                     let forced_response = derivatives.of_vibrations(self.mechanism, solved);
                     let value = forced_response.and_then(|found| vibration.of(found));
                     let gradient = value.filter(|_| slopes).and_then(|_| {
-                        let all = forced::sensitivities(self.mechanism, state).ok()?;
+                        let all = derivatives.along_vibrations(self.mechanism, solved)?;
                         let harmonic = vibration.place(&state.description)?;
                         let slopes = all.modulus(harmonic, vibration.output, vibration.measure)?;
                         Some(slopes.by_design)
@@ -522,6 +522,7 @@ struct LazyDerivatives {
     modes: Option<Option<crate::Sensitivities>>,
     outputs: Option<Option<crate::sensitivity::OutputSensitivities>>,
     vibrations: Option<Option<ForcedResponse>>,
+    along_vibrations: Option<Option<ForcedSensitivities>>,
 }
 
 impl LazyDerivatives {
@@ -533,6 +534,11 @@ impl LazyDerivatives {
     fn of_vibrations(&mut self, mechanism: &dyn Kernels, solved: &Solution) -> Option<&ForcedResponse> {
         let computed = || forced::response(mechanism, &solved.state).ok();
         self.vibrations.get_or_insert_with(computed).as_ref()
+    }
+
+    fn along_vibrations(&mut self, mechanism: &dyn Kernels, solved: &Solution) -> Option<&ForcedSensitivities> {
+        let computed = || forced::sensitivities(mechanism, &solved.state).ok();
+        self.along_vibrations.get_or_insert_with(computed).as_ref()
     }
 
     fn of_outputs(
