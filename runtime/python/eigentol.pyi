@@ -700,55 +700,6 @@ class Probabilities(_Result):
         """The samples, or None where none were drawn."""
 
 @final
-class RareFailure(_Result):
-    """A small probability of failure."""
-
-    @property
-    def failure(self) -> float:
-        """Probability that any requirement is failed."""
-    @property
-    def trusted(self) -> bool:
-        """Whether the samples reached their target and lines of designs do not contradict them."""
-    @property
-    def standard_error(self) -> float:
-        """Standard error of `failure`."""
-    @property
-    def without_design_point(self) -> list[int]:
-        """Positions of the requirements of which some failure has no design point, such as `"stable"`."""
-    @property
-    def unseen(self) -> float:
-        """Probability that failures of these may have without having been seen, at a confidence of 95 %."""
-    @property
-    def coefficient_of_variation(self) -> float | None:
-        """Standard error of `failure` over it; None where nothing failed."""
-    @property
-    def reached(self) -> bool:
-        """Whether the samples reached their target."""
-    @property
-    def contradicted(self) -> bool:
-        """Whether lines of designs contradict the samples."""
-    @property
-    def samples(self) -> int:
-        """Number of samples."""
-    @property
-    def failures(self) -> int:
-        """Number of samples that fail."""
-    @property
-    def without_value(self) -> int:
-        """Number of samples that lack the response needed to tell."""
-    @property
-    def untold(self) -> float:
-        """Probability of designs that do."""
-    @property
-    def centres(self) -> int:
-        """Number of design points about which samples were drawn."""
-    @property
-    def counts(self) -> Counts:
-        """What became of the samples, by name; their shares are no probabilities."""
-    @property
-    def judgement(self) -> dict[str, Any]:
-        """What lines of designs say, by name; under "open" why there are none."""
-
 @final
 class Reliability(_Result):
     """Reliability of a design. `l` is the number of limits that requirements put to responses."""
@@ -772,16 +723,13 @@ class Reliability(_Result):
         """Whether designs solved anew confirm the probability to first order of each limit, within 10 %."""
     @property
     def any_failure(self) -> float | None:
-        """Probability that any limit is passed, to first order; None where it is not known."""
+        """Probability that any requirement is failed, by designs solved anew; None where that was not done."""
     @property
     def limits(self) -> list[tuple[int, str]]:
         """The limits: the position of the requirement, and the name of the response."""
     @property
     def edges(self) -> list[tuple[str, list[float]]]:
         """Where each response fails: "below", "above" or "between", and the ends, SI; "around", and order and fraction."""
-    @property
-    def second_order(self) -> Real:
-        """Probability to second order that each limit is passed, shape (l,); NaN without a design point."""
     @property
     def names(self) -> list[str]:
         """Names of the design variables, and after them of the inputs that have a tolerance."""
@@ -814,75 +762,12 @@ class Reliability(_Result):
         """The same of failing any requirement, those without a limit included."""
     @property
     def any_verified(self) -> bool:
-        """Whether designs solved anew confirm `any_failure`."""
-    @property
-    def any_error(self) -> float | None:
-        """Standard error of the integration behind `any_failure`; None where that is not known."""
-    @property
-    def any_bounds(self) -> tuple[float, float] | None:
-        """Bounds of `any_failure` from pairs of limits; None where it is not known."""
+        """Whether designs solved anew confirm the probability to first order of every limit."""
     @property
     def left_out(self) -> list[int]:
         """Positions of the requirements without a limit, such as `"stable"`."""
 
 @final
-class SecondOrderFailure(_Result):
-    """The probability of failing a requirement, by the second-order model of its response."""
-
-    @property
-    def failure(self) -> float:
-        """Probability by the exact distribution of the second-order model."""
-    @property
-    def error(self) -> float:
-        """Error of that: of the integration, and of the model where designs were solved anew."""
-    @property
-    def first_order(self) -> float:
-        """Probability to first order."""
-    @property
-    def solved_anew(self) -> float | None:
-        """Probability by designs solved anew, which judges the other two; None where that is too dear."""
-    @property
-    def interval(self) -> tuple[float, float] | None:
-        """95 % interval of that."""
-    @property
-    def verified(self) -> bool:
-        """Whether designs solved anew confirm the probability of the second-order model."""
-    @property
-    def mixed_with(self) -> list[int]:
-        """Positions of the other modes that tolerances mix with this one. If there are any, neither model can be
-        relied on.
-        """
-    @property
-    def name(self) -> str:
-        """The requirement, in words."""
-    @property
-    def bands(self) -> list[tuple[float, float]]:
-        """The bands of values that fail, in the SI unit of the response."""
-    @property
-    def distance(self) -> float:
-        """Standard deviations between the value and the nearest end of a band."""
-    @property
-    def value(self) -> float:
-        """Nominal value of the response, SI."""
-    @property
-    def sigma(self) -> float:
-        """Its standard deviation to first order."""
-    @property
-    def model_error(self) -> float | None:
-        """Error of the model alone; None where no designs were solved anew."""
-    @property
-    def judgement(self) -> dict[str, Any]:
-        """What the designs solved anew say, by name; under "open" why there are none."""
-    @property
-    def by_input(self) -> Real:
-        """Derivatives of the probability to first order by inputs, shape (inputs,); NaN where there are none."""
-    @property
-    def by_design(self) -> Real:
-        """The same by nominal values of design variables, shape (design,)."""
-    @property
-    def by_half_width(self) -> Real:
-        """The same by half-widths of their tolerances, shape (design,)."""
-
 @final
 class Response:
     """A number that a design gives: a quantity of a mode, an output, the amplitude of its vibration, a critical value of an
@@ -2485,22 +2370,12 @@ class Study:
         `("away", ("frequency", 0), "speed", 0.1, 2.0)`; frequencies are in rad/s. Of `start` and `stop` only the samples
         `start` to below `stop` are taken; numbers of samples of parts add up to those of the whole. Ctrl-C ends it.
         """
-    def rare_failure(self, requirements: Sequence[Requirement]) -> RareFailure:
-        """A small probability of failing any requirement, by importance sampling about the design points; requirements as
-        `chances` takes them.
-        """
-    def second_order_failure(self, requirement: Requirement) -> SecondOrderFailure:
-        """Probability of failing one requirement by the second-order model of its response, with what changes it;
-        requirements as `chances` takes them.
-        """
     def probability(self, requirements: Sequence[Requirement]) -> Probabilities:
         """How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
         of designs, or samples; requirements as `chances` takes them.
         """
     def reliability(self, requirements: Sequence[Requirement]) -> Reliability:
-        """Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
-        takes them.
-        """
+        """Reliability by way of design points (FORM), judged by designs solved anew; requirements as `chances` takes them."""
     def response(self, what: str, *of: Any, variables: Sequence[str] | None = None) -> Response:
         """A response as a function of arrays of designs.
 

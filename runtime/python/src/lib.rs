@@ -48,7 +48,7 @@ mod module {
     #[pymodule_export]
     use crate::parts::Part;
     #[pymodule_export]
-    use crate::requirements::{Chances, Probabilities, RareFailure, Reliability, SecondOrderFailure};
+    use crate::requirements::{Chances, Probabilities, Reliability};
     #[pymodule_export]
     use crate::response::Response;
     #[pymodule_export]

@@ -1,8 +1,7 @@
 //! Probabilities of meeting requirements.
 
 use eigentol::requirement::{self, DesignPoint, LimitReliability};
-use eigentol::second_order::MarginDerivatives;
-use eigentol::{Input, Vector};
+use eigentol::Input;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -10,10 +9,10 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::arrays::{Array1, Array2, optional, optional_rows, vector};
 use crate::response::wanted;
 use crate::results::{attributes, result};
-use crate::spreads::{counts, judgement};
+use crate::spreads::judgement;
 use crate::study::Study;
 use crate::values::{List, not_finite};
-use crate::{hints, names};
+use crate::names;
 use requirement::Requirement as Limit;
 
 /// Parses one requirement: "stable", or a response with a low and a high end, None for an open end; "outside" before
@@ -117,30 +116,6 @@ impl Study {
     }
 }
 
-/// Most samples of a small probability, and the coefficient of variation that is enough.
-const RARE: (usize, f64) = (1_000_000, 0.05);
-
-#[pymethods]
-impl Study {
-    /// A small probability of failing any requirement, by importance sampling about the design points; requirements as
-    /// `chances` takes them.
-    fn rare_failure(&self, py: Python<'_>, requirements: Vec<Requirement<'_>>) -> PyResult<RareFailure> {
-        let wanted = self.requirements(&requirements)?;
-        let answer = self.ask_stoppably(py, |study| {
-            let (most, accuracy) = RARE;
-            study.rare_failure(&wanted, &study.sampling().samples(most), accuracy)
-        });
-        answer.map(RareFailure)
-    }
-
-    /// Probability of failing one requirement by the second-order model of its response, with what changes it;
-    /// requirements as `chances` takes them.
-    fn second_order_failure(&self, py: Python<'_>, requirement: Requirement<'_>) -> PyResult<SecondOrderFailure> {
-        let wanted = self::requirement(&self.inner, &requirement)?;
-        self.ask(py, |study| study.second_order_failure(wanted)).map(SecondOrderFailure)
-    }
-}
-
 /// Analyses of requirements, given as `chances` takes them.
 macro_rules! of_requirements {
     ($($(#[$doc:meta])* $question:ident -> $result:ident;)*) => {
@@ -166,8 +141,7 @@ of_requirements! {
     /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
     /// of designs, or samples; requirements as `chances` takes them.
     probability -> Probabilities;
-    /// Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
-    /// takes them.
+    /// Reliability by way of design points (FORM), judged by designs solved anew; requirements as `chances` takes them.
     reliability -> Reliability;
 }
 
@@ -304,8 +278,8 @@ attributes! {
         /// Whether designs solved anew confirm the probability to first order of each limit, within 10 %.
         verified: Vec<bool> =
             self.0.limits.iter().map(LimitReliability::verified).collect();
-        /// Probability that any limit is passed, to first order; None where it is not known.
-        any_failure: Option<f64> = self.0.system.as_ref().map(|x| x.probability.value);
+        /// Probability that any requirement is failed, by designs solved anew; None where that was not done.
+        any_failure: Option<f64> = self.0.judgement.judged().map(|x| x.probability.value);
         /// The limits: the position of the requirement, and the name of the response.
         limits: Vec<(usize, String)> = {
             let name = |limit_reliability: &LimitReliability| Some(limit_reliability.limit.response()?.name(&self.0.description));
@@ -324,8 +298,6 @@ attributes! {
             })
             .collect()
         };
-        /// Probability to second order that each limit is passed, shape (l,); NaN without a design point.
-        second_order: Array1<'py> = self.each(py, LimitReliability::second_order);
         /// Names of the design variables, and after them of the inputs that have a tolerance.
         names: Vec<&str> = names::design(&self.0.description);
         /// The most probable design that fails for each limit, SI, shape (l, variables); NaN without one.
@@ -355,115 +327,9 @@ attributes! {
             self.0.limits.iter().map(|limit| judgement(py, &limit.judgement)).collect();
         /// The same of failing any requirement, those without a limit included.
         any_judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
-        /// Whether designs solved anew confirm `any_failure`.
+        /// Whether designs solved anew confirm the probability to first order of every limit.
         any_verified: bool = self.0.verified();
-        /// Standard error of the integration behind `any_failure`; None where that is not known.
-        any_error: Option<f64> = Some(self.0.system.as_ref()?.probability.standard_error);
-        /// Bounds of `any_failure` from pairs of limits; None where it is not known.
-        any_bounds: Option<(f64, f64)> = {
-            let bounds = self.0.system.as_ref()?.bounds;
-            Some((bounds.lower, bounds.upper))
-        };
         /// Positions of the requirements without a limit, such as `"stable"`.
         left_out: Vec<usize> = self.0.left_out.clone();
     }
-}
-
-result! {
-    /// A small probability of failure.
-    RareFailure(requirement::RareFailure)
-}
-
-attributes! {
-    RareFailure(self, py) {
-        /// Probability that any requirement is failed.
-        failure: f64 = self.0.failure.probability.value;
-        /// Whether the samples reached their target and lines of designs do not contradict them.
-        trusted: bool = self.0.trusted();
-        /// Standard error of `failure`.
-        standard_error: f64 = self.0.failure.probability.standard_error;
-        /// Positions of the requirements of which some failure has no design point, such as `"stable"`.
-        without_design_point: Vec<usize> = self.0.without_design_point.clone();
-        /// Probability that failures of these may have without having been seen, at a confidence of 95 %.
-        unseen: f64 = self.0.unseen;
-        /// Standard error of `failure` over it; None where nothing failed.
-        coefficient_of_variation: Option<f64> = self.0.failure.coefficient_of_variation;
-        /// Whether the samples reached their target.
-        reached: bool = self.0.failure.reached;
-        /// Whether lines of designs contradict the samples.
-        contradicted: bool = self.0.contradicted();
-        /// Number of samples.
-        samples: u64 = self.0.failure.samples;
-        /// Number of samples that fail.
-        failures: u64 = self.0.failure.failures;
-        /// Number of samples that lack the response needed to tell.
-        without_value: u64 = self.0.failure.without_value;
-        /// Probability of designs that do.
-        untold: f64 = self.0.failure.probability_without_value.value;
-        /// Number of design points about which samples were drawn.
-        centres: usize = self.0.centres;
-        /// What became of the samples, by name; their shares are no probabilities.
-        counts: PyResult<hints::Counts<'py>> = counts(py, &self.0.counts);
-        /// What lines of designs say, by name; under "open" why there are none.
-        judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
-    }
-}
-
-result! {
-    /// The probability of failing a requirement, by the second-order model of its response.
-    SecondOrderFailure(requirement::SecondOrderFailure)
-}
-
-impl SecondOrderFailure {
-    fn slopes<'py>(&self, py: Python<'py>, of: impl Fn(&MarginDerivatives) -> &Vector) -> Array1<'py> {
-        let derivatives = self.0.margin.derivatives.as_ref().map(|derivative| &of(derivative)[..]);
-        slopes(py, self.0.description.design.len(), derivatives)
-    }
-}
-
-attributes! {
-    SecondOrderFailure(self, py) {
-        /// Probability by the exact distribution of the second-order model.
-        failure: f64 = self.0.margin.corrected.value;
-        /// Error of that: of the integration, and of the model where designs were solved anew.
-        error: f64 = self.0.margin.corrected.error;
-        /// Probability to first order.
-        first_order: f64 = self.0.margin.first_order;
-        /// Probability by designs solved anew, which judges the other two; None where that is too dear.
-        solved_anew: Option<f64> = self.0.judgement.judged().map(|x| x.probability.value);
-        /// 95 % interval of that.
-        interval: Option<(f64, f64)> =
-            self.0.judgement.judged().map(|x| x.interval()).map(|x| (x.lower, x.upper));
-        /// Whether designs solved anew confirm the probability of the second-order model.
-        verified: bool = self.0.verified();
-        /// Positions of the other modes that tolerances mix with this one. If there are any, neither model can be
-        /// relied on.
-        mixed_with: Vec<usize> = self.0.mixed_with.clone();
-        /// The requirement, in words.
-        name: String = self.0.wanted.text(&self.0.description);
-        /// The bands of values that fail, in the SI unit of the response.
-        bands: Vec<(f64, f64)> = self.0.bands.clone();
-        /// Standard deviations between the value and the nearest end of a band.
-        distance: f64 = self.0.margin.distance;
-        /// Nominal value of the response, SI.
-        value: f64 = self.0.margin.value;
-        /// Its standard deviation to first order.
-        sigma: f64 = self.0.margin.sigma;
-        /// Error of the model alone; None where no designs were solved anew.
-        model_error: Option<f64> = self.0.margin.corrected.model_error;
-        /// What the designs solved anew say, by name; under "open" why there are none.
-        judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
-        /// Derivatives of the probability to first order by inputs, shape (inputs,); NaN where there are none.
-        by_input: Array1<'py> =
-            slopes(py, self.0.description.inputs.len(), self.0.by_input.as_deref());
-        /// The same by nominal values of design variables, shape (design,).
-        by_design: Array1<'py> = self.slopes(py, |slope| &slope.by_design);
-        /// The same by half-widths of their tolerances, shape (design,).
-        by_half_width: Array1<'py> = self.slopes(py, |slope| &slope.by_half_width);
-    }
-}
-
-/// Derivatives, or as many NaN.
-fn slopes<'py>(py: Python<'py>, count: usize, values: Option<&[f64]>) -> Array1<'py> {
-    vector(py, values.map_or_else(|| vec![f64::NAN; count], <[f64]>::to_vec))
 }

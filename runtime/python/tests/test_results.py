@@ -206,15 +206,6 @@ ELSEWHERE = {
         },
         **COUNTED,
     },
-    "SecondOrderFailure": {
-        "wanted": "name",
-        "judgement": "judgement",
-        "margin.corrected.value": "failure",
-        "margin.derivatives.by_high": "(of the margin alone)",
-        "margin.derivatives.by_low": "(of the margin alone)",
-        "margin.derivatives.by_mean": "(of the margin alone)",
-        "margin.derivatives.by_sigma": "(of the margin alone)",
-    },
     "Propagation": {
         "method": "method",
         "spreads.mean": "mean_error",
@@ -259,17 +250,6 @@ ELSEWHERE = {
         "limits.judgement": "judgements",
         "limits.limit": "edges",
         "limits.requirement": "limits",
-        "system.bounds": "any_bounds",
-        "system.probability": "any_failure",
-    },
-    "RareFailure": {
-        "judgement": "judgement",
-        "failure.by_mean": "(of standard normal variables)",
-        "failure.by_sigma": "(of standard normal variables)",
-        "failure.ln_probability": "failure",
-        "failure.probability": "failure",
-        "failure.probability_without_value": "untold",
-        **COUNTED,
     },
     "Allocation": {"chances": "chances", "reliability": "reliability"},
     "Clusters": {
@@ -363,11 +343,7 @@ def test_attributes_say_what_tables_say(results):
     np.testing.assert_array_equal(spreads.skewness, spreads.table()["skewness"])
     points = results["Reliability"]
     assert points.verified == points.table()["verified"]
-    table = points.table("design points")
-    np.testing.assert_array_equal(points.second_order, table["probability of failure, second order"])
     np.testing.assert_array_equal(points.importance.ravel(), points.table("design point variables")["importance"])
-    rare = results["RareFailure"]
-    assert [rare.trusted] == rare.table()["trusted"] and [rare.samples] == rare.table()["samples"].tolist()
     chances = results["Chances"]
     np.testing.assert_array_equal(chances.lower, chances.table()["95 % from"])
     (members,) = results["Clusters"].sigma()
