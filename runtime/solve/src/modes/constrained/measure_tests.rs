@@ -99,7 +99,8 @@ fn a_root_without_vectors_is_kept() {
     let zeros = Vector::zeros(5);
     let structure = Structure { coordinates: 3, speeds: 0, position_constraints: 2, velocity_constraints: 0 };
     let mut gathered = Gathered::new(&linear, structure, Normalisation::Mass);
-    let root = Root { s: root(), right: zeros.clone(), left: zeros.clone(), residual: 0.0, error: 1e-12, condition: 1.0 };
+    let root =
+        Root { s: root(), right: zeros.clone(), left: zeros.clone(), residual: 0.0, error: 1e-12, condition: 1.0 };
     gathered.add(&root, false, zeros, left);
     gathered.add(&root, false, right.clone(), right);
     let [lost, found] = &gathered.roots[..] else { panic!() };

@@ -178,13 +178,7 @@ impl<'a> Gathered<'a> {
 
     /// Adds the pair obtained from a root of the smaller problem. `shared` eigenvalues belong to several vectors and
     /// stay equal.
-    fn add(
-        &mut self,
-        reduced: &Root,
-        shared: bool,
-        mut right: Vector<Complex>,
-        mut left: Vector<Complex>,
-    ) {
+    fn add(&mut self, reduced: &Root, shared: bool, mut right: Vector<Complex>, mut left: Vector<Complex>) {
         let motions = self.structure.motions();
         let settle = |right: &mut [Complex], left: &mut [Complex]| self.settle(right, left);
         if !settle(&mut right, &mut left) {
