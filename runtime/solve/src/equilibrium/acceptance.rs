@@ -85,6 +85,6 @@ pub(crate) fn last_step(
     let motions = point.motions();
     let end = Candidate::at(point, add_scaled(q, 1.0, step));
     let fell = largest(&end.residual) <= 1e-3 * largest(residual)
-        || is_rounding(&displacement(&end.residual), &end.coordinates, motions);
+        || is_rounding(&point.description, &displacement(&end.residual), &end.coordinates, motions);
     (fell && end.is_solved(point, stiffness, TOLERANCE)).then_some(end)
 }

@@ -6,6 +6,7 @@
 //! stiffness that such forces leave along a direction in which nothing holds the machine. In any units that are found
 //! from the matrix itself it would pass for a stiffness like others.
 
+use super::convergence::largest_reaction;
 use crate::Description;
 use crate::algebra::{Matrix, Vector, greater, largest};
 use crate::kernels::Kernels;
@@ -23,7 +24,7 @@ const FACTOR: f64 = 4.0;
 const FAINT: f64 = 1e-10;
 
 /// What the equations are evaluated with.
-pub(super) struct Data<'a> {
+pub(crate) struct Data<'a> {
     pub(super) mechanism: &'a dyn Kernels,
     pub(super) description: &'a Description,
     /// The number of coordinates and speeds.
@@ -32,32 +33,52 @@ pub(super) struct Data<'a> {
     pub(super) design: &'a [f64],
 }
 
+impl Data<'_> {
+    /// A large change of an unknown: of a reaction, one as large as the largest.
+    fn large(&self, q: &[f64], unknown: usize) -> f64 {
+        let large = self.description.large(unknown);
+        match unknown < self.motions {
+            true => large,
+            false => large * largest_reaction(self.description, q, self.motions),
+        }
+    }
+}
+
 /// The residual with zeros where it is rounding of the data; `None` if it is nowhere. Forces that lead held unknowns to
 /// their values may have been added to it; only what the mechanism returns is disturbed.
+pub(super) fn residual_without_rounding(data: &Data<'_>, q: &[f64], residual: &[f64]) -> Option<Vector> {
+    without_rounding(data, q, residual, |q, inputs, design| data.mechanism.residual(q, inputs, design))
+}
+
+/// Values `of` coordinates, inputs and design with zeros where they are rounding of the data; `None` if they are nowhere.
 #[cold]
-pub(super) fn without_rounding(data: &Data<'_>, q: &[f64], residual: &[f64]) -> Option<Vector> {
-    let change = change(data, q, |q, inputs, design| data.mechanism.residual(q, inputs, design));
+pub(crate) fn without_rounding(
+    data: &Data<'_>,
+    q: &[f64],
+    values: &[f64],
+    of: impl Fn(&[f64], &[f64], &[f64]) -> Vector,
+) -> Option<Vector> {
+    let change = change(data, q, &of);
     // What the numbers of a declaration leave is the same whatever the data: beside forces that balance here, but
     // nowhere else, it is small.
-    let mut sizes = Vector::zeros(residual.len());
+    let mut sizes = Vector::zeros(values.len());
     for sample in 0..SAMPLES {
         let moved = q.iter().enumerate().map(|(i, value)| {
             let share = (disturbance(i, sample) - 1.0) / (AMPLITUDE as f64 * f64::EPSILON);
-            value + share * data.description.large(i)
+            value + share * data.large(q, i)
         });
         let moved: Vector = moved.collect();
-        let residual = data.mechanism.residual(&moved, data.inputs, data.design);
-        for (size, value) in sizes.iter_mut().zip(&residual) {
+        for (size, value) in sizes.iter_mut().zip(&of(&moved, data.inputs, data.design)) {
             *size = greater(*size, value.abs());
         }
     }
-    let mut left = Vector::from(residual);
+    let mut left = Vector::from(values);
     for ((value, change), size) in left.iter_mut().zip(&change).zip(&sizes) {
         if value.abs() <= FACTOR * greater(*change, FORCES * size) {
             *value = 0.0;
         }
     }
-    (left[..] != *residual).then_some(left)
+    (left[..] != *values).then_some(left)
 }
 
 /// Sets to zero what is rounding of the data in a stiffness against motions that hardly anything resists, and in equations
@@ -117,7 +138,7 @@ fn change(data: &Data<'_>, q: &[f64], of: impl Fn(&[f64], &[f64], &[f64]) -> Vec
         // Coordinates balance each other: that of a tilt has the rounding of a motion of the size of the machine.
         let moved = q.iter().enumerate().map(|(i, value)| {
             let rounding = disturbance(first + i, sample) - 1.0;
-            value + rounding * (value.abs() + data.description.large(i))
+            value + rounding * (value.abs() + data.large(q, i))
         });
         let disturbed = of(&moved.collect::<Vector>(), &inputs, &design);
         for ((change, disturbed), value) in change.iter_mut().zip(&disturbed).zip(&given) {

@@ -148,7 +148,7 @@ impl<'a> OperatingPoint<'a> {
     }
 
     /// What the equations are evaluated with.
-    pub(super) fn data(&self) -> Data<'_> {
+    pub(crate) fn data(&self) -> Data<'_> {
         Data {
             mechanism: self.mechanism,
             description: &self.description,

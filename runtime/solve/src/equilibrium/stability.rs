@@ -125,7 +125,9 @@ fn judge_free(
     }
     let (mut negative, mut zero, mut floor) = (0, free, 0.0_f64);
     if !clearly_definite(linear) {
-        let pairs = free_pairs(whole, description)?;
+        let Ok(pairs) = free_pairs(whole, description) else {
+            return Ok(general((0, 0), 0.0));
+        };
         for (&lambda, phi) in pairs.lambda.iter().zip(pairs.shapes.iter()).skip(free) {
             if lambda.abs() < rounding::SLOW {
                 let moved = doubt(lambda, phi);

@@ -3,7 +3,7 @@
 
 use super::redundancy::ROUNDING;
 use crate::algebra::{Matrix, Values, Vector, dot, largest, times};
-use crate::equilibrium::SMALL_MOTION;
+use crate::equilibrium::{OperatingPoint, SMALL_MOTION, small_change, without_rounding};
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Error, Text};
 
@@ -22,6 +22,25 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
     }
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
     let (by_input, by_design) = mechanism.residual_partials(q, u, b);
+    let Err(failure) = balanced(mechanism, at, (&by_input, &by_design)) else {
+        return Ok(());
+    };
+    // Terms that cancel at all values, as where one load is a function of another, leave their rounding.
+    let together = |(by_input, by_design): (Matrix, Matrix)| -> Vector {
+        by_input.as_flattened().iter().chain(by_design.as_flattened()).copied().collect()
+    };
+    let all = together((by_input.clone(), by_design.clone()));
+    let point = OperatingPoint::unchecked(mechanism, u, b);
+    let left = without_rounding(&point.data(), q, &all, |q, u, b| together(mechanism.residual_partials(q, u, b)));
+    let left = left.ok_or(failure)?;
+    let (inputs, design) = left.split_at(by_input.as_flattened().len());
+    let rows = |columns: usize, entries: &[f64]| Matrix::from_rows(columns, entries.to_vec());
+    balanced(mechanism, at, (&rows(u.len(), inputs), &rows(b.len(), design)))
+}
+
+/// Whether derivatives of the residual leave the loads along free directions balanced.
+fn balanced(mechanism: &dyn Kernels, at: &Equilibrium, (by_input, by_design): (&Matrix, &Matrix)) -> Result<(), Error> {
+    let (u, b) = (&at.inputs, &at.design);
     let forces = forces(mechanism, at);
     let moved = |partials: &Matrix, values: &[f64], w: &[f64]| {
         let weights = w.map(f64::abs);
@@ -33,8 +52,8 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
         })
     };
     for (w, z) in at.free.balances.iter().zip(&at.free.motions) {
-        let input = moved(&by_input, u, w).map(|j| &at.description.inputs[j].name);
-        let design = || moved(&by_design, b, w).map(|j| &at.description.design[j].name);
+        let input = moved(by_input, u, w).map(|j| &at.description.inputs[j].name);
+        let design = || moved(by_design, b, w).map(|j| &at.description.design[j].name);
         if let Some(variable) = input.or_else(design) {
             return Err(Error::BalancesHereOnly { coordinates: moving(at, z), variable: variable.clone() });
         }
@@ -55,7 +74,8 @@ pub fn depends(at: &Equilibrium, by_unknown: &[f64]) -> bool {
 /// themselves or a small motion.
 fn forces(mechanism: &dyn Kernels, at: &Equilibrium) -> Vector {
     let parts = mechanism.residual_parts(&at.coordinates, &at.inputs, &at.design);
-    let reach = at.coordinates.map(|q| q.abs() + SMALL_MOTION);
+    let q = &at.coordinates;
+    let reach = Vector::from_fn(q.len(), |i| q[i].abs() + small_change(&at.description, i));
     let restored = times(&at.linear.stiffness.map(f64::abs), &reach);
     Vector::from_fn(reach.len(), |i| parts.inertia[i].abs() + parts.applied[i].abs() + restored[i])
 }

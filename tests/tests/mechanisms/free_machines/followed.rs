@@ -400,3 +400,35 @@ fn a_flexible_missile_flutters() {
         assert!((onsets[0] - 109.69).abs() < 5e-3, "{onsets:?}");
     }
 }
+
+/// Where gravity is a function of the thrust, the loads balance at every thrust: what rounding leaves of the difference is no
+/// reason to have no derivatives. They are those of frequencies at neighbouring thrusts.
+#[test]
+fn loads_that_balance_by_a_declared_function_have_derivatives() {
+    let mut random = RandomNumbers::new(5, 0);
+    for _ in 0..8 {
+        let mut number = |low: f64, high: f64| low + (high - low) * random.fraction();
+        let (length, mass, thrust) = (number(0.5, 3.0), number(0.2, 4.0), number(1.0, 20.0));
+        let text = format!(
+            "mechanism Missile {{ input thrust: N; gravity thrust / ({mass} kg/m * {length} m) along -x;
+            body hull: beam(length: {length} m, along: x, up: z, mass_per_length: {mass} kg/m, stiffness_y: 9 N*m^2,
+                bending_y: 4);
+            joint flight: planar(px: x, pz: z, pitch: -y) from ground to hull;
+            point nozzle: hull at root; force engine: follower(at: nozzle, force: [thrust, 0, 0]); }}"
+        );
+        let thrust_input = eigentol::Input::new(0);
+        let at = |thrust: f64| study(&text).input(thrust_input, thrust);
+        let slopes = at(thrust).sensitivities().unwrap_or_else(|error| panic!("{text}: {error}"));
+        let step = 1e-4 * thrust;
+        let beside = [thrust - step, thrust + step].map(|thrust| at(thrust).modes().expect("modes"));
+        let mut compared = 0;
+        for (k, mode) in slopes.modes.iter().enumerate() {
+            let Some(found) = mode.frequency() else { continue };
+            let [low, high] = [&beside[0], &beside[1]].map(|modes| modes.modes[k].frequency().expect("a frequency"));
+            let expected = (high - low) / (2.0 * step);
+            assert!((found.by_input[0] - expected).abs() < 1e-6 * (expected.abs() + high / thrust), "{text} mode {k}");
+            compared += 1;
+        }
+        assert!(compared >= 4, "{text}");
+    }
+}

@@ -54,16 +54,17 @@ pub(super) fn is_repeated(solver: &mut PairSolver, computed: &ComputedPairs, i: 
     })
 }
 
-/// Whether the eigenvalues have the required sum, within their errors: an eigenvalue found twice in place of another
-/// spoils it.
-pub(super) fn is_complete(solver: &PairSolver, computed: &ComputedPairs) -> bool {
+/// How far the sum of the eigenvalues is from the one that the pencil requires; zero if their errors explain it. An
+/// eigenvalue found twice in place of another spoils it.
+pub(super) fn missing(pairs: &[Pair], required: f64) -> f64 {
     let (mut sum, mut allowed) = (0.0, 0.0);
-    for pair in &computed.pairs[..computed.count] {
+    for pair in pairs {
         let weight = if pair.conjugate { 2.0 } else { 1.0 };
         sum += weight * pair.s.re;
         allowed += weight * (pair.error + SUM * modulus(pair.s));
     }
-    (sum - solver.linearisation.sum()).abs() <= allowed
+    let missing = (sum - required).abs();
+    if missing <= allowed { 0.0 } else { missing }
 }
 
 /// Fills in the second-order errors of the pairs that are `open`: from their residuals and the resolvent, to which every

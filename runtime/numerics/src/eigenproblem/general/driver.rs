@@ -14,7 +14,7 @@ use super::scratch::{Work, take};
 use super::search::{Values, accepted, find, linear_values, second_values};
 use super::solver::PairSolver;
 use super::{Root, accuracy, census, hessenberg};
-use crate::eigenproblem::symmetric::{EigenproblemError, not_found};
+use crate::eigenproblem::symmetric::EigenproblemError;
 
 /// Up to this size, every pair is found by factors of its own.
 const DIRECT: usize = 8;
@@ -104,9 +104,8 @@ pub fn solve_near(problem: Eigenproblem, near: &[ApproximatePair]) -> Result<Vec
             }
         }
     }
-    if !accuracy::is_complete(&solver, &computed) {
-        return Err(not_found());
-    }
+    // Any of them may be the one that stands in the place of another: none is more accurate than that.
+    let missing = accuracy::missing(&computed.pairs[..computed.count], solver.linearisation.sum());
     let places = &mut label[..computed.count];
     for (i, slot) in places.iter_mut().enumerate() {
         *slot = i;
@@ -117,7 +116,7 @@ pub fn solve_near(problem: Eigenproblem, near: &[ApproximatePair]) -> Result<Vec
         let pair = &computed.pairs[i];
         let vectors = i * n..(i + 1) * n;
         let (phi, psi) = (&computed.right[vectors.clone()], &computed.left[vectors]);
-        let (s, error) = (pair.s * rate, pair.error * rate);
+        let (s, error) = (pair.s * rate, pair.error.max(missing) * rate);
         if !s.is_finite() || error.is_nan() {
             let residual = pair.residual;
             return Err(EigenproblemError::Inaccurate { mode, residual });

@@ -123,7 +123,7 @@ pub(super) fn find(solver: &mut PairSolver, computed: &mut ComputedPairs, from: 
     }
     let told_apart = accuracy::estimate(solver, computed);
     troubles += usize::from(from.near && !told_apart);
-    if !accuracy::is_complete(solver, computed) {
+    if accuracy::missing(&computed.pairs[..computed.count], solver.linearisation.sum()) > 0.0 {
         troubles += 4 * n;
     }
     troubles

@@ -31,7 +31,7 @@ pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<V
         match i >= free && deflation::is_standing(root) {
             // No eigenvector of its own, but the motion that accelerates one before it.
             true => gathered.keep(root.clone(), right, left),
-            false => gathered.add(root, is_shared(&reduced, i), right, left)?,
+            false => gathered.add(root, is_shared(&reduced, i), right, left),
         }
     }
     Ok(gathered.roots)

@@ -2,8 +2,11 @@
 //! units, `6 s^2 + 0.4 s + 15.5 = 0`.
 
 use super::measure::Measure;
+use super::{Gathered, Normalisation};
 use crate::Complex;
-use crate::algebra::Matrix;
+use crate::algebra::{Matrix, Vector};
+use crate::constraints::Structure;
+use crate::eigenproblem::Root;
 use crate::kernels::Linear;
 
 const MOTIONS: usize = 3;
@@ -86,4 +89,22 @@ fn every_component_that_is_off_is_seen() {
             );
         }
     }
+}
+
+/// An eigenvalue whose vectors vanish among all unknowns is an answer; it only has no vectors and no derivative.
+#[test]
+fn a_root_without_vectors_is_kept() {
+    let linear = pencil();
+    let [right, left] = vectors().map(|x| x.iter().copied().collect::<Vector<Complex>>());
+    let zeros = Vector::zeros(5);
+    let structure = Structure { coordinates: 3, speeds: 0, position_constraints: 2, velocity_constraints: 0 };
+    let mut gathered = Gathered::new(&linear, structure, Normalisation::Mass);
+    let root =
+        Root { s: root(), right: zeros.clone(), left: zeros.clone(), residual: 0.0, error: 1e-12, condition: 1.0 };
+    gathered.add(&root, false, zeros, left);
+    gathered.add(&root, false, right.clone(), right);
+    let [lost, found] = &gathered.roots[..] else { panic!() };
+    assert!(lost.s == root.s && lost.error == root.error && lost.condition.is_infinite());
+    assert!(lost.right.iter().chain(&lost.left).all(|x| x.is_finite()));
+    assert!(found.right.iter().any(|x| x.norm() > 0.0));
 }

@@ -178,17 +178,19 @@ impl<'a> Gathered<'a> {
 
     /// Adds the pair obtained from a root of the smaller problem. `shared` eigenvalues belong to several vectors and
     /// stay equal.
-    fn add(
-        &mut self,
-        reduced: &Root,
-        shared: bool,
-        mut right: Vector<Complex>,
-        mut left: Vector<Complex>,
-    ) -> Result<(), EigenproblemError> {
+    fn add(&mut self, reduced: &Root, shared: bool, mut right: Vector<Complex>, mut left: Vector<Complex>) {
         let motions = self.structure.motions();
         let settle = |right: &mut [Complex], left: &mut [Complex]| self.settle(right, left);
         if !settle(&mut right, &mut left) {
-            return Err(EigenproblemError::Inaccurate { mode: self.roots.len(), residual: f64::INFINITY });
+            // The eigenvalue is that of the smaller problem; without vectors it has no derivative.
+            let numbers = |x: Vector<Complex>| match x.iter().all(|x| x.is_finite()) {
+                true => x,
+                false => Vector::zeros(x.len()),
+            };
+            let (right, left) = (numbers(right), numbers(left));
+            let (s, error) = (reduced.s, reduced.error);
+            let (residual, condition) = (f64::INFINITY, f64::INFINITY);
+            return self.roots.push(Root { s, right, left, residual, error, condition });
         }
         let mut s = reduced.s;
         let mut measure = Measure::new(self.linear, motions, s, &right, &left);
@@ -228,7 +230,6 @@ impl<'a> Gathered<'a> {
         if measure.residual.is_nan() || measure.residual > measure::ACCEPTED {
             match measure.rounding_only {
                 true => measure.residual = measure::ROUNDING,
-                // The eigenvalue is that of the smaller problem; without vectors it has no derivative.
                 false => (s, condition) = (reduced.s, f64::INFINITY),
             }
         }
@@ -236,7 +237,6 @@ impl<'a> Gathered<'a> {
         let error =
             if condition.is_finite() && estimate.is_finite() { reduced.error.max(estimate) } else { reduced.error };
         self.roots.push(Root { s, right, left, residual: measure.residual, error, condition });
-        Ok(())
     }
 }
 

@@ -24,7 +24,7 @@ pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<V
             is_shared(&reduced, i),
             with_reactions(linear, tangent, root.s, &phi),
             with_reactions(&transposed, tangent, root.s, &psi),
-        )?;
+        );
     }
     Ok(gathered.roots)
 }
