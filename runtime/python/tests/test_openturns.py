@@ -107,7 +107,7 @@ def design_point(ot, own):
 
 
 def second_order(ours):
-    return ours.table("design points")["probability of failure, second order"][0]
+    return ours["probability of failure, second order"][0]
 
 
 def importance(ot, own, point, size):
@@ -142,28 +142,28 @@ def test_distributions(compared):
 def test_sobol_indices(compared):
     ot, own = compared
     ours = own.study.influence([own.of])
-    places = [ours.names.index(name) for name in own.varied]
+    places = [ours["of"].index(name) for name in own.varied]
     algorithm = ot.SaltelliSensitivityAlgorithm(own.inputs, SOBOL, own.function)
     first, total = algorithm.getFirstOrderIndices(), algorithm.getTotalOrderIndices()
     # Their estimates scatter by some two hundredths at this size.
-    np.testing.assert_allclose(ours.first[0][places], first, atol=0.08)
-    np.testing.assert_allclose(ours.total[0][places], total, atol=0.08)
+    np.testing.assert_allclose(ours["first"][places], first, atol=0.08)
+    np.testing.assert_allclose(ours["total"][places], total, atol=0.08)
 
 
 def test_design_points_and_a_rare_event(compared):
     ot, own = compared
     ours = own.study.reliability(own.requirement())
     form, sorm = design_point(ot, own)
-    assert ours.beta[0] == pytest.approx(form.getHasoferReliabilityIndex(), rel=1e-6)
-    assert ours.failure[0] == pytest.approx(form.getEventProbability(), rel=1e-5)
+    assert ours["beta"][0] == pytest.approx(form.getHasoferReliabilityIndex(), rel=1e-6)
+    assert ours["probability of failure, first order"][0] == pytest.approx(form.getEventProbability(), rel=1e-5)
     # Their second derivatives are differences.
     assert second_order(ours) == pytest.approx(sorm.getEventProbabilityBreitung(), rel=2e-3)
     rare = own.study.rare_failure(own.requirement())
     point = form.getStandardSpaceDesignPoint()
     theirs = importance(ot, own, point, 4000)
-    error = math.hypot(rare.standard_error, theirs.getStandardDeviation())
-    assert abs(rare.failure - theirs.getProbabilityEstimate()) < 4 * error
-    assert rare.failure < 1e-3
+    error = math.hypot(rare["standard error"][0], theirs.getStandardDeviation())
+    assert abs(rare["probability of failure"][0] - theirs.getProbabilityEstimate()) < 4 * error
+    assert rare["probability of failure"][0] < 1e-3
 
 
 def timed(run):
@@ -194,7 +194,7 @@ def main():
         )
         row(
             "largest total Sobol index",
-            lambda: own.study.influence([own.of]).total[0].max(),
+            lambda: own.study.influence([own.of])["total"].max(),
             lambda: max(
                 ot.SaltelliSensitivityAlgorithm(own.inputs, SOBOL, own.function).getTotalOrderIndices()
             ),
@@ -204,7 +204,7 @@ def main():
             "beta; probability by SORM",
             lambda: own.study.reliability(own.requirement()),
             lambda: design_point(ot, own),
-            lambda value, mine: f"{value.beta[0]:.6f}; {second_order(value):.4e}"
+            lambda value, mine: f"{value['beta'][0]:.6f}; {second_order(value):.4e}"
             if mine
             else f"{value[0].getHasoferReliabilityIndex():.6f}; {value[1].getEventProbabilityBreitung():.4e}",
         )
@@ -213,7 +213,7 @@ def main():
             "rare event, importance sampling",
             lambda: own.study.rare_failure(own.requirement()),
             lambda: importance(ot, own, point, 4000),
-            lambda value, mine: f"{value.failure:.3e} +- {value.standard_error:.0e}"
+            lambda value, mine: f"{value['probability of failure'][0]:.3e} +- {value['standard error'][0]:.0e}"
             if mine
             else f"{value.getProbabilityEstimate():.3e} +- {value.getStandardDeviation():.0e}",
         )
