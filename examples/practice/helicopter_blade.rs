@@ -61,11 +61,13 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let [high, low] = ROCKING.map(|rocking| FLIGHT - TAU * rocking);
     let response = Response::Mode { mode: 0, quantity: Quantity::Frequency };
     let wanted = Requirement::Outside { response, low, high };
-    let margin = study.second_order_failure(wanted)?.margin;
+    let probability = study.probability(&[wanted])?.each[0].value;
+    let first = study.first_order()?;
+    let spread = first.modes[0].frequency().ok_or("the lag motion oscillates")?;
     let [lag_ratio, flap_ratio] = [lag / FLIGHT, flap / FLIGHT];
-    let [beat, sigma] = [(FLIGHT - lag) / TAU, margin.sigma / TAU];
+    let [beat, sigma] = [(FLIGHT - lag) / TAU, spread.sigma / TAU];
     let [slow, fast] = ROCKING;
-    let one_in = 1.0 / margin.corrected.value;
+    let one_in = 1.0 / probability;
     writeln!(out, "HELICOPTER BLADE: lag {lag_ratio:.3}, flap {flap_ratio:.3} per revolution.")?;
     writeln!(out, "The lag motion beats at {beat:.2} Hz, sigma {sigma:.3} Hz; the body rocks at {slow} to {fast} Hz.")?;
     writeln!(out, "One helicopter in {one_in:.0} is at risk on the ground: sort the elastomers.\n")?;

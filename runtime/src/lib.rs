@@ -55,10 +55,10 @@
 //! | How far do tolerances spread them? | [`first_order`](Study::first_order), [`second_order`](Study::second_order), [`output_tolerances`](Study::output_tolerances) | [`tolerance::first_order`], [`second_order::second_order`], [`tolerance::output_tolerances`] |
 //! | Which of these sigmas can be trusted, and which modes mix? | [`summary`](Study::summary), [`clusters`](Study::clusters) | [`summary::summary`], [`clusters::clusters`] |
 //! | And without linearisation? | [`monte_carlo`](Study::monte_carlo) | [`tolerance::monte_carlo`] |
-//! | How far do they spread several responses jointly, by any method? | [`propagate`](Study::propagate), [`sample_responses`](Study::sample_responses), [`controlled`](Study::controlled) | [`propagation::propagate`], [`propagation::sampled`], [`propagation::quadrature`] |
+//! | How far do they spread several responses jointly, by any method? | [`propagate`](Study::propagate), [`sample_responses`](Study::sample_responses) | [`propagation::propagate`], [`propagation::sampled`] |
 //! | Which variables does the scatter come from? | [`influence`](Study::influence) | [`propagation::influence`] |
 //! | How bad can it get within the limits? | [`worst_case`](Study::worst_case) | [`propagation::worst_case`] |
-//! | How probable is it that requirements are met, and what changes that? | [`probability`](Study::probability), [`chances`](Study::chances), [`reliability`](Study::reliability), [`rare_failure`](Study::rare_failure), [`second_order_failure`](Study::second_order_failure) | [`requirement::Requirements`], [`requirement::second_order_failure`] |
+//! | How probable is it that requirements are met, and what changes that? | [`probability`](Study::probability), [`chances`](Study::chances), [`reliability`](Study::reliability) | [`requirement::Requirements`] |
 //! | Which tolerances are the cheapest that meet them? | [`allocation`](Study::allocation) | [`allocation::allocate`] |
 //! | What happens along an input? | [`sweep`](Study::sweep), [`sensitivity_sweep`](Study::sensitivity_sweep), [`first_order_sweep`](Study::first_order_sweep), [`campbell`](Study::campbell) | [`sweep::sweep`], [`sweep::sensitivity_sweep`], [`campbell::campbell`] |
 //! | Where is it critical, and how far do tolerances move that point? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance), [`critical_curvature`](Study::critical_curvature), [`events`](Study::events) | [`sweep::critical_state`], [`sweep::critical_tolerance`], [`second_order::critical_curvature`] |

@@ -1,10 +1,8 @@
 //! Propagation of tolerances to any response, against the exact distribution of the rotating bar, whose frequency is a
 //! function of its length, and of the spring oscillator, whose frequency and output are simple.
 
-mod control;
 mod crossing;
 mod influence;
-mod quadrature;
 mod sampling;
 mod taylor;
 mod worst_case;

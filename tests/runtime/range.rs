@@ -115,7 +115,7 @@ fn a_band_around_something_infinite_is_refused() {
         for speed in [0.0, 5.0] {
             let wanted = Requirement::Away { response: FREQUENCY, input: Input::new(0), order, fraction };
             let study = study.clone().input(Input::new(0), speed);
-            let found = study.second_order_failure(wanted);
+            let found = study.tolerance(DesignVariable::new(0), 0.03).reliability(&[wanted]);
             let in_range = speed == 0.0 && order.is_finite() && fraction > 0.0 && fraction.is_finite();
             match found {
                 Err(Error::Setting { setting, .. }) => assert_eq!(setting, "requirement"),

@@ -7,7 +7,7 @@ use crate::common::derived::Derived;
 use crate::common::models::{Pair, Plate, Spring, Supercritical};
 use crate::common::pendulum::Pendulum;
 use crate::common::{FREQUENCY, close};
-use eigentol::requirement::{Requirement, SecondOrderFailure};
+use eigentol::requirement::Requirement;
 use eigentol::tolerance::{Spread, Tolerances, output_tolerances};
 use eigentol::{Complex, Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Policy, Quantity, Study};
 
@@ -261,9 +261,9 @@ fn every_result_prints() {
         study.sweep(OMEGA, &[1.0, f64::NAN, 5.0]).unwrap().to_string(),
         study.campbell(OMEGA, &[1.0, 3.0], &[1.0]).unwrap().to_string(),
         study.second_order().unwrap().to_string(),
-        study.second_order_failure(Requirement::away(FREQUENCY, OMEGA.any(), 0.1)).unwrap().to_string(),
+        study.reliability(&[Requirement::away(FREQUENCY, OMEGA.any(), 0.1)]).unwrap().to_string(),
         study
-            .second_order_failure(Requirement::Outside { response: FREQUENCY, low: 900.0, high: 1000.0 })
+            .reliability(&[Requirement::Outside { response: FREQUENCY, low: 900.0, high: 1000.0 }])
             .unwrap()
             .to_string(),
         study.branches(OMEGA, 1.0, 5.0).unwrap().to_string(),
@@ -324,29 +324,6 @@ fn a_report_says_what_first_order_leaves_out() {
     assert_eq!(first.modes[0].distance_to_instability, f64::NEG_INFINITY);
 }
 
-/// All derivatives of a margin's probability against differences of the complete calculation at changed inputs and
-/// designs.
-#[test]
-fn a_margin_moves_with_speed_and_design() {
-    let study = |speed: f64, length: f64| {
-        pendulum(speed, 0.03).design(DesignVariable::new(1), length).tolerance(DesignVariable::new(1), 0.03)
-    };
-    let wanted = Requirement::away(FREQUENCY, OMEGA.any(), 0.2);
-    let margin = study(5.0, 1.0).second_order_failure(wanted).unwrap();
-    let first_order = |speed: f64, length: f64| {
-        let margin = study(speed, length).second_order_failure(wanted).unwrap();
-        margin.margin.first_order
-    };
-    let step = 1e-4;
-    let by_speed = (first_order(5.0 + step, 1.0) - first_order(5.0 - step, 1.0)) / (2.0 * step);
-    let by_length = (first_order(5.0, 1.0 + step) - first_order(5.0, 1.0 - step)) / (2.0 * step);
-    let found = margin.by_input.as_ref().unwrap()[0];
-    assert!(by_speed.abs() > 0.1 && by_length.abs() > 0.1);
-    assert!((found - by_speed).abs() < 1e-4 * by_speed.abs(), "{found} {by_speed}");
-    let found = margin.margin.derivatives.unwrap().by_design[1];
-    assert!((found - by_length).abs() < 1e-4 * by_length.abs(), "{found} {by_length}");
-}
-
 /// The standard error matches the scatter of the means of independent runs; for a single run it is its own standard
 /// deviation over the square root of the sample count.
 #[test]
@@ -369,26 +346,6 @@ fn means_scatter_by_their_standard_error() {
     let scatter: f64 = means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / (count - 1.0);
     // Four standard errors of a variance.
     close(scatter / (errors / count), 1.0, 4.0 * (2.0 / count).sqrt());
-}
-
-/// Rotating the other way changes only the sign of the derivative by the speed.
-#[test]
-fn a_band_about_a_negative_speed_moves_the_other_way() {
-    let length = |speed: f64| pendulum(speed, 0.03).tolerance(LENGTH, 0.03);
-    let wanted = Requirement::away(FREQUENCY, OMEGA.any(), 0.2);
-    let margin = |speed: f64| length(speed).second_order_failure(wanted).unwrap();
-    let (forward, backward) = (margin(5.0), margin(-5.0));
-    let by_speed = |margin: &SecondOrderFailure| margin.by_input.as_ref().unwrap()[0];
-    close(backward.margin.first_order, forward.margin.first_order, 1e-12);
-    assert!(by_speed(&forward).abs() > 0.1);
-    close(by_speed(&backward), -by_speed(&forward), 1e-10);
-    let step = 1e-4;
-    let difference = margin(-5.0 + step).margin.first_order - margin(-5.0 - step).margin.first_order;
-    close(by_speed(&backward), difference / (2.0 * step), 1e-4);
-    // So does an order with the opposite sign.
-    let against = Requirement::Away { response: FREQUENCY, input: OMEGA.any(), order: -1.0, fraction: 0.2 };
-    let found = length(5.0).second_order_failure(against).unwrap();
-    close(by_speed(&found), by_speed(&forward), 1e-12);
 }
 
 /// At rest each coordinate of the plate is a separate damped oscillator: the distance to `|s|^2 = k / m = 0` is

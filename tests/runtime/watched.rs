@@ -53,15 +53,11 @@ fn stopped_after(study: Study<Pendulum>, steps: usize) -> (Study<Pendulum>, Arc<
 #[test]
 fn questions_about_responses_stop() {
     type Question = fn(&Study<Pendulum>) -> Result<(), Error>;
-    let questions: [(&str, Question); 6] = [
+    let questions: [(&str, Question); 4] = [
         ("propagate", |s| s.propagate(&[ANGLE]).map(drop)),
         ("worst_case", |s| s.worst_case(&[ANGLE]).map(drop)),
-        ("controlled", |s| s.controlled(&[ANGLE]).map(drop)),
         ("influence", |s| s.influence(&[ANGLE]).map(drop)),
         ("reliability", |s| s.reliability(&[Requirement::at_least(ANGLE, 0.9)]).map(drop)),
-        ("rare_failure", |s| {
-            s.rare_failure(&[Requirement::at_least(ANGLE, 0.9)], &s.sampling().samples(1_000_000), 0.05).map(drop)
-        }),
     ];
     for (name, question) in questions {
         let (study, done) = stopped_after(pendulum().samples(300), usize::MAX);

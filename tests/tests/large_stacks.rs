@@ -20,7 +20,7 @@ const SLOW: [&str; 5] = ["second_order", "summary", "summary_within", "flutter_o
 /// Questions that search along an input or between limits, some seconds each.
 const SEARCHES: [&str; 3] = ["worst_case", "crossings", "crossing_tolerances"];
 /// Thousands of states: put only to the bicycle. They call the same code as other questions.
-const LONG: [&str; 6] = ["propagate", "controlled", "influence", "reliability", "rare_failure", "allocation"];
+const LONG: [&str; 4] = ["propagate", "influence", "reliability", "allocation"];
 
 /// Whether a question takes less than a second.
 fn quick(name: &str) -> bool {

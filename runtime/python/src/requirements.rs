@@ -111,30 +111,6 @@ impl Study {
     }
 }
 
-/// Most samples of a small probability, and the coefficient of variation that is enough.
-const RARE: (usize, f64) = (1_000_000, 0.05);
-
-#[pymethods]
-impl Study {
-    /// A small probability of failing any requirement, by importance sampling about the design points; requirements as
-    /// `chances` takes them.
-    fn rare_failure(&self, py: Python<'_>, requirements: Vec<Requirement<'_>>) -> PyResult<Answer> {
-        let wanted = self.requirements(&requirements)?;
-        let answer = self.ask_stoppably(py, |study| {
-            let (most, accuracy) = RARE;
-            study.rare_failure(&wanted, &study.sampling().samples(most), accuracy)
-        });
-        answer.map(Answer::new)
-    }
-
-    /// Probability of failing one requirement by the second-order model of its response, with what changes it;
-    /// requirements as `chances` takes them.
-    fn second_order_failure(&self, py: Python<'_>, requirement: Requirement<'_>) -> PyResult<Answer> {
-        let wanted = self::requirement(&self.inner, &requirement)?;
-        self.ask(py, |study| study.second_order_failure(wanted)).map(Answer::new)
-    }
-}
-
 /// Analyses of requirements, given as `chances` takes them.
 macro_rules! of_requirements {
     ($($(#[$doc:meta])* $question:ident;)*) => {

@@ -123,14 +123,12 @@ def results():
         study.summary(),
         study.monte_carlo(),
         study.samples_between(0, 32),
-        study.second_order_failure((("frequency", 0), 5.0, None)),
         study.propagate([frequency]),
         study.influence([frequency]),
         study.worst_case([frequency]),
         study.chances(wanted),
         study.probability(wanted),
         study.reliability(wanted[:1]),
-        study.rare_failure(wanted[:1]),
         study.allocate(
             wanted[:1], failure=[0.1], tolerances={"l": ("1 mm", "100 mm", (0.0, 1.0, 1.0))}
         ),

@@ -3,7 +3,7 @@
 use super::Study;
 use super::deviating::Toleranced;
 use crate::kernels::SummaryKernels;
-use crate::propagation::{self, Controlled, Influence, Propagation, SOLUTIONS, Samples, WorstCase};
+use crate::propagation::{self, Influence, Propagation, SOLUTIONS, Samples, WorstCase};
 use crate::response::{Response, Responses};
 use crate::tolerance::Sampling;
 use crate::{Error, Watch};
@@ -55,22 +55,6 @@ impl<M: SummaryKernels> Study<M> {
         let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
         let responses = toleranced.responses(wanted)?;
         propagation::worst_case(&responses, toleranced.tolerances)
-    }
-
-    /// Means and standard deviations of the responses from few random samples, with the Taylor model as a control
-    /// variate ([`propagation::controlled`]).
-    #[doc = include_str!("example.txt")]
-    #[doc = include_str!("frequency.txt")]
-    /// println!("{}", study.samples(200).controlled(&[frequency])?);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::propagate`]; [`Error::Setting`] for fewer than three samples.
-    pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
-        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
-        let responses = toleranced.responses(wanted)?;
-        // The designs report themselves.
-        let sampling = self.settings.sampling().progress(None).stop(None);
-        propagation::controlled(toleranced.kernels(), &responses, toleranced.tolerances, &sampling)
     }
 
     /// Attributes the scatter of the responses to the variables ([`propagation::influence`]).

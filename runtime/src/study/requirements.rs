@@ -5,10 +5,7 @@ use super::deviating::Toleranced;
 use crate::Error;
 use crate::allocation::{Allocation, Choices, allocate};
 use crate::kernels::CurvatureKernels;
-use crate::requirement::{
-    Chances, FormSettings, Probabilities, RareFailure, Reliability, Requirement, Requirements, SecondOrderFailure,
-    second_order_failure,
-};
+use crate::requirement::{Chances, FormSettings, Probabilities, Reliability, Requirement, Requirements};
 use crate::tolerance::Sampling;
 
 impl<M: CurvatureKernels> Study<M> {
@@ -77,28 +74,6 @@ impl<M: CurvatureKernels> Study<M> {
         requirements.reliability(&FormSettings::default())
     }
 
-    /// Estimates a small probability of failing any requirement by importance sampling about the design points
-    /// ([`Requirements::rare_failure`]), until its coefficient of variation is `accuracy` or the samples are used up.
-    #[doc = include_str!("example.txt")]
-    /// use eigentol::requirement::Requirement;
-    #[doc = include_str!("frequency.txt")]
-    /// let (wanted, most) = ([Requirement::at_least(frequency, 3.9)], study.sampling().samples(1_000_000));
-    /// println!("{}", study.rare_failure(&wanted, &most, 0.05)?);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::reliability`] and [`Requirements::rare_failure`].
-    pub fn rare_failure(
-        &self,
-        wanted: &[Requirement],
-        sampling: &Sampling<'_>,
-        accuracy: f64,
-    ) -> Result<RareFailure, Error> {
-        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
-        let requirements = toleranced.requirements(wanted)?.watched(self.settings.watch());
-        let about = requirements.reliability(&FormSettings::default())?;
-        requirements.rare_failure(&about, sampling, accuracy)
-    }
-
     /// Finds the cheapest tolerances that meet the requirements, checked with the study's number of samples
     /// ([`allocation::allocate`](crate::allocation::allocate)).
     #[doc = include_str!("example.txt")]
@@ -119,25 +94,6 @@ impl<M: CurvatureKernels> Study<M> {
     pub fn allocation(&self, wanted: &[Requirement], choices: &Choices<'_>) -> Result<Allocation, Error> {
         let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
         allocate(&toleranced.requirements(wanted)?, choices, &self.sampling())
-    }
-}
-
-impl<M: CurvatureKernels> Study<M> {
-    /// The probability of failing a requirement from the second-order model of its response, such as that of a frequency
-    /// lying in a forbidden band ([`second_order_failure`]). With [`Quantity::Growth`](crate::Quantity::Growth) at most
-    /// zero it is the probability that a mode is unstable.
-    #[doc = include_str!("example.txt")]
-    /// use eigentol::requirement::Requirement;
-    #[doc = include_str!("frequency.txt")]
-    /// let resonance = Requirement::away(frequency, Pendulum::omega.any(), 0.1);
-    /// println!("{}", study.second_order_failure(resonance)?);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// As [`Study::modes`], [`Study::tolerances`] and [`second_order_failure`].
-    pub fn second_order_failure(&self, wanted: Requirement) -> Result<SecondOrderFailure, Error> {
-        let toleranced = Toleranced::<dyn CurvatureKernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = toleranced.solved();
-        second_order_failure(toleranced.kernels(), state, modes, toleranced.tolerances, wanted)
     }
 }
 

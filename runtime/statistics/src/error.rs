@@ -115,19 +115,4 @@ pub enum Error {
         /// The best point found.
         closest: Box<Closest>,
     },
-    /// A second-order formula does not apply because the limit curves too much around the origin:
-    /// `1 + factor * curvature` is not positive, where the factor is `beta` or the hazard. Use importance sampling, or
-    /// look for further design points.
-    #[error("{formula}: no value for curvature {curvature} at beta = {beta}")]
-    Curvature {
-        /// The formula.
-        #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
-        formula: Word,
-        /// The principal curvature at fault, dimensionless.
-        #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
-        curvature: f64,
-        /// The reliability index.
-        #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
-        beta: f64,
-    },
 }

@@ -8,7 +8,6 @@ mod error;
 mod joint;
 mod legendre;
 pub mod normal;
-pub mod quadrature;
 pub mod random;
 pub mod random_phases;
 pub mod reliability;

@@ -4,7 +4,6 @@ use eigentol::judge::Judgement;
 use eigentol::requirement::{EstimatedBy, Requirement};
 use eigentol::response::Response;
 use eigentol::tolerance::Outcome;
-use eigentol::tolerance::Sampling;
 use eigentol::{Quantity, Study, mechanism};
 
 use super::oracle::{W, between, slow, speed};
@@ -67,12 +66,11 @@ fn cases(ratio: f64, tolerance: f64) -> [Case; 8] {
 /// Below this, neither the exact probability nor any other means anything.
 const NOTHING: f64 = 1e-15;
 
-/// How many probabilities were called right, by the design points, the second-order margin, and the question itself.
+/// How many probabilities were called right, by the design points and the question itself.
 #[derive(Default)]
 struct Called {
     combinations: usize,
     design_points: usize,
-    margins: usize,
     settled: usize,
 }
 
@@ -92,20 +90,14 @@ impl Called {
         }
         let limit = &found.limits[0];
         for point in limit.design_points.iter().flatten() {
-            let claimed = limit.second_order().or(limit.probability()).unwrap();
-            assert!(!point.verified || right(claimed), "{at}\n{found}");
+            let claimed = limit.probability().unwrap();
+            let near = (0.5 * exact..=2.0 * exact).contains(&claimed);
+            assert!(!point.verified || near, "{at}\n{found}");
         }
         let Judgement::Judged(judged) = found.judgement else { panic!("{at}\n{found}") };
         assert!(judged.settled && judged.untold.value < 1e-12, "{at}\n{found}");
         // A single variable matters: no scatter.
         assert!(within(judged.probability.value, 1e-6 * exact), "{at}\n{found}");
-        let margin = study.second_order_failure(wanted).unwrap();
-        let corrected = margin.margin.corrected;
-        assert!(within(corrected.value, corrected.error + 1e-6 * exact), "{at}\n{margin}");
-        if margin.verified() {
-            self.margins += 1;
-            assert!(right(corrected.value), "{at}\n{margin}");
-        }
         let answer = study.probability(&[wanted]).unwrap();
         let own = &answer.each[0];
         self.settled += usize::from(own.by != EstimatedBy::Samples);
@@ -132,7 +124,7 @@ fn what_is_called_right_is_right() {
 }
 
 /// Before there was a judge, 331 of these design points were called verified, of which 143 were wrong by up to sixty
-/// orders of magnitude; and 264 of 400 margins, of which none was doubted.
+/// orders of magnitude.
 #[test]
 #[ignore = "a minute without optimisation"]
 fn what_is_called_right_in_400_combinations_is_right() {
@@ -147,7 +139,6 @@ fn what_is_called_right_in_400_combinations_is_right() {
     assert_eq!(called.combinations, 400);
     assert_eq!(called.settled, 400);
     assert!(called.design_points >= 180, "{}", called.design_points);
-    assert!(called.margins >= 120, "{}", called.margins);
 }
 
 /// A limit that fails only within a thin layer about the critical length: half a space beyond it would be 53 times as
@@ -165,42 +156,6 @@ fn a_layer_is_not_taken_for_a_half_space() {
     let text = found.to_string();
     assert!(text.contains("design point wrong"), "{text}");
     assert!(text.contains("probability of failure 0.003733"), "{text}");
-}
-
-/// Second-order models of a frequency that is a root: the error that is stated covers the exact probability.
-#[test]
-fn a_margin_states_the_error_of_its_model() {
-    for (ratio, tolerance, band, modelled, exact) in
-        [(1.05, 0.06, (1.0, 1.2), 0.00409, 0.00564), (0.97, 0.12, (0.0, 0.0055), 0.0116, 1.0e-5)]
-    {
-        let (low, high) = band;
-        let wanted = match low == 0.0 {
-            true => Requirement::at_least(FREQUENCY, high),
-            false => Requirement::Outside { response: FREQUENCY, low, high },
-        };
-        let margin = bar(ratio, tolerance).second_order_failure(wanted).unwrap();
-        let corrected = margin.margin.corrected;
-        let value = between(speed(ratio), tolerance / 3.0, band);
-        assert!((value / exact - 1.0).abs() < 0.02, "{value}");
-        assert!((corrected.value / modelled - 1.0).abs() < 0.01, "{margin}");
-        assert!(!margin.verified());
-        assert!((corrected.value - value).abs() <= corrected.error, "{margin}");
-        let model = corrected.model_error.unwrap();
-        assert!((model - (corrected.value - value).abs()).abs() < 1e-6 * model);
-    }
-}
-
-/// Samples about design points miss a layer; the result says that it is not to be trusted.
-#[test]
-fn importance_samples_that_miss_a_layer_are_not_trusted() {
-    let most = Sampling::default().samples(20_000);
-    let limit = |low| [Requirement::at_least(FREQUENCY, low)];
-    let thin = bar(0.97, 0.12).rare_failure(&limit(0.0055), &most, 0.05).unwrap();
-    assert!(!thin.trusted(), "{thin}");
-    let plain = bar(0.9, 0.03).rare_failure(&limit(1.3), &most, 0.05).unwrap();
-    let exact = between(speed(0.9), 0.01, (0.0, 1.3));
-    assert!(plain.trusted(), "{plain}");
-    assert!((plain.failure.probability.value / exact - 1.0).abs() < 0.2);
 }
 
 /// Every sample is on the branch that its own length decides, in Monte Carlo and in the summary.

@@ -1,9 +1,9 @@
 //! Spreads from models near states where models fail: nothing is claimed about their errors, and samples are preferred.
 
 use eigentol::judge::Doubt;
-use eigentol::propagation::{Method, Propagation, first_order, propagate, quadrature, second_order};
+use eigentol::propagation::{Method, Propagation, first_order, propagate, sampled, second_order};
 use eigentol::response::{Response, Responses};
-use eigentol::tolerance::Sampling;
+use eigentol::tolerance::{Points, Sampling};
 use eigentol::{Error, Quantity, Study, mechanism};
 
 use super::oracle::speed;
@@ -21,7 +21,7 @@ mechanism! {
     }
 }
 
-/// By first order, second order, quadrature, and what is chosen when a few designs may be solved; for the frequency, the
+/// By first order, second order, and what is chosen when a few designs may be solved, and by many samples; for the frequency, the
 /// angle and the critical speed.
 fn spreads(ratio: f64, tolerance: f64) -> Result<[Propagation; 4], Error> {
     let study = Study::new(Bar).input(Bar::omega, speed(ratio)).start(Bar::theta, 1.0).tolerance(Bar::l, tolerance);
@@ -35,14 +35,14 @@ fn spreads(ratio: f64, tolerance: f64) -> Result<[Propagation; 4], Error> {
     Ok([
         first_order(&Bar, &responses, &tolerances)?,
         second_order(&Bar, &responses, &tolerances)?,
-        quadrature(&responses, &tolerances, 4, 1)?,
         propagate(&Bar, &responses, &tolerances, 200, &sampling)?,
+        sampled(&responses, &tolerances, &sampling.points(Points::Sobol))?.propagation()?,
     ])
 }
 
 #[test]
 fn near_a_critical_state_nothing_is_known_about_errors() {
-    let [models @ .., chosen] = spreads(1.03, 0.12).unwrap();
+    let [models @ .., chosen, _] = spreads(1.03, 0.12).unwrap();
     for model in &models {
         let [[Doubt::NearCritical { distance }], [Doubt::BranchNear { mode: 0, distance: other }]] =
             [&model.doubts[0][..], &model.doubts[1]]
@@ -68,14 +68,13 @@ fn near_a_critical_state_nothing_is_known_about_errors() {
 /// Far from it the errors are stated, and hold.
 #[test]
 fn far_from_it_errors_are_stated() {
-    let [models @ .., chosen] = spreads(1.3, 0.03).unwrap();
-    assert!(matches!(chosen.method, Method::Tensor { .. }), "{chosen}");
-    let [first, second, fine] = &models;
+    let [first, second, chosen, fine] = spreads(1.3, 0.03).unwrap();
+    assert_eq!(chosen.method, Method::SecondOrder, "{chosen}");
     let exact = fine.spreads[0].as_ref().unwrap().sigma.unwrap().value;
-    for found in [first, second] {
+    for found in [&first, &second] {
         assert!(found.doubts.iter().all(Vec::is_empty), "{found}");
         let sigma = found.spreads[0].as_ref().unwrap().sigma.unwrap();
-        assert!((sigma.value - exact).abs() <= sigma.error.unwrap(), "{found}");
+        assert!((sigma.value - exact).abs() <= sigma.error.unwrap() + 1e-4 * exact, "{found}");
         assert!(!found.to_string().contains("Nothing is known"));
     }
 }

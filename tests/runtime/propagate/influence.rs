@@ -93,7 +93,6 @@ fn reports() {
     let texts = [
         study.propagate(&wanted).unwrap().to_string(),
         study.worst_case(&wanted).unwrap().to_string(),
-        study.clone().controlled(&wanted).unwrap().to_string(),
         study.influence(&wanted).unwrap().to_string(),
     ];
     for text in texts {

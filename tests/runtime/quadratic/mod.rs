@@ -1,9 +1,7 @@
-//! Statistics of a quantity known to second order, against quadrature, closed forms, sampling and reference numbers.
+//! Statistics of a quantity known to second order, against quadrature and closed forms.
 
 mod distributions;
-mod margin;
 mod moments;
-mod probability;
 
 use eigentol::second_order::Quadratic;
 use eigentol::{Matrix, Tolerances, Vector};
@@ -11,10 +9,6 @@ use eigentol::{Matrix, Tolerances, Vector};
 fn close(value: f64, expected: f64, tolerance: f64) {
     let size = expected.abs().max(f64::MIN_POSITIVE);
     assert!((value - expected).abs() <= tolerance * size, "{value:e}, not {expected:e}");
-}
-
-fn within(value: f64, expected: f64, distance: f64) {
-    assert!((value - expected).abs() <= distance, "{value:e}, not {expected:e}: {:e} apart", value - expected);
 }
 
 /// Independent variables with these standard deviations.
@@ -40,24 +34,6 @@ fn value_at(model: &Quadratic, x: &[f64]) -> f64 {
     let bend = |e: usize| 0.5 * model.curvature[e / p][e % p] * x[e / p] * x[e % p];
     let slope = |i: usize| model.slopes[i] * x[i];
     model.value + (0..p).map(slope).sum::<f64>() + (0..p * p).map(bend).sum::<f64>()
-}
-
-/// Standard normal numbers from the test's own generator (SplitMix64 and Box-Muller).
-struct Normal(u64);
-
-impl Normal {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 + f64::EPSILON / 4.0
-    }
-
-    fn next(&mut self) -> f64 {
-        let (radius, angle) = (self.uniform(), self.uniform());
-        (-2.0 * radius.ln()).sqrt() * (std::f64::consts::TAU * angle).cos()
-    }
 }
 
 /// Lower factor of a covariance matrix, for the test's own samples.

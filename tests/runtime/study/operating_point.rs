@@ -82,7 +82,7 @@ fn reports_name_the_operating_point() {
         asked.second_order().unwrap().to_string(),
         asked.summary().unwrap().to_string(),
         asked.monte_carlo().unwrap().to_string(),
-        asked.second_order_failure(Requirement::away(FREQUENCY, Governor::speed.any(), 0.1)).unwrap().to_string(),
+        asked.reliability(&[Requirement::away(FREQUENCY, Governor::speed.any(), 0.1)]).unwrap().to_string(),
     ];
     for report in reports {
         let title = "Governor at speed = 60 rpm, push = 0.25 N*m: ";

@@ -127,16 +127,12 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
         let _ = black_box(answer);
     }
     vec![
-        ("second_order_failure", |s, _| {
-            answered(s.second_order_failure(Requirement::at_most(growth(s), 1.0)));
-        }),
         ("propagate", |s, _| replied(s.propagate(&[growth(s)]))),
         ("sample_responses", |s, _| {
             let sampling = s.sampling().samples(SAMPLES);
             answered(s.sample_responses(&[growth(s)], &sampling));
         }),
         ("worst_case", |s, _| replied(s.worst_case(&[growth(s)]))),
-        ("controlled", |s, _| replied(s.controlled(&[growth(s)]))),
         ("influence", |s, _| replied(s.influence(&[growth(s)]))),
         ("chances", |s, _| answered(s.chances(&wanted(s)))),
         ("chances_by", |s, _| {
@@ -144,10 +140,6 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
         }),
         ("reliability", |s, _| replied(s.reliability(&wanted(s)))),
         ("probability", |s, _| replied(s.probability(&wanted(s)))),
-        ("rare_failure", |s, _| {
-            let most = s.sampling().samples(SAMPLES);
-            replied(s.rare_failure(&wanted(s), &most, 0.05));
-        }),
         ("allocation", |s, _| {
             let widths = HalfWidth { variable: 0, limits: (1e-6, 1e-3), cost: Cost::reciprocal(0.0, 1.0, 1.0) };
             let choices = Choices { half_widths: vec![widths], nominals: Vec::new(), failure: vec![0.5, 0.5] };

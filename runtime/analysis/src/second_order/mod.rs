@@ -1,5 +1,5 @@
 //! Second-order theory: the quadratic dependence of frequencies, outputs and critical values on tolerances, and the
-//! exact distribution of such a quadratic model.
+//! moments of such a quadratic model.
 //!
 //! # Second derivatives differentiate the adjoint
 //!
@@ -17,15 +17,14 @@ mod answers;
 mod critical;
 mod curvature;
 mod derivatives;
-mod distribution;
 mod event;
-mod margin;
 mod moments;
 mod nonlinearity;
 mod output;
-mod probability;
 mod quadratic;
+mod sampled;
 mod spread;
+mod standard;
 
 pub(crate) use adjoint::Adjoint;
 pub(crate) use answers::{Pair, names, pairs};
@@ -35,10 +34,8 @@ pub use curvature::{ModeCurvature, mode_curvature};
 pub use derivatives::SecondDerivatives;
 pub(crate) use derivatives::symmetric;
 pub use event::{EventCurvature, crossing_curvature};
-pub use margin::{Margin, MarginDerivatives, margin};
 pub use nonlinearity::Nonlinearity;
 pub use output::{OutputCurvature, output_curvature};
-pub use probability::Probability;
 pub use quadratic::{ModelMoments, Quadratic};
 #[doc(hidden)]
 pub use spread::second_order_watched;

@@ -1,7 +1,8 @@
 //! Moments of a second-order model.
 
-use super::distribution::{Sampled, Standard};
 use super::quadratic::{ModelMoments, Quadratic, beyond_range};
+use super::sampled::sampled_moments;
+use super::standard::Standard;
 use crate::Error;
 use crate::tolerance::Tolerances;
 
@@ -20,8 +21,8 @@ impl Quadratic {
         let central = self.about_means(tolerances);
         let mut moments = Standard::new(&central, tolerances)?.moments(central.value);
         if let Some((joint, about)) = tolerances.joint() {
-            let sampled = Sampled::new(self, joint, about)?;
-            let (variance, skewness, kurtosis) = sampled.moments(moments.mean - self.value);
+            let mean = moments.mean - self.value;
+            let (variance, skewness, kurtosis) = sampled_moments(self, (joint, about), mean)?;
             let linear = moments.first_order_sigma.powi(2);
             moments.curvature_sigma = (variance - linear).abs().sqrt();
             moments.sigma = variance.sqrt();

@@ -1,27 +1,20 @@
 //! Distributions of a frequency.
 
-use eigentol::requirement::SecondOrderFailure;
-use eigentol::response::Response;
-use eigentol::second_order::{Quadratic, SecondOrder};
 use eigentol::tolerance::ModeTolerance;
-use eigentol::{FirstOrder, MonteCarlo, Quantity, Tolerances};
+use eigentol::{FirstOrder, MonteCarlo};
 
 use super::along::with_notes;
 use crate::Error;
 use crate::caption::{number, operating_point};
-use crate::figure::{Axis, Colour, Curve, Figure, Mark, Panel, Point, Stroke};
+use crate::figure::{Axis, Colour, Curve, Figure, Panel, Point};
 use crate::style::Style;
 
 /// Number of points of a density curve.
 const POINTS: usize = 121;
-/// Number of intervals whose probabilities form the density of the second-order model.
-const INTERVALS: usize = 60;
 /// Number of standard deviations that a density extends to either side.
 const REACH: f64 = 4.5;
-/// Smaller probabilities say more about the model than about the machine.
-const NEGLIGIBLE: f64 = 1e-9;
 
-/// The histogram of a sampled frequency, overlaid with its first- and second-order densities.
+/// The histogram of a sampled frequency, overlaid with its first-order density.
 ///
 /// ```
 /// use eigentol::{Study, mechanism};
@@ -49,14 +42,13 @@ pub struct Histogram<'a> {
     sampled: &'a MonteCarlo,
     mode: usize,
     first_order: Option<&'a FirstOrder>,
-    second_order: Option<(&'a SecondOrder, &'a Tolerances)>,
 }
 
 impl<'a> Histogram<'a> {
     /// The histogram of the frequency of mode `mode`, from 0.
     #[must_use]
     pub fn new(sampled: &'a MonteCarlo, mode: usize) -> Self {
-        Self { sampled, mode, first_order: None, second_order: None }
+        Self { sampled, mode, first_order: None }
     }
 
     /// Adds the normal density with the first-order mean and standard deviation.
@@ -66,18 +58,10 @@ impl<'a> Histogram<'a> {
         self
     }
 
-    /// Adds the density of the second-order model.
-    #[must_use]
-    pub fn second_order(mut self, model: &'a SecondOrder, tolerances: &'a Tolerances) -> Self {
-        self.second_order = Some((model, tolerances));
-        self
-    }
-
     /// The figure.
     ///
     /// # Errors
-    /// [`Error::UnknownMode`]; [`Error::Nothing`] if no sample oscillates in the mode or all have the same frequency;
-    /// [`Error::Solver`] if the second-order model has no probabilities.
+    /// [`Error::UnknownMode`]; [`Error::Nothing`] if no sample oscillates in the mode or all have the same frequency.
     pub fn figure(&self, style: &Style) -> Result<Figure, Error> {
         let (mode, modes) = (self.mode, self.sampled.modes.len());
         let mode_statistics = self.sampled.modes.get(mode);
@@ -110,13 +94,6 @@ impl<'a> Histogram<'a> {
             let curve = Curve::new("normal, mean and sigma of first order", Colour::Series(0), points);
             panel.curve(curve);
         }
-        let second = self.second_order.map(|(x, tolerances)| (x.modes.get(mode), tolerances));
-        if let Some((Some(Ok(expansion)), tolerances)) = second {
-            let (model, moments) = (&expansion.frequency.model, &expansion.frequency.moments);
-            let points = quadratic(model, tolerances, (moments.mean, moments.sigma), scale)?;
-            let curve = Curve::new("second-order model", Colour::Series(5), points);
-            panel.curve(curve.stroke(Stroke::Dashed));
-        }
         let mut lines = vec![operating_point(d, &self.sampled.inputs, None), {
             let (mean, sigma) = (scale * statistics.mean, statistics.sigma.map(|sigma| scale * sigma));
             let sigma = sigma.map_or_else(String::new, |sigma| format!(", sigma {} {symbol}", number(sigma)));
@@ -138,71 +115,6 @@ impl<'a> Histogram<'a> {
     }
 }
 
-/// The bands in which a requirement fails and the first-order density, with the probability that tolerances bring the
-/// response into them.
-///
-/// # Errors
-/// [`Error::Nothing`] if no tolerance moves the response.
-pub fn second_order_failure(result: &SecondOrderFailure, style: &Style) -> Result<Figure, Error> {
-    let (d, margin) = (&*result.description, &result.margin);
-    let Some(response) = result.wanted.response() else {
-        return Err(Error::nothing("stability is not a number"));
-    };
-    let name = match response {
-        Response::Mode { mode, quantity } => format!("{quantity} of {}", style.mode(mode)),
-        response => response.name(d),
-    };
-    if margin.sigma <= 0.0 || !margin.sigma.is_finite() {
-        return Err(Error::nothing(format!("no tolerance moves {name}")));
-    }
-    let unit = response.unit(d);
-    let (scale, symbol) = match response {
-        Response::Mode { quantity: Quantity::Frequency | Quantity::NaturalFrequency, .. } => style.frequency(None),
-        _ => (unit.scale.recip(), &*unit.symbol),
-    };
-    let mut panel = density_panel(&name, symbol);
-    panel.x.name.clone_from(&name);
-    let (value, sigma) = (scale * margin.value, scale * margin.sigma);
-    let points = normal(value, sigma);
-    panel.curve(Curve::new("normal, sigma of first order", Colour::Series(0), points));
-    panel.fit();
-    panel.y.range[0] = 0.0;
-    let bands = result.bands.iter();
-    let bands: Vec<[f64; 2]> = bands.map(|band| [scale * band.0, scale * band.1]).collect();
-    let near = |end: &&f64| end.is_finite() && (*end - value).abs() < 40.0 * sigma;
-    for end in bands.as_flattened().iter().filter(near) {
-        panel.x.range = [panel.x.range[0].min(end - sigma), panel.x.range[1].max(end + sigma)];
-    }
-    let [left, right] = panel.x.range;
-    let top = panel.y.range[1];
-    let bands = bands.iter().map(|ends| ends.map(|end| end.clamp(left, right)));
-    let bands: Vec<[f64; 2]> = bands.collect();
-    for ends in &bands {
-        panel.band("fails", Colour::Series(5), ends.map(|end| [end, 0.0, top]));
-    }
-    panel.marks.push(Mark { label: "nominal value".to_owned(), at: value });
-    let chance = |value: f64| match value < NEGLIGIBLE {
-        true => format!("below {} %", number(100.0 * NEGLIGIBLE)),
-        false => format!("{} %", number(100.0 * value)),
-    };
-    let text = format!(
-        "probability of failure: {} at first order, {} by the second-order model",
-        chance(margin.first_order),
-        chance(margin.corrected.value)
-    );
-    if let Some([low, high]) = bands.first() {
-        let text = format!("probability {}", chance(margin.corrected.value));
-        panel.label([0.5 * (low + high), 0.9 * top], text);
-    }
-    let distance = match margin.distance.is_finite() {
-        true => format!("; {} sigma away", number(margin.distance)),
-        false => String::new(),
-    };
-    let lines = vec![operating_point(d, &result.inputs, None), format!("{text}{distance}.")];
-    let title = style.titled(format!("{}: {}", d.name, result.wanted.text(d)));
-    Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
-}
-
 fn density_panel(name: &str, symbol: &str) -> Panel {
     let per = match symbol {
         "rad/s" => "s/rad".to_owned(),
@@ -217,25 +129,4 @@ fn normal(mean: f64, sigma: f64) -> Vec<Option<Point>> {
     let height = |z: f64| (-0.5 * z * z).exp() / (sigma * std::f64::consts::TAU.sqrt());
     let point = |z: f64| (sigma > 0.0).then(|| [mean + z * sigma, height(z)]);
     (0..POINTS).map(|k| point(abscissa(k))).collect()
-}
-
-/// The mean density of each interval, at its midpoint.
-fn quadratic(
-    model: &Quadratic,
-    tolerances: &Tolerances,
-    (mean, sigma): (f64, f64),
-    scale: f64,
-) -> Result<Vec<Option<Point>>, Error> {
-    if sigma <= 0.0 || !sigma.is_finite() {
-        return Ok(Vec::new());
-    }
-    let width = 2.0 * REACH * sigma / INTERVALS as f64;
-    let mut points = Vec::with_capacity(INTERVALS);
-    for k in 0..INTERVALS {
-        let low = mean - REACH * sigma + width * k as f64;
-        let probability = model.probability(tolerances, (low, low + width))?;
-        let density = probability.value / (scale * width);
-        points.push(Some([scale * (low + 0.5 * width), density]));
-    }
-    Ok(points)
 }

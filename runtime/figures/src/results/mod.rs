@@ -26,7 +26,7 @@ pub use damping::damping_ratios;
 pub use eigenvalues::{eigenvalues, root_locus};
 pub use equilibria::equilibria;
 pub use frequencies::frequencies;
-pub use histogram::{Histogram, second_order_failure};
+pub use histogram::Histogram;
 pub use orbit::orbit;
 pub use shapes::{mode_shapes, participation};
 pub use shares::{shares, shares_of_all};

@@ -2,11 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use eigentol::Quantity;
 use eigentol::Study;
-use eigentol::requirement::Requirement;
-use eigentol::response::Response;
-use eigentol_figures::{Histogram, Style, mode_shapes, participation, second_order_failure, shares};
+use eigentol_figures::{Histogram, Style, mode_shapes, participation, shares};
 
 use crate::machines::{Bars, Pendulum, Rotor, bars, pendulum, save};
 
@@ -48,26 +45,21 @@ fn shares_are_those_of_first_order_with_the_greatest_on_top() {
 }
 
 #[test]
-fn a_histogram_has_area_one_and_so_have_its_densities() {
+fn a_histogram_has_area_one_and_so_has_its_density() {
     let study = pendulum().input(Pendulum::omega, 4.5).samples(4000).seed(3);
     let (sampled, first) = (study.monte_carlo().unwrap(), study.first_order().unwrap());
-    let (second, tolerances) = (study.second_order().unwrap(), study.tolerances().unwrap());
-    let figure = Histogram::new(&sampled, 0)
-        .first_order(&first)
-        .second_order(&second, &tolerances)
-        .figure(&Style::of(&study).hertz())
-        .unwrap();
+    let figure = Histogram::new(&sampled, 0).first_order(&first).figure(&Style::of(&study).hertz()).unwrap();
     let panel = &figure.panels[0];
     let area: f64 = panel.bars[0].bars.iter().map(|bar| (bar[1] - bar[0]) * bar[3]).sum();
     assert!((area - 1.0).abs() < 1e-12, "{area}");
-    assert_eq!(panel.curves.len(), 2);
+    assert_eq!(panel.curves.len(), 1);
     for curve in &panel.curves {
         let [points] = &curve.pieces[..] else { panic!("{}", curve.label) };
         let area = |pair: &[[f64; 2]]| 0.5 * (pair[0][1] + pair[1][1]) * (pair[1][0] - pair[0][0]);
         let area: f64 = points.windows(2).map(area).sum();
         assert!((area - 1.0).abs() < 2e-3, "{} {area}", curve.label);
     }
-    // In Hz: the first-order peak, the mean of the second-order model, and the bars about the sample mean.
+    // In Hz: the first-order peak, and the bars about the sample mean.
     let scale = 1.0 / TAU;
     let own = first.modes[0].frequency().unwrap();
     let (mean, sigma) = (scale * own.mean, scale * own.sigma);
@@ -75,11 +67,6 @@ fn a_histogram_has_area_one_and_so_have_its_densities() {
     for at in &panel.curves[0].pieces[0] {
         assert!((at[1] - density((at[0] - mean) / sigma)).abs() < 1e-9 * density(0.0), "{at:?}");
     }
-    let moments = &second.modes[0].as_ref().unwrap().frequency.moments;
-    let points = &panel.curves[1].pieces[0];
-    let weighted: f64 = points.iter().map(|at| at[0] * at[1]).sum();
-    let weight: f64 = points.iter().map(|at| at[1]).sum();
-    assert!((weighted / weight - scale * moments.mean).abs() < 0.01 * sigma);
     let statistics = sampled.modes[0].as_ref().unwrap();
     let shares = panel.bars[0].bars.iter().map(|bar| {
         let share = (bar[1] - bar[0]) * bar[3];
@@ -93,30 +80,6 @@ fn a_histogram_has_area_one_and_so_have_its_densities() {
     let expected = [statistics.mean, statistics.sigma.unwrap()].map(|x| scale * x);
     assert!(same(&told, &expected), "{told:?} {expected:?}");
     save(&figure, "histogram");
-}
-
-#[test]
-fn a_second_order_failure_shows_its_probability() {
-    let study = pendulum().input(Pendulum::omega, 4.5);
-    let found = study.second_order_failure(Requirement::Outside {
-        response: Response::Mode { mode: 0, quantity: Quantity::Frequency },
-        low: 2.9,
-        high: 3.0,
-    });
-    let found = found.unwrap();
-    let figure = second_order_failure(&found, &Style::default()).unwrap();
-    let panel = &figure.panels[0];
-    let [low, _, _] = panel.bands[0].edges[0];
-    assert!(low == 2.9 && panel.bands[0].edges[1][0] == 3.0);
-    let label = &panel.labels[0].text;
-    let percent: f64 = label.split_whitespace().nth(1).unwrap().parse().unwrap();
-    assert!((percent / (100.0 * found.margin.corrected.value) - 1.0).abs() < 1e-4, "{label}");
-    let line = figure.caption.iter().find(|x| x.starts_with("probability of failure"));
-    let told = numbers(line.unwrap());
-    let (margin, chance) = (&found.margin, &found.margin.corrected);
-    let expected = [100.0 * margin.first_order, 100.0 * chance.value, margin.distance];
-    assert!(same(&told, &expected), "{told:?} {expected:?}");
-    save(&figure, "second_order_failure");
 }
 
 #[test]

@@ -555,8 +555,7 @@ impl From<eigentol_statistics::Error> for Error {
                 Self::WrongLength { kind, found, expected }
             }
             error @ (eigentol_statistics::Error::NoLimitValue { .. }
-            | eigentol_statistics::Error::NoDesignPoint { .. }
-            | eigentol_statistics::Error::Curvature { .. }) => Self::NoReliability(Box::new(error)),
+            | eigentol_statistics::Error::NoDesignPoint { .. }) => Self::NoReliability(Box::new(error)),
             eigentol_statistics::Error::Overlap { start, end } => Self::SamplesOverlap { start, end },
             other => Self::Setting { setting: "statistics", reason: other.to_string() },
         }

@@ -28,16 +28,11 @@ pub(super) struct Counted<'a> {
 /// A limit state with its error type erased, so that searches are compiled only once.
 trait Asked {
     fn evaluate(&self, z: &[f64]) -> Result<LimitValue, String>;
-    fn hessian(&self, z: &[f64]) -> Option<Result<Vec<Vec<f64>>, String>>;
 }
 
 impl<L: LimitState> Asked for L {
     fn evaluate(&self, z: &[f64]) -> Result<LimitValue, String> {
         LimitState::evaluate(self, z).map_err(|error| error.to_string())
-    }
-
-    fn hessian(&self, z: &[f64]) -> Option<Result<Vec<Vec<f64>>, String>> {
-        Some(LimitState::hessian(self, z)?.map_err(|error| error.to_string()))
     }
 }
 
@@ -73,29 +68,6 @@ impl<'a> Counted<'a> {
                 None
             }
         }
-    }
-
-    /// Exact second derivatives at `z`, if the limit state provides them.
-    pub(super) fn hessian(&self, z: &[f64]) -> Result<Option<Vec<Vec<f64>>>, Error> {
-        let place = "at the design point";
-        let reason = |reason: String| Error::NoLimitValue { place, reason };
-        let Some(hessian) = self.limit.hessian(z) else {
-            return Ok(None);
-        };
-        let hessian = hessian.map_err(reason)?;
-        for found in [hessian.len()].into_iter().chain(hessian.iter().map(Vec::len)) {
-            if found != self.dimension {
-                return Err(Error::WrongLength {
-                    kind: "rows or columns of second derivatives",
-                    found,
-                    expected: self.dimension,
-                });
-            }
-        }
-        if hessian.iter().flatten().any(|entry| !entry.is_finite()) {
-            return Err(reason("a second derivative is not finite".into()));
-        }
-        Ok(Some(hessian))
     }
 
     /// The error for a missing value at this place.

@@ -38,11 +38,6 @@ pub trait LimitState {
     fn value(&self, z: &[f64]) -> Result<f64, Self::Error> {
         Ok(self.evaluate(z)?.value)
     }
-
-    /// The exact matrix of second derivatives at `z`, row by row, if it is known.
-    fn hessian(&self, _z: &[f64]) -> Option<Result<Vec<Vec<f64>>, Self::Error>> {
-        None
-    }
 }
 
 impl<L: LimitState + ?Sized> LimitState for &L {
@@ -58,10 +53,6 @@ impl<L: LimitState + ?Sized> LimitState for &L {
 
     fn value(&self, z: &[f64]) -> Result<f64, Self::Error> {
         (**self).value(z)
-    }
-
-    fn hessian(&self, z: &[f64]) -> Option<Result<Vec<Vec<f64>>, Self::Error>> {
-        (**self).hessian(z)
     }
 }
 
@@ -80,14 +71,6 @@ where
     pub fn new(dimension: usize, function: F) -> Self {
         Self { dimension, function }
     }
-
-    /// Adds exact second derivatives, row by row.
-    pub fn with_hessian<H>(self, hessian: H) -> LimitFunctionWithHessian<F, H>
-    where
-        H: Fn(&[f64]) -> Result<Vec<Vec<f64>>, E>,
-    {
-        LimitFunctionWithHessian { limit: self, hessian }
-    }
 }
 
 impl<F, E> LimitState for LimitFunction<F>
@@ -103,33 +86,5 @@ where
 
     fn evaluate(&self, z: &[f64]) -> Result<LimitValue, E> {
         (self.function)(z)
-    }
-}
-
-/// A limit state defined by two closures, one of them for the second derivatives.
-#[derive(Clone, Copy, Debug)]
-pub struct LimitFunctionWithHessian<F, H> {
-    limit: LimitFunction<F>,
-    hessian: H,
-}
-
-impl<F, H, E> LimitState for LimitFunctionWithHessian<F, H>
-where
-    F: Fn(&[f64]) -> Result<LimitValue, E>,
-    H: Fn(&[f64]) -> Result<Vec<Vec<f64>>, E>,
-    E: Display,
-{
-    type Error = E;
-
-    fn dimension(&self) -> usize {
-        self.limit.dimension
-    }
-
-    fn evaluate(&self, z: &[f64]) -> Result<LimitValue, E> {
-        self.limit.evaluate(z)
-    }
-
-    fn hessian(&self, z: &[f64]) -> Option<Result<Vec<Vec<f64>>, E>> {
-        Some((self.hessian)(z))
     }
 }

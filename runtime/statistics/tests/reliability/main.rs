@@ -8,5 +8,3 @@ mod lines;
 mod random_limits;
 mod regions;
 mod sampling;
-mod sorm;
-mod system;

@@ -7,6 +7,10 @@ use eigentol_statistics::reliability::sampling::{Estimate, Interval};
 /// A probability from a model is trusted if it is within this fraction of the true one.
 pub const TRUSTED_PROBABILITY_ERROR: f64 = 0.1;
 
+/// Tangent planes describe where failure is if they give no more than this many times its probability, and no less than
+/// this part of it.
+pub const DESCRIBED: f64 = 2.0;
+
 /// Standard errors that cover the true value in 95 of 100 cases.
 const COVERING: f64 = 1.96;
 
@@ -59,12 +63,12 @@ impl Judged {
         (claimed - lower).abs().max((claimed - upper).abs())
     }
 
-    /// Whether a claimed probability is within [`TRUSTED_PROBABILITY_ERROR`] of one in the interval.
+    /// Whether the model behind a claimed probability looks where failure is: the claim is within a factor of
+    /// [`DESCRIBED`] of a probability in the interval, so that at most its curvature is missing.
     #[must_use]
     pub fn agrees(&self, claimed: f64) -> bool {
         let Interval { lower, upper } = self.interval();
-        let (least, most) = (1.0 - TRUSTED_PROBABILITY_ERROR, 1.0 + TRUSTED_PROBABILITY_ERROR);
-        self.settled && (least * lower..=most * upper).contains(&claimed)
+        self.settled && (lower / DESCRIBED..=upper * DESCRIBED).contains(&claimed)
     }
 
     /// Whether a claimed probability is within [`TRUSTED_PROBABILITY_ERROR`] of the true one.

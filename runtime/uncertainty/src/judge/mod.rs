@@ -30,7 +30,7 @@ mod judged;
 
 pub use crate::tolerance::{Doubt, Measured};
 pub use distances::TRUSTED_SIGMA_ERROR;
-pub use judged::{Judged, Judgement, TRUSTED_PROBABILITY_ERROR, Unjudged};
+pub use judged::{DESCRIBED, Judged, Judgement, TRUSTED_PROBABILITY_ERROR, Unjudged};
 
 pub(crate) use answer::{chance, judged, verdict};
 pub use cost::{BUDGET, affordable};

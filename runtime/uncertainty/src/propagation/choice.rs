@@ -1,6 +1,5 @@
 //! The choice of the best affordable method.
 
-use super::quadrature::{cost, quadrature, refuse_discrete};
 use super::result::Propagation;
 use super::sampled::sampled;
 use super::space::Space;
@@ -11,8 +10,6 @@ use crate::kernels::CurvatureKernels;
 use crate::response::Responses;
 use crate::tolerance::{Points, Sampling, Tolerances};
 
-/// Quadrature levels that are worth their points.
-const LEVELS: core::ops::RangeInclusive<usize> = 2..=6;
 /// Fewer samples are not informative.
 const FEW: u64 = 64;
 
@@ -27,10 +24,9 @@ pub const SOLUTIONS: u64 = 100_000;
 ///
 /// The first choice is sampling at scrambled Sobol' points, if affordable: it works for every response and
 /// distribution, gives quantiles, and counts failures. It may be too expensive if critical values or crossings must be
-/// searched for in every design. Then fewer samples are drawn, but at least 64, where distances to other states cast
-/// doubt on models ([`Propagation::doubts`]); otherwise the choice is quadrature, if few variables vary and none is
-/// discrete, and fewer samples if one of its nodes has no value. The next choice is second order, if every response
-/// has second derivatives; the last is first order.
+/// searched for in every design. The next choice is then second order, if every response has second derivatives and no
+/// distance to another state casts doubt on models ([`Propagation::doubts`]); otherwise fewer samples, but at least 64;
+/// the last choice is second or first order, whichever there is.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -41,12 +37,12 @@ pub const SOLUTIONS: u64 = 100_000;
 /// let all = propagate(&Pendulum, &responses, &tolerances, SOLUTIONS, &sampling)?;
 /// assert_eq!(all.method, Method::Sampled(Points::Sobol));
 /// let dear = propagate(&Pendulum, &responses, &tolerances, 20, &sampling)?;
-/// assert_eq!(dear.method, Method::Tensor { nodes: 7 });
+/// assert_eq!(dear.method, Method::SecondOrder);
 /// # Ok::<(), eigentol::Error>(())
 /// ```
 ///
 /// # Errors
-/// As the method that is chosen: [`sampled`], [`quadrature`], [`second_order`], [`first_order`].
+/// As the method that is chosen: [`sampled`], [`second_order`], [`first_order`].
 pub fn propagate(
     mechanism: &dyn CurvatureKernels,
     responses: &Responses<'_>,
@@ -55,11 +51,10 @@ pub fn propagate(
     sampling: &Sampling<'_>,
 ) -> Result<Propagation, Error> {
     let space = Space::new(responses.nominal(), tolerances)?;
-    let dimensions = space.dimensions();
     let with = |propagation: Result<Propagation, Error>, reason: String| {
         propagation.map(|found| Propagation { reason, ..found })
     };
-    if dimensions == 0 {
+    if space.dimensions() == 0 {
         let linear = first_order(mechanism, responses, tolerances);
         return with(linear, "no tolerance is declared".to_owned());
     }
@@ -85,29 +80,17 @@ pub fn propagate(
         );
     }
     let dear = format!("{wanted} samples would cost {cost_of_all} solutions, more than the {solutions} allowed");
-    let doubted = doubts_of_models(responses, tolerances);
-    if affordable >= FEW && !doubted.iter().all(Vec::is_empty) {
-        let reason = format!("{dear}; distances cast doubt on any model: so fewer samples");
-        return sample(affordable, reason);
-    }
-    let levels = LEVELS.rev().filter(|level| cost(dimensions, *level).is_some_and(|cost| cost <= affordable));
-    if let (Some(level), Ok(())) = (levels.max(), refuse_discrete(tolerances)) {
-        match quadrature(responses, tolerances, level, sampling.threads) {
-            Err(Error::NoResponse { response, .. }) if affordable >= FEW => {
-                let reason =
-                    format!("{dear}; quadrature has a node without response {}: so fewer samples", response + 1);
-                return sample(affordable, reason);
-            }
-            Err(Error::NoResponse { .. }) => {}
-            integrated => {
-                return with(integrated, format!("{dear}; {dimensions} variables are few enough for quadrature"));
-            }
-        }
+    let doubted = !doubts_of_models(responses, tolerances).iter().all(Vec::is_empty);
+    if doubted && affordable >= FEW {
+        return sample(affordable, format!("{dear}; distances cast doubt on any model: so fewer samples"));
     }
     let second = second_order(mechanism, responses, tolerances)?;
     if second.spreads.iter().all(Option::is_some) {
-        return with(Ok(second), format!("{dear}, and so would quadrature"));
+        return with(Ok(second), dear);
     }
-    let reason = format!("{dear}, so would quadrature, and a response has no second derivatives");
-    with(first_order(mechanism, responses, tolerances), reason)
+    let dear = format!("{dear}, and a response has no second derivatives");
+    if affordable >= FEW {
+        return sample(affordable, format!("{dear}: so fewer samples"));
+    }
+    with(first_order(mechanism, responses, tolerances), dear)
 }

@@ -169,11 +169,6 @@ impl Gathered<'_> {
         Ok(self.moments(quantity)?.count())
     }
 
-    /// Mean of a quantity; `None` if no sample has it.
-    pub(super) fn mean(&self, quantity: usize) -> Result<Option<f64>, Error> {
-        Ok(self.moments(quantity)?.mean())
-    }
-
     fn moments(&self, quantity: usize) -> Result<Moments, Error> {
         let mut all = Moments::default();
         for part in self.0 {

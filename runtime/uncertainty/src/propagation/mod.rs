@@ -5,8 +5,6 @@
 //! | --- | --- | --- |
 //! | [`sampled`] | a few thousand designs, for any distribution and response | everything, including failure counts |
 //! | [`vibrations`] | samples of a model of forced vibration that stays right at a resonance | everything, for the model |
-//! | [`controlled`] | random samples with the Taylor model as control | mean and sigma, each sample worth many plain ones |
-//! | [`quadrature`] | few designs if few variables vary | mean, sigma, skewness, covariance |
 //! | [`first_order`], [`second_order`] | derivatives at the nominal design | everything, for the model; an estimate of its error |
 //! | [`worst_case`] | some corners of the box of limits | smallest and largest value |
 //!
@@ -15,14 +13,12 @@
 
 mod answers;
 mod choice;
-mod control;
 mod expansion;
 mod gather;
 mod influence;
 mod limits;
 mod model;
 mod moments;
-mod quadrature;
 mod result;
 mod sampled;
 mod space;
@@ -31,11 +27,9 @@ mod vibrations;
 mod worst_case;
 
 pub use choice::{SOLUTIONS, propagate};
-pub use control::{Controlled, ControlledSpread, controlled};
 /// An index of influence and its confidence interval, from [`eigentol_statistics`].
 pub use eigentol_statistics::sensitivity::Estimate;
 pub use influence::{Influence, ResponseInfluence, VariableInfluence, influence};
-pub use quadrature::quadrature;
 pub use result::{Estimated, Method, Propagation, QUANTILES, Quantile, ResponseSpread};
 pub use sampled::{Samples, sampled};
 pub use taylor::{first_order, second_order};

@@ -101,16 +101,6 @@ pub enum Method {
     Sampled(Points),
     /// [`vibrations`](super::vibrations).
     Resolvent(Points),
-    /// [`quadrature`](super::quadrature) on the tensor product of one rule per variable.
-    Tensor {
-        /// Nodes per variable.
-        nodes: usize,
-    },
-    /// [`quadrature`](super::quadrature) on a sparse grid.
-    Sparse {
-        /// The level.
-        level: usize,
-    },
 }
 
 impl fmt::Display for Method {
@@ -122,8 +112,6 @@ impl fmt::Display for Method {
             Self::Sampled(Points::LatinHypercube) => f.write_str("Latin hypercube samples"),
             Self::Sampled(Points::Sobol) => f.write_str("samples at scrambled Sobol' points"),
             Self::Resolvent(_) => f.write_str("samples of the resolvent near the nominal design"),
-            Self::Tensor { nodes } => write!(f, "quadrature with {nodes} nodes for each variable"),
-            Self::Sparse { level } => write!(f, "quadrature on a sparse grid of level {level}"),
         }
     }
 }

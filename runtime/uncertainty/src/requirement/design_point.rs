@@ -1,6 +1,6 @@
 //! The most probable design that just fails, expressed in the design variables.
 
-use eigentol_statistics::reliability::{self, FormSensitivity, LimitState, sorm};
+use eigentol_statistics::reliability::{self, FormSensitivity, LimitState};
 
 use super::limit_at::LimitAt;
 use crate::Error;
@@ -28,14 +28,9 @@ pub struct DesignPoint {
     /// Derivatives with respect to each half-width, per SI unit, scaling the distribution about its mean at fixed
     /// correlation.
     pub by_half_width: Vec<FormSensitivity>,
-    /// Principal curvatures of the limit in standard normal space; `None` if the limit has no value near the point.
-    pub curvatures: Option<Vec<f64>>,
-    /// Failure probability of the paraboloid with these curvatures, exactly (Tvedt); `None` without curvatures, or if
-    /// they bend around the origin more than a sphere.
-    pub second_order: Option<f64>,
     /// Whether the re-solved mechanism fails a thousandth of a standard deviation beyond this point and does not fail
     /// the same distance before it, and designs solved anew agree that the design points of the limit describe its
-    /// failure, to second order ([`LimitReliability::judgement`](super::LimitReliability::judgement)).
+    /// failure ([`LimitReliability::judgement`](super::LimitReliability::judgement)).
     pub verified: bool,
 }
 
@@ -52,7 +47,7 @@ impl DesignPoint {
         self.normal.probability()
     }
 
-    /// The design point with its derivatives and second-order probability.
+    /// The design point with its derivatives.
     ///
     /// # Errors
     /// [`Error::NoReliability`] if the point has no derivatives.
@@ -63,14 +58,11 @@ impl DesignPoint {
     ) -> Result<Self, Error> {
         let z = &normal.point;
         let slopes = slopes_at(limit, deviations, &normal)?;
-        let second = sorm(limit, &normal).ok();
         Ok(Self {
             design: deviations.design(z),
             importance: deviations.shares(z, &slopes.by_design),
             by_nominal: slopes.by_nominal,
             by_half_width: slopes.by_half_width,
-            curvatures: second.as_ref().map(|model| model.curvatures().to_vec()),
-            second_order: second.and_then(|model| model.tvedt().ok()),
             verified: crosses(limit, &normal),
             normal,
         })

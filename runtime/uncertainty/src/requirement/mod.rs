@@ -1,13 +1,13 @@
 //! Requirements on a design and the probability of failing them under tolerances. [`Requirements::probabilities`] finds
-//! it with nothing to choose. Behind it stand four methods, each with an error of its own and a refusal where it cannot
-//! answer, and the judge of them all: lines of designs solved anew ([`judge`](crate::judge)).
+//! it with nothing to choose, in one of three ways:
 //!
-//! | method | cost | error | refuses |
+//! | way | cost | error | refuses |
 //! | --- | --- | --- | --- |
-//! | [`second_order_failure`] | derivatives at the nominal design | of the model, by the judge | stability, what has no second derivatives |
-//! | [`Requirements::reliability`] | some designs for each limit | of the model, by the judge | stability, discrete variables |
-//! | [`Requirements::rare_failure`] | samples about the design points | standard error | requirements without a design point |
-//! | [`Requirements::chances`] | samples | confidence interval | nothing |
+//! | design points ([`Requirements::reliability`]) | some designs for each limit | of the tangent planes, by the lines | stability, discrete variables |
+//! | lines of designs solved anew ([`judge`](crate::judge)) | some thousand designs | standard error | discrete variables |
+//! | plain samples ([`Requirements::chances`]) | samples | confidence interval | nothing |
+//!
+//! The number is that of the lines or of the samples, whichever is sharper; design points say what changes it.
 //!
 //! First-order reliability (A. M. Hasofer and N. C. Lind, *Exact and invariant second-moment code format*, J. Eng.
 //! Mech. 1974) finds the most probable design that just fails, with exact total derivatives of the responses
@@ -20,21 +20,17 @@ mod design_point;
 mod kinds;
 mod limit_at;
 mod probability;
-mod rare;
 mod reliability;
 mod requirements;
-mod second_order;
 
 pub use chances::{Chances, Tally};
 pub use design_point::DesignPoint;
-pub use eigentol_statistics::reliability::sampling::{Estimate, Interval, SampledProbability};
+pub use eigentol_statistics::reliability::sampling::{Estimate, Interval};
 pub use eigentol_statistics::reliability::{FormSensitivity, FormSettings};
 pub use kinds::Requirement;
 pub use probability::{EstimatedBy, FailureProbability, Probabilities};
-pub use rare::RareFailure;
-pub use reliability::{LimitReliability, Reliability, SystemFailure};
+pub use reliability::{LimitReliability, Reliability};
 pub use requirements::Requirements;
-pub use second_order::{SecondOrderFailure, second_order_failure};
 
 pub(crate) use chances::chances_of;
 pub(crate) use design_point::slopes_at;

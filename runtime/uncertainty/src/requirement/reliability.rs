@@ -2,9 +2,7 @@
 
 use eigentol_statistics::normal;
 use eigentol_statistics::reliability::lines::Direction;
-use eigentol_statistics::reliability::sampling::{Estimate, Interval};
-use eigentol_statistics::reliability::system::{FirstOrderSystem, QuadratureSettings};
-use eigentol_statistics::reliability::{self, FormSettings, failure_regions};
+use eigentol_statistics::reliability::{FormSettings, failure_regions};
 
 use super::design_point::DesignPoint;
 use super::kinds::Requirement;
@@ -58,23 +56,10 @@ impl LimitReliability {
             && (self.design_points.iter().flatten()).all(|point| point.verified)
     }
 
-    /// Second-order failure probability, summed as [`Self::probability`]; `None` if a design point has none.
-    #[must_use]
-    pub fn second_order(&self) -> Option<f64> {
-        let points = self.design_points.as_ref().ok()?;
-        let first = points.first()?;
-        if first.beta() < 0.0 {
-            return first.second_order;
-        }
-        let parts = points.iter().map(|point| point.second_order);
-        parts.sum::<Option<f64>>().map(|sum| sum.min(1.0))
-    }
-
     /// Whether the design points describe the failure: the limit is crossed at each, and designs solved anew do not refute
-    /// what they say, the failure probability to second order, or to first where there is no second.
+    /// the failure probability that they give.
     fn described(&self) -> bool {
-        let claimed = self.second_order().or(self.probability());
-        claimed.is_some_and(|claimed| self.judgement.agrees(claimed))
+        self.probability().is_some_and(|claimed| self.judgement.agrees(claimed))
             && (self.design_points.iter().flatten()).all(|point| point.verified)
     }
 
@@ -91,17 +76,6 @@ impl LimitReliability {
     }
 }
 
-/// Probability that at least one of several limits is violated, each replaced by its tangent plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct SystemFailure {
-    /// The probability, with its integration error.
-    pub probability: Estimate,
-    /// Bounds from pairwise probabilities (Ditlevsen 1979).
-    pub bounds: Interval,
-}
-
 /// Reliability of a design.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -109,9 +83,6 @@ pub struct SystemFailure {
 pub struct Reliability {
     /// Every limit that the requirements set.
     pub limits: Vec<LimitReliability>,
-    /// Failure of any of the limits that have design points; `None` if none has, or if the centre of the distribution
-    /// fails between several.
-    pub system: Option<SystemFailure>,
     /// Requirements without a limit: [`Requirement::Stable`](super::Requirement::Stable).
     pub left_out: Vec<usize>,
     /// Probability of failing any requirement, those without a limit included, by designs solved anew.
@@ -132,19 +103,6 @@ impl Reliability {
         (!parts.is_empty()).then(|| -normal::quantile(parts.iter().sum::<f64>().min(1.0)))
     }
 
-    /// Requirements of which some failure has no design point although it may be within reach.
-    pub(super) fn without_design_point(&self) -> Vec<usize> {
-        let lacks = |limit_reliability: &&LimitReliability| {
-            limit_reliability.design_points.is_err() && !limit_reliability.out_of_reach()
-        };
-        let limits = self.limits.iter().filter(lacks);
-        let mut all = self.left_out.clone();
-        all.extend(limits.map(|limit| limit.requirement));
-        all.sort_unstable();
-        all.dedup();
-        all
-    }
-
     /// Whether every requirement has a limit, and every limit design points that are verified.
     #[must_use]
     pub fn verified(&self) -> bool {
@@ -153,7 +111,7 @@ impl Reliability {
 }
 
 impl Requirements<'_> {
-    /// Failure probabilities by first- and second-order reliability, with design points and exact derivatives, judged
+    /// Failure probabilities by first-order reliability, with design points and exact derivatives, judged
     /// by designs solved anew.
     ///
     /// # Errors
@@ -185,7 +143,6 @@ pub(crate) fn reliability_of(
     requirements.responses().go_on()?;
     let has_limit = |k: &usize| limits.iter().any(|limit| limit.requirement == *k);
     Ok(Reliability {
-        system: system(&limit_reliabilities)?,
         limits: limit_reliabilities,
         left_out: (0..requirements.wanted().len()).filter(|k| !has_limit(k)).collect(),
         judgement: Judgement::Open(Unjudged::NotAsked),
@@ -243,24 +200,6 @@ fn design_points(
     }
     let points = design_points.into_iter().map(|point| DesignPoint::new(&limit, deviations, point));
     points.collect()
-}
-
-fn system(limits: &[LimitReliability]) -> Result<Option<SystemFailure>, Error> {
-    let mut points: Vec<reliability::DesignPoint> = Vec::new();
-    for design_points in limits.iter().filter_map(|limit| limit.design_points.as_ref().ok()) {
-        if design_points.len() > 1 && design_points.iter().any(|point| point.beta() < 0.0) {
-            return Ok(None);
-        }
-        points.extend(design_points.iter().map(|point| point.normal.clone()));
-    }
-    if points.is_empty() {
-        return Ok(None);
-    }
-    let system = FirstOrderSystem::of(&points)?;
-    Ok(Some(SystemFailure {
-        probability: system.series_probability(&QuadratureSettings::default())?,
-        bounds: system.series_bounds(),
-    }))
 }
 
 /// How many times the usual budget a probability is worth that was asked for by itself.

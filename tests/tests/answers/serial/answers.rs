@@ -85,13 +85,6 @@ impl Answers {
         self.both(name, study.first_order());
         self.both(name, study.second_order());
         self.both::<Vec<ClusterTolerance>>(name, study.clusters());
-        self.both(
-            name,
-            study.second_order_failure(Requirement::at_least(
-                Response::Mode { mode: 0, quantity: Quantity::Frequency },
-                0.0,
-            )),
-        );
         self.both(name, study.monte_carlo());
         self.both(name, study.whirls());
         self.plain(name, &study.picture().expect("a picture"));
@@ -156,15 +149,12 @@ impl Answers {
         self.both(name, study.summary());
         self.both(name, study.propagate(&responses));
         self.both(name, study.worst_case(&responses));
-        self.both(name, study.controlled(&responses));
         self.both(name, study.influence(&responses));
         let frequency = study.modes().expect("modes").frequencies()[0].unwrap_or(1.0);
         let wanted = [Requirement::at_least(mode, 0.99 * frequency), Requirement::Stable];
         self.plain(name, &wanted.to_vec());
         self.both(name, study.chances(&wanted));
         self.both(name, study.reliability(&wanted));
-        let most = study.sampling().samples(50);
-        self.both(name, study.rare_failure(&wanted, &most, 0.05));
         if name == "rotating_pendulum" {
             let widths = HalfWidth { variable: 0, limits: (1e-6, 1e-1), cost: Cost::reciprocal(0.0, 1.0, 1.0) };
             let choices = Choices { half_widths: vec![widths], nominals: Vec::new(), failure: vec![0.1, 0.1] };

@@ -42,28 +42,19 @@ const NOT_WRITTEN: [(&str, &str); 34] = [
 ];
 
 /// The same list for the statistics crate.
-const STATISTICS_NOT_WRITTEN: [(&str, &str); 21] = [
-    ("CompensatedSum", "a sum under way"),
+const STATISTICS_NOT_WRITTEN: [(&str, &str); 12] = [
     ("Cursor", "borrows its sequence"),
     ("DesignWalk", "borrows its design"),
     ("LimitFunction", "a function"),
-    ("LimitFunctionWithHessian", "a function"),
     ("LineSampler", "made from settings and directions"),
-    ("Node", "borrows its rule"),
     ("Number", "written by hand"),
     ("Proposal", "made from design points, which are written"),
     ("RandomNumbers", "made from a seed"),
-    ("Rule", "made from a number of nodes"),
     ("SaltelliDesign", "made from a seed and sizes"),
     ("Sample", "values of the user's own"),
     ("Sampler", "borrows limit states"),
     ("Sequence", "made from a seed and sizes"),
     ("Sorted", "values of the user's own, in order"),
-    ("SparseGrid", "made from a level"),
-    ("SparseNode", "borrows its grid"),
-    ("SparseWalk", "borrows its grid"),
-    ("TensorGrid", "made from rules"),
-    ("TensorWalk", "borrows its grid"),
 ];
 
 pub(super) fn sources(folder: &Path, paths: &mut Vec<PathBuf>) {

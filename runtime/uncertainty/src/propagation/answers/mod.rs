@@ -1,6 +1,5 @@
 //! Spreads, influence and worst cases of responses, as text and tables.
 
-mod controlled;
 mod influence;
 mod spreads;
 mod worst_case;

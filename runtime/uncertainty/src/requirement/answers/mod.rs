@@ -2,7 +2,5 @@
 
 mod chances;
 mod probabilities;
-mod rare;
 mod reliability;
-mod second_order;
 mod words;

@@ -1,16 +1,16 @@
 use eigentol_contract::DesignInfo;
-use eigentol_results::numbers::{converted, heading, number, or_dash, rough};
+use eigentol_results::numbers::{converted, heading, number, rough};
 use eigentol_results::relevance::{BELOW, names, relevant};
 use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
+use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
 use super::words::probability;
 use crate::Description;
 use crate::judge::{judged, verdict};
-use crate::requirement::{DesignPoint, LimitReliability, Reliability, SystemFailure};
+use crate::requirement::{DesignPoint, LimitReliability, Reliability};
 
 /// `design points`: a row for each, or one with the error if there are none; `design point variables`: a row for each
-/// design variable of each; `system`: one row.
+/// design variable of each.
 impl Answer for Reliability {
     const KIND: &'static str = "reliability";
 
@@ -28,14 +28,6 @@ impl Answer for Reliability {
         for k in &self.left_out {
             let number = k + 1;
             said.note(format!("Requirement {number} has no design point: sample it."));
-        }
-        if let Some(system) = &self.system {
-            said.note(format!(
-                "At least one of these fails with probability {} to first order (bounds {} to {}).",
-                probability(system.probability.value),
-                probability(system.bounds.lower),
-                probability(system.bounds.upper)
-            ));
         }
         if self.limits.len() + self.left_out.len() > 1 {
             said.note(format!("At least one requirement fails, designs solved anew: {}.", self.judgement));
@@ -58,9 +50,6 @@ impl Reliability {
         let entries = pairs.flat_map(|(limit, x)| entries(limit.requirement, x, d));
         let entries: Vec<Entry<'_>> = entries.collect();
         said.data(entry_columns(&entries, Vec::new()).finish().0);
-        if let Some(whole_system) = &self.system {
-            said.data(system(whole_system));
-        }
     }
 }
 
@@ -77,19 +66,10 @@ fn design_points(said: &mut Findings, rows: &[Row<'_>], d: &Description) {
     table.words("response", &|(x, _)| Some(x.limit.response()?.name(d)));
     table.number("beta", "", &|(_, x)| Some(x.as_ref()?.beta()));
     table.number("probability of failure, first order", "", &|(_, item)| Some(item.as_ref()?.probability()));
-    table.number("probability of failure, second order", "", &|(_, x)| x.as_ref()?.second_order);
     table.flag("verified", &|(_, x)| Some(x.as_ref()?.verified));
     judged(&mut table, &|(x, _)| &x.judgement);
     table.words("error", &|(item, _)| Some(item.design_points.as_ref().err()?.to_string()));
     said.columns(table);
-}
-
-fn system(system_failure: &SystemFailure) -> Table {
-    let mut table = Table::new("system");
-    table.numbers("probability of failure", "", [system_failure.probability.value]);
-    table.numbers("from", "", [system_failure.bounds.lower]);
-    table.numbers("to", "", [system_failure.bounds.upper]);
-    table
 }
 
 /// What the text says of a limit.
@@ -109,10 +89,9 @@ fn limit(said: &mut Findings, limit_reliability: &LimitReliability, d: &Descript
     let verdict = verdict.unwrap_or_default();
     for at in limit_reliability.design_points.iter().flatten() {
         said.note(format!(
-            "beta {}, probability of failure {} (first order), {} (second order); design point {verdict}",
+            "beta {}, probability of failure {} (first order); design point {verdict}",
             rough(at.beta()),
             probability(at.probability()),
-            or_dash(at.second_order, probability),
         ));
         variables(said, at, d);
     }

@@ -6,7 +6,7 @@ use crate::second_order::quadratic::{ModelMoments, Quadratic, beyond_range};
 use crate::tolerance::Tolerances;
 
 /// `f - f0 = scale (a^T z + z^T B z / 2)`, `z ~ N(0, I)`; the largest element of `a` and `B` is about 1.
-pub(in crate::second_order) struct Standard {
+pub(super) struct Standard {
     /// SI value of one unit of the coefficients below; zero if nothing varies.
     pub(super) scale: f64,
     /// `a`, from `L^T S`.
@@ -16,7 +16,7 @@ pub(in crate::second_order) struct Standard {
 }
 
 impl Standard {
-    pub(in crate::second_order) fn new(model: &Quadratic, tolerances: &Tolerances) -> Result<Self, Error> {
+    pub(super) fn new(model: &Quadratic, tolerances: &Tolerances) -> Result<Self, Error> {
         model.check(tolerances)?;
         let sigmas = tolerances.sigmas();
         let n = sigmas.len();
@@ -69,7 +69,7 @@ impl Standard {
     }
 
     /// Moments of `value + scale (a^T z + z^T B z / 2)` from traces; infinite where they exceed the range of a double.
-    pub(in crate::second_order) fn moments(&self, value: f64) -> ModelMoments {
+    pub(super) fn moments(&self, value: f64) -> ModelMoments {
         let n = self.linear.len();
         let (a, b) = (&self.linear, &self.quadratic);
         let bent = times(b, a);
