@@ -19,8 +19,6 @@ Complex: TypeAlias = NDArray[np.complex128]
 Flags: TypeAlias = NDArray[np.bool_]
 Whole: TypeAlias = NDArray[np.int64]
 Choices: TypeAlias = Mapping[str, tuple[Value, Value, tuple[float, float, float]]]
-EventKind: TypeAlias = Literal["critical", "crossing", "flutter"]
-EventChange: TypeAlias = Literal["onset", "end", "pass", "touch", "to divergence", "to flutter"]
 Value: TypeAlias = float | str
 Numbers: TypeAlias = ArrayLike | Mapping[str, Value]
 Ranges: TypeAlias = Mapping[str, tuple[Value, Value]]
@@ -35,9 +33,6 @@ Units: TypeAlias = dict[str, str]
 Along: TypeAlias = tuple[str, ArrayLike] | tuple[str, ArrayLike, str]
 FrequencyUnit: TypeAlias = Literal["Hz", "rad/s"]
 Requirement: TypeAlias = Literal["stable"] | tuple[tuple[Any, ...], float | None, float | None] | tuple[Literal["outside"], tuple[Any, ...], float, float] | tuple[Literal["away"], tuple[Any, ...], str, float] | tuple[Literal["away"], tuple[Any, ...], str, float, float]
-FoundBy: TypeAlias = Literal["design point", "lines", "samples"]
-AssemblySide: TypeAlias = Literal["positive", "negative"]
-Advised: TypeAlias = Literal["first order", "second order", "cluster", "samples"]
 
 @type_check_only
 class UrdfOptions(TypedDict, total=False):
@@ -163,47 +158,6 @@ class _Result:
         """The inputs it belongs to, SI, by name, without one that varies; empty where derivatives are all there is."""
 
 @final
-class Allocation(_Result):
-    """The cheapest tolerances that were found. `k` is the number of requirements."""
-
-    @property
-    def names(self) -> list[str]:
-        """Names of the design variables, and after them of the inputs that have a tolerance."""
-    @property
-    def nominal(self) -> Real:
-        """Nominal values, SI, shape (variables,)."""
-    @property
-    def half_widths(self) -> Real:
-        """Half-widths, SI, shape (variables,)."""
-    @property
-    def cost(self) -> float:
-        """Sum of the costs."""
-    @property
-    def cost_before(self) -> float:
-        """The same for the tolerances at the start."""
-    @property
-    def sampled_failure(self) -> Real:
-        """Share of the samples that fail each requirement, shape (k,)."""
-    @property
-    def refuted(self) -> list[int]:
-        """Positions of the requirements that the samples refute: first order failed there, allow less."""
-    @property
-    def failure(self) -> Real:
-        """Greatest probability of failing each requirement that was allowed, shape (k,)."""
-    @property
-    def reliability(self) -> Reliability:
-        """Reliability of what was found, by design points."""
-    @property
-    def chances(self) -> Chances:
-        """Chances of what was found, by samples."""
-    @property
-    def evaluations(self) -> int:
-        """Number of choices that were tried."""
-    @property
-    def stopped(self) -> bool:
-        """Whether the search was stopped, so that there may be cheaper ones."""
-
-@final
 class Clusters(_Result):
     """The modes that tolerances bring together. `k` is the number of clusters."""
 
@@ -256,25 +210,6 @@ class Clusters(_Result):
     def __len__(self) -> int: ...
 
 @final
-class DirectionalDerivatives(_Result):
-    """Derivatives of the eigenvalues of one cluster along one direction. `k` is the number of its modes; which derivative
-    belongs to which mode is not defined.
-    """
-
-    @property
-    def modes(self) -> list[int]:
-        """Positions of the modes, from 0."""
-    @property
-    def eigenvalues(self) -> Complex:
-        """Derivatives of lambda (1/s^2) of undamped modes, of s (1/s) of general ones, ascending, complex, shape (k,)."""
-    @property
-    def frequencies(self) -> Real:
-        """Derivatives of the frequencies, rad/s, ascending, shape (k,); NaN where the modes do not oscillate."""
-    @property
-    def family(self) -> Family:
-        """"undamped" or "general"."""
-
-@final
 class Mistake:
     """One mistake in a declaration."""
 
@@ -297,69 +232,6 @@ class Mistake:
     @property
     def help(self) -> str | None:
         """What to do, or None."""
-
-@final
-class Event(_Result):
-    """A value of an input at which something happens, and how tolerances move it, SI."""
-
-    @property
-    def family(self) -> Family:
-        """"undamped" or "general"."""
-    @property
-    def sigma_level(self) -> float:
-        """Standard deviations that a tolerance and a band stand for."""
-    @property
-    def input(self) -> str:
-        """Name of the input."""
-    @property
-    def kind(self) -> EventKind:
-        """What happens: "critical", "crossing" or "flutter"."""
-    @property
-    def change(self) -> EventChange:
-        """Which way: "onset", "end", "pass", "touch", "to divergence" or "to flutter"."""
-    @property
-    def mode(self) -> int | None:
-        """Position of the mode, from 0; None for a critical value."""
-    @property
-    def eigenvalue(self) -> complex | None:
-        """Its eigenvalue there, 1/s; None for a critical value."""
-    @property
-    def whirl(self) -> float | None:
-        """Whirl of the mode there: minor over major axis of the orbit, positive along the rotation; None where it does not
-        apply.
-        """
-    @property
-    def mode_kind(self) -> str | None:
-        """What the mode does there to bodies that spin: "lateral", "torsional", "axial" or "mixed"; None where
-        no shaft spins.
-        """
-    @property
-    def order(self) -> float | None:
-        """Multiple of the input that a frequency meets in a crossing."""
-    @property
-    def offset(self) -> float | None:
-        """What is added to that, rad/s."""
-    @property
-    def value(self) -> float:
-        """The nominal value of the input, SI."""
-    @property
-    def sigma(self) -> float | None:
-        """Its standard deviation to first order, SI; None where it has no derivative."""
-    @property
-    def band(self) -> float | None:
-        """Half-width of the band that holds as many standard deviations as the tolerances do, SI."""
-    @property
-    def gradient(self) -> Real:
-        """Derivatives per SI unit of each variable, shape (variables,); NaN where there are none: `failure` says why."""
-    @property
-    def shares(self) -> Real:
-        """Shares of the variables in the variance, shape (variables,)."""
-    @property
-    def failure(self) -> str | None:
-        """Why it has no derivatives: a text, or None."""
-    @property
-    def names(self) -> list[str]:
-        """Names of the variables."""
 
 @final
 class Mechanism:
@@ -606,169 +478,6 @@ class PartialMonteCarlo:
         """Statistics of the samples that are done."""
 
 @final
-class Chances(_Result):
-    """Chances of meeting requirements. `k` is their number."""
-
-    @property
-    def varies(self) -> bool:
-        """Whether any variable has a tolerance."""
-    @property
-    def counts(self) -> Counts:
-        """How many designs became what, by name."""
-    @property
-    def failure(self) -> Real:
-        """Share of the samples that fail each requirement, shape (k,)."""
-    @property
-    def samples(self) -> int:
-        """Number of samples."""
-    @property
-    def met(self) -> Whole:
-        """How many samples meet each requirement, shape (k,)."""
-    @property
-    def all_met(self) -> float:
-        """Share of the samples that meet all requirements."""
-    @property
-    def lower(self) -> Real:
-        """Lower ends of the 95 % intervals of `failure`, shape (k,)."""
-    @property
-    def upper(self) -> Real:
-        """Upper ends, shape (k,)."""
-    @property
-    def failed(self) -> Whole:
-        """How many samples fail each requirement, shape (k,)."""
-    @property
-    def untold(self) -> Whole:
-        """How many samples lack the response needed to tell, shape (k,)."""
-    @property
-    def any_failure(self) -> float:
-        """Share of the samples that fail any requirement."""
-    @property
-    def any_interval(self) -> tuple[float, float] | None:
-        """Its 95 % interval."""
-    @property
-    def all_counts(self) -> tuple[int, int, int]:
-        """How many samples meet all requirements, fail one, lack the response needed to tell."""
-    @property
-    def planned(self) -> int:
-        """Number of samples that were asked for."""
-
-@final
-class Probabilities(_Result):
-    """Probabilities of failing requirements. `k` is their number. No model is behind them: every design is solved anew."""
-
-    @property
-    def failure(self) -> Real:
-        """Probability of failing each requirement, shape (k,)."""
-    @property
-    def lower(self) -> Real:
-        """Lower ends of their 95 % intervals, shape (k,)."""
-    @property
-    def upper(self) -> Real:
-        """Upper ends, shape (k,)."""
-    @property
-    def untold(self) -> Real:
-        """Probabilities that a design lacks the response needed to tell, shape (k,)."""
-    @property
-    def found_by(self) -> list[FoundBy]:
-        """How each was found: "design point", "lines" or "samples"."""
-    @property
-    def any_failure(self) -> float:
-        """Probability of failing any requirement."""
-    @property
-    def any_interval(self) -> tuple[float, float]:
-        """Its 95 % interval."""
-    @property
-    def reliability(self) -> Reliability | None:
-        """The design points, or None: what changes the probabilities."""
-    @property
-    def names(self) -> list[str]:
-        """The requirements, in words."""
-    @property
-    def designs(self) -> Whole:
-        """Numbers of designs that were solved for each, shape (k,)."""
-    @property
-    def any_untold(self) -> float:
-        """Probability that a design lacks a response needed to tell of any."""
-    @property
-    def any_found_by(self) -> FoundBy:
-        """How `any_failure` was found."""
-    @property
-    def any_designs(self) -> int:
-        """Number of designs that were solved for it."""
-    @property
-    def chances(self) -> Chances | None:
-        """The samples, or None where none were drawn."""
-
-@final
-@final
-class Reliability(_Result):
-    """Reliability of a design. `l` is the number of limits that requirements put to responses."""
-
-    @property
-    def failure(self) -> Real:
-        """Probability to first order that each limit is passed, shape (l,); NaN without a design point."""
-    @property
-    def beta(self) -> Real:
-        """Reliability index of each limit, shape (l,); NaN without a design point."""
-    @property
-    def solved_anew(self) -> Real:
-        """Probability that each limit is passed by designs solved anew, which judges the design points, shape (l,); NaN
-        where that was not done.
-        """
-    @property
-    def error(self) -> Real:
-        """Half-widths of their 95 % intervals, shape (l,)."""
-    @property
-    def verified(self) -> list[bool]:
-        """Whether designs solved anew confirm the probability to first order of each limit, within 10 %."""
-    @property
-    def any_failure(self) -> float | None:
-        """Probability that any requirement is failed, by designs solved anew; None where that was not done."""
-    @property
-    def limits(self) -> list[tuple[int, str]]:
-        """The limits: the position of the requirement, and the name of the response."""
-    @property
-    def edges(self) -> list[tuple[str, list[float]]]:
-        """Where each response fails: "below", "above" or "between", and the ends, SI; "around", and order and fraction."""
-    @property
-    def names(self) -> list[str]:
-        """Names of the design variables, and after them of the inputs that have a tolerance."""
-    @property
-    def design_points(self) -> Real:
-        """The most probable design that fails for each limit, SI, shape (l, variables); NaN without one."""
-    @property
-    def importance(self) -> Real:
-        """Shares of the variables in each `beta`, shape (l, variables)."""
-    @property
-    def beta_by_nominal(self) -> Real:
-        """Derivatives of each `beta` by nominal values, per SI unit, shape (l, variables)."""
-    @property
-    def beta_by_half_width(self) -> Real:
-        """The same by half-widths of tolerances, shape (l, variables)."""
-    @property
-    def point_counts(self) -> Whole:
-        """Number of design points of each limit, shape (l,)."""
-    @property
-    def out_of_reach(self) -> Flags:
-        """Whether no design within reach passes the limit, shape (l,)."""
-    @property
-    def failures(self) -> list[str | None]:
-        """Why a limit has no design point: a text for each limit, or None."""
-    @property
-    def judgements(self) -> list[dict[str, Any]]:
-        """What the designs solved anew say of each limit, by name; under "open" why there are none."""
-    @property
-    def any_judgement(self) -> dict[str, Any]:
-        """The same of failing any requirement, those without a limit included."""
-    @property
-    def any_verified(self) -> bool:
-        """Whether designs solved anew confirm the probability to first order of every limit."""
-    @property
-    def left_out(self) -> list[int]:
-        """Positions of the requirements without a limit, such as `"stable"`."""
-
-@final
-@final
 class Response:
     """A number that a design gives: a quantity of a mode, an output, the amplitude of its vibration, a critical value of an
     input. `response(x)` evaluates
@@ -800,300 +509,27 @@ class Response:
         """Total derivatives by the variables, SI: shape (variables,) for one design, (N, variables) for several."""
 
 @final
-class Assembly(_Result):
-    """A state that closes the loops of a mechanism, SI. `n` is the number of unknowns."""
+class Answer(_Result):
+    """A result as it describes itself: what is printed, tables, and every number behind them.
 
-    @property
-    def held(self) -> list[bool]:
-        """Which unknowns were held at their start values."""
-    @property
-    def moved(self) -> Real:
-        """How far each unknown moved from its start value, shape (n,)."""
-    @property
-    def gaps(self) -> Real:
-        """Gap left in each constraint, at the place of its reaction, shape (n,): rounding."""
-    @property
-    def mode(self) -> AssemblySide | None:
-        """On which side of the dead centres it is assembled, "positive" or "negative": no motion leads from one to the
-        other but through a dead centre. None unless as many coordinates are held as the mechanism has degrees of
-        freedom.
-        """
-    @property
-    def margin(self) -> float:
-        """How well the constraints determine the coordinates that are not held: 1 at best, 0 at a dead centre."""
-    @property
-    def singular(self) -> bool:
-        """Whether it is a dead centre or a singular configuration."""
-    @property
-    def names(self) -> list[str]:
-        """Names of the unknowns."""
-    @property
-    def coordinates(self) -> Real:
-        """The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,)."""
-    @property
-    def iterations(self) -> int:
-        """Iterations spent."""
-    @property
-    def freedom(self) -> int:
-        """Number of coordinates that the constraints leave free."""
-    @property
-    def redundant(self) -> int:
-        """Number of constraints that follow from others."""
-    @property
-    def dependent_constraints(self) -> list[str]:
-        """Names of the constraints that depend on each other."""
-
-@final
-class Bode(_Result):
-    """Forced vibration along an input. `k` is the number of values, `h` of harmonics, `o` of outputs, `v` of the
-    vibrations that have bands. Amplitudes are complex, SI: the modulus is from 0 to peak, half of peak to peak; a
-    positive phase leads. NaN stands where a value has no vibration.
+    `answer["sigma"]` is the column of that name or heading in the first table that has one, in the unit of
+    `answer.units["sigma"]`: an array with NaN for missing numbers, or a list of texts or flags. Attributes are the fields
+    of the result, SI, as its document has them under "result": a number, a text, an array for lists of numbers,
+    however deep, and an object or a list of objects for what has fields again; the last axis of complex numbers has
+    length two, so that `x @ [1, 1j]` is the complex array. `dir(answer)` lists them. A list of results has `entries`.
     """
 
-    @property
-    def input(self) -> str:
-        """Name of the input."""
-    def __len__(self) -> int: ...
-    @property
-    def values(self) -> Real:
-        """Values of the input, SI, shape (k,)."""
-    @property
-    def stable(self) -> Flags:
-        """Whether the equilibrium at each value is stable and no mode grows; elsewhere no machine stays in the vibration."""
-    @property
-    def harmonics(self) -> list[list[str]]:
-        """Names of the excitations that act together in each harmonic."""
-    @property
-    def frequencies(self) -> Real:
-        """Frequencies of the harmonics, rad/s, shape (k, h)."""
-    @property
-    def outputs(self) -> Complex:
-        """Amplitudes of the outputs, complex, SI, shape (k, h, o)."""
-    @property
-    def by_input(self) -> Complex:
-        """Total derivatives of the complex amplitudes by inputs, the varied one included, shape (k, h, o, inputs), per
-        SI unit.
-        """
-    @property
-    def by_design(self) -> Complex:
-        """Total derivatives of the complex amplitudes by design variables, shape (k, h, o, design), per SI unit."""
-    @property
-    def vibrations(self) -> list[ForcedSensitivities | None]:
-        """The vibration with its derivatives at each value, or None."""
-    @property
-    def failures(self) -> list[str | None]:
-        """Why there is no vibration at each value: a text, or None where there is one."""
-    @property
-    def banded(self) -> list[str]:
-        """Names of the vibrations that have bands."""
-    @property
-    def spreads(self) -> list[Propagation | None]:
-        """The spreads of these amplitudes at each value, or None."""
-    @property
-    def mean(self) -> Real:
-        """Means of the banded amplitudes, SI, shape (k, v)."""
-    @property
-    def sigma(self) -> Real:
-        """Their standard deviations, SI, shape (k, v)."""
-    @property
-    def quantiles(self) -> Real:
-        """Their quantiles, SI, shape (k, v, 7), for the probabilities of -3, -2 ... 3 standard deviations of a normal
-        variable.
-        """
-    @property
-    def probabilities(self) -> Real:
-        """Probabilities of the quantiles, shape (7,)."""
-    @property
-    def checked(self) -> Real:
-        """Numbers of designs solved anew that have the vibration, shape (k, v); NaN where none was asked for."""
-    @property
-    def sigma_errors(self) -> Real:
-        """Relative errors of the standard deviations that these show, shape (k, v)."""
-    @property
-    def upper_errors(self) -> Real:
-        """Relative errors of the values below which 99 % of the designs lie, shape (k, v)."""
-    @property
-    def unreached(self) -> int:
-        """Number of values that were not reached."""
-    def amplitudes(self, measure: Measure = "displacement") -> Complex:
-        """Amplitudes of the outputs, complex, shape (k, h, o): as "displacement" they are `outputs`, SI; as "velocity"
-        per second, as "acceleration" per second squared.
-        """
-    def modulus(self, measure: Measure = "displacement") -> tuple[Real, Real]:
-        """Derivatives of the moduli `|y|`, by inputs, shape (k, h, o, inputs), and by design variables, shape (k, h, o,
-        design), SI; NaN also where the modulus is zero.
-        """
-    def phase(self, measure: Measure = "displacement") -> tuple[Real, Real]:
-        """Derivatives of the phases, rad, by inputs, shape (k, h, o, inputs), and by design variables, shape (k, h, o,
-        design), per SI unit; NaN also where the modulus is zero.
-        """
-
-@final
-class Branch(_Result):
-    """One branch of equilibria. `k` is the number of its points, `n` that of the unknowns."""
-
-    @property
-    def input(self) -> str:
-        """Name of the input."""
-    def __len__(self) -> int: ...
-    @property
-    def values(self) -> Real:
-        """Values of the input, SI, shape (k,)."""
-    @property
-    def coordinates(self) -> Real:
-        """Unknowns, SI, shape (k, n)."""
-    @property
-    def stable(self) -> list[bool]:
-        """Whether no small disturbance grows exponentially, at each point; nothing resists a neutral motion, which
-        counts as stable.
-        """
-    @property
-    def equilibria(self) -> list[Equilibrium]:
-        """The equilibrium at each point."""
-    @property
-    def tangents(self) -> Real:
-        """Derivatives of the unknowns by length along the branch, shape (k, n)."""
-    @property
-    def input_tangents(self) -> Real:
-        """The same of the input, SI, shape (k,)."""
-    @property
-    def special_equilibria(self) -> list[Equilibrium]:
-        """The equilibria at the special points."""
-    @property
-    def critical_vectors(self) -> Real:
-        """Critical vectors of the special points, `Khat v = 0`, shape (special points, n)."""
-    @property
-    def left_critical_vectors(self) -> Real:
-        """Left critical vectors, `Khat^T w = 0`, shape (special points, n)."""
-    @property
-    def special(self) -> list[tuple[str, float]]:
-        """Special points: what each is, in words, and the value of the input there, SI."""
-    @property
-    def ends(self) -> list[str]:
-        """How it ends at either side, in words."""
-
-@final
-class Branches(_Result):
-    """The branches of equilibria along an input."""
-
-    def __len__(self) -> int: ...
-    @property
-    def branches(self) -> list[Branch]:
-        """The branches."""
-    @property
-    def truncated(self) -> bool:
-        """Whether the search ended early, so that there may be more branches."""
-
-@final
-class Campbell(_Result):
-    """A Campbell diagram: every mode against an input, with spreads and crossings. `k` is the number of values; a
-    column of an array over modes is one motion, in the order of `labels`.
-    """
-
-    @property
-    def family(self) -> Family:
-        """"undamped" or "general"."""
-    @property
-    def sigma_level(self) -> float:
-        """Standard deviations that a tolerance and a band stand for."""
-    @property
-    def input(self) -> str:
-        """Name of the input."""
-    def __len__(self) -> int: ...
-    @property
-    def labels(self) -> list[int]:
-        """Numbers of the motions, one for each column."""
-    @property
-    def eigenvalues(self) -> Complex:
-        """Eigenvalues, 1/s, complex, shape (k, motions)."""
-    @property
-    def frequencies(self) -> Real:
-        """Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate."""
-    @property
-    def frequency_sigmas(self) -> Real:
-        """Standard deviations of the frequencies to first order, rad/s, shape (k, motions)."""
-    @property
-    def damping_ratios(self) -> Real:
-        """Means of the damping ratios, shape (k, motions)."""
-    @property
-    def damping_ratio_sigmas(self) -> Real:
-        """Standard deviations of the damping ratios to first order, shape (k, motions)."""
-    @property
-    def whirls(self) -> Real:
-        """Whirl, shape (k, motions): minor over major axis of the orbit, positive along the rotation; NaN where it does
-        not apply.
-        """
-    @property
-    def crossings(self) -> list[Event]:
-        """Where the frequency of a mode that something excites there meets a line, with spreads."""
-    @property
-    def not_excited(self) -> list[Event]:
-        """The other crossings: modes of shafts that no unbalance excites."""
-    @property
-    def critical(self) -> list[Event]:
-        """Where the stable equilibrium loses its stiffness, with spreads."""
-    @property
-    def flutter_onsets(self) -> list[Event]:
-        """Where an oscillation begins or ceases to grow, with spreads."""
-    @property
-    def behaviours(self) -> list[list[str | None]]:
-        """What each motion does, in words, a list for each value; None where it was not found."""
-    @property
-    def whirl_senses(self) -> list[list[str | None]]:
-        """The direction of each whirl, in words, a list for each value; None where it does not apply."""
-    @property
-    def kinds(self) -> list[list[str | None]]:
-        """The kind of each motion, "lateral", "torsional", "axial" or "mixed", a list for each value; None where
-        no shaft spins.
-        """
-    @property
-    def clustered(self) -> Flags:
-        """Whether each motion is nearly equal to another, so that its spreads mean nothing, shape (k, motions)."""
-    @property
-    def orders(self) -> list[tuple[float, float]]:
-        """The lines whose crossings were searched for: multiple of the input, and offset in rad/s."""
-    @property
-    def values(self) -> Real:
-        """Values of the input, SI, shape (k,)."""
-    @property
-    def coordinates(self) -> Real:
-        """Unknowns of the equilibria, shape (k, n); NaN where there is none."""
-    @property
-    def failures(self) -> list[str | None]:
-        """Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both."""
-    @property
-    def equilibria(self) -> list[Equilibrium | None]:
-        """The equilibrium at each value, or None."""
-    @property
-    def searched(self) -> tuple[float, float, float] | None:
-        """The range that was searched for events, SI: its ends, and how close two of them may be; or None."""
-    @property
-    def unsearched(self) -> list[tuple[float, float]]:
-        """Stretches of it, SI, in which something may have been missed."""
-    @property
-    def unreached(self) -> int:
-        """Number of values that were not reached."""
-
-@final
-class Convergence(_Result):
-    """How far frequencies, damping ratios and outputs change with one and with two more coordinates of each component of
-    the beams. `k` is the number of answers.
-    """
-
-    @property
-    def names(self) -> list[str]:
-        """Names of the answers, modes counted from 1: "frequency 1"."""
-    @property
-    def values(self) -> Real:
-        """Values with the declared coordinates, SI, shape (k,)."""
-    @property
-    def changes(self) -> Real:
-        """What one and two more coordinates add, relative to the larger of the two values compared, shape (k, 2); NaN
-        where the answer no longer exists.
-        """
-    @property
-    def without_peaks(self) -> str | None:
-        """Why peaks along an input are not compared: a text, or None."""
+    def __getitem__(self, name: str) -> Any:
+        """The column of this name or heading, in its declared unit."""
+    def __getattr__(self, name: str) -> Any:
+        """A field of the result, SI."""
+    def __dir__(self) -> list[str]: ...
+    @property
+    def units(self) -> dict[str, str]:
+        """The units of the columns, by name."""
+    @property
+    def kind(self) -> str:
+        """Its kind, as documents name it: "first-order spread"."""
 
 @final
 class Equilibrium(_Result):
@@ -1169,84 +605,6 @@ class Equilibrium(_Result):
         """Names of the constraints that depend on each other."""
 
 @final
-class EquilibriumShift(_Result):
-    """How an equilibrium moves with inputs and design variables, SI. `n` is the number of unknowns."""
-
-    @property
-    def by_input(self) -> Real:
-        """Derivatives of the unknowns by inputs, shape (n, inputs)."""
-    @property
-    def by_design(self) -> Real:
-        """Derivatives of the unknowns by design variables, shape (n, design)."""
-    @property
-    def names(self) -> list[str]:
-        """Names of the unknowns: the rows."""
-
-@final
-class EventCurvature(_Result):
-    """First and second total derivatives, by design variables, of a value of an input at which something happens."""
-
-    @property
-    def input(self) -> str:
-        """Name of the input."""
-    @property
-    def asymmetry(self) -> float:
-        """Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
-        zero.
-        """
-    @property
-    def value(self) -> float:
-        """Its value, SI."""
-    @property
-    def gradient(self) -> Real:
-        """First derivatives, shape (design,)."""
-    @property
-    def hessian(self) -> Real:
-        """Second derivatives, shape (design, design)."""
-
-@final
-class ForcedCurvature(_Result):
-    """The steady vibration with its total first and second derivatives, per SI unit. `h` is the number of harmonics, `o`
-    of outputs; NaN stands where an output has no derivative.
-    """
-
-    @property
-    def asymmetry(self) -> float:
-        """Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
-        zero.
-        """
-    @property
-    def first(self) -> ForcedSensitivities:
-        """The vibration and its first derivatives."""
-    @property
-    def hessian(self) -> Complex:
-        """Second derivatives of the complex amplitudes by design variables, shape (h, o, design, design)."""
-    @property
-    def by_input(self) -> Complex:
-        """Second derivatives of the complex amplitudes by inputs, shape (h, o, inputs, inputs)."""
-    @property
-    def by_input_and_design(self) -> Complex:
-        """Second derivatives of the complex amplitudes by an input and a design variable, shape (h, o, inputs, design)."""
-    @property
-    def frequency_hessian(self) -> Real:
-        """Second derivatives of the frequencies by design variables, rad/s per SI units, shape (h, design, design)."""
-    @property
-    def frequency_by_input(self) -> Real:
-        """Second derivatives of the frequencies by inputs, shape (h, inputs, inputs)."""
-    @property
-    def frequency_by_input_and_design(self) -> Real:
-        """Second derivatives of the frequencies by an input and a design variable, shape (h, inputs, design)."""
-    def complex(self, measure: Measure = "displacement") -> tuple[Complex, Complex, Complex]:
-        """Second derivatives of the complex amplitudes of the outputs, as "displacement", "velocity" or "acceleration",
-        SI: by inputs, shape (h, o, inputs, inputs), by an input and a design variable, shape (h, o, inputs, design),
-        and by design variables, shape (h, o, design, design).
-        """
-    def modulus(self, measure: Measure = "displacement") -> tuple[Real, Real, Real]:
-        """The same of the moduli `|y|`; NaN also where the modulus is zero."""
-    def phase(self, measure: Measure = "displacement") -> tuple[Real, Real, Real]:
-        """The same of the phases, rad; NaN also where the modulus is zero."""
-
-@final
 class ForcedResponse(_Result):
     """The steady vibration under the declared excitations, `Re(y e^{i w t})`. Amplitudes are complex, SI: the modulus is
     from 0 to peak, half of peak to peak; a positive phase leads, and NaN stands for an output that has a value but no
@@ -1307,87 +665,11 @@ class ForcedResponse(_Result):
         """
 
 @final
-class ForcedSensitivities(_Result):
-    """The steady vibration with its total first derivatives, per SI unit: equilibrium and frequencies follow the
-    variables. `h` is the number of harmonics, `o` of outputs; NaN stands where an output has no derivative, because it
-    depends on a place that nothing determines, or sees an undamped mode in resonance that nothing drives.
-    """
-
-    @property
-    def response(self) -> ForcedResponse:
-        """The vibration."""
-    @property
-    def by_input(self) -> Complex:
-        """Derivatives of the complex amplitudes of the outputs by inputs, shape (h, o, inputs)."""
-    @property
-    def by_design(self) -> Complex:
-        """Derivatives of the complex amplitudes of the outputs by design variables, shape (h, o, design)."""
-    @property
-    def frequency_by_input(self) -> Real:
-        """Derivatives of the frequencies by inputs, rad/s per SI unit, shape (h, inputs)."""
-    @property
-    def frequency_by_design(self) -> Real:
-        """Derivatives of the frequencies by design variables, rad/s per SI unit, shape (h, design)."""
-    def complex(self, measure: Measure = "displacement") -> tuple[Complex, Complex]:
-        """Derivatives of the complex amplitudes of the outputs, as "displacement", "velocity" or "acceleration", by
-        inputs, shape (h, o, inputs), and by design variables, shape (h, o, design), SI.
-        """
-    def modulus(self, measure: Measure = "displacement") -> tuple[Real, Real]:
-        """Derivatives of the moduli `|y|`, by inputs, shape (h, o, inputs), and by design variables, shape (h, o,
-        design), SI; NaN also where the modulus is zero.
-        """
-    def phase(self, measure: Measure = "displacement") -> tuple[Real, Real]:
-        """Derivatives of the phases, rad, by inputs, shape (h, o, inputs), and by design variables, shape (h, o,
-        design), per SI unit; NaN also where the modulus is zero.
-        """
-    def orbit_squares_by_input(self, x: str, y: str) -> tuple[Real, Real]:
-        """Derivatives of `|f|^2` and of `|b|^2`, the squares of `response.orbit_parts(x, y)`, by inputs, shape (h, inputs)
-        each, SI.
-        """
-    def orbit_squares_by_design(self, x: str, y: str) -> tuple[Real, Real]:
-        """The same by design variables, shape (h, design) each."""
-
-@final
-class ModeCurvature(_Result):
-    """First and second total derivatives of one mode, per SI unit. Quantities are "frequency" (rad/s),
-    "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s) and "lambda" (1/s^2).
-    """
-
-    @property
-    def asymmetry(self) -> float:
-        """Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
-        zero.
-        """
-    @property
-    def mode(self) -> int:
-        """Its position, from 0."""
-    @property
-    def eigenvalue(self) -> complex:
-        """Its eigenvalue, 1/s."""
-    @property
-    def clustered(self) -> bool:
-        """Whether it is one of a cluster of nearly equal eigenvalues."""
-    def gradient(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """First derivatives of a quantity by design variables, shape (design,)."""
-    def gradient_by_input(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """First derivatives of a quantity by inputs, shape (inputs,)."""
-    def hessian(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """The Hessian of a quantity by design variables, shape (design, design)."""
-    def by_input(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """Second derivatives of a quantity by inputs, shape (inputs, inputs)."""
-    def by_input_and_design(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """Second derivatives of a quantity by an input and a design variable, shape (inputs, design)."""
-
-@final
 class Modes(_Result):
     """The modes about an equilibrium: undamped ones ascending in frequency, general ones in frequency too, those that
     do not oscillate first. `m` is their number, `n` that of the unknowns.
     """
 
-    @property
-    def family(self) -> Family:
-        """"undamped" or "general"."""
-    def __len__(self) -> int: ...
     @property
     def eigenvalues(self) -> Complex:
         """Eigenvalues `s`, 1/s, complex, shape (m,): motions go as exp(s t). Of a conjugate pair the one with positive
@@ -1446,391 +728,10 @@ class Modes(_Result):
     @property
     def damping_ignored(self) -> bool:
         """Whether undamped modes were asked for of a mechanism that is damped."""
-
-@final
-class OutputCurvature(_Result):
-    """First and second total derivatives of an output, per SI unit."""
-
-    @property
-    def asymmetry(self) -> float:
-        """Greatest difference of mirrored second derivatives, relative to the greatest: exact arithmetic would give
-        zero.
-        """
-    @property
-    def output(self) -> str:
-        """Name of the output."""
-    @property
-    def value(self) -> float:
-        """Its value, SI."""
-    @property
-    def gradient(self) -> Real:
-        """First derivatives by design variables, shape (design,)."""
-    @property
-    def gradient_by_input(self) -> Real:
-        """First derivatives by inputs, shape (inputs,)."""
-    @property
-    def hessian(self) -> Real:
-        """Second derivatives by design variables, shape (design, design)."""
-    @property
-    def by_input(self) -> Real:
-        """Second derivatives by inputs, shape (inputs, inputs)."""
-    @property
-    def by_input_and_design(self) -> Real:
-        """Second derivatives by an input and a design variable, shape (inputs, design)."""
-
-@final
-class OutputSensitivities(_Result):
-    """The declared outputs and their total derivatives, SI. `o` is their number."""
-
-    @property
-    def names(self) -> list[str]:
-        """Names of the outputs."""
-    @property
-    def values(self) -> Real:
-        """Values, SI, shape (o,)."""
-    @property
-    def by_input(self) -> Real:
-        """Derivatives by inputs, shape (o, inputs); NaN where there is none."""
-    @property
-    def by_design(self) -> Real:
-        """Derivatives by design variables, shape (o, design); NaN where there is none."""
-
-@final
-class Peaks(_Result):
-    """The peaks of a vibration along an input, in the order in which the range passes them. `k` is their number. Values
-    are SI; heights are from 0 to peak.
-    """
-
-    @property
-    def places(self) -> Real:
-        """Values of the input at the peaks, SI, shape (k,)."""
-    @property
-    def place_sigmas(self) -> Real:
-        """Their standard deviations to first order, SI, shape (k,)."""
-    @property
-    def places_by_design(self) -> Real:
-        """Their total derivatives by design variables, shape (k, design), per SI unit."""
-    @property
-    def stable(self) -> Flags:
-        """Whether the equilibrium at each peak is stable and no mode grows; elsewhere no machine stays in the vibration."""
-    @property
-    def frequencies(self) -> Real:
-        """Frequencies at the peaks, rad/s, shape (k,)."""
-    @property
-    def frequency_sigmas(self) -> Real:
-        """Their standard deviations to first order, rad/s, shape (k,)."""
-    @property
-    def frequencies_by_design(self) -> Real:
-        """Their total derivatives by design variables, shape (k, design), rad/s per SI unit."""
-    @property
-    def heights(self) -> Real:
-        """Moduli at the peaks, SI, shape (k,)."""
-    @property
-    def height_sigmas(self) -> Real:
-        """Their standard deviations to first order, SI, shape (k,)."""
-    @property
-    def heights_by_design(self) -> Real:
-        """Their total derivatives by design variables, shape (k, design), per SI unit."""
-    @property
-    def phases(self) -> Real:
-        """Phases at the peaks, rad, shape (k,)."""
-    @property
-    def half_power_before(self) -> Real:
-        """Values of the input before the peaks at which the power is half, SI, shape (k,); NaN where there is none."""
-    @property
-    def half_power_after(self) -> Real:
-        """Values of the input after the peaks at which the power is half, SI, shape (k,); NaN where there is none."""
-    @property
-    def half_power_sigmas(self) -> tuple[Real, Real]:
-        """Standard deviations of the half-power points before and after the peaks to first order, SI, shape (k,) each."""
-    @property
-    def half_power_by_design(self) -> tuple[Real, Real]:
-        """Total derivatives of the half-power points before and after the peaks by design variables, shape (k, design)
-        each, per SI unit.
-        """
-    @property
-    def amplifications(self) -> Real:
-        """Amplification factors, shape (k,); NaN where there is none."""
-    @property
-    def amplification_sigmas(self) -> Real:
-        """Their standard deviations to first order, shape (k,)."""
-    @property
-    def amplifications_by_design(self) -> Real:
-        """Their total derivatives by design variables, shape (k, design), per SI unit."""
-    def separation(self, low: Value, high: Value) -> Separation:
-        """How far the peaks keep from a range of operation of the input, in the manner of API 617. Values are SI or texts
-        with units.
-        """
-
-@final
-class Sensitivities(_Result):
-    """Total derivatives of all modes, per SI unit of inputs and design variables. `m` is the number of modes."""
-
     @property
     def family(self) -> Family:
         """"undamped" or "general"."""
-    @property
-    def method(self) -> str:
-        """How the derivatives were found, in words."""
-    @property
-    def by_design(self) -> Complex:
-        """Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where
-        `s` has none.
-        """
-    @property
-    def by_input(self) -> Complex:
-        """Derivatives of the eigenvalues `s` by inputs, 1/s per SI unit, complex, shape (m, inputs); NaN where `s` has
-        none.
-        """
-    @property
-    def lambda_by_design(self) -> Real:
-        """Derivatives of `lambda = -Re s^2` by design variables, 1/s^2 per SI unit, shape (m, design)."""
-    @property
-    def lambda_by_input(self) -> Real:
-        """Derivatives of `lambda = -Re s^2` by inputs, 1/s^2 per SI unit, shape (m, inputs)."""
-    @property
-    def clustered(self) -> list[bool]:
-        """Whether each mode is one of a cluster of nearly equal eigenvalues: then its derivatives belong to the computed
-        basis only.
-        """
-    def of(self, name: Quantity) -> tuple[Real, Real]:
-        """Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s),
-        by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
-        none.
-        """
-
-@final
-class Separation(_Result):
-    """The distances of peaks from a range of operation, in the manner of API 617. `k` is the number of peaks."""
-
-    @property
-    def peaks(self) -> Peaks:
-        """The peaks."""
-    @property
-    def operating(self) -> tuple[float, float]:
-        """Lowest and highest value of the input in operation, SI."""
-    @property
-    def margins(self) -> Real:
-        """Distances of the peaks from the nearest end of the range, relative to that end, shape (k,); zero within the
-        range.
-        """
-    @property
-    def margin_sigmas(self) -> Real:
-        """Their standard deviations to first order, shape (k,)."""
-    @property
-    def margins_by_design(self) -> Real:
-        """Their total derivatives by design variables, shape (k, design), per SI unit."""
-    @property
-    def required(self) -> Real:
-        """The margins that the amplification factors ask for, shape (k,); zero for a peak that is damped away, NaN
-        without an amplification factor.
-        """
-    @property
-    def sufficient(self) -> list[bool | None]:
-        """Whether each peak keeps away far enough; None if what is required is not known."""
-
-@final
-class ShapeSensitivity(_Result):
-    """Derivatives of the shapes of one mode, per SI unit, complex. `n` is the number of unknowns."""
-
-    @property
-    def right_by_input(self) -> Complex:
-        """Of the shape by inputs, shape (n, inputs)."""
-    @property
-    def right_by_design(self) -> Complex:
-        """Of the shape by design variables, shape (n, design)."""
-    @property
-    def left_by_input(self) -> Complex:
-        """Of the left vector by inputs, shape (n, inputs)."""
-    @property
-    def left_by_design(self) -> Complex:
-        """Of the left vector by design variables, shape (n, design)."""
-
-@final
-class Sweep(_Result):
-    """States along an input. `k` is their number, `n` that of the unknowns; a column of an array over modes is one
-    motion.
-    """
-
-    @property
-    def input(self) -> str:
-        """Name of the input."""
     def __len__(self) -> int: ...
-    @property
-    def eigenvalues(self) -> Complex:
-        """Eigenvalues, 1/s, complex, shape (k, motions); NaN where a motion was not found."""
-    @property
-    def frequencies(self) -> Real:
-        """Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate."""
-    @property
-    def damping_ratios(self) -> Real:
-        """Damping ratios, shape (k, motions)."""
-    @property
-    def critical(self) -> Real:
-        """Values of the input at which the stable equilibrium loses its stiffness, SI."""
-    @property
-    def critical_kinds(self) -> list[str]:
-        """What happens at each of these, in words."""
-    @property
-    def flutter_onsets(self) -> Real:
-        """Values of the input at which an oscillation begins or ceases to grow, SI."""
-    @property
-    def modes(self) -> list[Modes | None]:
-        """The modes at each value, or None."""
-    @property
-    def values(self) -> Real:
-        """Values of the input, SI, shape (k,)."""
-    @property
-    def coordinates(self) -> Real:
-        """Unknowns of the equilibria, shape (k, n); NaN where there is none."""
-    @property
-    def failures(self) -> list[str | None]:
-        """Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both."""
-    @property
-    def equilibria(self) -> list[Equilibrium | None]:
-        """The equilibrium at each value, or None."""
-    @property
-    def searched(self) -> tuple[float, float, float] | None:
-        """The range that was searched for events, SI: its ends, and how close two of them may be; or None."""
-    @property
-    def unsearched(self) -> list[tuple[float, float]]:
-        """Stretches of it, SI, in which something may have been missed."""
-    @property
-    def unreached(self) -> int:
-        """Number of values that were not reached."""
-
-@final
-class Import:
-    """A robot as a declaration; numbers are SI."""
-
-    def __new__(cls, declaration: str, names: Mapping[str, str], notes: Sequence[str]) -> Self: ...
-    @property
-    def declaration(self) -> str:
-        """Text in the language of eigentol."""
-    @property
-    def names(self) -> dict[str, str]:
-        """By the name in the declaration, that in the file: of every link and joint that had to be renamed."""
-    @property
-    def notes(self) -> list[str]:
-        """What the declaration does not say, or says in another way than the file."""
-    def mechanism(self) -> Mechanism:
-        """The mechanism."""
-
-@final
-class FirstOrder(_Result):
-    """First-order spread of all modes. `m` is the number of modes; quantities are "frequency" (rad/s),
-    "natural_frequency" (rad/s), "damping_ratio", "growth" (1/s) and "lambda" (1/s^2). NaN stands where a mode has
-    none.
-    """
-
-    @property
-    def family(self) -> Family:
-        """"undamped" or "general"."""
-    @property
-    def sigma_level(self) -> float:
-        """Standard deviations that a tolerance and a band stand for."""
-    @property
-    def varies(self) -> bool:
-        """Whether any variable has a tolerance."""
-    @property
-    def names(self) -> list[str]:
-        """Names of the design variables, and after them of the inputs that have a tolerance: the columns of gradients and
-        shares.
-        """
-    @property
-    def distances_to_critical(self) -> Real:
-        """Standard deviations between each mode and the state where its stiffness vanishes, shape (m,); may be infinite."""
-    @property
-    def doubts(self) -> list[list[str]]:
-        """For each mode the doubts that distances raise about its standard deviations: texts, none where they are large.
-        They do not tell how large an error is; `summary` lets samples decide.
-        """
-    @property
-    def trusted(self) -> bool:
-        """Whether distances leave no doubt about any mode. Where they do, `summary` lets samples decide."""
-    @property
-    def trusted_modes(self) -> Flags:
-        """The same of each mode, shape (m,)."""
-    @property
-    def distance_to_critical(self) -> float:
-        """Least of `distances_to_critical`."""
-    @property
-    def distances_to_instability(self) -> Real:
-        """Standard deviations between the growth of each mode and zero, shape (m,); may be infinite."""
-    @property
-    def distances_to_neighbour(self) -> Real:
-        """Standard deviations between the eigenvalue of each mode and the nearest one, shape (m,); may be infinite."""
-    @property
-    def clustered(self) -> Flags:
-        """Whether each mode is one of a cluster of nearly equal eigenvalues, shape (m,)."""
-    @property
-    def behaviours(self) -> list[str]:
-        """What each mode does, in words."""
-    def mean(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """Means, shape (m,)."""
-    def sigma(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """Standard deviations, shape (m,)."""
-    def band(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """Half-widths of the bands that hold as many standard deviations as the tolerances do, shape (m,)."""
-    def gradient(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """Derivatives per SI unit of each variable, shape (m, variables)."""
-    def shares(self, quantity: QuantityOrLambda = "frequency") -> Real:
-        """Shares of the variables in the variance, shape (m, variables)."""
-
-@final
-class Influence(_Result):
-    """Which variables the scatter of responses comes from. `k` is the number of responses; columns are the variables
-    that vary.
-    """
-
-    @property
-    def counts(self) -> Counts:
-        """How many designs became what, by name."""
-    @property
-    def names(self) -> list[str]:
-        """Names of the variables that vary."""
-    @property
-    def first(self) -> Real:
-        """Sobol' indices of first order, shape (k, variables)."""
-    @property
-    def total(self) -> Real:
-        """Total Sobol' indices, shape (k, variables)."""
-    @property
-    def correlation(self) -> Real:
-        """Correlations (Pearson), shape (k, variables)."""
-    @property
-    def at_low(self) -> Real:
-        """Responses with a variable at its lower limit, all others nominal, SI, shape (k, variables)."""
-    @property
-    def at_high(self) -> Real:
-        """The same at the upper limit."""
-    @property
-    def responses(self) -> list[str]:
-        """Names of the responses: the rows."""
-    @property
-    def nominal(self) -> Real:
-        """Values at the nominal design, SI, shape (k,)."""
-    @property
-    def first_interval(self) -> Real:
-        """Ends of the 95 % intervals of `first`, shape (k, variables, 2)."""
-    @property
-    def total_interval(self) -> Real:
-        """Ends of the 95 % intervals of `total`, shape (k, variables, 2)."""
-    @property
-    def rank_correlation(self) -> Real:
-        """Rank correlations (Spearman), shape (k, variables)."""
-    @property
-    def regression(self) -> Real:
-        """Standardised regression coefficients, shape (k, variables)."""
-    @property
-    def determination(self) -> Real:
-        """Shares of the variance that the linear fit explains, shape (k,)."""
-    @property
-    def missing(self) -> Whole:
-        """Numbers of evaluations without a value, which are left out, shape (k,)."""
-    @property
-    def limits(self) -> Real:
-        """Least and greatest values of all design variables, SI, shape (design, 2)."""
 
 @final
 class MonteCarlo(_Result):
@@ -1838,15 +739,6 @@ class MonteCarlo(_Result):
     samples; modes are in the order of the nominal ones.
     """
 
-    @property
-    def family(self) -> Family:
-        """"undamped" or "general"."""
-    @property
-    def varies(self) -> bool:
-        """Whether any variable has a tolerance."""
-    @property
-    def counts(self) -> Counts:
-        """How many designs became what, by name."""
     @property
     def samples(self) -> int:
         """Number of samples."""
@@ -1889,6 +781,15 @@ class MonteCarlo(_Result):
     @property
     def clustered(self) -> bool:
         """Whether some nominal modes have equal eigenvalues, and are told apart by their order only."""
+    @property
+    def family(self) -> Family:
+        """"undamped" or "general"."""
+    @property
+    def varies(self) -> bool:
+        """Whether any variable has a tolerance."""
+    @property
+    def counts(self) -> Counts:
+        """How many designs became what, by name."""
     def mean(self, quantity: Quantity = "frequency") -> Real:
         """Means of "frequency" (rad/s) or "damping_ratio" over the stable samples, shape (m,)."""
     def sigma(self, quantity: Quantity = "frequency") -> Real:
@@ -1917,221 +818,111 @@ class MonteCarlo(_Result):
         """
 
 @final
-class OutputTolerances(_Result):
-    """First-order spread of the outputs, SI. `o` is the number of outputs; NaN stands where one has no derivatives."""
+class Sensitivities(_Result):
+    """Total derivatives of all modes, per SI unit of inputs and design variables. `m` is the number of modes."""
 
-    @property
-    def sigma_level(self) -> float:
-        """Standard deviations that a tolerance and a band stand for."""
-    @property
-    def varies(self) -> bool:
-        """Whether any variable has a tolerance."""
-    @property
-    def values(self) -> Real:
-        """Values, SI, shape (o,)."""
-    @property
-    def names(self) -> list[str]:
-        """Names of the outputs."""
-    @property
-    def variables(self) -> list[str]:
-        """Names of the design variables, and after them of the inputs that have a tolerance: the columns of gradients
-        and shares.
-        """
-    @property
-    def mean(self) -> Real:
-        """Means, SI, shape (o,)."""
-    @property
-    def sigma(self) -> Real:
-        """Standard deviations, SI, shape (o,)."""
-    @property
-    def band(self) -> Real:
-        """Half-widths of the bands that hold as many standard deviations as the tolerances do, SI, shape (o,)."""
-    @property
-    def gradient(self) -> Real:
-        """Derivatives per SI unit of each variable, shape (o, variables)."""
-    @property
-    def shares(self) -> Real:
-        """Shares of the variables in the variance, shape (o, variables)."""
-
-@final
-class Propagation(_Result):
-    """How tolerances spread responses, SI. `k` is the number of responses; NaN stands where one has no number."""
-
-    @property
-    def counts(self) -> Counts:
-        """How many designs became what, by name."""
-    @property
-    def doubts(self) -> list[list[str]]:
-        """For each response the doubts that distances raise about the model: texts; none for samples, which need no model."""
     @property
     def method(self) -> str:
-        """How it was found, in words."""
+        """How the derivatives were found, in words."""
     @property
-    def reason(self) -> str:
-        """Why it was found that way."""
+    def by_design(self) -> Complex:
+        """Derivatives of the eigenvalues `s` by design variables, 1/s per SI unit, complex, shape (m, design); NaN where
+        `s` has none.
+        """
     @property
-    def nominal(self) -> Real:
-        """Values at the nominal design, shape (k,)."""
+    def by_input(self) -> Complex:
+        """Derivatives of the eigenvalues `s` by inputs, 1/s per SI unit, complex, shape (m, inputs); NaN where `s` has
+        none.
+        """
     @property
-    def mean(self) -> Real:
-        """Means, shape (k,)."""
+    def lambda_by_design(self) -> Real:
+        """Derivatives of `lambda = -Re s^2` by design variables, 1/s^2 per SI unit, shape (m, design)."""
     @property
-    def sigma(self) -> Real:
-        """Standard deviations, shape (k,)."""
+    def lambda_by_input(self) -> Real:
+        """Derivatives of `lambda = -Re s^2` by inputs, 1/s^2 per SI unit, shape (m, inputs)."""
     @property
-    def sigma_error(self) -> Real:
-        """Errors of the standard deviations by the method's own estimate, shape (k,); NaN where nothing is known."""
+    def clustered(self) -> list[bool]:
+        """Whether each mode is one of a cluster of nearly equal eigenvalues: then its derivatives belong to the computed
+        basis only.
+        """
     @property
-    def skewness(self) -> Real:
-        """Skewness, shape (k,)."""
-    @property
-    def quantiles(self) -> Real:
-        """Quantiles, shape (k, 7), for the probabilities of -3, -2 ... 3 standard deviations of a normal variable."""
-    @property
-    def covariance(self) -> Real:
-        """Covariances of the responses, shape (k, k)."""
-    @property
-    def share(self) -> Real:
-        """Shares of the designs that have each response, shape (k,)."""
-    @property
-    def evaluations(self) -> int:
-        """Designs that were evaluated."""
-    @property
-    def names(self) -> list[str]:
-        """Names of the responses."""
-    @property
-    def mean_error(self) -> Real:
-        """Errors of the means by the method's own estimate, shape (k,); NaN where nothing is known."""
-    @property
-    def skewness_error(self) -> Real:
-        """The same of the skewness, shape (k,)."""
-    @property
-    def quantile_errors(self) -> Real:
-        """The same of the quantiles, shape (k, 7)."""
-    @property
-    def probabilities(self) -> Real:
-        """Probabilities of the quantiles, shape (7,)."""
-    @property
-    def covariance_with_design(self) -> Real:
-        """Covariances of the responses with the design variables, SI, shape (k, design)."""
+    def family(self) -> Family:
+        """"undamped" or "general"."""
+    def of(self, name: Quantity) -> tuple[Real, Real]:
+        """Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s),
+        by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
+        none.
+        """
 
 @final
-class SecondOrder(_Result):
-    """Spread of all modes to second order. `m` is the number of modes; quantities are "frequency" (rad/s),
-    "natural_frequency" (rad/s) and "damping_ratio". NaN stands where a mode has none.
+class Sweep(_Result):
+    """States along an input. `k` is their number, `n` that of the unknowns; a column of an array over modes is one
+    motion.
     """
 
     @property
-    def sigma_level(self) -> float:
-        """Standard deviations that a tolerance and a band stand for."""
+    def eigenvalues(self) -> Complex:
+        """Eigenvalues, 1/s, complex, shape (k, motions); NaN where a motion was not found."""
     @property
-    def varies(self) -> bool:
-        """Whether any variable has a tolerance."""
+    def frequencies(self) -> Real:
+        """Frequencies, rad/s, shape (k, motions); NaN where a motion does not oscillate."""
     @property
-    def doubts(self) -> list[list[str]]:
-        """For each mode the doubts that distances raise, as those of first order."""
+    def damping_ratios(self) -> Real:
+        """Damping ratios, shape (k, motions)."""
+    @property
+    def critical(self) -> Real:
+        """Values of the input at which the stable equilibrium loses its stiffness, SI."""
+    @property
+    def critical_kinds(self) -> list[str]:
+        """What happens at each of these, in words."""
+    @property
+    def flutter_onsets(self) -> Real:
+        """Values of the input at which an oscillation begins or ceases to grow, SI."""
+    @property
+    def modes(self) -> list[Modes | None]:
+        """The modes at each value, or None."""
+    @property
+    def values(self) -> Real:
+        """Values of the input, SI, shape (k,)."""
+    @property
+    def coordinates(self) -> Real:
+        """Unknowns of the equilibria, shape (k, n); NaN where there is none."""
     @property
     def failures(self) -> list[str | None]:
-        """Why a mode has no second order: a text for each mode, or None."""
-    def mean(self, quantity: Quantity = "frequency") -> Real:
-        """Means, shape (m,)."""
-    def sigma(self, quantity: Quantity = "frequency") -> Real:
-        """Standard deviations, shape (m,)."""
-    def skewness(self, quantity: Quantity = "frequency") -> Real:
-        """Skewness, shape (m,)."""
-    def excess_kurtosis(self, quantity: Quantity = "frequency") -> Real:
-        """Excess kurtosis, shape (m,)."""
-    def mean_shift(self, quantity: Quantity = "frequency") -> Real:
-        """Shifts of the means by curvature, shape (m,)."""
-    def first_order_sigma(self, quantity: Quantity = "frequency") -> Real:
-        """Standard deviations to first order, shape (m,)."""
-    def curvature_sigma(self, quantity: Quantity = "frequency") -> Real:
-        """Part of the standard deviations that curvature adds (its square is added to that of first order), shape (m,)."""
-    def first_order_error(self, quantity: Quantity = "frequency") -> Real:
-        """Relative errors of the standard deviations to first order by this model, shape (m,)."""
+        """Why there is no equilibrium, or there are no modes, at each value: a text, or None where there are both."""
+    @property
+    def equilibria(self) -> list[Equilibrium | None]:
+        """The equilibrium at each value, or None."""
+    @property
+    def searched(self) -> tuple[float, float, float] | None:
+        """The range that was searched for events, SI: its ends, and how close two of them may be; or None."""
+    @property
+    def unsearched(self) -> list[tuple[float, float]]:
+        """Stretches of it, SI, in which something may have been missed."""
+    @property
+    def unreached(self) -> int:
+        """Number of values that were not reached."""
+    @property
+    def input(self) -> str:
+        """Name of the input."""
+    def __len__(self) -> int: ...
 
 @final
-class Summary(_Result):
-    """First order, second order, and for each mode whether its standard deviation can be trusted."""
+class Import:
+    """A robot as a declaration; numbers are SI."""
 
+    def __new__(cls, declaration: str, names: Mapping[str, str], notes: Sequence[str]) -> Self: ...
     @property
-    def first(self) -> FirstOrder:
-        """The first-order spread."""
+    def declaration(self) -> str:
+        """Text in the language of eigentol."""
     @property
-    def second(self) -> SecondOrder:
-        """The spread to second order."""
+    def names(self) -> dict[str, str]:
+        """By the name in the declaration, that in the file: of every link and joint that had to be renamed."""
     @property
-    def trusted(self) -> bool:
-        """Whether every mode is trusted."""
-    @property
-    def doubts(self) -> list[list[str]]:
-        """For each mode why its standard deviation is in doubt: texts, none where it can be trusted."""
-    @property
-    def trusted_modes(self) -> Flags:
-        """Whether each mode is trusted, shape (m,)."""
-    @property
-    def use_instead(self) -> list[Advised]:
-        """What to use for each mode: "first order", "second order", "cluster" or "samples"."""
-    @property
-    def clusters(self) -> Clusters:
-        """The modes that tolerances bring together."""
-    @property
-    def samples(self) -> int | None:
-        """Number of samples that judged; None where none were needed or they are too dear."""
-    @property
-    def outcomes(self) -> dict[str, tuple[float, float]]:
-        """How probable each outcome is by the samples, by name: 95 % interval."""
-    @property
-    def on_another_branch(self) -> tuple[float, float] | None:
-        """How probable it is that a design settles on another branch: 95 % interval; None where it was not looked for."""
-    def sampled_mean(self, quantity: Quantity = "frequency") -> Real:
-        """Means of a quantity over the samples that judged, shape (m,); NaN where there are none."""
-    def sampled_sigma(self, quantity: Quantity = "frequency") -> Real:
-        """Standard deviations likewise, shape (m,)."""
-    def sampled_sigma_error(self, quantity: Quantity = "frequency") -> Real:
-        """Standard errors of these, shape (m,)."""
-    def first_order_error(self, quantity: Quantity = "frequency") -> Real:
-        """Relative errors of the standard deviations to first order by the same samples, shape (m,)."""
-    def second_order_error(self, quantity: Quantity = "frequency") -> Real:
-        """Relative errors of those to second order, shape (m,)."""
-
-@final
-class WorstCase(_Result):
-    """The least and the greatest values of responses within the limits, SI. `k` is the number of responses."""
-
-    @property
-    def least(self) -> Real:
-        """Least values, shape (k,); NaN where there is none."""
-    @property
-    def greatest(self) -> Real:
-        """Greatest values, shape (k,); NaN where there is none."""
-    @property
-    def names(self) -> list[str]:
-        """Names of the responses."""
-    @property
-    def nominal(self) -> Real:
-        """Values at the nominal design, SI, shape (k,)."""
-    @property
-    def least_designs(self) -> Real:
-        """Designs of the least values, SI, shape (k, design)."""
-    @property
-    def greatest_designs(self) -> Real:
-        """Designs of the greatest values, SI, shape (k, design)."""
-    @property
-    def confirmed(self) -> list[tuple[bool, bool]]:
-        """Whether no design near that of the least and of the greatest value is worse, a pair for each response."""
-    @property
-    def turning(self) -> list[list[str]]:
-        """For each response the names of the variables in which it is not monotonic."""
-    @property
-    def missing(self) -> list[list[tuple[list[float], str]]]:
-        """For each response the designs at corners of the limits that lack it, SI, and what became of them."""
-    @property
-    def limits(self) -> Real:
-        """Least and greatest values of all design variables, SI, shape (design, 2)."""
-    @property
-    def evaluations(self) -> int:
-        """Number of designs that were evaluated."""
+    def notes(self) -> list[str]:
+        """What the declaration does not say, or says in another way than the file."""
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
 
 @final
 class Study:
@@ -2174,7 +965,7 @@ class Study:
         failure: Sequence[float],
         tolerances: Choices,
         nominals: Ranges | None = None,
-    ) -> Allocation:
+    ) -> Answer:
         """The cheapest tolerances that meet requirements, as `chances` takes them; samples check what is found.
 
             study.allocate(
@@ -2196,7 +987,7 @@ class Study:
         mode: int,
         inputs: Numbers | None = None,
         design: Numbers | None = None,
-    ) -> DirectionalDerivatives:
+    ) -> Answer:
         """Derivatives of the eigenvalues in the cluster of a mode, counted from 0, along a change of inputs and design
         variables: lists, SI, or dictionaries by name; what is not named stays as it is. Equal eigenvalues split
         differently in each direction.
@@ -2205,66 +996,66 @@ class Study:
         """The samples `start` to below `stop` of `monte_carlo`, with the same seed: parts merge to the same bits as the
         whole run.
         """
-    def assembly(self) -> Assembly:
+    def assembly(self) -> Answer:
         """The state that closes the loops from the start values, before any equilibrium is looked for: which of the
         assemblies it is, and how far from a dead centre. Coordinates with a start value are held.
         """
     def equilibrium(self) -> Equilibrium:
         """Where the mechanism stays: equilibrium, Mhat, Chat, Khat, stability."""
-    def equilibrium_shift(self) -> EquilibriumShift:
+    def equilibrium_shift(self) -> Answer:
         """How the equilibrium moves with inputs and design variables."""
     def modes(self) -> Modes:
         """How it vibrates about the equilibrium."""
     def sensitivities(self) -> Sensitivities:
         """Total derivatives of all modes."""
-    def outputs(self) -> OutputSensitivities:
+    def outputs(self) -> Answer:
         """The outputs and their total derivatives."""
     def forced_response(self) -> ForcedResponse:
         """The steady vibration under the declared excitations. Raises NoVibration where nothing excites one, and where a mode
         without damping resonates.
         """
-    def forced_sensitivities(self) -> ForcedSensitivities:
+    def forced_sensitivities(self) -> Answer:
         """The steady vibration and its total derivatives: equilibrium and frequencies follow the variables."""
-    def share_sensitivities(self) -> ForcedSensitivities:
+    def share_sensitivities(self) -> Answer:
         """What each excitation contributes, and its total derivatives: a harmonic for every excitation alone, in the order of
         `mechanism.excitations`.
         """
-    def forced_curvature(self) -> ForcedCurvature:
+    def forced_curvature(self) -> Answer:
         """The steady vibration with total first and second derivatives."""
-    def output_tolerances(self) -> OutputTolerances:
+    def output_tolerances(self) -> Answer:
         """First-order spread of the outputs."""
-    def first_order(self) -> FirstOrder:
+    def first_order(self) -> Answer:
         """First-order spread of all modes."""
-    def second_order(self) -> SecondOrder:
+    def second_order(self) -> Answer:
         """Spread of all modes to second order."""
-    def summary(self) -> Summary:
+    def summary(self) -> Answer:
         """First order, second order, and for each mode whether its standard deviation can be trusted. The samples that
         judge are always the same, whatever `samples` and `seed` of the study.
         """
-    def propagate(self, responses: Sequence[tuple[Any, ...]]) -> Propagation:
+    def propagate(self, responses: Sequence[tuple[Any, ...]]) -> Answer:
         """How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
         "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0,
         300), as `response` takes them.
         """
-    def influence(self, responses: Sequence[tuple[Any, ...]]) -> Influence:
+    def influence(self, responses: Sequence[tuple[Any, ...]]) -> Answer:
         """Which variables the scatter of responses comes from; tuples as `propagate` takes them."""
-    def worst_case(self, responses: Sequence[tuple[Any, ...]]) -> WorstCase:
+    def worst_case(self, responses: Sequence[tuple[Any, ...]]) -> Answer:
         """The least and the greatest values of responses within the limits; tuples as `propagate` takes them."""
-    def branches(self, input: str, low: Value, high: Value) -> Branches:
+    def branches(self, input: str, low: Value, high: Value) -> Answer:
         """Branches of equilibria along an input between two values, SI or texts with units."""
-    def critical(self, input: str, low: Value, high: Value) -> Event:
+    def critical(self, input: str, low: Value, high: Value) -> Answer:
         """The first value of an input between two, SI or texts with units, at which the stable equilibrium loses its
         stiffness, and how tolerances move it. Raises NotInRange where there is none. A tolerance of this input counts
         with a derivative of -1, as the value that is set lies below the one that acts by the deviation; one in per cent
         is that at the operating point.
         """
-    def critical_curvature(self, input: str, low: Value, high: Value) -> EventCurvature:
+    def critical_curvature(self, input: str, low: Value, high: Value) -> Answer:
         """First and second derivatives of that value by the design variables."""
-    def flutter_onsets(self, input: str, low: Value, high: Value) -> list[Event]:
+    def flutter_onsets(self, input: str, low: Value, high: Value) -> Answer:
         """Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and
         how tolerances move them.
         """
-    def vibration_spread(self, vibrations: Sequence[tuple[Any, ...]]) -> Propagation:
+    def vibration_spread(self, vibrations: Sequence[tuple[Any, ...]]) -> Answer:
         """How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
         measure) as `response` takes them.
         """
@@ -2273,13 +1064,13 @@ class Study:
         modes: int | None = None,
         along: tuple[Any, ...] | None = None,
         orders: Sequence[float] = ...,
-    ) -> Convergence:
+    ) -> Answer:
         """How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
         one and with two more coordinates of each component of the beams. `along`, the tuple of an input and two values
         of it, SI or texts with units, adds the first critical value between them, onsets of flutter, where frequencies meet `orders`, and the
         highest peaks. Raises InvalidValue where there is no beam.
         """
-    def bode(self, input: str, values: ArrayLike, unit: str | None = None) -> Bode:
+    def bode(self, input: str, values: ArrayLike, unit: str | None = None) -> Answer:
         """Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,
         texts with units, or numbers in `unit`. A value without a vibration is NaN in arrays; `failures` says why.
         """
@@ -2290,13 +1081,22 @@ class Study:
         vibrations: Sequence[tuple[Any, ...]],
         checked: int = 64,
         unit: str | None = None,
-    ) -> Bode:
+    ) -> Answer:
         """The same with bands of these vibrations under tolerances, given as `vibration_spread` takes them. `checked`
         designs are solved anew at each value to say how good the bands are; 0 for none.
         """
-    def peaks(self, vibration: tuple[Any, ...], input: str, low: Value, high: Value) -> Peaks:
+    def peaks(
+        self,
+        vibration: tuple[Any, ...],
+        input: str,
+        low: Value,
+        high: Value,
+        operating: tuple[Value, Value] | None = None,
+    ) -> Answer:
         """The peaks of a vibration, a tuple such as `("vibration", "shake")`, between two values of an input: places, heights,
-        half-power points and amplification factors, with their derivatives and spreads.
+        half-power points and amplification factors, with their derivatives and spreads. With `operating`, the lowest and
+        the highest value of the input in operation, SI or texts with units, how far the peaks keep away from these, and
+        what their amplification factors ask for (API 617).
         """
     def monte_carlo(self) -> MonteCarlo:
         """Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
@@ -2317,32 +1117,26 @@ class Study:
         """
     def kinds(self) -> list[str | None]:
         """Kind of each mode, "lateral", "torsional", "axial" or "mixed"; None where no shaft moves."""
-    def mode_curvature(self, mode: int) -> ModeCurvature:
+    def mode_curvature(self, mode: int) -> Answer:
         """First and second derivatives of one mode, counted from 0."""
-    def output_curvature(self, output: str) -> OutputCurvature:
+    def output_curvature(self, output: str) -> Answer:
         """First and second derivatives of an output."""
-    def shape_sensitivity(self, mode: int) -> ShapeSensitivity:
+    def shape_sensitivity(self, mode: int) -> Answer:
         """Derivatives of the shapes of one mode, counted from 0."""
     def sweep(self, input: str, values: ArrayLike, unit: str | None = None) -> Sweep:
         """Equilibria and modes along an input. Values are SI, texts with units, or numbers in `unit`."""
-    def campbell(
-        self,
-        input: str,
-        values: ArrayLike,
-        orders: Sequence[float] = ...,
-        unit: str | None = None,
-    ) -> Campbell:
+    def campbell(self, input: str, values: ArrayLike, orders: Sequence[float] = ..., unit: str | None = None) -> Answer:
         """A Campbell diagram: modes along an input with spreads, and where they meet `orders`, multiples of the input.
         Values are SI, texts with units, or numbers in `unit`.
         """
-    def crossings(self, input: str, low: Value, high: Value, order: float = 1.0, offset: float = 0.0) -> list[Event]:
+    def crossings(self, input: str, low: Value, high: Value, order: float = 1.0, offset: float = 0.0) -> Answer:
         """Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and
         `offset` (rad/s) more, and how tolerances move them.
         """
     def report(
         self,
         path: str | PathLike[str],
-        sweep: tuple[Real, Real] | None = None,
+        sweep: Along | None = None,
         orders: Sequence[float] = ...,
         title: str | None = None,
         mode_names: Sequence[str] = ...,
@@ -2358,24 +1152,29 @@ class Study:
 
         Raises OSError when the file cannot be written. What an analysis refuses is said in the report.
         """
-    def chances(
-        self,
-        requirements: Sequence[Requirement],
-        start: int | None = None,
-        stop: int | None = None,
-    ) -> Chances:
+    def chances(self, requirements: Sequence[Requirement], start: int | None = None, stop: int | None = None) -> Answer:
         """Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low
         and a high end, None for no end: `(("frequency", 0), 3.9, None)`, or a forbidden band:
         `("outside", ("frequency", 0), 3.0, 4.0)`, or one within a fraction of a multiple (1) of an input:
         `("away", ("frequency", 0), "speed", 0.1, 2.0)`; frequencies are in rad/s. Of `start` and `stop` only the samples
         `start` to below `stop` are taken; numbers of samples of parts add up to those of the whole. Ctrl-C ends it.
         """
-    def probability(self, requirements: Sequence[Requirement]) -> Probabilities:
+    def rare_failure(self, requirements: Sequence[Requirement]) -> Answer:
+        """A small probability of failing any requirement, by importance sampling about the design points; requirements as
+        `chances` takes them.
+        """
+    def second_order_failure(self, requirement: Requirement) -> Answer:
+        """Probability of failing one requirement by the second-order model of its response, with what changes it;
+        requirements as `chances` takes them.
+        """
+    def probability(self, requirements: Sequence[Requirement]) -> Answer:
         """How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
         of designs, or samples; requirements as `chances` takes them.
         """
-    def reliability(self, requirements: Sequence[Requirement]) -> Reliability:
-        """Reliability by way of design points (FORM), judged by designs solved anew; requirements as `chances` takes them."""
+    def reliability(self, requirements: Sequence[Requirement]) -> Answer:
+        """Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
+        takes them.
+        """
     def response(self, what: str, *of: Any, variables: Sequence[str] | None = None) -> Response:
         """A response as a function of arrays of designs.
 

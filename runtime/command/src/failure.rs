@@ -5,7 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use eigentol::Error;
-use eigentol_interpreter::{Mistakes, RefineError};
+use eigentol_compiler::base::nearest::nearest;
+use eigentol_interpreter::{Mistakes, RefineError, WantedError};
 use thiserror::Error as ThisError;
 
 use crate::advice;
@@ -121,6 +122,17 @@ impl Failure {
     }
 }
 
+/// Reports an unknown name and suggests the nearest one.
+pub(crate) fn unknown<'a>(mechanism: &str, kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {
+    let known: Vec<&str> = known.collect();
+    let help = match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if known.is_empty() => "it has none".to_owned(),
+        None => format!("it has `{}`", known.join("`, `")),
+    };
+    Failure::UnknownName { mechanism: mechanism.to_owned(), kind: kind.to_owned(), name: name.to_owned(), help }
+}
+
 /// Most characters of a value that are repeated in a message about it.
 const LONGEST: usize = 80;
 
@@ -128,6 +140,20 @@ fn shortened(text: &str) -> String {
     match text.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{} ...", &text[..end]),
         None => text.to_owned(),
+    }
+}
+
+impl From<WantedError> for Failure {
+    fn from(error: WantedError) -> Self {
+        match error {
+            WantedError::Meaning { message, help } => Self::usage(message, help),
+            WantedError::Value { place, mistakes } => Self::value(place, &mistakes),
+            WantedError::Name(Error::UnknownName { kind, name, mechanism, known }) => {
+                unknown(&mechanism, kind, &name, known.iter().map(|x| &**x))
+            }
+            WantedError::Name(error) => Self::Analysis(error),
+            other => Self::Usage(other.to_string(), None),
+        }
     }
 }
 

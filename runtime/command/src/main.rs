@@ -8,7 +8,6 @@ mod commands;
 mod declaration;
 mod destination;
 mod diagnostics;
-mod ends;
 mod failure;
 mod interrupt;
 mod mistake;

@@ -7,18 +7,15 @@ use clap::Args;
 use eigentol::equilibrium::{Equilibria, Search};
 use eigentol::judge;
 use eigentol::{
-    Coordinate, CoordinateInfo, Description, DesignVariable, Input, Law, Matrix, Parameter, Role, Study, Text,
-    ToleranceInfo, Unit,
+    Coordinate, CoordinateInfo, DesignVariable, Input, Law, Matrix, Parameter, Role, Study, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
-use eigentol_compiler::base::nearest::nearest;
-use eigentol_interpreter::{Interpreted, design_tolerance, tolerance, value};
+use eigentol_interpreter::{Interpreted, design_tolerance, tolerance, value, with_unit_of};
 
 use crate::advice;
 use crate::declaration::Declaration;
 use crate::diagnostics;
-use crate::ends::with_unit_of;
-use crate::failure::Failure;
+use crate::failure::{Failure, unknown};
 use crate::progress;
 use crate::study_file::{Correlation, StudyFile, Written};
 
@@ -329,14 +326,14 @@ pub(crate) fn parameter(study: &Study<Interpreted>, name: &str) -> Result<(Param
     if let Ok(variable) = study.find_design(name) {
         return Ok((variable.into(), description.design[variable.index()].unit.clone()));
     }
-    let inputs = description.inputs.iter().map(|info| &info.name);
+    let inputs = description.inputs.iter().map(|info| &*info.name);
     if study.find_coordinate(name).is_ok() {
         let message = format!("`{name}` is a coordinate, not an input or design variable");
         let help = "the analysis finds its value; `--start` says where the search begins";
         return Err(Failure::usage(message, help));
     }
-    let known = inputs.chain(description.design.iter().map(|info| &info.name));
-    Err(unknown(description, "input or design variable", name, known))
+    let known = inputs.chain(description.design.iter().map(|info| &*info.name));
+    Err(unknown(&description.name, "input or design variable", name, known))
 }
 
 /// The design variable with this name, and its unit.
@@ -344,7 +341,7 @@ pub(crate) fn design(study: &Study<Interpreted>, name: &str) -> Result<(DesignVa
     let all = &study.description().design;
     match study.find_design(name) {
         Ok(design_variable) => Ok((design_variable, all[design_variable.index()].unit.clone())),
-        Err(_) => Err(unknown(study.description(), "design variable", name, all.iter().map(|info| &info.name))),
+        Err(_) => Err(unknown(&study.description().name, "design variable", name, all.iter().map(|info| &*info.name))),
     }
 }
 
@@ -354,8 +351,8 @@ pub(crate) fn input(study: &Study<Interpreted>, name: &str) -> Result<(Input<Int
     match study.find_input(name) {
         Ok(input) => Ok((input, all[input.index()].unit.clone())),
         Err(_) => {
-            let known = all.iter().map(|info| &info.name);
-            Err(unknown(study.description(), "input", name, known))
+            let known = all.iter().map(|info| &*info.name);
+            Err(unknown(&study.description().name, "input", name, known))
         }
     }
 }
@@ -371,26 +368,10 @@ fn coordinate(study: &Study<Interpreted>, name: &str) -> Result<(Coordinate<Inte
         }
         Err(_) => {
             let moves = |info: &&CoordinateInfo| matches!(info.role, Role::Position | Role::Speed);
-            let known = all.iter().filter(moves).map(|info| &info.name);
-            Err(unknown(study.description(), "coordinate", name, known))
+            let known = all.iter().filter(moves).map(|info| &*info.name);
+            Err(unknown(&study.description().name, "coordinate", name, known))
         }
     }
-}
-
-/// Reports an unknown name and suggests the nearest one.
-pub(crate) fn unknown<'a>(
-    description: &Description,
-    kind: &str,
-    name: &str,
-    known: impl Iterator<Item = &'a Text>,
-) -> Failure {
-    let known: Vec<&str> = known.map(|x| &**x).collect();
-    let help = match nearest(name, known.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None if known.is_empty() => "it has none".to_owned(),
-        None => format!("it has `{}`", known.join("`, `")),
-    };
-    Failure::UnknownName { mechanism: description.name.to_string(), kind: kind.to_owned(), name: name.to_owned(), help }
 }
 
 /// Reads a value from a study file.

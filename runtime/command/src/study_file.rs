@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 use crate::failure::Failure;
 
@@ -53,9 +53,12 @@ pub(crate) struct StudyFile {
     pub(crate) samples: Option<usize>,
     pub(crate) seed: Option<u64>,
     pub(crate) stream: Option<u64>,
-    /// The requirements on the design.
-    #[serde(default)]
-    pub(crate) require: Vec<Require>,
+    /// The requirements on the design, as for `--require`.
+    #[serde(default, deserialize_with = "texts")]
+    pub(crate) require: Vec<String>,
+    /// The greatest probability of violating them, one or one for each.
+    #[serde(default, deserialize_with = "one_or_each")]
+    pub(crate) failure: Option<Vec<f64>>,
     /// The tolerances and nominal values that `allocate` may choose.
     #[serde(default)]
     pub(crate) choose: Vec<Choose>,
@@ -66,6 +69,29 @@ pub(crate) struct StudyFile {
 #[serde(untagged, expecting = "a list of pairs, each with its correlation: `correlation = [[\"l\", \"k\", 0.5]]`")]
 pub(crate) enum Correlation {
     Pairs(Vec<(String, String, f64)>),
+}
+
+/// A requirement is a text.
+fn texts<'de, D: Deserializer<'de>>(given: D) -> Result<Vec<String>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "a requirement is a text: `require = [\"frequency 1 >= 20 Hz\"]`, `failure = 0.001`")]
+    enum Texts {
+        All(Vec<String>),
+    }
+    Texts::deserialize(given).map(|Texts::All(all)| all)
+}
+
+fn one_or_each<'de, D: Deserializer<'de>>(given: D) -> Result<Option<Vec<f64>>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "a number, or a list with one for each requirement")]
+    enum Numbers {
+        One(f64),
+        Each(Vec<f64>),
+    }
+    Ok(Some(match Numbers::deserialize(given)? {
+        Numbers::One(number) => vec![number],
+        Numbers::Each(all) => all,
+    }))
 }
 
 /// A value as written: text with its unit, or a number without one.
@@ -94,77 +120,6 @@ pub(crate) enum FrequencyUnit {
     #[value(name = "rad/s")]
     #[serde(rename = "rad/s")]
     RadiansPerSecond,
-}
-
-/// A requirement: a mode quantity, an output, or the input value of an event must lie within limits or outside a band.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a table `[[require]]`")]
-pub(crate) struct Require {
-    /// Counted from 1.
-    pub(crate) mode: Option<usize>,
-    /// Quantity of a mode at the operating point; its frequency by default.
-    pub(crate) quantity: Option<Quantity>,
-    pub(crate) output: Option<String>,
-    /// An output that vibrates under excitations.
-    pub(crate) vibration: Option<String>,
-    /// One of the excitations; not needed if all have one frequency.
-    pub(crate) under: Option<String>,
-    /// What is measured of the vibration; the displacement by default.
-    pub(crate) measure: Option<Measure>,
-    /// A range, as for `--sweep`: the greatest amplitude in it.
-    pub(crate) along: Option<String>,
-    /// A range: where in it the highest peak of the vibration is.
-    pub(crate) peak: Option<String>,
-    /// Where the equilibrium loses its stiffness; a range, as for `--sweep`.
-    pub(crate) critical: Option<String>,
-    /// Where the frequency of the mode is `order` times the input.
-    pub(crate) resonance: Option<String>,
-    /// Order of a resonance; 1 by default.
-    pub(crate) order: Option<f64>,
-    /// Where the mode begins to grow.
-    pub(crate) flutter: Option<String>,
-    /// The equilibrium must be stable.
-    #[serde(default)]
-    pub(crate) stable: bool,
-    pub(crate) at_least: Option<Written>,
-    pub(crate) at_most: Option<Written>,
-    pub(crate) outside: Option<[Written; 2]>,
-    /// A multiple of an input, and how far away from it: `2 speed by 10%`.
-    pub(crate) away_from: Option<String>,
-    /// Maximum probability of violating the requirement.
-    pub(crate) failure: Option<f64>,
-}
-
-/// The measure of a vibration.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Measure {
-    Displacement,
-    Velocity,
-    Acceleration,
-}
-
-/// The required quantity of a mode.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Quantity {
-    Frequency,
-    NaturalFrequency,
-    DampingRatio,
-    Growth,
-}
-
-impl Quantity {
-    /// The quantity of this name.
-    pub(crate) fn named(name: &str) -> Option<Self> {
-        Some(match name {
-            "frequency" => Self::Frequency,
-            "natural_frequency" => Self::NaturalFrequency,
-            "damping_ratio" => Self::DampingRatio,
-            "growth" => Self::Growth,
-            _ => return None,
-        })
-    }
 }
 
 /// A half-width or a nominal value that may be chosen between limits.

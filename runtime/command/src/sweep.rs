@@ -2,11 +2,10 @@
 
 use clap::Args;
 use eigentol::{Input, Study};
-use eigentol_interpreter::{Interpreted, value};
+use eigentol_interpreter::{Interpreted, multiple};
 
-use crate::ends::with_unit_of;
 use crate::failure::{Failure, plural};
-use crate::point::{Question, input, whole};
+use crate::point::{Question, whole};
 
 /// Default number of points of a sweep.
 const POINTS: usize = 51;
@@ -79,21 +78,8 @@ pub(crate) fn unswept(option: &str) -> Failure {
 
 /// Parses a range.
 pub(crate) fn range(study: &Study<Interpreted>, text: &str) -> Result<Range, Failure> {
-    let parts = text.split_once('=').and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)));
-    let Some((name, (low, high))) = parts else {
-        let help = "write a range of an input as `speed=0..6000rpm`";
-        return Err(Failure::usage(format!("`{text}` is not a range"), help));
-    };
-    let (input, unit) = input(study, name)?;
-    for (end, what, instead) in [(low, "start", format!("0..{high}")), (high, "end", format!("{low}..6000rpm"))] {
-        if end.trim().is_empty() {
-            let message = format!("the range `{text}` has no {what}");
-            return Err(Failure::usage(message, format!("write `{name}={instead}`")));
-        }
-    }
-    let refused = |mistakes| Failure::value(format!("sweep {text}"), &mistakes);
-    let end = |text: &str| value(text, &unit, &format!("`{name}`")).map_err(refused);
-    Ok(Range { input, low: end(&with_unit_of(low, high))?, high: end(high)? })
+    let range = eigentol_interpreter::range(study, text)?;
+    Ok(Range { input: Input::new(range.input.index()), low: range.low, high: range.high })
 }
 
 impl Points {
@@ -150,8 +136,9 @@ impl Orders {
             false => &self.orders,
         };
         let mut orders = Vec::new();
+        let along = eigentol::sweep::Range::new(range.input.any(), range.low, range.high);
         for &order in given {
-            let order = multiple(order, range, &question.study)?;
+            let order = multiple(order, &along, &question.study)?;
             for line in [order, -order] {
                 let meets = |end: f64| line * end > 0.0;
                 let new = !orders.contains(&line);
@@ -161,50 +148,5 @@ impl Orders {
             }
         }
         Ok(orders)
-    }
-}
-
-/// Requires an order to be a multiple of the input with which a mode can oscillate somewhere in a range.
-pub(crate) fn multiple(order: f64, range: &Range, study: &Study<Interpreted>) -> Result<f64, Failure> {
-    let info = &study.description().inputs[range.input.index()];
-    let name = &info.name;
-    if value("1 rad/s", &info.unit, name).is_err() {
-        let message = format!(
-            "an engine order is a multiple of a speed of rotation or a frequency, and `{name}` is in {}",
-            match &*info.unit.symbol {
-                "" => "pure numbers",
-                symbol => symbol,
-            }
-        );
-        let help = "leave the order out, or sweep an input in rpm, rad/s or Hz";
-        return Err(Failure::usage(message, help));
-    }
-    let help = match order {
-        0.0 => "order 1 is once per revolution: `--order 1`",
-        order if !order.is_finite() => "give a finite number: `--order 1,2`",
-        order if order < 0.0 && range.low.min(range.high) >= 0.0 => {
-            "an excitation has a positive frequency: `--order 1`"
-        }
-        _ => return Ok(order),
-    };
-    let message = format!("order {order} crosses no mode");
-    Err(Failure::usage(message, help))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::with_unit_of;
-
-    #[test]
-    fn the_low_end_takes_the_unit_of_the_high_end() {
-        for (low, high, expected) in [
-            ("0", "6000rpm", "0 rpm"),
-            ("-1e3", "1.5e3 rad/s", "-1e3 rad/s"),
-            ("10Hz", "6000rpm", "10Hz"),
-            ("1", "2", "1 "),
-            ("1", "rpm", "1 rpm"),
-        ] {
-            assert_eq!(with_unit_of(low, high), expected);
-        }
     }
 }

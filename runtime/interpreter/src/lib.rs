@@ -9,8 +9,12 @@ mod picture;
 mod registers;
 mod schedule;
 mod tape;
+mod wanted;
 
 pub use description::description;
 pub use given::{design_tolerance, tolerance, value};
 pub use mechanism::Interpreted;
 pub use mistakes::{Mistake, Mistakes, ReadError, RefineError};
+pub use wanted::{
+    FORMS, WantedError, excitation, multiple, output, range, requirement, response, vibration, with_unit_of,
+};

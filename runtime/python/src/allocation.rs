@@ -5,12 +5,11 @@ use eigentol::{Description, Unit};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{Array1, vector};
-use crate::requirements::{Chances, Reliability, Requirement};
-use crate::results::{attributes, result};
+use crate::hints;
+use crate::requirements::Requirement;
+use crate::results::Answer;
 use crate::study::Study;
 use crate::values::{List, number};
-use crate::{hints, names};
 
 /// Half-widths and what they cost, by name.
 ///
@@ -43,7 +42,7 @@ impl Study {
         failure: Vec<f64>,
         tolerances: &Choices<'_>,
         nominals: Option<&hints::Ranges<'_>>,
-    ) -> PyResult<Allocation> {
+    ) -> PyResult<Answer> {
         let wanted = self.requirements(&requirements)?;
         let of = self.inner.description();
         let mut half_widths = Vec::new();
@@ -75,7 +74,7 @@ impl Study {
             };
             study.allocation(&wanted, &choices)
         });
-        answer.map(Allocation)
+        answer.map(Answer::new)
     }
 }
 
@@ -88,40 +87,5 @@ impl Study {
             Some(k) => Ok((of.design.len() + k, of.inputs[inputs[k].index()].unit.clone())),
             None => List::Design.find(py, of, name),
         }
-    }
-}
-
-result! {
-    /// The cheapest tolerances that were found. `k` is the number of requirements.
-    Allocation(allocation::Allocation)
-}
-
-attributes! {
-    Allocation(self, py) {
-        /// Names of the design variables, and after them of the inputs that have a tolerance.
-        names: Vec<&str> = names::design(&self.0.description);
-        /// Nominal values, SI, shape (variables,).
-        nominal: Array1<'py> = vector(py, self.0.nominal.iter().copied());
-        /// Half-widths, SI, shape (variables,).
-        half_widths: Array1<'py> = vector(py, self.0.half_widths.iter().copied());
-        /// Sum of the costs.
-        cost: f64 = self.0.cost;
-        /// The same for the tolerances at the start.
-        cost_before: f64 = self.0.cost_before;
-        /// Share of the samples that fail each requirement, shape (k,).
-        sampled_failure: Array1<'py> =
-            vector(py, self.0.chances.each.iter().map(|chance| chance.failure()));
-        /// Positions of the requirements that the samples refute: first order failed there, allow less.
-        refuted: Vec<usize> = self.0.refuted.clone();
-        /// Greatest probability of failing each requirement that was allowed, shape (k,).
-        failure: Array1<'py> = vector(py, self.0.failure.iter().copied());
-        /// Reliability of what was found, by design points.
-        reliability: Reliability = Reliability(self.0.reliability.clone());
-        /// Chances of what was found, by samples.
-        chances: Chances = Chances(self.0.chances.clone());
-        /// Number of choices that were tried.
-        evaluations: usize = self.0.evaluations;
-        /// Whether the search was stopped, so that there may be cheaper ones.
-        stopped: bool = self.0.stopped;
     }
 }

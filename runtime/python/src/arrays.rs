@@ -1,13 +1,12 @@
 //! Results as numpy arrays.
 
 use eigentol::{Complex, Matrix};
-use numpy::{Element, PyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyArrayMethods};
+use numpy::{Element, PyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 
 pub(crate) type Array1<'py, T = f64> = Bound<'py, PyArray1<T>>;
 pub(crate) type Array2<'py, T = f64> = Bound<'py, PyArray2<T>>;
 pub(crate) type Array3<'py, T = f64> = Bound<'py, PyArray3<T>>;
-pub(crate) type Array4<'py, T = f64> = Bound<'py, PyArray4<T>>;
 
 /// A complex number that is missing.
 pub(crate) const NONE: Complex = Complex::new(f64::NAN, f64::NAN);

@@ -1,12 +1,12 @@
 //! Modes whose eigenvalues are equal, or so close that tolerances mix them.
 
-use eigentol::clusters::{self, ClusterSpread, ClusterTolerance, SortedSpread};
+use eigentol::clusters::{ClusterSpread, ClusterTolerance, SortedSpread};
 use eigentol::{Complex, tolerance::Statistics};
 use pyo3::prelude::*;
 
 use crate::arrays::{Array1, optional, vector};
 use crate::hints;
-use crate::results::{attributes, family, result};
+use crate::results::{Answer, Described, attributes, family, result};
 use crate::study::Study;
 use crate::values::{List, mode_number, word};
 
@@ -27,19 +27,19 @@ impl Study {
         mode: i64,
         inputs: Option<&hints::Numbers<'_>>,
         design: Option<&hints::Numbers<'_>>,
-    ) -> PyResult<DirectionalDerivatives> {
+    ) -> PyResult<Answer> {
         let mode = mode_number(py, mode)?;
         let of = self.inner.description();
         let inputs = List::Inputs.changes(py, of, inputs)?;
         let design = List::Design.changes(py, of, design)?;
         let answer = self.ask(py, |study| study.directional_derivatives(mode, (&inputs, &design)));
-        answer.map(DirectionalDerivatives)
+        answer.map(Answer::new)
     }
 }
 
 result! {
     /// The modes that tolerances bring together. `k` is the number of clusters.
-    Clusters(Vec<ClusterTolerance>)
+    Clusters(Vec<ClusterTolerance>), crate::results::typed
 }
 
 impl Clusters {
@@ -125,22 +125,9 @@ attributes! {
     }
 }
 
-result! {
-    /// Derivatives of the eigenvalues of one cluster along one direction. `k` is the number of its modes; which derivative
-    /// belongs to which mode is not defined.
-    DirectionalDerivatives(clusters::DirectionalDerivatives)
-}
-
-attributes! {
-    DirectionalDerivatives(self, py) {
-        /// Positions of the modes, from 0.
-        modes: Vec<usize> = self.0.modes.clone();
-        /// Derivatives of lambda (1/s^2) of undamped modes, of s (1/s) of general ones, ascending, complex, shape (k,).
-        eigenvalues: Array1<'py, Complex> = vector(py, self.0.eigenvalues.iter().copied());
-        /// Derivatives of the frequencies, rad/s, ascending, shape (k,); NaN where the modes do not oscillate.
-        frequencies: Array1<'py> = {
-            let own = self.0.frequencies.as_ref();
-            optional(py, (0..self.0.modes.len()).map(|k| own?.get(k).copied()))
-        };
+#[pymethods]
+impl Clusters {
+    fn __len__(&self) -> usize {
+        self.0.len()
     }
 }

@@ -3,9 +3,7 @@
 mod allocation;
 mod arrays;
 mod clusters;
-mod common;
 mod errors;
-mod events;
 mod hints;
 mod kernels;
 mod mechanism;
@@ -19,7 +17,6 @@ mod response;
 mod results;
 mod robots;
 mod settings;
-mod spreads;
 mod study;
 mod values;
 
@@ -34,13 +31,9 @@ mod module {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::allocation::Allocation;
-    #[pymodule_export]
-    use crate::clusters::{Clusters, DirectionalDerivatives};
+    use crate::clusters::Clusters;
     #[pymodule_export]
     use crate::errors::Mistake;
-    #[pymodule_export]
-    use crate::events::Event;
     #[pymodule_export]
     use crate::mechanism::Mechanism;
     #[pymodule_export]
@@ -48,21 +41,11 @@ mod module {
     #[pymodule_export]
     use crate::parts::Part;
     #[pymodule_export]
-    use crate::requirements::{Chances, Probabilities, Reliability};
-    #[pymodule_export]
     use crate::response::Response;
     #[pymodule_export]
-    use crate::results::{
-        Assembly, Bode, Branch, Branches, Campbell, Convergence, Equilibrium, EquilibriumShift, EventCurvature,
-        ForcedCurvature, ForcedResponse, ForcedSensitivities, ModeCurvature, Modes, OutputCurvature,
-        OutputSensitivities, Peaks, Sensitivities, Separation, ShapeSensitivity, Sweep, json_schema,
-    };
+    use crate::results::{Answer, Equilibrium, ForcedResponse, Modes, MonteCarlo, Sensitivities, Sweep, json_schema};
     #[pymodule_export]
     use crate::robots::{Import, import_urdf};
-    #[pymodule_export]
-    use crate::spreads::{
-        FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary, WorstCase,
-    };
     #[pymodule_export]
     use crate::study::Study;
 

@@ -7,9 +7,8 @@ use pyo3::types::PyType;
 
 use crate::errors::{Kind, new, raise};
 use crate::hints;
-use crate::results::attributes;
+use crate::results::{MonteCarlo, attributes};
 use crate::settings::whole;
-use crate::spreads::MonteCarlo;
 use crate::study::Study;
 
 /// Some samples of a Monte Carlo run: parts merge to the same bits as the whole, in any order and from any machine.

@@ -10,29 +10,21 @@ use pyo3::types::{PyString, PyTuple};
 
 use crate::arrays::{Array1, optional};
 use crate::errors::invalid;
-use crate::events::{Event, events};
 use crate::hints;
 use crate::response::{range, wanted};
-use crate::results::{
-    Assembly, Bode, Branches, Campbell, Convergence, Equilibrium, EquilibriumShift, EventCurvature, ForcedCurvature,
-    ForcedResponse, ForcedSensitivities, ModeCurvature, Modes, OutputCurvature, OutputSensitivities, Peaks,
-    Sensitivities, ShapeSensitivity, Sweep,
-};
-use crate::spreads::{
-    FirstOrder, Influence, MonteCarlo, OutputTolerances, Propagation, SecondOrder, Summary, WorstCase,
-};
+use crate::results::{Answer, Equilibrium, ForcedResponse, Modes, MonteCarlo, Sensitivities, Sweep};
 use crate::study::Study;
 use crate::values::{List, mode_number, not_finite, number, numbers};
 
 /// Analyses without arguments.
 macro_rules! questions {
-    ($($(#[$doc:meta])* $question:ident -> $result:ident;)*) => {
+    ($($(#[$doc:meta])* $question:ident -> $result:ident = $wrap:expr;)*) => {
         #[pymethods]
         impl Study {
             $(
                 $(#[$doc])*
                 fn $question(&self, py: Python<'_>) -> PyResult<$result> {
-                    self.ask(py, |study| study.$question()).map($result)
+                    self.ask(py, |study| study.$question()).map($wrap)
                 }
             )*
         }
@@ -42,41 +34,41 @@ macro_rules! questions {
 questions! {
     /// The state that closes the loops from the start values, before any equilibrium is looked for: which of the
     /// assemblies it is, and how far from a dead centre. Coordinates with a start value are held.
-    assembly -> Assembly;
+    assembly -> Answer = Answer::new;
     /// Where the mechanism stays: equilibrium, Mhat, Chat, Khat, stability.
-    equilibrium -> Equilibrium;
+    equilibrium -> Equilibrium = Equilibrium;
     /// How the equilibrium moves with inputs and design variables.
-    equilibrium_shift -> EquilibriumShift;
+    equilibrium_shift -> Answer = Answer::new;
     /// How it vibrates about the equilibrium.
-    modes -> Modes;
+    modes -> Modes = Modes;
     /// Total derivatives of all modes.
-    sensitivities -> Sensitivities;
+    sensitivities -> Sensitivities = Sensitivities;
     /// The outputs and their total derivatives.
-    outputs -> OutputSensitivities;
+    outputs -> Answer = Answer::new;
     /// The steady vibration under the declared excitations. Raises NoVibration where nothing excites one, and where a mode
     /// without damping resonates.
-    forced_response -> ForcedResponse;
+    forced_response -> ForcedResponse = ForcedResponse;
     /// The steady vibration and its total derivatives: equilibrium and frequencies follow the variables.
-    forced_sensitivities -> ForcedSensitivities;
+    forced_sensitivities -> Answer = Answer::new;
     /// What each excitation contributes, and its total derivatives: a harmonic for every excitation alone, in the order of
     /// `mechanism.excitations`.
-    share_sensitivities -> ForcedSensitivities;
+    share_sensitivities -> Answer = Answer::new;
     /// The steady vibration with total first and second derivatives.
-    forced_curvature -> ForcedCurvature;
+    forced_curvature -> Answer = Answer::new;
     /// First-order spread of the outputs.
-    output_tolerances -> OutputTolerances;
+    output_tolerances -> Answer = Answer::new;
     /// First-order spread of all modes.
-    first_order -> FirstOrder;
+    first_order -> Answer = Answer::new;
     /// Spread of all modes to second order.
-    second_order -> SecondOrder;
+    second_order -> Answer = Answer::new;
     /// First order, second order, and for each mode whether its standard deviation can be trusted. The samples that
     /// judge are always the same, whatever `samples` and `seed` of the study.
-    summary -> Summary;
+    summary -> Answer = Answer::new;
 }
 
 /// Analyses of responses, given as the tuples that `Study.response` takes.
 macro_rules! of_responses {
-    ($($(#[$doc:meta])* $question:ident -> $result:ident;)*) => {
+    ($($(#[$doc:meta])* $question:ident;)*) => {
         #[pymethods]
         impl Study {
             $(
@@ -85,9 +77,9 @@ macro_rules! of_responses {
                     &self,
                     py: Python<'_>,
                     responses: Vec<Bound<'_, PyTuple>>,
-                ) -> PyResult<$result> {
+                ) -> PyResult<Answer> {
                     let wanted = self.wanted(responses)?;
-                    self.ask_stoppably(py, |study| study.$question(&wanted)).map($result)
+                    self.ask_stoppably(py, |study| study.$question(&wanted)).map(Answer::new)
                 }
             )*
         }
@@ -98,16 +90,16 @@ of_responses! {
     /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
     /// "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0,
     /// 300), as `response` takes them.
-    propagate -> Propagation;
+    propagate;
     /// Which variables the scatter of responses comes from; tuples as `propagate` takes them.
-    influence -> Influence;
+    influence;
     /// The least and the greatest values of responses within the limits; tuples as `propagate` takes them.
-    worst_case -> WorstCase;
+    worst_case;
 }
 
 /// Analyses between two values of an input.
 macro_rules! between {
-    ($($(#[$doc:meta])* $name:ident: $question:ident -> $result:ty = $wrap:expr;)*) => {
+    ($($(#[$doc:meta])* $name:ident: $question:ident;)*) => {
         #[pymethods]
         impl Study {
             $(
@@ -118,9 +110,9 @@ macro_rules! between {
                     input: &str,
                     low: &hints::Value<'_>,
                     high: &hints::Value<'_>,
-                ) -> PyResult<$result> {
+                ) -> PyResult<Answer> {
                     let (input, low, high) = self.range(py, input, low, high)?;
-                    self.ask_stoppably(py, |study| study.$question(input, low, high)).map($wrap)
+                    self.ask_stoppably(py, |study| study.$question(input, low, high)).map(Answer::new)
                 }
             )*
         }
@@ -129,17 +121,17 @@ macro_rules! between {
 
 between! {
     /// Branches of equilibria along an input between two values, SI or texts with units.
-    branches: branches -> Branches = Branches;
+    branches: branches;
     /// The first value of an input between two, SI or texts with units, at which the stable equilibrium loses its
     /// stiffness, and how tolerances move it. Raises NotInRange where there is none. A tolerance of this input counts
     /// with a derivative of -1, as the value that is set lies below the one that acts by the deviation; one in per cent
     /// is that at the operating point.
-    critical: critical_tolerance -> Event = Event;
+    critical: critical_tolerance;
     /// First and second derivatives of that value by the design variables.
-    critical_curvature: critical_curvature -> EventCurvature = EventCurvature;
+    critical_curvature: critical_curvature;
     /// Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and
     /// how tolerances move them.
-    flutter_onsets: flutter_onset_tolerances -> Vec<Event> = |found| events(&found);
+    flutter_onsets: flutter_onset_tolerances;
 }
 
 impl Study {
@@ -222,9 +214,9 @@ impl Study {
 impl Study {
     /// How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
     /// measure) as `response` takes them.
-    fn vibration_spread(&self, py: Python<'_>, vibrations: Vec<Bound<'_, PyTuple>>) -> PyResult<Propagation> {
+    fn vibration_spread(&self, py: Python<'_>, vibrations: Vec<Bound<'_, PyTuple>>) -> PyResult<Answer> {
         let wanted = self.vibrations(py, vibrations)?;
-        self.ask_stoppably(py, |study| study.vibration_spread(&wanted)).map(Propagation)
+        self.ask_stoppably(py, |study| study.vibration_spread(&wanted)).map(Answer::new)
     }
 
     /// How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
@@ -238,7 +230,7 @@ impl Study {
         modes: Option<usize>,
         along: Option<Bound<'_, PyTuple>>,
         orders: Vec<f64>,
-    ) -> PyResult<Convergence> {
+    ) -> PyResult<Answer> {
         let mechanism = self.mechanism(py);
         let text = mechanism.get().text();
         let refined =
@@ -253,15 +245,15 @@ impl Study {
                 self.ask_stoppably(py, |study| study.convergence_along(refined, range, &lines))?
             }
         };
-        Ok(Convergence(answer.of_first(modes.unwrap_or(usize::MAX))))
+        Ok(Answer::new(answer.of_first(modes.unwrap_or(usize::MAX))))
     }
 
     /// Forced vibration at each value of an input: amplitudes and phases with their total derivatives. Values are SI,
     /// texts with units, or numbers in `unit`. A value without a vibration is NaN in arrays; `failures` says why.
     #[pyo3(signature = (input, values, unit=None))]
-    fn bode(&self, py: Python<'_>, input: &str, values: &hints::ArrayLike<'_>, unit: Option<&str>) -> PyResult<Bode> {
+    fn bode(&self, py: Python<'_>, input: &str, values: &hints::ArrayLike<'_>, unit: Option<&str>) -> PyResult<Answer> {
         let (input, values) = self.values(py, input, values, unit)?;
-        self.ask_stoppably(py, |study| study.bode(input, &values)).map(Bode)
+        self.ask_stoppably(py, |study| study.bode(input, &values)).map(Answer::new)
     }
 
     /// The same with bands of these vibrations under tolerances, given as `vibration_spread` takes them. `checked`
@@ -275,15 +267,18 @@ impl Study {
         vibrations: Vec<Bound<'_, PyTuple>>,
         checked: usize,
         unit: Option<&str>,
-    ) -> PyResult<Bode> {
+    ) -> PyResult<Answer> {
         let (input, values) = self.values(py, input, values, unit)?;
         let wanted = self.vibrations(py, vibrations)?;
         let answer = self.ask_stoppably(py, |study| study.bode_bands(input, &values, &wanted, checked));
-        answer.map(Bode)
+        answer.map(Answer::new)
     }
 
     /// The peaks of a vibration, a tuple such as `("vibration", "shake")`, between two values of an input: places, heights,
-    /// half-power points and amplification factors, with their derivatives and spreads.
+    /// half-power points and amplification factors, with their derivatives and spreads. With `operating`, the lowest and
+    /// the highest value of the input in operation, SI or texts with units, how far the peaks keep away from these, and
+    /// what their amplification factors ask for (API 617).
+    #[pyo3(signature = (vibration, input, low, high, operating=None))]
     fn peaks(
         &self,
         py: Python<'_>,
@@ -291,10 +286,22 @@ impl Study {
         input: &str,
         low: &hints::Value<'_>,
         high: &hints::Value<'_>,
-    ) -> PyResult<Peaks> {
+        operating: Option<(hints::Value<'_>, hints::Value<'_>)>,
+    ) -> PyResult<Answer> {
+        let operating = match operating {
+            None => None,
+            Some((lowest, highest)) => Some(self.range(py, input, &lowest, &highest)?),
+        };
         let (input, low, high) = self.range(py, input, low, high)?;
         let wanted = self.vibrations(py, vec![vibration])?;
-        self.ask_stoppably(py, |study| study.peaks(wanted[0], input, low, high)).map(Peaks)
+        let found = self.ask_stoppably(py, |study| study.peaks(wanted[0], input, low, high))?;
+        match operating {
+            None => Ok(Answer::new(found)),
+            Some((_, lowest, highest)) if lowest > highest => {
+                Err(invalid(py, "the range of operation starts above its end".to_owned()))
+            }
+            Some((_, lowest, highest)) => Ok(Answer::new(found.separation([lowest, highest]))),
+        }
     }
 
     /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
@@ -344,20 +351,20 @@ impl Study {
     }
 
     /// First and second derivatives of one mode, counted from 0.
-    fn mode_curvature(&self, py: Python<'_>, mode: i64) -> PyResult<ModeCurvature> {
+    fn mode_curvature(&self, py: Python<'_>, mode: i64) -> PyResult<Answer> {
         let mode = mode_number(py, mode)?;
-        self.ask(py, |study| study.mode_curvature(mode)).map(ModeCurvature)
+        self.ask(py, |study| study.mode_curvature(mode)).map(Answer::new)
     }
 
     /// First and second derivatives of an output.
-    fn output_curvature(&self, py: Python<'_>, output: &str) -> PyResult<OutputCurvature> {
-        self.ask(py, |study| study.output_curvature(study.find_output(output)?)).map(OutputCurvature)
+    fn output_curvature(&self, py: Python<'_>, output: &str) -> PyResult<Answer> {
+        self.ask(py, |study| study.output_curvature(study.find_output(output)?)).map(Answer::new)
     }
 
     /// Derivatives of the shapes of one mode, counted from 0.
-    fn shape_sensitivity(&self, py: Python<'_>, mode: i64) -> PyResult<ShapeSensitivity> {
+    fn shape_sensitivity(&self, py: Python<'_>, mode: i64) -> PyResult<Answer> {
         let mode = mode_number(py, mode)?;
-        self.ask(py, |study| study.shape_sensitivity(mode)).map(ShapeSensitivity)
+        self.ask(py, |study| study.shape_sensitivity(mode)).map(Answer::new)
     }
 
     /// Equilibria and modes along an input. Values are SI, texts with units, or numbers in `unit`.
@@ -377,12 +384,12 @@ impl Study {
         values: &hints::ArrayLike<'_>,
         orders: Vec<f64>,
         unit: Option<&str>,
-    ) -> PyResult<Campbell> {
+    ) -> PyResult<Answer> {
         let (input, values) = self.values(py, input, values, unit)?;
         if let Some(other) = orders.iter().find(|order| !order.is_finite()) {
             return Err(not_finite(py, "orders", *other));
         }
-        self.ask_stoppably(py, |study| study.campbell(input, &values, &orders)).map(Campbell)
+        self.ask_stoppably(py, |study| study.campbell(input, &values, &orders)).map(Answer::new)
     }
 
     /// Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and
@@ -396,10 +403,10 @@ impl Study {
         high: &hints::Value<'_>,
         order: f64,
         offset: f64,
-    ) -> PyResult<Vec<Event>> {
+    ) -> PyResult<Answer> {
         let (input, low, high) = self.range(py, input, low, high)?;
         let line = Line { ratio: order, offset };
         let answer = self.ask(py, |study| study.crossing_tolerances(input, low, high, line))?;
-        Ok(events(&answer))
+        Ok(Answer::new(answer))
     }
 }

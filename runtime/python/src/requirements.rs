@@ -1,19 +1,14 @@
 //! Probabilities of meeting requirements.
 
-use eigentol::requirement::{self, DesignPoint, LimitReliability};
-use eigentol::Input;
+use eigentol::{Input, requirement};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::PyTuple;
 
-use crate::arrays::{Array1, Array2, optional, optional_rows, vector};
 use crate::response::wanted;
-use crate::results::{attributes, result};
-use crate::spreads::judgement;
+use crate::results::Answer;
 use crate::study::Study;
 use crate::values::{List, not_finite};
-use crate::names;
-use requirement::Requirement as Limit;
 
 /// Parses one requirement: "stable", or a response with a low and a high end, None for an open end; "outside" before
 /// the ends for a forbidden band, "away" before an input and a fraction for a band around it.
@@ -105,20 +100,20 @@ impl Study {
         requirements: Vec<Requirement<'_>>,
         start: Option<u64>,
         stop: Option<u64>,
-    ) -> PyResult<Chances> {
+    ) -> PyResult<Answer> {
         let wanted = self.requirements(&requirements)?;
         let answer = self.ask_stoppably(py, |study| {
             let sampling = study.sampling();
             let range = start.unwrap_or(0)..stop.unwrap_or(sampling.samples as u64);
             study.chances_by(&wanted, &sampling.range(Some(range)))
         });
-        answer.map(Chances)
+        answer.map(Answer::new)
     }
 }
 
 /// Analyses of requirements, given as `chances` takes them.
 macro_rules! of_requirements {
-    ($($(#[$doc:meta])* $question:ident -> $result:ident;)*) => {
+    ($($(#[$doc:meta])* $question:ident;)*) => {
         #[pymethods]
         impl Study {
             $(
@@ -127,10 +122,10 @@ macro_rules! of_requirements {
                     &self,
                     py: Python<'_>,
                     requirements: Vec<Requirement<'_>>,
-                ) -> PyResult<$result> {
+                ) -> PyResult<Answer> {
                     let wanted = self.requirements(&requirements)?;
                     let found = self.ask_stoppably(py, |study| study.$question(&wanted));
-                    found.map($result)
+                    found.map(Answer::new)
                 }
             )*
         }
@@ -140,196 +135,15 @@ macro_rules! of_requirements {
 of_requirements! {
     /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
     /// of designs, or samples; requirements as `chances` takes them.
-    probability -> Probabilities;
-    /// Reliability by way of design points (FORM), judged by designs solved anew; requirements as `chances` takes them.
-    reliability -> Reliability;
+    probability;
+    /// Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
+    /// takes them.
+    reliability;
 }
 
 impl Study {
     pub(crate) fn requirements(&self, given: &[Requirement<'_>]) -> PyResult<Vec<requirement::Requirement>> {
         let one = |given| requirement(&self.inner, given);
         given.iter().map(one).collect()
-    }
-}
-
-result! {
-    /// Probabilities of failing requirements. `k` is their number. No model is behind them: every design is solved anew.
-    Probabilities(requirement::Probabilities)
-}
-
-/// In Python `Literal["design point", "lines", "samples"]`.
-type FoundBy = str;
-
-fn found_by(method: requirement::EstimatedBy) -> &'static FoundBy {
-    match method {
-        requirement::EstimatedBy::DesignPoint => "design point",
-        requirement::EstimatedBy::Lines => "lines",
-        _ => "samples",
-    }
-}
-
-attributes! {
-    Probabilities(self, py) {
-        /// Probability of failing each requirement, shape (k,).
-        failure: Array1<'py> = vector(py, self.0.each.iter().map(|x| x.value));
-        /// Lower ends of their 95 % intervals, shape (k,).
-        lower: Array1<'py> = vector(py, self.0.each.iter().map(|x| x.interval.lower));
-        /// Upper ends, shape (k,).
-        upper: Array1<'py> = vector(py, self.0.each.iter().map(|x| x.interval.upper));
-        /// Probabilities that a design lacks the response needed to tell, shape (k,).
-        untold: Array1<'py> = vector(py, self.0.each.iter().map(|x| x.untold));
-        /// How each was found: "design point", "lines" or "samples".
-        found_by: Vec<&'static FoundBy> = self.0.each.iter().map(|x| found_by(x.by)).collect();
-        /// Probability of failing any requirement.
-        any_failure: f64 = self.0.any.value;
-        /// Its 95 % interval.
-        any_interval: (f64, f64) = (self.0.any.interval.lower, self.0.any.interval.upper);
-        /// The design points, or None: what changes the probabilities.
-        reliability: Option<Reliability> = self.0.reliability.clone().map(Reliability);
-        /// The requirements, in words.
-        names: Vec<String> =
-            self.0.wanted.iter().map(|name| name.text(&self.0.description)).collect();
-        /// Numbers of designs that were solved for each, shape (k,).
-        designs: Array1<'py, i64> = vector(py, self.0.each.iter().map(|x| x.designs as i64));
-        /// Probability that a design lacks a response needed to tell of any.
-        any_untold: f64 = self.0.any.untold;
-        /// How `any_failure` was found.
-        any_found_by: &'static FoundBy = found_by(self.0.any.by);
-        /// Number of designs that were solved for it.
-        any_designs: u64 = self.0.any.designs;
-        /// The samples, or None where none were drawn.
-        chances: Option<Chances> = self.0.chances.clone().map(Chances);
-    }
-}
-
-result! {
-    /// Chances of meeting requirements. `k` is their number.
-    Chances(requirement::Chances)
-}
-
-/// 95 % interval (Clopper and Pearson).
-fn interval(tally: &requirement::Tally) -> Option<(f64, f64)> {
-    let interval = tally.clopper_pearson(0.95).ok()?;
-    Some((interval.lower, interval.upper))
-}
-
-attributes! {
-    Chances(self, py) {
-        /// Share of the samples that fail each requirement, shape (k,).
-        failure: Array1<'py> = vector(py, self.0.each.iter().map(requirement::Tally::failure));
-        /// Number of samples.
-        samples: usize = self.0.all.samples();
-        /// How many samples meet each requirement, shape (k,).
-        met: Array1<'py, i64> = vector(py, self.0.each.iter().map(|x| x.met as i64));
-        /// Share of the samples that meet all requirements.
-        all_met: f64 = self.0.all.yield_of();
-        /// Lower ends of the 95 % intervals of `failure`, shape (k,).
-        lower: Array1<'py> = optional(py, self.0.each.iter().map(|x| Some(interval(x)?.0)));
-        /// Upper ends, shape (k,).
-        upper: Array1<'py> = optional(py, self.0.each.iter().map(|x| Some(interval(x)?.1)));
-        /// How many samples fail each requirement, shape (k,).
-        failed: Array1<'py, i64> = vector(py, self.0.each.iter().map(|x| x.failed as i64));
-        /// How many samples lack the response needed to tell, shape (k,).
-        untold: Array1<'py, i64> = vector(py, self.0.each.iter().map(|x| x.untold as i64));
-        /// Share of the samples that fail any requirement.
-        any_failure: f64 = self.0.all.failure();
-        /// Its 95 % interval.
-        any_interval: Option<(f64, f64)> = interval(&self.0.all);
-        /// How many samples meet all requirements, fail one, lack the response needed to tell.
-        all_counts: (usize, usize, usize) = (self.0.all.met, self.0.all.failed, self.0.all.untold);
-        /// Number of samples that were asked for.
-        planned: usize = self.0.planned;
-    }
-}
-
-result! {
-    /// Reliability of a design. `l` is the number of limits that requirements put to responses.
-    Reliability(requirement::Reliability)
-}
-
-impl Reliability {
-    fn each<'py>(&self, py: Python<'py>, of: fn(&LimitReliability) -> Option<f64>) -> Array1<'py> {
-        optional(py, self.0.limits.iter().map(of))
-    }
-
-    /// Numbers of the most probable design point of each limit, a row each.
-    fn points<'py>(&self, py: Python<'py>, of: fn(&DesignPoint) -> Vec<f64>) -> PyResult<Array2<'py>> {
-        let points = self.0.limits.iter().map(|limit| limit.design_points.as_ref());
-        let first = points.map(|point| point.ok()?.first().map(&of));
-        optional_rows(py, self.0.description.design.len(), first)
-    }
-}
-
-attributes! {
-    Reliability(self, py) {
-        /// Probability to first order that each limit is passed, shape (l,); NaN without a design point.
-        failure: Array1<'py> = self.each(py, LimitReliability::probability);
-        /// Reliability index of each limit, shape (l,); NaN without a design point.
-        beta: Array1<'py> = self.each(py, LimitReliability::beta);
-        /// Probability that each limit is passed by designs solved anew, which judges the design points, shape (l,); NaN
-        /// where that was not done.
-        solved_anew: Array1<'py> =
-            self.each(py, |limit| Some(limit.judgement.judged()?.probability.value));
-        /// Half-widths of their 95 % intervals, shape (l,).
-        error: Array1<'py> = self.each(py, |limit| {
-            let interval = limit.judgement.judged()?.interval();
-            Some(0.5 * (interval.upper - interval.lower))
-        });
-        /// Whether designs solved anew confirm the probability to first order of each limit, within 10 %.
-        verified: Vec<bool> =
-            self.0.limits.iter().map(LimitReliability::verified).collect();
-        /// Probability that any requirement is failed, by designs solved anew; None where that was not done.
-        any_failure: Option<f64> = self.0.judgement.judged().map(|x| x.probability.value);
-        /// The limits: the position of the requirement, and the name of the response.
-        limits: Vec<(usize, String)> = {
-            let name = |limit_reliability: &LimitReliability| Some(limit_reliability.limit.response()?.name(&self.0.description));
-            let all = self.0.limits.iter();
-            all.map(|x| (x.requirement, name(x).unwrap_or_default())).collect()
-        };
-        /// Where each response fails: "below", "above" or "between", and the ends, SI; "around", and order and fraction.
-        edges: Vec<(&'static str, Vec<f64>)> = {
-            let all = self.0.limits.iter();
-            all.map(|item| match item.limit {
-                Limit::Within { low, .. } if low.is_finite() => ("below", vec![low]),
-                Limit::Within { high, .. } => ("above", vec![high]),
-                Limit::Outside { low, high, .. } => ("between", vec![low, high]),
-                Limit::Away { order, fraction, .. } => ("around", vec![order, fraction]),
-                _ => ("", Vec::new()),
-            })
-            .collect()
-        };
-        /// Names of the design variables, and after them of the inputs that have a tolerance.
-        names: Vec<&str> = names::design(&self.0.description);
-        /// The most probable design that fails for each limit, SI, shape (l, variables); NaN without one.
-        design_points: PyResult<Array2<'py>> = self.points(py, |point| point.design.to_vec());
-        /// Shares of the variables in each `beta`, shape (l, variables).
-        importance: PyResult<Array2<'py>> = self.points(py, |point| point.importance.to_vec());
-        /// Derivatives of each `beta` by nominal values, per SI unit, shape (l, variables).
-        beta_by_nominal: PyResult<Array2<'py>> =
-            self.points(py, |point| point.by_nominal.iter().map(|slope| slope.beta).collect());
-        /// The same by half-widths of tolerances, shape (l, variables).
-        beta_by_half_width: PyResult<Array2<'py>> =
-            self.points(py, |point| point.by_half_width.iter().map(|slope| slope.beta).collect());
-        /// Number of design points of each limit, shape (l,).
-        point_counts: Array1<'py, i64> = {
-            let points = self.0.limits.iter().map(|limit| limit.design_points.as_ref());
-            vector(py, points.map(|x| x.map_or(0, |point| point.len() as i64)))
-        };
-        /// Whether no design within reach passes the limit, shape (l,).
-        out_of_reach: Array1<'py, bool> =
-            vector(py, self.0.limits.iter().map(LimitReliability::out_of_reach));
-        /// Why a limit has no design point: a text for each limit, or None.
-        failures: Vec<Option<String>> =
-            self.0.limits.iter()
-                .map(|limit| Some(limit.design_points.as_ref().err()?.to_string())).collect();
-        /// What the designs solved anew say of each limit, by name; under "open" why there are none.
-        judgements: PyResult<Vec<Bound<'py, PyDict>>> =
-            self.0.limits.iter().map(|limit| judgement(py, &limit.judgement)).collect();
-        /// The same of failing any requirement, those without a limit included.
-        any_judgement: PyResult<Bound<'py, PyDict>> = judgement(py, &self.0.judgement);
-        /// Whether designs solved anew confirm the probability to first order of every limit.
-        any_verified: bool = self.0.verified();
-        /// Positions of the requirements without a limit, such as `"stable"`.
-        left_out: Vec<usize> = self.0.left_out.clone();
     }
 }

@@ -85,7 +85,7 @@ mechanism Shaken {
 
 @pytest.fixture(scope="session")
 def results():
-    """An object of each class of the module, by the name of the class."""
+    """An object of each class of the module, and of each kind of answer, by the name of the class or the kind."""
     mechanism = eigentol.Mechanism.from_text(SWING)
     study = eigentol.Study(
         mechanism, inputs={"speed": "60 rpm"}, start={"theta": "1 rad"}, samples=64, keep_samples=True
@@ -95,7 +95,6 @@ def results():
     cantilever = eigentol.Study(eigentol.Mechanism.from_text(CANTILEVER))
     speeds, frequency = [6.0, 6.1, 6.2], ("frequency", 0)
     wanted = [(frequency, 5.8, None), "stable"]
-    branches = study.branches("speed", 3.0, 6.0)
     with pytest.raises(eigentol.DeclarationError) as caught:
         eigentol.Mechanism.from_text("mechanism Wrong { body }")
     objects = [
@@ -117,7 +116,7 @@ def results():
         shaken.forced_curvature(),
         shaken.bode_bands("speed", [18.0, 19.0], [("vibration", "place")], checked=8),
         shaken.peaks(("vibration", "place"), "speed", 15.0, 25.0),
-        shaken.peaks(("vibration", "place"), "speed", 15.0, 25.0).separation(10.0, 16.0),
+        shaken.peaks(("vibration", "place"), "speed", 15.0, 25.0, operating=(10.0, 16.0)),
         study.output_tolerances(),
         study.first_order(),
         study.second_order(),
@@ -137,12 +136,12 @@ def results():
         twins.directional_derivatives(0, design={"a": 1.0}),
         study.sweep("speed", speeds),
         study.campbell("speed", speeds),
-        branches,
-        branches.branches[0],
+        study.branches("speed", 3.0, 6.0),
         study.critical("speed", 2.0, 6.0),
+        study.crossings("speed", 2.0, 6.0),
         study.response("frequency", 0, variables=["l"]),
         study.motion(),
         eigentol.Import(SWING, {"theta": "joint 1"}, ["a note"]),
         caught.value.mistakes[0],
     ]
-    return {type(own).__name__: own for own in objects}
+    return {own.kind if isinstance(own, eigentol.Answer) else type(own).__name__: own for own in objects}

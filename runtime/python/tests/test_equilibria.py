@@ -103,4 +103,4 @@ def test_a_free_direction_is_a_mode_of_frequency_zero():
     state = train.equilibrium()
     np.testing.assert_allclose(state.stiffness @ state.free.T, 0.0, atol=1e-9)
     spread = train.first_order()
-    assert np.isfinite(spread.sigma()[-1]) and spread.trusted
+    assert np.isfinite(spread["sigma of frequency"][-1]) and set(spread["doubts"]) == {None}

@@ -73,47 +73,47 @@ def test_a_rotor_vibrates_as_the_formula_says(spinning, speed):
 def test_derivatives_are_those_of_the_formula(spinning):
     first, second = spinning.forced_sensitivities(), spinning.forced_curvature()
     expected, names = REFERENCE[398.0], spinning.mechanism.design
-    assert first.by_design.shape == (1, 2, 4) and first.by_input.shape == (1, 2, 1)
-    assert second.hessian.shape == (1, 2, 4, 4) and second.by_input_and_design.shape == (1, 2, 1, 4)
-    assert second.first == first and first.response == spinning.forced_response()
+    of_output, value = first.harmonics[0].outputs[0], spinning.forced_response().outputs[0, 0]
     for name in ("m", "c", "omega"):
-        side, place = (0, 0) if name == "omega" else (1, names.index(name))
+        by = of_output.by_input[0] if name == "omega" else of_output.by_design[names.index(name)]
         re, im, modulus, phase = expected[name]
-        slope = first.complex()[side][0, 0, place]
+        slope = by @ [1, 1j]
         assert abs(slope - (re + 1j * im)) < 1e-9 * abs(slope)
-        close(first.modulus()[side][0, 0, place], modulus, 1e-7)
-        close(first.phase()[side][0, 0, place], phase, 1e-9)
+        # dy / y = d ln |y| + i d phase.
+        close((slope / value).real * abs(value), modulus, 1e-7)
+        close((slope / value).imag, phase, 1e-9)
     for name in ("m", "c"):
         place = names.index(name)
-        re, im, modulus, phase = expected[f"{name}, {name}"]
-        curvature = second.hessian[0, 0, place, place]
+        re, im, _, _ = expected[f"{name}, {name}"]
+        curvature = second.harmonics[0].outputs[0].by_design[place, place] @ [1, 1j]
         assert abs(curvature - (re + 1j * im)) < 1e-8 * abs(curvature)
-        close(second.modulus()[2][0, 0, place, place], modulus, 1e-6)
-        close(second.phase()[2][0, 0, place, place], phase, 1e-6)
-    close(first.frequency_by_input, [[1.0]], 1e-14)
+    close(first.harmonics[0].frequency.by_input, [1.0], 1e-14)
 
 
 def test_a_bode_diagram_has_a_row_for_each_value(spinning):
     found = spinning.bode("omega", [200.0, 0.0, 398.0])
-    assert found.outputs.shape == (3, 1, 2) and found.by_design.shape == (3, 1, 2, 4) and len(found) == 3
-    missing = np.isnan(found.outputs).all(axis=(1, 2))
-    assert missing.tolist() == [own is not None for own in found.failures] == [False, True, False]
-    assert np.isnan(found.frequencies[1]).all() and np.isnan(found.by_design[1]).all()
-    np.testing.assert_array_equal(found.outputs[2], spinning.forced_response().outputs)
-    np.testing.assert_array_equal(found.modulus()[1][2], spinning.forced_sensitivities().modulus()[1])
+    missing = [error is not None for error in found["error"]]
+    assert missing == [False, False, True, False, False]
+    np.testing.assert_array_equal(np.isnan(found["amplitude"]), missing)
+    vibration = found.points[2].vibration
+    np.testing.assert_array_equal(vibration.response.harmonics[0].outputs @ [1, 1j], spinning.forced_response().outputs[0])
+    np.testing.assert_array_equal(vibration.harmonics[0].outputs[0].by_design, spinning.forced_sensitivities().harmonics[0].outputs[0].by_design)
+    assert hasattr(found.points[1].vibration, "Err")
 
 
 def test_bands_are_spreads_of_amplitudes(spinning):
     wanted = [("vibration", "across"), ("vibration", "up", "u", "velocity")]
     found = spinning.replace(samples=500).bode_bands("omega", [390.0, 398.0], wanted, checked=32)
-    assert found.quantiles.shape == (2, 2, 7) and (np.diff(found.quantiles) > 0).all()
-    np.testing.assert_array_equal(found.quantiles[1], found.spreads[1].quantiles)
-    assert found.banded == found.spreads[0].names and (found.checked == 32).all()
+    bands = found.table("bands")
+    assert (np.diff([bands[f"{percent} %"] for percent in ("2.3", "50", "97.7", "99.9")], axis=0) > 0).all()
+    assert (bands["designs solved anew"] == 32).all() and len(found.banded) == 2
     alone = spinning.vibration_spread(wanted[:1])
-    close(alone.nominal, abs(spinning.forced_response().outputs[0, :1]), 1e-12)
+    value = spinning.forced_response().outputs[0, 0]
+    close(alone["nominal"], abs(value), 1e-12)
     response = spinning.response(*wanted[0])
-    close(response(response.nominal), alone.nominal, 1e-12)
-    close(response.gradient(response.nominal), spinning.forced_sensitivities().modulus()[1][0, 0], 1e-7)
+    close(response(response.nominal), abs(value), 1e-12)
+    slopes = spinning.forced_sensitivities().harmonics[0].outputs[0].by_design @ [1, 1j]
+    close(response.gradient(response.nominal), (slopes / value).real * abs(value), 1e-7)
 
 
 def test_kernels_give_the_response(spinning):
@@ -272,29 +272,32 @@ def test_the_steady_state_by_scipy(name):
 
 def test_the_peak_of_a_rotor_is_that_of_the_formula(spinning):
     found = spinning.peaks(("vibration", "across"), "omega", 100.0, 900.0)
-    close(found.places, [398.3311669843997], 1e-9)
-    close(found.heights, [0.000616445456224498], 1e-9)
-    close([found.half_power_before[0], found.half_power_after[0]], [385.9795992849649, 411.94983284900997], 1e-9)
-    close(found.amplifications, [15.337989394745996], 1e-9)
+    (peak,) = found.peaks
+    close(peak.place.value, 398.3311669843997, 1e-9)
+    close(peak.height.value, 0.000616445456224498, 1e-9)
+    half_power = [found["half power before"][0], found["half power after"][0]]
+    close(half_power, [385.9795992849649, 411.94983284900997], 1e-9)
+    close(found["amplification"], [15.337989394745996], 1e-9)
     k = spinning.mechanism.design.index("k")
-    close(found.places_by_design[0, k], 0.00010460261280203874, 1e-7)
-    close(found.heights_by_design[0, k], 1.6205136977782588e-10, 1e-7)
-    close(found.amplifications_by_design[0, k], 4.070591191155354e-06, 1e-7)
-    assert found.place_sigmas[0] > 0 and found.phases.shape == found.frequencies.shape == (1,)
+    close(peak.place.by_design[k], 0.00010460261280203874, 1e-7)
+    close(peak.height.by_design[k], 1.6205136977782588e-10, 1e-7)
+    close(peak.amplification.by_design[k], 4.070591191155354e-06, 1e-7)
+    assert found["sigma of place"][0] > 0
     assert "peaks of the vibration" in str(found)
 
 
 def test_a_peak_keeps_away_from_operation(spinning):
-    peaks = spinning.peaks(("vibration", "across"), "omega", 100.0, 900.0)
-    found, place, factor = peaks.separation(450.0, "600 rad/s"), peaks.places[0], peaks.amplifications[0]
-    close(found.margins, [1.0 - place / 450.0], 1e-12)
-    close(found.required, [0.17 * (1.0 - 1.0 / (factor - 1.5))], 1e-12)
-    close(found.margins_by_design, -peaks.places_by_design / 450.0, 1e-12)
-    close(found.margin_sigmas, peaks.place_sigmas / 450.0, 1e-12)
-    assert found.operating == (450.0, 600.0) and found.peaks == peaks and found.sufficient == [False]
-    assert peaks.separation(600.0, 700.0).sufficient == [True]
+    wanted = (("vibration", "across"), "omega", 100.0, 900.0)
+    found, (peak,) = spinning.peaks(*wanted, operating=(450.0, "600 rad/s")), spinning.peaks(*wanted).peaks
+    place, factor = peak.place.value, peak.amplification.value
+    close(found["separation margin"], [1.0 - place / 450.0], 1e-12)
+    close(found["required margin"], [0.17 * (1.0 - 1.0 / (factor - 1.5))], 1e-12)
+    close(found.margins[0].actual.by_design, -peak.place.by_design / 450.0, 1e-12)
+    close(found["sigma of margin"], peak.place.spread.sigma / 450.0, 1e-12)
+    assert found.operating.tolist() == [450.0, 600.0] and found["sufficient"] == [False]
+    assert spinning.peaks(*wanted, operating=(600.0, 700.0))["sufficient"] == [True]
     with pytest.raises(eigentol.InvalidValue, match="starts above"):
-        peaks.separation(600.0, 450.0)
+        spinning.peaks(*wanted, operating=(600.0, 450.0))
 
 
 def test_an_orbit_of_an_isotropic_rotor_is_a_circle(spinning):
@@ -346,15 +349,21 @@ def test_shares_and_orbits_have_derivatives():
     text = ROTOR.replace("output across", gust)
     study = eigentol.Study(eigentol.Mechanism.from_text(text), inputs={"omega": 380.0})
     alone, together = study.share_sensitivities(), study.forced_sensitivities()
-    assert alone.response.harmonics == [["u"], ["gust"]]
-    np.testing.assert_array_equal(alone.response.outputs, together.response.shares)
-    size = np.abs(alone.by_design).sum(axis=0)
-    assert (abs(alone.by_design.sum(axis=0) - together.by_design[0]) <= 1e-12 * size).all()
-    forward, backward = together.orbit_squares_by_design("across", "up")
-    assert forward.shape == (1, 4) and together.orbit_squares_by_input("across", "up")[0].shape == (1, 1)
-    parts = [
+    shares = [own.outputs @ [1, 1j] for own in alone.response.harmonics]
+    np.testing.assert_array_equal(shares, study.forced_response().shares)
+
+    def slopes(harmonic):
+        return np.array([output.by_design @ [1, 1j] for output in harmonic.outputs])
+
+    parts, whole = np.array([slopes(own) for own in alone.harmonics]), slopes(together.harmonics[0])
+    assert (abs(parts.sum(axis=0) - whole) <= 1e-12 * np.abs(parts).sum(axis=0)).all()
+    # x + i y = f e^{i w t} + conj(b) e^{-i w t}.
+    of = study.forced_response().outputs[0]
+    sides = [
         study.replace(design={"k": 1.9e6 + side}).forced_response().orbit_parts("across", "up") for side in (10.0, -10.0)
     ]
     k = study.mechanism.design.index("k")
-    for slope, (above, below) in zip((forward, backward), zip(*parts, strict=True), strict=True):
-        close(slope[0, k], (abs(above[0]) ** 2 - abs(below[0]) ** 2) / 20.0, 1e-6)
+    for turn, (above, below) in zip((1j, -1j), zip(*sides, strict=True), strict=True):
+        part, slope = (of[0] + turn * of[1]) / 2, (whole[0] + turn * whole[1]) / 2
+        expected = (abs(above[0]) ** 2 - abs(below[0]) ** 2) / 20.0
+        close(2 * (part.conj() * slope).real[k], expected, 1e-6)

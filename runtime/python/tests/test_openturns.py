@@ -136,26 +136,31 @@ def test_distributions(compared):
 def test_sobol_indices(compared):
     ot, own = compared
     ours = own.study.influence([own.of])
-    places = [ours.names.index(name) for name in own.varied]
+    places = [ours["of"].index(name) for name in own.varied]
     algorithm = ot.SaltelliSensitivityAlgorithm(own.inputs, SOBOL, own.function)
     first, total = algorithm.getFirstOrderIndices(), algorithm.getTotalOrderIndices()
     # Their estimates scatter by some two hundredths at this size.
-    np.testing.assert_allclose(ours.first[0][places], first, atol=0.08)
-    np.testing.assert_allclose(ours.total[0][places], total, atol=0.08)
+    np.testing.assert_allclose(ours["first"][places], first, atol=0.08)
+    np.testing.assert_allclose(ours["total"][places], total, atol=0.08)
 
 
 def test_design_points_and_a_rare_event(compared):
     ot, own = compared
     ours = own.study.reliability(own.requirement())
     form = design_point(ot, own)
-    assert ours.beta[0] == pytest.approx(form.getHasoferReliabilityIndex(), rel=1e-6)
-    assert ours.failure[0] == pytest.approx(form.getEventProbability(), rel=1e-5)
-    found = own.study.probability(own.requirement())
+    assert ours["beta"][0] == pytest.approx(form.getHasoferReliabilityIndex(), rel=1e-6)
+    assert ours["probability of failure, first order"][0] == pytest.approx(form.getEventProbability(), rel=1e-5)
+    found = own.study.probability(own.requirement()).each[0]
     point = form.getStandardSpaceDesignPoint()
     theirs = importance(ot, own, point, 4000)
-    error = math.hypot((found.upper[0] - found.lower[0]) / 3.92, theirs.getStandardDeviation())
-    assert abs(found.failure[0] - theirs.getProbabilityEstimate()) < 4 * error
-    assert found.failure[0] < 1e-3
+    error = math.hypot(standard_error(found), theirs.getStandardDeviation())
+    assert abs(found.value - theirs.getProbabilityEstimate()) < 4 * error
+    assert found.value < 1e-3
+
+
+def standard_error(found):
+    """That of a 95 % interval."""
+    return (found.interval.upper - found.interval.lower) / 3.92
 
 
 def timed(run):
@@ -186,7 +191,7 @@ def main():
         )
         row(
             "largest total Sobol index",
-            lambda: own.study.influence([own.of]).total[0].max(),
+            lambda: own.study.influence([own.of])["total"].max(),
             lambda: max(
                 ot.SaltelliSensitivityAlgorithm(own.inputs, SOBOL, own.function).getTotalOrderIndices()
             ),
@@ -196,16 +201,16 @@ def main():
             "beta",
             lambda: own.study.reliability(own.requirement()),
             lambda: design_point(ot, own),
-            lambda value, mine: f"{value.beta[0]:.6f}"
+            lambda value, mine: f"{value['beta'][0]:.6f}"
             if mine
             else f"{value.getHasoferReliabilityIndex():.6f}",
         )
         point = design_point(ot, own).getStandardSpaceDesignPoint()
         row(
             "rare event, importance sampling",
-            lambda: own.study.probability(own.requirement()),
+            lambda: own.study.probability(own.requirement()).each[0],
             lambda: importance(ot, own, point, 4000),
-            lambda value, mine: f"{value.failure[0]:.3e} +- {(value.upper[0] - value.lower[0]) / 3.92:.0e}"
+            lambda value, mine: f"{value.value:.3e} +- {standard_error(value):.0e}"
             if mine
             else f"{value.getProbabilityEstimate():.3e} +- {value.getStandardDeviation():.0e}",
         )

@@ -135,7 +135,7 @@ def test_sigma_by_openturns(study):
     # First order.
     vector = ot.CompositeRandomVector(function, ot.RandomVector(inputs))
     theirs = math.sqrt(ot.TaylorExpansionMoments(vector).getCovariance()[0, 0])
-    np.testing.assert_allclose(study.first_order().sigma(), [theirs], rtol=1e-9)
+    np.testing.assert_allclose(study.first_order()["sigma of frequency"], [theirs], rtol=1e-9)
 
     # Sampling.
     ot.RandomGenerator.SetSeed(1)

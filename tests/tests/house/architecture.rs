@@ -78,7 +78,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
     ("macros/urdf", &["eigentol-compiler"], 46),
-    ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 34),
+    ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 43),
     ("runtime/tables", &["eigentol-contract", "eigentol-results"], 20),
     ("runtime/figures", &["eigentol"], 105),
     ("runtime/report", &["eigentol", "eigentol-figures", "eigentol-tables"], 57),
@@ -93,7 +93,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        118,
+        105,
     ),
     (
         "runtime/python",
@@ -106,7 +106,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        153,
+        108,
     ),
 ];
 

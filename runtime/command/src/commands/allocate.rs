@@ -47,7 +47,7 @@ impl Allocate {
         let question = self.point.question()?;
         let Question { study, file, .. } = question;
         if file.require.is_empty() || file.choose.is_empty() {
-            let help = "a study file has `[[require]]` and `[[choose]]`: `eigentol help allocate`";
+            let help = "a study file has `require = [..]` and `[[choose]]`: `eigentol help allocate`";
             let message = "nothing is required, or nothing may be chosen";
             return Err(Failure::usage(message, help));
         }
@@ -57,10 +57,9 @@ impl Allocate {
             .seed(file.seed.unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
         let wanted = requirements(&study, &file.require)?;
-        let allowed = file.require.iter().enumerate().map(|(k, item)| {
+        let allowed = file.allowed()?.into_iter().enumerate().map(|(k, allowed)| {
             let help = "give the greatest probability of violating it: `failure = 0.001`";
-            let message = || format!("requirement {} allows no failure", k + 1);
-            item.failure.ok_or_else(|| Failure::usage(message(), help))
+            allowed.ok_or_else(|| Failure::usage(format!("requirement {} allows no failure", k + 1), help))
         });
         let failure = allowed.collect::<Result<Vec<_>, _>>()?;
         let mut choices = Choices { half_widths: Vec::new(), nominals: Vec::new(), failure };

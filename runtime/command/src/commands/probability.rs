@@ -3,31 +3,32 @@
 use clap::Args;
 use eigentol::judge;
 use eigentol::requirement::{Probabilities, Requirement};
+use eigentol_interpreter::FORMS;
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::Output;
 use crate::point::{Point, exact, samples, whole};
 use crate::progress;
-use crate::requirements::{HELP, parsed, require_keys, requirements};
-use crate::study_file::Require;
+use crate::requirements::{require_keys, requirements};
 use crate::verdict::Verdict;
 
 /// How requirements may be stated.
 const KEYS: &str = concat!(
-    "On the command line, each requirement is one text:\n",
+    "Each requirement is one text:\n",
     "  --require 'frequency 1 >= 20 Hz'      also <=; natural_frequency, damping_ratio, growth; modes count from 1\n",
     "  --require 'frequency 1 outside 4..5 Hz'   or within 4..5 Hz\n",
     "  --require 'frequency 1 away from 2 speed by 10%'   a multiple (1) of an input\n",
     "  --require 'angle <= 5 deg'            an output of the declaration\n",
     "  --require 'vibration shake under u <= 0.1 mm'   an amplitude, 0 to peak; `under u` may be left out if all\n",
-    "                                        excitations have one frequency; velocities and accelerations (`measure`)\n",
-    "                                        are for study files only\n",
+    "                                        excitations have one frequency; `as velocity`, `as acceleration` may follow\n",
     "  --require 'vibration shake along speed=0..6000rpm <= 0.1 mm'   the greatest amplitude in a range\n",
     "  --require 'peak shake along speed=0..6000rpm away from speed by 15%'   where the highest peak is\n",
-    "  --require 'critical speed=0..6000rpm >= 3000 rpm'   also 'resonance 1 ..', 'flutter 1 ..'\n",
+    "  --require 'critical speed=0..6000rpm >= 3000 rpm'   where the equilibrium loses its stiffness\n",
+    "  --require 'resonance 1 speed=0..6000rpm order 2 >= 4000 rpm'   where frequency 1 is 2 (1) times the speed\n",
+    "  --require 'flutter 1 speed=0..6000rpm >= 4000 rpm'   where mode 1 begins or ceases to grow\n",
     "  --require stable\n\n",
-    "Or in a study file; `failure`, which may be left out, is compared with what is found:\n",
+    "A study file takes the same texts; `failure`, which may be left out, is compared with what is found:\n",
     require_keys!(),
     "\n\nOther keys: mechanism, set, start, guess, tolerance, correlation, sigma_level, samples, seed, stream"
 );
@@ -42,8 +43,8 @@ pub(crate) struct Probability {
     #[command(flatten)]
     point: Point,
     /// A requirement: `frequency 1 >= 20 Hz`; may be given several times, in place of those of a study file
-    #[arg(long, value_name = "REQUIREMENT", value_parser = parsed)]
-    require: Vec<Require>,
+    #[arg(long, value_name = "REQUIREMENT")]
+    require: Vec<String>,
     /// Samples, where only samples can tell [default: 3000; down to 600 if each is dear, as one that takes a search along an input]
     #[arg(long, value_name = "COUNT", value_parser = whole, allow_negative_numbers = true)]
     samples: Option<usize>,
@@ -59,12 +60,12 @@ impl Probability {
         self.output.check()?;
         let question = self.point.question()?;
         let file = &question.file;
-        let required = match self.require.is_empty() {
-            true => &file.require,
-            false => &self.require,
+        let (required, allowed) = match self.require.is_empty() {
+            true => (&file.require, file.allowed()?),
+            false => (&self.require, Vec::new()),
         };
         if required.is_empty() {
-            let help = format!("state one by `--require`: {HELP}; or by `[[require]]` in a study file");
+            let help = format!("state one by `--require`: {FORMS}; or by `require = [..]` in a study file");
             return Err(Failure::usage("nothing is required", help));
         }
         let bar = progress::bar("designs", None);
@@ -98,15 +99,15 @@ impl Probability {
             let reason = "the probabilities are those of the samples that were drawn";
             return Ok(Verdict::Stopped(reason.to_owned()));
         }
-        Ok(verdict(required, &probabilities))
+        Ok(verdict(&allowed, &probabilities))
     }
 }
 
 /// No if a requirement fails more often than is allowed.
-fn verdict(required: &[Require], probabilities: &Probabilities) -> Verdict {
-    let all = required.iter().zip(&probabilities.each).enumerate();
-    let mut exceeded = all.filter_map(|(k, (item, probability))| {
-        let allowed = item.failure.filter(|allowed| probability.value > *allowed)?;
+fn verdict(allowed: &[Option<f64>], probabilities: &Probabilities) -> Verdict {
+    let all = allowed.iter().zip(&probabilities.each).enumerate();
+    let mut exceeded = all.filter_map(|(k, (allowed, probability))| {
+        let allowed = allowed.filter(|allowed| probability.value > *allowed)?;
         Some(format!(
             "requirement {} fails with a probability of {:.3e}, and {allowed} is allowed",
             k + 1,

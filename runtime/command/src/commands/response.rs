@@ -6,7 +6,7 @@ use eigentol::bode::Bode;
 use eigentol::peaks::Peaks;
 use eigentol::response::Vibration;
 use eigentol_figures as figures;
-use eigentol_interpreter::Interpreted;
+use eigentol_interpreter::{Interpreted, vibration};
 
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -14,7 +14,7 @@ use crate::output::Output;
 use crate::picture::Picture;
 use crate::point::{Point, Question, whole};
 use crate::progress;
-use crate::requirements::{named_orbit, named_vibration};
+use crate::requirements::named_orbit;
 use crate::sweep::{Points, Range, Sweep, range, unswept};
 use crate::verdict::Verdict;
 
@@ -67,7 +67,7 @@ impl Response {
         self.picture.check(&self.output)?;
         let mut question = self.point.question()?;
         let wanted = match &self.of {
-            Some(text) => vec![named_vibration(&question.study, text)?],
+            Some(text) => vec![vibration(&question.study, text)?],
             None => Vibration::all(question.study.description()),
         };
         let number = question.few_samples(self.samples)?;

@@ -168,7 +168,7 @@ fn an_allocation_is_checked_by_the_samples_that_are_done() {
     let declaration = fs::canonicalize(examples().join(PENDULUM)).unwrap();
     let study = format!(
         "mechanism = {declaration:?}\nsamples = 100000000\nset.omega = \"5 rad/s\"\nstart.theta = \"60 deg\"\n\
-         tolerance.l = \"10%\"\n[[require]]\nmode = 1\nat_least = \"3.9 rad/s\"\nfailure = 0.01\n\
+         tolerance.l = \"10%\"\nrequire = [\"frequency 1 >= 3.9 rad/s\"]\nfailure = 0.01\n\
          [[choose]]\ntolerance = \"l\"\nleast = \"1 mm\"\nmost = \"300 mm\"\ncost = {{ fixed = 0, factor = 1.0, power = 1 }}\n"
     );
     let study = file(&folder, "study.toml", &study);
@@ -208,7 +208,7 @@ fn every_subcommand_ends_soon() {
     let declaration = fs::canonicalize(examples().join(PENDULUM)).unwrap();
     let study = format!(
         "mechanism = {declaration:?}\nset.omega = \"5 rad/s\"\nstart.theta = \"60 deg\"\nsamples = 2000000000\n\
-         [[require]]\nmode = 1\nat_least = \"3.9 rad/s\"\nfailure = 0.01\n\
+         require = [\"frequency 1 >= 3.9 rad/s\"]\nfailure = 0.01\n\
          [[choose]]\ntolerance = \"l\"\nleast = \"1 mm\"\nmost = \"300 mm\"\ncost = {{ fixed = 0, factor = 1.0, power = 1 }}\n"
     );
     let study = file(&folder, "study.toml", &study);

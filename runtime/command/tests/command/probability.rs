@@ -128,8 +128,8 @@ fn a_study_file_says_how_much_is_allowed() {
     let exact = length_between(0.0, length_at(4.0));
     let study = |failure: f64| {
         let text = format!(
-            "mechanism = {:?}\n[set]\nomega = \"5 rad/s\"\n[start]\ntheta = \"60 deg\"\n[[require]]\nmode = 1\n\
-             at_least = \"4 rad/s\"\nfailure = {failure}\n[[require]]\nstable = true\n",
+            "mechanism = {:?}\nrequire = [\"frequency 1 >= 4 rad/s\", \"stable\"]\nfailure = [{failure}, 1]\n[set]\n\
+             omega = \"5 rad/s\"\n[start]\ntheta = \"60 deg\"\n",
             examples().join(PENDULUM).display().to_string(),
         );
         file(&folder("allowed"), "study.toml", &text)

@@ -251,17 +251,14 @@ const STUDY: &str = "
 mechanism = \"pendulum.mechanism\"
 seed = 7
 samples = 2000
+require = [\"frequency 1 >= 4 rad/s\"]
+failure = 0.001
 
 [set]
 omega = \"5 rad/s\"
 
 [start]
 theta = \"60 deg\"
-
-[[require]]
-mode = 1
-at_least = \"4 rad/s\"
-failure = 0.001
 
 [[choose]]
 tolerance = \"l\"
@@ -349,11 +346,11 @@ fn allocation_finds_the_widest_tolerance() {
 fn allocation_for_values_of_an_input() {
     let folder = folder("events");
     for (require, limit, factor) in [
-        ("critical = \"omega=0..8rad/s\"\nat_least = \"3.8 rad/s\"", 3.8_f64, 1.0),
-        ("mode = 1\nresonance = \"omega=4..8rad/s\"\norder = 0.8\nat_least = \"4.9 rad/s\"", 4.9, 0.6),
+        ("critical omega=0..8rad/s >= 3.8 rad/s", 3.8_f64, 1.0),
+        ("resonance 1 omega=4..8rad/s order 0.8 >= 4.9 rad/s", 4.9, 0.6),
     ] {
         let text = format!(
-            "mechanism = \"{}\"\n[set]\nomega = \"5 rad/s\"\n[start]\ntheta = \"60 deg\"\n[[require]]\nfailure = 0.001\n{require}\n\
+            "mechanism = \"{}\"\nrequire = [{require:?}]\nfailure = 0.001\n[set]\nomega = \"5 rad/s\"\n[start]\ntheta = \"60 deg\"\n\
              [[choose]]\ntolerance = \"l\"\nleast = \"0.1 mm\"\nmost = \"300 mm\"\ncost = {{ factor = 1.0 }}\n",
             crate::program::examples().join(PENDULUM).display(),
         );
@@ -443,7 +440,7 @@ fn orders_are_counted_once() {
 #[test]
 fn help_about_study_files_lists_their_keys() {
     let help = answer(&["help", "allocate"]);
-    for key in ["[[require]]", "failure =", "damping_ratio", "resonance =", "[[choose]]", "cost = {"] {
+    for key in ["require = [", "failure =", "[[choose]]", "cost = {"] {
         assert!(help.contains(key), "{key}");
     }
 }

@@ -3,16 +3,15 @@
 use std::collections::BTreeMap;
 
 use eigentol::Matrix;
-use eigentol::equilibrium::AssemblyMode;
 use pyo3::prelude::*;
 
-use super::{attributes, result};
+use super::{Described, attributes, result};
 use crate::arrays::{Array1, Array2, matrix, vector};
 use crate::names;
 
 result! {
     /// An equilibrium and the linearised mechanism there, SI. `n` is the number of unknowns.
-    Equilibrium(eigentol::Equilibrium)
+    Equilibrium(eigentol::Equilibrium), crate::results::typed
 }
 
 attributes! {
@@ -64,58 +63,6 @@ attributes! {
         left_unstable_region: bool = self.0.left_unstable_region;
         /// Whether it was asked for whatever its stability.
         kept: bool = self.0.kept;
-    }
-}
-
-result! {
-    /// How an equilibrium moves with inputs and design variables, SI. `n` is the number of unknowns.
-    EquilibriumShift(eigentol::sensitivity::EquilibriumShift)
-}
-
-attributes! {
-    EquilibriumShift(self, py) {
-        /// Derivatives of the unknowns by inputs, shape (n, inputs).
-        by_input: PyResult<Array2<'py>> = matrix(py, &self.0.by_input);
-        /// Derivatives of the unknowns by design variables, shape (n, design).
-        by_design: PyResult<Array2<'py>> = matrix(py, &self.0.by_design);
-        /// Names of the unknowns: the rows.
-        names: Vec<&str> = names::coordinates(&self.0.description);
-    }
-}
-
-/// In Python `Literal["positive", "negative"]`.
-type AssemblySide = str;
-
-result! {
-    /// A state that closes the loops of a mechanism, SI. `n` is the number of unknowns.
-    Assembly(eigentol::equilibrium::Assembly)
-}
-
-attributes! {
-    Assembly(self, py) {
-        /// Which unknowns were held at their start values.
-        held: Vec<bool> = self.0.held.clone();
-        /// How far each unknown moved from its start value, shape (n,).
-        moved: Array1<'py> = vector(py, self.0.moved.clone());
-        /// Gap left in each constraint, at the place of its reaction, shape (n,): rounding.
-        gaps: Array1<'py> = vector(py, self.0.gaps.clone());
-        /// On which side of the dead centres it is assembled, "positive" or "negative": no motion leads from one to the
-        /// other but through a dead centre. None unless as many coordinates are held as the mechanism has degrees of
-        /// freedom.
-        mode: Option<&'static AssemblySide> =
-            self.0.mode.map(|mode| match mode {
-                AssemblyMode::Positive => "positive",
-                AssemblyMode::Negative => "negative",
-            });
-        /// How well the constraints determine the coordinates that are not held: 1 at best, 0 at a dead centre.
-        margin: f64 = self.0.margin;
-        /// Whether it is a dead centre or a singular configuration.
-        singular: bool = self.0.singular;
-    }
-}
-
-attributes! {
-    Equilibrium, Assembly(self, py) {
         /// Names of the unknowns.
         names: Vec<&str> = names::coordinates(&self.0.description);
         /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).

@@ -1,25 +1,19 @@
 //! Results as classes: arrays for computation, text and tables for reading.
 
-mod bode;
-mod branches;
-mod convergence;
+mod answer;
 mod equilibrium;
 mod forced;
 mod modes;
-mod peaks;
+mod monte_carlo;
 mod sensitivities;
 mod shared;
 mod sweep;
 
-pub(crate) use bode::Bode;
-pub(crate) use branches::{Branch, Branches};
-pub(crate) use convergence::Convergence;
-pub(crate) use equilibrium::{Assembly, Equilibrium, EquilibriumShift};
-pub(crate) use forced::{ForcedCurvature, ForcedResponse, ForcedSensitivities};
+pub(crate) use answer::{Answer, Described, typed};
+pub(crate) use equilibrium::Equilibrium;
+pub(crate) use forced::ForcedResponse;
 pub(crate) use modes::{Modes, family};
-pub(crate) use peaks::{Peaks, Separation};
-pub(crate) use sensitivities::{
-    EventCurvature, ModeCurvature, OutputCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, quantity,
-};
-pub(crate) use shared::{attributes, html, json_schema, operating_point, refused, result, table};
-pub(crate) use sweep::{Campbell, Sweep};
+pub(crate) use monte_carlo::MonteCarlo;
+pub(crate) use sensitivities::{Sensitivities, quantity};
+pub(crate) use shared::{attributes, html, json_schema, refused, result, table};
+pub(crate) use sweep::Sweep;

@@ -4,14 +4,14 @@ use eigentol::modes::Family;
 use eigentol::{Complex, Mode};
 use pyo3::prelude::*;
 
-use super::{attributes, result};
+use super::{Described, attributes, result};
 use crate::arrays::{Array1, Array2, optional, rows, vector};
 use crate::{hints, names};
 
 result! {
     /// The modes about an equilibrium: undamped ones ascending in frequency, general ones in frequency too, those that
     /// do not oscillate first. `m` is their number, `n` that of the unknowns.
-    Modes(eigentol::Modes)
+    Modes(eigentol::Modes), crate::results::typed
 }
 
 pub(crate) fn family(kind: Family) -> &'static hints::Family {
@@ -81,5 +81,14 @@ attributes! {
         clusters: Vec<Vec<usize>> = (0..self.0.modes.len()).map(|r| self.0.cluster_of(r)).collect();
         /// Whether undamped modes were asked for of a mechanism that is damped.
         damping_ignored: bool = self.0.damping_ignored;
+        /// "undamped" or "general".
+        family: &'static hints::Family = family(self.0.family);
+    }
+}
+
+#[pymethods]
+impl Modes {
+    fn __len__(&self) -> usize {
+        self.0.modes.len()
     }
 }

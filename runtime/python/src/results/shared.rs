@@ -2,17 +2,16 @@
 //!
 //! # Python sees what Rust sees
 //!
-//! `runtime/python` wraps each result in one class (`results/shared.rs`): arrays by getters; text, sentences and tables
-//! by what the result says of itself (`Answer`). Every question releases the interpreter's lock. `eigentol.pyi` is
-//! generated from this source by a test, which `UPDATE_STUB=1` lets write it. The crate, and so the workspace, builds
-//! without Python (stable interface, symbols left open).
+//! A result is what it says of itself: text, sentences, tables and document follow from its description (`Answer` of
+//! Rust), in Python by one class, `Answer`. Those of which many arrays are wanted have a class of their own with getters.
+//! Every question releases the interpreter's lock. `eigentol.pyi` is generated from this source by a test, which
+//! `UPDATE_STUB=1` lets write it. The crate, and so the workspace, builds without Python (stable interface, symbols left
+//! open).
 
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use eigentol::Input;
 use eigentol_results::numbers::number;
-use eigentol_tables::{Column, Subject, Table, Values};
+use eigentol_tables::{Column, Table, Values};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -21,9 +20,9 @@ use crate::errors::{Kind, new};
 use crate::hints;
 use crate::names::did_you_mean;
 
-/// Defines a class around a result, with the text, tables and document of that result; a document restores it.
+/// Defines a class around a result, with the text, tables and document of that result; `read` restores it from one.
 macro_rules! result {
-    ($(#[$doc:meta])* $name:ident($inner:ty)) => {
+    ($(#[$doc:meta])* $name:ident($inner:ty), $read:expr) => {
         $(#[$doc])*
         #[pyclass(frozen, module = "eigentol")]
         pub(crate) struct $name(pub(crate) $inner);
@@ -31,22 +30,28 @@ macro_rules! result {
         #[pymethods]
         impl $name {
             fn __repr__(&self) -> String {
-                eigentol_tables::Answer::findings(&self.0).to_string()
+                self.0.text()
             }
 
             fn _repr_html_(&self) -> String {
-                $crate::results::html(&self.__repr__(), &eigentol_tables::Answer::tables(&self.0))
+                $crate::results::html(&self.__repr__(), &self.0.all_tables())
             }
 
             fn __eq__(&self, other: &Self) -> bool {
-                self.0 == other.0
+                matches!((self.0.document(), other.0.document()), (Ok(own), Ok(other)) if own == other)
             }
 
             fn __reduce__<'py>(
                 slf: &Bound<'py, Self>,
-            ) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-                let text = slf.get().to_json(slf.py())?;
-                Ok((slf.get_type().getattr("from_json")?, (text,)))
+            ) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
+                let own = slf.get();
+                Ok((slf.get_type().getattr("_restored")?, (own.to_json(slf.py())?, own.__repr__())))
+            }
+
+            #[classmethod]
+            fn _restored(class: &Bound<'_, pyo3::types::PyType>, document: &str, text: &str) -> PyResult<Self> {
+                let read = $read(document, Some(text));
+                read.map(Self).map_err(|error| $crate::results::refused(class.py(), &error))
             }
 
             /// A table of the result as a dictionary, a column for each heading ("frequency [rad/s]"), which
@@ -58,48 +63,44 @@ macro_rules! result {
                 py: Python<'py>,
                 name: Option<&str>,
             ) -> PyResult<$crate::hints::Table<'py>> {
-                $crate::results::table(py, &eigentol_tables::Answer::tables(&self.0), name)
+                $crate::results::table(py, &self.0.all_tables(), name)
             }
 
             /// The result as a JSON document, with every digit: what `eigentol --json` prints. Its schema is
             /// `eigentol.json_schema()`; under "result" it holds every number of the result, SI.
             fn to_json(&self, py: Python<'_>) -> PyResult<String> {
-                let text = eigentol_tables::json::to_string(&self.0);
-                text.map_err(|error| $crate::results::refused(py, &error))
+                self.0.document().map_err(|error| $crate::results::refused(py, &error))
             }
 
             /// The result that such a document holds, bit for bit. Raises InvalidValue for another text.
             #[classmethod]
             fn from_json(class: &Bound<'_, pyo3::types::PyType>, text: &str) -> PyResult<Self> {
-                let read = eigentol_tables::json::read(text.as_bytes());
+                let read = $read(text, None);
                 read.map(Self).map_err(|error| $crate::results::refused(class.py(), &error))
             }
 
             /// Names of the tables.
             #[getter]
             fn tables(&self) -> Vec<String> {
-                let all = eigentol_tables::Answer::tables(&self.0);
-                all.into_iter().map(|x| x.name).collect()
+                self.0.all_tables().into_iter().map(|x| x.name).collect()
             }
 
             /// The sentences of its text: what to know besides the tables.
             #[getter]
             fn notes(&self) -> Vec<String> {
-                let found = eigentol_tables::Answer::findings(&self.0);
-                found.notes().map(str::to_owned).collect()
+                self.0.notes()
             }
 
             /// Name of the mechanism; None where the result is an empty list.
             #[getter]
             fn mechanism(&self) -> Option<String> {
-                let subject = eigentol_tables::Answer::subject(&self.0)?;
-                Some(subject.description.name.to_string())
+                self.0.mechanism()
             }
 
             /// The inputs it belongs to, SI, by name, without one that varies; empty where derivatives are all there is.
             #[getter]
             fn operating_point(&self) -> std::collections::BTreeMap<String, f64> {
-                $crate::results::operating_point(eigentol_tables::Answer::subject(&self.0))
+                self.0.operating_point()
             }
         }
     };
@@ -109,10 +110,6 @@ pub(crate) use result;
 /// Attributes of classes, each with its docstring, type and value; with a word, methods that take it, such as the name of a
 /// quantity.
 macro_rules! attributes {
-    ($class:ident, $($other:ident),+ ($own:ident, $py:ident) $all:tt) => {
-        $crate::results::attributes! { $class($own, $py) $all }
-        $crate::results::attributes! { $($other),+ ($own, $py) $all }
-    };
     ($class:ident($own:ident, $py:ident) {
         $($(#[$doc:meta])* $name:ident: $type:ty = $value:expr;)+
     }) => {
@@ -154,16 +151,6 @@ pub(crate) fn refused(py: Python<'_>, error: &eigentol_tables::Error) -> PyErr {
     new(py, kind, error.to_string())
 }
 
-pub(crate) fn operating_point(of: Option<Subject<'_>>) -> BTreeMap<String, f64> {
-    let Some(of) = of else {
-        return BTreeMap::new();
-    };
-    let varied = of.varied.map(Input::index);
-    let each = of.description.inputs.iter().zip(of.inputs).enumerate();
-    let fixed = each.filter(|(k, _)| Some(*k) != varied);
-    fixed.map(|(_, (info, value))| (info.name.to_string(), *value)).collect()
-}
-
 /// The JSON Schema of the documents that `to_json` gives, as a text.
 #[pyfunction]
 pub(crate) fn json_schema() -> &'static str {
@@ -189,24 +176,22 @@ pub(crate) fn table<'py>(py: Python<'py>, all: &[Table], name: Option<&str>) -> 
 /// Numbers become arrays with NaN for missing ones, words and flags lists with None.
 fn dictionary<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
     let columns = PyDict::new(py);
-    for column in &table.columns {
-        let heading = column.heading();
-        match &column.values {
-            Values::Numbers(values) => {
-                columns.set_item(heading, optional(py, values.iter().copied()))?;
-            }
-            Values::Whole(values) => match values.iter().copied().collect::<Option<Vec<i64>>>() {
-                Some(whole) => columns.set_item(heading, vector(py, whole))?,
-                None => {
-                    let values = values.iter().map(|value| value.map(|x| x as f64));
-                    columns.set_item(heading, optional(py, values))?;
-                }
-            },
-            Values::Texts(values) => columns.set_item(heading, values.clone())?,
-            Values::Flags(values) => columns.set_item(heading, values.clone())?,
-        }
+    for each in &table.columns {
+        columns.set_item(each.heading(), column(py, each)?)?;
     }
     Ok(columns)
+}
+
+pub(crate) fn column<'py>(py: Python<'py>, column: &Column) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match &column.values {
+        Values::Numbers(values) => optional(py, values.iter().copied()).into_any(),
+        Values::Whole(values) => match values.iter().copied().collect::<Option<Vec<i64>>>() {
+            Some(whole) => vector(py, whole).into_any(),
+            None => optional(py, values.iter().map(|value| value.map(|x| x as f64))).into_any(),
+        },
+        Values::Texts(values) => values.clone().into_pyobject(py)?,
+        Values::Flags(values) => values.clone().into_pyobject(py)?,
+    })
 }
 
 /// HTML for a notebook: the text, followed by collapsible tables.

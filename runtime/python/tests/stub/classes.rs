@@ -13,7 +13,7 @@ use super::source::{Source, docs, is};
 use super::types::Types;
 
 /// Methods that every object has.
-const OF_OBJECTS: [&str; 4] = ["__repr__", "__reduce__", "__getnewargs__", "__getnewargs_ex__"];
+const OF_OBJECTS: [&str; 5] = ["__repr__", "__reduce__", "__getnewargs__", "__getnewargs_ex__", "_restored"];
 
 pub(crate) struct Class {
     pub(crate) name: String,

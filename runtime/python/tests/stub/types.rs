@@ -81,7 +81,7 @@ impl Types {
             ("str" | "String", _) => "str".to_owned(),
             ("PathBuf", _) => "str | PathLike[str]".to_owned(),
             ("Complex", _) => "complex".to_owned(),
-            ("Array1" | "Array2" | "Array3" | "Array4" | "PyArrayDyn", _) => array(inner.first()),
+            ("Array1" | "Array2" | "Array3" | "PyArrayDyn", _) => array(inner.first()),
             ("PyAny", _) => "Any".to_owned(),
             ("PyDict", _) => "dict[str, Any]".to_owned(),
             ("PyTuple", _) => "tuple[Any, ...]".to_owned(),

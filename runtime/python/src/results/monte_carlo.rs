@@ -1,18 +1,19 @@
 //! The spread of modes over samples.
 
-use eigentol::tolerance::{Sample, Statistics};
+use eigentol::tolerance::{Outcome, Sample, Statistics};
 use eigentol::{Complex, Quantity};
 use pyo3::prelude::*;
+use pyo3::types::IntoPyDict;
 
+use super::{Described, attributes, family, quantity, result};
 use crate::arrays::{Array1, Array2, optional, optional_rows, or_nan, rows};
 use crate::errors::invalid;
 use crate::hints;
-use crate::results::{attributes, quantity, result};
 
 result! {
     /// Samples of the design, each with its own equilibrium and modes. `m` is the number of modes, `N` that of the
     /// samples; modes are in the order of the nominal ones.
-    MonteCarlo(eigentol::MonteCarlo)
+    MonteCarlo(eigentol::MonteCarlo), crate::results::typed
 }
 
 impl MonteCarlo {
@@ -90,6 +91,15 @@ attributes! {
         side_by_side: bool = self.0.side_by_side;
         /// Whether some nominal modes have equal eigenvalues, and are told apart by their order only.
         clustered: bool = self.0.clustered;
+        /// "undamped" or "general".
+        family: &'static hints::Family = family(self.0.family);
+        /// Whether any variable has a tolerance.
+        varies: bool = self.0.varies;
+        /// How many designs became what, by name.
+        counts: PyResult<hints::Counts<'py>> = {
+            let all = Outcome::ALL.into_iter();
+            all.map(|outcome| (format!("{outcome:?}"), self.0.counts.of(outcome))).into_py_dict(py)
+        };
     }
 }
 

@@ -1,0 +1,340 @@
+//! Responses and requirements as text, in the shell, in study files and in Python: `frequency 1 >= 20 Hz`.
+
+use eigentol::forced::Measure;
+use eigentol::peaks::PeakQuantity;
+use eigentol::requirement::Requirement;
+use eigentol::response::{Response, Vibration};
+use eigentol::sweep::{Condition, Line, Range};
+use eigentol::{Error, Excitation, Output, Quantity, Study, Unit};
+use thiserror::Error as ThisError;
+
+use crate::given::value;
+use crate::mechanism::Interpreted;
+use crate::mistakes::Mistakes;
+
+/// The forms of a requirement, of which a response is the part before the limit.
+pub const FORMS: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `growth 1 <= 0`, `angle <= 5 deg`, \
+                         `vibration shake under u <= 0.1 mm`, `vibration shake as velocity <= 3 mm/s`, \
+                         `vibration shake along speed=0..6000rpm <= 0.1 mm`, `peak shake along speed=0..6000rpm away from speed by 15%`, \
+                         `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, \
+                         `resonance 1 speed=0..6000rpm order 2 >= 4000 rpm`, `flutter 1 speed=0..6000rpm >= 4000 rpm`, or `stable`";
+
+/// What is wrong with a response or a requirement.
+#[derive(Debug, ThisError)]
+#[non_exhaustive]
+pub enum WantedError {
+    /// It has no meaning.
+    #[error("{message}")]
+    Meaning {
+        /// What is wrong.
+        message: String,
+        /// What to write instead.
+        help: String,
+    },
+    /// A name that nothing has.
+    #[error("{0}")]
+    Name(#[from] Error),
+    /// A value that cannot be read.
+    #[error("{place}: {mistakes}")]
+    Value {
+        /// The text around it.
+        place: String,
+        /// The mistakes in it.
+        mistakes: Mistakes,
+    },
+}
+
+type Result<T> = core::result::Result<T, WantedError>;
+
+fn wrong<T>(message: impl Into<String>, help: impl Into<String>) -> Result<T> {
+    Err(WantedError::Meaning { message: message.into(), help: help.into() })
+}
+
+fn no<T>(text: &str, what: &str) -> Result<T> {
+    wrong(format!("`{text}` is not {what}"), FORMS)
+}
+
+/// The requirement that a text states: a response and its limit, or `stable`.
+///
+/// ```
+/// use eigentol::Study;
+/// use eigentol_interpreter::{Interpreted, requirement};
+///
+/// let text = "mechanism A { body a: point(mass: 1 kg); joint x: prismatic(x) from ground to a;
+///     force s: spring(on: x, stiffness: 9 N/m); }";
+/// let study = Study::new(Interpreted::from_text(text)?);
+/// let wanted = requirement(&study, "frequency 1 within 2..4 rad/s")?;
+/// assert_eq!(wanted.text(study.description()), "frequency 1 at least 2 rad/s, at most 4 rad/s");
+/// assert!(requirement(&study, "frequency 1").is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`WantedError`].
+pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement> {
+    if text.trim() == "stable" {
+        return Ok(Requirement::Stable);
+    }
+    let limits = [">=", "<=", ">", "<", " outside ", " within ", " away from "];
+    let split = limits.into_iter().find_map(|word| {
+        let (what, limit) = text.split_once(word)?;
+        Some((what, word.trim(), limit.trim()))
+    });
+    let Some((what, word, limit)) = split else {
+        return no(text, "a requirement");
+    };
+    let response = response(study, what)?;
+    let unit = response.unit(study.description());
+    let end = |text: &str| read(text, &unit, what.trim(), word);
+    Ok(match word {
+        ">=" | ">" => Requirement::Within { response, low: end(limit)?, high: f64::INFINITY },
+        "<=" | "<" => Requirement::Within { response, low: f64::NEG_INFINITY, high: end(limit)? },
+        "away from" => return away(study, response, limit),
+        _ => {
+            let Some((low, high)) = limit.split_once("..") else {
+                return no(text, "a requirement");
+            };
+            let (low, high) = (end(&with_unit_of(low, high))?, end(high)?);
+            match word {
+                "outside" => Requirement::Outside { response, low, high },
+                _ => Requirement::Within { response, low, high },
+            }
+        }
+    })
+}
+
+/// A requirement to stay away from a multiple of an input: `2 speed by 10%`.
+fn away(study: &Study<Interpreted>, response: Response, text: &str) -> Result<Requirement> {
+    let parsed = || {
+        let (what, fraction) = text.split_once(" by ")?;
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        let fraction = match fraction.trim().strip_suffix('%') {
+            Some(percent) => number(percent)? / 100.0,
+            None => number(fraction)?,
+        };
+        match what.trim().split_once(' ') {
+            Some((order, name)) => Some((number(order)?, name.trim(), fraction)),
+            None => Some((1.0, what.trim(), fraction)),
+        }
+    };
+    let Some((order, name, fraction)) = parsed() else {
+        let help = "write an input, perhaps a multiple of it, and a fraction: `away from 2 speed by 10%`";
+        return wrong(format!("`{text}` is no multiple of an input"), help);
+    };
+    Ok(Requirement::Away { response, input: study.find_input(name)?.any(), order, fraction })
+}
+
+/// The response that a text names: `frequency 1`, modes counted from 1, or the name of an output.
+///
+/// # Errors
+/// [`WantedError`].
+pub fn response(study: &Study<Interpreted>, text: &str) -> Result<Response> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let mode = |word: &str| match word.parse::<usize>() {
+        Ok(0) => wrong("there is no mode 0", "modes are counted from 1: `frequency 1`"),
+        Ok(number) => Ok(number - 1),
+        Err(_) => no(text.trim(), "a response"),
+    };
+    // Which event is the first must not depend on the direction in which the range is written.
+    let crossing = |number: &str, condition, range: Range| {
+        let (low, high) = (range.low.min(range.high), range.low.max(range.high));
+        Ok(Response::Crossing { mode: mode(number)?, condition, range: Range::new(range.input, low, high) })
+    };
+    match words[..] {
+        ["critical", along] => Ok(Response::Critical(range(study, along)?)),
+        ["flutter", of, along] => crossing(of, Condition::FlutterOnset, range(study, along)?),
+        ["resonance", of, along, ref more @ ..] => {
+            let order = match *more {
+                [] => Some(1.0),
+                ["order", order] => order.parse().ok(),
+                _ => None,
+            };
+            let (Some(order), range) = (order, range(study, along)?) else {
+                return no(text.trim(), "a response");
+            };
+            crossing(of, Condition::Line(Line::from(multiple(order, &range, study)?)), range)
+        }
+        [what @ ("vibration" | "peak"), ..] => {
+            let (vibration, along) = clauses(study, text.trim(), &words[1..])?;
+            match (what, along) {
+                ("vibration", None) => Ok(Response::Vibration(vibration)),
+                ("vibration", Some(range)) => Ok(Response::Peak { vibration, range, quantity: PeakQuantity::Height }),
+                (_, Some(range)) => Ok(Response::Peak { vibration, range, quantity: PeakQuantity::Place }),
+                (_, None) => no(text.trim(), "a response"),
+            }
+        }
+        ["output", name] | [name] => Ok(Response::Output(output(study, name)?)),
+        [name, of] => match quantity(name) {
+            Some(quantity) => Ok(Response::Mode { mode: mode(of)?, quantity }),
+            None => no(text.trim(), "a response"),
+        },
+        _ => no(text.trim(), "a response"),
+    }
+}
+
+fn quantity(name: &str) -> Option<Quantity> {
+    Some(match name {
+        "frequency" => Quantity::Frequency,
+        "natural_frequency" => Quantity::NaturalFrequency,
+        "damping_ratio" => Quantity::DampingRatio,
+        "growth" => Quantity::Growth,
+        _ => return None,
+    })
+}
+
+/// The vibration that a text names: `shake`, `shake under u`, `shake under u as velocity`.
+///
+/// # Errors
+/// [`WantedError`].
+pub fn vibration(study: &Study<Interpreted>, text: &str) -> Result<Vibration> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    match clauses(study, text, words.strip_prefix(&["vibration"]).unwrap_or(&words))? {
+        (vibration, None) => Ok(vibration),
+        (_, Some(_)) => no(text, "a vibration at one operating point"),
+    }
+}
+
+/// An output with the excitation, the measure and the range that may follow it.
+fn clauses(study: &Study<Interpreted>, text: &str, words: &[&str]) -> Result<(Vibration, Option<Range>)> {
+    let Some((name, more)) = words.split_first() else {
+        return no(text, "a vibration");
+    };
+    let (mut under, mut measure, mut along) = (None, Measure::Displacement, None);
+    let output = output(study, name)?;
+    for clause in more.chunk_by(|_, word| !matches!(*word, "under" | "as" | "along")) {
+        match *clause {
+            ["under", ref names @ ..] if !names.is_empty() => under = Some(names.join(" ")),
+            ["as", "displacement"] => measure = Measure::Displacement,
+            ["as", "velocity"] => measure = Measure::Velocity,
+            ["as", "acceleration"] => measure = Measure::Acceleration,
+            ["along", along_input] => along = Some(range(study, along_input)?),
+            _ => return no(text, "a vibration"),
+        }
+    }
+    let excitation = excitation(study, under.as_deref())?;
+    Ok((Vibration { output, excitation, measure }, along))
+}
+
+/// The output of this name.
+///
+/// # Errors
+/// [`WantedError::Name`].
+pub fn output(study: &Study<Interpreted>, name: &str) -> Result<Output> {
+    Ok(study.find_output(name)?.any())
+}
+
+/// The excitation with a name, or the first of several that act together, as results name them: `u, v`. Without a name the
+/// first, if all have one frequency.
+///
+/// # Errors
+/// [`WantedError`].
+pub fn excitation(study: &Study<Interpreted>, under: Option<&str>) -> Result<Excitation> {
+    let all = &study.description().excitations;
+    match under {
+        Some(under) => {
+            let mut names = under.split(',').map(|name| study.find_excitation(name.trim()));
+            let first = names.next().unwrap_or_else(|| study.find_excitation(under))?;
+            for name in names {
+                if all[name?.index()].with != all[first.index()].with {
+                    return wrong(format!("`{under}` act with different frequencies"), "name one of them");
+                }
+            }
+            Ok(first.any())
+        }
+        None if all.is_empty() => {
+            let help = "declare one: `unbalance u: on disk, amount: 20 g*mm;`, a `harmonic` force or a `shaken` joint";
+            wrong("nothing excites a vibration", help)
+        }
+        None if all.iter().all(|info| info.with == 0) => Ok(Excitation::new(0)),
+        None => {
+            let names: Vec<&str> = all.iter().map(|info| &*info.name).collect();
+            let help = format!("say under which: {}", names.join(", "));
+            wrong("the excitations have several frequencies", help)
+        }
+    }
+}
+
+/// The range of an input that a text gives: `speed=0..6000rpm`.
+///
+/// # Errors
+/// [`WantedError`].
+pub fn range(study: &Study<Interpreted>, text: &str) -> Result<Range> {
+    let parts = text.split_once('=').and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)));
+    let Some((name, (low, high))) = parts else {
+        return wrong(format!("`{text}` is not a range"), "write a range of an input as `speed=0..6000rpm`");
+    };
+    let input = study.find_input(name)?;
+    for (end, what, instead) in [(low, "start", format!("0..{high}")), (high, "end", format!("{low}..6000rpm"))] {
+        if end.trim().is_empty() {
+            return wrong(format!("the range `{text}` has no {what}"), format!("write `{name}={instead}`"));
+        }
+    }
+    let unit = &study.description().inputs[input.index()].unit;
+    let end = |end: &str| {
+        let place = || format!("sweep {text}");
+        value(end, unit, &format!("`{name}`")).map_err(|mistakes| WantedError::Value { place: place(), mistakes })
+    };
+    Ok(Range::new(input.any(), end(&with_unit_of(low, high))?, end(high)?))
+}
+
+/// Requires an order to be a multiple of the input with which a mode can oscillate somewhere in a range.
+///
+/// # Errors
+/// [`WantedError::Meaning`].
+pub fn multiple(order: f64, range: &Range, study: &Study<Interpreted>) -> Result<f64> {
+    let info = &study.description().inputs[range.input.index()];
+    let name = &info.name;
+    if value("1 rad/s", &info.unit, name).is_err() {
+        let message = format!(
+            "an engine order is a multiple of a speed of rotation or a frequency, and `{name}` is in {}",
+            match &*info.unit.symbol {
+                "" => "pure numbers",
+                symbol => symbol,
+            }
+        );
+        return wrong(message, "leave the order out, or sweep an input in rpm, rad/s or Hz");
+    }
+    let help = match order {
+        0.0 => "order 1 is once per revolution",
+        order if !order.is_finite() => "give a finite number, such as order 1",
+        order if order < 0.0 && range.low.min(range.high) >= 0.0 => {
+            "an excitation has a positive frequency, as order 1 has"
+        }
+        _ => return Ok(order),
+    };
+    wrong(format!("order {order} crosses no mode"), help)
+}
+
+fn read(text: &str, unit: &Unit, what: &str, word: &str) -> Result<f64> {
+    let place = || format!("{what} {word} {}", text.trim());
+    value(text.trim(), unit, &format!("`{what}`")).map_err(|mistakes| WantedError::Value { place: place(), mistakes })
+}
+
+/// The low end of a range with the unit of the high end, unless it has one.
+#[must_use]
+pub fn with_unit_of(low: &str, high: &str) -> String {
+    if low.trim().parse::<f64>().is_err() {
+        return low.to_owned();
+    }
+    let ends = (1..=high.len()).rev().filter(|&end| high.is_char_boundary(end));
+    let number = ends.into_iter().find(|&end| high[..end].trim().parse::<f64>().is_ok()).unwrap_or(0);
+    format!("{low} {}", &high[number..])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_unit_of;
+
+    #[test]
+    fn the_low_end_takes_the_unit_of_the_high_end() {
+        for (low, high, expected) in [
+            ("0", "6000rpm", "0 rpm"),
+            ("-1e3", "1.5e3 rad/s", "-1e3 rad/s"),
+            ("10Hz", "6000rpm", "10Hz"),
+            ("1", "2", "1 "),
+            ("1", "rpm", "1 rpm"),
+        ] {
+            assert_eq!(with_unit_of(low, high), expected);
+        }
+    }
+}
