@@ -32,7 +32,6 @@ Nominal: TypeAlias = dict[str, float]
 Units: TypeAlias = dict[str, str]
 Along: TypeAlias = tuple[str, ArrayLike] | tuple[str, ArrayLike, str]
 FrequencyUnit: TypeAlias = Literal["Hz", "rad/s"]
-Requirement: TypeAlias = Literal["stable"] | tuple[tuple[Any, ...], float | None, float | None] | tuple[Literal["outside"], tuple[Any, ...], float, float] | tuple[Literal["away"], tuple[Any, ...], str, float] | tuple[Literal["away"], tuple[Any, ...], str, float, float]
 
 @type_check_only
 class UrdfOptions(TypedDict, total=False):
@@ -960,7 +959,7 @@ class Study:
     def __new__(cls, mechanism: Mechanism, **settings: Unpack[Settings]) -> Self: ...
     def allocate(
         self,
-        requirements: Sequence[Requirement],
+        requirements: Sequence[str],
         *,
         failure: Sequence[float],
         tolerances: Choices,
@@ -969,7 +968,7 @@ class Study:
         """The cheapest tolerances that meet requirements, as `chances` takes them; samples check what is found.
 
             study.allocate(
-                [(("frequency", 0), 3.9, None)],
+                ["frequency 1 >= 3.9 rad/s"],
                 failure=[1e-3],
                 tolerances={"l": ("0.1 mm", "5 mm", (0.0, 1e-3, 1.0))},
             )
@@ -1032,15 +1031,14 @@ class Study:
         """First order, second order, and for each mode whether its standard deviation can be trusted. The samples that
         judge are always the same, whatever `samples` and `seed` of the study.
         """
-    def propagate(self, responses: Sequence[tuple[Any, ...]]) -> Answer:
-        """How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
-        "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0,
-        300), as `response` takes them.
+    def propagate(self, responses: Sequence[str]) -> Answer:
+        """How tolerances spread responses, by the method that suits them: texts such as "frequency 1", "angle", "vibration shake
+        under u", "critical speed=0..6000rpm" or "resonance 1 speed=0..6000rpm", as `response` takes them.
         """
-    def influence(self, responses: Sequence[tuple[Any, ...]]) -> Answer:
-        """Which variables the scatter of responses comes from; tuples as `propagate` takes them."""
-    def worst_case(self, responses: Sequence[tuple[Any, ...]]) -> Answer:
-        """The least and the greatest values of responses within the limits; tuples as `propagate` takes them."""
+    def influence(self, responses: Sequence[str]) -> Answer:
+        """Which variables the scatter of responses comes from; texts as `propagate` takes them."""
+    def worst_case(self, responses: Sequence[str]) -> Answer:
+        """The least and the greatest values of responses within the limits; texts as `propagate` takes them."""
     def branches(self, input: str, low: Value, high: Value) -> Answer:
         """Branches of equilibria along an input between two values, SI or texts with units."""
     def critical(self, input: str, low: Value, high: Value) -> Answer:
@@ -1055,19 +1053,14 @@ class Study:
         """Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and
         how tolerances move them.
         """
-    def vibration_spread(self, vibrations: Sequence[tuple[Any, ...]]) -> Answer:
-        """How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
-        measure) as `response` takes them.
+    def vibration_spread(self, vibrations: Sequence[str]) -> Answer:
+        """How tolerances spread amplitudes of vibration, right at a resonance too: texts such as "vibration shake
+        under u as velocity".
         """
-    def converge(
-        self,
-        modes: int | None = None,
-        along: tuple[Any, ...] | None = None,
-        orders: Sequence[float] = ...,
-    ) -> Answer:
+    def converge(self, modes: int | None = None, along: str | None = None, orders: Sequence[float] = ...) -> Answer:
         """How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
-        one and with two more coordinates of each component of the beams. `along`, the tuple of an input and two values
-        of it, SI or texts with units, adds the first critical value between them, onsets of flutter, where frequencies meet `orders`, and the
+        one and with two more coordinates of each component of the beams. `along`, a range of an input such as
+        "speed=0..6000rpm", adds the first critical value between them, onsets of flutter, where frequencies meet `orders`, and the
         highest peaks. Raises InvalidValue where there is no beam.
         """
     def bode(self, input: str, values: ArrayLike, unit: str | None = None) -> Answer:
@@ -1078,7 +1071,7 @@ class Study:
         self,
         input: str,
         values: ArrayLike,
-        vibrations: Sequence[tuple[Any, ...]],
+        vibrations: Sequence[str],
         checked: int = 64,
         unit: str | None = None,
     ) -> Answer:
@@ -1087,13 +1080,13 @@ class Study:
         """
     def peaks(
         self,
-        vibration: tuple[Any, ...],
+        vibration: str,
         input: str,
         low: Value,
         high: Value,
         operating: tuple[Value, Value] | None = None,
     ) -> Answer:
-        """The peaks of a vibration, a tuple such as `("vibration", "shake")`, between two values of an input: places, heights,
+        """The peaks of a vibration, a text such as "vibration shake", between two values of an input: places, heights,
         half-power points and amplification factors, with their derivatives and spreads. With `operating`, the lowest and
         the highest value of the input in operation, SI or texts with units, how far the peaks keep away from these, and
         what their amplification factors ask for (API 617).
@@ -1152,40 +1145,31 @@ class Study:
 
         Raises OSError when the file cannot be written. What an analysis refuses is said in the report.
         """
-    def chances(self, requirements: Sequence[Requirement], start: int | None = None, stop: int | None = None) -> Answer:
-        """Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low
-        and a high end, None for no end: `(("frequency", 0), 3.9, None)`, or a forbidden band:
-        `("outside", ("frequency", 0), 3.0, 4.0)`, or one within a fraction of a multiple (1) of an input:
-        `("away", ("frequency", 0), "speed", 0.1, 2.0)`; frequencies are in rad/s. Of `start` and `stop` only the samples
+    def chances(self, requirements: Sequence[str], start: int | None = None, stop: int | None = None) -> Answer:
+        """Chances of meeting requirements, by sampling. Each is a text as on paper and in the shell, modes counted from 1: what
+        `response` takes and a limit, "frequency 1 >= 20 Hz", "angle <= 5 deg", "frequency 1 within 4..5 Hz", "frequency 1
+        outside 4..5 Hz", "frequency 1 away from 2 speed by 10%", or "stable". Of `start` and `stop` only the samples
         `start` to below `stop` are taken; numbers of samples of parts add up to those of the whole. Ctrl-C ends it.
         """
-    def rare_failure(self, requirements: Sequence[Requirement]) -> Answer:
-        """A small probability of failing any requirement, by importance sampling about the design points; requirements as
-        `chances` takes them.
-        """
-    def second_order_failure(self, requirement: Requirement) -> Answer:
-        """Probability of failing one requirement by the second-order model of its response, with what changes it;
-        requirements as `chances` takes them.
-        """
-    def probability(self, requirements: Sequence[Requirement]) -> Answer:
+    def probability(self, requirements: Sequence[str]) -> Answer:
         """How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
         of designs, or samples; requirements as `chances` takes them.
         """
-    def reliability(self, requirements: Sequence[Requirement]) -> Answer:
+    def reliability(self, requirements: Sequence[str]) -> Answer:
         """Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
         takes them.
         """
-    def response(self, what: str, *of: Any, variables: Sequence[str] | None = None) -> Response:
+    def response(self, of: str, variables: Sequence[str] | None = None) -> Response:
         """A response as a function of arrays of designs.
 
-        `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
-        number of a mode, from 0; "output" and its name; "vibration" and the name of an output, for its amplitude (0 to
-        peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies,
-        and "velocity" or "acceleration"; "greatest" and the name of an input, a low and a high value, and the same, for
-        the greatest amplitude in that range, or "peak", for the value of the input at its highest peak; "critical" and
-        the name of an input, a low and a high value, between which the equilibrium loses its stiffness; "resonance" and
-        the number of a mode, an input, a low and a high value, and an order (1), or "flutter" and the same without it.
-        `variables` names the design variables that vary, in order; all unless given.
+        `of` is a text as in the shell, modes counted from 1: "frequency 1", "natural_frequency 1" (rad/s), "damping_ratio 1" or
+        "growth 1" (1/s); the name of an output; "vibration shake", the amplitude (0 to peak) of an output under the
+        excitations, with "under u" where they have several frequencies, and "as velocity" or "as acceleration";
+        "vibration shake along speed=0..6000rpm", the greatest amplitude in a range of an input, and "peak shake along
+        speed=0..6000rpm", the value of the input at its highest peak; "critical speed=0..6000rpm", where the equilibrium
+        loses its stiffness; "resonance 1 speed=0..6000rpm order 2", where a frequency is 2 (1) times the input; "flutter 1
+        speed=0..6000rpm", where a mode begins or ceases to grow. `variables` names the design variables that vary, in
+        order; all unless given.
         """
     @property
     def settings(self) -> Settings:

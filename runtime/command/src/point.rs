@@ -6,9 +6,7 @@ use std::str::FromStr;
 use clap::Args;
 use eigentol::equilibrium::{Equilibria, Search};
 use eigentol::judge;
-use eigentol::{
-    Coordinate, CoordinateInfo, DesignVariable, Input, Law, Matrix, Parameter, Role, Study, ToleranceInfo, Unit,
-};
+use eigentol::{Coordinate, CoordinateInfo, DesignVariable, Input, Matrix, Parameter, Role, Study, Unit};
 use eigentol_compiler::Compilation;
 use eigentol_interpreter::{Interpreted, design_tolerance, tolerance, value, with_unit_of};
 
@@ -276,19 +274,7 @@ fn tolerate(
             (design[k], design_tolerance(of, text, k, design))
         }
     };
-    let ToleranceInfo { lower, upper, relative, law } = parsed.map_err(refused)?;
-    let study = if !relative {
-        study.limits(parameter, lower, upper)
-    } else if lower == -upper {
-        study.relative_tolerance(parameter, upper)
-    } else {
-        study.limits(parameter, value.abs() * lower, value.abs() * upper)
-    };
-    // Without a given law, the declared one stays.
-    Ok(match law {
-        Law::Normal => study,
-        law => study.law(parameter, law),
-    })
+    Ok(eigentol_interpreter::tolerate(study, parameter, parsed.map_err(refused)?, value))
 }
 
 /// Sets pairwise correlations of the design variables, followed by the inputs with tolerances.

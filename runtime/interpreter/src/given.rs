@@ -1,11 +1,12 @@
 //! Parses values and tolerances given as text, with the units and words of the language.
 
-use eigentol::{ToleranceInfo, Unit};
+use eigentol::{Law, Parameter, Study, ToleranceInfo, Unit};
 use eigentol_compiler::model::resolve::given;
 use eigentol_compiler::{Compilation, tokens};
 use proc_macro2::TokenStream;
 
 use crate::description;
+use crate::mechanism::Interpreted;
 use crate::mistakes::Mistakes;
 
 /// Parses the value (SI) of a quantity in this unit: `3000rpm`, `-2.5 mm`, `pi / 3`. `what` names the quantity in
@@ -80,6 +81,27 @@ pub fn design_tolerance(
 ) -> Result<ToleranceInfo, Mistakes> {
     let tolerance = given::design_tolerance(&of.ast, tokens(text)?, variable, design)?;
     Ok(description::tolerance(&tolerance))
+}
+
+/// Gives a parameter of this value (SI) a tolerance. Where no law is said, the declared one stays.
+pub fn tolerate(
+    study: Study<Interpreted>,
+    parameter: Parameter<Interpreted>,
+    tolerance: ToleranceInfo,
+    value: f64,
+) -> Study<Interpreted> {
+    let ToleranceInfo { lower, upper, relative, law } = tolerance;
+    let study = if !relative {
+        study.limits(parameter, lower, upper)
+    } else if lower == -upper {
+        study.relative_tolerance(parameter, upper)
+    } else {
+        study.limits(parameter, value.abs() * lower, value.abs() * upper)
+    };
+    match law {
+        Law::Normal => study,
+        law => study.law(parameter, law),
+    }
 }
 
 /// The tokens of a unit, as in a declaration.

@@ -12,7 +12,7 @@ mod tape;
 mod wanted;
 
 pub use description::description;
-pub use given::{design_tolerance, tolerance, value};
+pub use given::{design_tolerance, tolerance, tolerate, value};
 pub use mechanism::Interpreted;
 pub use mistakes::{Mistake, Mistakes, ReadError, RefineError};
 pub use wanted::{

@@ -6,7 +6,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::hints;
-use crate::requirements::Requirement;
 use crate::results::Answer;
 use crate::study::Study;
 use crate::values::{List, number};
@@ -24,7 +23,7 @@ impl Study {
     /// The cheapest tolerances that meet requirements, as `chances` takes them; samples check what is found.
     ///
     ///     study.allocate(
-    ///         [(("frequency", 0), 3.9, None)],
+    ///         ["frequency 1 >= 3.9 rad/s"],
     ///         failure=[1e-3],
     ///         tolerances={"l": ("0.1 mm", "5 mm", (0.0, 1e-3, 1.0))},
     ///     )
@@ -38,7 +37,7 @@ impl Study {
     fn allocate(
         &self,
         py: Python<'_>,
-        requirements: Vec<Requirement<'_>>,
+        requirements: Vec<hints::RequirementText<'_>>,
         failure: Vec<f64>,
         tolerances: &Choices<'_>,
         nominals: Option<&hints::Ranges<'_>>,

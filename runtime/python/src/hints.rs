@@ -36,3 +36,9 @@ pub(crate) type Measure = str;
 
 /// Which modes. In Python `Literal["undamped", "general"]`.
 pub(crate) type Family = str;
+
+/// A response, "frequency 1" with modes counted from 1. In Python `str`.
+pub(crate) type ResponseText<'py> = Bound<'py, PyAny>;
+
+/// A requirement, "frequency 1 >= 20 Hz". In Python `str`.
+pub(crate) type RequirementText<'py> = Bound<'py, PyAny>;

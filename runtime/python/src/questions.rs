@@ -1,20 +1,18 @@
 //! The analyses of a study.
 
-use eigentol::response::{Response, Vibration};
+use eigentol::response::Vibration;
 use eigentol::sweep::{Line, Range};
 use eigentol::{Coordinate, Input};
-use eigentol_interpreter::Interpreted;
-use pyo3::exceptions::PyTypeError;
+use eigentol_interpreter::{Interpreted, range, vibration};
 use pyo3::prelude::*;
-use pyo3::types::{PyString, PyTuple};
+use pyo3::types::PyString;
 
 use crate::arrays::{Array1, optional};
 use crate::errors::invalid;
 use crate::hints;
-use crate::response::{range, wanted};
 use crate::results::{Answer, Equilibrium, ForcedResponse, Modes, MonteCarlo, Sensitivities, Sweep};
 use crate::study::Study;
-use crate::values::{List, mode_number, not_finite, number, numbers};
+use crate::values::{List, meaningless, mode_number, not_finite, number, numbers, text};
 
 /// Analyses without arguments.
 macro_rules! questions {
@@ -66,7 +64,7 @@ questions! {
     summary -> Answer = Answer::new;
 }
 
-/// Analyses of responses, given as the tuples that `Study.response` takes.
+/// Analyses of responses, given as the texts that `Study.response` takes.
 macro_rules! of_responses {
     ($($(#[$doc:meta])* $question:ident;)*) => {
         #[pymethods]
@@ -76,9 +74,9 @@ macro_rules! of_responses {
                 fn $question(
                     &self,
                     py: Python<'_>,
-                    responses: Vec<Bound<'_, PyTuple>>,
+                    responses: Vec<hints::ResponseText<'_>>,
                 ) -> PyResult<Answer> {
-                    let wanted = self.wanted(responses)?;
+                    let wanted: Vec<_> = responses.iter().map(|given| self.wanted(given)).collect::<PyResult<_>>()?;
                     self.ask_stoppably(py, |study| study.$question(&wanted)).map(Answer::new)
                 }
             )*
@@ -87,13 +85,12 @@ macro_rules! of_responses {
 }
 
 of_responses! {
-    /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output",
-    /// "angle"), ("vibration", "shake", "unbalance"), ("critical", "speed", 0, 300) or ("resonance", 0, "speed", 0,
-    /// 300), as `response` takes them.
+    /// How tolerances spread responses, by the method that suits them: texts such as "frequency 1", "angle", "vibration shake
+    /// under u", "critical speed=0..6000rpm" or "resonance 1 speed=0..6000rpm", as `response` takes them.
     propagate;
-    /// Which variables the scatter of responses comes from; tuples as `propagate` takes them.
+    /// Which variables the scatter of responses comes from; texts as `propagate` takes them.
     influence;
-    /// The least and the greatest values of responses within the limits; tuples as `propagate` takes them.
+    /// The least and the greatest values of responses within the limits; texts as `propagate` takes them.
     worst_case;
 }
 
@@ -181,54 +178,37 @@ impl Study {
             Some(other) => Err(not_finite(py, input, *other)),
         }
     }
+}
 
-    /// Responses by name, given as the tuples that `Study.response` takes.
-    fn wanted(&self, given: Vec<Bound<'_, PyTuple>>) -> PyResult<Vec<eigentol::response::Response>> {
-        let one = |given: &Bound<'_, PyTuple>| {
-            if given.is_empty() {
-                return Err(PyTypeError::new_err("a response is a tuple: (\"frequency\", 0)"));
-            }
-            let what = given.get_item(0)?.extract::<String>()?;
-            wanted(&self.inner, &what, &given.get_slice(1, given.len()))
+impl Study {
+    fn vibrations(&self, given: &[hints::ResponseText<'_>]) -> PyResult<Vec<Vibration>> {
+        let one = |given: &hints::ResponseText<'_>| {
+            let wanted = vibration(&self.inner, &text(given, "vibration shake")?);
+            wanted.map_err(|error| meaningless(given.py(), error))
         };
         given.iter().map(one).collect()
     }
 }
 
-impl Study {
-    /// Amplitudes of vibration, given as the tuples that `Study.response` takes.
-    fn vibrations(&self, py: Python<'_>, given: Vec<Bound<'_, PyTuple>>) -> PyResult<Vec<Vibration>> {
-        let vibration_of = |response| match response {
-            Response::Vibration(vibration) => Ok(vibration),
-            other => {
-                let name = other.name(self.inner.description());
-                let message = format!("{name} is no vibration: that is a tuple such as (\"vibration\", \"shake\")");
-                Err(invalid(py, message))
-            }
-        };
-        self.wanted(given)?.into_iter().map(vibration_of).collect()
-    }
-}
-
 #[pymethods]
 impl Study {
-    /// How tolerances spread amplitudes of vibration, right at a resonance too: tuples ("vibration", output, excitation,
-    /// measure) as `response` takes them.
-    fn vibration_spread(&self, py: Python<'_>, vibrations: Vec<Bound<'_, PyTuple>>) -> PyResult<Answer> {
-        let wanted = self.vibrations(py, vibrations)?;
+    /// How tolerances spread amplitudes of vibration, right at a resonance too: texts such as "vibration shake
+    /// under u as velocity".
+    fn vibration_spread(&self, py: Python<'_>, vibrations: Vec<hints::ResponseText<'_>>) -> PyResult<Answer> {
+        let wanted = self.vibrations(&vibrations)?;
         self.ask_stoppably(py, |study| study.vibration_spread(&wanted)).map(Answer::new)
     }
 
     /// How far frequencies and damping ratios, of the first `modes` modes that oscillate or of all, and outputs change with
-    /// one and with two more coordinates of each component of the beams. `along`, the tuple of an input and two values
-    /// of it, SI or texts with units, adds the first critical value between them, onsets of flutter, where frequencies meet `orders`, and the
+    /// one and with two more coordinates of each component of the beams. `along`, a range of an input such as
+    /// "speed=0..6000rpm", adds the first critical value between them, onsets of flutter, where frequencies meet `orders`, and the
     /// highest peaks. Raises InvalidValue where there is no beam.
     #[pyo3(signature = (modes=None, along=None, orders=Vec::new()))]
     fn converge(
         &self,
         py: Python<'_>,
         modes: Option<usize>,
-        along: Option<Bound<'_, PyTuple>>,
+        along: Option<&str>,
         orders: Vec<f64>,
     ) -> PyResult<Answer> {
         let mechanism = self.mechanism(py);
@@ -239,8 +219,8 @@ impl Study {
         let answer = match along {
             None => self.ask(py, |study| study.convergence(refined))?,
             Some(along) => {
-                let Range { input, low, high, .. } = range(&self.inner, &along, 0)?;
-                let range = Range::new(Input::new(input.index()), low, high);
+                let range = range(&self.inner, along).map_err(|error| meaningless(py, error))?;
+                let range = Range::new(Input::new(range.input.index()), range.low, range.high);
                 let lines: Vec<Line> = orders.into_iter().map(Line::from).collect();
                 self.ask_stoppably(py, |study| study.convergence_along(refined, range, &lines))?
             }
@@ -264,17 +244,17 @@ impl Study {
         py: Python<'_>,
         input: &str,
         values: &hints::ArrayLike<'_>,
-        vibrations: Vec<Bound<'_, PyTuple>>,
+        vibrations: Vec<hints::ResponseText<'_>>,
         checked: usize,
         unit: Option<&str>,
     ) -> PyResult<Answer> {
         let (input, values) = self.values(py, input, values, unit)?;
-        let wanted = self.vibrations(py, vibrations)?;
+        let wanted = self.vibrations(&vibrations)?;
         let answer = self.ask_stoppably(py, |study| study.bode_bands(input, &values, &wanted, checked));
         answer.map(Answer::new)
     }
 
-    /// The peaks of a vibration, a tuple such as `("vibration", "shake")`, between two values of an input: places, heights,
+    /// The peaks of a vibration, a text such as "vibration shake", between two values of an input: places, heights,
     /// half-power points and amplification factors, with their derivatives and spreads. With `operating`, the lowest and
     /// the highest value of the input in operation, SI or texts with units, how far the peaks keep away from these, and
     /// what their amplification factors ask for (API 617).
@@ -282,7 +262,7 @@ impl Study {
     fn peaks(
         &self,
         py: Python<'_>,
-        vibration: Bound<'_, PyTuple>,
+        vibration: hints::ResponseText<'_>,
         input: &str,
         low: &hints::Value<'_>,
         high: &hints::Value<'_>,
@@ -293,7 +273,7 @@ impl Study {
             Some((lowest, highest)) => Some(self.range(py, input, &lowest, &highest)?),
         };
         let (input, low, high) = self.range(py, input, low, high)?;
-        let wanted = self.vibrations(py, vec![vibration])?;
+        let wanted = self.vibrations(&[vibration])?;
         let found = self.ask_stoppably(py, |study| study.peaks(wanted[0], input, low, high))?;
         match operating {
             None => Ok(Answer::new(found)),

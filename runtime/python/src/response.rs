@@ -3,21 +3,18 @@
 use std::sync::Arc;
 
 use eigentol::forced::Measure;
-use eigentol::peaks::PeakQuantity;
-use eigentol::response::{self, Responses, Vibration, Workspace};
-use eigentol::sweep::{Condition, Line, Range};
-use eigentol::{Equilibrium, Error, Excitation, Modes, Output};
+use eigentol::response::{self, Responses, Workspace};
+use eigentol::{Equilibrium, Error, Modes};
 use eigentol_interpreter::Interpreted;
 use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLike2, PyArrayMethods};
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyTuple};
+use pyo3::types::IntoPyDict;
 
 use crate::arrays::{Array1, or_nan, rows, vector};
-use crate::errors::{invalid, raise};
-use crate::results::{attributes, quantity};
+use crate::errors::raise;
+use crate::results::attributes;
 use crate::study::Study;
-use crate::values::{List, mode_number, number, numbers, word};
+use crate::values::{List, meaningless, numbers, text, word};
 use crate::{hints, names};
 
 /// A number that a design gives: a quantity of a mode, an output, the amplitude of its vibration, a critical value of an
@@ -39,124 +36,11 @@ use crate::{hints, names};
 #[pyclass(frozen, module = "eigentol")]
 pub(crate) struct Response {
     mechanism: Interpreted,
-    /// Study, kind and arguments that it was made of.
-    given: (Py<Study>, String, Py<PyTuple>),
+    study: Py<Study>,
     nominal: Arc<(Equilibrium, Modes)>,
     wanted: response::Response,
     variables: Vec<usize>,
     text: String,
-}
-
-/// Parses a response: "frequency" and other quantities of a mode, ("output", name), ("vibration", output, excitation,
-/// measure), ("greatest" or "peak", input, low, high, output, excitation, measure), ("critical", input, low, high),
-/// ("resonance", mode, input, low, high, order) or ("flutter", mode, input, low, high).
-pub(crate) fn wanted(
-    study: &eigentol::Study<Interpreted>,
-    what: &str,
-    given: &Bound<'_, PyTuple>,
-) -> PyResult<response::Response> {
-    let py = given.py();
-    let count = |expected: usize, list: &str| match given.len() == expected {
-        true => Ok(()),
-        false => Err(PyTypeError::new_err(format!("\"{what}\" needs {list}"))),
-    };
-    match what {
-        "output" => {
-            count(1, "the name of an output")?;
-            let name = given.get_item(0)?.extract::<String>()?;
-            let output = study.find_output(&name).map_err(|error| raise(py, error))?;
-            Ok(response::Response::Output(Output::new(output.index())))
-        }
-        "vibration" => {
-            if !(1..=3).contains(&given.len()) {
-                count(1, "the name of an output, and perhaps of an excitation and a measure")?;
-            }
-            vibration(study, given).map(response::Response::Vibration)
-        }
-        "greatest" | "peak" => {
-            if !(4..=6).contains(&given.len()) {
-                count(
-                    4,
-                    "the name of an input, a low and a high value, the name of an output, and perhaps of an excitation and a measure",
-                )?;
-            }
-            Ok(response::Response::Peak {
-                vibration: vibration(study, &given.get_slice(3, given.len()))?,
-                range: range(study, given, 0)?,
-                quantity: match what {
-                    "greatest" => PeakQuantity::Height,
-                    _ => PeakQuantity::Place,
-                },
-            })
-        }
-        "critical" => {
-            count(3, "the name of an input, a low and a high value")?;
-            range(study, given, 0).map(response::Response::Critical)
-        }
-        "resonance" | "flutter" => {
-            let list = "the number of a mode, the name of an input, a low and a high value";
-            match (what, given.len()) {
-                (_, 4) | ("resonance", 5) => {}
-                ("resonance", _) => count(5, &format!("{list}, and perhaps an order"))?,
-                _ => count(4, list)?,
-            }
-            let order = given.get_item(4).map_or(Ok(1.0), |order| order.extract())?;
-            Ok(response::Response::Crossing {
-                mode: mode_number(py, given.get_item(0)?.extract()?)?,
-                condition: match what {
-                    "resonance" => Condition::Line(Line::from(order)),
-                    _ => Condition::FlutterOnset,
-                },
-                range: range(study, given, 1)?,
-            })
-        }
-        other => {
-            let quantity = quantity(py, other)?;
-            count(1, "the number of a mode, from 0")?;
-            let mode = mode_number(py, given.get_item(0)?.extract()?)?;
-            Ok(response::Response::Mode { mode, quantity })
-        }
-    }
-}
-
-/// The amplitude of an output under an excitation, or under all if they have one frequency.
-fn vibration(study: &eigentol::Study<Interpreted>, given: &Bound<'_, PyTuple>) -> PyResult<Vibration> {
-    let py = given.py();
-    let name = given.get_item(0)?.extract::<String>()?;
-    let output = study.find_output(&name).map_err(|error| raise(py, error))?;
-    let excitation = match given.get_item(1) {
-        Ok(name) => {
-            let excitation = study.find_excitation(&name.extract::<String>()?);
-            excitation.map_err(|error| raise(py, error))?
-        }
-        Err(_) => only(py, study)?,
-    };
-    let vibration = Vibration::new(output, excitation);
-    match given.get_item(2) {
-        Ok(name) => Ok(vibration.measure(measure(py, &name.extract::<String>()?)?)),
-        Err(_) => Ok(vibration),
-    }
-}
-
-/// The first excitation, if all have one frequency.
-fn only(py: Python<'_>, study: &eigentol::Study<Interpreted>) -> PyResult<Excitation<Interpreted>> {
-    let of = study.description();
-    let harmonics = names::harmonics(of);
-    match harmonics.len() {
-        0 => {
-            let mechanism = of.name.clone();
-            Err(raise(py, Error::NoExcitation { mechanism }))
-        }
-        1 => Ok(Excitation::new(0)),
-        _ => {
-            let firsts: Vec<&str> = harmonics.iter().map(|harmonic| harmonic[0]).collect();
-            let message = format!(
-                "the excitations have several frequencies: say under which the output vibrates, {}",
-                firsts.join(" or ")
-            );
-            Err(invalid(py, message))
-        }
-    }
 }
 
 /// Looks up how a vibration is measured.
@@ -169,36 +53,34 @@ pub(crate) fn measure(py: Python<'_>, name: &str) -> PyResult<Measure> {
     word(py, "measure", name, &words)
 }
 
-/// The range of the input whose name is item `first` of the given tuple.
-pub(crate) fn range(study: &eigentol::Study<Interpreted>, given: &Bound<'_, PyTuple>, first: usize) -> PyResult<Range> {
-    let name = given.get_item(first)?.extract::<String>()?;
-    let (index, unit) = List::Inputs.find(given.py(), study.description(), &name)?;
-    let low = number(&given.get_item(first + 1)?, &unit, &name)?;
-    let high = number(&given.get_item(first + 2)?, &unit, &name)?;
-    Ok(Range::new(eigentol::Input::new(index), low, high))
+impl Study {
+    /// The response that a text names.
+    pub(crate) fn wanted(&self, given: &hints::ResponseText<'_>) -> PyResult<response::Response> {
+        let wanted = eigentol_interpreter::response(&self.inner, &text(given, "frequency 1")?);
+        wanted.map_err(|error| meaningless(given.py(), error))
+    }
 }
 
 #[pymethods]
 impl Study {
     /// A response as a function of arrays of designs.
     ///
-    /// `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the
-    /// number of a mode, from 0; "output" and its name; "vibration" and the name of an output, for its amplitude (0 to
-    /// peak) under the excitations, and perhaps the name of one of these, needed where they have several frequencies,
-    /// and "velocity" or "acceleration"; "greatest" and the name of an input, a low and a high value, and the same, for
-    /// the greatest amplitude in that range, or "peak", for the value of the input at its highest peak; "critical" and
-    /// the name of an input, a low and a high value, between which the equilibrium loses its stiffness; "resonance" and
-    /// the number of a mode, an input, a low and a high value, and an order (1), or "flutter" and the same without it.
-    /// `variables` names the design variables that vary, in order; all unless given.
-    #[pyo3(signature = (what, *of, variables=None))]
+    /// `of` is a text as in the shell, modes counted from 1: "frequency 1", "natural_frequency 1" (rad/s), "damping_ratio 1" or
+    /// "growth 1" (1/s); the name of an output; "vibration shake", the amplitude (0 to peak) of an output under the
+    /// excitations, with "under u" where they have several frequencies, and "as velocity" or "as acceleration";
+    /// "vibration shake along speed=0..6000rpm", the greatest amplitude in a range of an input, and "peak shake along
+    /// speed=0..6000rpm", the value of the input at its highest peak; "critical speed=0..6000rpm", where the equilibrium
+    /// loses its stiffness; "resonance 1 speed=0..6000rpm order 2", where a frequency is 2 (1) times the input; "flutter 1
+    /// speed=0..6000rpm", where a mode begins or ceases to grow. `variables` names the design variables that vary, in
+    /// order; all unless given.
+    #[pyo3(signature = (of, variables=None))]
     fn response(
         slf: &Bound<'_, Self>,
         py: Python<'_>,
-        what: &str,
-        of: &Bound<'_, PyTuple>,
+        of: &hints::ResponseText<'_>,
         variables: Option<Vec<String>>,
     ) -> PyResult<Response> {
-        let wanted = wanted(&slf.get().inner, what, of)?;
+        let wanted = slf.get().wanted(of)?;
         let description = slf.get().inner.description();
         let variables = match variables {
             None => (0..description.design.len()).collect(),
@@ -217,15 +99,13 @@ impl Study {
             Ok((state, modes))
         })?;
         let study = slf.clone().unbind();
-        let arguments = of.clone().unbind();
-        let of: Vec<String> = of.iter().map(|quantity| Ok(quantity.str()?.to_string())).collect::<PyResult<_>>()?;
         Ok(Response {
             mechanism: slf.get().inner.mechanism().clone(),
-            given: (study, what.to_owned(), arguments),
+            study,
+            text: of.extract()?,
             nominal: Arc::new(nominal),
             wanted,
             variables,
-            text: format!("{what} {} of {}", of.join(", "), description.name),
         })
     }
 }
@@ -324,15 +204,13 @@ impl Response {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, ())> {
-        let (study, what, of) = &self.given;
         let variables = [("variables", self.names(py))].into_py_dict(py)?;
-        let first = (study.bind(py).getattr("response")?, what);
-        let all = first.into_pyobject(py)?.add(of.bind(py))?;
+        let response = self.study.bind(py).getattr("response")?;
         let partial = py.import("functools")?.getattr("partial")?;
-        Ok((partial.call(all.cast::<PyTuple>()?, Some(&variables))?, ()))
+        Ok((partial.call((response, &self.text), Some(&variables))?, ()))
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {
-        format!("Response: {} by {}", self.text, self.names(py).join(", "))
+        format!("Response: {} of {} by {}", self.text, self.mechanism.description().name, self.names(py).join(", "))
     }
 }

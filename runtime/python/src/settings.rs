@@ -3,8 +3,8 @@
 use eigentol::kernels::Kernels;
 use eigentol::modes::Family;
 use eigentol::tolerance::Distribution;
-use eigentol::{Coordinate, DesignVariable, Input, Law, Matrix, Parameter, Policy, Study, ToleranceInfo, Unit};
-use eigentol_interpreter::{Interpreted, tolerance};
+use eigentol::{Coordinate, DesignVariable, Input, Matrix, Parameter, Policy, Study, Unit};
+use eigentol_interpreter::{Interpreted, tolerance, tolerate};
 use numpy::{AllowTypeChange, PyArrayLike2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -270,26 +270,6 @@ fn possible(
         }
     }
     Ok(())
-}
-
-fn tolerate(
-    study: Study<Interpreted>,
-    parameter: Parameter<Interpreted>,
-    read: ToleranceInfo,
-    value: f64,
-) -> Study<Interpreted> {
-    let ToleranceInfo { lower, upper, relative, law } = read;
-    let study = if !relative {
-        study.limits(parameter, lower, upper)
-    } else if lower == -upper {
-        study.relative_tolerance(parameter, upper)
-    } else {
-        study.limits(parameter, value.abs() * lower, value.abs() * upper)
-    };
-    match law {
-        Law::Normal => study,
-        law => study.law(parameter, law),
-    }
 }
 
 /// Sets measured values of parameters, SI; they vary as measured.

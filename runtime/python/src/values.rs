@@ -1,7 +1,7 @@
 //! Numbers and names passed from Python.
 
 use eigentol::{Description, Error, Text, Unit};
-use eigentol_interpreter::{Mistakes, value};
+use eigentol_interpreter::{Mistakes, WantedError, value};
 use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -38,6 +38,23 @@ pub(crate) fn not_finite(py: Python<'_>, name: &str, value: f64) -> PyErr {
 pub(crate) fn mode_number(py: Python<'_>, mode: i64) -> PyResult<usize> {
     let number = usize::try_from(mode);
     number.map_err(|_| invalid(py, format!("mode {mode}: modes are counted from 0")))
+}
+
+/// A response or a requirement.
+pub(crate) fn text(given: &Bound<'_, PyAny>, example: &str) -> PyResult<String> {
+    given
+        .extract()
+        .map_err(|_| PyTypeError::new_err(format!("a text is needed, such as \"{example}\"; modes count from 1")))
+}
+
+/// The exception for a text that is no response or requirement.
+pub(crate) fn meaningless(py: Python<'_>, error: WantedError) -> PyErr {
+    match error {
+        WantedError::Meaning { message, help } => invalid(py, format!("{message}; {help}")),
+        WantedError::Value { place, mistakes } => refused(py, &place, &mistakes),
+        WantedError::Name(error) => raise(py, error),
+        other => invalid(py, other.to_string()),
+    }
 }
 
 /// The exception for a text that is not a value.

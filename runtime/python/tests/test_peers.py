@@ -115,7 +115,7 @@ def test_sigma_by_openturns(study):
     """First order and sampling of OpenTURNS on our response."""
     ot = pytest.importorskip("openturns", reason="OpenTURNS is absent: sigma is not compared")
     study = study.replace(tolerances={"m": "0.2 kg", "l": "3%"})
-    response = study.response("frequency", 0)
+    response = study.response("frequency 1")
     function = ot.PythonFunction(
         len(response.names),
         1,

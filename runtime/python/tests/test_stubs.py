@@ -20,7 +20,7 @@ mechanism = eigentol.Mechanism.from_file("rotor.mechanism")
 study = eigentol.Study(mechanism, inputs={"speed": "3000 rpm"}, samples=500)
 frequencies: NDArray[np.float64] = study.modes().frequencies
 assembly: eigentol.Answer = study.assembly()
-chances: eigentol.Answer = study.chances([(("frequency", 0), 3.0, None), "stable"], 0, 100)
+chances: eigentol.Answer = study.chances(["frequency 1 >= 3 rad/s", "stable"], 0, 100)
 names: list[str] = study.campbell("speed", [1.0, 2.0]).tables
 table: dict[str, object] = study.first_order().table()
 text: str = study.summary().to_json() + study.equilibrium()._repr_html_()

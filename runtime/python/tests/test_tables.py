@@ -30,7 +30,7 @@ def test_text_and_html(study):
 
 
 def test_html_is_escaped(study):
-    assert "<0>" not in study.worst_case([("frequency", 0)])._repr_html_()
+    assert "<0>" not in study.worst_case(["frequency 1"])._repr_html_()
 
 
 def test_studies_and_mechanisms_can_be_sent_to_other_processes(study):
@@ -69,7 +69,7 @@ def test_python_goes_on_while_a_question_is_answered(study):
     assert steps_during(lambda: sum(range(1_000_000))) == 0
     study = study.replace(samples=60_000, vectors=False)
     assert steps_during(study.monte_carlo) > 100
-    response = study.response("frequency", 0)
+    response = study.response("frequency 1")
     assert steps_during(lambda: response(np.tile(response.nominal, (20_000, 1)))) > 100
 
 

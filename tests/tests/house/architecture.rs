@@ -106,7 +106,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        108,
+        102,
     ),
 ];
 
