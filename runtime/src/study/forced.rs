@@ -132,7 +132,7 @@ impl<M: SummaryKernels> Study<M> {
         let wanted = wanted.iter().copied().map(Response::Vibration);
         let responses = Responses::new(toleranced.kernels(), state, modes, wanted.collect())?;
         let sampling = self.settings.sampling();
-        propagation::vibrations(toleranced.kernels(), &responses, toleranced.tolerances, &sampling)
+        Ok(propagation::vibrations(toleranced.kernels(), &responses, toleranced.tolerances, &sampling, 0)?.0)
     }
 
     /// Forced vibration at each value of one input: amplitude and phase of every output with their derivatives

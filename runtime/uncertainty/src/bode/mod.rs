@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 use crate::algebra::Vector;
 use crate::forced::{self, ForcedSensitivities};
 use crate::kernels::SummaryKernels;
-use crate::propagation::{Propagation, VibrationCheck, check_vibrations, vibrations};
+use crate::propagation::{Propagation, VibrationCheck, vibrations};
 use crate::response::{Response, Responses, Vibration};
 use crate::sweep::{Following, SweepPoint, states_each};
 use crate::tolerance::{Sampling, Tolerances, pool};
@@ -154,14 +154,7 @@ fn point(mechanism: &dyn SummaryKernels, at: &SweepPoint, banded: Option<&Banded
         let wanted = banded.wanted.iter().copied().map(Response::Vibration);
         let responses = Responses::new(mechanism, equilibrium, modes, wanted.collect())?;
         let (tolerances, sampling) = (banded.tolerances, &banded.sampling);
-        let spread = vibrations(mechanism, &responses, tolerances, sampling)?;
-        let checks = match banded.checked {
-            0 => Vec::new(),
-            number => {
-                let fewer = sampling.clone().samples(number);
-                check_vibrations(mechanism, &responses, tolerances, &fewer)?
-            }
-        };
+        let (spread, checks) = vibrations(mechanism, &responses, tolerances, sampling, banded.checked)?;
         bands = Some(Bands { spread, checks });
     }
     Ok(BodePoint { value, stable, vibration, bands })

@@ -33,5 +33,5 @@ pub use influence::{Influence, ResponseInfluence, VariableInfluence, influence};
 pub use result::{Estimated, Method, Propagation, QUANTILES, Quantile, ResponseSpread};
 pub use sampled::{Samples, sampled};
 pub use taylor::{first_order, second_order};
-pub use vibrations::{VibrationCheck, check_vibrations, vibrations};
+pub use vibrations::{VibrationCheck, vibrations};
 pub use worst_case::{Extreme, MissingCorner, ResponseLimits, WorstCase, worst_case};

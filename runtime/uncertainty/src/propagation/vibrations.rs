@@ -1,6 +1,6 @@
 //! Spreads of forced vibrations, right at a resonance too: the condensed resolvent in place of the mechanism.
 
-use super::gather::{Gathered, Task, nominal_scales};
+use super::gather::{Gathered, Scale, Task, nominal_scales};
 use super::model::{DesignRoom, Designs, Evaluated, Model, Take};
 use super::result::{Method, Propagation};
 use super::sampled::propagation_of;
@@ -78,7 +78,9 @@ impl Model for Vibrations<'_> {
 /// Spreads of amplitudes of forced vibrations from many samples of a model that is cheap and stays right at a resonance,
 /// where the amplitude to first order fails: the inverse of the dynamic stiffness, condensed to the directions in which
 /// it nearly vanishes, with total derivatives, and exact forces. [`sampled`](super::sampled) solves every design anew and
-/// says how good the model is.
+/// says how good the model is, and so do the checks: `checked` designs are solved anew, and the spreads of both over them
+/// compared, so that the scatter of sampling cancels. A check is `None` for a response that fewer than two of them have; there
+/// are none if nothing is `checked`.
 ///
 /// # Errors
 /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for responses that are no vibrations
@@ -88,20 +90,26 @@ pub fn vibrations(
     responses: &Responses<'_>,
     tolerances: &Tolerances,
     sampling: &Sampling<'_>,
-) -> Result<Propagation, Error> {
+    checked: usize,
+) -> Result<(Propagation, Vec<Option<VibrationCheck>>), Error> {
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;
     let model = Vibrations::new(mechanism, at, responses.wanted(), &space)?;
     let (nominal, scales) = nominal_scales(responses, tolerances)?;
-    let task = Task { model: &model, scales, unknowns: at.coordinates.len(), space: &space };
+    let task = Task { model: &model, scales: scales.clone(), unknowns: at.coordinates.len(), space: &space };
     let parts = task.gather(sampling)?;
-    propagation_of(
+    let propagation = propagation_of(
         Method::Resolvent(sampling.points),
         &parts,
         (responses.wanted(), &nominal),
         (&space.variables(), at.design.len()),
         (&at.inputs, &at.description),
-    )
+    )?;
+    let checks = match checked {
+        0 => Vec::new(),
+        number => check(&model, responses, &scales, &sampling.clone().samples(number))?,
+    };
+    Ok((propagation, checks))
 }
 
 /// How far the spread by the model of [`vibrations`] is from that of the same designs solved anew.
@@ -117,26 +125,17 @@ pub struct VibrationCheck {
     pub upper: f64,
 }
 
-/// Solves some designs anew and compares the spreads of the amplitudes with those of [`vibrations`] over the same
-/// designs, so that the scatter of sampling cancels. `None` for a response that fewer than two of them have.
-///
-/// # Errors
-/// As [`vibrations`].
-pub fn check_vibrations(
-    mechanism: &dyn CurvatureKernels,
+/// Compares the model with designs solved anew.
+fn check(
+    model: &Vibrations<'_>,
     responses: &Responses<'_>,
-    tolerances: &Tolerances,
+    scales: &[Scale],
     sampling: &Sampling<'_>,
 ) -> Result<Vec<Option<VibrationCheck>>, Error> {
-    let at = responses.nominal();
-    let space = Space::new(at, tolerances)?;
-    let (_, scales) = nominal_scales(responses, tolerances)?;
-    let both = Both {
-        designs: Designs::new(responses, &space),
-        model: Vibrations::new(mechanism, at, responses.wanted(), &space)?,
-    };
-    let task =
-        Task { model: &both, scales: [&scales[..], &scales].concat(), unknowns: at.coordinates.len(), space: &space };
+    let space = model.space;
+    let both = Both { designs: Designs::new(responses, space), model };
+    let unknowns = responses.nominal().coordinates.len();
+    let task = Task { model: &both, scales: [scales, scales].concat(), unknowns, space };
     let parts = task.gather(sampling)?;
     let (gathered, count) = (Gathered(&parts), scales.len());
     let compared = |k: usize| {
@@ -168,7 +167,7 @@ fn relative(value: Option<f64>, right: Option<f64>) -> Option<f64> {
 /// The mechanism and the model, at the same designs; designs that fail have neither value.
 struct Both<'a> {
     designs: Designs<'a>,
-    model: Vibrations<'a>,
+    model: &'a Vibrations<'a>,
 }
 
 impl Model for Both<'_> {

@@ -1,7 +1,7 @@
 //! Bands of amplitudes against designs solved anew, at and beside resonances.
 
 use eigentol::Study;
-use eigentol::propagation::check_vibrations;
+use eigentol::propagation::vibrations;
 use eigentol::response::{Response, Responses, Vibration};
 use eigentol::tolerance::{Points, Sampling};
 use eigentol_interpreter::Interpreted;
@@ -25,7 +25,7 @@ fn greatest_errors(text: &str, input: &str, values: &[f64]) -> (f64, f64) {
         let responses = Responses::new(&machine, &state, &modes, wanted).expect("vibrations");
         let tolerances = study.tolerances().expect("tolerances");
         let sampling = Sampling::default().points(Points::Sobol).samples(2048).randomisations(4);
-        let checks = check_vibrations(&machine, &responses, &tolerances, &sampling).expect("solved");
+        let (_, checks) = vibrations(&machine, &responses, &tolerances, &sampling, 2048).expect("solved");
         for check in checks.into_iter().flatten() {
             println!("{value} {check:?}");
             worst = (worst.0.max(check.sigma.abs()), worst.1.max(check.upper.abs()));
