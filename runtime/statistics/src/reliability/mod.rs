@@ -1,7 +1,7 @@
 //! Failure probabilities of limit states in independent standard normal variables.
 //!
 //! A [`LimitState`] is a function `g(z)` that is not positive in failure. [`form`] finds its design point,
-//! [`sampling`] and [`lines`] give unbiased estimates. The caller transforms physical variables to standard normal ones.
+//! [`lines`] give an unbiased estimate, and [`sampling`] intervals of plain samples. The caller transforms physical variables to standard normal ones.
 
 mod counted;
 mod form;

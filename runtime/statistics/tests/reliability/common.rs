@@ -2,6 +2,7 @@
 
 use core::convert::Infallible;
 
+use eigentol_statistics::reliability::lines::{Direction, LineProbability, LineSampler, LineSettings};
 use eigentol_statistics::reliability::{DesignPoint, FormSettings, LimitFunction, LimitState, LimitValue, form};
 
 pub(crate) fn limit(
@@ -54,4 +55,17 @@ pub(crate) fn mean(f: impl Fn(f64) -> f64) -> f64 {
         weight(k) * density(x) * f(x)
     };
     (0..=panels).map(value).sum::<f64>() * step / 3.0
+}
+
+/// The probability of failure, with what design points tell.
+pub(crate) fn estimate<L: LimitState>(
+    limit: &L,
+    points: &[DesignPoint],
+    settings: &LineSettings,
+) -> LineProbability {
+    let dimension = limit.dimension();
+    let variables: Vec<usize> = (0..dimension).collect();
+    let expected = points.iter().map(|point| Direction { along: point.direction.clone(), distance: point.beta });
+    let expected: Vec<Direction> = expected.collect();
+    LineSampler::new(dimension, &variables, &expected, settings).expect("valid settings").run(limit)
 }

@@ -3,8 +3,8 @@
 mod benchmarks;
 mod common;
 mod coverage;
+mod family;
 mod form;
 mod lines;
 mod random_limits;
 mod regions;
-mod sampling;

@@ -1,9 +1,9 @@
 //! Several failure regions.
 
-use eigentol_statistics::reliability::sampling::{Failure, Proposal, Sampler, SamplingSettings};
+use eigentol_statistics::reliability::lines::LineSettings;
 use eigentol_statistics::reliability::{FormSettings, LimitState, failure_regions};
 
-use crate::common::{below, close, limit};
+use crate::common::{below, close, estimate, limit};
 
 /// Failure beyond 3 on one side and beyond 4 on the other; the search from the origin finds only the far region.
 fn two_sided() -> impl LimitState<Error = core::convert::Infallible> {
@@ -39,14 +39,13 @@ fn bulges_uncover_what_is_beside() {
 }
 
 #[test]
-fn mixtures_sum_over_regions() {
-    let limits = [two_sided()];
-    let found = failure_regions(&limits[0], &FormSettings::default()).unwrap();
-    let proposal = Proposal::around(&found.design_points).unwrap();
-    let settings = SamplingSettings { coefficient_of_variation: 0.01, ..SamplingSettings::default() };
-    let sampled = Sampler::new(&limits, Failure::Any, &proposal, &settings).unwrap().run();
-    assert!(sampled.reached);
-    close(sampled.probability.value, below(-3.0) + below(-4.0), 0.03);
+fn lines_sum_over_regions() {
+    let limit = two_sided();
+    let found = failure_regions(&limit, &FormSettings::default()).unwrap();
+    let settings = LineSettings { coefficient_of_variation: 0.01, ..LineSettings::default() };
+    let judged = estimate(&limit, &found.design_points, &settings);
+    assert!(judged.settled);
+    close(judged.probability.value, below(-3.0) + below(-4.0), 0.03);
 }
 
 /// Infinitely many design points: their number is capped, and the result says that there may be more.

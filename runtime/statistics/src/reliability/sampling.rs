@@ -1,9 +1,19 @@
-//! Confidence intervals for a probability estimated from a number of samples.
+//! Estimates of a probability, and confidence intervals from a number of samples.
 
 use statrs::function::beta::checked_beta_reg;
 
 use crate::Error;
 use crate::normal::quantile;
+
+/// An estimate with its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Estimate {
+    /// The estimate.
+    pub value: f64,
+    /// Its estimated standard deviation over repetitions with other seeds.
+    pub standard_error: f64,
+}
 
 /// An interval of probabilities.
 #[derive(Clone, Copy, Debug, PartialEq)]
