@@ -36,6 +36,7 @@ use crate::algebra::{Lu, Matrix, Vector, add_to, dot, is_symmetric, times};
 use crate::eigenproblem::{EigenproblemError, Pairs, Root, symmetric};
 use crate::free::NullSpace;
 use crate::kernels::Linear;
+use crate::rounding::of_form;
 
 /// Share of its terms below which a damping of a free direction counts as zero.
 const UNDAMPED: f64 = 1e-10;
@@ -286,10 +287,27 @@ pub(crate) fn pairs(
             *to = value.re;
         }
     }
+    // Elements of the smaller matrices are what is left of greater terms; those of the whole ones know their rounding.
+    for r in free.len()..n {
+        let (off, rounding) = quotient(&linear, pairs.lambda[r], &pairs.shapes[r]);
+        if off.is_finite() {
+            pairs.lambda[r] += off;
+            pairs.errors[r] = pairs.errors[r].max(rounding + 2.0 * off.abs());
+        }
+    }
     for shape in pairs.shapes.iter_mut() {
         symmetric::fix_sign(shape);
     }
     Ok(())
+}
+
+/// `phi^T (K - lambda M) phi` and a bound on its rounding, per `phi^T M phi = 1`.
+pub(super) fn quotient(linear: &Linear, lambda: f64, phi: &[f64]) -> (f64, f64) {
+    let (k, m) = (times(&linear.stiffness, phi), times(&linear.mass, phi));
+    let size = dot(phi, &m);
+    let numerator = dot(phi, &k) - lambda * size;
+    let rounding = of_form(&linear.stiffness, phi) + lambda.abs() * of_form(&linear.mass, phi);
+    (numerator / size, rounding / size)
 }
 
 /// The roots of `A x = s x` with `count` free directions, which come first; `solve` finds the roots of the rest. The

@@ -11,6 +11,8 @@ mod answer;
 mod assurance;
 mod constrained;
 mod deflation;
+#[cfg(test)]
+mod deflation_tests;
 mod kinetic;
 mod mode;
 mod pencil;
@@ -390,6 +392,7 @@ fn solve_general(
     let open = structure.open() && !accelerates;
     let roots = if open && free > 0 {
         deflation::roots(linear, free, |rest| roots_near(Eigenproblem::Quadratic(rest), &[]))
+            .map(|roots| constrained::measured(linear, structure, &roots))
     } else if open {
         let nearby: Vec<_> = nearby.iter().map(Mode::near).collect();
         roots_near(Eigenproblem::Quadratic(linear), &nearby)

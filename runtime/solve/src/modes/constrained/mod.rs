@@ -28,6 +28,7 @@ mod system;
 pub use pairs::free_pairs;
 pub(crate) use pairs::free_pairs_into;
 
+use super::deflation;
 use super::pencil::pencil_times;
 use crate::algebra::{Matrix, Vector, dot, times, times_complex};
 use crate::constraints::{Structure, Tangent};
@@ -51,6 +52,20 @@ pub(super) fn general_roots(
     } else {
         first_order::roots(linear, &tangent, free)
     }
+}
+
+/// Roots of an open mechanism without its zeros, measured on the pencil with them: elements of the smaller one are what is
+/// left of greater terms.
+pub(super) fn measured(linear: &Linear, structure: Structure, reduced: &[Root]) -> Vec<Root> {
+    let mut gathered = Gathered::new(linear, structure, Normalisation::Mass);
+    for (i, root) in reduced.iter().enumerate() {
+        let (right, left) = (root.right.clone(), root.left.clone());
+        match deflation::is_standing(root) {
+            true => gathered.keep(root.clone(), right, left),
+            false => gathered.add(root, is_shared(reduced, i), right, left),
+        }
+    }
+    gathered.roots
 }
 
 /// Completes the motion of a vector with its reactions: `x` with `P(s) x = 0` by coordinate and speed.

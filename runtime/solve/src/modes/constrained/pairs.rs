@@ -5,12 +5,11 @@
 use super::quadratic::tangent_trouble;
 use super::{measure, projected};
 use crate::Description;
-use crate::algebra::{Matrix, Vector, dot, largest, largest_element, times};
+use crate::algebra::{Matrix, Vector, largest, largest_element, times};
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::{EigenproblemError, Pairs, symmetric};
 use crate::kernels::Linear;
 use crate::modes::deflation;
-use crate::rounding::of_form;
 
 /// Eigenpairs of a symmetric `Khat` and `Mhat` along the directions that the constraints of `description` leave free.
 ///
@@ -63,7 +62,7 @@ fn reduced_pairs(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Pair
         }
         // The quotient does not depend on the reactions: constraint forces cancel in it.
         let complete = with_reactions(linear, tangent, *lambda, &x);
-        let (numerator, rounding) = quotient(linear, *lambda, &complete);
+        let (numerator, rounding) = deflation::quotient(linear, *lambda, &complete);
         *lambda += numerator;
         pairs.errors[r] = pairs.errors[r].max(rounding);
         let shape = with_reactions(linear, tangent, *lambda, &x);
@@ -83,7 +82,7 @@ fn refine(linear: &Linear, tangent: &Tangent, pairs: &mut Pairs) {
     symmetric::refine(&linear.stiffness, &linear.mass, pairs, &inaccurate);
     for mode in inaccurate {
         let (lambda, shape) = (pairs.lambda[mode], &pairs.shapes[mode]);
-        let (off, rounding) = quotient(linear, lambda, shape);
+        let (off, rounding) = deflation::quotient(linear, lambda, shape);
         pairs.residuals[mode] = residual(linear, tangent, lambda, shape);
         let error = rounding + 2.0 * off.abs();
         pairs.errors[mode] = match accurate(pairs.residuals[mode]) {
@@ -111,15 +110,6 @@ fn with_reactions(linear: &Linear, tangent: &Tangent, lambda: f64, x: &[f64]) ->
     let reactions = tangent.multipliers(&force);
     let motions = tangent.structure.motions();
     Vector::from_fn(x.len(), |i| if i < motions { x[i] } else { reactions[i] })
-}
-
-/// `phi^T (K - lambda M) phi` and a bound on its rounding, per `phi^T M phi = 1`.
-fn quotient(linear: &Linear, lambda: f64, phi: &[f64]) -> (f64, f64) {
-    let (k, m) = (times(&linear.stiffness, phi), times(&linear.mass, phi));
-    let size = dot(phi, &m);
-    let numerator = dot(phi, &k) - lambda * size;
-    let rounding = of_form(&linear.stiffness, phi) + lambda.abs() * of_form(&linear.mass, phi);
-    (numerator / size, rounding / size)
 }
 
 /// Largest component of `(K - lambda M) phi` relative to the sums of absolute terms, over the equations of motion and
