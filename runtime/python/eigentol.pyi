@@ -518,7 +518,7 @@ class Answer(_Result):
     length two, so that `x @ [1, 1j]` is the complex array. `dir(answer)` lists them. A list of results has `entries`.
     """
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str, /) -> Any:
         """The column of this name or heading, in its declared unit."""
     def __getattr__(self, name: str) -> Any:
         """A field of the result, SI."""

@@ -163,6 +163,7 @@ fn method(impl_item_fn: &ImplItemFn, types: &Types) -> Member {
     let mut made = member(kind, &impl_item_fn.attrs, &impl_item_fn.sig, types);
     match made.name.as_str() {
         "new" => "__new__".clone_into(&mut made.name),
+        "__getitem__" => made.arguments.push("/".to_owned()),
         // Python compares with anything.
         "__eq__" => made.arguments = vec!["other: object".to_owned(), "/".to_owned()],
         _ => {}
