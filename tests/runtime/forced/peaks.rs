@@ -236,3 +236,43 @@ fn a_peak_of_what_the_floor_moves_directly() {
     assert!((place - low).abs() < 1e-6, "{place} {low}");
     assert!((peak.height.value / square(place).sqrt() - 1.0).abs() < 1e-12);
 }
+
+/// One spring is 1e5 times as stiff as the other, both at an angle to the coordinates: the sharper the peak, the more of its
+/// derivatives is rounding, which does not count as known. `height = force / (c w)` and `amplification = w m / c`.
+#[test]
+fn what_rounding_decides_is_not_known() {
+    let text = "mechanism Inclined { input w: rad/s; design m = 2 kg; design k = 1e4 N/m; design c = 1 N*s/m;
+        body slide: massless; body p: point(mass: m);
+        joint x: prismatic(x) from ground to slide; joint y: prismatic(y) from slide to p;
+        point seat: ground rotated(z, 0.5 rad); point foot: p rotated(z, 0.5 rad);
+        force springs: bushing(from: seat, to: foot, stiffness: [k, 1e9 N/m, 0], damping: [c, 0, 0]);
+        force push: harmonic(at: foot, force: [cos(0.5), sin(0.5), 0] N, frequency: w);
+        output place = position(foot).x; }";
+    let model = Interpreted::from_text(text).unwrap();
+    let mut known = 0;
+    for decade in 0..12 {
+        let design = [2.0, 1e4, 10_f64.powi(-decade)];
+        let range = Range::new(Input::new(0), 40.0, 90.0).steps(1);
+        let from = (&[50.0][..], &design[..]);
+        let wanted = (range, &[vibration(0)][..]);
+        let found = one(peaks(&model, from, &[0.0; 2], Policy::Stable, wanted, None, Watch::default()));
+        let [peak] = &found.peaks[..] else { panic!("one peak: {found:?}") };
+        let Some(amplification) = &peak.amplification else { continue };
+        // Relative changes by m, k and c.
+        for (number, expected) in [(&peak.height, [0.5, -0.5, -1.0]), (amplification, [0.5, 0.5, -1.0])] {
+            if number.by_design.is_empty() {
+                assert!(amplification.value > 1e6 && number.spread.is_none());
+                continue;
+            }
+            known += 1;
+            for (k, expected) in expected.into_iter().enumerate() {
+                let slope = number.by_design[k] * design[k] / number.value;
+                assert!(
+                    (slope - expected).abs() < 0.1 + 1.0 / amplification.value,
+                    "1e-{decade}, {k}: {slope} {expected}"
+                );
+            }
+        }
+    }
+    assert!(known >= 14, "{known}");
+}
