@@ -45,7 +45,6 @@ fn lognormal(mean: f64, deviation: f64, z: f64) -> (f64, f64) {
 }
 
 #[test]
-#[ignore = "lines give 0.000715 and claim 1.5 %"]
 fn rp8() {
     const FACTORS: [f64; 6] = [1.0, 2.0, 2.0, 1.0, -5.0, -5.0];
     const LAWS: [(f64, f64); 6] =

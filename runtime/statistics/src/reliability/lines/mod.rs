@@ -60,6 +60,8 @@ const COARSE_SPACING: f64 = 1.0;
 const COARSE_ROUND: usize = 8;
 /// Fewer lines say nothing about their scatter.
 const FEWEST: u64 = 32;
+/// Fewer do not end it: a rare line that contributes much may not be among them yet, and the scatter then is too small.
+const MANY: u64 = 128;
 /// The error is looked at again after so small a part more.
 const SELDOM: u64 = 4;
 /// Fewest plain samples that fail, or do not, and how much less than lines they must scatter for what they cost.
@@ -199,6 +201,7 @@ impl LineSampler {
         let (sum, squares) = (rarer.iter().sum::<f64>(), dot(&rarer, &rarer));
         let enough = lines.len() as u64 >= FEWEST && part > 0.0;
         let settled = self.alone() || enough && sum * sum >= CONTRIBUTING * squares;
+        let many = self.alone() || lines.len() as u64 >= MANY;
         let unmet = match self.alone() {
             true => 0.0,
             false => UNMET * part / lines.len() as f64,
@@ -206,7 +209,7 @@ impl LineSampler {
         let probability = Estimate { standard_error: probability.standard_error.hypot(unmet), ..probability };
         LineProbability {
             settled,
-            reached: settled && probability.standard_error <= self.settings.coefficient_of_variation * part,
+            reached: settled && many && probability.standard_error <= self.settings.coefficient_of_variation * part,
             probability,
             without_value,
             lines: lines.len() as u64,
