@@ -80,10 +80,8 @@ impl ResidualMonitor {
         if !stalled {
             self.fell_at.copy_from_slice(q);
         }
-        let motions = point.motions();
-        let description = &point.description;
-        let last = step.map_or(StepsLeft::More, |step| last(description, step, q, motions));
-        let drifts = stalled && self.drifts(description, &q[..motions]);
+        let last = step.map_or(StepsLeft::More, |step| last(point, step, q));
+        let drifts = stalled && self.drifts(&point.description, &q[..point.motions()]);
         let parts = &mut self.parts;
         let at = (residual, stiffness);
         let mut solved = |tolerance| relative_residual_into(point, q, at, parts) <= tolerance;
@@ -117,8 +115,8 @@ pub(crate) enum StepsLeft {
 
 /// How many steps remain, judged from the next one at `q`.
 #[inline]
-pub(crate) fn last(description: &Description, step: &[f64], q: &[f64], motions: usize) -> StepsLeft {
-    let within = |tolerance| within(tolerance, description, step, q, motions);
+pub(crate) fn last(point: &OperatingPoint<'_>, step: &[f64], q: &[f64]) -> StepsLeft {
+    let within = |tolerance| within(tolerance, point, step, q);
     if !within(LAST_STEP) {
         StepsLeft::More
     } else if within(FLOOR) {
@@ -130,14 +128,15 @@ pub(crate) fn last(description: &Description, step: &[f64], q: &[f64], motions: 
 
 /// Whether a displacement of the unknowns is as small as rounding.
 #[inline]
-pub(crate) fn is_rounding(description: &Description, displacement: &[f64], q: &[f64], motions: usize) -> bool {
-    within(ROUNDING, description, displacement, q, motions)
+pub(crate) fn is_rounding(point: &OperatingPoint<'_>, displacement: &[f64], q: &[f64]) -> bool {
+    within(ROUNDING, point, displacement, q)
 }
 
 /// Whether every change of a coordinate is within `tolerance` of the coordinate or of a small motion, and every change
 /// of a reaction within `tolerance` of that reaction or of the largest one.
 #[inline]
-fn within(tolerance: f64, description: &Description, step: &[f64], q: &[f64], motions: usize) -> bool {
+fn within(tolerance: f64, point: &OperatingPoint<'_>, step: &[f64], q: &[f64]) -> bool {
+    let (description, motions) = (&point.description, point.motions());
     let reaction = largest_reaction(description, q, motions);
     (0..q.len()).all(|j| {
         let share = if j < motions { 1.0 } else { reaction };

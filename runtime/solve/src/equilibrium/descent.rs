@@ -93,7 +93,7 @@ where
             factors.solve(&slopes).map(|value| -value)
         } else {
             let curved = curved.get_or_insert_with(|| Curved::blank(point.size()));
-            curved.solve(point, &base, &stiffness)?;
+            curved.solve(point, (&base, iterations), &stiffness)?;
             left_unstable_region |= curved.unstable;
             curved.step(&slopes)
         };
@@ -199,7 +199,12 @@ impl Curved {
     }
 
     #[cold]
-    fn solve<S>(&mut self, point: &OperatingPoint<'_>, base: &Base<S>, stiffness: &Matrix) -> Result<(), Failure>
+    fn solve<S>(
+        &mut self,
+        point: &OperatingPoint<'_>,
+        (base, iterations): (&Base<S>, usize),
+        stiffness: &Matrix,
+    ) -> Result<(), Failure>
     where
         S: SearchSpace,
     {
@@ -207,7 +212,7 @@ impl Curved {
         let mass = base.space.reduced(&self.linear.mass);
         symmetric::solve_into(stiffness, &mass, &mut self.pairs).map_err(|error| match error {
             EigenproblemError::SingularMass(row) => point.singular_mass(&base.q, row),
-            EigenproblemError::Inaccurate { .. } => error.into(),
+            EigenproblemError::Inaccurate { .. } => failure(point, NotFound::NoDescent, &base.q, iterations),
         })?;
         self.unstable = sign(self.pairs.lambda[0], self.pairs.errors[0]) == Sign::Negative;
         Ok(())

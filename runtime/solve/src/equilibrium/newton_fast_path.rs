@@ -67,7 +67,7 @@ fn newton(
         step.copy_from_slice(residual);
         solve_rows(n, lower, pivots, step);
         step.iter_mut().for_each(|value| *value = -*value);
-        let left = last(&point.description, step, q, n);
+        let left = last(point, step, q);
         if left != StepsLeft::More {
             // A step that changes nothing is not taken.
             let taken = left != StepsLeft::Reached;
@@ -145,7 +145,7 @@ fn ends(
     let fell = largest(residual) <= 1e-3 * largest(before) || {
         let mut displacement = Vector::from(&*residual);
         solve_rows(n, lower, pivots, &mut displacement);
-        is_rounding(&point.description, &displacement[..n], q, n)
+        is_rounding(point, &displacement[..n], q)
     };
     fell && state.relative_residual <= TOLERANCE
 }

@@ -19,7 +19,7 @@ use step::{Aim, FIRST_RADIUS, LEAST_DAMPING, damped, plain, scaled, without_depe
 const MAX_ITERATIONS: usize = 200;
 /// A gap that keeps this share in a step has stopped falling.
 const STALLED: f64 = 0.5;
-/// How often, and by what share of large changes, a state from which the loops cannot close is kicked.
+/// How often, and by how much (rad or m), a state from which the loops cannot close is kicked.
 const KICKS: usize = 4;
 const KICK: f64 = 0.02;
 /// A kick is accepted if it leaves no more than this share of the gaps.
@@ -41,7 +41,7 @@ pub(super) fn close(point: &OperatingPoint<'_>, start: &[f64], held: &[bool]) ->
             Failure::NotAssembled { coordinates, .. } => coordinates,
             _ => start,
         };
-        let from = kicked(point, from, held, kick);
+        let from = kicked(from, held, kick, point.structure);
         match close_from(point, &from, held) {
             Ok(closed) => return Ok(closed),
             Err(next) if open_by(&next) < BETTER * open_by(&best) => best = next,
@@ -52,12 +52,12 @@ pub(super) fn close(point: &OperatingPoint<'_>, start: &[f64], held: &[bool]) ->
 }
 
 /// A displacement without symmetry.
-fn kicked(point: &OperatingPoint<'_>, x: &[f64], held: &[bool], kick: usize) -> Vector {
+fn kicked(x: &[f64], held: &[bool], kick: usize, structure: Structure) -> Vector {
     Vector::from_fn(x.len(), |j| {
-        if held[j] || j >= point.structure.coordinates {
+        if held[j] || j >= structure.coordinates {
             x[j]
         } else {
-            x[j] + KICK * point.description.large(j) * (1.0 + 1.7 * j as f64 + 2.3 * kick as f64).sin()
+            x[j] + KICK * (1.0 + 1.7 * j as f64 + 2.3 * kick as f64).sin()
         }
     })
 }

@@ -1,5 +1,6 @@
 //! One step towards closing the loops.
 
+use super::super::convergence::largest_of;
 use super::super::operating_point::OperatingPoint;
 use super::gaps::{Gaps, free, gaps};
 use crate::algebra::{Vector, add_scaled, dot};
@@ -9,8 +10,8 @@ use crate::constraints::Rows;
 const FALLS: f64 = 0.1;
 /// Share of the gaps that constraints must still be able to close; below it the gaps have a minimum.
 const CLOSABLE: f64 = 1e-9;
-/// Largest change of a coordinate in the first step, relative to a large change; grows while the linear model predicts well.
-/// It is small because the path decides which assembly mode is found.
+/// Largest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. It is small
+/// because the path decides which assembly mode is found.
 pub(super) const FIRST_RADIUS: f64 = 0.3;
 /// Limits of the damping, relative to the constraints.
 pub(super) const LEAST_DAMPING: f64 = 1e-6;
@@ -69,14 +70,14 @@ pub(super) fn without_dependent(
     let step = rows.shortest_of_independent(&at.gaps);
     let trial = add_scaled(x, -1.0, &step);
     let there = gaps(point, &trial)?;
-    let falls = point.size_of(&step) <= FIRST_RADIUS && there.relative <= FALLS * at.relative;
+    let falls = largest_of(&step) <= FIRST_RADIUS && there.relative <= FALLS * at.relative;
     falls.then_some((trial, there))
 }
 
 /// A Gauss-Newton step of least motion, halved a few times if needed.
 pub(super) fn plain(point: &OperatingPoint<'_>, x: &[f64], aim: &Aim<'_>, radius: &mut f64) -> Option<(Vector, Gaps)> {
     let step = aim.rows.shortest(&aim.at.gaps);
-    let size = point.size_of(&step);
+    let size = largest_of(&step);
     let limit = (*radius / size).min(1.0);
     let mut length = limit;
     for _ in 0..4 {
@@ -104,7 +105,7 @@ pub(super) fn damped(
     *damping = (*damping * 1e-2).max(LEAST_DAMPING);
     while *damping <= MOST_DAMPING {
         let mut step = aim.rows.damped(&aim.scaled, *damping)?;
-        let size = point.size_of(&step);
+        let size = largest_of(&step);
         if size > *radius {
             step = step.map(|value| value * *radius / size);
         }
