@@ -55,7 +55,8 @@ fn stages() {
         let mut compilation = compiled(declaration);
         let kernels = compilation.program.kernels.into_iter();
         compilation.program = Program { kernels: kernels.filter(|kernel| READABLE.contains(&kernel.name)).collect() };
-        for (stage, text) in compilation.dumps() {
+        // A mechanism is dumped as it lies in memory, with places in its text.
+        for (stage, text) in compilation.dumps().into_iter().filter(|(stage, _)| *stage != "mechanism") {
             assert_snapshot!(format!("{machine}__{stage}"), text);
         }
     }

@@ -97,7 +97,7 @@ impl Compilation {
     pub fn dumps(&self) -> [(&'static str, String); 5] {
         [
             ("ast", print(&self.ast)),
-            ("mechanism", self.mechanism.to_string()),
+            ("mechanism", format!("{:#?}", self.mechanism)),
             ("topology", self.topology.describe(&self.mechanism)),
             ("functions", self.functions.to_string()),
             ("program", self.program.to_string()),

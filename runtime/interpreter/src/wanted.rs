@@ -207,7 +207,7 @@ fn clauses(study: &Study<Interpreted>, text: &str, words: &[&str]) -> Result<(Vi
             ["as", "displacement"] => measure = Measure::Displacement,
             ["as", "velocity"] => measure = Measure::Velocity,
             ["as", "acceleration"] => measure = Measure::Acceleration,
-            ["along", along_input] => along = Some(range(study, along_input)?),
+            ["along", input] => along = Some(range(study, input)?),
             _ => return no(text, "a vibration"),
         }
     }
@@ -232,14 +232,13 @@ pub fn excitation(study: &Study<Interpreted>, under: Option<&str>) -> Result<Exc
     let all = &study.description().excitations;
     match under {
         Some(under) => {
-            let mut names = under.split(',').map(|name| study.find_excitation(name.trim()));
-            let first = names.next().unwrap_or_else(|| study.find_excitation(under))?;
-            for name in names {
-                if all[name?.index()].with != all[first.index()].with {
-                    return wrong(format!("`{under}` act with different frequencies"), "name one of them");
-                }
+            let named = under.split(',').map(|name| study.find_excitation(name.trim()));
+            let named: Vec<_> = named.collect::<core::result::Result<_, _>>()?;
+            let with = |excitation: &Excitation<Interpreted>| all[excitation.index()].with;
+            match named.iter().all(|other| with(other) == with(&named[0])) {
+                true => Ok(named[0].any()),
+                false => wrong(format!("`{under}` act with different frequencies"), "name one of them"),
             }
-            Ok(first.any())
         }
         None if all.is_empty() => {
             let help = "declare one: `unbalance u: on disk, amount: 20 g*mm;`, a `harmonic` force or a `shaken` joint";
@@ -323,7 +322,15 @@ pub fn with_unit_of(low: &str, high: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::with_unit_of;
+    use eigentol::forced::Measure;
+    use eigentol::peaks::PeakQuantity;
+    use eigentol::requirement::Requirement;
+    use eigentol::response::{Response, Vibration};
+    use eigentol::sweep::{Condition, Line, Range};
+    use eigentol::{Excitation, Input, Output, Quantity, Study};
+
+    use super::{requirement, response, with_unit_of};
+    use crate::Interpreted;
 
     #[test]
     fn the_low_end_takes_the_unit_of_the_high_end() {
@@ -335,6 +342,96 @@ mod tests {
             ("1", "rpm", "1 rpm"),
         ] {
             assert_eq!(with_unit_of(low, high), expected);
+        }
+    }
+
+    fn shaken() -> Study<Interpreted> {
+        let text = "mechanism Shaken {
+            input load: N; input speed: rad/s;
+            body block: point(mass: 2 kg);
+            joint x: prismatic(x) from ground to block;
+            force shaft: spring(on: x, stiffness: 800 N/m);
+            force gust: harmonic(on: x, force: load, frequency: speed);
+            force blow: harmonic(on: x, force: load, frequency: 2 * speed);
+            output twice = 2 * x; output place = x;
+        }";
+        Study::new(Interpreted::from_text(text).expect("a mechanism"))
+    }
+
+    /// Words for a response, with what they mean and the unit of its limits.
+    fn said(pick: &mut dyn FnMut(usize) -> usize) -> (String, Response, &'static str) {
+        let (low, high) = (1.0 + pick(9) as f64, 20.0 + pick(9) as f64);
+        let range = Range::new(Input::new(1), low, high);
+        let along = format!("speed={low}..{high}rad/s");
+        let (number, order) = (pick(3), 1.0 + pick(4) as f64 / 2.0);
+        let (name, output) = [("twice", 0), ("place", 1)][pick(2)];
+        let (under, excitation) = [("gust", 0), ("blow", 1)][pick(2)];
+        let (word, measure, unit) = [
+            ("displacement", Measure::Displacement, "m"),
+            ("velocity", Measure::Velocity, "m/s"),
+            ("acceleration", Measure::Acceleration, "m/s^2"),
+        ][pick(3)];
+        let mut clauses = [format!("under {under}"), format!("as {word}"), format!("along {along}")];
+        let vibration = Vibration { output: Output::new(output), excitation: Excitation::new(excitation), measure };
+        let crossing = |condition| Response::Crossing { mode: number, condition, range };
+        let mode = |quantity| Response::Mode { mode: number, quantity };
+        let peak = |quantity| Response::Peak { vibration, range, quantity };
+        let number = number + 1;
+        match pick(9) {
+            0 => (format!("frequency {number}"), mode(Quantity::Frequency), "rad/s"),
+            1 => (format!("damping_ratio {number}"), mode(Quantity::DampingRatio), ""),
+            2 => (format!("growth {number}"), mode(Quantity::Growth), "1/s"),
+            3 => (name.to_owned(), Response::Output(Output::new(output)), "m"),
+            4 => (format!("critical {along}"), Response::Critical(range), "rad/s"),
+            5 => {
+                let line = Condition::Line(Line::from(order));
+                (format!("resonance {number} {along} order {order}"), crossing(line), "rad/s")
+            }
+            6 => (format!("flutter {number} {along}"), crossing(Condition::FlutterOnset), "rad/s"),
+            7 => {
+                let text = format!("vibration {name} {} {}", clauses[0], clauses[1]);
+                (text, Response::Vibration(vibration), unit)
+            }
+            _ => {
+                // Clauses stand in any order.
+                clauses.rotate_left(pick(3));
+                let (what, of, unit) =
+                    [("vibration", PeakQuantity::Height, unit), ("peak", PeakQuantity::Place, "rad/s")][pick(2)];
+                (format!("{what} {name} {}", clauses.join(" ")), peak(of), unit)
+            }
+        }
+    }
+
+    /// Every form with every limit, put together at random: what is read is what was meant.
+    #[test]
+    fn random_requirements_arrive_as_written() {
+        let study = shaken();
+        let mut state = 7_u64;
+        let mut pick = |count: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize % count
+        };
+        for _ in 0..500 {
+            let (words, meant, unit) = said(&mut pick);
+            assert_eq!(response(&study, &words).expect(&words), meant, "{words}");
+            let (low, high) = (pick(100) as f64 / 8.0, 20.0 + pick(100) as f64);
+            let open = f64::INFINITY;
+            let (limit, expected) = match pick(5) {
+                0 => (format!(">= {low} {unit}"), Requirement::Within { response: meant, low, high: open }),
+                1 => (format!("<={high} {unit}"), Requirement::Within { response: meant, low: -open, high }),
+                2 => (format!("within {low}..{high} {unit}"), Requirement::Within { response: meant, low, high }),
+                3 => (format!("outside {low}..{high} {unit}"), Requirement::Outside { response: meant, low, high }),
+                _ => {
+                    let (order, fraction, input) = (1.0 + pick(3) as f64, 0.125, Input::new(1));
+                    let away = Requirement::Away { response: meant, input, order, fraction };
+                    (format!("away from {order} speed by 12.5%"), away)
+                }
+            };
+            let text = format!("{words} {limit}");
+            assert_eq!(requirement(&study, &text).expect(&text), expected, "{text}");
+            // A word too many, or too few, is no requirement.
+            assert!(requirement(&study, &format!("the {text} now")).is_err(), "{text}");
+            assert!(requirement(&study, &words).is_err(), "{words}");
         }
     }
 }

@@ -1,9 +1,9 @@
-//! The shapes, and everything that later stages need from one: its arguments, the values that must be positive, and its
-//! mass distribution.
+//! The shapes, and everything that later stages need from one: the values that must be positive, and its mass
+//! distribution.
 //!
 //! # Shapes are reduced to a spread of mass
 //!
-//! Rules, printing and `mechanics` see only a shape's arguments, which of them must be positive, and how its mass is
+//! Rules and `mechanics` see only which quantities of a shape must be positive, and how its mass is
 //! spread about its centre: as a point, along a line, around an axis, over a box, as a ball or by a given tensor
 //! (`model/shape.rs`). The oracle must learn new shapes too.
 
@@ -107,10 +107,6 @@ pub enum Shape {
 /// A shape as later stages see it: they know only the kinds of [`Spread`], not the kinds of shape.
 #[derive(Clone, Debug)]
 pub struct Reduced<'a> {
-    /// The keyword for display.
-    pub word: &'static str,
-    /// The declared arguments, in display order.
-    pub arguments: Vec<(&'static str, Argument<'a>)>,
     /// Mass.
     pub mass: &'a Expr,
     /// Centre of mass.
@@ -119,17 +115,6 @@ pub struct Reduced<'a> {
     pub spread: Spread<'a>,
     /// Quantities that must be positive besides the mass, with their names.
     pub positive: Vec<(&'static str, Expr)>,
-}
-
-/// An argument of a shape.
-#[derive(Clone, Copy, Debug)]
-pub enum Argument<'a> {
-    /// A number.
-    Scalar(&'a Expr),
-    /// A place, a direction or three lengths.
-    Vector(&'a Vector),
-    /// Six entries of a tensor.
-    Tensor(&'a [Expr; 6]),
 }
 
 /// The distribution of mass about its centre.
@@ -172,70 +157,30 @@ pub enum Spread<'a> {
 /// The mean square distance from the centre in one direction: a sum of squared lengths, each with a factor.
 pub type MeanSquare<'a> = Vec<(f64, &'a Expr)>;
 
-use Argument::{Scalar, Tensor, Vector as Triple};
-
 impl Shape {
     /// The reduced form of each kind of shape.
     pub fn reduced(&self) -> Reduced<'_> {
         match self {
-            Self::Point { mass, center } => Reduced {
-                word: "point",
-                arguments: vec![("mass", Scalar(mass)), ("at", Triple(center))],
-                mass,
-                center,
-                spread: Spread::Point,
-                positive: Vec::new(),
-            },
+            Self::Point { mass, center } => Reduced { mass, center, spread: Spread::Point, positive: Vec::new() },
             Self::Rod { mass, length, along, center } => Reduced {
-                word: "rod",
-                arguments: vec![
-                    ("mass", Scalar(mass)),
-                    ("length", Scalar(length)),
-                    ("along", Triple(along)),
-                    ("center", Triple(center)),
-                ],
                 mass,
                 center,
                 spread: Spread::Line { length, along },
                 positive: vec![("length", length.clone())],
             },
             Self::Disk { mass, radius, axis, center } => Reduced {
-                word: "disk",
-                arguments: vec![
-                    ("mass", Scalar(mass)),
-                    ("radius", Scalar(radius)),
-                    ("axis", Triple(axis)),
-                    ("center", Triple(center)),
-                ],
                 mass,
                 center,
                 spread: Spread::Round { axis, across: vec![(1.0 / 4.0, radius)], along: Vec::new() },
                 positive: vec![("radius", radius.clone())],
             },
             Self::Cylinder { mass, radius, length, axis, center } => Reduced {
-                word: "cylinder",
-                arguments: vec![
-                    ("mass", Scalar(mass)),
-                    ("radius", Scalar(radius)),
-                    ("length", Scalar(length)),
-                    ("axis", Triple(axis)),
-                    ("center", Triple(center)),
-                ],
                 mass,
                 center,
                 spread: Spread::Round { axis, across: vec![(1.0 / 4.0, radius)], along: vec![(1.0 / 12.0, length)] },
                 positive: vec![("radius", radius.clone()), ("length", length.clone())],
             },
             Self::Tube { mass, inner, outer, length, axis, center } => Reduced {
-                word: "tube",
-                arguments: vec![
-                    ("mass", Scalar(mass)),
-                    ("inner", Scalar(inner)),
-                    ("outer", Scalar(outer)),
-                    ("length", Scalar(length)),
-                    ("axis", Triple(axis)),
-                    ("center", Triple(center)),
-                ],
                 mass,
                 center,
                 spread: Spread::Round {
@@ -252,8 +197,6 @@ impl Shape {
             Self::Cuboid { mass, size, center } => {
                 let [x, y, z] = size.clone();
                 Reduced {
-                    word: "box",
-                    arguments: vec![("mass", Scalar(mass)), ("size", Triple(size)), ("center", Triple(center))],
                     mass,
                     center,
                     spread: Spread::Box { size },
@@ -261,26 +204,17 @@ impl Shape {
                 }
             }
             Self::Sphere { mass, radius, center } => Reduced {
-                word: "sphere",
-                arguments: vec![("mass", Scalar(mass)), ("radius", Scalar(radius)), ("center", Triple(center))],
                 mass,
                 center,
                 spread: Spread::Ball(vec![(1.0 / 5.0, radius)]),
                 positive: vec![("radius", radius.clone())],
             },
-            Self::Rigid { mass, center, inertia, about } => {
-                let mut arguments =
-                    vec![("mass", Scalar(mass)), ("center", Triple(center)), ("inertia", Tensor(inertia))];
-                arguments.extend(about.as_ref().map(|about| ("about", Triple(about))));
-                Reduced {
-                    word: "rigid",
-                    arguments,
-                    mass,
-                    center,
-                    spread: Spread::Tensor { inertia, about: about.as_ref() },
-                    positive: Vec::new(),
-                }
-            }
+            Self::Rigid { mass, center, inertia, about } => Reduced {
+                mass,
+                center,
+                spread: Spread::Tensor { inertia, about: about.as_ref() },
+                positive: Vec::new(),
+            },
         }
     }
 }

@@ -37,7 +37,7 @@ fn survive(tokens: TokenStream, stages: &mut [usize; 3]) {
         Err(errors) => return survived(errors),
     };
     stages[1] += 1;
-    assert!(mechanism.to_string().starts_with("mechanism"));
+    assert!(format!("{mechanism:?}").starts_with("Mechanism"));
     match build(&mechanism) {
         Ok(topology) => {
             stages[2] += 1;

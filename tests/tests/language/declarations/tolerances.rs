@@ -238,27 +238,6 @@ fn the_canonical_text_keeps_what_was_written() {
     }
 }
 
-#[test]
-fn the_text_of_a_mechanism_names_limits_and_laws() {
-    let mechanism = with_item(
-        "input u: rad/s; input v: rad/s +/- 25 %; input w: rad/s +2 -1 rad/s uniform;
-        design a = 20 mm; design b = 20 mm +0.5 -0 mm; design c = 4 mm +/- 50 % beta(2, 0.5);
-        design d = 4 mm one of [3, 5, 4] mm weighted [1, 1, 2];",
-    );
-    let text = mechanism.to_string();
-    for line in [
-        "input u [rad/s]\n",
-        "input v +/- 0.25 of it [rad/s]\n",
-        "input w +2 -1 uniform [rad/s]\n",
-        "design a = 0.02 +/- 0 [mm]\n",
-        "design b = 0.02 +0.0005 +0 [mm]\n",
-        "design c = 0.004 +/- 0.002 beta(2, 0.5) [mm]\n",
-        "design d = 0.004 +/- 0.001 one of [0: 1, 1: 1, 0.5: 2] [mm]\n",
-    ] {
-        assert!(text.contains(line), "{line}\n{text}");
-    }
-}
-
 /// A choice from a short list.
 fn one_of<'a, T>(random: &mut ChaCha8Rng, list: &'a [T]) -> &'a T {
     &list[random.next_u32() as usize % list.len()]
