@@ -6,8 +6,8 @@ use rand_chacha::rand_core::SeedableRng;
 use super::pencils::below;
 use super::*;
 use crate::eigenproblem::general::lu::Lu;
-use crate::eigenproblem::general::pencil::Pencil;
 use crate::eigenproblem::general::measure::Pair;
+use crate::eigenproblem::general::pencil::Pencil;
 use crate::eigenproblem::general::{aberth, accuracy, hessenberg, schur};
 
 /// Companion matrices of polynomials with small integer coefficients, on which an unbounded QR iteration without
@@ -137,12 +137,8 @@ fn complete_pivoting_reveals_the_rank() {
 /// An eigenvalue that stands in the place of another is told by the sum: no error is smaller than what is missing.
 #[test]
 fn the_sum_tells_what_is_missing() {
-    let pairs = [1.0, 1.0, -4.0].map(|re| Pair {
-        s: Complex64::new(re, 0.5),
-        conjugate: re < 0.0,
-        error: 1e-12,
-        ..Pair::NONE
-    });
+    let pairs =
+        [1.0, 1.0, -4.0].map(|re| Pair { s: Complex64::new(re, 0.5), conjugate: re < 0.0, error: 1e-12, ..Pair::NONE });
     assert_eq!(accuracy::missing(&pairs, -6.0 + 1e-8), 0.0);
     assert_eq!(accuracy::missing(&pairs, -5.0), 1.0);
     assert_eq!(accuracy::missing(&pairs, -6.5), 0.5);
