@@ -1,18 +1,18 @@
 //! Probabilities of meeting requirements.
 
-use eigentol::requirement::{self, DesignPoint, LimitReliability};
 use eigentol::Input;
+use eigentol::requirement::{self, DesignPoint, LimitReliability};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::arrays::{Array1, Array2, optional, optional_rows, vector};
+use crate::names;
 use crate::response::wanted;
 use crate::results::{attributes, result};
 use crate::spreads::judgement;
 use crate::study::Study;
 use crate::values::{List, not_finite};
-use crate::names;
 use requirement::Requirement as Limit;
 
 /// Parses one requirement: "stable", or a response with a low and a high end, None for an open end; "outside" before

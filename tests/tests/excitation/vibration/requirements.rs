@@ -4,7 +4,7 @@ use eigentol::peaks::PeakQuantity;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Responses, Vibration};
 use eigentol::sweep::Range;
-use eigentol::{DesignVariable, Error, Excitation, Input, Output, Study};
+use eigentol::{DesignVariable, Excitation, Input, Output, Study};
 use eigentol_interpreter::Interpreted;
 
 const ROTOR: &str = "mechanism Rotor {
