@@ -20,7 +20,10 @@ fn sampled<L: LimitState>(limit: &L, points: &[DesignPoint]) -> LineProbability 
 }
 
 /// Several limits of which any, or all, must be passed for failure.
-fn together(limits: &[&dyn LimitState<Error = Infallible>], of: fn(f64, f64) -> f64) -> impl LimitState<Error = Infallible> {
+fn together(
+    limits: &[&dyn LimitState<Error = Infallible>],
+    of: fn(f64, f64) -> f64,
+) -> impl LimitState<Error = Infallible> {
     let dimension = limits[0].dimension();
     limit(dimension, move |z| {
         let values = limits.iter().map(|limit| limit.evaluate(z).map_or(f64::NAN, |found| found.value));

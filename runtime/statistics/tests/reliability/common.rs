@@ -58,11 +58,7 @@ pub(crate) fn mean(f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// The probability of failure, with what design points tell.
-pub(crate) fn estimate<L: LimitState>(
-    limit: &L,
-    points: &[DesignPoint],
-    settings: &LineSettings,
-) -> LineProbability {
+pub(crate) fn estimate<L: LimitState>(limit: &L, points: &[DesignPoint], settings: &LineSettings) -> LineProbability {
     let dimension = limit.dimension();
     let variables: Vec<usize> = (0..dimension).collect();
     let expected = points.iter().map(|point| Direction { along: point.direction.clone(), distance: point.beta });

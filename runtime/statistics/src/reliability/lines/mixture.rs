@@ -12,8 +12,9 @@ use crate::reliability::vector::{dot, unit};
 const FEWEST_OF_EACH: usize = 4;
 /// For so many of them, one runs along a variable, whatever is expected.
 const EXPLORED_BY_ONE_OF: usize = 3;
-/// The weight of all variables, of which the directions in which failure is expected have nearly one.
-const RARELY: f64 = 0.01;
+/// The weight of all variables, of which the directions in which failure is expected have nearly one. A point that only
+/// lines along variables meet counts for its reciprocal: less, and a few lines that matter are missing from the scatter.
+const RARELY: f64 = 0.1;
 /// A density less than that of the nearest place of a stretch by this logarithm does not count.
 const NEGLIGIBLE: f64 = 40.0;
 
