@@ -57,7 +57,7 @@ of_requirements! {
     /// How probable it is that each requirement, and that any, is failed, with nothing to choose: by design points, lines
     /// of designs, or samples; requirements as `chances` takes them.
     probability;
-    /// Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
+    /// Reliability by way of design points (FORM), judged by designs solved anew; requirements as `chances`
     /// takes them.
     reliability;
 }
