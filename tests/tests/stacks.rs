@@ -62,7 +62,7 @@ fn samples_side_by_side() {
     assert!(run.side_by_side && run.counts.stable == 64, "{run}");
     let mut questions = at_one_state();
     questions.extend(of_chance());
-    let sampling = ["monte_carlo", "controlled", "influence"];
+    let sampling = ["monte_carlo", "influence"];
     questions.retain(|(name, _)| sampling.contains(name));
     assert_eq!(questions.len(), sampling.len());
     // On the calling thread.

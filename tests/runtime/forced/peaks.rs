@@ -261,10 +261,11 @@ fn what_rounding_decides_is_not_known() {
         // Relative changes by m, k and c.
         for (number, expected) in [(&peak.height, [0.5, -0.5, -1.0]), (amplification, [0.5, 0.5, -1.0])] {
             if number.by_design.is_empty() {
-                assert!(amplification.value > 1e6 && number.spread.is_none());
+                assert!(amplification.value > 1e3 && number.spread.is_none());
                 continue;
             }
             known += 1;
+            println!("1e-{decade} {:e} {:?}", amplification.value, number.by_design);
             for (k, expected) in expected.into_iter().enumerate() {
                 let slope = number.by_design[k] * design[k] / number.value;
                 assert!(

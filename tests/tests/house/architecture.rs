@@ -27,7 +27,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ("runtime/statistics", &[], 140),
     ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 143),
     ("runtime/results", &["eigentol-contract"], 19),
-    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 336),
+    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 335),
     (
         "runtime/tolerance",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-solve", "eigentol-statistics"],
@@ -73,7 +73,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
         58,
     ),
     ("macros/symbolic", &[], 69),
-    ("macros/language", &["eigentol-symbolic"], 359),
+    ("macros/language", &["eigentol-symbolic"], 360),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 364),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),

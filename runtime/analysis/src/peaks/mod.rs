@@ -206,7 +206,7 @@ const EXACT: f64 = 1e-8;
 const STEPS: usize = 80;
 /// Amplification factor beyond which derivatives of height and width may be rounding: as the place moves by many widths,
 /// they are small differences.
-const SHARP: f64 = 1e6;
+const SHARP: f64 = 1e3;
 /// Share of the width of a sharp peak by which a state lies aside of another, and by which derivatives differ there.
 const ASIDE: f64 = 0.01;
 const SMOOTH: f64 = 0.05;

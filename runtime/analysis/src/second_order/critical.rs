@@ -97,12 +97,8 @@ impl CriticalContext<'_> {
         const UNCERTAIN: f64 = 1e-5;
         let CriticalState { v, w, .. } = self.critical;
         let along = self.direction(v.clone(), 0.0, None);
-        let at = &self.critical.equilibrium;
-        let shares = v.iter().enumerate();
-        let shares = shares.map(|(i, v)| v / at.description.large(i));
-        let size = largest(&shares.collect::<Vector>());
         let aside = [-SMALL_MOTION, SMALL_MOTION].map(|motion| {
-            let q = add_scaled(&at.coordinates, motion / size, v);
+            let q = add_scaled(&self.critical.equilibrium.coordinates, motion / largest(v), v);
             dot(&self.bend_at(&q, w, &along).coordinates, v).abs()
         });
         curved.abs() <= UNCERTAIN * aside[0].max(aside[1])

@@ -69,14 +69,13 @@ impl Description {
         None
     }
 
-    /// A change of a coordinate that counts as large, SI: the typical length, or a radian. A reaction does one joule over
-    /// the same change of its gap. For speeds, one SI unit.
+    /// A change of a coordinate that counts as large, SI: the typical length, or a radian. For speeds and reactions, one
+    /// SI unit.
     #[cfg(feature = "std")]
     #[doc(hidden)]
     pub fn large(&self, unknown: usize) -> f64 {
         match self.coordinates.get(unknown) {
             Some(info) if info.role == Role::Position && *info.unit.symbol == *"m" => self.length,
-            Some(info) if info.role == Role::PositionReaction && *info.unit.symbol == *"N" => 1.0 / self.length,
             _ => 1.0,
         }
     }

@@ -82,8 +82,9 @@ pub(crate) fn last_step(
     step: &[f64],
     displacement: impl FnOnce(&Vector) -> Vector,
 ) -> Option<Candidate> {
+    let motions = point.motions();
     let end = Candidate::at(point, add_scaled(q, 1.0, step));
     let fell = largest(&end.residual) <= 1e-3 * largest(residual)
-        || is_rounding(point, &displacement(&end.residual), &end.coordinates);
+        || is_rounding(&displacement(&end.residual), &end.coordinates, motions);
     (fell && end.is_solved(point, stiffness, TOLERANCE)).then_some(end)
 }

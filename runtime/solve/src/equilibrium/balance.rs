@@ -6,7 +6,6 @@
 //! stiffness that such forces leave along a direction in which nothing holds the machine. In any units that are found
 //! from the matrix itself it would pass for a stiffness like others.
 
-use super::convergence::largest_reaction;
 use crate::Description;
 use crate::algebra::{Matrix, Vector, greater, largest};
 use crate::kernels::Kernels;
@@ -33,17 +32,6 @@ pub(crate) struct Data<'a> {
     pub(super) design: &'a [f64],
 }
 
-impl Data<'_> {
-    /// A large change of an unknown: of a reaction, one as large as the largest.
-    fn large(&self, q: &[f64], unknown: usize) -> f64 {
-        let large = self.description.large(unknown);
-        match unknown < self.motions {
-            true => large,
-            false => large * largest_reaction(self.description, q, self.motions),
-        }
-    }
-}
-
 /// The residual with zeros where it is rounding of the data; `None` if it is nowhere. Forces that lead held unknowns to
 /// their values may have been added to it; only what the mechanism returns is disturbed.
 pub(super) fn residual_without_rounding(data: &Data<'_>, q: &[f64], residual: &[f64]) -> Option<Vector> {
@@ -65,7 +53,7 @@ pub(crate) fn without_rounding(
     for sample in 0..SAMPLES {
         let moved = q.iter().enumerate().map(|(i, value)| {
             let share = (disturbance(i, sample) - 1.0) / (AMPLITUDE as f64 * f64::EPSILON);
-            value + share * data.large(q, i)
+            value + share * data.description.large(i)
         });
         let moved: Vector = moved.collect();
         for (size, value) in sizes.iter_mut().zip(&of(&moved, data.inputs, data.design)) {
@@ -138,7 +126,7 @@ fn change(data: &Data<'_>, q: &[f64], of: impl Fn(&[f64], &[f64], &[f64]) -> Vec
         // Coordinates balance each other: that of a tilt has the rounding of a motion of the size of the machine.
         let moved = q.iter().enumerate().map(|(i, value)| {
             let rounding = disturbance(first + i, sample) - 1.0;
-            value + rounding * (value.abs() + data.large(q, i))
+            value + rounding * (value.abs() + data.description.large(i))
         });
         let disturbed = of(&moved.collect::<Vector>(), &inputs, &design);
         for ((change, disturbed), value) in change.iter_mut().zip(&disturbed).zip(&given) {

@@ -6,7 +6,7 @@
 //! regular and the state where Newton's method expects it (`equilibrium/branch.rs`), by halving where it does not at
 //! once. Samples, the summary and the judge count by this one test.
 
-use super::{OperatingPoint, Policy, small_change, solve};
+use super::{OperatingPoint, Policy, SMALL_MOTION, solve};
 use crate::algebra::{Lu, Matrix, Vector};
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Stability};
@@ -105,8 +105,7 @@ impl<'a> Branch<'a> {
             let mass = self.nominal.linear.mass[i][i];
             missed += mass * (start - step[i] - q).powi(2);
             apart += mass * (start - q).powi(2);
-            let small = small_change(&point.description, i);
-            rounding += mass * (ROUNDING * (q.abs() + small)).powi(2);
+            rounding += mass * (ROUNDING * (q.abs() + SMALL_MOTION)).powi(2);
         }
         missed <= MISSED * MISSED * apart + rounding
     }

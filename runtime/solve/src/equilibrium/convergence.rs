@@ -7,7 +7,6 @@
 
 use super::balance::residual_without_rounding;
 use super::operating_point::{OperatingPoint, gap_unit};
-use crate::Description;
 use crate::algebra::{Matrix, Vector, for_size, greater, largest};
 use crate::kernels::RestParts;
 
@@ -24,7 +23,7 @@ pub const LAST_STEP: f64 = 1e-8;
 /// A residual that keeps this share in a step has stopped falling: Newton steps leave less than 1/e of it even where
 /// `Khat` is singular at the solution.
 const STALLED: f64 = 0.5;
-/// A share of a [large change](Description::large).
+/// Displacement (rad or m) against which coordinates near zero are measured.
 pub const SMALL_MOTION: f64 = 1e-3;
 /// Share of a coordinate that counts as a displacement in the scale of a residual. Multiplied by [`TOLERANCE`] it is
 /// about seven rounding units of the coordinate, the resolution of a large coordinate.
@@ -32,12 +31,6 @@ pub const ROUNDED: f64 = 1.5e-5;
 /// Distance, relative to the state where the residual last fell, beyond which an unchanged residual means that the
 /// state runs away.
 const DRIFT: f64 = 1e3;
-
-/// The change of an unknown against which it is measured near zero.
-#[inline]
-pub fn small_change(description: &Description, unknown: usize) -> f64 {
-    SMALL_MOTION * description.large(unknown)
-}
 
 /// How far a solve has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,8 +73,9 @@ impl ResidualMonitor {
         if !stalled {
             self.fell_at.copy_from_slice(q);
         }
-        let last = step.map_or(StepsLeft::More, |step| last(point, step, q));
-        let drifts = stalled && self.drifts(&point.description, &q[..point.motions()]);
+        let motions = point.motions();
+        let last = step.map_or(StepsLeft::More, |step| last(step, q, motions));
+        let drifts = stalled && self.drifts(&q[..motions]);
         let parts = &mut self.parts;
         let at = (residual, stiffness);
         let mut solved = |tolerance| relative_residual_into(point, q, at, parts) <= tolerance;
@@ -96,9 +90,8 @@ impl ResidualMonitor {
 
     /// Whether the state runs away while its residual stays the same: growing forces make the residual small only by
     /// comparison.
-    fn drifts(&self, description: &Description, q: &[f64]) -> bool {
-        let mut pairs = q.iter().zip(&self.fell_at).enumerate();
-        pairs.any(|(i, (now, then))| (now - then).abs() > DRIFT * (description.large(i) + then.abs()))
+    fn drifts(&self, q: &[f64]) -> bool {
+        q.iter().zip(&self.fell_at).any(|(now, then)| (now - then).abs() > DRIFT * (1.0 + then.abs()))
     }
 }
 
@@ -115,11 +108,10 @@ pub(crate) enum StepsLeft {
 
 /// How many steps remain, judged from the next one at `q`.
 #[inline]
-pub(crate) fn last(point: &OperatingPoint<'_>, step: &[f64], q: &[f64]) -> StepsLeft {
-    let within = |tolerance| within(tolerance, point, step, q);
-    if !within(LAST_STEP) {
+pub(crate) fn last(step: &[f64], q: &[f64], motions: usize) -> StepsLeft {
+    if !within(LAST_STEP, step, q, motions) {
         StepsLeft::More
-    } else if within(FLOOR) {
+    } else if within(FLOOR, step, q, motions) {
         StepsLeft::Reached
     } else {
         StepsLeft::OneMore
@@ -128,26 +120,19 @@ pub(crate) fn last(point: &OperatingPoint<'_>, step: &[f64], q: &[f64]) -> Steps
 
 /// Whether a displacement of the unknowns is as small as rounding.
 #[inline]
-pub(crate) fn is_rounding(point: &OperatingPoint<'_>, displacement: &[f64], q: &[f64]) -> bool {
-    within(ROUNDING, point, displacement, q)
+pub(crate) fn is_rounding(displacement: &[f64], q: &[f64], motions: usize) -> bool {
+    within(ROUNDING, displacement, q, motions)
 }
 
 /// Whether every change of a coordinate is within `tolerance` of the coordinate or of a small motion, and every change
 /// of a reaction within `tolerance` of that reaction or of the largest one.
 #[inline]
-fn within(tolerance: f64, point: &OperatingPoint<'_>, step: &[f64], q: &[f64]) -> bool {
-    let (description, motions) = (&point.description, point.motions());
-    let reaction = largest_reaction(description, q, motions);
+fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
+    let reaction = largest_of(&q[motions..]);
     (0..q.len()).all(|j| {
-        let share = if j < motions { 1.0 } else { reaction };
-        step[j].abs() <= tolerance * (q[j].abs() + share * small_change(description, j))
+        let unit = if j < motions { 1.0 } else { reaction };
+        step[j].abs() <= tolerance * (q[j].abs() + SMALL_MOTION * unit)
     })
-}
-
-/// The largest reaction relative to a [large](Description::large) one, which makes moments comparable with forces.
-#[inline(always)]
-pub(super) fn largest_reaction(description: &Description, q: &[f64], motions: usize) -> f64 {
-    (motions..q.len()).fold(0.0, |most, j| greater(most, q[j].abs() / description.large(j)))
 }
 
 /// The largest residual, each relative to its own scale.
@@ -211,12 +196,11 @@ fn relative_to_passed_on(
 ) -> f64 {
     let (n, motions) = (q.len(), point.motions());
     let gaps = relative_gaps(point, q, residual, stiffness);
-    let description = &point.description;
-    let small = Vector::from_fn(n, |i| small_motion(description, i, q[i]));
-    let reaction = largest_reaction(description, q, motions);
+    let small: Vector = q.iter().map(|q| small_motion(*q)).collect();
+    let reaction = largest_of(&q[motions..]);
     let mut work = Vector::from_fn(motions, |i| {
         let row = &stiffness[i];
-        small[i] * scale(force(description, (i, motions), forces, q, reaction, row), &small[..motions], row)
+        small[i] * scale(force(i, motions, forces, q, reaction, row), &small[..motions], row)
     });
     let opened = |i: usize, j: usize| stiffness[i][j].abs() * small[i];
     for _ in motions..n {
@@ -234,7 +218,7 @@ fn relative_to_passed_on(
         } else if i < motions + gaps.len() {
             gaps[i - motions]
         } else {
-            relative(description, residual[i], 0.0, &q[..motions], &stiffness[i])
+            relative(residual[i], 0.0, &q[..motions], &stiffness[i])
         };
         greater(most, imbalance)
     })
@@ -244,15 +228,14 @@ fn relative_to_passed_on(
 #[inline]
 fn relative_to(point: &OperatingPoint<'_>, parts: &RestParts, q: &[f64], residual: &[f64], stiffness: &Matrix) -> f64 {
     let forces = [&parts.inertia[..], &parts.applied];
-    let (description, stiffness) = (&point.description, stiffness.as_flattened());
+    let stiffness = stiffness.as_flattened();
     if !point.structure.open() {
-        let sizes = (q.len(), point.motions());
-        return relative_of(description, sizes, forces, q, residual, stiffness);
+        return relative_of((q.len(), point.motions()), forces, q, residual, stiffness);
     }
     for_size(
         q.len(),
         #[inline(always)]
-        |n| relative_of(description, (n, n), forces, q, residual, stiffness),
+        |n| relative_of((n, n), forces, q, residual, stiffness),
     )
 }
 
@@ -260,7 +243,6 @@ fn relative_to(point: &OperatingPoint<'_>, parts: &RestParts, q: &[f64], residua
 /// forces. See [`for_size`].
 #[inline(always)]
 pub(crate) fn relative_of(
-    description: &Description,
     (n, motions): (usize, usize),
     [inertia, applied]: [&[f64]; 2],
     q: &[f64],
@@ -269,42 +251,34 @@ pub(crate) fn relative_of(
 ) -> f64 {
     let (q, residual, stiffness) = (&q[..n], &residual[..n], &stiffness[..n * n]);
     let (inertia, applied) = (&inertia[..n], &applied[..n]);
-    let reaction = largest_reaction(description, q, motions);
+    let reaction = largest_of(&q[motions..]);
     let mut small = Vector::zeros(n);
     let small = &mut small[..n];
-    for (i, small) in small.iter_mut().enumerate() {
-        *small = small_motion(description, i, q[i]);
+    for (small, q) in small.iter_mut().zip(q) {
+        *small = small_motion(*q);
     }
     let mut most = 0.0;
     for i in 0..n {
         let row = &stiffness[i * n..(i + 1) * n];
-        let force =
-            if i < motions { force(description, (i, motions), [inertia, applied], q, reaction, row) } else { 0.0 };
+        let force = if i < motions { force(i, motions, [inertia, applied], q, reaction, row) } else { 0.0 };
         let scale = scale(force, &small[..motions], row);
         let imbalance = if scale > 0.0 && scale < f64::INFINITY {
             residual[i].abs() / scale
         } else {
             let force = if force.is_finite() { force } else { 0.0 };
-            relative(description, residual[i], force, &q[..motions], row)
+            relative(residual[i], force, &q[..motions], row)
         };
         most = greater(most, imbalance);
     }
     most
 }
 
-/// The largest force in equation `i`: inertia, applied forces and reactions, given the [largest](largest_reaction).
+/// The largest force in equation `i`: inertia, applied forces and reactions, the largest of which is `reaction`.
 #[inline(always)]
-fn force(
-    description: &Description,
-    (i, motions): (usize, usize),
-    [inertia, applied]: [&[f64]; 2],
-    q: &[f64],
-    reaction: f64,
-    row: &[f64],
-) -> f64 {
+fn force(i: usize, motions: usize, [inertia, applied]: [&[f64]; 2], q: &[f64], reaction: f64, row: &[f64]) -> f64 {
     let mut force = greater(inertia[i].abs(), applied[i].abs());
     for j in motions..q.len() {
-        let size = greater(reaction * small_change(description, j), q[j].abs());
+        let size = greater(SMALL_MOTION * reaction, q[j].abs());
         force = greater(force, row[j].abs() * size);
     }
     force
@@ -316,10 +290,10 @@ fn scale(force: f64, small: &[f64], row: &[f64]) -> f64 {
     (0..small.len()).fold(force, |sum, j| sum + row[j].abs() * small[j])
 }
 
-/// The small motion of coordinate `i`, plus a few rounding units.
+/// The small motion of a coordinate: [`SMALL_MOTION`] plus a few rounding units.
 #[inline]
-fn small_motion(description: &Description, i: usize, q: f64) -> f64 {
-    small_change(description, i) + ROUNDED * q.abs()
+fn small_motion(q: f64) -> f64 {
+    SMALL_MOTION + ROUNDED * q.abs()
 }
 
 /// The gaps of the constraints on positions, each relative to what small motions open and to the rounding of the lengths
@@ -348,7 +322,7 @@ pub(crate) fn relative_gaps(point: &OperatingPoint<'_>, q: &[f64], residual: &[f
     }
     let imbalance = |row: usize| {
         let rounded = ROUNDED * arms[kind(row)];
-        relative(&point.description, residual[row], rounded, motions, &stiffness[row])
+        relative(residual[row], rounded, motions, &stiffness[row])
     };
     rows.map(imbalance).collect()
 }
@@ -356,10 +330,9 @@ pub(crate) fn relative_gaps(point: &OperatingPoint<'_>, q: &[f64], residual: &[f
 /// One equation's residual relative to `force` and the row of stiffnesses times the motions `q`; a scale that overflows
 /// is recomputed from smaller numbers.
 #[inline]
-fn relative(description: &Description, residual: f64, force: f64, q: &[f64], row: &[f64]) -> f64 {
-    let scale = |unit: f64| {
-        (0..q.len()).fold(unit * force, |sum, i| sum + unit * row[i].abs() * small_motion(description, i, q[i]))
-    };
+fn relative(residual: f64, force: f64, q: &[f64], row: &[f64]) -> f64 {
+    let scale =
+        |unit: f64| q.iter().zip(row).fold(unit * force, |sum, (q, slope)| sum + unit * slope.abs() * small_motion(*q));
     let plain = scale(1.0);
     if plain.is_finite() {
         ratio(residual, plain)
@@ -380,10 +353,9 @@ fn ratio(residual: f64, scale: f64) -> f64 {
     }
 }
 
-/// Whether coordinates and speeds escape to infinity.
-pub(crate) fn escapes(point: &OperatingPoint<'_>, start: &[f64], q: &[f64]) -> bool {
-    let motions = point.motions();
-    point.size_of(&q[..motions]) > 1e12 * (1.0 + point.size_of(&start[..motions]))
+/// Limit beyond which coordinates and speeds count as escaping to infinity.
+pub(crate) fn horizon(start: &[f64]) -> f64 {
+    1e12 * (1.0 + largest_of(start))
 }
 
 /// Largest absolute value.

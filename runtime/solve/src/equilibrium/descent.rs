@@ -16,7 +16,7 @@
 //! and upright is the state people want to study.
 
 use super::acceptance::{Candidate, UnjudgedResult, last_step};
-use super::convergence::{Progress, ResidualMonitor, SMALL_MOTION, TOLERANCE, escapes, relative_residual};
+use super::convergence::{Progress, ResidualMonitor, SMALL_MOTION, TOLERANCE, horizon, largest_of, relative_residual};
 use super::operating_point::{Failure, OperatingPoint};
 use super::search_space::{Base, SearchSpace, Trial};
 use crate::algebra::{Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, for_size, form, largest, times};
@@ -27,11 +27,11 @@ use crate::rounding::{Sign, sign};
 
 const MAX_ITERATIONS: usize = 300;
 pub(super) const MAX_DEPARTURES: usize = 8;
-/// Largest change of a coordinate in the first step, relative to a large change; grows while the linear model predicts well.
+/// Largest change of a coordinate in the first step, rad or m; grows while the linear model predicts well.
 const FIRST_RADIUS: f64 = 1.0;
 /// Factor of each increase.
 pub(super) const GROWTH: f64 = 4.0;
-/// Displacement, relative to a large change, with which an unstable equilibrium or a singular configuration is left.
+/// Displacement (rad or m) with which an unstable equilibrium or a singular configuration is left.
 pub(super) const DEPARTURE: f64 = 1e-3;
 /// Distance, as a share of a coordinate, and share of the stiffness left there, that tell a pole from an equilibrium.
 const BESIDE: f64 = 1e-5;
@@ -40,7 +40,7 @@ const VANISHES: f64 = 1e-3;
 /// The current state of a search.
 pub(super) struct SearchState {
     pub(super) q: Vector,
-    /// Largest change of a coordinate in the next step, relative to a large change.
+    /// Largest change of a coordinate in the next step, rad or m.
     pub(super) radius: f64,
     /// Iterations spent so far.
     pub(super) iterations: usize,
@@ -68,6 +68,7 @@ pub(super) fn minimise_potential<S>(
 where
     S: SearchSpace,
 {
+    let motions = point.motions();
     let mut base: Base<S> = S::base(point, &from.q)?;
     let mut trial = Trial::blank(point.size());
     let mut curved: Option<Curved> = None;
@@ -77,6 +78,7 @@ where
     let mut left_unstable_region = false;
     let mut was_curved = false;
     let mut watch = ResidualMonitor::new(&base.q);
+    let escaped = horizon(&start[..motions]);
     for iterations in from.iterations..MAX_ITERATIONS {
         let at = (&base.residual[..], &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
@@ -152,7 +154,7 @@ where
             radius *= GROWTH;
         }
         S::arrive(point, &mut trial, &mut base)?;
-        if escapes(point, start, &base.q) {
+        if largest_of(&base.q[..motions]) > escaped {
             let reason = NotFound::Escape;
             return Err(failure(point, reason, &base.q, iterations));
         }

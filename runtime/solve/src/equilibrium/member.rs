@@ -209,7 +209,7 @@ fn newton(point: &OperatingPoint<'_>, from: &[f64], held: &[Held]) -> Option<Vec
         let step = Lu::of(whole)?.solve(&right);
         let step = &step[..n];
         q = add_scaled(&q, 1.0, step);
-        if last(point, step, &q) == StepsLeft::Reached {
+        if last(step, &q, point.motions()) == StepsLeft::Reached {
             break;
         }
     }

@@ -26,13 +26,11 @@ mod turns;
 pub use assembly::{Assembly, AssemblyMode, assemble};
 pub use multistart::{Equilibria, Search, find_equilibria};
 
-#[doc(hidden)]
 pub(crate) use balance::without_rounding;
 #[doc(hidden)]
 pub use branch::Branch;
-pub use convergence::{
-    ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual, small_change,
-};
+#[doc(hidden)]
+pub use convergence::{ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual};
 #[doc(hidden)]
 pub use finish::SolvedState;
 #[doc(hidden)]

@@ -2,7 +2,7 @@
 //! residual.
 
 use super::acceptance::{Candidate, UnjudgedResult, last_step};
-use super::convergence::{Progress, ResidualMonitor, TOLERANCE, escapes, relative_residual};
+use super::convergence::{Progress, ResidualMonitor, TOLERANCE, horizon, largest_of, relative_residual};
 use super::descent::DEPARTURE;
 use super::operating_point::{Failure, OperatingPoint};
 use super::scaling::units;
@@ -23,11 +23,13 @@ pub(super) fn damped_newton<S>(point: &OperatingPoint<'_>, start: &[f64]) -> Res
 where
     S: SearchSpace,
 {
+    let motions = point.motions();
     let mut base: Base<S> = S::base(point, start)?;
     let weight = S::weights(point, &base.q)?;
     let units = &units(point, &base.q)?;
     let mut radius = FIRST_RADIUS;
     let mut watch = ResidualMonitor::new(&base.q);
+    let escaped = horizon(&start[..motions]);
     let mut trial = Trial::blank(point.size());
     for iterations in 0..MAX_ITERATIONS {
         let at = (&base.residual[..], &base.stiffness);
@@ -71,12 +73,12 @@ where
             radius *= 2.0;
         }
         S::arrive(point, &mut trial, &mut base)?;
-        if escapes(point, start, &base.q) {
+        if largest_of(&base.q[..motions]) > escaped {
             break;
         }
     }
     let relative = relative_residual(point, &base.q, &base.residual, &base.stiffness);
-    let reason = if escapes(point, start, &base.q) { NotFound::Escape } else { NotFound::IterationLimit };
+    let reason = if largest_of(&base.q[..motions]) > escaped { NotFound::Escape } else { NotFound::IterationLimit };
     Err(failure(reason, &base.q, MAX_ITERATIONS, relative))
 }
 

@@ -67,7 +67,7 @@ fn newton(
         step.copy_from_slice(residual);
         solve_rows(n, lower, pivots, step);
         step.iter_mut().for_each(|value| *value = -*value);
-        let left = last(point, step, q);
+        let left = last(step, q, n);
         if left != StepsLeft::More {
             // A step that changes nothing is not taken.
             let taken = left != StepsLeft::Reached;
@@ -84,7 +84,7 @@ fn newton(
                 false => Err(progress),
             };
         }
-        let size = point.size_of(step);
+        let size = largest(step);
         let limited = size > progress.radius;
         let mut share = 1.0;
         if limited {
@@ -141,11 +141,11 @@ fn ends(
     }
     let forces = [&parts.inertia[..], &parts.applied];
     let stiffness = linear.stiffness.as_flattened();
-    state.relative_residual = relative_of(&point.description, (n, n), forces, q, residual, stiffness);
+    state.relative_residual = relative_of((n, n), forces, q, residual, stiffness);
     let fell = largest(residual) <= 1e-3 * largest(before) || {
         let mut displacement = Vector::from(&*residual);
         solve_rows(n, lower, pivots, &mut displacement);
-        is_rounding(point, &displacement[..n], q)
+        is_rounding(&displacement[..n], q, n)
     };
     fell && state.relative_residual <= TOLERANCE
 }

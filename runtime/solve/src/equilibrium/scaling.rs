@@ -10,7 +10,8 @@
 //! mechanism; a shortened step must reduce the residual only by its share. What counts as a large change of a
 //! coordinate (the reach of a first step, the distance at which two equilibria differ, the unit of arc length) is a
 //! radian or `Description::length`: the geometric mean of the shortest and the longest length that the declaration
-//! writes. The smallest motion against which a residual is measured is a share of it.
+//! writes. Two settings still assume metres: the smallest motion against which a residual is measured, and the
+//! curvature that counts as straight.
 
 use core::ops::Range;
 

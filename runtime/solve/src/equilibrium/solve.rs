@@ -9,7 +9,7 @@
 //! method without descent. Conservative, rolling and coasting mechanisms are treated alike.
 
 use super::acceptance::{Measured, UnjudgedResult};
-use super::convergence::{relative_residual, small_change};
+use super::convergence::{SMALL_MOTION, relative_residual};
 use super::descent;
 use super::finish::{SolvedState, finish, judge};
 use super::operating_point::{Failure, OperatingPoint};
@@ -237,7 +237,7 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
     let candidate = nearest(point, start).ok()?;
     let is_there = |unknown: usize| {
         let (asked, coordinate) = (start[unknown], candidate.coordinates[unknown]);
-        (asked - coordinate).abs() <= NAMED * (asked.abs() + small_change(&point.description, unknown))
+        (asked - coordinate).abs() <= NAMED * (asked.abs() + SMALL_MOTION)
     };
     if !point.named().all(is_there) {
         return None;

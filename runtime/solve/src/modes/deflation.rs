@@ -245,7 +245,7 @@ pub(crate) fn roots(
     zero_roots.extend(rest.into_iter().skip(zeros));
     for root in &mut zero_roots {
         for vector in [&mut root.right, &mut root.left] {
-            super::constrained::normalise_by_mass(vector, &linear.mass);
+            super::normalisation::normalise_by_mass(vector, &linear.mass);
         }
     }
     Ok(zero_roots)

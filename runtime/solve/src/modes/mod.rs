@@ -15,6 +15,7 @@ mod deflation;
 mod deflation_tests;
 mod kinetic;
 mod mode;
+mod normalisation;
 mod pencil;
 mod undamped;
 mod whirl;
@@ -25,11 +26,13 @@ pub use assurance::{
 };
 pub use assurance::{assurance, clusters, match_modes};
 #[doc(hidden)]
-pub use constrained::{Normalisation, free_pairs};
+pub use constrained::free_pairs;
 pub(crate) use deflation::deflated;
 #[doc(hidden)]
 pub use kinetic::inertia;
 pub use mode::{Behaviour, Mode};
+#[doc(hidden)]
+pub use normalisation::{Normalisation, lead};
 #[doc(hidden)]
 pub use pencil::{pencil_slope_times, pencil_times, transposed};
 #[doc(hidden)]
@@ -490,16 +493,4 @@ pub(crate) fn change_to_zero(linear: &Linear, mode: &Mode) -> f64 {
 /// `|psi^T (2 s M + C) phi|`.
 fn slope(linear: &Linear, s: Complex, (left, right): (&[Complex], &[Complex])) -> f64 {
     dot_complex(left, &pencil_slope_times(linear, s, right)).norm()
-}
-
-/// Position of the component that fixes the phase of a vector: the largest one, with a margin that keeps the choice
-/// stable when two are equal up to rounding.
-pub fn lead(x: &[Complex]) -> usize {
-    let mut lead = 0;
-    for (i, value) in x.iter().enumerate().skip(1) {
-        if value.norm() > x[lead].norm() * (1.0 + 1e-9) {
-            lead = i;
-        }
-    }
-    lead
 }

@@ -3,7 +3,7 @@
 
 use super::redundancy::ROUNDING;
 use crate::algebra::{Matrix, Values, Vector, dot, largest, times};
-use crate::equilibrium::{OperatingPoint, SMALL_MOTION, small_change, without_rounding};
+use crate::equilibrium::{OperatingPoint, SMALL_MOTION, without_rounding};
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Error, Text};
 
@@ -74,8 +74,7 @@ pub fn depends(at: &Equilibrium, by_unknown: &[f64]) -> bool {
 /// themselves or a small motion.
 fn forces(mechanism: &dyn Kernels, at: &Equilibrium) -> Vector {
     let parts = mechanism.residual_parts(&at.coordinates, &at.inputs, &at.design);
-    let q = &at.coordinates;
-    let reach = Vector::from_fn(q.len(), |i| q[i].abs() + small_change(&at.description, i));
+    let reach = at.coordinates.map(|q| q.abs() + SMALL_MOTION);
     let restored = times(&at.linear.stiffness.map(f64::abs), &reach);
     Vector::from_fn(reach.len(), |i| parts.inertia[i].abs() + parts.applied[i].abs() + restored[i])
 }

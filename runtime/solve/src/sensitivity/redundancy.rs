@@ -2,7 +2,7 @@
 
 use crate::algebra::{Matrix, Vector, dot};
 use crate::constraints::{Rows, Structure, Tangent, placed};
-use crate::equilibrium::{SMALL_MOTION, small_change};
+use crate::equilibrium::SMALL_MOTION;
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Error};
 
@@ -70,10 +70,8 @@ impl Scale {
         let weights = placed(tangent.structure, &tangent.all.size.map(|size| 1.0 / size));
         let motions = &at.coordinates[..tangent.structure.motions()];
         let opened = tangent.structure.constraint_rows().fold(0.0, |sum, i| {
-            let pairs = motions.iter().zip(&at.linear.stiffness[i]).enumerate();
-            pairs.fold(sum, |sum, (j, (q, slope))| {
-                sum + weights[i] * slope.abs() * (small_change(&at.description, j) + q.abs())
-            })
+            let pairs = motions.iter().zip(&at.linear.stiffness[i]);
+            pairs.fold(sum, |sum, (q, slope)| sum + weights[i] * slope.abs() * (SMALL_MOTION + q.abs()))
         });
         Self { weights, opened }
     }

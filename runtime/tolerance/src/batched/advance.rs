@@ -38,7 +38,7 @@ impl<'a> Workspace<'a> {
         let room = &mut BatchArena::new(memory);
         Self {
             block: Block::new(room, inputs, design, sizes.coordinates),
-            scratch: Scratch::new(room, &kernels.description()),
+            scratch: Scratch::new(room, sizes.coordinates),
             slopes: with_slopes.then(|| Slopes::new(room, &kernels.description(), sizes)),
         }
     }

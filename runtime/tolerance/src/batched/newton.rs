@@ -10,7 +10,7 @@ use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 
 /// Maximum number of steps: predicted states are close to the solution.
 const STEPS: usize = 6;
-/// Largest change of a coordinate in a step, relative to a large change.
+/// Largest change of a coordinate in a step, rad or m.
 const RADIUS: f64 = 1.0;
 
 /// Moves the coordinates of a block to the nearby equilibria. Flags the lanes that came to rest with a stiffness that
@@ -63,9 +63,9 @@ impl Task for Step<'_, '_> {
                 let coordinates = &mut block.coordinates[..n];
                 for i in 0..n {
                     let (q, step) = (V::load(&coordinates[i], at), step[i]);
-                    let scale = V::constant(LAST_STEP) * (q.abs() + V::constant(scratch.small[i]));
+                    let scale = V::constant(LAST_STEP) * (q.abs() + V::constant(SMALL_MOTION));
                     last = keep(last, step.abs().at_most(scale));
-                    near = keep(near, step.abs().at_most(V::constant(RADIUS / SMALL_MOTION * scratch.small[i])));
+                    near = keep(near, step.abs().at_most(V::constant(RADIUS)));
                     V::choose(moving, q - step, q).store(&mut coordinates[i], at);
                 }
                 let flag = V::load(&block.flags, at);

@@ -4,10 +4,9 @@ use super::algebra::{self, Row, Square, congruent, for_size, keep, load_matrix, 
 use super::block::{Block, POSITIVE};
 use super::closed::{self, FactoredMatrix};
 use super::room::BatchArena;
-use crate::Description;
-use crate::algebra::{Matrix, Vector};
+use crate::algebra::Matrix;
 use crate::eigenproblem::INACCURATE;
-use crate::equilibrium::{ROUNDED, ROUNDING, TOLERANCE, small_change};
+use crate::equilibrium::{ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE};
 use crate::kernels::{BatchKernels, BatchParts, BatchPoint};
 use crate::modes::CLUSTER_GAP;
 use crate::rounding::{SLOW, of_elements};
@@ -18,8 +17,6 @@ pub(super) struct Scratch<'a> {
     pub(super) residual: &'a mut [Batch],
     pub(super) stiffness: &'a mut [Batch],
     pub(super) parts: BatchParts<'a>,
-    /// [`small_change`] of each coordinate.
-    pub(super) small: Vector,
 }
 
 impl<'a> Scratch<'a> {
@@ -28,10 +25,8 @@ impl<'a> Scratch<'a> {
         3 * n + n * n
     }
 
-    pub(super) fn new(room: &mut BatchArena<'a>, description: &Description) -> Self {
-        let n = description.coordinates.len();
+    pub(super) fn new(room: &mut BatchArena<'a>, n: usize) -> Self {
         Self {
-            small: Vector::from_fn(n, |i| small_change(description, i)),
             residual: room.take(n),
             stiffness: room.take(n * n),
             parts: BatchParts { inertia: room.take(n), applied: room.take(n) },
@@ -50,16 +45,15 @@ pub(super) fn state<'m>(
     scratch: &mut Scratch<'m>,
     shapes: &Matrix,
 ) {
-    let Scratch { parts, small, .. } = scratch;
+    let parts = &mut scratch.parts;
     let point = BatchPoint { q: block.coordinates, u: block.inputs, b: block.design };
     kernels.parts_and_linear_batch(instructions, point, parts, &mut block.linear);
-    instructions.run(CompleteStates { shapes, parts, small, block });
+    instructions.run(CompleteStates { shapes, parts, block });
 }
 
 struct CompleteStates<'a, 'b> {
     shapes: &'a Matrix,
     parts: &'a BatchParts<'b>,
-    small: &'a [f64],
     block: &'a mut Block<'b>,
 }
 
@@ -68,7 +62,7 @@ impl Task for CompleteStates<'_, '_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { shapes, parts, small: changes, block } = self;
+        let Self { shapes, parts, block } = self;
         let one = V::constant(1.0);
         for_size!(block.coordinates.len(), |n, N| {
             let shapes: &Square<f64, N> = &small(n, shapes);
@@ -82,7 +76,7 @@ impl Task for CompleteStates<'_, '_> {
                 for i in 0..n {
                     residual[i] = residual[i] - applied[i];
                 }
-                let (relative, rest) = remainder(n, (&q, changes), [&inertia, &applied, &residual], &stiffness);
+                let (relative, rest) = remainder(n, &q, [&inertia, &applied, &residual], &stiffness);
                 let mut flag = keep(V::load(&block.flags, at), one.at_most(rest));
                 flag = keep(flag, one.at_most(closed::definite(n, &mass, POSITIVE)));
                 let (lambda, vectors, found) = modes(n, &mass, &stiffness, shapes);
@@ -108,13 +102,13 @@ impl Task for CompleteStates<'_, '_> {
 #[inline(always)]
 fn remainder<V: Lanes, const N: usize>(
     n: usize,
-    (q, changes): (&Row<V, N>, &[f64]),
+    q: &Row<V, N>,
     [inertia, applied, residual]: [&Row<V, N>; 3],
     stiffness: &Square<V, N>,
 ) -> (V, V) {
-    let mut small = [V::constant(0.0); N];
+    let mut small = [V::constant(SMALL_MOTION); N];
     for i in 0..n {
-        small[i] = V::constant(changes[i]) + V::constant(ROUNDED) * q[i].abs();
+        small[i] = small[i] + V::constant(ROUNDED) * q[i].abs();
     }
     let mut most = V::constant(0.0);
     for i in 0..n {
@@ -131,7 +125,7 @@ fn remainder<V: Lanes, const N: usize>(
     let rest = solver.solve(n, residual);
     for i in 0..n {
         let (rest, q) = (rest[i], q[i]);
-        let scale = V::constant(ROUNDING) * (q.abs() + V::constant(changes[i]));
+        let scale = V::constant(ROUNDING) * (q.abs() + V::constant(SMALL_MOTION));
         flag = keep(flag, rest.abs().at_most(scale));
     }
     (most, flag)

@@ -42,13 +42,12 @@ const NOT_WRITTEN: [(&str, &str); 34] = [
 ];
 
 /// The same list for the statistics crate.
-const STATISTICS_NOT_WRITTEN: [(&str, &str); 12] = [
+const STATISTICS_NOT_WRITTEN: [(&str, &str); 11] = [
     ("Cursor", "borrows its sequence"),
     ("DesignWalk", "borrows its design"),
     ("LimitFunction", "a function"),
     ("LineSampler", "made from settings and directions"),
     ("Number", "written by hand"),
-    ("Proposal", "made from design points, which are written"),
     ("RandomNumbers", "made from a seed"),
     ("SaltelliDesign", "made from a seed and sizes"),
     ("Sample", "values of the user's own"),

@@ -66,6 +66,11 @@ fn arguments(tokens: &mut Tokens) -> Parsed<Vec<JointArgument>> {
     Ok(arguments)
 }
 
+/// The words that begin a clause.
+const CLAUSES: [&str; 6] = ["at", "rotated", "driven", "coasting", "shaken", "cut"];
+const COASTS: &str =
+    "the equations of motion determine how fast it coasts; where nothing does, `steady spin = omega;` declares it";
+
 fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
     if let Some(placement) = placement(tokens)? {
         let on = match tokens.word("on") {
@@ -81,6 +86,14 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
         false => None,
     };
     if let Some(keyword) = tokens.word("coasting") {
+        let known = |tokens: &Tokens| CLAUSES.iter().any(|word| tokens.peek_word(word));
+        let mut ahead = *tokens;
+        let next = ahead.ident();
+        let ends = tokens.is_empty() || tokens.peek_sign(',') || tokens.peek_sign(';');
+        if !(ends || known(tokens) || next.is_some() && known(&ahead)) {
+            let error = tokens.expected("`,` or `;`");
+            return error.map_err(|error| Box::new(error.with_help(COASTS)));
+        }
         let coast = Coast { coordinate, keyword };
         return Ok(Some(JointClause::Coast(coast)));
     }

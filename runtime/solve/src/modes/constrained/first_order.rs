@@ -2,13 +2,14 @@
 //! those of the bordered pencil.
 
 use super::system::System;
-use super::{Gathered, Normalisation, is_shared, lift, with_reactions};
+use super::{Gathered, is_shared, lift, with_reactions};
 use crate::Complex;
 use crate::algebra::{Matrix, Vector};
 use crate::constraints::Tangent;
 use crate::eigenproblem::{Eigenproblem, EigenproblemError, Root, roots_of};
 use crate::kernels::Linear;
 use crate::modes::deflation;
+use crate::modes::normalisation::Normalisation;
 use crate::modes::pencil::pencil_transposed_times;
 
 pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Vec<Root>, EigenproblemError> {

@@ -1,13 +1,14 @@
 //! Pairs of a bordered pencil with a closed form: three masses joined into one by two constraints of very different
 //! units, `6 s^2 + 0.4 s + 15.5 = 0`.
 
+use super::Gathered;
 use super::measure::Measure;
-use super::{Gathered, Normalisation};
 use crate::Complex;
 use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
 use crate::eigenproblem::Root;
 use crate::kernels::Linear;
+use crate::modes::normalisation::Normalisation;
 
 const MOTIONS: usize = 3;
 /// Units of the constraints `x = y` and `x = z`.

@@ -1,10 +1,11 @@
 //! Constraints on positions only: the quadratic problem `(s^2 P^T M P + s P^T C P + P^T K_c P) y = 0`.
 
-use super::{Gathered, Normalisation, is_shared, lift, projected, with_reactions};
+use super::{Gathered, is_shared, lift, projected, with_reactions};
 use crate::constraints::Tangent;
 use crate::eigenproblem::{EigenproblemError, Root, general};
 use crate::kernels::Linear;
 use crate::modes::deflation;
+use crate::modes::normalisation::Normalisation;
 use crate::modes::pencil::transposed;
 
 pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<Vec<Root>, EigenproblemError> {

@@ -6,11 +6,11 @@ use crate::algebra::Matrix;
 use crate::batched::POSITIVE;
 use crate::batched::algebra::{self, Row, Square, congruent, for_size_up_to, keep, load_matrix, small};
 use crate::batched::closed::{self, FactoredMatrix};
-use crate::equilibrium::LAST_STEP;
+use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
 use crate::kernels::{BatchPoint, Kernels};
 use crate::scalar::{Instructions, Lanes};
 
-/// A correction this small, relative to the coordinate and a [small change](crate::equilibrium::small_change), is the last. It uses the
+/// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last. It uses the
 /// nominal change of the stiffness, so that the remainder is a share of it comparable to that of the tolerances.
 const LAST_CORRECTION: f64 = 1e-12;
 /// Smallest pivot of the stiffness between the nominal position and its mirror image about the equilibrium.
@@ -34,10 +34,10 @@ pub(super) fn newton_step<V: Lanes, const N: usize>(
     let stiffness = load_matrix(n, batch.stiffness, at);
     let residual = algebra::load(n, batch.residual, at);
     let (step, last, regular) = match &prepared.statics {
-        Statics::Potential(potential) => potential.step(n, (&q, &prepared.small), &stiffness, &residual),
+        Statics::Potential(potential) => potential.step(n, &q, &stiffness, &residual),
         Statics::Forces(forces) => {
             let motions = prepared.motions.min(n);
-            forces.step((n, motions), (&q, &prepared.small), &stiffness, &residual)
+            forces.step((n, motions), &q, &stiffness, &residual)
         }
     };
     // Samples at rest do not move, so that none depends on the others.
@@ -159,7 +159,7 @@ impl<const N: usize> Potential<N> {
     fn step<V: Lanes>(
         &self,
         n: usize,
-        (q, small): (&Row<V, N>, &Row<f64, N>),
+        q: &Row<V, N>,
         stiffness: &Square<V, N>,
         residual: &Row<V, N>,
     ) -> (Row<V, N>, V, V) {
@@ -168,7 +168,7 @@ impl<const N: usize> Potential<N> {
         let correction = solver.solve(n, &curved(n, &self.curvature, &step));
         let mut last = V::constant(1.0);
         for i in 0..n {
-            let scale = V::constant(LAST_CORRECTION) * (q[i].abs() + V::constant(small[i]));
+            let scale = V::constant(LAST_CORRECTION) * (q[i].abs() + V::constant(SMALL_MOTION));
             last = keep(last, correction[i].abs().at_most(scale));
             step[i] = step[i] + correction[i];
         }
@@ -209,7 +209,7 @@ impl<const N: usize> Forces<N> {
     fn step<V: Lanes>(
         &self,
         (n, motions): (usize, usize),
-        (q, small): (&Row<V, N>, &Row<f64, N>),
+        q: &Row<V, N>,
         stiffness: &Square<V, N>,
         residual: &Row<V, N>,
     ) -> (Row<V, N>, V, V) {
@@ -244,7 +244,7 @@ impl<const N: usize> Forces<N> {
             step[i] = step[i] * V::constant(self.units[i]);
         }
         for i in 0..motions {
-            let scale = V::constant(LAST_STEP) * (q[i].abs() + V::constant(small[i]));
+            let scale = V::constant(LAST_STEP) * (q[i].abs() + V::constant(SMALL_MOTION));
             last = keep(last, step[i].abs().at_most(scale));
         }
         (step, last, regular)

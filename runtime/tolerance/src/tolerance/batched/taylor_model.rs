@@ -8,7 +8,6 @@ use crate::algebra::{Matrix, Vector, largest};
 use crate::batched::algebra::Row;
 use crate::constraints::Structure;
 use crate::eigenproblem::Reference;
-use crate::equilibrium::small_change;
 use crate::kernels::BatchKernels;
 use crate::modes::{Family, equal_groups};
 use crate::scalar::Batch;
@@ -43,8 +42,6 @@ pub(in crate::tolerance) struct TaylorModel<'a, const N: usize> {
     /// are not used.
     pub(super) second: Vec<[Row<f64, N>; FEW]>,
     pub(super) statics: Statics<N>,
-    /// [`small_change`] of each unknown.
-    pub(super) small: Row<f64, N>,
     /// Number of unknowns that are coordinates.
     pub(super) motions: usize,
     /// The nominal pairs, if modes are damped or constrained.
@@ -130,7 +127,6 @@ impl<'a, const N: usize> TaylorModel<'a, N> {
             reach: row(&reach),
             groups: equal_groups(modes),
             statics,
-            small: core::array::from_fn(|i| small_change(&nominal.description, i)),
             motions: structure.motions(),
             reference,
             diagonal,
