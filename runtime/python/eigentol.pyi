@@ -1156,7 +1156,7 @@ class Study:
         of designs, or samples; requirements as `chances` takes them.
         """
     def reliability(self, requirements: Sequence[str]) -> Answer:
-        """Reliability by way of design points (FORM and SORM), judged by designs solved anew; requirements as `chances`
+        """Reliability by way of design points (FORM), judged by designs solved anew; requirements as `chances`
         takes them.
         """
     def response(self, of: str, variables: Sequence[str] | None = None) -> Response:

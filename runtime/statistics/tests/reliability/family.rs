@@ -162,7 +162,7 @@ fn law(random: &mut RandomNumbers, kind: usize) -> Distribution {
         6 => Distribution::weibull_by_moments(1.0, s),
         _ => Distribution::beta((2.0, 3.0), (1.0 - 2.0 * s, 1.0 + 2.0 * s)),
     }
-    .unwrap()
+    .expect("a distribution")
 }
 
 /// The machine of a trial, and the probabilities of its failure and of its opposite.
