@@ -256,7 +256,12 @@ fn what_rounding_decides_is_not_known() {
         let from = (&[50.0][..], &design[..]);
         let wanted = (range, &[vibration(0)][..]);
         let found = one(peaks(&model, from, &[0.0; 2], Policy::Stable, wanted, None, Watch::default()));
-        let [peak] = &found.peaks[..] else { panic!("one peak: {found:?}") };
+        let [peak] = &found.peaks[..] else {
+            // Where the damping is rounding, so is whether the peak is infinite.
+            let [gap] = &found.gaps[..] else { panic!("1e-{decade}: neither a peak nor a gap") };
+            assert!(decade > 7 && gap.from < 70.711 && gap.to > 70.710, "{gap:?}");
+            continue;
+        };
         let Some(amplification) = &peak.amplification else { continue };
         // Relative changes by m, k and c.
         for (number, expected) in [(&peak.height, [0.5, -0.5, -1.0]), (amplification, [0.5, 0.5, -1.0])] {
@@ -265,7 +270,6 @@ fn what_rounding_decides_is_not_known() {
                 continue;
             }
             known += 1;
-            println!("1e-{decade} {:e} {:?}", amplification.value, number.by_design);
             for (k, expected) in expected.into_iter().enumerate() {
                 let slope = number.by_design[k] * design[k] / number.value;
                 assert!(
@@ -275,5 +279,5 @@ fn what_rounding_decides_is_not_known() {
             }
         }
     }
-    assert!(known >= 14, "{known}");
+    assert!(known >= 6, "{known}");
 }

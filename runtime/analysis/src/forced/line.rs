@@ -22,11 +22,20 @@ pub(crate) struct Line {
     pub(crate) frequency: [f64; 2],
     /// The complex amplitude as displacement, velocity or acceleration, and its derivative along the input.
     pub(crate) amplitude: [Complex; 2],
-    /// It is more than what rounding leaves of the terms that cancel in it.
-    pub(crate) audible: bool,
+    /// Relative rounding of the amplitude, of the terms that cancel in it.
+    pub(crate) rounding: f64,
     /// By mode, the share of the displacement that its pole would have at a distance of 1/s: the size of its residue
     /// over that of the amplitude.
     pub(crate) residues: Vec<f64>,
+    /// Whether a mode that is excited and seen is among these, whatever rounding leaves next to its pole.
+    reached: bool,
+}
+
+impl Line {
+    /// Whether it is more than what rounding leaves of an output that sees nothing.
+    pub(crate) fn is_audible(&self) -> bool {
+        self.reached || self.rounding * ROUNDING < f64::EPSILON
+    }
 }
 
 /// Total derivatives of a number by every variable, and the derivatives of these along one input.
@@ -43,6 +52,8 @@ pub(crate) struct CurvingLine {
 
 /// Relative rounding that cancelling terms may leave.
 const ROUNDING: f64 = 1e-12;
+/// Share of the terms in a product with a shape that is more than an error of the shape.
+const REACHED: f64 = 1e-6;
 
 /// Outputs of harmonics near one value of an input.
 pub(crate) struct Lines<'a> {
@@ -101,12 +112,13 @@ impl<'a> Lines<'a> {
         for share in &harmonic.shares {
             add(&mut force, &forces.force(share.excitation, share.turn()));
         }
-        let residue = |mode: &Mode| residue(&at.linear, mode, seen, &force) / y.norm();
+        let residues: Vec<_> = modes.iter().map(|mode| residue(&at.linear, mode, seen, &force)).collect();
         let amplitude = [measure.of(w, y), measure.slope((w, y), dw, dy)];
         match amplitude.iter().all(|value| value.is_finite()) && dw.is_finite() {
             true => Ok(Line {
-                audible: y.norm() > ROUNDING * terms,
-                residues: modes.iter().map(residue).collect(),
+                rounding: f64::EPSILON * terms / y.norm(),
+                reached: residues.iter().any(|(_, share)| *share > REACHED),
+                residues: residues.into_iter().map(|(size, _)| size / y.norm()).collect(),
                 frequency: [w, dw],
                 amplitude,
             }),
@@ -150,21 +162,21 @@ impl<'a> Lines<'a> {
 const NOT_SMOOTH: Error = Error::NoSensitivity { reason: NoDerivative::NotSmooth };
 
 /// `|(c . phi) (psi . f) / psi^T (2 s M + C) phi|`: the size of the residue of `c . D^-1 f` at the pole of a mode; zero
-/// where rounding alone makes it differ from that.
-fn residue(linear: &Linear, mode: &Mode, seen: &[Complex], force: &[Complex]) -> f64 {
+/// where rounding alone makes it differ from that. And the lesser of what is left of the terms in both products, as a share.
+fn residue(linear: &Linear, mode: &Mode, seen: &[Complex], force: &[Complex]) -> (f64, f64) {
     let product = |x: &[Complex], y: &[Complex]| {
         let terms: f64 = x.iter().zip(y).map(|(x, y)| (x * y).norm()).sum();
         let product = dot_complex(x, y).norm();
-        if product > ROUNDING * terms { product } else { 0.0 }
+        if product > ROUNDING * terms { (product, product / terms) } else { (0.0, 0.0) }
     };
     let (right, left) = (&mode.shape, mode.left());
-    match product(seen, right) * product(left, force) {
-        0.0 => 0.0,
-        reached => {
-            let slope = pencil_slope_times(linear, mode.s, right);
-            reached / dot_complex(left, &slope).norm()
-        }
+    let (seen, force) = (product(seen, right), product(left, force));
+    let share = seen.1.min(force.1);
+    if share == 0.0 {
+        return (0.0, 0.0);
     }
+    let slope = pencil_slope_times(linear, mode.s, right);
+    (seen.0 * force.0 / dot_complex(left, &slope).norm(), share)
 }
 
 /// The sizes of the terms in `p . D z`, whose rounding an output sees.

@@ -126,14 +126,11 @@ impl Moving {
         Self { value, by_design, spread }
     }
 
-    /// Without derivatives if those of a state `aside` differ.
-    fn unless_rounding(self, aside: &Vector, design: &[f64]) -> Self {
-        let weighted = |slopes: &Vector| -> f64 {
-            let parts = slopes.iter().zip(design).map(|(slope, value)| slope * value);
-            parts.map(|x| x * x).sum::<f64>().sqrt()
-        };
-        let off = self.by_design.iter().zip(aside).map(|(here, aside)| here - aside).collect();
-        match weighted(&off) <= SMOOTH * weighted(&self.by_design) {
+    /// Without derivatives if rounding decides them: `doubt` is an error of relative changes of this number with the design.
+    fn unless_rounding(self, doubt: f64, design: &[f64]) -> Self {
+        let parts = self.by_design.iter().zip(design).map(|(slope, value)| slope * value);
+        let change = parts.map(|x| x * x).sum::<f64>().sqrt();
+        match doubt * self.value.abs() <= KNOWN * change {
             true => self,
             false => Self { value: self.value, by_design: Vector::default(), spread: None },
         }
@@ -204,12 +201,8 @@ struct Half {
 const EXACT: f64 = 1e-8;
 /// Most steps of a search for a zero.
 const STEPS: usize = 80;
-/// Amplification factor beyond which derivatives of height and width may be rounding: as the place moves by many widths,
-/// they are small differences.
-const SHARP: f64 = 1e3;
-/// Share of the width of a sharp peak by which a state lies aside of another, and by which derivatives differ there.
-const ASIDE: f64 = 0.01;
-const SMOOTH: f64 = 0.05;
+/// Relative error of the derivatives of height and width up to which they are known.
+const KNOWN: f64 = 0.05;
 
 impl Search<'_> {
     /// Whether the amplitude rises along the range.
@@ -229,7 +222,7 @@ impl Search<'_> {
         for k in 1..self.scan.states.len() {
             let [a, b] = [k - 1, k].map(|k| self.state(k));
             let rises = self.rises(a) && !self.rises(b);
-            if rises && !self.scan.after_gap.contains(&k) && a.line.audible {
+            if rises && !self.scan.after_gap.contains(&k) && a.line.is_audible() {
                 tops.push((k, self.level([a, b])?));
             }
         }
@@ -299,33 +292,20 @@ impl Search<'_> {
         let after = self.half_power(&top, k..self.scan.states.len())?;
         let [frequency, _] = line.frequency;
         let moving = |value, by_design| Moving::new(value, by_design, self.tolerances);
-        let mut height = moving(square.value.sqrt(), top.modulus_by_design(&top.top_by_design()));
-        let mut amplification = None;
-        if let (Ok(a), Ok(b)) = (&before, &after)
-            && let Some((factor, slopes)) = amplified((frequency, &by_design), [a, b])
-        {
-            let mut found = moving(factor, slopes);
-            if factor > SHARP {
-                let aside = |place: f64| {
-                    let off = ASIDE * (b.place.value - a.place.value);
-                    self.along.curve(place + off, &at.coordinates, self.which)
-                };
-                let beside = aside(top.point.value)?;
-                let [c, d] = [aside(a.place.value)?, aside(b.place.value)?].map(|half| self.half_at(&beside, half));
-                if let Some((_, slopes)) = amplified((frequency, &by_design), [&c, &d]) {
-                    found = found.unless_rounding(&slopes, &at.design);
-                }
-                height = height.unless_rounding(&beside.modulus_by_design(&beside.top_by_design()), &at.design);
-            }
-            amplification = Some(found);
-        }
+        let doubt = top.doubt(&at.design);
+        let height = moving(square.value.sqrt(), top.modulus_by_design(&top.top_by_design()));
+        let factor = match (&before, &after) {
+            (Ok(a), Ok(b)) => amplification((frequency, &by_design), [a, b]),
+            _ => None,
+        };
+        let amplification = factor.map(|(value, slopes)| moving(value, slopes).unless_rounding(doubt, &at.design));
         let half_power = [before, after].map(|side| match side {
             Ok(half) => HalfPower::At(half.place.into()),
             Err(missing) => missing,
         });
         Ok(Peak {
             place: moving(top.point.value, place),
-            height,
+            height: height.unless_rounding(doubt, &at.design),
             frequency: moving(frequency, by_design),
             phase: line.amplitude[0].arg(),
             half_power,
@@ -371,26 +351,21 @@ impl Search<'_> {
             let coordinates = state.equilibrium.coordinates.clone();
             Ok((state, [value - half, slope, value / slope], coordinates))
         })?;
-        Ok(self.half_at(top, self.along.curve(zero.value, &zero.equilibrium.coordinates, self.which)?))
-    }
-
-    /// A point beside a peak whose power keeps its ratio to that at the peak.
-    fn half_at(&self, top: &Curve, at: Curve) -> Half {
-        let Square { value, slope } = at.heard().square();
-        let ratio = value / top.heard().square().value;
-        let (at_peak, here) = (top.top_by_design(), at.square_by_design());
-        let pairs = at_peak.iter().zip(&here);
-        let by_design: Vector = pairs.map(|(peak, here)| (ratio * peak - here) / slope).collect();
-        let [frequency, _] = at.heard().line.frequency;
-        Half {
-            frequency: (frequency, at.frequency_by_design(&by_design)),
-            place: Moving::new(at.point.value, by_design, self.tolerances),
-        }
+        let zero = self.along.curve(zero.value, &zero.equilibrium.coordinates, self.which)?;
+        let slope = zero.heard().square().slope;
+        let (at_peak, at_half) = (top.top_by_design(), zero.square_by_design());
+        let pairs = at_peak.iter().zip(&at_half);
+        let by_design: Vector = pairs.map(|(peak, half)| (0.5 * peak - half) / slope).collect();
+        let [frequency, _] = zero.heard().line.frequency;
+        Ok(Half {
+            frequency: (frequency, zero.frequency_by_design(&by_design)),
+            place: Moving::new(zero.point.value, by_design, self.tolerances),
+        })
     }
 }
 
 /// The amplification factor and its derivatives; `None` if the frequency does not follow the input.
-fn amplified(peak: (f64, &Vector), [a, b]: [&Half; 2]) -> Option<(f64, Vector)> {
+fn amplification(peak: (f64, &Vector), [a, b]: [&Half; 2]) -> Option<(f64, Vector)> {
     let (w, dw) = peak;
     let width = b.frequency.0 - a.frequency.0;
     let (sign, width) = (width.signum(), width.abs());

@@ -176,7 +176,7 @@ fn division_between(a: &ResponsePoint, b: &ResponsePoint) -> Option<Division> {
 }
 
 fn division_of(a: Heard<'_>, b: Heard<'_>) -> Option<Division> {
-    if !a.line.audible && !b.line.audible {
+    if !a.line.is_audible() && !b.line.is_audible() {
         return None;
     }
     let (mut approached, mut nearest) = (0, 0.5);

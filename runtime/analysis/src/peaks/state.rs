@@ -197,6 +197,15 @@ impl Curve {
         pairs.map(|(here, bend)| here - off * bend).collect()
     }
 
+    /// The part of the height of a peak here that rounding decides when each design variable changes by itself: its place
+    /// moves by many widths, and height and width are what is left of differences.
+    pub(super) fn doubt(&self, design: &[f64]) -> f64 {
+        let line = self.heard().line;
+        let slopes = self.curving.amplitude.slopes.by_design.iter().zip(design);
+        let moved = slopes.map(|(dy, value)| (dy * value).norm_sqr()).sum::<f64>().sqrt();
+        line.rounding * moved / line.amplitude[0].norm()
+    }
+
     /// How far a peak here moves with the design.
     pub(super) fn place_by_design(&self) -> Vector {
         let bend = self.bend();

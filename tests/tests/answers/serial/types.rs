@@ -42,7 +42,7 @@ const NOT_WRITTEN: [(&str, &str); 34] = [
 ];
 
 /// The same list for the statistics crate.
-const STATISTICS_NOT_WRITTEN: [(&str, &str); 11] = [
+const STATISTICS_NOT_WRITTEN: [(&str, &str); 10] = [
     ("Cursor", "borrows its sequence"),
     ("DesignWalk", "borrows its design"),
     ("LimitFunction", "a function"),
@@ -51,7 +51,6 @@ const STATISTICS_NOT_WRITTEN: [(&str, &str); 11] = [
     ("RandomNumbers", "made from a seed"),
     ("SaltelliDesign", "made from a seed and sizes"),
     ("Sample", "values of the user's own"),
-    ("Sampler", "borrows limit states"),
     ("Sequence", "made from a seed and sizes"),
     ("Sorted", "values of the user's own, in order"),
 ];
