@@ -207,7 +207,7 @@ def main():
         )
         point = design_point(ot, own).getStandardSpaceDesignPoint()
         row(
-            "rare event, importance sampling",
+            "rare event",
             lambda: own.study.probability(own.requirement()).each[0],
             lambda: importance(ot, own, point, 4000),
             lambda value, mine: f"{value.value:.3e} +- {standard_error(value):.0e}"

@@ -20,7 +20,6 @@ use state::{Along, Curve, Heard, Square};
 use crate::algebra::Vector;
 use crate::forced::Vibration;
 use crate::kernels::CurvatureKernels;
-use crate::modes::modes;
 use crate::sweep::{Following, Gap, Range};
 use crate::tolerance::{Spread, Tolerances};
 use crate::{Description, Equilibrium, Error, Shared, Watch};
@@ -68,7 +67,7 @@ pub struct Peak {
     pub amplification: Option<Moving>,
     /// The equilibrium there.
     pub equilibrium: Equilibrium,
-    /// Whether that is stable and no mode grows. Elsewhere nothing settles in this vibration.
+    /// Whether that is stable. Elsewhere nothing settles in this vibration.
     pub stable: bool,
 }
 
@@ -284,7 +283,7 @@ impl Search<'_> {
     /// The peak in the stretch before state `k`.
     fn peak(&self, k: usize, top: Curve) -> Result<Peak, Error> {
         let at = top.point.equilibrium.clone();
-        let stable = at.stability.holds() && modes(&at)?.stable();
+        let stable = at.stability.holds();
         let (square, line) = (top.heard().square(), top.heard().line);
         let place = top.place_by_design();
         let by_design = top.frequency_by_design(&place);
