@@ -129,7 +129,7 @@ impl Moving {
     fn unless_rounding(self, doubt: f64, design: &[f64]) -> Self {
         let parts = self.by_design.iter().zip(design).map(|(slope, value)| slope * value);
         let change = parts.map(|x| x * x).sum::<f64>().sqrt();
-        match doubt * self.value.abs() <= KNOWN * change {
+        match doubt * self.value.abs() <= KNOWN * change + STILL * self.value.abs() {
             true => self,
             false => Self { value: self.value, by_design: Vector::default(), spread: None },
         }
@@ -202,6 +202,8 @@ const EXACT: f64 = 1e-8;
 const STEPS: usize = 80;
 /// Relative error of the derivatives of height and width up to which they are known.
 const KNOWN: f64 = 0.05;
+/// Relative change of a number that is none: one that does not depend on the design is known not to.
+const STILL: f64 = 1e-9;
 
 impl Search<'_> {
     /// Whether the amplitude rises along the range.
