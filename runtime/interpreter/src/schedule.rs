@@ -23,16 +23,32 @@ pub(crate) struct Run {
 pub(crate) fn runs(kernel: &Kernel) -> Vec<Run> {
     let instructions = &kernel.instructions;
     let partners = partners(instructions);
-    let mut users: Vec<Vec<usize>> = vec![Vec::new(); instructions.len()];
-    let mut missing = vec![0_usize; instructions.len()];
-    for (index, instruction) in instructions.iter().enumerate() {
-        for operand in instruction.operation.operands() {
-            if let Operand::Instruction(needed) = operand {
-                users[needed].push(index);
-                missing[index] += 1;
-            }
+    let needs = |index: usize| {
+        let operands = instructions[index].operation.operands();
+        operands.into_iter().filter_map(|operand| match operand {
+            Operand::Instruction(needed) => Some(needed),
+            Operand::Constant(_) | Operand::Parameter(..) => None,
+        })
+    };
+    let mut missing: Vec<usize> = (0..instructions.len()).map(|index| needs(index).count()).collect();
+    // The users of an instruction stand side by side in one list, up to where those of the next begin.
+    let mut ends = vec![0; instructions.len()];
+    (0..instructions.len()).flat_map(needs).for_each(|needed| ends[needed] += 1);
+    let mut before = 0;
+    for end in &mut ends {
+        before += std::mem::replace(end, before);
+    }
+    let mut users = vec![0; before];
+    for index in 0..instructions.len() {
+        for needed in needs(index) {
+            users[ends[needed]] = index;
+            ends[needed] += 1;
         }
     }
+    let users_of = |index: usize| {
+        let first = index.checked_sub(1).map_or(0, |before| ends[before]);
+        users[first..ends[index]].iter().copied()
+    };
     let mut ready: Vec<(Code, Vec<usize>)> = Vec::new();
     let make_ready = |ready: &mut Vec<(Code, Vec<usize>)>, index: usize| {
         let Some(code) = code(instructions, &partners, index) else {
@@ -57,7 +73,7 @@ pub(crate) fn runs(kernel: &Kernel) -> Vec<Run> {
             members.into_iter().map(|index| (index, partners[index].filter(|_| code == Code::SinCos))).collect();
         for &(first, second) in &members {
             for done in std::iter::once(first).chain(second) {
-                for &user in &users[done] {
+                for user in users_of(done) {
                     missing[user] -= 1;
                     if missing[user] == 0 {
                         make_ready(&mut ready, user);

@@ -16,6 +16,7 @@ use super::functions::{Functions, Limits, Role, Unknown};
 use super::kernels::{Excitations, forced, held_values, kernels, picture, pose_margin, violation, whirl};
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
+use super::motion::{in_common_frame, in_common_frame_at_zero};
 use super::setup::{Context, Excited, Runs, Sections, Symbols, Values};
 
 /// Derives every function of a mechanism. Fails if no steady state exists, if no coordinate affects a constraint, and,
@@ -90,25 +91,28 @@ fn derived(mechanism: &Mechanism, topology: &Topology, limits: Limits) -> Result
         excited: &at_peace,
     };
 
-    require_steady_state(g, &context)?;
-    let responses = excited(g, &context);
-    let turning = require_harmonic(g, &context, &responses)?;
-    let equations = Equations::new(g, &context);
+    let running = in_common_frame(g, &context, &symbols.running.values);
+    require_steady_state(g, &context, &running)?;
+    let at_zero = in_common_frame_at_zero(g, &context);
+    let responses = excited(g, &context, &at_zero);
+    let turning = require_harmonic(g, &context, &running, &responses)?;
+    let equations = Equations::new(g, &context, at_zero);
+    let at_zero = &equations.kinematics;
     let jacobians = Jacobians::new(g, &context, &equations);
     let undetermined = require_determinate_motion(g, &context, &jacobians)?;
     let mut free = free_directions(g, &context, &equations, &jacobians)?;
-    free.notes.extend(notes_on_planes(g, &context));
+    free.notes.extend(notes_on_planes(g, &context, &running));
     let properties = properties(g, &context, &jacobians);
     let linear = Linear::new(g, &jacobians, properties, &context);
     let excitations = Excitations::new(g, &context, &responses, &turning);
     let mut functions = kernels(g, &symbols, &equations, &linear, limits);
     functions.extend(forced(g, &context, &equations, &excitations));
-    functions.extend(whirl(g, &context));
-    let (function, picture) = picture(g, &context);
+    functions.extend(whirl(g, &context, at_zero));
+    let (function, picture) = picture(g, &context, at_zero);
     functions.push(function);
     let requirements = requirements(g, mechanism, &values);
     functions.push(violation(&requirements, &symbols));
-    let poses = poses(g, &context);
+    let poses = poses(g, &context, at_zero);
     functions.push(pose_margin(&poses, &symbols));
     functions.extend(held_values(g, &context));
     let unknowns = unknowns(&context);

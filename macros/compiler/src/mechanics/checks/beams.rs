@@ -3,7 +3,7 @@
 use crate::algebra::{ExprId, Graph, Vector3};
 use crate::base::ids::BodyId;
 use crate::mechanics::equations::carried;
-use crate::mechanics::motion::in_common_frame;
+use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, at_rest, vanish};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Beam, Frame, Mechanism};
@@ -38,15 +38,14 @@ pub(crate) fn notes_on_beams(mechanism: &Mechanism) -> Vec<String> {
 }
 
 /// Notes on beams that carry a load where they have no coordinates to bend: at their root it has a moment there.
-pub(crate) fn notes_on_planes(g: &mut Graph, context: &Context) -> Vec<String> {
+pub(crate) fn notes_on_planes(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Vec<String> {
     let mechanism = context.mechanism;
     let is_rigid = |beam: &Beam, k: usize| beam.coordinates[k].is_empty();
     if !mechanism.beams.iter().any(|beam| is_rigid(beam, 1) || is_rigid(beam, 2)) {
         return Vec::new();
     }
     let running = &context.symbols.running.values;
-    let kinematics = in_common_frame(g, context, running);
-    let carried = carried(g, context, running, &kinematics);
+    let carried = carried(g, context, running, kinematics);
     let mut notes = Vec::new();
     for beam in &mechanism.beams {
         let axes = kinematics.of(beam.body).frame.orientation.axes.transpose();

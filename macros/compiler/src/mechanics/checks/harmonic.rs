@@ -9,7 +9,7 @@ use crate::algebra::{ExprId, Graph, SymbolId};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::CoordinateId;
 use crate::mechanics::equations::{Response, outputs};
-use crate::mechanics::motion::in_common_frame;
+use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, at_rest, by_symbol, columns, vanish};
 use crate::model::mechanism::{Excitation, ExcitationLaw, Frame, JointStep, StepMotion};
 
@@ -24,6 +24,7 @@ const FLOQUET: &str = "what is periodic in the angle of a drive, other than an u
 pub(crate) fn require_harmonic(
     g: &mut Graph,
     context: &Context,
+    kinematics: &Kinematics,
     responses: &[Response],
 ) -> Result<Turning, Diagnostics> {
     let mut mistakes = Diagnostics::new();
@@ -40,7 +41,7 @@ pub(crate) fn require_harmonic(
             }
         });
     }
-    steady_outputs(g, context, &mut mistakes);
+    steady_outputs(g, context, kinematics, &mut mistakes);
     mistakes.into_result(turning)
 }
 
@@ -207,11 +208,9 @@ fn unturned(
 
 /// The derivatives of outputs by rates must not depend on the running coordinates; those by positions do not, since no
 /// output does.
-fn steady_outputs(g: &mut Graph, context: &Context, mistakes: &mut Diagnostics) {
+fn steady_outputs(g: &mut Graph, context: &Context, kinematics: &Kinematics, mistakes: &mut Diagnostics) {
     let symbols = context.symbols;
-    let running_values = &symbols.running.values;
-    let kinematics = in_common_frame(g, context, running_values);
-    let values = outputs(g, context, running_values, &kinematics);
+    let values = outputs(g, context, &symbols.running.values, kinematics);
     let by_velocity = columns(g, &values, &symbols.velocity);
     let by_acceleration = columns(g, &values, &symbols.acceleration);
     for (index, id) in running(context) {

@@ -3,15 +3,14 @@
 
 use crate::algebra::{Graph, Vector3};
 use crate::mechanics::functions::Pose;
-use crate::mechanics::motion::in_common_frame_at_zero;
+use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::Context;
 
 /// The squared cosine of half of 150 degrees: beyond, polynomials of the Rodrigues vector describe a beam badly.
 const BENT_TOO_FAR: f64 = 0.066_987_298_107_780_68;
 
 /// Every joint with three turns, and every section of the beams that turn about more than one axis.
-pub(crate) fn poses(g: &mut Graph, context: &Context) -> Vec<Pose> {
-    let kinematics = in_common_frame_at_zero(g, context);
+pub(crate) fn poses(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Vec<Pose> {
     let mut poses = Vec::new();
     for branch in &context.topology.branches {
         let motion = kinematics.of(branch.body);

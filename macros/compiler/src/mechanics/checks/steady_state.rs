@@ -4,7 +4,7 @@ use crate::algebra::{ExprId, Graph, SymbolId};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, CoordinateId, ForceId};
 use crate::mechanics::equations::{Residual, outputs};
-use crate::mechanics::motion::{Kinematics, in_common_frame};
+use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, vanish};
 use crate::model::mechanism::Motion;
 
@@ -29,13 +29,12 @@ impl From<Diagnostics> for Unsteady {
 }
 
 /// Rejects a mechanism whose equations or outputs depend on a running coordinate, naming the cause.
-pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(), Unsteady> {
+pub(crate) fn require_steady_state(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Result<(), Unsteady> {
     let mut diagnostics = Diagnostics::new();
     let mut standing = Vec::new();
     let running = &context.symbols.running.values;
-    let kinematics = in_common_frame(g, context, running);
-    let residual = Residual::new(g, context, running, &kinematics, ForceSelection::ALL).total(g, context);
-    let outputs = outputs(g, context, running, &kinematics);
+    let residual = Residual::new(g, context, running, kinematics, ForceSelection::ALL).total(g, context);
+    let outputs = outputs(g, context, running, kinematics);
     let outputs = at_rest(g, context.symbols, &outputs);
     let coordinates: Vec<_> = context.topology.running().collect();
     for (&symbol, id) in context.symbols.running.ids.iter().zip(coordinates) {
@@ -50,7 +49,7 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(
             _ => ("driven", "drive"),
         };
         if depends(g, context, &residual, symbol) {
-            let Causes { mut causes, slip } = causes(g, context, &kinematics, symbol);
+            let Causes { mut causes, slip } = causes(g, context, kinematics, symbol);
             if slip && coordinate.motion == Motion::Coasting {
                 standing.push(id);
                 continue;

@@ -10,7 +10,7 @@ use std::rc::Rc;
 use crate::algebra::{ExprId, Graph, Stage, Vector3, substitute};
 use crate::base::ids::{BodyId, CoordinateId, DesignId};
 use crate::mechanics::inertia::{Direction, deviation};
-use crate::mechanics::motion::{Kinematics, in_common_frame, in_common_frame_at_zero};
+use crate::mechanics::motion::{Kinematics, in_common_frame};
 use crate::mechanics::setup::{
     Context, CoordinateMotion, Excited, ForceSelection, SymbolList, Symbols, Values, at_rest, by_symbol, vanish,
 };
@@ -27,7 +27,7 @@ pub(crate) struct Response {
 }
 
 /// The responses to all excitations, with the running coordinates as symbols.
-pub(crate) fn excited(g: &mut Graph, context: &Context) -> Vec<Response> {
+pub(crate) fn excited(g: &mut Graph, context: &Context, at_zero: &Kinematics) -> Vec<Response> {
     let mechanism = context.mechanism;
     if mechanism.excitations.is_empty() {
         return Vec::new();
@@ -35,7 +35,7 @@ pub(crate) fn excited(g: &mut Graph, context: &Context) -> Vec<Response> {
     let mut symbols = context.symbols.clone();
     let parameters: Vec<SymbolList> =
         mechanism.excitations.iter().map(|excitation| parameters(g, excitation, &mut symbols)).collect();
-    let excited = additions(g, context, &parameters);
+    let excited = additions(g, context, at_zero, &parameters);
     let mechanism = with_loads(mechanism, &parameters, context.symbols.b.ids.len());
     let values = Values::new(g, &mechanism, &symbols);
     let context = &Context { mechanism: &mechanism, symbols: &symbols, values: &values, excited: &excited, ..*context };
@@ -80,13 +80,12 @@ fn parameters(g: &mut Graph, excitation: &Excitation, symbols: &mut Symbols) -> 
 }
 
 /// Deviations of bodies and motions of shaken coordinates.
-fn additions(g: &mut Graph, context: &Context, parameters: &[SymbolList]) -> Excited {
-    let kinematics = in_common_frame_at_zero(g, context);
+fn additions(g: &mut Graph, context: &Context, kinematics: &Kinematics, parameters: &[SymbolList]) -> Excited {
     let mut excited = Excited::default();
     for (excitation, list) in context.mechanism.excitations.iter().zip(parameters) {
         match &excitation.law {
             ExcitationLaw::Unbalance { body, at, deviation: kind } => {
-                let directions = across(g, context, &kinematics, *body);
+                let directions = across(g, context, kinematics, *body);
                 for (along, &amount) in directions.into_iter().flatten().zip(&list.values) {
                     let direction = Direction { along, amount };
                     let change = deviation(g, context, *body, (at, kind), &direction);

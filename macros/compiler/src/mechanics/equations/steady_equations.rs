@@ -2,7 +2,7 @@
 
 use crate::algebra::{ExprId, Graph};
 use crate::mechanics::inertia::{Variation, variation};
-use crate::mechanics::motion::in_common_frame;
+use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, ForceSelection, at_rest};
 
 use super::outputs::outputs;
@@ -25,16 +25,17 @@ pub(crate) struct Equations {
     pub(crate) rest_applied: Vec<ExprId>,
     /// Outputs along any motion.
     pub(crate) outputs_in_motion: Vec<ExprId>,
+    /// The motion of every frame with the running coordinates at zero.
+    pub(crate) kinematics: Kinematics,
     /// Outputs at rest.
     pub(crate) outputs: Vec<ExprId>,
 }
 
 impl Equations {
-    pub(crate) fn new(g: &mut Graph, context: &Context) -> Self {
+    pub(crate) fn new(g: &mut Graph, context: &Context, kinematics: Kinematics) -> Self {
         let zero = g.zero();
         let symbols = context.symbols;
         let running = vec![zero; symbols.running.ids.len()];
-        let kinematics = in_common_frame(g, context, &running);
         let parts = Residual::new(g, context, &running, &kinematics, ForceSelection::ALL);
         let motion = parts.total(g, context);
         let variation = variation(g, context, &running);
@@ -48,6 +49,17 @@ impl Equations {
         let minus_applied = at_rest(g, symbols, &applied);
         let rest_applied = minus_applied.into_iter().map(|force| g.neg(force)).collect();
         let outputs = at_rest(g, symbols, &outputs_in_motion);
-        Self { motion, parts, variation, powers, rest, rest_inertia, rest_applied, outputs_in_motion, outputs }
+        Self {
+            kinematics,
+            motion,
+            parts,
+            variation,
+            powers,
+            rest,
+            rest_inertia,
+            rest_applied,
+            outputs_in_motion,
+            outputs,
+        }
     }
 }

@@ -11,7 +11,7 @@
 use crate::algebra::{Array, ExprId, Function, Graph, Matrix3, Vector3};
 use crate::base::ids::{BeamId, JointId, PointId};
 use crate::mechanics::kernel_name::KernelName;
-use crate::mechanics::motion::{Kinematics, in_common_frame_at_zero, offset, unbent};
+use crate::mechanics::motion::{Kinematics, offset, unbent};
 use crate::mechanics::picture::{Picture, PictureBeam, PictureBody, PictureJoint, PictureLink, SolidKind};
 use crate::mechanics::setup::{Context, Values};
 use crate::model::expression::{Expr, Vector};
@@ -22,15 +22,14 @@ use crate::model::mechanism::{
 use super::parameters::parameter;
 
 /// The function that computes the numbers of a picture, and how to interpret them.
-pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
+pub(crate) fn picture(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> (Function, Picture) {
     let (mechanism, symbols) = (context.mechanism, context.symbols);
     let mut numbers = Numbers::new(context.values);
-    let kinematics = in_common_frame_at_zero(g, context);
     for body in &kinematics.bodies {
         numbers.pose(body.frame.position, body.frame.orientation.axes);
     }
     for id in (0..mechanism.beams.len()).map(BeamId::new) {
-        numbers.poses_of_beam(g, &kinematics, id, &mechanism.beams[id.index()]);
+        numbers.poses_of_beam(g, kinematics, id, &mechanism.beams[id.index()]);
     }
     let bodies = mechanism.bodies.iter();
     let bodies = bodies.map(|body| numbers.body(g, body)).collect();

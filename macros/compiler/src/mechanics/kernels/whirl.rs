@@ -27,16 +27,16 @@
 
 use crate::algebra::{Array, Direction, ExprId, Function, Graph, Matrix3, Vector3, derivatives_along};
 use crate::mechanics::kernel_name::KernelName;
-use crate::mechanics::motion::{BeamMotion, FrameMotion, in_common_frame_at_zero};
+use crate::mechanics::motion::{BeamMotion, FrameMotion, Kinematics};
 use crate::mechanics::setup::{Context, MassDistribution, SymbolList, Values, at_rest};
 use crate::model::mechanism::Body;
 
 use super::parameters::parameter;
 
 /// The function that computes the direction in which a vibration whirls.
-pub(crate) fn whirl(g: &mut Graph, context: &Context) -> Option<Function> {
+pub(crate) fn whirl(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Option<Function> {
     let symbols = context.symbols;
-    let sums = sums(g, context)?;
+    let sums = sums(g, context, kinematics)?;
     Some(Function {
         name: KernelName::Whirl.name(),
         parameters: vec![
@@ -57,10 +57,9 @@ const SUMS: [&str; 7] = ["moment", "lateral", "torsional", "axial", "eccentric",
 const TINY: f64 = 1e-300;
 
 /// The sums; `None` if no massive body turns in the state of rest.
-fn sums(g: &mut Graph, context: &Context) -> Option<[ExprId; 7]> {
+fn sums(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Option<[ExprId; 7]> {
     let zero = g.zero();
     let tiny = g.constant(TINY);
-    let kinematics = in_common_frame_at_zero(g, context);
     let symbols = context.symbols;
     let bodies = context.mechanism.bodies.iter().zip(&kinematics.bodies);
     let mut pieces: Vec<Piece> = bodies

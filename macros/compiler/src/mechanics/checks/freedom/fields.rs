@@ -9,7 +9,7 @@
 
 use crate::algebra::{Disturbed, ExprId, Graph};
 use crate::base::ids::BodyId;
-use crate::mechanics::motion::{Kinematics, StepAxis, in_common_frame_at_zero};
+use crate::mechanics::motion::{Kinematics, StepAxis};
 use crate::mechanics::setup::{Context, by_symbol};
 use crate::model::mechanism::{ConstraintLaw, Frame};
 
@@ -56,9 +56,8 @@ impl Carrier {
 }
 
 impl Fields {
-    pub(super) fn new(g: &mut Graph, context: &Context, units: Units) -> Self {
+    pub(super) fn new(g: &mut Graph, context: &Context, kinematics: &Kinematics, units: Units) -> Self {
         let topology = context.topology;
-        let kinematics = in_common_frame_at_zero(g, context);
         let mut paths: Vec<Vec<(usize, StepAxis, BodyId)>> = vec![Vec::new(); context.mechanism.bodies.len()];
         let mut carriers = Vec::new();
         for branch in &topology.branches {
@@ -73,7 +72,7 @@ impl Fields {
             });
             let path: Vec<_> = before.iter().copied().chain(free_steps).take(RIGID + 1).collect();
             if path.len() > before.len() && path.len() <= RIGID {
-                carriers.push(Carrier::new(g, context, &kinematics, branch.body, &path));
+                carriers.push(Carrier::new(g, context, kinematics, branch.body, &path));
             }
             paths[branch.body.index()] = path;
         }

@@ -5,7 +5,7 @@ use crate::base::diagnostics::{Diagnostic, listed};
 use crate::base::ids::ForceId;
 use crate::base::span::Extent;
 use crate::mechanics::equations::Residual;
-use crate::mechanics::motion::in_common_frame_at_zero;
+use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, ForceSelection, RandomState, Selection, at_rest};
 use crate::model::mechanism::Force;
 
@@ -71,7 +71,11 @@ impl Cause<'_> {
 }
 
 /// Every cause of load, with its part of the equations at rest.
-pub(super) fn causes<'a>(g: &mut Graph, context: &Context<'a>) -> Vec<(Cause<'a>, Vec<ExprId>)> {
+pub(super) fn causes<'a>(
+    g: &mut Graph,
+    context: &Context<'a>,
+    kinematics: &Kinematics,
+) -> Vec<(Cause<'a>, Vec<ExprId>)> {
     let none = ForceSelection { inertia: Selection::None, forces: Selection::None, gravity: false, constraints: false };
     let gravity = ForceSelection { gravity: true, ..none };
     let mut causes = vec![(Cause::Gravity, gravity), (Cause::Inertia, ForceSelection::INERTIA)];
@@ -80,9 +84,8 @@ pub(super) fn causes<'a>(g: &mut Graph, context: &Context<'a>) -> Vec<(Cause<'a>
         causes.push((Cause::Force(force), ForceSelection { forces, ..none }));
     }
     let running = vec![g.zero(); context.symbols.running.ids.len()];
-    let kinematics = in_common_frame_at_zero(g, context);
     let part = |(cause, selection): (Cause<'a>, ForceSelection)| {
-        let part = Residual::new(g, context, &running, &kinematics, selection).total(g, context);
+        let part = Residual::new(g, context, &running, kinematics, selection).total(g, context);
         (cause, at_rest(g, context.symbols, &part))
     };
     causes.into_iter().map(part).collect()

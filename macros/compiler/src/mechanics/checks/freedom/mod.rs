@@ -46,7 +46,7 @@ pub(crate) fn free_directions(
     jacobians: &Jacobians,
 ) -> Result<FreeDirections, Diagnostics> {
     let units = Units::new(g, context, jacobians);
-    let fields = Fields::new(g, context, units);
+    let fields = Fields::new(g, context, &equations.kinematics, units);
     let system = System::new(g, context, equations, jacobians, &fields);
     // Without anything that a design could change, one says all.
     let alike = context.symbols.b.ids.is_empty() && context.symbols.u.ids.is_empty();
@@ -101,7 +101,7 @@ pub(crate) fn free_directions(
         return Ok(free);
     }
     let of_inputs = columns(g, &equations.rest, &context.symbols.u);
-    let causes = causes(g, context);
+    let causes = causes(g, context, &equations.kinematics);
     let system = System::new(g, context, equations, jacobians, &fields);
     let (chosen, loaded): (Vec<_>, Vec<_>) =
         loaded.into_iter().partition(|along| of_inputs.iter().any(|part| works(&system, NOMINAL, along, part)));
