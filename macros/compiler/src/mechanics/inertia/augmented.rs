@@ -11,7 +11,7 @@
 use crate::algebra::{ExprId, Graph, Vector3};
 use crate::base::ids::BodyId;
 use crate::census::taken;
-use crate::mechanics::motion::{BodyMotion, Kinematics};
+use crate::mechanics::motion::{BeamMotion, BodyMotion, Kinematics};
 use crate::mechanics::setup::{Context, ForceSelection, MassDistribution};
 use crate::model::mechanism::Frame;
 
@@ -44,6 +44,34 @@ impl AugmentedBody {
                 self.add_product(g, weighted, other.direction);
             }
         }
+    }
+
+    /// Adds a beam as it is bent, but for its mass, along the axes of its root. Returns the angular momentum of its
+    /// material that spins beside the sections.
+    pub(super) fn add_bent(&mut self, g: &mut Graph, beam: &BeamInertia, motion: &BeamMotion) -> Vector3 {
+        for (((_, arm), &first), second) in motion.arms().zip(&beam.first).zip(&beam.second) {
+            let share = arm.vector.scale(g, first);
+            self.first = self.first.add(g, share);
+            for (&second, (_, other)) in second.iter().zip(motion.arms()) {
+                let weighted = arm.vector.scale(g, second);
+                self.add_product(g, weighted, other.vector);
+            }
+        }
+        let mut spinning = Vector3::zero(g);
+        for ((section, inertia), &spin) in motion.sections.iter().zip(&beam.turning).zip(&beam.spin) {
+            // the second moments of which the inertia tensor is `turning`
+            let axes = section.frame.orientation.axes;
+            let turning = axes.turn_symmetric(g, inertia.0.map(|column| column.0));
+            let trace = g.sum((0..3).map(|k| turning[k][k]));
+            let half = g.scale(0.5, trace);
+            self.isotropic = g.add(self.isotropic, half);
+            for (second, turning) in self.second.iter_mut().flatten().zip(turning.as_flattened()) {
+                *second = g.sub(*second, *turning);
+            }
+            let momentum = axes.0[0].scale(g, spin);
+            spinning = spinning.add(g, momentum);
+        }
+        spinning
     }
 
     /// Adds a point mass.

@@ -18,11 +18,11 @@ pub(crate) struct BeamInertia {
     pub(crate) mass: ExprId,
     /// By arm: the sections in order, then those with mass off the axis.
     pub(crate) first: Vec<ExprId>,
-    second: Vec<Vec<ExprId>>,
+    pub(super) second: Vec<Vec<ExprId>>,
     /// By section: inertia against turning, along its axes.
-    turning: Vec<Matrix3>,
+    pub(super) turning: Vec<Matrix3>,
     /// By section: angular momentum about its axis by which its material spins beside it.
-    spin: Vec<ExprId>,
+    pub(super) spin: Vec<ExprId>,
     /// Twice the energy of this spin.
     energy_of_spin: ExprId,
 }

@@ -96,18 +96,20 @@ pub(crate) fn rates(g: &mut Graph, context: &Context, kinematics: &Kinematics) -
     rates
 }
 
-/// Momentum of each body with everything it carries, by body id.
+/// Momentum of each body with everything it carries, by body id. `spinning` is the angular momentum of material that
+/// spins beside a body.
 pub(crate) fn momenta(
     g: &mut Graph,
     context: &Context,
     kinematics: &Kinematics,
     bodies: &[AugmentedBody],
     composites: &Composites,
-    rates: &[Vector3],
+    (rates, spinning): (&[Vector3], &[Vector3]),
 ) -> Vec<Momentum> {
     let zero = Vector3::zero(g);
-    let still = Momentum { linear: zero, angular: zero, second: [zero.0; 3] };
-    let mut momenta = vec![still; bodies.len()];
+    let spinning = spinning.iter();
+    let mut momenta: Vec<_> =
+        spinning.map(|&angular| Momentum { linear: zero, angular, second: [zero.0; 3] }).collect();
     for branch in context.topology.branches.iter().rev() {
         let index = branch.body.index();
         let motion = kinematics.of(branch.body);

@@ -19,15 +19,20 @@
 //! walks need half the operations of differentiation. Where runs prevail, as in a chain of bars, differentiation by
 //! absolute angles is far shorter, and nothing is tried.
 
-use crate::algebra::{ExprId, Graph, Vector3};
-use crate::base::ids::BodyId;
+use crate::algebra::{ExprId, Graph, Matrix3, Vector3};
+use crate::base::ids::{BeamId, BodyId};
 use crate::census::taken;
-use crate::mechanics::motion::{BodyMotion, Kinematics, StepAxis, Tree, Wrench, for_inertia, second_rate};
+use crate::mechanics::motion::{
+    BodyMotion, Kinematics, StepAxis, Tree, Wrench, for_inertia, for_inertia_at_rest, second_rate,
+};
 use crate::mechanics::setup::{Context, CoordinateMotion, ForceSelection};
 use crate::model::mechanism::Frame;
+use crate::topology::Branch;
 
 use super::augmented::augmented_bodies;
 use super::composite::{Composite, Composites, accelerating, spun};
+use super::flexible::BeamInertia;
+use super::linearised_beam::{Interface, OwnBlocks, OwnColumn, station_steps};
 use super::momentum::{Momentum, momenta, rates};
 use super::newton_euler::inertial;
 
@@ -82,6 +87,9 @@ struct Step {
     /// The axis, and the velocity of the body's origin per unit rate.
     turn: Vector3,
     velocity: Vector3,
+    /// The same relative to the point about which moments are taken before the motion: the origin as it was; of a
+    /// station, the beam counts the moment about where it is.
+    departing: Vector3,
     /// Change of the body's motion, in body axes, per unit of the coordinate.
     further: Change,
     /// Change of the body's motion, in body axes, per unit of the coordinate's rate.
@@ -92,27 +100,64 @@ impl Step {
     /// Derivative by position of a wrench that moves with the body, seen from before the joint.
     fn carry(&self, g: &mut Graph, wrench: &Wrench) -> Wrench {
         let turned = self.turn.cross(g, wrench.moment);
-        let moved = self.velocity.cross(g, wrench.force);
+        let moved = self.departing.cross(g, wrench.force);
         Wrench { force: self.turn.cross(g, wrench.force), moment: turned.add(g, moved) }
     }
 }
 
+/// The motion of a frame, and how its origin moves away from a point of it.
+struct Moving {
+    omega: Vector3,
+    second_rate: Matrix3,
+    acceleration: Vector3,
+    leaving: Vector3,
+}
+
+impl Step {
+    /// Behind an elementary motion with axis `z` and velocity `v` of the body's origin `O`, a frame moves with `omega`
+    /// and `W` (its second rate), its point at `O` has the acceleration `a`, and `O` moves away from that point at `u`,
+    /// the rate of the motions that follow. If the coordinate increases by one unit, the frame turns and moves relative
+    /// to everything before it. Seen from the frame,
+    ///
+    /// - `spin = omega x z`, `growth = W z`, `acceleration = a x z + W v + 2 spin x u`;
+    ///
+    /// if the rate increases by one unit, `spin = z`, `growth = 2 omega x z`, `acceleration = 2 omega x v + 2 z x u`.
+    fn new(g: &mut Graph, unknown: usize, axis: StepAxis, frame: &Moving) -> Self {
+        let zero = Vector3::zero(g);
+        let two = g.constant(2.0);
+        let turn = axis.turn.unwrap_or(zero);
+        let velocity = axis.velocity(g, zero);
+        let spin = frame.omega.cross(g, turn);
+        let turned = frame.acceleration.cross(g, turn);
+        let moved = frame.second_rate.apply(g, velocity);
+        let carried = spin.cross(g, frame.leaving).scale(g, two);
+        let further = Change {
+            spin,
+            growth: frame.second_rate.apply(g, turn),
+            acceleration: turned.add(g, moved).add(g, carried),
+        };
+        let moved = frame.omega.cross(g, velocity);
+        let carried = turn.cross(g, frame.leaving);
+        let faster =
+            Change { spin: turn, growth: spin.scale(g, two), acceleration: moved.add(g, carried).scale(g, two) };
+        Self { unknown, axis, turn, velocity, departing: velocity, further, faster }
+    }
+}
+
 /// The free motions of a joint, from the parent to the body.
-///
-/// Behind an elementary motion with axis `z` and velocity `v` of the body's origin `O`, a frame moves with `omega` and
-/// `W` (its second rate), its point at `O` has the acceleration `a`, and `O` moves away from that point at `u`, the
-/// rate of the motions that follow. If the coordinate increases by one unit, the frame turns and moves relative to
-/// everything before it. Seen from the frame,
-///
-/// - `spin = omega x z`, `growth = W z`, `acceleration = a x z + W v + 2 spin x u`;
-///
-/// if the rate increases by one unit, `spin = z`, `growth = 2 omega x z`, `acceleration = 2 omega x v + 2 z x u`.
 fn steps(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId) -> Vec<Step> {
     let motion = kinematics.of(body);
     let frame = &motion.frame;
     let (mut omega, mut alpha) = (frame.angular_velocity, frame.angular_acceleration);
     let mut acceleration = frame.acceleration;
     let zero = Vector3::zero(g);
+    if let Some((beam, station)) = motion.flexure {
+        let second_rate = second_rate(g, omega, alpha);
+        let moving = Moving { omega, second_rate, acceleration, leaving: zero };
+        let steps = station_steps(g, context, kinematics, (body, beam, station)).into_iter();
+        let steps = steps.map(|(unknown, axis)| Step { departing: zero, ..Step::new(g, unknown, axis, &moving) });
+        return steps.collect();
+    }
     let two = g.constant(2.0);
     let mut leaving = zero;
     let mut steps = Vec::new();
@@ -122,17 +167,8 @@ fn steps(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId
         let free = &context.topology.free;
         if let Some(unknown) = free.iter().position(|&id| id == axis.coordinate) {
             let second_rate = second_rate(g, omega, alpha);
-            let spin = omega.cross(g, turn);
-            let turned = acceleration.cross(g, turn);
-            let moved = second_rate.apply(g, velocity);
-            let carried = spin.cross(g, leaving).scale(g, two);
-            let further =
-                Change { spin, growth: second_rate.apply(g, turn), acceleration: turned.add(g, moved).add(g, carried) };
-            let moved = omega.cross(g, velocity);
-            let carried = turn.cross(g, leaving);
-            let faster =
-                Change { spin: turn, growth: spin.scale(g, two), acceleration: moved.add(g, carried).scale(g, two) };
-            steps.push(Step { unknown, axis: *axis, turn, velocity, further, faster });
+            let moving = Moving { omega, second_rate, acceleration, leaving };
+            steps.push(Step::new(g, unknown, *axis, &moving));
         }
         // the frame before this motion
         let CoordinateMotion { velocity: rate, acceleration: growth, .. } =
@@ -190,12 +226,60 @@ impl Carried {
     }
 }
 
+/// The derivatives of the load on a body by one unknown, by position and by velocity, and the covector that its equation
+/// asks of the body's motion.
+#[derive(Clone, Copy)]
+struct Column {
+    unknown: usize,
+    asks: Change,
+    loads: [Wrench; 2],
+}
+
+impl Column {
+    /// Of an elementary motion, on the body that it moves.
+    fn new(g: &mut Graph, step: &Step, whole: &Carried, (load, wrench): (Wrench, &Wrench)) -> Self {
+        let asks = Change { spin: whole.asks_of_spin(g, step), growth: load.moment, acceleration: load.force };
+        let further = whole.wrench(g, &step.further);
+        let turned = step.carry(g, wrench);
+        Self { unknown: step.unknown, asks, loads: [further.add(g, turned), whole.wrench(g, &step.faster)] }
+    }
+
+    /// Of a coordinate of a beam on its root, its stations left out.
+    fn of_beam(g: &mut Graph, own: OwnColumn, omega: Vector3) -> Self {
+        let [by_omega, growth, acceleration] = own.by_motion;
+        // the angular acceleration changes by `growth - omega x spin`
+        let turned = omega.cross(g, growth);
+        let asks = Change { spin: by_omega.add(g, turned), growth, acceleration };
+        Self { unknown: own.unknown, asks, loads: own.loads }
+    }
+
+    fn add(&mut self, g: &mut Graph, other: &Self) {
+        let Change { spin, growth, acceleration } = other.asks;
+        self.asks.spin = self.asks.spin.add(g, spin);
+        self.asks.growth = self.asks.growth.add(g, growth);
+        self.asks.acceleration = self.asks.acceleration.add(g, acceleration);
+        for (load, other) in self.loads.iter_mut().zip(other.loads) {
+            *load = load.add(g, other);
+        }
+    }
+
+    fn move_to_parent(&mut self, g: &mut Graph, motion: &BodyMotion, rate: Vector3) {
+        self.asks.move_to_parent(g, motion, rate);
+        for load in &mut self.loads {
+            *load = moved_to_parent(g, motion, load);
+        }
+    }
+}
+
+/// Whether the walks apply: not where runs prevail or a coordinate coasts.
+fn apply(context: &Context) -> bool {
+    context.topology.coasting.is_empty() && !context.runs.prevail()
+}
+
 /// Derivatives of inertia minus weight by the unknowns with the running coordinates at `running`; `None` if runs prevail,
 /// a coordinate coasts, or a body bends.
 pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) -> Option<Variation> {
-    let topology = context.topology;
-    let beams = !context.mechanism.beams.is_empty();
-    if beams || !topology.coasting.is_empty() || context.runs.prevail() {
+    if !context.mechanism.beams.is_empty() || !apply(context) {
         return None;
     }
     taken(|| "variation: walks over bodies".into());
@@ -203,69 +287,141 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
         taken(|| "variation: beside runs".into());
     }
     let context = &Context { runs: &context.runs.apart(context.symbols), ..*context };
-    let kinematics = &for_inertia(g, context, running, ForceSelection::ALL);
-    let inertial = inertial(g, context, kinematics, ForceSelection::ALL);
-    let bodies = augmented_bodies(g, context, kinematics, ForceSelection::ALL);
-    let composites = Composites::new(g, context, kinematics, &bodies);
-    let rates = rates(g, context, kinematics);
-    let momenta = momenta(g, context, kinematics, &bodies, &composites, &rates);
-    let steps: Vec<Vec<Step>> =
-        (0..bodies.len()).map(|index| steps(g, context, kinematics, BodyId::new(index))).collect();
+    let kinematics = for_inertia(g, context, running, ForceSelection::ALL);
+    Some(Variation::new(g, context, &kinematics, &[]))
+}
 
-    let n = context.symbols.q.ids.len();
-    let mut this = Variation {
-        mass: vec![vec![g.zero(); n]; n],
-        by_position: vec![vec![g.zero(); n]; n],
-        by_velocity: vec![vec![g.zero(); n]; n],
-    };
-    let tree = Tree::new(context.mechanism, topology);
-    for branch in &topology.branches {
-        let index = branch.body.index();
-        let frame = &kinematics.of(branch.body).frame;
-        let whole = Carried { mass: composites.whole[index], momentum: momenta[index] };
-        for (position, step) in steps[index].iter().enumerate() {
-            let carried = &composites.carried[index];
-            let load = accelerating(g, &step.axis, &bodies[index], frame, carried);
-            let mut asks = Change { spin: whole.asks_of_spin(g, step), growth: load.moment, acceleration: load.force };
-            let further = whole.wrench(g, &step.further);
-            let turned = step.carry(g, &inertial.wrenches[index]);
-            this.mass[step.unknown][step.unknown] = asks.load(g, &step.axis);
-            let mut loads = [further.add(g, turned), whole.wrench(g, &step.faster)];
-            this.by_position[step.unknown][step.unknown] = asks.dot(g, &step.further);
-            this.by_velocity[step.unknown][step.unknown] = asks.dot(g, &step.faster);
-            this.meet(g, step, &steps[index][..position], &asks, &loads);
+/// Derivatives of inertia minus weight, and of the forces of strain, of a mechanism with beams at rest, in which only what
+/// is driven runs on; `None` if it has no beams, runs prevail or a coordinate coasts. `strained` are the forces along the
+/// rows of the sections.
+pub(crate) fn variation_at_rest(g: &mut Graph, context: &Context, strained: &[ExprId]) -> Option<Variation> {
+    if context.mechanism.beams.is_empty() || !apply(context) {
+        return None;
+    }
+    taken(|| "variation: walks over bodies and beams".into());
+    let context = &Context { runs: &context.runs.apart(context.symbols), ..*context };
+    let kinematics = for_inertia_at_rest(g, context);
+    Some(Variation::new(g, context, &kinematics, strained))
+}
 
-            let mut at = *branch;
+impl Variation {
+    fn new(g: &mut Graph, context: &Context, kinematics: &Kinematics, strained: &[ExprId]) -> Self {
+        let (topology, mechanism) = (context.topology, context.mechanism);
+        let inertial = inertial(g, context, kinematics, ForceSelection::ALL);
+        let mut bodies = augmented_bodies(g, context, kinematics, ForceSelection::ALL);
+        let mut spinning = vec![Vector3::zero(g); bodies.len()];
+        for (beam, motion) in kinematics.beams.iter().enumerate() {
+            let root = mechanism.beams[beam].body.index();
+            let inertia = BeamInertia::new(g, context, BeamId::new(beam));
+            spinning[root] = bodies[root].add_bent(g, &inertia, motion);
+        }
+        let composites = Composites::new(g, context, kinematics, &bodies);
+        let rates = rates(g, context, kinematics);
+        let momenta = momenta(g, context, kinematics, &bodies, &composites, (&rates, &spinning));
+        let steps: Vec<Vec<Step>> =
+            (0..bodies.len()).map(|index| steps(g, context, kinematics, BodyId::new(index))).collect();
+
+        let n = context.symbols.q.ids.len();
+        let zeros = vec![vec![g.zero(); n]; n];
+        let mut this = Self { mass: zeros.clone(), by_position: zeros.clone(), by_velocity: zeros };
+        let mut of_beams = this.of_beams(g, context, kinematics, (&inertial.wrenches, strained));
+        let tree = Tree::new(mechanism, topology);
+        let walk = |g: &mut Graph, this: &mut Self, mut column: Column, mut at: Branch| {
             while let Frame::Body(parent) = at.parent {
-                let motion = kinematics.of(at.body);
-                asks.move_to_parent(g, motion, rates[at.body.index()]);
-                for load in &mut loads {
-                    *load = moved_to_parent(g, motion, load);
-                }
-                this.meet(g, step, &steps[parent.index()], &asks, &loads);
+                column.move_to_parent(g, kinematics.of(at.body), rates[at.body.index()]);
+                this.meet(g, &column, &steps[parent.index()]);
                 let Some(next) = tree.branch(parent) else {
                     break;
                 };
                 at = next;
             }
+        };
+        for branch in &topology.branches {
+            let index = branch.body.index();
+            let motion = kinematics.of(branch.body);
+            let whole = Carried { mass: composites.whole[index], momentum: momenta[index] };
+            for (position, step) in steps[index].iter().enumerate() {
+                let carried = &composites.carried[index];
+                let load = accelerating(g, &step.axis, &bodies[index], &motion.frame, carried);
+                let mut column = Column::new(g, step, &whole, (load, &inertial.wrenches[index]));
+                let Some((beam, _)) = motion.flexure else {
+                    this.mass[step.unknown][step.unknown] = column.asks.load(g, &step.axis);
+                    this.by_position[step.unknown][step.unknown] = column.asks.dot(g, &step.further);
+                    this.by_velocity[step.unknown][step.unknown] = column.asks.dot(g, &step.faster);
+                    this.meet(g, &column, &steps[index][..position]);
+                    walk(g, &mut this, column, *branch);
+                    continue;
+                };
+                this.meet_together(g, &column, &steps[index]);
+                column.move_to_parent(g, motion, rates[index]);
+                let mut columns = of_beams[beam.index()].iter_mut();
+                if let Some(sum) = columns.find(|sum| sum.unknown == column.unknown) {
+                    sum.add(g, &column);
+                }
+            }
         }
+        for (beam, columns) in mechanism.beams.iter().zip(of_beams) {
+            for column in columns {
+                this.meet(g, &column, &steps[beam.body.index()]);
+                if let Some(branch) = tree.branch(beam.body) {
+                    walk(g, &mut this, column, branch);
+                }
+            }
+        }
+        this
     }
-    Some(this)
-}
 
-impl Variation {
+    /// The columns of the beams' coordinates on their roots, without those of the stations; sets the entries between
+    /// coordinates of the same beam.
+    fn of_beams(
+        &mut self,
+        g: &mut Graph,
+        context: &Context,
+        kinematics: &Kinematics,
+        given: (&[Wrench], &[ExprId]),
+    ) -> Vec<Vec<Column>> {
+        let beams = &context.mechanism.beams;
+        if beams.is_empty() {
+            return Vec::new();
+        }
+        let interface = Interface::new(g, context);
+        let mut blocks = OwnBlocks::new(g, context);
+        let columns = (0..beams.len()).map(|beam| {
+            let own = blocks.linearise(g, context, (BeamId::new(beam), &interface), kinematics, given);
+            let omega = kinematics.of(beams[beam].body).frame.angular_velocity;
+            own.into_iter().map(|own| Column::of_beam(g, own, omega)).collect()
+        });
+        let columns = columns.collect();
+        [self.mass, self.by_velocity, self.by_position] = blocks.by_unknowns(g, context);
+        columns
+    }
+
     /// Sets the entries that couple a motion with the motions nearer to the ground, at the body that carries them.
-    fn meet(&mut self, g: &mut Graph, step: &Step, before: &[Step], asks: &Change, loads: &[Wrench; 2]) {
-        let k = step.unknown;
+    fn meet(&mut self, g: &mut Graph, column: &Column, before: &[Step]) {
+        let Column { unknown: k, asks, loads } = column;
         for other in before {
             let i = other.unknown;
             let mass = asks.load(g, &other.axis);
-            (self.mass[i][k], self.mass[k][i]) = (mass, mass);
-            self.by_position[i][k] = asks.dot(g, &other.further);
-            self.by_velocity[i][k] = asks.dot(g, &other.faster);
+            (self.mass[i][*k], self.mass[*k][i]) = (mass, mass);
+            self.by_position[i][*k] = asks.dot(g, &other.further);
+            self.by_velocity[i][*k] = asks.dot(g, &other.faster);
             let [by_position, by_velocity] = loads.map(|load| other.axis.project(g, load.force, load.moment));
-            self.by_position[k][i] = by_position;
-            self.by_velocity[k][i] = by_velocity;
+            self.by_position[*k][i] = by_position;
+            self.by_velocity[*k][i] = by_velocity;
+        }
+    }
+
+    /// Adds to the entries between motions that move a station together.
+    fn meet_together(&mut self, g: &mut Graph, column: &Column, all: &[Step]) {
+        let Column { unknown: k, asks, loads } = column;
+        for other in all {
+            let mass = asks.load(g, &other.axis);
+            let [by_position, by_velocity] = loads.map(|load| other.axis.project(g, load.force, load.moment));
+            let entries =
+                [(&mut self.mass, mass), (&mut self.by_position, by_position), (&mut self.by_velocity, by_velocity)];
+            for (matrix, share) in entries {
+                matrix[*k][other.unknown] = g.add(matrix[*k][other.unknown], share);
+            }
         }
     }
 }

@@ -3,14 +3,19 @@
 use crate::algebra::{ExprId, Graph, cost, substitute};
 use crate::census::taken;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::inertia::mass_matrix;
+use crate::mechanics::inertia::{Variation, mass_matrix, variation_at_rest};
+use crate::mechanics::loads::strained;
 use crate::mechanics::motion::for_inertia;
-use crate::mechanics::setup::{Context, ForceSelection, Mirrored, at_rest, columns, vanish};
+use crate::mechanics::setup::{Context, ForceSelection, Mirrored, at_rest, columns, mirrored};
 
-use super::columns::{added, transposed};
+use super::columns::added;
 
 /// Number of operations up to which the two ways to the inertial part are compared.
 const COMPARED: usize = 50_000;
+
+/// Differentiation leaves more to be shared later (`algebra/regroup.rs`), in beams about three percent: the walks must be
+/// better by this part of their operations.
+const SHARED: usize = 20;
 
 /// All first derivatives of the residual at rest: `matrix[j][i]` is the derivative of residual `i` by coordinate `j`.
 pub(crate) struct Jacobians {
@@ -25,31 +30,17 @@ pub(crate) struct Jacobians {
 impl Jacobians {
     /// Inertia and weight are differentiated by the absolute angles, forces and constraints by the unknowns.
     pub(crate) fn new(g: &mut Graph, context: &Context, e: &Equations) -> Self {
-        let (s, runs) = (context.symbols, context.runs);
-        let outward = outward(context);
-        let running = vec![g.zero(); s.running.ids.len()];
-        let mass = match context.sections.rows.is_empty() {
-            true => {
-                let kinematics = for_inertia(g, context, &running, ForceSelection::INERTIA);
-                mass_matrix(g, context, &kinematics)
-            }
-            false => columns(g, &e.parts.inertial, &runs.acceleration),
-        };
-        // the acceleration of a coasting coordinate is the rate of an unknown
-        let symmetric = context.topology.coasting.is_empty();
-        let mass = runs.matrix(g, &mass, symmetric, &outward);
-        let mirrored = match symmetric {
-            true => Mirrored::Equal,
-            false => Mirrored::Unrelated,
-        };
-        let mass = context.sections.matrix(g, &mass, mirrored);
-        let [mass, damping, stiffness] = of_inertia(g, context, e, mass);
+        let s = context.symbols;
+        let [mass, damping, stiffness] = of_inertia(g, context, e);
 
         let applied = &e.parts.applied;
         let applied_at_rest = at_rest(g, s, applied);
         let by_position = columns(g, &applied_at_rest, &s.q);
         let moving = columns(g, applied, &s.velocity);
         let by_velocity: Vec<_> = moving.iter().map(|column| at_rest(g, s, column)).collect();
+        // less moves with the coordinates further out
+        let inward: Vec<usize> = outward(context).into_iter().map(|order| usize::MAX - order).collect();
+        let [by_velocity, by_position] = [by_velocity, by_position].map(|matrix| folded(g, context, &matrix, &inward));
         let mut in_unknowns = |columns: Vec<Vec<ExprId>>| -> Vec<Vec<ExprId>> {
             let n = columns.len();
             let flat = context.in_unknowns(g, &columns.concat());
@@ -60,14 +51,12 @@ impl Jacobians {
     }
 }
 
-/// Mass, damping and stiffness due to inertia and weight, with respect to the unknowns instead of the absolute angles. The
-/// last two are obtained by differentiation beside the given mass matrix. Or all three are taken from the [`Variation`] of
-/// the equations if that takes fewer operations, counted for stiffness with the residual and for all together. The larger
-/// a mechanism is, the more surely the walks win: beyond [`COMPARED`] operations, differentiating only to compare would be
-/// most of the work of reading the declaration.
-///
-/// [`Variation`]: crate::mechanics::inertia::Variation
-fn of_inertia(g: &mut Graph, context: &Context, e: &Equations, mass: Vec<Vec<ExprId>>) -> [Vec<Vec<ExprId>>; 3] {
+/// Mass, damping and stiffness due to inertia, weight and the strain of beams, with respect to the unknowns instead of the
+/// absolute angles. The last two are obtained by differentiation beside the mass matrix. Or all three are taken from the
+/// [`Variation`] of the equations if that takes fewer operations, counted for stiffness with the residual and for all
+/// together. The larger a mechanism is, the more surely the walks win: beyond [`COMPARED`] operations, differentiating only
+/// to compare would be most of the work of reading the declaration.
+fn of_inertia(g: &mut Graph, context: &Context, e: &Equations) -> [Vec<Vec<ExprId>>; 3] {
     let (s, runs, inertial) = (context.symbols, context.runs, &e.parts.inertial);
     let outward = outward(context);
     let still = |g: &mut Graph, roots: &[ExprId]| {
@@ -88,32 +77,29 @@ fn of_inertia(g: &mut Graph, context: &Context, e: &Equations, mass: Vec<Vec<Exp
         let all = matrices.each_ref().map(|matrix| matrix.concat()).concat();
         cost(g, &with_residual).operations + cost(g, &all).operations
     };
-    let composed = e.variation.as_ref().map(|known| {
-        let [damping, stiffness] = [&known.by_velocity, &known.by_position].map(|matrix| all_still(g, matrix));
-        // equations of outer coordinates are shorter when differentiated by inner ones than the other way round
-        let stiffness = match is_symmetric(g, context, &stiffness) {
-            true => {
-                taken(|| "linearise: symmetric stiffness, transposed".into());
-                transposed(&stiffness)
-            }
-            false => stiffness,
-        };
-        let apart = &Context { runs: &runs.apart(s), ..*context };
-        let [damping, stiffness] = [damping, stiffness].map(|matrix| summed(g, apart, &matrix, &outward));
-        let composed = [known.mass.clone(), damping, stiffness];
+    let varied = match &e.variation {
+        Some(known) => {
+            let [damping, stiffness] = [&known.by_velocity, &known.by_position].map(|matrix| all_still(g, matrix));
+            Some([known.mass.clone(), damping, stiffness])
+        }
+        None => {
+            let strained = strained(g, context);
+            let varied = variation_at_rest(g, context, &strained);
+            varied.map(|Variation { mass, by_position, by_velocity }| [mass, by_velocity, by_position])
+        }
+    };
+    let composed = varied.map(|[mass, damping, stiffness]| {
+        let [damping, stiffness] = [damping, stiffness].map(|matrix| folded(g, context, &matrix, &outward));
+        let composed = [mass, damping, stiffness];
         (operations(g, &composed), composed)
     });
     let composed = match composed {
         Some((operations, composed)) if operations > COMPARED => return composed,
         other => other,
     };
-    let stiffness = columns(g, &rest, &runs.position);
-    let damping = columns(g, inertial, &runs.velocity);
-    let damping = all_still(g, &damping);
-    let [damping, stiffness] = [damping, stiffness].map(|matrix| summed(g, context, &matrix, &outward));
-    let differentiated = [mass, damping, stiffness];
+    let differentiated = differentiated(g, context, e, (&rest, &outward), all_still);
     match composed {
-        Some((fewer, composed)) if fewer < operations(g, &differentiated) => {
+        Some((fewer, composed)) if fewer + fewer / SHARED < operations(g, &differentiated) => {
             taken(|| "linearise: stiffness and damping by variation".into());
             composed
         }
@@ -121,17 +107,56 @@ fn of_inertia(g: &mut Graph, context: &Context, e: &Equations, mass: Vec<Vec<Exp
     }
 }
 
+/// The three matrices by differentiation; those of a mechanism without beams beside the mass matrix of composite bodies.
+fn differentiated(
+    g: &mut Graph,
+    context: &Context,
+    e: &Equations,
+    (rest, outward): (&[ExprId], &[usize]),
+    all_still: impl Fn(&mut Graph, &[Vec<ExprId>]) -> Vec<Vec<ExprId>>,
+) -> [Vec<Vec<ExprId>>; 3] {
+    let (runs, inertial) = (context.runs, &e.parts.inertial);
+    let running = vec![g.zero(); context.symbols.running.ids.len()];
+    let mass = match context.sections.rows.is_empty() {
+        true => {
+            let kinematics = for_inertia(g, context, &running, ForceSelection::INERTIA);
+            mass_matrix(g, context, &kinematics)
+        }
+        false => columns(g, inertial, &runs.acceleration),
+    };
+    // the acceleration of a coasting coordinate is the rate of an unknown
+    let symmetric = context.topology.coasting.is_empty();
+    let mass = runs.matrix(g, &mass, symmetric, outward);
+    let relation = match symmetric {
+        true => Mirrored::Equal,
+        false => Mirrored::Unrelated,
+    };
+    let mass = context.sections.matrix(g, &mass, relation);
+    let stiffness = columns(g, rest, &runs.position);
+    let damping = columns(g, inertial, &runs.velocity);
+    let damping = all_still(g, &damping);
+    let [damping, stiffness] = [damping, stiffness].map(|matrix| summed(g, context, &matrix, outward));
+    [mass, damping, stiffness]
+}
+
+/// A matrix with what stands on the side of its diagonal that takes more operations from the other side, if they are equal
+/// or opposite: equations of outer coordinates are shorter when differentiated by inner ones than the other way round.
+fn folded(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>], outward: &[usize]) -> Vec<Vec<ExprId>> {
+    let relation = mirrored(g, context, columns);
+    taken(|| format!("linearise: {relation:?} across the diagonal"));
+    let mut entry = |i: usize, j: usize| match relation {
+        Mirrored::Equal if outward[i] <= outward[j] => columns[i][j],
+        Mirrored::Opposite if outward[i] <= outward[j] && i != j => g.neg(columns[i][j]),
+        _ => columns[j][i],
+    };
+    let n = columns.len();
+    (0..n).map(|j| (0..n).map(|i| entry(i, j)).collect()).collect()
+}
+
 /// Transforms a matrix with respect to the absolute angles to one with respect to the unknowns.
 fn summed(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>], outward: &[usize]) -> Vec<Vec<ExprId>> {
-    let mirrored = if is_mirrored(g, context, columns, Graph::sub) {
-        Mirrored::Equal
-    } else if !context.sections.rows.is_empty() && is_mirrored(g, context, columns, Graph::add) {
-        Mirrored::Opposite
-    } else {
-        Mirrored::Unrelated
-    };
-    let symmetric = mirrored == Mirrored::Equal;
-    let summed = context.runs.matrix(g, columns, symmetric, outward);
+    let mirrored = mirrored(g, context, columns);
+    let summed = context.runs.matrix(g, columns, mirrored == Mirrored::Equal, outward);
     context.sections.matrix(g, &summed, mirrored)
 }
 
@@ -140,24 +165,4 @@ fn outward(context: &Context) -> Vec<usize> {
     let mut order = context.outward_order();
     order.resize(context.runs.position.ids.len(), usize::MAX);
     order
-}
-
-fn is_symmetric(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>]) -> bool {
-    is_mirrored(g, context, columns, Graph::sub)
-}
-
-/// Whether the difference or the sum of mirrored entries vanishes.
-fn is_mirrored(
-    g: &mut Graph,
-    context: &Context,
-    columns: &[Vec<ExprId>],
-    compared: fn(&mut Graph, ExprId, ExprId) -> ExprId,
-) -> bool {
-    let mut asymmetry = Vec::new();
-    for (j, column) in columns.iter().enumerate() {
-        for (i, mirrored) in columns[..j].iter().enumerate() {
-            asymmetry.push(compared(g, column[i], mirrored[j]));
-        }
-    }
-    vanish(g, context, &asymmetry).into_iter().all(|zero| zero)
 }

@@ -103,23 +103,28 @@ impl Linear {
             };
             let inertial = inertial.map(|known| [&known.by_velocity, &known.by_position]);
             for (k, list) in [&s.velocity, &s.q].into_iter().enumerate() {
+                if operations(g, &roots) > limit {
+                    return None;
+                }
                 let mut columns = columns(g, motion, list);
                 if let Some(known) = inertial {
                     columns = added(g, known[k], &columns);
                 }
                 roots.extend(entries(n).map(|(i, j)| columns[j][i]));
             }
-            roots
+            Some((operations(g, &roots), roots))
         };
-        let mut motion = all(g, &e.motion, None);
-        if let Some(known) = &e.variation {
-            let composed = all(g, &e.parts.applied, Some(known));
-            if operations(g, &composed) < operations(g, &motion) {
+        let differentiated = all(g, &e.motion, None);
+        let composed = e.variation.as_ref().and_then(|known| all(g, &e.parts.applied, Some(known)));
+        let (fewest, motion) = match (differentiated, composed) {
+            (Some((operations, _)), Some((fewer, composed))) if fewer < operations => {
                 taken(|| "linearise: along a motion by variation".into());
-                motion = composed;
+                (fewer, composed)
             }
-        }
-        (operations(g, &motion) <= limit).then_some(motion)
+            (Some(only), _) | (None, Some(only)) => only,
+            (None, None) => return None,
+        };
+        (fewest <= limit).then_some(motion)
     }
 
     /// The three matrices.

@@ -45,6 +45,19 @@ impl FrameMotion {
         }
     }
 
+    /// A frame with its motion written in its own axes.
+    pub(crate) fn moving(g: &mut Graph, [angular_velocity, angular_acceleration, acceleration]: [Vector3; 3]) -> Self {
+        let second_rate = second_rate(g, angular_velocity, angular_acceleration);
+        Self {
+            angular_velocity,
+            angular_acceleration,
+            before_turn: (angular_velocity, angular_acceleration),
+            second_rate,
+            axes_second_rate: second_rate,
+            ..Self::ground(g, acceleration)
+        }
+    }
+
     /// A body-fixed vector in the axes of the motion, and its second time derivative. A vector along a body axis shares
     /// the work with every other vector along that axis.
     pub(crate) fn carry(&self, g: &mut Graph, vector: Vector3) -> (Vector3, Vector3) {
@@ -221,17 +234,11 @@ impl FrameMotion {
         let mut turn = |vector: Vector3| to_own.apply(g, vector);
         let [velocity, acceleration, angular_velocity, angular_acceleration] =
             [self.velocity, self.acceleration, self.angular_velocity, self.angular_acceleration].map(&mut turn);
-        let second_rate = second_rate(g, angular_velocity, angular_acceleration);
         Self {
-            orientation: Orientation::aligned(g),
+            position: self.position,
+            offset: self.offset,
             velocity,
-            acceleration,
-            angular_velocity,
-            angular_acceleration,
-            before_turn: (angular_velocity, angular_acceleration),
-            second_rate,
-            axes_second_rate: second_rate,
-            ..self
+            ..Self::moving(g, [angular_velocity, angular_acceleration, acceleration])
         }
     }
 

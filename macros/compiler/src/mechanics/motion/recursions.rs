@@ -71,6 +71,20 @@ pub(crate) fn for_inertia(
     Kinematics::new(g, context.mechanism, context.topology, context.values, (motions, turns), layout, ground)
 }
 
+/// [`for_inertia`] of everything at rest that moves freely: only what is driven runs on.
+pub(crate) fn for_inertia_at_rest(g: &mut Graph, context: &Context) -> Kinematics {
+    let zero = g.zero();
+    let still = |motion: CoordinateMotion| CoordinateMotion { velocity: zero, acceleration: zero, ..motion };
+    let running = vec![zero; context.symbols.running.ids.len()];
+    let motions = motions(g, context, &running, |k| still(context.runs.motion(k)));
+    let beams = (0..context.mechanism.beams.len()).map(BeamId::new);
+    let turns = beams.map(|id| (context.sections.by_themselves(g, id).map(still), headings(g, context, id, false)));
+    let turns = turns.collect();
+    let ground = context.values.vector(g, &context.mechanism.gravity).neg(g);
+    let layout = &context.runs.layout;
+    Kinematics::new(g, context.mechanism, context.topology, context.values, (motions, turns), layout, ground)
+}
+
 /// The motion of all coordinates by coordinate id; `free` gives the motion of the free ones.
 fn motions(
     g: &mut Graph,

@@ -71,17 +71,18 @@ pub(crate) fn headings(g: &mut Graph, context: &Context, id: BeamId, moves: bool
 
 /// [`headings`] in terms of the unknowns.
 pub(crate) fn headings_in_unknowns(g: &mut Graph, context: &Context, id: BeamId) -> Vec<Heading> {
-    let headings = headings(g, context, id, true);
-    let mut written = |v: Vector3| vector(&context.in_unknowns(g, &v.0));
+    let mut headings = headings(g, context, id, true);
+    let mut all: Vec<&mut Vector3> = Vec::new();
+    for Heading { value, rate, second, slopes } in &mut headings {
+        all.extend([value, rate, second]);
+        all.extend(slopes.iter_mut().map(|(_, slope)| slope));
+    }
+    let components: Vec<ExprId> = all.iter().flat_map(|vector| vector.0).collect();
+    let written = context.in_unknowns(g, &components);
+    for (to, written) in all.into_iter().zip(written.chunks(3)) {
+        *to = vector(written);
+    }
     headings
-        .into_iter()
-        .map(|heading| Heading {
-            value: written(heading.value),
-            rate: written(heading.rate),
-            second: written(heading.second),
-            slopes: heading.slopes.iter().map(|(row, slope)| (*row, written(*slope))).collect(),
-        })
-        .collect()
 }
 
 fn vector(components: &[ExprId]) -> Vector3 {

@@ -28,7 +28,7 @@ pub(super) use derivatives::{at_rest, by_symbol, columns, weighted_sum};
 pub(super) use excited::Excited;
 pub(super) use force_selection::{ForceSelection, Selection};
 pub(super) use mass_distribution::{Arm, MassDistribution};
-pub(super) use probe::{RandomState, probe, vanish};
+pub(super) use probe::{RandomState, mirrored, probe, vanish};
 pub(super) use rows::{Row, Source};
 pub(super) use runs::{BodyLayout, Layout, Runs};
 pub(super) use sections::{Mirrored, OfBeam, Sections};

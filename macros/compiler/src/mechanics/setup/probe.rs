@@ -5,6 +5,7 @@ use crate::algebra::{Disturbed, Evaluator, ExprId, Graph, SymbolId};
 use crate::model::mechanism::CoordinateQuantity;
 
 use super::context::Context;
+use super::sections::Mirrored;
 
 /// Number of finite random states for a numerical proof, and maximum number of attempts to find them.
 const STATES: usize = 4;
@@ -44,6 +45,26 @@ pub(crate) fn vanish(g: &Graph, context: &Context, roots: &[ExprId]) -> Vec<bool
         open.into_iter().for_each(|k| zero[k] = true);
     }
     zero
+}
+
+/// How the entries of a matrix are related across its diagonal.
+pub(crate) fn mirrored(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>]) -> Mirrored {
+    let mut vanishes = |compared: fn(&mut Graph, ExprId, ExprId) -> ExprId| {
+        let mut both = Vec::new();
+        for (j, column) in columns.iter().enumerate() {
+            for (i, other) in columns[..j].iter().enumerate() {
+                both.push(compared(g, column[i], other[j]));
+            }
+        }
+        vanish(g, context, &both).into_iter().all(|zero| zero)
+    };
+    if vanishes(Graph::sub) {
+        Mirrored::Equal
+    } else if !context.sections.rows.is_empty() && vanishes(Graph::add) {
+        Mirrored::Opposite
+    } else {
+        Mirrored::Unrelated
+    }
 }
 
 fn exact(context: &Context, seed: u64, symbol: SymbolId) -> Disturbed {

@@ -70,6 +70,12 @@ impl<T: Copy> OfBeam<T> {
 }
 
 impl OfBeam<Option<usize>> {
+    /// All rows.
+    pub(crate) fn rows(&self) -> Vec<usize> {
+        let lists = self.at_sections().into_iter().chain([&self.stations[..]]);
+        lists.flatten().flatten().flatten().copied().collect()
+    }
+
     /// The rows of one section.
     pub(crate) fn of_section(&self, k: usize) -> Vec<usize> {
         let lists = self.at_sections().into_iter();
@@ -168,6 +174,16 @@ impl Sections {
     /// The rows of a beam.
     pub(crate) fn of(&self, beam: BeamId) -> &OfBeam<Option<usize>> {
         &self.beams[beam.index()]
+    }
+
+    /// The unknowns that a beam's rows are sums of.
+    pub(crate) fn unknowns(&self, beam: BeamId) -> Vec<usize> {
+        let rows = self.of(beam).rows().into_iter();
+        let mut unknowns: Vec<usize> =
+            rows.flat_map(|row| self.rows[row].weights.iter().map(|(unknown, _)| *unknown)).collect();
+        unknowns.sort_unstable();
+        unknowns.dedup();
+        unknowns
     }
 
     /// The motion of a beam's sections by their own symbols.
@@ -287,6 +303,9 @@ impl Sections {
                 Some(mirrored) => (g.add(force, sections[mirrored]), g.sub(force, sections[mirrored])),
                 None => (force, force),
             };
+            if g.is(sum, 0.0) && g.is(difference, 0.0) {
+                continue;
+            }
             for (unknown, even, odd) in self.parts(row) {
                 for (factor, force) in [(even, sum), (odd, difference)] {
                     terms[unknown].push(g.scale(factor, force));

@@ -1,0 +1,263 @@
+//! The equations of one beam linearised at rest, with the motion of its root and the loads on its stations held.
+//!
+//! # Beams as substructures
+//!
+//! What reaches a beam from the rest of a mechanism is the motion of its root (angular velocity and acceleration, and the
+//! acceleration of its origin) and the loads on its stations. With symbols in their place, the equations of a beam are
+//! differentiated by its own rows alone, so the work for a beam does not depend on the mechanism around it. Everything
+//! between two beams, or a beam and a joint, follows from walks over the bodies
+//! (`mechanics/inertia/variation.rs`), in which each coordinate of a beam moves its stations as a joint moves its body.
+
+use crate::algebra::{ExprId, Graph, Matrix3, Stage, SymbolId, Vector3, substitute};
+use crate::base::ids::{BeamId, BodyId};
+use crate::mechanics::motion::{BeamMotion, FrameMotion, Kinematics, StepAxis, Wrench, headings};
+use crate::mechanics::setup::{Context, SymbolList, by_symbol, mirrored};
+
+use super::flexible::{BeamInertia, FromStations};
+
+/// What a beam's equations ask of the motion of its root, and the loads on its root, by one of its unknowns.
+pub(super) struct OwnColumn {
+    pub(super) unknown: usize,
+    /// Derivatives of the equation by angular velocity, angular acceleration and acceleration of the root.
+    pub(super) by_motion: [Vector3; 3],
+    /// Derivatives of the load on the root by position and by velocity, the loads on the stations held.
+    pub(super) loads: [Wrench; 2],
+}
+
+/// Symbols for what reaches a beam from the rest of the mechanism, used for one beam after the other.
+pub(super) struct Interface {
+    motion: SymbolList,
+    loads: SymbolList,
+}
+
+/// Mass, damping and stiffness between the rows of the sections of all beams, as columns, those of the stations apart:
+/// without them, all are symmetric or opposite across the diagonal.
+pub(super) struct OwnBlocks {
+    sections: [Vec<Vec<ExprId>>; 3],
+    stations: [Vec<Vec<ExprId>>; 3],
+}
+
+impl Interface {
+    pub(super) fn new(g: &mut Graph, context: &Context) -> Self {
+        let beams = context.mechanism.beams.iter();
+        let stations = beams.map(|beam| beam.stations.len()).max().unwrap_or(0);
+        let mut list = |name: &str, count: usize| {
+            let symbols = (0..count).map(|k| g.symbol(format!("{name}_{k}"), Stage::Rate));
+            let (ids, values) = symbols.unzip();
+            SymbolList { ids, values }
+        };
+        Self { motion: list("root_motion", 9), loads: list("station_load", 6 * stations) }
+    }
+
+    fn motion(&self) -> [Vector3; 3] {
+        [0, 3, 6].map(|first| vector(&self.motion.values[first..]))
+    }
+
+    fn load(&self, station: usize) -> [Vector3; 2] {
+        [0, 3].map(|first| vector(&self.loads.values[6 * station + first..]))
+    }
+}
+
+fn vector(components: &[ExprId]) -> Vector3 {
+    Vector3([components[0], components[1], components[2]])
+}
+
+impl OwnBlocks {
+    pub(super) fn new(g: &mut Graph, context: &Context) -> Self {
+        let size = context.symbols.q.ids.len() + context.sections.rows.len();
+        let empty = vec![vec![g.zero(); size]; size];
+        let blocks = || [empty.clone(), empty.clone(), empty.clone()];
+        Self { sections: blocks(), stations: blocks() }
+    }
+
+    /// Mass, damping and stiffness by the unknowns.
+    pub(super) fn by_unknowns(self, g: &mut Graph, context: &Context) -> [Vec<Vec<ExprId>>; 3] {
+        let mut by_unknowns = |columns: Vec<Vec<ExprId>>| {
+            let mirrored = mirrored(g, context, &columns);
+            context.sections.matrix(g, &columns, mirrored)
+        };
+        let [sections, stations] = [self.sections, self.stations].map(|blocks| blocks.map(&mut by_unknowns));
+        let mut both = sections.into_iter().zip(stations);
+        std::array::from_fn(|_| match both.next() {
+            Some((sections, stations)) => added(g, &sections, &stations),
+            None => Vec::new(),
+        })
+    }
+
+    /// Linearises a beam whose sections strain with the forces `strained` along their rows. `wrenches` are those of the
+    /// bodies with everything they carry, in their own axes.
+    pub(super) fn linearise(
+        &mut self,
+        g: &mut Graph,
+        context: &Context,
+        (id, interface): (BeamId, &Interface),
+        kinematics: &Kinematics,
+        (wrenches, strained): (&[Wrench], &[ExprId]),
+    ) -> Vec<OwnColumn> {
+        let (mechanism, sections) = (context.mechanism, context.sections);
+        let root = FrameMotion::moving(g, interface.motion());
+        let bending = (sections.by_themselves(g, id), headings(g, context, id, true));
+        let motion = BeamMotion::new(g, mechanism, context.values, id, &root, &bending);
+        let mut from = FromStations::nothing(g, context).swap_remove(id.index());
+        for station in 0..motion.stations.len() {
+            from.add(g, &motion, station, interface.load(station));
+        }
+        let load = BeamInertia::new(g, context, id).load(g, &motion, &root, &from);
+        let mut along = strained.to_vec();
+        load.add_along(g, sections, id, &motion, &mut along);
+
+        let actual = interface.actual(g, context, id, kinematics, wrenches);
+        let zeros = vec![g.zero(); sections.rows.len()];
+        let mut at_rest: Vec<_> = sections.velocity.with(&zeros).chain(sections.acceleration.with(&zeros)).collect();
+        let rows = sections.of(id).rows();
+        let forces: Vec<ExprId> = rows.iter().map(|&row| along[row]).collect();
+        let by_unknown = |g: &mut Graph, by_row: &[ExprId]| -> Vec<ExprId> {
+            let first = context.symbols.q.ids.len();
+            let mut all = vec![g.zero(); first + zeros.len()];
+            for (row, value) in rows.iter().zip(by_row) {
+                all[first + row] = *value;
+            }
+            sections.forces(g, &all)
+        };
+
+        // what the equations ask of the motion of the root
+        let still = substitute(g, &forces, &at_rest);
+        let still = by_unknown(g, &still);
+        let unknowns = sections.unknowns(id);
+        let equations: Vec<ExprId> = unknowns.iter().map(|&unknown| still[unknown]).collect();
+        let mut asked = Vec::new();
+        for &symbol in &interface.motion.ids {
+            asked.extend(by_symbol(g, &equations, symbol));
+        }
+        let asked = substitute(g, &asked, &actual);
+
+        // by accelerations, velocities and positions of the rows
+        let outputs: Vec<ExprId> = forces.iter().chain(&load.force.0).chain(&load.moment.0).copied().collect();
+        at_rest.extend(&actual);
+        let lists = [&sections.acceleration, &sections.velocity, &sections.position];
+        let columns = lists.map(|list| {
+            let mut all = Vec::new();
+            for &row in &rows {
+                all.extend(by_symbol(g, &outputs, list.ids[row]));
+            }
+            let all = substitute(g, &all, &at_rest);
+            all.chunks(outputs.len()).map(<[_]>::to_vec).collect::<Vec<_>>()
+        });
+        let first = context.symbols.q.ids.len();
+        let stations: Vec<usize> = sections.of(id).stations.iter().flatten().flatten().copied().collect();
+        for (kind, columns) in columns.iter().enumerate() {
+            for (&j, column) in rows.iter().zip(columns) {
+                let blocks = if stations.contains(&j) { &mut self.stations } else { &mut self.sections };
+                for (&i, &entry) in rows.iter().zip(column) {
+                    blocks[kind][first + j][first + i] = entry;
+                }
+            }
+        }
+        let mut loads = [2, 1].map(|kind: usize| {
+            let outputs = (forces.len()..forces.len() + 6).map(|output| {
+                let by_row: Vec<ExprId> = columns[kind].iter().map(|column| column[output]).collect();
+                by_unknown(g, &by_row)
+            });
+            outputs.collect::<Vec<_>>()
+        });
+        let count = unknowns.len();
+        let each = unknowns.into_iter().enumerate();
+        each.map(|(k, unknown)| OwnColumn {
+            unknown,
+            by_motion: [0, 3, 6].map(|first| Vector3([0, 1, 2].map(|c| asked[(first + c) * count + k]))),
+            loads: loads.each_mut().map(|outputs| {
+                let load = |first: usize| Vector3([0, 1, 2].map(|c| outputs[first + c][unknown]));
+                Wrench { force: load(0), moment: load(3) }
+            }),
+        })
+        .collect()
+    }
+}
+
+impl Interface {
+    /// What reaches a beam, for substitution.
+    fn actual(
+        &self,
+        g: &mut Graph,
+        context: &Context,
+        id: BeamId,
+        kinematics: &Kinematics,
+        wrenches: &[Wrench],
+    ) -> Vec<(SymbolId, ExprId)> {
+        let frame = &kinematics.of(context.mechanism.beams[id.index()].body).frame;
+        let motion = [frame.angular_velocity, frame.angular_acceleration, frame.acceleration];
+        let motion: Vec<ExprId> = motion.iter().flat_map(|vector| vector.0).collect();
+        let mut actual: Vec<_> = self.motion.with(&motion).collect();
+        for branch in &context.topology.branches {
+            let body = kinematics.of(branch.body);
+            let Some((beam, station)) = body.flexure else { continue };
+            if beam != id {
+                continue;
+            }
+            let Wrench { force, moment } = wrenches[branch.body.index()];
+            let mut write = |vector: Vector3| match body.to_parent {
+                Some(rotation) => rotation.apply(g, vector),
+                None => vector,
+            };
+            let load: Vec<ExprId> = [write(force), write(moment)].iter().flat_map(|vector| vector.0).collect();
+            let symbols = &self.loads.ids[6 * station..6 * (station + 1)];
+            actual.extend(symbols.iter().copied().zip(load));
+        }
+        actual
+    }
+}
+
+/// How the unknowns of a beam move the body of a station, in its own axes: each turns and moves it, all at once.
+pub(super) fn station_steps(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    (body, id, station): (BodyId, BeamId, usize),
+) -> Vec<(usize, StepAxis)> {
+    let (sections, motion) = (context.sections, kinematics.of(body));
+    let rows = sections.of(id);
+    let first = context.symbols.q.ids.len();
+    let size = first + sections.rows.len();
+    let by_unknown = |g: &mut Graph, by_row: &[(usize, Vector3)]| {
+        [0, 1, 2].map(|component| {
+            let mut all = vec![g.zero(); size];
+            for (row, vector) in by_row {
+                all[first + row] = vector.0[component];
+            }
+            sections.forces(g, &all)
+        })
+    };
+    let moved: Vec<(usize, Vector3)> = rows
+        .rows()
+        .into_iter()
+        .map(|row| (row, vector(&by_symbol(g, &motion.frame.offset.0, sections.position.ids[row]))))
+        .collect();
+    let moved = by_unknown(g, &moved);
+    let beam = &context.mechanism.beams[id.index()];
+    let own_axes = Matrix3([0, 1, 2].map(|k| context.values.vector(g, &beam.axes[k])));
+    let section = &kinematics.beams[id.index()].stations[station].section;
+    let units = Matrix3::identity(g).0;
+    let mut turned = Vec::new();
+    for (row, unit) in rows.stations[station].iter().zip(units) {
+        if let Some(row) = *row {
+            let turning = section.turning(g, unit);
+            turned.push((row, own_axes.apply(g, turning)));
+        }
+    }
+    let turned = by_unknown(g, &turned);
+    let zero = Vector3::zero(g);
+    let to_own = motion.to_parent.map(Matrix3::transpose);
+    let steps = sections.unknowns(id).into_iter().map(|unknown| {
+        let turn = Vector3(turned.each_ref().map(|component| component[unknown]));
+        let slide = Vector3(moved.each_ref().map(|component| component[unknown]));
+        let slide = to_own.map_or(slide, |to_own| to_own.apply(g, slide));
+        let coordinate = context.topology.free[unknown];
+        (unknown, StepAxis { coordinate, turn: Some(turn), slide: Some(slide), own_axis: turn, point: zero })
+    });
+    steps.collect()
+}
+
+/// The sum of two matrices.
+fn added(g: &mut Graph, a: &[Vec<ExprId>], b: &[Vec<ExprId>]) -> Vec<Vec<ExprId>> {
+    a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(&a, &b)| g.add(a, b)).collect()).collect()
+}
