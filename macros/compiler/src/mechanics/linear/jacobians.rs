@@ -13,8 +13,8 @@ use super::columns::added;
 /// Number of operations up to which the two ways to the inertial part are compared.
 const COMPARED: usize = 50_000;
 
-/// Differentiation leaves more to be shared later (`algebra/regroup.rs`), in beams about three percent: the walks must be
-/// better by this part of their operations.
+/// Differentiating a beam leaves more to be shared later (`algebra/regroup.rs`), about three percent: walks over beams must
+/// be better by this part of their operations.
 const SHARED: usize = 20;
 
 /// All first derivatives of the residual at rest: `matrix[j][i]` is the derivative of residual `i` by coordinate `j`.
@@ -98,8 +98,12 @@ fn of_inertia(g: &mut Graph, context: &Context, e: &Equations) -> [Vec<Vec<ExprI
         other => other,
     };
     let differentiated = differentiated(g, context, e, (&rest, &outward), all_still);
+    let shared = |operations: usize| match context.sections.rows.is_empty() {
+        true => 0,
+        false => operations / SHARED,
+    };
     match composed {
-        Some((fewer, composed)) if fewer + fewer / SHARED < operations(g, &differentiated) => {
+        Some((fewer, composed)) if fewer + shared(fewer) < operations(g, &differentiated) => {
             taken(|| "linearise: stiffness and damping by variation".into());
             composed
         }
@@ -144,10 +148,14 @@ fn differentiated(
 fn folded(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>], outward: &[usize]) -> Vec<Vec<ExprId>> {
     let relation = mirrored(g, context, columns);
     taken(|| format!("linearise: {relation:?} across the diagonal"));
-    let mut entry = |i: usize, j: usize| match relation {
-        Mirrored::Equal if outward[i] <= outward[j] => columns[i][j],
-        Mirrored::Opposite if outward[i] <= outward[j] && i != j => g.neg(columns[i][j]),
-        _ => columns[j][i],
+    let mut entry = |i: usize, j: usize| {
+        let (here, there) = (columns[j][i], columns[i][j]);
+        let takes_more = outward[i] <= outward[j] && !g.is(here, 0.0) || g.is(there, 0.0);
+        match relation {
+            Mirrored::Equal if takes_more => there,
+            Mirrored::Opposite if takes_more && i != j => g.neg(there),
+            _ => here,
+        }
     };
     let n = columns.len();
     (0..n).map(|j| (0..n).map(|i| entry(i, j)).collect()).collect()
