@@ -58,8 +58,16 @@ pub fn derive(mechanism: &mut Mechanism, topology: &mut Topology, limits: Limits
 }
 
 fn derived(mechanism: &Mechanism, topology: &Topology, limits: Limits) -> Result<Functions, Unsteady> {
-    let mut graph = Graph::new();
-    let g = &mut graph;
+    in_context(&mut Graph::new(), mechanism, topology, |g, context| functions(g, context, limits))
+}
+
+/// Passes the symbols, values and coordinates in which the equations of a mechanism are derived to `work`.
+fn in_context<R>(
+    g: &mut Graph,
+    mechanism: &Mechanism,
+    topology: &Topology,
+    work: impl FnOnce(&mut Graph, &Context) -> R,
+) -> R {
     let symbols = Symbols::new(g, mechanism, topology);
     let values = Values::new(g, mechanism, &symbols);
     let runs = Runs::new(g, mechanism, topology, &values, &symbols);
@@ -90,36 +98,51 @@ fn derived(mechanism: &Mechanism, topology: &Topology, limits: Limits) -> Result
         rows: &rows,
         excited: &at_peace,
     };
+    work(g, &context)
+}
 
-    let running = in_common_frame(g, &context, &symbols.running.values);
-    require_steady_state(g, &context, &running)?;
-    let at_zero = in_common_frame_at_zero(g, &context);
-    let responses = excited(g, &context, &at_zero);
-    let turning = require_harmonic(g, &context, &running, &responses)?;
-    let equations = Equations::new(g, &context, at_zero);
+/// Asserts that mass, damping and stiffness from walks over the bodies are those by differentiation, and counts the entries
+/// that are not zero; `None` if the walks do not apply.
+#[cfg(test)]
+pub(crate) fn compared_at_rest(mechanism: &Mechanism, topology: &Topology) -> Option<[usize; 3]> {
+    in_context(&mut Graph::new(), mechanism, topology, |g, context| {
+        let at_zero = in_common_frame_at_zero(g, context);
+        let equations = Equations::new(g, context, at_zero);
+        super::linear::compared(g, context, &equations)
+    })
+}
+
+fn functions(g: &mut Graph, context: &Context, limits: Limits) -> Result<Functions, Unsteady> {
+    let (mechanism, symbols) = (context.mechanism, context.symbols);
+    let running = in_common_frame(g, context, &symbols.running.values);
+    require_steady_state(g, context, &running)?;
+    let at_zero = in_common_frame_at_zero(g, context);
+    let responses = excited(g, context, &at_zero);
+    let turning = require_harmonic(g, context, &running, &responses)?;
+    let equations = Equations::new(g, context, at_zero);
     let at_zero = &equations.kinematics;
-    let jacobians = Jacobians::new(g, &context, &equations);
-    let undetermined = require_determinate_motion(g, &context, &jacobians)?;
-    let mut free = free_directions(g, &context, &equations, &jacobians)?;
-    free.notes.extend(notes_on_planes(g, &context, &running));
-    let properties = properties(g, &context, &jacobians);
-    let linear = Linear::new(g, &jacobians, properties, &context);
-    let excitations = Excitations::new(g, &context, &responses, &turning);
-    let mut functions = kernels(g, &symbols, &equations, &linear, limits);
-    functions.extend(forced(g, &context, &equations, &excitations));
-    functions.extend(whirl(g, &context, at_zero));
-    let (function, picture) = picture(g, &context, at_zero);
+    let jacobians = Jacobians::new(g, context, &equations);
+    let undetermined = require_determinate_motion(g, context, &jacobians)?;
+    let mut free = free_directions(g, context, &equations, &jacobians)?;
+    free.notes.extend(notes_on_planes(g, context, &running));
+    let properties = properties(g, context, &jacobians);
+    let linear = Linear::new(g, &jacobians, properties, context);
+    let excitations = Excitations::new(g, context, &responses, &turning);
+    let mut functions = kernels(g, symbols, &equations, &linear, limits);
+    functions.extend(forced(g, context, &equations, &excitations));
+    functions.extend(whirl(g, context, at_zero));
+    let (function, picture) = picture(g, context, at_zero);
     functions.push(function);
-    let requirements = requirements(g, mechanism, &values);
-    functions.push(violation(&requirements, &symbols));
-    let poses = poses(g, &context, at_zero);
-    functions.push(pose_margin(&poses, &symbols));
-    functions.extend(held_values(g, &context));
-    let unknowns = unknowns(&context);
+    let requirements = requirements(g, mechanism, context.values);
+    functions.push(violation(&requirements, symbols));
+    let poses = poses(g, context, at_zero);
+    functions.push(pose_margin(&poses, symbols));
+    functions.extend(held_values(g, context));
+    let unknowns = unknowns(context);
     let held = held(mechanism, &unknowns);
     Ok(Functions {
         unknowns,
-        graph,
+        graph: std::mem::take(g),
         functions,
         requirements,
         poses,

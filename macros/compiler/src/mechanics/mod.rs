@@ -17,6 +17,8 @@ mod picture;
 mod print;
 mod setup;
 
+#[cfg(test)]
+pub(crate) use derive::compared_at_rest;
 pub use derive::derive;
 pub use functions::{
     Damping, Excitation, FreeDirections, Functions, Limits, Pose, Properties, Requirement, Role, Unknown,

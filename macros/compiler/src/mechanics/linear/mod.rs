@@ -14,8 +14,11 @@
 //! Chat + Khat) phi`, one more directional derivative, at the same cost (`mechanics/kernels/adjoint.rs`).
 
 mod columns;
+mod inertial;
 mod jacobians;
 mod matrices;
 
+#[cfg(test)]
+pub(super) use inertial::compared;
 pub(super) use jacobians::Jacobians;
 pub(super) use matrices::{Linear, linear_arrays};
