@@ -18,7 +18,7 @@ impl Oracle<'_> {
         let moved = [real, imaginary].map(|x| times(&transformation.free, x, rows));
         let [mut moment, mut lateral, mut torsional, mut axial] = [0.0; 4];
         let [mut moving, mut still, mut energy, mut gyration] = [0.0; 4];
-        let mut place = Vector([0.0; 3]);
+        let (mut place, mut spinning) = (Vector([0.0; 3]), false);
         for (body, declared) in self.model.bodies.iter().enumerate() {
             if declared.parts.is_empty() {
                 continue;
@@ -37,6 +37,7 @@ impl Oracle<'_> {
                 }
                 continue;
             }
+            spinning = true;
             let (inward, _) = of_body(&bias, body);
             let arm = inward.scaled(-1.0 / square);
             let about_axis = omega.dot(tensor * omega) / square + mass * arm.dot(arm);
@@ -58,7 +59,7 @@ impl Oracle<'_> {
             place = place + arm.scaled(share);
             gyration += share * about_axis / mass;
         }
-        if moving == 0.0 {
+        if !spinning {
             return [0.0; 7];
         }
         let eccentric = match energy * gyration {

@@ -14,6 +14,10 @@
 //! further out needs only one covector, obtained in one walk towards the ground. Part of the covector is the load of the
 //! mass matrix.
 //!
+//! A coordinate of a beam turns and moves its stations, all at once and not one after the other, and changes the beam's own
+//! load on its root (`mechanics/inertia/linearised_beam.rs`). Beams are taken at rest only, where they are rigid bodies for
+//! all other coordinates.
+//!
 //! Every body is written in its own axes here, and every entry is a derivative by an unknown, even if the equations
 //! themselves are written in runs: where only some joints form runs, as hip, knee and ankle of a walking robot do, the
 //! walks need half the operations of differentiation. Where runs prevail, as in a chain of bars, differentiation by
