@@ -93,13 +93,13 @@ def test_a_rotor_on_oil_films_has_the_limit_speed_of_ross(oil_rotor):
         np.testing.assert_allclose(ours(speed), by_ross(speed), rtol=1e-4)
 
     study = eigentol.Study(oil_rotor, inputs={"speed": 6000 * rpm})
-    (limit,) = study.flutter_onsets("speed", 2000 * rpm, 12000 * rpm)["value"]
-    stable, unstable = 0.995 * limit, 1.005 * limit
+    (limit,) = study.flutter_onsets("speed", 2000 * rpm, 12000 * rpm).entries
+    stable, unstable = 0.995 * limit.value, 1.005 * limit.value
     growth = [max(by_ross(speed).real) for speed in (stable, unstable)]
     assert growth[0] < 0 < growth[1]
     # So near to it growth is a straight line, which crosses zero at their limit.
     crossing = stable - growth[0] * (unstable - stable) / (growth[1] - growth[0])
-    np.testing.assert_allclose(limit, crossing, rtol=1e-4)
+    np.testing.assert_allclose(limit.value, crossing, rtol=1e-4)
 
     # What grows goes forward, by theirs and by ours.
     modal = theirs.run_modal(speed=unstable, num_modes=24, sparse=False)
