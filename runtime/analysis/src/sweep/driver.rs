@@ -38,6 +38,7 @@ pub(crate) fn follow(
         if let Some(workspace) = &mut workspace
             && alone == 0
             && !behind.is_empty()
+            && !tracker.is_unchanged()
         {
             let number = tracker.solve_block(kernels, workspace, rest);
             let block = &workspace.block;

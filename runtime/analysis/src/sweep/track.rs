@@ -11,7 +11,7 @@ use super::search::Route;
 use crate::algebra::Vector;
 use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{Held, OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
-use crate::kernels::{BatchKernels, Kernels};
+use crate::kernels::{BatchKernels, Kernels, Linear, RestParts};
 use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters;
@@ -78,6 +78,9 @@ pub(crate) struct Tracker<'a> {
     unused: usize,
     /// States along the way, found by a search for events.
     route: Route,
+    /// Whether the input is known to change the equations; else, residual and matrices at the last point, once compared.
+    changes: bool,
+    unchanged: Option<(RestParts, Linear)>,
     /// The last point with modes.
     pub(crate) last: Option<Box<SweepPoint>>,
     /// A buffer for the next point.
@@ -107,6 +110,8 @@ impl<'a> Tracker<'a> {
             path: Path::default(),
             unused: 0,
             route: Route::default(),
+            changes: false,
+            unchanged: None,
             last: None,
             spare: None,
         }
@@ -213,6 +218,7 @@ impl<'a> Tracker<'a> {
             self.path.go(block.values.0[lane], state.clone());
             self.from.assign(state);
         }
+        self.unchanged = None;
     }
 
     /// Advances to a value of the input; modes that are not recognised at once are followed in smaller steps. The new
@@ -240,6 +246,7 @@ impl<'a> Tracker<'a> {
                 self.path.go(point.value, state.coordinates.iter().copied());
                 self.from.clone_from(&state.coordinates);
                 self.last = Some(Box::new(point.clone()));
+                self.unchanged = None;
             }
         }
     }
@@ -271,7 +278,38 @@ impl<'a> Tracker<'a> {
         }
     }
 
+    /// Whether the input has changed nothing in the equations so far.
+    pub(super) fn is_unchanged(&self) -> bool {
+        self.unchanged.is_some()
+    }
+
+    /// Whether the input changes nothing in the equations, as the frequency of an excitation: then the last point holds at
+    /// this value as well. The first value that does change them ends the question.
+    fn stays(&mut self, value: f64) -> Result<bool, Error> {
+        let inputs = self.inputs_at(value);
+        let (false, Some(Ok((state, modes)))) = (self.changes, self.last.as_mut().map(|last| last.solved_mut())) else {
+            return Ok(false);
+        };
+        let at = |u: &[f64]| self.mechanism.parts_and_linear(&state.coordinates, u, &self.design);
+        let before = self.unchanged.take().unwrap_or_else(|| at(&state.inputs));
+        if at(&inputs) != before {
+            self.changes = true;
+            return Ok(false);
+        }
+        OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
+        self.unchanged = Some(before);
+        (state.inputs, modes.inputs) = (inputs.clone(), inputs);
+        self.path.go(value, state.coordinates.iter().copied());
+        if let Some(last) = &mut self.last {
+            last.value = value;
+        }
+        Ok(true)
+    }
+
     fn step(&mut self, value: f64, halvings: usize) -> Result<Step, Error> {
+        if self.stays(value)? {
+            return Ok(Step::Arrived);
+        }
         let predicted = self.path.at(value);
         let mut point = self.spare.take().unwrap_or_else(|| {
             let (equilibrium, modes) = self.blank();

@@ -2,6 +2,7 @@
 
 use eigentol::propagation::Samples;
 use eigentol::response::{Response, Vibration};
+use eigentol::sweep::SweepPoint;
 use eigentol::tolerance::Sampling;
 use eigentol::{Excitation, Output, Quantity, Study};
 use eigentol_interpreter::Interpreted;
@@ -76,4 +77,31 @@ fn a_sweep_has_the_same_bits_for_any_number_of_threads() {
     let places = alone.points.iter().map(|point| point.value);
     assert!(places.eq(speeds.iter().copied()));
     assert!(alone == swept(3));
+}
+
+/// The frequency of an excitation changes no state, only the vibration; a drive that pulls the pendulum outwards does.
+#[test]
+fn along_the_frequency_of_an_excitation_the_state_stays() {
+    let text = PENDULUM.replace("input w: rad/s;", "input w: rad/s; input f: rad/s;").replace("9 rad/s", "f");
+    let machine = Interpreted::from_text(&text).expect("a declaration");
+    let study = Study::new(machine);
+    let [w, f] = ["w", "f"].map(|name| study.find_input(name).expect("an input"));
+    let values: Vec<f64> = (1..=24).map(|k| 0.5 * f64::from(k)).collect();
+    let study = study.input(w, 6.0).input(f, values[0]);
+    let sweep = study.sweep(f, &values).expect("swept");
+    let state = |point: &SweepPoint| point.equilibrium.clone().expect("solved");
+    let modes = |point: &SweepPoint| point.modes.clone().expect("solved").modes;
+    let (first, first_modes) = (state(&sweep.points[0]), modes(&sweep.points[0]));
+    let vibrations = study.bode(f, &values).expect("excited").points;
+    for ((point, vibration), &value) in sweep.points.iter().zip(&vibrations).zip(&values) {
+        assert_eq!(state(point).inputs[f.index()], value);
+        assert!(state(point).coordinates == first.coordinates && modes(point) == first_modes, "{value}");
+        let alone = study.clone().input(f, value).forced_response().expect("it vibrates");
+        let together = &vibration.vibration.as_ref().expect("it vibrates").response;
+        let [one, other] = [together, &alone].map(|x| x.harmonics[0].outputs[0].expect("an amplitude"));
+        assert!((one - other).norm() < 1e-12 * other.norm(), "{value}: {one} {other}");
+    }
+    let driven = study.sweep(w, &values).expect("swept");
+    let angle = |k: usize| state(&driven.points[k]).coordinates[0];
+    assert!((1..values.len()).all(|k| angle(k) != angle(k - 1)));
 }
