@@ -2,7 +2,7 @@
 
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
-use eigentol_compiler::{Compilation, compile, expand, expand_pretty};
+use eigentol_compiler::{Compilation, compile, early_stages, expand, expand_pretty};
 use eigentol_tests::corpus::declarations;
 use eigentol_tests::every;
 use eigentol_tests::fits;
@@ -55,8 +55,10 @@ fn stages() {
         let mut compilation = compiled(declaration);
         let kernels = compilation.program.kernels.into_iter();
         compilation.program = Program { kernels: kernels.filter(|kernel| READABLE.contains(&kernel.name)).collect() };
-        // A mechanism is dumped as it lies in memory, with places in its text.
-        for (stage, text) in compilation.dumps().into_iter().filter(|(stage, _)| *stage != "mechanism") {
+        let [ast, _, topology] =
+            early_stages(declaration.parse().expect("tokens")).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let functions = ("functions", compilation.functions.to_string());
+        for (stage, text) in [ast, topology, functions, ("program", compilation.program.to_string())] {
             assert_snapshot!(format!("{machine}__{stage}"), text);
         }
     }

@@ -24,7 +24,7 @@ pub mod topology;
 pub use eigentol_language::mistakes::{Mistake, Mistakes, tokens};
 pub use eigentol_language::{base, model, syntax};
 pub use eigentol_symbolic::{algebra, base::census, program};
-pub use pipeline::{Compilation, compile, compile_refined};
+pub use pipeline::{Compilation, compile, compile_refined, early_stages};
 
 use std::fmt::Debug;
 
@@ -58,6 +58,15 @@ pub fn program(declaration: TokenStream) -> Result<program::Program, Diagnostics
 #[cfg(feature = "locations")]
 pub fn compile_text(text: &str, limits: Limits) -> Result<Compilation, Mistakes> {
     Ok(compile(tokens(text)?, limits)?)
+}
+
+/// [`early_stages`] of a declaration in a text of its own.
+///
+/// # Errors
+/// As [`compile_text`].
+#[cfg(feature = "locations")]
+pub fn early_stages_of_text(text: &str) -> Result<[(&'static str, String); 3], Mistakes> {
+    Ok(early_stages(tokens(text)?)?)
 }
 
 /// The generated items, formatted for reading.

@@ -72,6 +72,14 @@ fn accepted(declaration: TokenStream, more: usize) -> Result<(Ast, Mechanism, To
     }
 }
 
+/// The stages before the equations as text, by name and in order. For snapshots and for tracing a surprising result, as the
+/// texts of [`Functions`] and [`Program`].
+pub fn early_stages(declaration: TokenStream) -> Result<[(&'static str, String); 3], Diagnostics> {
+    let (ast, mechanism, topology) = accepted(declaration, 0)?;
+    let topology = topology.describe(&mechanism);
+    Ok([("ast", print(&ast)), ("mechanism", format!("{mechanism:#?}")), ("topology", topology)])
+}
+
 /// Kernels whose residuals a solver compares with each other, so all of them must return exactly the same number.
 const OF_ONE_RESIDUAL: [KernelName; 3] =
     [KernelName::Residual, KernelName::ResidualParts, KernelName::ResidualAndStiffness];
@@ -93,17 +101,6 @@ fn regrouped_kernels(functions: &mut Functions) -> Vec<Function> {
 }
 
 impl Compilation {
-    /// Every stage as text, by name and in order: for snapshots and for tracing a surprising result.
-    pub fn dumps(&self) -> [(&'static str, String); 5] {
-        [
-            ("ast", print(&self.ast)),
-            ("mechanism", format!("{:#?}", self.mechanism)),
-            ("topology", self.topology.describe(&self.mechanism)),
-            ("functions", self.functions.to_string()),
-            ("program", self.program.to_string()),
-        ]
-    }
-
     /// The generated items.
     pub fn emit(&self) -> TokenStream {
         self.emit_with(str::parse)

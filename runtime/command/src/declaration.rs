@@ -5,7 +5,7 @@ use std::io::{self, Read as _};
 use std::path::Path;
 
 use eigentol_compiler::mechanics::Limits;
-use eigentol_compiler::{Compilation, compile_text};
+use eigentol_compiler::{Compilation, Mistakes, compile_text, early_stages_of_text};
 
 use crate::failure::Failure;
 use crate::mistake::Mistake;
@@ -34,8 +34,18 @@ impl Declaration {
 
     /// Compiles the declaration.
     pub(crate) fn compiled(&self) -> Result<Compilation, Failure> {
-        compile_text(&self.text, Limits::default())
-            .map_err(|mistakes| self.refused(mistakes.iter().map(Mistake::from).collect()))
+        compile_text(&self.text, Limits::default()).map_err(|mistakes| self.mistaken(&mistakes))
+    }
+
+    /// A stage before the equations as text.
+    pub(crate) fn early_stage(&self, wanted: &str) -> Result<String, Failure> {
+        let stages = early_stages_of_text(&self.text).map_err(|mistakes| self.mistaken(&mistakes))?;
+        let mut stages = stages.into_iter().filter(|(stage, _)| *stage == wanted);
+        Ok(stages.next().map_or_else(String::new, |(_, text)| text))
+    }
+
+    fn mistaken(&self, mistakes: &Mistakes) -> Failure {
+        self.refused(mistakes.iter().map(Mistake::from).collect())
     }
 
     pub(crate) fn refused(&self, mistakes: Vec<Mistake>) -> Failure {

@@ -46,15 +46,14 @@ impl Expand {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.place.check()?;
         let declaration = Declaration::read(&self.file)?;
-        let compilation = declaration.compiled()?;
         let mut text = match self.stage {
-            Stage::Rust => formatted(&compilation),
-            Stage::Operations => operations(&compilation),
-            Stage::Ast => dump(&compilation, "ast"),
-            Stage::Mechanism => dump(&compilation, "mechanism"),
-            Stage::Topology => dump(&compilation, "topology"),
-            Stage::Functions => dump(&compilation, "functions"),
-            Stage::Program => dump(&compilation, "program"),
+            Stage::Ast => declaration.early_stage("ast")?,
+            Stage::Mechanism => declaration.early_stage("mechanism")?,
+            Stage::Topology => declaration.early_stage("topology")?,
+            Stage::Functions => declaration.compiled()?.functions.to_string(),
+            Stage::Program => declaration.compiled()?.program.to_string(),
+            Stage::Rust => formatted(&declaration.compiled()?),
+            Stage::Operations => operations(&declaration.compiled()?),
         };
         if !text.ends_with('\n') {
             text.push('\n');
@@ -62,12 +61,6 @@ impl Expand {
         self.place.write(&text)?;
         Ok(Verdict::Yes)
     }
-}
-
-fn dump(compilation: &Compilation, stage: &str) -> String {
-    let dumps = compilation.dumps().into_iter();
-    let mut dumps = dumps.filter(|(name, _)| *name == stage);
-    dumps.next().map_or_else(String::new, |(_, text)| text)
 }
 
 /// A line for each kernel: arithmetic operations, and functions such as sines.
