@@ -118,6 +118,33 @@ fn run_along_each<const N: usize>(
     }
 }
 
+/// Runs a tape at one state with each of several sets of further arguments, side by side in the vectors of the processor,
+/// and copies its results.
+fn run_each<const N: usize>(tape: &Option<Tape>, state: &[&[f64]; 3], sets: &[[&[f64]; N]], to: &mut [&mut Gradient]) {
+    let (Some(tape), [first, _, ..]) = (tape, sets) else {
+        for (set, gradient) in sets.iter().zip(to) {
+            run(tape, &[&state[..], set].concat(), &mut gradient_results(gradient));
+        }
+        return;
+    };
+    let everywhere = state.iter().map(|list| list.iter().map(|&value| Batch::all(value)).collect());
+    let apart = (0..N).map(|list| {
+        let lanes = |k: usize| Batch::from_fn(|lane| sets.get(lane).map_or(0.0, |set| set[list][k]));
+        (0..first[list].len()).map(lanes).collect()
+    });
+    let arguments: Vec<Vec<Batch>> = everywhere.chain(apart).collect();
+    let arguments: Vec<&[Batch]> = arguments.iter().map(Vec::as_slice).collect();
+    batch(tape, Instructions::best(), &arguments, |registers| {
+        for (lane, gradient) in to.iter_mut().enumerate() {
+            for (to, places) in gradient_results(gradient).into_iter().zip(&tape.results) {
+                for (to, register) in to.iter_mut().zip(places) {
+                    *to = registers[*register as usize].0[lane];
+                }
+            }
+        }
+    });
+}
+
 fn run_batch(tape: &Option<Tape>, instructions: Instructions, arguments: &[&[Batch]], to: &mut [&mut [Batch]]) {
     if let Some(tape) = tape {
         batch(tape, instructions, arguments, |registers| {
@@ -150,6 +177,20 @@ impl Kernels for Interpreted {
 
     fn evaluate(&self, kernel: Kernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
         run(self.tape(kernel), arguments, results);
+    }
+
+    fn pencil_gradients_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: &[[&[f64]; 4]],
+        gradients: &mut [&mut Gradient],
+    ) {
+        let tape = self.tape(Kernel::PencilGradient);
+        for (vectors, gradients) in vectors.chunks(WIDTH).zip(gradients.chunks_mut(WIDTH)) {
+            run_each(tape, &[q, u, b], vectors, gradients);
+        }
     }
 
     fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices) {

@@ -219,10 +219,11 @@ impl<'a> Curved<'a> {
         let (vibration, fixed) = (self.output_adjoint.vibration, &self.output_adjoint.factors);
         let motion = &vibration.motion();
         let (change, motion_change) = &self.change(moved)?;
-        let zeros = || Gradient::zeros(mechanism.sizes());
-        let (mut total, mut room) = ([zeros(), zeros()], zeros());
+        let zeros = || [(); 2].map(|()| Gradient::zeros(mechanism.sizes()));
+        let (mut total, mut rooms) = (zeros(), zeros());
         let forms = (&fixed.form(motion), &change.form(motion_change));
-        form_gradient_along(mechanism, at, forms, &along.direction, &mut room, &mut total);
+        form_gradient_along(mechanism, at, forms, &along.direction, &mut rooms, &mut total);
+        let room = &mut rooms[0];
         let weights = |motion, factors, of| {
             let mut weights = Weights::of(mechanism.sizes(), vibration, motion, of);
             weights.set_output(&self.output_adjoint, factors, of);
@@ -233,12 +234,12 @@ impl<'a> Curved<'a> {
                 let base_weights = weights(motion, fixed, (call, 1.0));
                 let changes = weights(motion_change, change, (call, 0.0));
                 let weight_pair = (&base_weights, &changes);
-                gradient_along(mechanism, at, weight_pair, &along.direction, &mut room);
-                subtract(total, &room);
+                gradient_along(mechanism, at, weight_pair, &along.direction, room);
+                subtract(total, room);
             }
         }
         for (part, w) in total.iter_mut().zip(&self.w) {
-            (self.adjoint).total_along(part, w, &along.direction, &mut room);
+            (self.adjoint).total_along(part, w, &along.direction, room);
         }
         Some(joined(&total).map(|value| -value))
     }

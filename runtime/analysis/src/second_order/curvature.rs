@@ -269,7 +269,7 @@ impl<'a> AdjointGradient<'a> {
         let adjoint = Adjoint::new(mechanism, at)?;
         let kernels: &dyn Kernels = mechanism;
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-        let (mut total, mut room) = gradients(kernels);
+        let [mut total, mut room] = gradients(kernels);
         match family {
             Family::Undamped => {
                 let phi = mode.real_shape();
@@ -280,7 +280,7 @@ impl<'a> AdjointGradient<'a> {
             }
         }
         let parts = total[..parts(family)].iter_mut();
-        let w = parts.map(|part| adjoint.total(part, &mut room)).collect();
+        let w = parts.map(|part| adjoint.total(part, &mut room[0])).collect();
         Ok(Self {
             mechanism,
             at,
@@ -336,12 +336,12 @@ impl<'a> AdjointGradient<'a> {
         let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
         let rate = shapes.rate.along(change);
         let (dphi, dpsi) = shapes.along(change, rate);
-        let (mut total, mut room) = gradients(mechanism);
+        let [mut total, mut room] = gradients(mechanism);
         let moved = BilinearForm::along(mode, &dpsi, rate, &dphi);
         let forms = (&form(mode), &moved);
         form_gradient_along(mechanism, at, forms, direction, &mut room, &mut total);
         for (part, w) in total.iter_mut().zip(&self.w) {
-            self.adjoint.total_along(part, w, direction, &mut room);
+            self.adjoint.total_along(part, w, direction, &mut room[0]);
         }
         let mut slopes = joined(&total);
         let ratio = self.denominator_along(change, rate, &dphi, &dpsi) / self.denominator;
@@ -369,10 +369,9 @@ fn form(mode: &Mode) -> BilinearForm {
     BilinearForm::of(mode.left(), mode.s, &mode.shape)
 }
 
-/// Buffers for the gradient of a complex number and one real gradient.
-fn gradients(kernels: &(impl Kernels + ?Sized)) -> (ComplexGradient, Gradient) {
-    let zeros = || Gradient::zeros(kernels.sizes());
-    ([zeros(), zeros()], zeros())
+/// Buffers for the gradients of two complex numbers.
+fn gradients(kernels: &(impl Kernels + ?Sized)) -> [ComplexGradient; 2] {
+    [(); 2].map(|()| [(); 2].map(|()| Gradient::zeros(kernels.sizes())))
 }
 
 /// Combines real and imaginary parts into derivatives with respect to inputs and design variables.

@@ -206,6 +206,20 @@ pub trait Kernels: Sync {
         self.evaluate(Kernel::PencilGradient, arguments, results);
     }
 
+    /// [`pencil_gradient_into`](Self::pencil_gradient_into) for several sets of vectors.
+    fn pencil_gradients_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: &[[&[f64]; 4]],
+        gradients: &mut [&mut Gradient],
+    ) {
+        for (vectors, gradient) in vectors.iter().zip(gradients) {
+            self.pencil_gradient_into(q, u, b, *vectors, gradient);
+        }
+    }
+
     /// [`Mechanism::residual_gradient`](eigentol_contract::Mechanism::residual_gradient).
     fn residual_gradient_into(&self, q: &[f64], u: &[f64], b: &[f64], w: &[f64], gradient: &mut Gradient) {
         let results = &mut gradient_results(gradient);

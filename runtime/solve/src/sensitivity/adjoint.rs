@@ -90,7 +90,7 @@ impl<'a> Adjoint<'a> {
             }
             (Family::General, ..) => {
                 let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
-                let mut room = Gradient::zeros(sizes);
+                let mut room = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
                 assemble_into(at, modes, sensitivities, |sensitivity, mode| {
                     shared.general(matrices, &mut gradient, &mut room, sensitivity, mode);
                 })
@@ -160,7 +160,7 @@ impl AdjointContext<'_> {
         &self,
         matrices: Option<&PartialMatrices>,
         gradient: &mut ComplexGradient,
-        room: &mut Gradient,
+        room: &mut ComplexGradient,
         mode_sensitivity: &mut ModeSensitivity,
         mode: &Mode,
     ) {
@@ -172,7 +172,7 @@ impl AdjointContext<'_> {
             }
         }
         for part in gradient.iter_mut() {
-            self.total(part, room);
+            self.total(part, &mut room[0]);
         }
         let [re, im] = &*gradient;
         let scale = -normaliser(self.at, mode);

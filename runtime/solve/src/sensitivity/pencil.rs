@@ -88,20 +88,25 @@ impl Direction {
 /// The gradients of the real and the imaginary part of a complex number.
 pub type ComplexGradient = [Gradient; 2];
 
-/// A complex gradient from real kernel calls.
-///
-/// `call(left, others, ..)` must be linear in both of the parts of the form that it selects. `room` is scratch space.
-fn complex([re, im]: &mut ComplexGradient, room: &mut Gradient, real: bool, call: impl Fn(Part, Part, &mut Gradient)) {
-    call(RE, RE, re);
+/// Which parts of the left vector and of the others the products are of that make up a complex form: the first less the
+/// second is its real part, the third and the fourth together its imaginary part.
+const PRODUCTS: [(Part, Part); 4] = [(RE, RE), (IM, IM), (RE, IM), (IM, RE)];
+
+/// A complex gradient from real ones: `products(which, into)` computes those of [`PRODUCTS`]. `room` is scratch space.
+fn complex(
+    [re, im]: &mut ComplexGradient,
+    [first, second]: &mut ComplexGradient,
+    real: bool,
+    products: impl FnOnce(&[(Part, Part)], &mut [&mut Gradient]),
+) {
     if real {
+        products(&PRODUCTS[..1], &mut [re]);
         each(im, re, |im, _| *im = 0.0);
         return;
     }
-    call(IM, IM, room);
-    subtract(re, room);
-    call(RE, IM, im);
-    call(IM, RE, room);
-    each(im, room, |im, product| *im += product);
+    products(&PRODUCTS, &mut [re, first, im, second]);
+    subtract(re, first);
+    each(im, second, |im, product| *im += product);
 }
 
 /// Subtracts every component.
@@ -124,12 +129,13 @@ pub fn form_gradient(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
     form: &BilinearForm,
-    room: &mut Gradient,
+    room: &mut ComplexGradient,
     gradient: &mut ComplexGradient,
 ) {
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    complex(gradient, room, form.is_real(), |left, others, gradient| {
-        mechanism.pencil_gradient_into(q, u, b, form.parts(left, others), gradient);
+    complex(gradient, room, form.is_real(), |products, into| {
+        let vectors: Vec<_> = products.iter().map(|&(left, others)| form.parts(left, others)).collect();
+        mechanism.pencil_gradients_into(q, u, b, &vectors, into);
     });
 }
 
@@ -139,13 +145,15 @@ pub fn form_gradient_along(
     at: &Equilibrium,
     (form, change): (&BilinearForm, &BilinearForm),
     along: &Direction,
-    room: &mut Gradient,
+    room: &mut ComplexGradient,
     gradient: &mut ComplexGradient,
 ) {
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
     let real = form.is_real() && change.is_real();
-    complex(gradient, room, real, |left, others, gradient| {
-        let (vectors, changes) = (form.parts(left, others), change.parts(left, others));
-        mechanism.pencil_gradient_along_into(q, u, b, vectors, along.parts(), changes, gradient);
+    complex(gradient, room, real, |products, into| {
+        for (&(left, others), gradient) in products.iter().zip(into) {
+            let (vectors, changes) = (form.parts(left, others), change.parts(left, others));
+            mechanism.pencil_gradient_along_into(q, u, b, vectors, along.parts(), changes, gradient);
+        }
     });
 }

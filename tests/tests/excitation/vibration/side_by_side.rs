@@ -104,4 +104,12 @@ fn along_the_frequency_of_an_excitation_the_state_stays() {
     let driven = study.sweep(w, &values).expect("swept");
     let angle = |k: usize| state(&driven.points[k]).coordinates[0];
     assert!((1..values.len()).all(|k| angle(k) != angle(k - 1)));
+    // without its excentric hinge it hangs straight, and only its frequency changes: omega^2 = 3 g / (2 l) - w^2
+    let straight = text.replace("at [0.1 m, 0, 0]", "at [0, 0, 0]");
+    let study = Study::new(Interpreted::from_text(&straight).expect("a declaration")).input(f, 1.0);
+    let slow = &values[..12];
+    for (point, w) in study.input(w, slow[0]).sweep(w, slow).expect("swept").points.iter().zip(slow) {
+        let (lambda, exact) = (modes(point)[0].lambda, 1.5 * 9.81 / 0.4 - w * w);
+        assert!((lambda - exact).abs() < 1e-9 * exact, "{w}: {lambda} {exact}");
+    }
 }
