@@ -10,8 +10,8 @@
 
 use crate::algebra::{ExprId, Graph, Matrix3, Stage, SymbolId, Vector3, substitute};
 use crate::base::ids::{BeamId, BodyId};
-use crate::mechanics::motion::{BeamMotion, FrameMotion, Kinematics, StepAxis, Wrench, headings};
-use crate::mechanics::setup::{Context, SymbolList, by_symbol, mirrored};
+use crate::mechanics::motion::{BeamMotion, FrameMotion, Kinematics, StationMotion, StepAxis, Wrench, headings};
+use crate::mechanics::setup::{Context, Mirrored, SymbolList, by_symbol, mirrored};
 
 use super::flexible::{BeamInertia, FromStations};
 
@@ -24,17 +24,91 @@ pub(super) struct OwnColumn {
     pub(super) loads: [Wrench; 2],
 }
 
+/// How each of the rows of a beam's sections moves it, along the axes of its root.
+pub(super) struct Mobility {
+    pub(super) unknowns: Vec<usize>,
+    rows: Vec<RowMotion>,
+}
+
+/// How one row moves the beam.
+struct RowMotion {
+    row: usize,
+    /// The changes of arms.
+    arms: Vec<(usize, Vector3)>,
+    /// The section that it turns, with the turn along the axes of the section.
+    turn: Option<(usize, Vector3)>,
+}
+
+impl Mobility {
+    pub(super) fn new(g: &mut Graph, context: &Context, kinematics: &Kinematics, id: BeamId) -> Self {
+        let (sections, motion) = (context.sections, &kinematics.beams[id.index()]);
+        let of_beam = sections.of(id);
+        let units = Matrix3::identity(g).0;
+        let mut turns = Vec::new();
+        for (k, (section, rows)) in motion.sections.iter().zip(&of_beam.rotations).enumerate() {
+            for (row, unit) in rows.iter().zip(units) {
+                if let Some(row) = *row {
+                    turns.push((row, (k, section.turning(g, unit))));
+                }
+            }
+        }
+        let arms: Vec<ExprId> = motion.arms().flat_map(|(_, arm)| arm.vector.0).collect();
+        let moving = of_beam.rows().into_iter().map(|row| {
+            let changes = by_symbol(g, &arms, sections.position.ids[row]);
+            let arms = changes.chunks(3).map(vector).enumerate();
+            let arms = arms.filter(|(_, change)| !change.is_zero(g)).collect();
+            let turn = turns.iter().find(|(turning, _)| *turning == row).map(|(_, turn)| *turn);
+            RowMotion { row, arms, turn }
+        });
+        Self { rows: moving.collect(), unknowns: sections.unknowns(id) }
+    }
+}
+
+impl RowMotion {
+    /// Mass between two rows of a beam whose stations carry nothing.
+    fn mass(&self, g: &mut Graph, inertia: &BeamInertia, other: &Self) -> ExprId {
+        let mut terms = Vec::new();
+        for (k, moved) in &self.arms {
+            for (j, along) in &other.arms {
+                let product = moved.dot(g, *along);
+                terms.push(g.mul(inertia.second[*k][*j], product));
+            }
+        }
+        if let (Some((k, turned)), Some((same, along))) = (self.turn, other.turn)
+            && k == same
+        {
+            let momentum = inertia.turning[k].apply(g, turned);
+            terms.push(momentum.dot(g, along));
+        }
+        g.sum(terms)
+    }
+}
+
+/// Sums over the unknowns of a beam of a vector for each of some rows.
+fn by_unknowns(g: &mut Graph, context: &Context, unknowns: &[usize], by_row: &[(usize, Vector3)]) -> Vec<Vector3> {
+    let first = context.symbols.q.ids.len();
+    let components = [0, 1, 2].map(|component| {
+        let mut all = vec![g.zero(); first + context.sections.rows.len()];
+        for (row, vector) in by_row {
+            all[first + row] = vector.0[component];
+        }
+        context.sections.forces(g, &all)
+    });
+    unknowns.iter().map(|&unknown| Vector3(components.each_ref().map(|component| component[unknown]))).collect()
+}
+
 /// Symbols for what reaches a beam from the rest of the mechanism, used for one beam after the other.
 pub(super) struct Interface {
     motion: SymbolList,
     loads: SymbolList,
 }
 
-/// Mass, damping and stiffness between the rows of the sections of all beams, as columns, those of the stations apart:
-/// without them, all are symmetric or opposite across the diagonal.
+/// What couples the rows of the same beam, as columns: mass, damping and stiffness, the last two of the stations apart, without
+/// which they are symmetric or opposite across the diagonal.
 pub(super) struct OwnBlocks {
-    sections: [Vec<Vec<ExprId>>; 3],
-    stations: [Vec<Vec<ExprId>>; 3],
+    mass: Vec<Vec<ExprId>>,
+    sections: [Vec<Vec<ExprId>>; 2],
+    stations: [Vec<Vec<ExprId>>; 2],
 }
 
 impl Interface {
@@ -66,22 +140,19 @@ impl OwnBlocks {
     pub(super) fn new(g: &mut Graph, context: &Context) -> Self {
         let size = context.symbols.q.ids.len() + context.sections.rows.len();
         let empty = vec![vec![g.zero(); size]; size];
-        let blocks = || [empty.clone(), empty.clone(), empty.clone()];
-        Self { sections: blocks(), stations: blocks() }
+        let blocks = || [empty.clone(), empty.clone()];
+        Self { mass: empty.clone(), sections: blocks(), stations: blocks() }
     }
 
     /// Mass, damping and stiffness by the unknowns.
     pub(super) fn by_unknowns(self, g: &mut Graph, context: &Context) -> [Vec<Vec<ExprId>>; 3] {
+        let mass = context.sections.matrix(g, &self.mass, Mirrored::Equal);
         let mut by_unknowns = |columns: Vec<Vec<ExprId>>| {
             let mirrored = mirrored(g, context, &columns);
             context.sections.matrix(g, &columns, mirrored)
         };
-        let [sections, stations] = [self.sections, self.stations].map(|blocks| blocks.map(&mut by_unknowns));
-        let mut both = sections.into_iter().zip(stations);
-        std::array::from_fn(|_| match both.next() {
-            Some((sections, stations)) => added(g, &sections, &stations),
-            None => Vec::new(),
-        })
+        let ([a, b], [c, d]) = (self.sections.map(&mut by_unknowns), self.stations.map(&mut by_unknowns));
+        [mass, added(g, &a, &c), added(g, &b, &d)]
     }
 
     /// Linearises a beam whose sections strain with the forces `strained` along their rows. `wrenches` are those of the
@@ -90,7 +161,7 @@ impl OwnBlocks {
         &mut self,
         g: &mut Graph,
         context: &Context,
-        (id, interface): (BeamId, &Interface),
+        (id, interface, mobility): (BeamId, &Interface, &Mobility),
         kinematics: &Kinematics,
         (wrenches, strained): (&[Wrench], &[ExprId]),
     ) -> Vec<OwnColumn> {
@@ -102,7 +173,8 @@ impl OwnBlocks {
         for station in 0..motion.stations.len() {
             from.add(g, &motion, station, interface.load(station));
         }
-        let load = BeamInertia::new(g, context, id).load(g, &motion, &root, &from);
+        let inertia = BeamInertia::new(g, context, id);
+        let load = inertia.load(g, &motion, &root, &from);
         let mut along = strained.to_vec();
         load.add_along(g, sections, id, &motion, &mut along);
 
@@ -123,7 +195,7 @@ impl OwnBlocks {
         // what the equations ask of the motion of the root
         let still = substitute(g, &forces, &at_rest);
         let still = by_unknown(g, &still);
-        let unknowns = sections.unknowns(id);
+        let unknowns = &mobility.unknowns;
         let equations: Vec<ExprId> = unknowns.iter().map(|&unknown| still[unknown]).collect();
         let mut asked = Vec::new();
         for &symbol in &interface.motion.ids {
@@ -131,10 +203,10 @@ impl OwnBlocks {
         }
         let asked = substitute(g, &asked, &actual);
 
-        // by accelerations, velocities and positions of the rows
+        // by velocities and positions of the rows
         let outputs: Vec<ExprId> = forces.iter().chain(&load.force.0).chain(&load.moment.0).copied().collect();
         at_rest.extend(&actual);
-        let lists = [&sections.acceleration, &sections.velocity, &sections.position];
+        let lists = [&sections.velocity, &sections.position];
         let columns = lists.map(|list| {
             let mut all = Vec::new();
             for &row in &rows {
@@ -144,6 +216,14 @@ impl OwnBlocks {
             all.chunks(outputs.len()).map(<[_]>::to_vec).collect::<Vec<_>>()
         });
         let first = context.symbols.q.ids.len();
+        for moved in &mobility.rows {
+            for along in &mobility.rows {
+                self.mass[first + along.row][first + moved.row] = match along.row < moved.row {
+                    true => self.mass[first + moved.row][first + along.row],
+                    false => moved.mass(g, &inertia, along),
+                };
+            }
+        }
         let stations: Vec<usize> = sections.of(id).stations.iter().flatten().flatten().copied().collect();
         for (kind, columns) in columns.iter().enumerate() {
             for (&j, column) in rows.iter().zip(columns) {
@@ -153,7 +233,7 @@ impl OwnBlocks {
                 }
             }
         }
-        let mut loads = [2, 1].map(|kind: usize| {
+        let mut loads = [1, 0].map(|kind: usize| {
             let outputs = (forces.len()..forces.len() + 6).map(|output| {
                 let by_row: Vec<ExprId> = columns[kind].iter().map(|column| column[output]).collect();
                 by_unknown(g, &by_row)
@@ -161,8 +241,8 @@ impl OwnBlocks {
             outputs.collect::<Vec<_>>()
         });
         let count = unknowns.len();
-        let each = unknowns.into_iter().enumerate();
-        each.map(|(k, unknown)| OwnColumn {
+        let each = unknowns.iter().enumerate();
+        each.map(|(k, &unknown)| OwnColumn {
             unknown,
             by_motion: [0, 3, 6].map(|first| Vector3([0, 1, 2].map(|c| asked[(first + c) * count + k]))),
             loads: loads.each_mut().map(|outputs| {
@@ -212,44 +292,35 @@ pub(super) fn station_steps(
     g: &mut Graph,
     context: &Context,
     kinematics: &Kinematics,
+    mobility: &Mobility,
     (body, id, station): (BodyId, BeamId, usize),
 ) -> Vec<(usize, StepAxis)> {
-    let (sections, motion) = (context.sections, kinematics.of(body));
-    let rows = sections.of(id);
-    let first = context.symbols.q.ids.len();
-    let size = first + sections.rows.len();
-    let by_unknown = |g: &mut Graph, by_row: &[(usize, Vector3)]| {
-        [0, 1, 2].map(|component| {
-            let mut all = vec![g.zero(); size];
-            for (row, vector) in by_row {
-                all[first + row] = vector.0[component];
-            }
-            sections.forces(g, &all)
-        })
-    };
-    let moved: Vec<(usize, Vector3)> = rows
-        .rows()
-        .into_iter()
-        .map(|row| (row, vector(&by_symbol(g, &motion.frame.offset.0, sections.position.ids[row]))))
-        .collect();
-    let moved = by_unknown(g, &moved);
+    let motion = kinematics.of(body);
     let beam = &context.mechanism.beams[id.index()];
     let own_axes = Matrix3([0, 1, 2].map(|k| context.values.vector(g, &beam.axes[k])));
-    let section = &kinematics.beams[id.index()].stations[station].section;
+    let StationMotion { section, reach, .. } = &kinematics.beams[id.index()].stations[station];
     let units = Matrix3::identity(g).0;
-    let mut turned = Vec::new();
-    for (row, unit) in rows.stations[station].iter().zip(units) {
+    let mut turns = Vec::new();
+    for (row, unit) in context.sections.of(id).stations[station].iter().zip(units) {
         if let Some(row) = *row {
             let turning = section.turning(g, unit);
-            turned.push((row, own_axes.apply(g, turning)));
+            turns.push((row, own_axes.apply(g, turning)));
         }
     }
-    let turned = by_unknown(g, &turned);
+    let turns = by_unknowns(g, context, &mobility.unknowns, &turns);
     let zero = Vector3::zero(g);
     let to_own = motion.to_parent.map(Matrix3::transpose);
-    let steps = sections.unknowns(id).into_iter().map(|unknown| {
-        let turn = Vector3(turned.each_ref().map(|component| component[unknown]));
-        let slide = Vector3(moved.each_ref().map(|component| component[unknown]));
+    let slides = mobility.rows.iter().map(|RowMotion { row, arms, .. }| {
+        let directions = arms.iter().filter(|(k, _)| *k < reach.len());
+        let slide = directions.fold(zero, |sum, (k, change)| {
+            let moved = change.scale(g, reach[*k]);
+            sum.add(g, moved)
+        });
+        (*row, slide)
+    });
+    let slides: Vec<(usize, Vector3)> = slides.collect();
+    let slides = by_unknowns(g, context, &mobility.unknowns, &slides);
+    let steps = mobility.unknowns.iter().zip(turns).zip(slides).map(|((&unknown, turn), slide)| {
         let slide = to_own.map_or(slide, |to_own| to_own.apply(g, slide));
         let coordinate = context.topology.free[unknown];
         (unknown, StepAxis { coordinate, turn: Some(turn), slide: Some(slide), own_axis: turn, point: zero })

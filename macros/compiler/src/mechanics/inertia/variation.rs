@@ -36,7 +36,7 @@ use crate::topology::Branch;
 use super::augmented::augmented_bodies;
 use super::composite::{Composite, Composites, accelerating, spun};
 use super::flexible::BeamInertia;
-use super::linearised_beam::{Interface, OwnBlocks, OwnColumn, station_steps};
+use super::linearised_beam::{Interface, Mobility, OwnBlocks, OwnColumn, station_steps};
 use super::momentum::{Momentum, momenta, rates};
 use super::newton_euler::inertial;
 
@@ -149,7 +149,13 @@ impl Step {
 }
 
 /// The free motions of a joint, from the parent to the body.
-fn steps(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId) -> Vec<Step> {
+fn steps(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    mobilities: &[Mobility],
+    body: BodyId,
+) -> Vec<Step> {
     let motion = kinematics.of(body);
     let frame = &motion.frame;
     let (mut omega, mut alpha) = (frame.angular_velocity, frame.angular_acceleration);
@@ -158,7 +164,8 @@ fn steps(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId
     if let Some((beam, station)) = motion.flexure {
         let second_rate = second_rate(g, omega, alpha);
         let moving = Moving { omega, second_rate, acceleration, leaving: zero };
-        let steps = station_steps(g, context, kinematics, (body, beam, station)).into_iter();
+        let mobility = &mobilities[beam.index()];
+        let steps = station_steps(g, context, kinematics, mobility, (body, beam, station)).into_iter();
         let steps = steps.map(|(unknown, axis)| Step { departing: zero, ..Step::new(g, unknown, axis, &moving) });
         return steps.collect();
     }
@@ -322,13 +329,15 @@ impl Variation {
         let composites = Composites::new(g, context, kinematics, &bodies);
         let rates = rates(g, context, kinematics);
         let momenta = momenta(g, context, kinematics, &bodies, &composites, (&rates, &spinning));
+        let beams = (0..mechanism.beams.len()).map(BeamId::new);
+        let mobilities: Vec<Mobility> = beams.map(|beam| Mobility::new(g, context, kinematics, beam)).collect();
         let steps: Vec<Vec<Step>> =
-            (0..bodies.len()).map(|index| steps(g, context, kinematics, BodyId::new(index))).collect();
+            (0..bodies.len()).map(|index| steps(g, context, kinematics, &mobilities, BodyId::new(index))).collect();
 
         let n = context.symbols.q.ids.len();
         let zeros = vec![vec![g.zero(); n]; n];
         let mut this = Self { mass: zeros.clone(), by_position: zeros.clone(), by_velocity: zeros };
-        let mut of_beams = this.of_beams(g, context, kinematics, (&inertial.wrenches, strained));
+        let mut of_beams = this.of_beams(g, context, kinematics, &mobilities, (&inertial.wrenches, strained));
         let tree = Tree::new(mechanism, topology);
         let walk = |g: &mut Graph, this: &mut Self, mut column: Column, mut at: Branch| {
             while let Frame::Body(parent) = at.parent {
@@ -382,6 +391,7 @@ impl Variation {
         g: &mut Graph,
         context: &Context,
         kinematics: &Kinematics,
+        mobilities: &[Mobility],
         given: (&[Wrench], &[ExprId]),
     ) -> Vec<Vec<Column>> {
         let beams = &context.mechanism.beams;
@@ -390,8 +400,8 @@ impl Variation {
         }
         let interface = Interface::new(g, context);
         let mut blocks = OwnBlocks::new(g, context);
-        let columns = (0..beams.len()).map(|beam| {
-            let own = blocks.linearise(g, context, (BeamId::new(beam), &interface), kinematics, given);
+        let columns = mobilities.iter().enumerate().map(|(beam, mobility)| {
+            let own = blocks.linearise(g, context, (BeamId::new(beam), &interface, mobility), kinematics, given);
             let omega = kinematics.of(beams[beam].body).frame.angular_velocity;
             own.into_iter().map(|own| Column::of_beam(g, own, omega)).collect()
         });

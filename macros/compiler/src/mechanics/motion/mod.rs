@@ -13,7 +13,7 @@ mod turned;
 mod unbent;
 mod wrench;
 
-pub(super) use beam::BeamMotion;
+pub(super) use beam::{BeamMotion, StationMotion};
 pub(super) use bend::{bend, bend_powers};
 pub(crate) use frame::FrameMotion;
 pub(super) use frame::second_rate;
