@@ -11,7 +11,7 @@
 use crate::algebra::{ExprId, Graph, Matrix3, Stage, SymbolId, Vector3, substitute};
 use crate::base::ids::{BeamId, BodyId};
 use crate::mechanics::motion::{BeamMotion, FrameMotion, Kinematics, StationMotion, StepAxis, Wrench, headings};
-use crate::mechanics::setup::{Context, Mirrored, SymbolList, by_symbol, mirrored};
+use crate::mechanics::setup::{Context, Mirrored, SymbolList, added, by_symbol, mirrored};
 
 use super::flexible::{BeamInertia, FromStations};
 
@@ -84,15 +84,19 @@ impl RowMotion {
     }
 }
 
-/// Sums over the unknowns of a beam of a vector for each of some rows.
-fn by_unknowns(g: &mut Graph, context: &Context, unknowns: &[usize], by_row: &[(usize, Vector3)]) -> Vec<Vector3> {
+/// Sums over the unknowns of what belongs to some rows.
+fn summed(g: &mut Graph, context: &Context, by_row: impl Iterator<Item = (usize, ExprId)>) -> Vec<ExprId> {
     let first = context.symbols.q.ids.len();
+    let mut all = vec![g.zero(); first + context.sections.rows.len()];
+    by_row.for_each(|(row, value)| all[first + row] = value);
+    context.sections.forces(g, &all)
+}
+
+/// The sums over the unknowns of a beam of vectors that belong to some rows.
+fn by_unknowns(g: &mut Graph, context: &Context, unknowns: &[usize], by_row: &[(usize, Vector3)]) -> Vec<Vector3> {
     let components = [0, 1, 2].map(|component| {
-        let mut all = vec![g.zero(); first + context.sections.rows.len()];
-        for (row, vector) in by_row {
-            all[first + row] = vector.0[component];
-        }
-        context.sections.forces(g, &all)
+        let by_row = by_row.iter().map(|(row, vector)| (*row, vector.0[component]));
+        summed(g, context, by_row)
     });
     unknowns.iter().map(|&unknown| Vector3(components.each_ref().map(|component| component[unknown]))).collect()
 }
@@ -103,8 +107,8 @@ pub(super) struct Interface {
     loads: SymbolList,
 }
 
-/// What couples the rows of the same beam, as columns: mass, damping and stiffness, the last two of the stations apart, without
-/// which they are symmetric or opposite across the diagonal.
+/// What couples the rows of the same beam, as columns: mass up to the diagonal, damping and stiffness, the last two of the
+/// stations apart, without which they are symmetric or opposite across the diagonal.
 pub(super) struct OwnBlocks {
     mass: Vec<Vec<ExprId>>,
     sections: [Vec<Vec<ExprId>>; 2],
@@ -183,18 +187,10 @@ impl OwnBlocks {
         let mut at_rest: Vec<_> = sections.velocity.with(&zeros).chain(sections.acceleration.with(&zeros)).collect();
         let rows = sections.of(id).rows();
         let forces: Vec<ExprId> = rows.iter().map(|&row| along[row]).collect();
-        let by_unknown = |g: &mut Graph, by_row: &[ExprId]| -> Vec<ExprId> {
-            let first = context.symbols.q.ids.len();
-            let mut all = vec![g.zero(); first + zeros.len()];
-            for (row, value) in rows.iter().zip(by_row) {
-                all[first + row] = *value;
-            }
-            sections.forces(g, &all)
-        };
 
         // what the equations ask of the motion of the root
         let still = substitute(g, &forces, &at_rest);
-        let still = by_unknown(g, &still);
+        let still = summed(g, context, rows.iter().copied().zip(still));
         let unknowns = &mobility.unknowns;
         let equations: Vec<ExprId> = unknowns.iter().map(|&unknown| still[unknown]).collect();
         let mut asked = Vec::new();
@@ -217,11 +213,8 @@ impl OwnBlocks {
         });
         let first = context.symbols.q.ids.len();
         for moved in &mobility.rows {
-            for along in &mobility.rows {
-                self.mass[first + along.row][first + moved.row] = match along.row < moved.row {
-                    true => self.mass[first + moved.row][first + along.row],
-                    false => moved.mass(g, &inertia, along),
-                };
+            for along in mobility.rows.iter().filter(|along| along.row <= moved.row) {
+                self.mass[first + moved.row][first + along.row] = moved.mass(g, &inertia, along);
             }
         }
         let stations: Vec<usize> = sections.of(id).stations.iter().flatten().flatten().copied().collect();
@@ -235,8 +228,8 @@ impl OwnBlocks {
         }
         let mut loads = [1, 0].map(|kind: usize| {
             let outputs = (forces.len()..forces.len() + 6).map(|output| {
-                let by_row: Vec<ExprId> = columns[kind].iter().map(|column| column[output]).collect();
-                by_unknown(g, &by_row)
+                let by_row = columns[kind].iter().map(|column| column[output]);
+                summed(g, context, rows.iter().copied().zip(by_row))
             });
             outputs.collect::<Vec<_>>()
         });
@@ -326,9 +319,4 @@ pub(super) fn station_steps(
         (unknown, StepAxis { coordinate, turn: Some(turn), slide: Some(slide), own_axis: turn, point: zero })
     });
     steps.collect()
-}
-
-/// The sum of two matrices.
-fn added(g: &mut Graph, a: &[Vec<ExprId>], b: &[Vec<ExprId>]) -> Vec<Vec<ExprId>> {
-    a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(&a, &b)| g.add(a, b)).collect()).collect()
 }

@@ -7,11 +7,6 @@ use crate::mechanics::setup::{Context, Mirrored, mirrored};
 /// A matrix: `columns[j][i]` is row `i` of column `j`.
 pub(super) type Columns = Vec<Vec<ExprId>>;
 
-/// The sum of two matrices.
-pub(super) fn added(g: &mut Graph, a: &Columns, b: &Columns) -> Columns {
-    a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(&a, &b)| g.add(a, b)).collect()).collect()
-}
-
 /// A matrix with what stands on the side of its diagonal that takes more operations from the other side, if they are equal
 /// or opposite: equations of outer coordinates are shorter when differentiated by inner ones than the other way round.
 pub(super) fn folded(g: &mut Graph, context: &Context, columns: &Columns, outward: &[usize]) -> Columns {

@@ -2,9 +2,9 @@
 
 use crate::algebra::Graph;
 use crate::mechanics::equations::Equations;
-use crate::mechanics::setup::{Context, at_rest, columns};
+use crate::mechanics::setup::{Context, added, at_rest, columns};
 
-use super::columns::{Columns, added, folded};
+use super::columns::{Columns, folded};
 use super::inertial::Inertial;
 
 /// All first derivatives of the residual at rest: `matrix[j][i]` is the derivative of residual `i` by coordinate `j`.

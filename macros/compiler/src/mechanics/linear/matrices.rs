@@ -7,9 +7,8 @@ use crate::census::taken;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::{Damping, Properties};
 use crate::mechanics::inertia::Variation;
-use crate::mechanics::setup::{Context, SymbolList, Symbols, columns};
+use crate::mechanics::setup::{Context, SymbolList, Symbols, added, columns};
 
-use super::columns::added;
 use super::jacobians::Jacobians;
 
 /// The three linearised matrices, row by row, using their known properties.

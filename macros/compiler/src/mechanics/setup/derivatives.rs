@@ -22,6 +22,11 @@ pub(crate) fn at_rest(g: &mut Graph, s: &Symbols, roots: &[ExprId]) -> Vec<ExprI
     substitute(g, roots, &still)
 }
 
+/// The sum of two matrices.
+pub(crate) fn added(g: &mut Graph, a: &[Vec<ExprId>], b: &[Vec<ExprId>]) -> Vec<Vec<ExprId>> {
+    a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(&a, &b)| g.add(a, b)).collect()).collect()
+}
+
 pub(crate) fn weighted_sum(g: &mut Graph, weights: &[ExprId], values: &[ExprId]) -> ExprId {
     let terms: Vec<ExprId> = weights.iter().zip(values).map(|(&weight, &value)| g.mul(weight, value)).collect();
     g.sum(terms)

@@ -24,7 +24,7 @@ mod values;
 
 pub(super) use context::Context;
 pub(super) use coordinate::CoordinateMotion;
-pub(super) use derivatives::{at_rest, by_symbol, columns, weighted_sum};
+pub(super) use derivatives::{added, at_rest, by_symbol, columns, weighted_sum};
 pub(super) use excited::Excited;
 pub(super) use force_selection::{ForceSelection, Selection};
 pub(super) use mass_distribution::{Arm, MassDistribution};
