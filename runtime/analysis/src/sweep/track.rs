@@ -167,11 +167,15 @@ impl<'a> Tracker<'a> {
         )
     }
 
+    /// Whether states are no members of a family of steady motions.
+    fn is_alone(&self) -> bool {
+        self.held.is_empty() && self.description.held.is_empty()
+    }
+
     /// Whether blocks of values may be solved at once, as far as can be told in advance.
     pub(super) fn side_by_side(&self) -> bool {
         let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
-        let alone = self.held.is_empty() && self.description.held.is_empty();
-        wanted && alone && self.vectors.is_some() && possible(&self.description, &KERNELS)
+        wanted && self.is_alone() && self.vectors.is_some() && possible(&self.description, &KERNELS)
     }
 
     /// The workspace for solving blocks of values.
@@ -284,10 +288,12 @@ impl<'a> Tracker<'a> {
     }
 
     /// Whether the input changes nothing in the equations, as the frequency of an excitation: then the last point holds at
-    /// this value as well. The first value that does change them ends the question.
+    /// this value as well. The first value that does change them ends the question. Members of families are chosen by values
+    /// beside the equations.
     fn stays(&mut self, value: f64) -> Result<bool, Error> {
         let inputs = self.inputs_at(value);
-        let (false, Some(Ok((state, modes)))) = (self.changes, self.last.as_mut().map(|last| last.solved_mut())) else {
+        let moves = self.changes || !self.is_alone();
+        let (false, Some(Ok((state, modes)))) = (moves, self.last.as_mut().map(|last| last.solved_mut())) else {
             return Ok(false);
         };
         let at = |u: &[f64]| self.mechanism.parts_and_linear(&state.coordinates, u, &self.design);
