@@ -104,7 +104,7 @@ fn along_the_frequency_of_an_excitation_the_state_stays() {
     let driven = study.sweep(w, &values).expect("swept");
     let angle = |k: usize| state(&driven.points[k]).coordinates[0];
     assert!((1..values.len()).all(|k| angle(k) != angle(k - 1)));
-    // without its excentric hinge it hangs straight, and only its frequency changes: omega^2 = 3 g / (2 l) - w^2
+    // with its hinge on the axis it hangs straight, and only its frequency changes: omega^2 = 3 g / (2 l) - w^2
     let straight = text.replace("at [0.1 m, 0, 0]", "at [0, 0, 0]");
     let study = Study::new(Interpreted::from_text(&straight).expect("a declaration")).input(f, 1.0);
     let slow = &values[..12];

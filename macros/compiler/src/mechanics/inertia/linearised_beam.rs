@@ -169,41 +169,21 @@ impl OwnBlocks {
         kinematics: &Kinematics,
         (wrenches, strained): (&[Wrench], &[ExprId]),
     ) -> Vec<OwnColumn> {
-        let (mechanism, sections) = (context.mechanism, context.sections);
-        let root = FrameMotion::moving(g, interface.motion());
-        let bending = (sections.by_themselves(g, id), headings(g, context, id, true));
-        let motion = BeamMotion::new(g, mechanism, context.values, id, &root, &bending);
-        let mut from = FromStations::nothing(g, context).swap_remove(id.index());
-        for station in 0..motion.stations.len() {
-            from.add(g, &motion, station, interface.load(station));
-        }
-        let inertia = BeamInertia::new(g, context, id);
-        let load = inertia.load(g, &motion, &root, &from);
-        let mut along = strained.to_vec();
-        load.add_along(g, sections, id, &motion, &mut along);
-
+        let sections = context.sections;
+        let rows = sections.of(id).rows();
+        let (forces, on_root) = interface.equations(g, context, id, (&rows, strained));
         let actual = interface.actual(g, context, id, kinematics, wrenches);
         let zeros = vec![g.zero(); sections.rows.len()];
         let mut at_rest: Vec<_> = sections.velocity.with(&zeros).chain(sections.acceleration.with(&zeros)).collect();
-        let rows = sections.of(id).rows();
-        let forces: Vec<ExprId> = rows.iter().map(|&row| along[row]).collect();
-
-        // what the equations ask of the motion of the root
         let still = substitute(g, &forces, &at_rest);
         let still = summed(g, context, rows.iter().copied().zip(still));
         let unknowns = &mobility.unknowns;
         let equations: Vec<ExprId> = unknowns.iter().map(|&unknown| still[unknown]).collect();
-        let mut asked = Vec::new();
-        for &symbol in &interface.motion.ids {
-            asked.extend(by_symbol(g, &equations, symbol));
-        }
-        let asked = substitute(g, &asked, &actual);
+        let asked = interface.asked(g, &equations, &actual);
 
-        // by velocities and positions of the rows
-        let outputs: Vec<ExprId> = forces.iter().chain(&load.force.0).chain(&load.moment.0).copied().collect();
+        let outputs = [&forces[..], &on_root].concat();
         at_rest.extend(&actual);
-        let lists = [&sections.velocity, &sections.position];
-        let columns = lists.map(|list| {
+        let columns = [&sections.velocity, &sections.position].map(|list| {
             let mut all = Vec::new();
             for &row in &rows {
                 all.extend(by_symbol(g, &outputs, list.ids[row]));
@@ -211,13 +191,44 @@ impl OwnBlocks {
             let all = substitute(g, &all, &at_rest);
             all.chunks(outputs.len()).map(<[_]>::to_vec).collect::<Vec<_>>()
         });
+        self.set(g, context, (id, mobility), &columns);
+        let loads = [1, 0].map(|kind: usize| {
+            let outputs = (forces.len()..outputs.len()).map(|output| {
+                let by_row = columns[kind].iter().map(|column| column[output]);
+                summed(g, context, rows.iter().copied().zip(by_row))
+            });
+            outputs.collect::<Vec<_>>()
+        });
+        let each = unknowns.iter().zip(asked);
+        each.map(|(&unknown, by_motion)| OwnColumn {
+            unknown,
+            by_motion,
+            loads: loads.each_ref().map(|outputs| {
+                let load = |first: usize| Vector3([0, 1, 2].map(|c| outputs[first + c][unknown]));
+                Wrench { force: load(0), moment: load(3) }
+            }),
+        })
+        .collect()
+    }
+
+    /// Sets the entries of a beam: mass, and from the columns of its rows damping and stiffness.
+    fn set(
+        &mut self,
+        g: &mut Graph,
+        context: &Context,
+        (id, mobility): (BeamId, &Mobility),
+        columns: &[Vec<Vec<ExprId>>; 2],
+    ) {
         let first = context.symbols.q.ids.len();
+        let inertia = BeamInertia::new(g, context, id);
         for moved in &mobility.rows {
             for along in mobility.rows.iter().filter(|along| along.row <= moved.row) {
                 self.mass[first + moved.row][first + along.row] = moved.mass(g, &inertia, along);
             }
         }
-        let stations: Vec<usize> = sections.of(id).stations.iter().flatten().flatten().copied().collect();
+        let of_beam = context.sections.of(id);
+        let rows = of_beam.rows();
+        let stations: Vec<usize> = of_beam.stations.iter().flatten().flatten().copied().collect();
         for (kind, columns) in columns.iter().enumerate() {
             for (&j, column) in rows.iter().zip(columns) {
                 let blocks = if stations.contains(&j) { &mut self.stations } else { &mut self.sections };
@@ -226,28 +237,45 @@ impl OwnBlocks {
                 }
             }
         }
-        let mut loads = [1, 0].map(|kind: usize| {
-            let outputs = (forces.len()..forces.len() + 6).map(|output| {
-                let by_row = columns[kind].iter().map(|column| column[output]);
-                summed(g, context, rows.iter().copied().zip(by_row))
-            });
-            outputs.collect::<Vec<_>>()
-        });
-        let count = unknowns.len();
-        let each = unknowns.iter().enumerate();
-        each.map(|(k, &unknown)| OwnColumn {
-            unknown,
-            by_motion: [0, 3, 6].map(|first| Vector3([0, 1, 2].map(|c| asked[(first + c) * count + k]))),
-            loads: loads.each_mut().map(|outputs| {
-                let load = |first: usize| Vector3([0, 1, 2].map(|c| outputs[first + c][unknown]));
-                Wrench { force: load(0), moment: load(3) }
-            }),
-        })
-        .collect()
     }
 }
 
 impl Interface {
+    /// The forces along the rows of a beam, and force and moment on its root without those of the stations.
+    fn equations(
+        &self,
+        g: &mut Graph,
+        context: &Context,
+        id: BeamId,
+        (rows, strained): (&[usize], &[ExprId]),
+    ) -> (Vec<ExprId>, [ExprId; 6]) {
+        let sections = context.sections;
+        let root = FrameMotion::moving(g, self.motion());
+        let bending = (sections.by_themselves(g, id), headings(g, context, id, true));
+        let motion = BeamMotion::new(g, context.mechanism, context.values, id, &root, &bending);
+        let mut from = FromStations::nothing(g, context).swap_remove(id.index());
+        for station in 0..motion.stations.len() {
+            from.add(g, &motion, station, self.load(station));
+        }
+        let load = BeamInertia::new(g, context, id).load(g, &motion, &root, &from);
+        let mut along = strained.to_vec();
+        load.add_along(g, sections, id, &motion, &mut along);
+        let ([a, b, c], [d, e, f]) = (load.force.0, load.moment.0);
+        (rows.iter().map(|&row| along[row]).collect(), [a, b, c, d, e, f])
+    }
+
+    /// What equations ask of the motion of the root: derivatives by its three vectors.
+    fn asked(&self, g: &mut Graph, equations: &[ExprId], actual: &[(SymbolId, ExprId)]) -> Vec<[Vector3; 3]> {
+        let mut all = Vec::new();
+        for &symbol in &self.motion.ids {
+            all.extend(by_symbol(g, equations, symbol));
+        }
+        let all = substitute(g, &all, actual);
+        let count = equations.len();
+        let of = |k: usize| [0, 3, 6].map(|first| Vector3([0, 1, 2].map(|c| all[(first + c) * count + k])));
+        (0..count).map(of).collect()
+    }
+
     /// What reaches a beam, for substitution.
     fn actual(
         &self,

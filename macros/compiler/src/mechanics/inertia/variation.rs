@@ -283,14 +283,14 @@ impl Column {
 }
 
 /// Whether the walks apply: not where runs prevail or a coordinate coasts.
-fn apply(context: &Context) -> bool {
+fn walks_apply(context: &Context) -> bool {
     context.topology.coasting.is_empty() && !context.runs.prevail()
 }
 
 /// Derivatives of inertia minus weight by the unknowns with the running coordinates at `running`; `None` if runs prevail,
 /// a coordinate coasts, or a body bends.
 pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) -> Option<Variation> {
-    if !context.mechanism.beams.is_empty() || !apply(context) {
+    if !context.mechanism.beams.is_empty() || !walks_apply(context) {
         return None;
     }
     taken(|| "variation: walks over bodies".into());
@@ -306,7 +306,7 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
 /// is driven runs on; `None` if it has no beams, runs prevail or a coordinate coasts. `strained` are the forces along the
 /// rows of the sections.
 pub(crate) fn variation_at_rest(g: &mut Graph, context: &Context, strained: &[ExprId]) -> Option<Variation> {
-    if context.mechanism.beams.is_empty() || !apply(context) {
+    if context.mechanism.beams.is_empty() || !walks_apply(context) {
         return None;
     }
     taken(|| "variation: walks over bodies and beams".into());

@@ -7,8 +7,8 @@
 //! change of a joint's position or rate changes the motion of everything it carries as if that were rigid, and each
 //! coordinate behind it responds through one covector, part of which gives the entries of the mass matrix. At rest, the
 //! coordinates of a beam take part as motions of its stations, and the beam by itself is differentiated by its own
-//! coordinates alone (`mechanics/inertia/linearised_beam.rs`): a rotor of ten beams takes a fifth of the operations. The
-//! cheaper way is taken: for derivatives along a motion the second needs half the operations of differentiation (an arm, a
+//! coordinates alone (`mechanics/inertia/linearised_beam.rs`): a rotor of ten beams takes less than half of the operations.
+//! The cheaper way is taken: for derivatives along a motion the second needs half the operations of differentiation (an arm, a
 //! walking robot of 29 joints), for an arm's stiffness a third. (This is akin to the derivatives of S. Singh, R. P.
 //! Russell and P. M. Wensing, "Efficient analytical derivatives of rigid-body dynamics using spatial vector algebra",
 //! 2022.) The scalar `phi^T (Khat - lambda Mhat) phi` is one directional derivative of the residual, and its
