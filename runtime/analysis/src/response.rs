@@ -6,6 +6,7 @@ mod missing;
 use crate::algebra::Vector;
 use crate::along::name_of;
 use crate::clusters::common_slopes;
+use crate::equilibrium::Needed;
 pub use crate::forced::Vibration;
 use crate::forced::{self, ForcedResponse, ForcedSensitivities, check_output};
 use crate::kernels::{BatchKernels, CurvatureKernels, Kernels, SummaryKernels};
@@ -166,7 +167,19 @@ pub struct Responses<'a> {
 }
 
 /// Buffers reused between evaluations.
-pub struct Workspace(Solution);
+pub struct Workspace {
+    solution: Solution,
+    unjudged: bool,
+}
+
+impl Workspace {
+    /// For the state of each design whatever its stability, which is not found out.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn unjudged(self) -> Self {
+        Self { unjudged: true, ..self }
+    }
+}
 
 impl<'a> Responses<'a> {
     /// Prepares evaluations of responses near the nominal design.
@@ -310,7 +323,7 @@ impl<'a> Responses<'a> {
     /// Creates a workspace for evaluations on one thread.
     #[must_use]
     pub fn workspace(&self) -> Workspace {
-        Workspace(Solution::about(self.nominal, self.modes))
+        Workspace { solution: Solution::about(self.nominal, self.modes), unjudged: false }
     }
 
     /// Evaluates the responses at a design, SI.
@@ -330,13 +343,21 @@ impl<'a> Responses<'a> {
         self.evaluate(room, design, true)
     }
 
-    fn evaluate(&self, Workspace(solved): &mut Workspace, design: &[f64], slopes: bool) -> Result<Realisation, Error> {
+    fn evaluate(&self, room: &mut Workspace, design: &[f64], slopes: bool) -> Result<Realisation, Error> {
         crate::arguments::check_count("design variables", design, self.nominal.design.len())?;
         self.counted()?;
         let of_mode = |response: &Response| matches!(response, Response::Mode { .. });
-        let modes = (self.modes, self.wanted.iter().any(of_mode));
-        solved.solve(self.mechanism, self.nominal, modes, design);
-        let stable = solved.continues(self.nominal);
+        let needed = match self.wanted.iter().any(of_mode) {
+            true => Needed::Modes,
+            false if room.unjudged => Needed::State,
+            false => Needed::Verdict,
+        };
+        let solved = &mut room.solution;
+        solved.solve(self.mechanism, self.nominal, (self.modes, needed), design);
+        let stable = match needed {
+            Needed::State => solved.solved,
+            _ => solved.continues(self.nominal),
+        };
         let unstable = matches!(solved.outcome, Outcome::Divergent | Outcome::Flutter);
         let mut realisation = Realisation {
             outcome: solved.outcome,

@@ -16,5 +16,5 @@ use eigentol_contract::{Description, Input, Shared, Text, Unit};
 use eigentol_numerics::algebra::Vector;
 use eigentol_numerics::{Complex, algebra};
 use eigentol_solve::{Behaviour, Equilibrium, Error, Mode, Modes, Quantity, Watch};
-use eigentol_solve::{arguments, kernels, modes, sensitivity};
+use eigentol_solve::{arguments, equilibrium, kernels, modes, sensitivity};
 use eigentol_tolerance::tolerance;

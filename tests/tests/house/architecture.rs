@@ -25,9 +25,9 @@ const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 const CRATES: [(&str, &[&str], usize); 21] = [
     ("runtime/contract", &[], 53),
     ("runtime/statistics", &[], 140),
-    ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 143),
+    ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 145),
     ("runtime/results", &["eigentol-contract"], 19),
-    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 335),
+    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 336),
     (
         "runtime/tolerance",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-solve", "eigentol-statistics"],

@@ -32,49 +32,59 @@ impl Reached {
     /// The nodes reached from `roots` through `wanted` nodes only.
     fn through(graph: &Graph, roots: &[ExprId], slopes: bool, wanted: impl Fn(ExprId) -> bool) -> Self {
         let mut bits = vec![0_u64; graph.len() / 64 + 1];
-        let mut nodes = Vec::new();
-        let mut visit = |nodes: &mut Vec<ExprId>, id: ExprId| {
+        // Those whose operands are still to be visited, and the last word that has any: operands are older, so that the
+        // way leads down, near to where it was before.
+        let mut open = bits.clone();
+        let (mut word, mut count) = (0, 0);
+        let mut visit = |open: &mut [u64], last: &mut usize, id: ExprId| {
             let (word, bit) = (id.index() / 64, 1 << (id.index() % 64));
             if bits[word] & bit == 0 && wanted(id) {
                 bits[word] |= bit;
-                nodes.push(id);
+                open[word] |= bit;
+                *last = word.max(*last);
+                count += 1;
             }
         };
         for &root in roots {
-            visit(&mut nodes, root);
+            visit(&mut open, &mut word, root);
         }
-        let mut next = 0;
-        while let Some(&id) = nodes.get(next) {
-            next += 1;
+        loop {
+            let Some(bit) = open[word].checked_ilog2() else {
+                if word == 0 {
+                    break;
+                }
+                word -= 1;
+                continue;
+            };
+            open[word] ^= 1 << bit;
+            let id = ExprId::new(word * 64 + bit as usize);
             if slopes && let Some(given) = graph.given_slopes(id) {
                 for &(by, slope) in given.iter() {
-                    visit(&mut nodes, by);
-                    visit(&mut nodes, slope);
+                    visit(&mut open, &mut word, by);
+                    visit(&mut open, &mut word, slope);
                 }
             }
             match graph.node(id) {
                 Node::Constant(_) | Node::Symbol(_) => {}
-                Node::Unary(_, a) => visit(&mut nodes, a),
+                Node::Unary(_, a) => visit(&mut open, &mut word, a),
                 Node::Binary(_, a, b) => {
-                    visit(&mut nodes, a);
-                    visit(&mut nodes, b);
+                    visit(&mut open, &mut word, a);
+                    visit(&mut open, &mut word, b);
                 }
             }
         }
-        Self::in_order(bits, nodes)
+        Self::in_order(bits, count)
     }
 
-    /// Puts `nodes` in order of ids, for each of which a bit is set. Sorting would take a fifth of the macro's time if
-    /// it is compiled without optimisation.
-    fn in_order(bits: Vec<u64>, mut nodes: Vec<ExprId>) -> Self {
+    /// The `count` nodes whose bits are set.
+    fn in_order(bits: Vec<u64>, count: usize) -> Self {
+        let mut nodes = Vec::with_capacity(count);
         let mut before = Vec::with_capacity(bits.len());
-        let mut next = 0;
         for (word, &set) in bits.iter().enumerate() {
-            before.push(next as u32);
+            before.push(nodes.len() as u32);
             let mut rest = set;
             while rest != 0 {
-                nodes[next] = ExprId::new(word * 64 + rest.trailing_zeros() as usize);
-                next += 1;
+                nodes.push(ExprId::new(word * 64 + rest.trailing_zeros() as usize));
                 rest &= rest - 1;
             }
         }

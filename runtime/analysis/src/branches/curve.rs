@@ -254,7 +254,7 @@ impl<'a> Curve<'a> {
                 design: self.design,
                 residual: &residual,
             };
-            judge(self.mechanism, &checked_state, &linear, &[]).map_err(ContinuationFailure::Refused)?
+            judge(self.mechanism, &checked_state, &linear, Some(&[])).map_err(ContinuationFailure::Refused)?
         };
         let mut state = Equilibrium::blank(&self.description, &inputs, self.design);
         state.pose = pose;

@@ -284,7 +284,7 @@ impl Search<'_> {
 
     /// The peak in the stretch before state `k`.
     fn peak(&self, k: usize, top: Curve) -> Result<Peak, Error> {
-        let at = top.point.equilibrium.clone();
+        let at = self.along.judged(&top.point)?;
         let stable = at.stability.holds();
         let (square, line) = (top.heard().square(), top.heard().line);
         let place = top.place_by_design();

@@ -1,7 +1,7 @@
 //! One value of the input: the vibrations there, their derivatives, and the poles around them.
 
 use crate::algebra::Vector;
-use crate::equilibrium::{OperatingPoint, solve_into};
+use crate::equilibrium::{Needed, OperatingPoint, solve_into};
 use crate::forced::{CurvingLine, Line, Lines, Vibration, Wanted, resonance};
 use crate::kernels::CurvatureKernels;
 use crate::modes::{Family, Modes};
@@ -114,6 +114,11 @@ impl<'a> Along<'a> {
         Ok((point, changes))
     }
 
+    /// The equilibrium of a state with its stability.
+    pub(super) fn judged(&self, state: &ResponsePoint) -> Result<Equilibrium, Error> {
+        Ok(self.equilibrium(state.value, &state.equilibrium.coordinates, true)?.0)
+    }
+
     /// The error for a vibration whose amplitude is infinite next to a state.
     pub(super) fn resonance(&self, which: usize, state: &ResponsePoint) -> Error {
         let with = self.vibrations[which].excitation.index();
@@ -128,7 +133,8 @@ impl<'a> Along<'a> {
         let mut inputs = Vector::from(self.inputs);
         inputs[self.input.index()] = value;
         let point = OperatingPoint::new(self.mechanism, &inputs, self.design)?;
-        let point = point.held_by(&self.following.held);
+        let needed = if poles { Needed::Modes } else { Needed::State };
+        let point = point.held_by(&self.following.held).only(needed);
         point.check_start(from)?;
         let mut at = Equilibrium::blank(&point.description, &inputs, self.design);
         let judged = solve_into(&point, from, self.following.policy, &mut at)

@@ -6,6 +6,7 @@ use super::driver::follow;
 use super::points::SweepPoint;
 use super::track::{Following, Tracker};
 use crate::arguments::check_input;
+use crate::equilibrium::Needed;
 use crate::kernels::BatchKernels;
 use crate::sensitivity::Sensitivities;
 use crate::{Error, Input};
@@ -37,18 +38,18 @@ pub fn sensitivity_sweep(
     Ok(())
 }
 
-/// Solves equilibrium and modes at each of `values` of one input, like [`sweep_each`](super::sweep_each), without looking
-/// for events between them.
+/// Solves what is `needed` at each of `values` of one input, like [`sweep_each`](super::sweep_each), without looking for
+/// events between them. Without modes, those of a point are empty.
 pub fn states_each(
     mechanism: &dyn BatchKernels,
     (u, b): (&[f64], &[f64]),
     start: &[f64],
-    following: Following,
+    (following, needed): (Following, Needed),
     (input, values): (Input, &[f64]),
     mut each: impl FnMut(&SweepPoint) -> ControlFlow<()>,
 ) -> Result<(), Error> {
     check_input(input, &mechanism.description())?;
-    let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
+    let mut tracker = Tracker::new(mechanism, (u, b), start, following, input).only(needed);
     follow(&mut tracker, mechanism, values, false, |station| each(station.point));
     Ok(())
 }

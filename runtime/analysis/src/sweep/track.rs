@@ -10,7 +10,7 @@ use super::points::SweepPoint;
 use super::search::Route;
 use crate::algebra::Vector;
 use crate::batched::{Block, KERNELS, Workspace, possible};
-use crate::equilibrium::{Held, OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
+use crate::equilibrium::{Held, Needed, OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels, Linear, RestParts};
 use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
 use crate::scalar::{Batch, Instructions, WIDTH};
@@ -70,6 +70,7 @@ pub(crate) struct Tracker<'a> {
     family: Family,
     vectors: Option<Instructions>,
     held: Vec<Held>,
+    needed: Needed,
     /// Start of the next solve.
     from: Vector,
     /// The path so far, used to predict the next state.
@@ -106,6 +107,7 @@ impl<'a> Tracker<'a> {
             description,
             vectors: following.vectors,
             held: following.held,
+            needed: Needed::Modes,
             from: start.into(),
             path: Path::default(),
             unused: 0,
@@ -121,6 +123,14 @@ impl<'a> Tracker<'a> {
     pub(crate) fn on(mut self, route: Route) -> Self {
         self.unused = route.unused;
         self.route = route;
+        self
+    }
+
+    /// The tracker for no more than what is `needed` of its points; modes that cost nothing are there nevertheless.
+    pub(super) fn only(mut self, needed: Needed) -> Self {
+        if !self.side_by_side() {
+            self.needed = needed;
+        }
         self
     }
 
@@ -149,7 +159,7 @@ impl<'a> Tracker<'a> {
     ) -> Result<Vec<Mode>, Error> {
         let inputs = self.inputs_at(value);
         let point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
-        let point = point.held_by(&self.held);
+        let point = point.held_by(&self.held).only(self.needed);
         point.check_start(from)?;
         state.inputs.clone_from(&inputs);
         let predicted = predicted.filter(|_| policy == Policy::Stable && !point.of_family());
@@ -325,7 +335,9 @@ impl<'a> Tracker<'a> {
         let (state, point_modes) = point.solved_mut().map_err(|error| error.clone())?;
         let at = (value, self.policy);
         let judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
-        if let Err(error) = point_modes.solve_at(state, judged) {
+        if self.needed == Needed::Modes
+            && let Err(error) = point_modes.solve_at(state, judged)
+        {
             self.from.clone_from(&state.coordinates);
             self.path.go(value, state.coordinates.iter().copied());
             return Ok(Step::WithoutModes(point, error));

@@ -9,6 +9,8 @@ mod tridiagonal;
 
 pub use complex::eigenvalues;
 pub use diagonalise::diagonalise;
-pub use general::{ApproximatePair, Eigenproblem, Reference, ReferencePair, Root, roots_near, roots_of};
+pub use general::{
+    ApproximatePair, Eigenproblem, Growing, Reference, ReferencePair, Root, growing, roots_near, roots_of,
+};
 pub use symmetric::{EigenproblemError, INACCURATE, Pairs};
 pub use tridiagonal::Tridiagonal;

@@ -1,5 +1,6 @@
 //! From a solution to a finished state: reactions determined, measured, stability judged.
 
+use super::Needed;
 use super::acceptance::{Candidate, Measured, UnjudgedResult};
 use super::convergence::{ACCEPTED, relative_residual};
 use super::operating_point::{Failure, OperatingPoint};
@@ -74,6 +75,8 @@ pub(crate) fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Resu
         Verdict::undecided()
     } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {
         Verdict::without_modes(Stability::Stable, 0.0)
+    } else if point.needed == Needed::State {
+        Verdict::undecided()
     } else {
         let checked_state = CheckedState {
             coordinates: &state.coordinates,
@@ -81,7 +84,8 @@ pub(crate) fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Resu
             design: point.design,
             residual: &state.residual,
         };
-        stability::judge(point.mechanism, &checked_state, &state.linear, point.nearby)?
+        let nearby = (point.needed == Needed::Modes).then_some(point.nearby);
+        stability::judge(point.mechanism, &checked_state, &state.linear, nearby)?
     };
     (state.stability, state.rounding) = (verdict.stability, verdict.rounding);
     Ok(verdict.modes)

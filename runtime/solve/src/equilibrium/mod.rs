@@ -75,6 +75,19 @@ pub enum Policy {
     Nearest,
 }
 
+/// What is needed of an equilibrium.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Needed {
+    /// The state: its stability is left [undecided](Stability::Undecided) where only eigenvalues decide it.
+    State,
+    /// Its stability, too.
+    Verdict,
+    /// And its modes.
+    #[default]
+    Modes,
+}
+
 impl Policy {
     /// The policy for designs near that of a known equilibrium: about an unstable one, or one that was asked for whatever
     /// its stability, the equilibrium next to it.

@@ -1,5 +1,6 @@
 //! One equilibrium problem: a mechanism with validated inputs and design variables, evaluated with checks.
 
+use super::Needed;
 use super::balance::{Data, remove_rounding};
 use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix, for_size, greater};
 use crate::arguments::{check_count, check_finite};
@@ -28,6 +29,7 @@ pub struct OperatingPoint<'a> {
     dropped: Vec<bool>,
     /// The modes of a nearby state, which speed up the computation of those of this one; may be empty.
     pub(super) nearby: &'a [Mode],
+    pub(super) needed: Needed,
     /// Whether each unknown has a start value that was given, not a default; may be empty.
     named: &'a [bool],
     /// What holds the place along free directions; if `None`, it is found from the stiffness itself.
@@ -76,6 +78,7 @@ impl<'a> OperatingPoint<'a> {
             design,
             dropped: Vec::new(),
             nearby: &[],
+            needed: Needed::Modes,
             named: &[],
             place: None,
             held: Vec::new(),
@@ -145,6 +148,19 @@ impl<'a> OperatingPoint<'a> {
     pub fn near(mut self, modes: &'a Modes) -> Self {
         self.nearby = modes.general();
         self
+    }
+
+    /// This point, for no more than what is `needed` of its states.
+    #[doc(hidden)]
+    #[inline]
+    pub fn only(mut self, needed: Needed) -> Self {
+        self.needed = needed;
+        self
+    }
+
+    /// This point, for states whose stability decides between them.
+    pub(super) fn judged(&self) -> Self {
+        self.clone().only(self.needed.max(Needed::Verdict))
     }
 
     /// What the equations are evaluated with.

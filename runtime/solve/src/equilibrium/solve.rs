@@ -242,7 +242,7 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
     if !point.named().all(is_there) {
         return None;
     }
-    let mut judged = finish(point, candidate).ok()?;
+    let mut judged = finish(&point.judged(), candidate).ok()?;
     if !judged.state.stability.holds() {
         judged.state.notes.push(Note::Stays);
     }
@@ -269,8 +269,8 @@ fn straight(point: &OperatingPoint<'_>, progress: descent::SearchState) -> Optio
 /// Like [`nearest`], also where the search comes to rest at a state whose stiffness is singular, as from a critical state:
 /// it goes on from either side of it. Of two results, one that is stable is preferred.
 fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<SolvedState, Failure> {
-    let search = |start: &[f64]| nearest(point, start).and_then(|candidate| finish(point, candidate));
-    search(start).or_else(|failure| {
+    let search = |point: &_, start: &[f64]| nearest(point, start).and_then(|candidate| finish(point, candidate));
+    search(point, start).or_else(|failure| {
         let Failure::NotFound { reason: NotFound::Minimum, coordinates, .. } = &failure else {
             return Err(failure);
         };
@@ -282,7 +282,8 @@ fn nearest_beside(point: &OperatingPoint<'_>, start: &[f64]) -> Result<SolvedSta
             newton::along_softest_direction::<search_space::ConstraintManifold>(point, coordinates)
         };
         let sides = sides.unwrap_or_default().into_iter();
-        let solutions = sides.filter_map(|side| search(&side).ok());
+        let judged = point.judged();
+        let solutions = sides.filter_map(|side| search(&judged, &side).ok());
         let best = solutions.reduce(|first, second| {
             if second.state.stability.holds() && !first.state.stability.holds() { second } else { first }
         });
@@ -333,7 +334,7 @@ fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Optio
         return None;
     }
     let candidate = nearest(point, start).ok()?;
-    let judged = finish(point, candidate).ok()?;
+    let judged = finish(&point.judged(), candidate).ok()?;
     let stability = judged.state.stability;
     matches!(stability, Stability::GyroscopicallyStabilised { .. }).then_some(judged)
 }

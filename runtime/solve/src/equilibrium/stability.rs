@@ -3,6 +3,7 @@
 use super::operating_point::Failure;
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, asymmetry, for_size, largest_element};
 use crate::constraints::{Structure, Tangent};
+use crate::eigenproblem::{Growing, growing};
 use crate::free::FreeDirections;
 use crate::kernels::{Kernels, Linear};
 use crate::modes::{Family, Modes, SYMMETRIC, change_to_zero, deflated, free_pairs, solve_modes};
@@ -63,13 +64,13 @@ pub(super) fn clearly_stable(linear: &Linear) -> bool {
 /// A positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is stable (Kelvin, Tait, Chetaev);
 /// `det Khat < 0` has a growing real solution whatever `Chat` is. The general eigenvalues decide all other cases,
 /// including an odd number of negative directions next to free ones. With constraints on positions the theorems hold
-/// for the directions they leave free. With speeds or constraints on velocities the general eigenvalues decide; they
-/// are found from the modes `nearby`, if given.
+/// for the directions they leave free. With speeds or constraints on velocities the general eigenvalues decide. Their modes
+/// are found from those `nearby`; with `None`, they are not wanted.
 pub fn judge(
     mechanism: &dyn Kernels,
     at: &CheckedState<'_>,
     linear: &Linear,
-    nearby: &[Mode],
+    nearby: Option<&[Mode]>,
 ) -> Result<Verdict, Failure> {
     let description = &mechanism.description();
     let structure = Structure::of(description);
@@ -159,19 +160,32 @@ fn judge_free(
 /// Judges a member of a family of steady motions. Each of its parameters is a zero, as each free direction is.
 pub(super) fn judge_member(at: &Equilibrium) -> Verdict {
     let count = at.description.free_directions + at.free.held.len();
-    by_eigenvalues((&at.linear, &[]), (&at.description, count), (0, 0), 0.0)
+    by_eigenvalues((&at.linear, Some(&[])), (&at.description, count), (0, 0), 0.0)
 }
 
 /// Judges by the general eigenvalues, `count` of which are zero in any case, with `negative` directions of negative and
 /// `free` ones of zero stiffness; a `lambda` not beyond `floor` counts as zero.
 fn by_eigenvalues(
-    (linear, nearby): (&Linear, &[Mode]),
+    (linear, nearby): (&Linear, Option<&[Mode]>),
     (description, count): (&Shared<Description>, usize),
     (negative, free): (usize, usize),
     floor: f64,
 ) -> Verdict {
+    let conservative = description.symmetric_stiffness && description.damping != DampingKind::General;
+    let by_signs = nearby.is_none() && Structure::of(description).open() && !conservative && count + free == 0;
+    if by_signs
+        && floor == 0.0
+        && let Some(Growing { real, pairs }) = growing(linear)
+    {
+        let stability = match (real, pairs) {
+            (0, 0) => Stability::Stable,
+            (0, growing) => Stability::Flutter { growing },
+            (negative, _) => Stability::Divergent { negative },
+        };
+        return Verdict::without_modes(stability, floor);
+    }
     let mut spectrum = Modes::empty(Family::General, description);
-    if spectrum.solve_near(linear, (count, floor), nearby).is_err() {
+    if spectrum.solve_near(linear, (count, floor), nearby.unwrap_or_default()).is_err() {
         return Verdict::without_modes(Stability::Undecided, floor);
     }
     let count = |wanted: fn(Behaviour) -> bool| {
@@ -216,7 +230,7 @@ pub fn judge_critical(linear: &Linear, description: &Shared<Description>, zero: 
     let critical = modes.get(zero.checked_sub(1)?)?;
     let floor = MARGIN * change_to_zero(linear, critical);
     let description = (description, description.free_directions);
-    Some(by_eigenvalues((linear, &[]), description, (0, zero), floor))
+    Some(by_eigenvalues((linear, Some(&[])), description, (0, zero), floor))
 }
 
 /// Whether a matrix is skew-symmetric to rounding.

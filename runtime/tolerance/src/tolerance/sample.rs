@@ -2,7 +2,7 @@
 
 use super::Outcome;
 use crate::algebra::Vector;
-use crate::equilibrium::{OperatingPoint, solve_into};
+use crate::equilibrium::{Needed, OperatingPoint, solve_into};
 use crate::kernels::Kernels;
 use crate::modes::{Family, equal_groups, in_order, match_with_assurance, position};
 use crate::{Complex, Equilibrium, Mode, Modes, Policy};
@@ -35,7 +35,9 @@ pub struct Solution {
     /// Meaningful only if the outcome is that of an equilibrium.
     #[doc(hidden)]
     pub state: Equilibrium,
-    solved: bool,
+    /// Whether it has an equilibrium.
+    #[doc(hidden)]
+    pub solved: bool,
     modes: Modes,
     /// Groups of nominal modes with equal eigenvalues.
     groups: Vec<Vec<usize>>,
@@ -57,17 +59,17 @@ impl Solution {
         }
     }
 
-    /// Solves the sample with this design, starting from the nominal state; without its modes if they are not `wanted`.
+    /// Solves the sample with this design, starting from the nominal state.
     #[doc(hidden)]
     pub fn solve(
         &mut self,
         mechanism: &dyn Kernels,
         nominal: &Equilibrium,
-        (modes, wanted): (&Modes, bool),
+        (modes, needed): (&Modes, Needed),
         design: &[f64],
     ) {
         self.places = Vector::default();
-        let judged = self.solve_state(mechanism, nominal, modes, design);
+        let judged = self.solve_state(mechanism, nominal, (modes, needed), design);
         self.solved = judged.is_ok();
         let judged = match judged {
             Err(outcome) => {
@@ -77,7 +79,7 @@ impl Solution {
             Ok(judged) => judged,
         };
         self.outcome = Outcome::from(self.state.stability);
-        if !wanted || self.state.regular().is_err() {
+        if needed < Needed::Modes || self.state.regular().is_err() {
             return;
         }
         let (solved, state) = (&mut self.modes, &self.state);
@@ -102,7 +104,7 @@ impl Solution {
         &mut self,
         mechanism: &dyn Kernels,
         nominal: &Equilibrium,
-        modes: &Modes,
+        (modes, needed): (&Modes, Needed),
         design: &[f64],
     ) -> Result<Vec<Mode>, Outcome> {
         let inputs = &nominal.inputs;
@@ -110,7 +112,7 @@ impl Solution {
             return Err(Outcome::Unphysical);
         }
         let point = OperatingPoint::unchecked(mechanism, inputs, design).near(modes);
-        let point = point.held_like(&nominal.free);
+        let point = point.held_like(&nominal.free).only(needed);
         self.state.design.copy_from_slice(design);
         let start = &nominal.coordinates;
         solve_into(&point, start, Policy::about(nominal), &mut self.state).map_err(|failure| Outcome::from(&failure))

@@ -8,7 +8,7 @@ use super::sample::Solution;
 use super::sampling::{Batches, Draw};
 use super::{Outcome, Sample, Tolerances};
 use crate::algebra::Vector;
-use crate::equilibrium::Branch;
+use crate::equilibrium::{Branch, Needed};
 use crate::kernels::BatchKernels;
 use crate::modes::Family;
 use crate::scalar::{Batch, Instructions, WIDTH};
@@ -201,7 +201,7 @@ impl<'a> SampleSolver<'a> {
         (sample, design): (u64, &[f64]),
         Part { chunk, kept, .. }: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {
-        solved.solve(self.mechanism, self.nominal, (self.modes, true), design);
+        solved.solve(self.mechanism, self.nominal, (self.modes, Needed::Modes), design);
         chunk.count(solved.outcome as usize, 1)?;
         let count = self.modes.modes.len();
         if solved.continues(self.nominal) {

@@ -6,6 +6,7 @@ mod answer;
 use core::ops::ControlFlow;
 
 use crate::algebra::Vector;
+use crate::equilibrium::Needed;
 use crate::forced::{self, ForcedSensitivities};
 use crate::kernels::SummaryKernels;
 use crate::propagation::{Propagation, VibrationCheck, vibrations};
@@ -93,9 +94,9 @@ pub fn bode(
         return Err(Error::NoExcitation { mechanism: description.name.clone() });
     }
     // Bands are parallel themselves.
-    let (together, threads) = match banded {
-        Some(_) => (1, 1),
-        None => (TOGETHER, threads),
+    let (together, threads, needed) = match banded {
+        Some(_) => (1, 1, Needed::Modes),
+        None => (TOGETHER, threads, Needed::Verdict),
     };
     let size = (u.len() + start.len(), b.len());
     let mut points = Vec::new();
@@ -111,7 +112,7 @@ pub fn bode(
         })
     };
     let (mut waiting, mut failed) = (Vec::with_capacity(together), None);
-    states_each(mechanism, (u, b), start, following.into(), (input, values), |at| {
+    states_each(mechanism, (u, b), start, (following.into(), needed), (input, values), |at| {
         waiting.push(at.clone());
         if waiting.len() < together && !watch.stopped() {
             return ControlFlow::Continue(());

@@ -49,6 +49,13 @@ impl<'a> Designs<'a> {
     }
 }
 
+impl DesignRoom {
+    /// For designs whose stability is not asked for.
+    pub(super) fn unjudged(self) -> Self {
+        Self { alone: self.alone.unjudged(), ..self }
+    }
+}
+
 fn side_by_side<'a>(responses: &Responses<'a>, tolerances: &'a Tolerances) -> Option<SideBySide<'a>> {
     let (at, modes) = (responses.nominal(), responses.modes());
     let here = |response: &Response| matches!(response, Response::Mode { .. } | Response::Vibration(_));

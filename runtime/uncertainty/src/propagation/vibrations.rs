@@ -117,7 +117,7 @@ pub fn vibrations(
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VibrationCheck {
-    /// Number of designs solved anew that have the vibration.
+    /// Number of designs solved anew that have the vibration, whatever their stability.
     pub samples: u64,
     /// Relative error of the model's standard deviation.
     pub sigma: f64,
@@ -174,7 +174,7 @@ impl Model for Both<'_> {
     type Room = (DesignRoom, <Vibrations<'static> as Model>::Room);
 
     fn room(&self) -> Self::Room {
-        (self.designs.room(), self.model.room())
+        (self.designs.room().unjudged(), self.model.room())
     }
 
     fn evaluate(&self, (exact, model): &mut Self::Room, points: &[Vector], take: &mut Take<'_>) -> Result<(), Error> {

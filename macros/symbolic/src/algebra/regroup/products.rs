@@ -57,23 +57,24 @@ impl Products {
 
     /// While two products share a pair, turns the most frequently shared pair into one factor.
     fn share(&mut self) {
-        for list in 0..self.lists.len() {
-            let factors = self.lists[list].1.clone();
+        let mut held: Vec<((Factor, Factor), usize)> = Vec::new();
+        for (list, (_, factors)) in self.lists.iter().enumerate() {
             for (k, &a) in factors.iter().enumerate() {
                 for (l, &b) in factors.iter().enumerate().skip(k + 1) {
                     let repeated = factors[..k].contains(&a) || factors[k + 1..l].contains(&b);
                     if !repeated {
-                        self.users.entry((a, b)).or_default().push(list);
+                        held.push(((a, b), list));
                     }
                 }
             }
         }
-        let mut heap: BinaryHeap<(usize, Reverse<(Factor, Factor)>)> = self
-            .users
-            .iter()
-            .filter(|(_, lists)| lists.len() > 1)
-            .map(|(&pair, lists)| (lists.len(), Reverse(pair)))
-            .collect();
+        held.sort_unstable();
+        let mut heap: BinaryHeap<(usize, Reverse<(Factor, Factor)>)> = BinaryHeap::new();
+        for same in held.chunk_by(|(a, _), (b, _)| a == b).filter(|same| same.len() > 1) {
+            let pair = same[0].0;
+            heap.push((same.len(), Reverse(pair)));
+            self.users.insert(pair, same.iter().map(|&(_, list)| list).collect());
+        }
         while let Some((count, Reverse(pair))) = heap.pop() {
             let Some(lists) = self.users.remove(&pair) else {
                 continue;

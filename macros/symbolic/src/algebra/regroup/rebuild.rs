@@ -20,8 +20,14 @@ pub(super) fn rebuild(
             Some(built) => built,
             None => match node {
                 Node::Constant(_) | Node::Symbol(_) => id,
-                Node::Unary(operator, a) => graph.unary(operator, image(&images, a)),
-                Node::Binary(operator, a, b) => graph.binary(operator, image(&images, a), image(&images, b)),
+                Node::Unary(operator, a) => match image(&images, a) {
+                    same if same == a => id,
+                    a => graph.unary(operator, a),
+                },
+                Node::Binary(operator, a, b) => match (image(&images, a), image(&images, b)) {
+                    same if same == (a, b) => id,
+                    (a, b) => graph.binary(operator, a, b),
+                },
             },
         };
         if built != id

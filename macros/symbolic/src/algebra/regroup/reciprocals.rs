@@ -19,6 +19,9 @@ pub(in super::super) fn share_reciprocals(graph: &mut Graph, roots: &[ExprId]) -
     denominators.sort_unstable();
     let shared: Vec<ExprId> =
         denominators.chunk_by(|a, b| a == b).filter(|same| same.len() > 2).map(|same| same[0]).collect();
+    if shared.is_empty() {
+        return roots.to_vec();
+    }
     let one = graph.constant(1.0);
     rebuild(graph, roots, &uses, |graph, id, images| {
         let Node::Binary(Operator::Divide, a, b) = graph.node(id) else {

@@ -7,6 +7,7 @@ use super::super::node::Node;
 use super::rebuild::{image, product, rebuild};
 use super::uses::{Uses, is_sum};
 use crate::base::ids::ExprId;
+use crate::base::operators::Operator;
 
 /// Takes common factors out of the sums below `roots`.
 pub(super) fn factor_sums(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
@@ -20,6 +21,12 @@ pub(super) fn factor_sums(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
         }
         let mut terms = Vec::new();
         uses.terms(graph, id, false, &mut terms);
+        let is_product = |&(_, term): &(bool, ExprId)| {
+            matches!(graph.node(term), Node::Binary(Operator::Multiply, ..)) && uses.in_sum(term)
+        };
+        if terms.iter().filter(|term| is_product(term)).count() < 2 {
+            return None;
+        }
         let terms: Vec<Term> = terms
             .into_iter()
             .map(|(minus, term)| {

@@ -130,6 +130,15 @@ impl<'a> Iteration<'a> {
         }
     }
 
+    /// Condition number of an eigenvalue.
+    pub(super) fn condition(&mut self, s: Complex64) -> f64 {
+        self.factor_shifted(s);
+        self.iterate(Side::Right);
+        let right = self.vector.clone();
+        self.iterate(Side::Left);
+        1.0 / right.dot(&self.vector).norm()
+    }
+
     /// Steps of inverse iteration from vector `k` of an orthogonal family.
     fn iterate_from(&mut self, side: Side, k: usize) {
         self.vector.fill(1.0);

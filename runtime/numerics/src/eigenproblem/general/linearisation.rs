@@ -71,6 +71,20 @@ impl<'a> Linearisation<'a> {
         Ok(Self { n, degree: pencil.degree, lower, damping, stiffness, scales, size })
     }
 
+    /// Rounding error of an eigenvalue, per condition number.
+    pub(super) fn noise(&self) -> f64 {
+        8.0 * f64::EPSILON * self.size
+    }
+
+    /// The same with what `L^-1` adds to the rounding of `C` and `K`, and the factors to that of `M`, which counts by the
+    /// size of `s`.
+    pub(super) fn noise_of_masses(&self, s: Complex64) -> f64 {
+        let pivots = (0..self.n).map(|i| self.lower[i * (self.n + 1)]);
+        let (least, most) = pivots.fold((f64::INFINITY, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
+        let spread = most / least;
+        self.noise() * spread * (1.0 + modulus(s) / self.size * spread)
+    }
+
     /// The sum of all eigenvalues: `-tr(M^-1 C)`, or `-tr K` for a first-order pencil.
     pub(super) fn sum(&self) -> f64 {
         let matrix = match self.degree {

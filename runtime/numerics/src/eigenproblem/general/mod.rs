@@ -42,6 +42,7 @@ mod schur;
 mod scratch;
 mod search;
 mod shifted;
+mod signs;
 mod solver;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -52,6 +53,7 @@ pub use driver::{solve as roots_of, solve_near as roots_near};
 pub use prediction::ApproximatePair;
 pub use reference::{Reference, ReferencePair};
 pub use scaled_pencil::Eigenproblem;
+pub use signs::{Growing, growing};
 
 use super::symmetric::EigenproblemError;
 use crate::algebra::Vector;

@@ -33,7 +33,7 @@ impl PairSolver<'_> {
 
     /// Rounding error of an eigenvalue of the linearisation, given its condition number.
     pub(super) fn noise(&self, condition: f64) -> f64 {
-        8.0 * f64::EPSILON * self.linearisation.size * condition
+        self.linearisation.noise() * condition
     }
 
     /// The pair found from the start `s`, at a distance `gap` from the next eigenvalue; `near` means that the vectors

@@ -45,6 +45,11 @@ impl Parts {
         parts.map(|(re, im)| re * re + im * im).sum::<f64>().sqrt()
     }
 
+    /// The sum of the products, without conjugation.
+    pub(super) fn dot(&self, other: &Self) -> Complex64 {
+        dot((&self.re, &self.im), (&other.re, &other.im))
+    }
+
     pub(super) fn scale(&mut self, factor: f64) {
         self.re.iter_mut().for_each(|x| *x *= factor);
         self.im.iter_mut().for_each(|x| *x *= factor);

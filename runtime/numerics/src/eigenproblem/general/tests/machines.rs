@@ -5,6 +5,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::pencils::{below, uniform};
 use super::*;
+use crate::eigenproblem::general::{Growing, growing};
 use crate::eigenproblem::symmetric;
 
 /// `rows` random directions of `n` coordinates, some through a point at a distance: `sum k r^T r`.
@@ -107,6 +108,30 @@ fn count(machines: u64, mut written: Option<&mut String>) -> usize {
 #[test]
 fn no_machine_is_refused() {
     assert_eq!(count(2_000, None), 0);
+}
+
+/// Counts machines whose growing eigenvalues are counted without vectors, which must agree with those of all roots.
+fn counted(machines: u64) -> usize {
+    let counted = (0..machines).filter(|&seed| {
+        let pencil = machine(&mut ChaCha8Rng::seed_from_u64(seed));
+        let Some(found) = growing(&pencil) else { return false };
+        let mut expected = Growing::default();
+        for root in solve(&pencil).unwrap() {
+            match root.s.im == 0.0 {
+                _ if root.s.re < 0.0 => {}
+                true => expected.real += 1,
+                false => expected.pairs += 1,
+            }
+        }
+        assert_eq!(found, expected, "{seed}");
+        true
+    });
+    counted.count()
+}
+
+#[test]
+fn what_grows_is_counted_without_vectors() {
+    assert!(counted(2_000) > 300);
 }
 
 /// The same for many more; `MACHINES=file` writes them.
