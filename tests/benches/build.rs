@@ -99,6 +99,6 @@ fn growing(name: &str, bars: usize) -> Result<String, Box<dyn Error>> {
     }
     compilation.program = lower(&functions.graph, &kernels);
     let text = compilation.emit_text();
-    let (before, after) = text.split_once(":: eigentol :: Mechanism for").ok_or("no contract in the emitted items")?;
+    let (before, after) = text.split_once("::eigentol::Mechanism for").ok_or("no contract in the emitted items")?;
     Ok(format!("{before} Kernels for {after}"))
 }

@@ -24,7 +24,7 @@ pub mod topology;
 pub use eigentol_language::mistakes::{Mistake, Mistakes, tokens};
 pub use eigentol_language::{base, model, syntax};
 pub use eigentol_symbolic::{algebra, base::census, program};
-pub use pipeline::{Compilation, compile, compile_refined, early_stages};
+pub use pipeline::{Compilation, check, compile, compile_refined, early_stages};
 
 use std::fmt::Debug;
 
@@ -60,6 +60,15 @@ pub fn compile_text(text: &str, limits: Limits) -> Result<Compilation, Mistakes>
     Ok(compile(tokens(text)?, limits)?)
 }
 
+/// [`check`] of a declaration in a text of its own.
+///
+/// # Errors
+/// As [`compile_text`].
+#[cfg(feature = "locations")]
+pub fn check_text(text: &str, limits: Limits) -> Result<Compilation, Mistakes> {
+    Ok(check(tokens(text)?, limits)?)
+}
+
 /// [`early_stages`] of a declaration in a text of its own.
 ///
 /// # Errors
@@ -72,13 +81,7 @@ pub fn early_stages_of_text(text: &str) -> Result<[(&'static str, String); 3], M
 /// The generated items, formatted for reading.
 #[cfg(feature = "pretty")]
 pub fn expand_pretty(declaration: TokenStream) -> Result<String, Diagnostics> {
-    let compilation = compile(declaration, Limits::default())?;
-    Ok(formatted(&compilation))
-}
-
-/// The generated items of a compiled declaration, formatted for reading.
-#[cfg(feature = "pretty")]
-pub fn formatted(compilation: &Compilation) -> String {
-    let file = syn::parse2(compilation.emit()).expect("the emitter writes well-formed items");
-    prettyplease::unparse(&file)
+    let items = compile(declaration, Limits::default())?.emit();
+    let file = syn::parse2(items).expect("the emitter writes well-formed items");
+    Ok(prettyplease::unparse(&file))
 }

@@ -41,11 +41,22 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
 /// [`compile`] with this many `more` coordinates of every component of a beam than declared; one that has none stays
 /// rigid.
 pub fn compile_refined(declaration: TokenStream, limits: Limits, more: usize) -> Result<Compilation, Diagnostics> {
+    let mut compilation = derived(declaration, limits, more)?;
+    let functions = &mut compilation.functions;
+    let kernels = regrouped_kernels(functions);
+    compilation.program = lower(&functions.graph, &kernels);
+    Ok(compilation)
+}
+
+/// [`compile`] up to the equations, with which the search for mistakes ends: the program has no kernels.
+pub fn check(declaration: TokenStream, limits: Limits) -> Result<Compilation, Diagnostics> {
+    derived(declaration, limits, 0)
+}
+
+fn derived(declaration: TokenStream, limits: Limits, more: usize) -> Result<Compilation, Diagnostics> {
     let (ast, mut mechanism, mut topology) = accepted(declaration, more)?;
-    let mut functions = derive(&mut mechanism, &mut topology, limits)?;
-    let kernels = regrouped_kernels(&mut functions);
-    let program = lower(&functions.graph, &kernels);
-    Ok(Compilation { ast, mechanism, topology, functions, program })
+    let functions = derive(&mut mechanism, &mut topology, limits)?;
+    Ok(Compilation { ast, mechanism, topology, functions, program: Program::default() })
 }
 
 /// The stages that look for mistakes. Each continues with whatever the previous stage could make sense of.

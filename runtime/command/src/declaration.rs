@@ -5,7 +5,7 @@ use std::io::{self, Read as _};
 use std::path::Path;
 
 use eigentol_compiler::mechanics::Limits;
-use eigentol_compiler::{Compilation, Mistakes, compile_text, early_stages_of_text};
+use eigentol_compiler::{Compilation, Mistakes, check_text, compile_text, early_stages_of_text};
 
 use crate::failure::Failure;
 use crate::mistake::Mistake;
@@ -30,6 +30,11 @@ impl Declaration {
         let text = fs::read_to_string(path).map_err(failure)?;
         let name = path.display().to_string();
         Ok(Self { name, text })
+    }
+
+    /// The declaration up to its equations, without kernels.
+    pub(crate) fn checked(&self) -> Result<Compilation, Failure> {
+        check_text(&self.text, Limits::default()).map_err(|mistakes| self.mistaken(&mistakes))
     }
 
     /// Compiles the declaration.

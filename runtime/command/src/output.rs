@@ -60,6 +60,10 @@ impl Output {
             let help = "add `--csv` or `--parquet`, or an `--output` that ends in `.csv` or `.parquet`";
             return Err(Failure::usage("a table is written only as CSV or Parquet", help));
         }
+        if form == Form::Parquet && !eigentol_tables::PARQUET {
+            let help = "install it with `--features parquet`, or write `--csv`";
+            return Err(Failure::usage("this `eigentol` was built without Parquet files", help));
+        }
         if form == Form::Parquet && self.place.path().is_none() && io::stdout().is_terminal() {
             let help = "name a file: `--output FILE.parquet`";
             return Err(Failure::usage("Parquet is binary and not written to a terminal", help));

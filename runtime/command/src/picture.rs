@@ -14,7 +14,7 @@ use crate::study_file::FrequencyUnit;
 /// Where a figure goes.
 #[derive(Args, Debug)]
 pub(crate) struct Picture {
-    /// Draw the answer into a file, `.svg` or `.png`; an existing file is replaced
+    /// Draw the answer into a file, `.svg`, or `.png` if built with that feature; an existing file is replaced
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
     #[command(flatten)]

@@ -11,6 +11,7 @@ pub mod normal;
 pub mod random;
 pub mod random_phases;
 pub mod reliability;
+#[cfg(feature = "analysis")]
 pub mod sensitivity;
 pub mod sequence;
 #[cfg(feature = "serde")]

@@ -55,6 +55,9 @@ pub enum Error {
         /// The kind expected.
         expected: &'static str,
     },
+    /// Parquet was left out of this build.
+    #[error("this program was built without Parquet files: build it with the feature `parquet`")]
+    NoParquet,
     /// The content is inconsistent.
     #[error("the document is damaged: {0}")]
     Content(String),

@@ -7,50 +7,100 @@ use proc_macro2::{Delimiter, Group, Spacing, TokenStream, TokenTree};
 
 /// A line is ended once it is this long.
 const WIDTH: usize = 100;
+const INDENT: &str = "    ";
 
-/// The tokens as text: a line for each attribute and each statement, or more if it is long.
+/// The tokens as text: a line for each attribute and each statement, or more if it is long; blocks are indented.
 pub(crate) fn lines(tokens: TokenStream) -> String {
     let mut lines = Lines::default();
-    lines.add(tokens);
+    lines.add(tokens, true);
     lines.text
 }
+
+/// Words after which brackets open no arguments.
+const KEYWORDS: [&str; 10] = ["as", "for", "if", "impl", "in", "let", "match", "mut", "return", "where"];
 
 #[derive(Default)]
 struct Lines {
     text: String,
     /// Where the last line starts.
     start: usize,
-    /// Whether nothing may come between the last token and the next.
-    joint: bool,
+    depth: usize,
+    /// Lists of types that have begun.
+    types: usize,
+    /// The last token.
+    last: Last,
+}
+
+/// What a token is for the space after it.
+#[derive(Clone, Copy, Default, PartialEq)]
+enum Last {
+    /// An opening bracket or half of an operator: nothing may follow but the next token.
+    #[default]
+    Open,
+    Punct(char),
+    /// The second half of `::`.
+    Path,
+    Word,
+    Keyword,
+    /// A closing brace, after which a line ends unless a sign follows.
+    Block,
 }
 
 impl Lines {
-    fn add(&mut self, tokens: TokenStream) {
-        let mut last = None;
+    /// Adds tokens, whose semicolons end lines if they are `statements`.
+    fn add(&mut self, tokens: TokenStream, statements: bool) {
         for token in tokens {
-            let ends = match &token {
+            match &token {
                 TokenTree::Group(group) => {
+                    let attribute = self.last == Last::Punct('#');
                     self.add_group(group);
-                    group.delimiter() == Delimiter::Brace || last == Some('#')
+                    if attribute {
+                        self.end_line();
+                    } else if statements && group.delimiter() == Delimiter::Brace {
+                        self.last = Last::Block;
+                    }
                 }
                 TokenTree::Punct(punct) => {
-                    self.add_word(&punct.to_string());
-                    self.joint = punct.spacing() == Spacing::Joint;
-                    punct.as_char() == ';'
+                    let (sign, joint) = (punct.as_char(), punct.spacing() == Spacing::Joint);
+                    let second = self.last == Last::Open && sign == ':' && self.text.ends_with(':');
+                    let beside = match sign {
+                        ',' | ';' | '.' | '?' => self.last != Last::Punct('.'),
+                        '<' => self.last == Last::Word && self.begins_types(),
+                        '>' => self.last != Last::Open && self.types > 0,
+                        ':' => self.last == Last::Word || self.last == Last::Punct('>'),
+                        _ => false,
+                    };
+                    match sign {
+                        '<' if beside => self.types += 1,
+                        '>' if beside => self.types -= 1,
+                        _ => {}
+                    }
+                    self.place(beside);
+                    self.text.push(sign);
+                    self.last = match (joint, second) {
+                        (true, _) => Last::Open,
+                        (_, true) => Last::Path,
+                        _ if self.text.ends_with("->") => Last::Keyword,
+                        _ => Last::Punct(sign),
+                    };
+                    if sign == ';' && statements {
+                        self.end_line();
+                    }
                 }
                 word => {
-                    self.add_word(&word.to_string());
-                    false
+                    self.place(matches!(self.last, Last::Path | Last::Punct('.' | '&' | '!' | '<')));
+                    let word = word.to_string();
+                    self.text.push_str(&word);
+                    self.last = if KEYWORDS.contains(&&*word) { Last::Keyword } else { Last::Word };
                 }
-            };
-            if ends {
-                self.end_line();
             }
-            last = match token {
-                TokenTree::Punct(punct) => Some(punct.as_char()),
-                _ => None,
-            };
         }
+    }
+
+    /// Whether the last word names a type or a function, not a value.
+    fn begins_types(&self) -> bool {
+        let word = self.text.rsplit(|c: char| !c.is_alphanumeric() && c != '_').next();
+        word.is_some_and(|word| word.starts_with(char::is_uppercase) || !word.ends_with('_'))
     }
 
     fn add_group(&mut self, group: &Group) {
@@ -60,28 +110,49 @@ impl Lines {
             Delimiter::Bracket => ("[", "]"),
             Delimiter::None => ("", ""),
         };
-        self.add_word(open);
-        self.joint = true;
-        self.add(group.stream());
-        self.joint = true;
-        self.add_word(close);
+        let block = group.delimiter() == Delimiter::Brace && !group.stream().is_empty();
+        let called = matches!(self.last, Last::Word | Last::Path | Last::Punct('.' | '&' | '!' | '<' | '>' | '#'));
+        self.place(called && group.delimiter() != Delimiter::Brace);
+        self.text.push_str(open);
+        self.last = Last::Open;
+        if block {
+            self.depth += 1;
+            self.end_line();
+        }
+        self.add(group.stream(), group.delimiter() == Delimiter::Brace);
+        if block {
+            self.depth -= 1;
+            if self.text.len() > self.start {
+                self.end_line();
+            }
+        }
+        self.place(true);
+        self.text.push_str(close);
+        self.last = Last::Word;
     }
 
-    fn add_word(&mut self, word: &str) {
-        let length = self.text.len() - self.start;
-        match self.joint {
-            true => {}
-            false if length >= WIDTH => self.end_line(),
-            false if length > 0 => self.text.push(' '),
-            false => {}
+    /// Makes room for the next token, `beside` the last one if that reads better.
+    fn place(&mut self, beside: bool) {
+        if self.last == Last::Block && !beside {
+            self.end_line();
         }
-        self.text.push_str(word);
-        self.joint = false;
+        let length = self.text.len() - self.start;
+        if length > 0 && (self.last == Last::Open || beside) {
+            return;
+        }
+        if length >= WIDTH {
+            self.end_line();
+        } else if length > 0 {
+            self.text.push(' ');
+            return;
+        }
+        self.text.extend(std::iter::repeat_n(INDENT, self.depth));
     }
 
     fn end_line(&mut self) {
         self.text.push('\n');
         self.start = self.text.len();
+        self.last = Last::Open;
     }
 }
 
@@ -104,8 +175,9 @@ mod tests {
             }
         };
         let text = lines(tokens.clone());
-        assert!(text.lines().all(|line| line.len() < WIDTH + 20), "{text}");
+        assert!(text.lines().all(|line| line.len() < WIDTH + 40), "{text}");
         let read: TokenStream = text.parse().expect("tokens");
-        assert_eq!(read.to_string(), tokens.to_string());
+        let dense = |tokens: TokenStream| tokens.to_string().replace(' ', "");
+        assert_eq!(dense(read), dense(tokens));
     }
 }

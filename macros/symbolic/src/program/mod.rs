@@ -15,7 +15,7 @@ use std::sync::Arc;
 use crate::algebra::{Cost, Operator, Stage, Unary};
 
 /// All kernels of a mechanism.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
     /// In the order of the runtime's contract.
     pub kernels: Vec<Kernel>,

@@ -26,7 +26,7 @@ impl Check {
     pub(crate) fn run(&self, color: Color) -> Result<Verdict, Failure> {
         for file in &self.files {
             let declaration = Declaration::read(file)?;
-            let compilation = declaration.compiled()?;
+            let compilation = declaration.checked()?;
             for warning in &compilation.mechanism.warnings() {
                 diagnostics::warn(&declaration, &warning.into(), color);
             }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use eigentol_compiler::{Compilation, formatted};
+use eigentol_compiler::Compilation;
 
 use crate::declaration::Declaration;
 use crate::destination::Destination;
@@ -50,9 +50,9 @@ impl Expand {
             Stage::Ast => declaration.early_stage("ast")?,
             Stage::Mechanism => declaration.early_stage("mechanism")?,
             Stage::Topology => declaration.early_stage("topology")?,
-            Stage::Functions => declaration.compiled()?.functions.to_string(),
+            Stage::Functions => declaration.checked()?.functions.to_string(),
             Stage::Program => declaration.compiled()?.program.to_string(),
-            Stage::Rust => formatted(&declaration.compiled()?),
+            Stage::Rust => declaration.compiled()?.emit_text(),
             Stage::Operations => operations(&declaration.compiled()?),
         };
         if !text.ends_with('\n') {

@@ -32,7 +32,7 @@ impl Form {
                 path: path.to_owned(),
                 known: match cfg!(feature = "png") {
                     true => "`.svg` or `.png`",
-                    false => "`.svg`",
+                    false => "`.svg`, and as `.png` by a program built with the feature `png`",
                 },
             }),
         }

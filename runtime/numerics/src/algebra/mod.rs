@@ -16,6 +16,7 @@ mod buffer;
 mod cholesky;
 mod lu;
 mod matrix;
+#[cfg(feature = "nalgebra")]
 mod nalgebra;
 #[cfg(feature = "serde")]
 mod serial;

@@ -2,19 +2,10 @@
 
 use core::cell::{Cell, RefCell};
 
+use super::closest::Evaluations;
 use super::limit_state::{LimitState, LimitValue};
 use super::vector::norm;
 use crate::Error;
-
-/// Number of evaluations of a limit state.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Evaluations {
-    /// Evaluations of value and gradient.
-    pub total: usize,
-    /// Evaluations that gave no value, or one that is not finite.
-    pub without_value: usize,
-}
 
 /// Passes on only finite values and gradients of the right length.
 pub(super) struct Counted<'a> {

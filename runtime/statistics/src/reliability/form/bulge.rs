@@ -48,7 +48,7 @@ impl Bulge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reliability::form::design_point::Residuals;
+    use crate::reliability::closest::Residuals;
 
     #[test]
     fn gradients_are_derivatives() {

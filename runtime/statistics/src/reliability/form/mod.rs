@@ -8,11 +8,12 @@ mod regions;
 mod search;
 mod settings;
 
-pub use design_point::{Closest, DesignPoint, FormSensitivity, Residuals};
+pub use design_point::{DesignPoint, FormSensitivity};
 pub use regions::FailureRegions;
 pub use settings::FormSettings;
 
-use super::counted::{Counted, Evaluations};
+use super::closest::Evaluations;
+use super::counted::Counted;
 use super::limit_state::LimitState;
 use crate::Error;
 

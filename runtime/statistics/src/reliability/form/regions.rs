@@ -5,7 +5,8 @@ use super::design_point::{DesignPoint, Iterate};
 use super::search::Search;
 use super::settings::FormSettings;
 use crate::Error;
-use crate::reliability::counted::{Counted, Evaluations};
+use crate::reliability::closest::Evaluations;
+use crate::reliability::counted::Counted;
 use crate::reliability::random::NormalSamples;
 use crate::reliability::vector::{add_scaled, distance, dot, norm, scaled, unit};
 

@@ -6,7 +6,7 @@ use crate::Error;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FormSettings {
-    /// Maximum residual of a design point, for both limit and direction; see [`super::Residuals`].
+    /// Maximum residual of a design point, for both limit and direction; see [`Residuals`](crate::reliability::Residuals).
     pub tolerance: f64,
     /// Steps of the Hasofer-Lind-Rackwitz-Fiessler iteration before the general optimiser takes over.
     pub iterations: usize,
