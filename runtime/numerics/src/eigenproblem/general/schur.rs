@@ -2,9 +2,12 @@
 //! features whose absence makes textbook versions hang or lose digits: the deflation criterion of Ahues and Tisseur
 //! (LAPACK Working Note 122), exceptional shifts, and a bound on the iterations.
 
+use core::ops::Range;
+
 use num_complex::Complex64;
 
 use super::scaling::largest;
+use crate::scalar::Real;
 
 const ULP: f64 = f64::EPSILON;
 /// Number of steps without deflation from one exceptional shift to the next.
@@ -32,7 +35,10 @@ pub(crate) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> 
             }
             steps += 1;
             let shifts = shifts(n, h, first, last, step);
-            sweep(n, h, first, last, shifts);
+            f64::run(
+                #[inline(always)]
+                || sweep(n, h, first, last, shifts),
+            );
         }
         if !converged {
             return None;
@@ -122,7 +128,8 @@ fn shifts(n: usize, h: &[f64], first: usize, last: usize, step: usize) -> [Compl
     [Complex64::new(nearer * size, 0.0); 2]
 }
 
-/// One implicit double-shift step on rows and columns `first..=last`.
+/// One implicit double-shift step on rows and columns `first..=last`, at least three.
+#[inline(always)]
 fn sweep(n: usize, h: &mut [f64], first: usize, last: usize, [one, two]: [Complex64; 2]) {
     let mut start = last - 2;
     let mut v;
@@ -151,48 +158,125 @@ fn sweep(n: usize, h: &mut [f64], first: usize, last: usize, [one, two]: [Comple
         }
         start -= 1;
     }
-    for k in start..last {
-        let three = k + 2 <= last;
+    let mut wave = Wave::new(start);
+    for k in start..last - 1 {
         if k > start {
-            let column = k - 1;
-            v = [h[k * n + column], h[(k + 1) * n + column], if three { h[(k + 2) * n + column] } else { 0.0 }];
+            v = [h[k * n + k - 1], h[(k + 1) * n + k - 1], h[(k + 2) * n + k - 1]];
         }
         let (beta, tau, v2, v3) = reflector(v);
         if k > start {
             h[k * n + k - 1] = beta;
             h[(k + 1) * n + k - 1] = 0.0;
-            if three {
-                h[(k + 2) * n + k - 1] = 0.0;
-            }
+            h[(k + 2) * n + k - 1] = 0.0;
         } else if start > first {
             h[k * n + k - 1] *= 1.0 - tau;
         }
-        let (t2, t3) = (tau * v2, tau * v3);
-        if three {
-            for j in k..=last {
-                let sum = h[k * n + j] + v2 * h[(k + 1) * n + j] + v3 * h[(k + 2) * n + j];
-                h[k * n + j] -= sum * tau;
-                h[(k + 1) * n + j] -= sum * t2;
-                h[(k + 2) * n + j] -= sum * t3;
+        let reflector = Reflector { tau, v2, v3, t2: tau * v2, t3: tau * v3 };
+        reflector.reflect_rows(&mut h[k * n..(k + 3) * n], n, k..last + 1);
+        if wave.count == WAVE {
+            wave.reflect_columns(n, h, first);
+            wave = Wave::new(k);
+        }
+        for row in h[wave.start * n..(last.min(k + 3) + 1) * n].chunks_exact_mut(n) {
+            let [a, b, c] = reflector.reflected([row[k], row[k + 1], row[k + 2]]);
+            (row[k], row[k + 1], row[k + 2]) = (a, b, c);
+        }
+        wave.reflectors[wave.count] = reflector;
+        wave.count += 1;
+    }
+    wave.reflect_columns(n, h, first);
+    let k = last - 1;
+    let (beta, tau, v2, _) = reflector([h[k * n + k - 1], h[last * n + k - 1], 0.0]);
+    (h[k * n + k - 1], h[last * n + k - 1]) = (beta, 0.0);
+    let t2 = tau * v2;
+    for j in k..=last {
+        let sum = h[k * n + j] + v2 * h[last * n + j];
+        h[k * n + j] -= sum * tau;
+        h[last * n + j] -= sum * t2;
+    }
+    for row in h[first * n..(last + 1) * n].chunks_exact_mut(n) {
+        let sum = row[k] + v2 * row[last];
+        row[k] -= sum * tau;
+        row[last] -= sum * t2;
+    }
+}
+
+/// `I - tau v v^T` on three components, `v = (1, v2, v3)`.
+#[derive(Clone, Copy, Default)]
+struct Reflector {
+    tau: f64,
+    v2: f64,
+    v3: f64,
+    t2: f64,
+    t3: f64,
+}
+
+impl Reflector {
+    #[inline(always)]
+    fn reflected(&self, [a, b, c]: [f64; 3]) -> [f64; 3] {
+        let sum = a + self.v2 * b + self.v3 * c;
+        [a - sum * self.tau, b - sum * self.t2, c - sum * self.t3]
+    }
+
+    /// Applies it to some columns of three rows.
+    #[inline(always)]
+    fn reflect_rows(&self, rows: &mut [f64], n: usize, columns: Range<usize>) {
+        let (first, rest) = rows.split_at_mut(n);
+        let (second, third) = rest.split_at_mut(n);
+        let (first, second) = (&mut first[columns.clone()], &mut second[columns.clone()]);
+        for ((a, b), c) in first.iter_mut().zip(second).zip(&mut third[columns]) {
+            [*a, *b, *c] = self.reflected([*a, *b, *c]);
+        }
+    }
+}
+
+/// Reflectors of neighbouring columns, from `start` on, which the rows above all wait for: they then take them together,
+/// several rows side by side.
+struct Wave {
+    start: usize,
+    count: usize,
+    reflectors: [Reflector; WAVE],
+}
+
+/// Reflectors in a wave, and rows side by side.
+const WAVE: usize = 16;
+const ROWS: usize = 8;
+
+impl Wave {
+    fn new(start: usize) -> Self {
+        Self { start, count: 0, reflectors: [Reflector::default(); WAVE] }
+    }
+
+    /// Applies them to the rows from `first` on above the wave.
+    #[inline(always)]
+    fn reflect_columns(&self, n: usize, h: &mut [f64], first: usize) {
+        let columns = self.start..self.start + self.count + 2;
+        let mut blocks = h[first * n..self.start * n].chunks_exact_mut(ROWS * n);
+        for rows in &mut blocks {
+            // Column by column, a vector of rows each.
+            let mut block = [[0.0; ROWS]; WAVE + 2];
+            for (r, row) in rows.chunks_exact(n).enumerate() {
+                for (column, x) in block.iter_mut().zip(&row[columns.clone()]) {
+                    column[r] = *x;
+                }
             }
-            for i in first..=last.min(k + 3) {
-                let row = &mut h[i * n + k..i * n + k + 3];
-                let sum = row[0] + v2 * row[1] + v3 * row[2];
-                row[0] -= sum * tau;
-                row[1] -= sum * t2;
-                row[2] -= sum * t3;
+            for (k, reflector) in self.reflectors[..self.count].iter().enumerate() {
+                for r in 0..ROWS {
+                    let [a, b, c] = reflector.reflected([block[k][r], block[k + 1][r], block[k + 2][r]]);
+                    (block[k][r], block[k + 1][r], block[k + 2][r]) = (a, b, c);
+                }
             }
-        } else {
-            for j in k..=last {
-                let sum = h[k * n + j] + v2 * h[(k + 1) * n + j];
-                h[k * n + j] -= sum * tau;
-                h[(k + 1) * n + j] -= sum * t2;
+            for (r, row) in rows.chunks_exact_mut(n).enumerate() {
+                for (column, x) in block.iter().zip(&mut row[columns.clone()]) {
+                    *x = column[r];
+                }
             }
-            for i in first..=last {
-                let row = &mut h[i * n + k..i * n + k + 2];
-                let sum = row[0] + v2 * row[1];
-                row[0] -= sum * tau;
-                row[1] -= sum * t2;
+        }
+        for row in blocks.into_remainder().chunks_exact_mut(n) {
+            let row = &mut row[columns.clone()];
+            for (k, reflector) in self.reflectors[..self.count].iter().enumerate() {
+                let [a, b, c] = reflector.reflected([row[k], row[k + 1], row[k + 2]]);
+                (row[k], row[k + 1], row[k + 2]) = (a, b, c);
             }
         }
     }
