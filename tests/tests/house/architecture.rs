@@ -25,9 +25,9 @@ const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 const CRATES: [(&str, &[&str], usize); 21] = [
     ("runtime/contract", &[], 53),
     ("runtime/statistics", &[], 141),
-    ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 145),
+    ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 147),
     ("runtime/results", &["eigentol-contract"], 19),
-    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 336),
+    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 337),
     (
         "runtime/tolerance",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-solve", "eigentol-statistics"],

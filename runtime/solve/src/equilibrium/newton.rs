@@ -25,8 +25,8 @@ where
 {
     let motions = point.motions();
     let mut base: Base<S> = S::base(point, start)?;
-    let weight = S::weights(point, &base.q)?;
-    let units = &units(point, &base.q)?;
+    // Where the start is all but solved, neither is needed.
+    let mut scales = None;
     let mut radius = FIRST_RADIUS;
     let mut watch = ResidualMonitor::new(&base.q);
     let escaped = horizon(&start[..motions]);
@@ -42,22 +42,26 @@ where
         if progress == Progress::Finished {
             return Ok(found(base, iterations));
         }
-        let damped = || base.space.lift(damped_step(&slopes, &stiffness, &weight));
-        let has_newton = newton.is_some();
-        let mut step = newton.unwrap_or_else(damped);
         if progress == Progress::LastStep
-            && let Some(lu) = &factors
-            && let Some(end) = last_step(point, &base.q, at, &step, |rest| displacement(lu, &base.space.slopes(rest)))
+            && let (Some(lu), Some(step)) = (&factors, &newton)
+            && let Some(end) = last_step(point, &base.q, at, step, |rest| displacement(lu, &base.space.slopes(rest)))
         {
             return Ok(UnjudgedResult::new(end, iterations + 1));
         }
+        let (weight, units) = match &mut scales {
+            Some(scales) => &*scales,
+            none => none.insert((S::weights(point, &base.q)?, units(point, &base.q)?)),
+        };
+        let damped = || base.space.lift(damped_step(&slopes, &stiffness, weight));
+        let has_newton = newton.is_some();
+        let mut step = newton.unwrap_or_else(damped);
         let mut share = limit(&mut step, units, radius);
-        let mut length = search(point, &base, &slopes, (&step, share), &weight, &mut trial);
+        let mut length = search(point, &base, &slopes, (&step, share), weight, &mut trial);
         if length.is_none() && has_newton {
             // Next to a singular stiffness Newton's step is mostly along the direction without stiffness.
             step = damped();
             share = limit(&mut step, units, radius);
-            length = search(point, &base, &slopes, (&step, share), &weight, &mut trial);
+            length = search(point, &base, &slopes, (&step, share), weight, &mut trial);
         }
         let Some(length) = length else {
             let relative = relative_residual(point, &base.q, at.0, at.1);

@@ -61,6 +61,45 @@ fn vibrations_of_designs_in_vectors_are_those_of_designs_one_by_one() {
     }
 }
 
+/// A point on springs and dampers that turn with the shaft, and on others that stand still.
+const INNER_DAMPING: &str = "mechanism Inner {
+    input w: rad/s;
+    design inner = 0.3 N*s/m;
+    design outer = 0.2 N*s/m;
+    body shaft: massless;
+    body disk: point(mass: 1 kg);
+    body middle: massless;
+    joint drive: revolute(z) from ground to shaft, driven at w;
+    joint x: prismatic(x) from shaft to middle;
+    joint y: prismatic(y) from middle to disk;
+    force stiff_x: spring(on: x, stiffness: 100 N/m);
+    force stiff_y: spring(on: y, stiffness: 100 N/m);
+    force inner_x: damper(on: x, damping: inner);
+    force inner_y: damper(on: y, damping: inner);
+    point seat: ground;
+    point at: disk;
+    force outside: bushing(from: seat, to: at, damping: [outer, outer, 0]);
+    force shaking: harmonic(on: x, force: 1 N, frequency: 3 rad/s);
+    output place = x;
+}";
+
+/// Beyond `10 (1 + outer / inner)` rad/s inner damping drives the shaft. Without modes the signs of the eigenvalues decide.
+#[test]
+fn points_without_modes_are_as_stable_as_those_with_modes() {
+    let machine = Interpreted::from_text(INNER_DAMPING).expect("a declaration");
+    let study = Study::new(machine);
+    let speed = study.find_input("w").expect("an input");
+    let speeds: Vec<f64> = (0..60).map(|k| 0.5 * f64::from(k)).collect();
+    let shake = Vibration::new::<Interpreted>(Output::new(0), Excitation::new(0));
+    let alone = study.bode(speed, &speeds).expect("a sweep");
+    let with_modes = study.samples(10).bode_bands(speed, &speeds, &[shake], 0).expect("a sweep with bands");
+    let limit = 10.0 * (1.0 + 0.2 / 0.3);
+    for (a, b) in alone.points.iter().zip(&with_modes.points) {
+        assert!(a.vibration.is_ok(), "{}: {:?}", a.value, a.vibration);
+        assert_eq!((a.stable, b.stable), (a.value < limit, a.value < limit), "{}", a.value);
+    }
+}
+
 /// More points than are shared out at a time, for any number of threads.
 #[test]
 fn a_sweep_has_the_same_bits_for_any_number_of_threads() {
