@@ -73,7 +73,7 @@ impl<'a> Along<'a> {
 
     /// The state at a value of the input, on the branch of the equilibrium `from`, with its poles.
     pub(super) fn state(&self, value: f64, from: &[f64]) -> Result<ResponsePoint, Error> {
-        let (equilibrium, modes) = self.equilibrium(value, from, true)?;
+        let (equilibrium, modes) = self.equilibrium(value, from, Needed::Modes)?;
         let lines = Lines::new(self.mechanism, &equilibrium, self.input.index())?;
         let each = self.wanted.iter();
         let lines = each.map(|wanted| lines.line(*wanted, &modes.modes));
@@ -105,7 +105,7 @@ impl<'a> Along<'a> {
         which: usize,
         changing: impl Fn(&Lines<'_>, Wanted) -> Result<T, Error>,
     ) -> Result<(ResponsePoint, T), Error> {
-        let (equilibrium, _) = self.equilibrium(value, from, false)?;
+        let (equilibrium, _) = self.equilibrium(value, from, Needed::State)?;
         let lines = Lines::new(self.mechanism, &equilibrium, self.input.index())?;
         let wanted = self.wanted[which];
         let line = lines.line(wanted, &[])?;
@@ -116,7 +116,7 @@ impl<'a> Along<'a> {
 
     /// The equilibrium of a state with its stability.
     pub(super) fn judged(&self, state: &ResponsePoint) -> Result<Equilibrium, Error> {
-        Ok(self.equilibrium(state.value, &state.equilibrium.coordinates, true)?.0)
+        Ok(self.equilibrium(state.value, &state.equilibrium.coordinates, Needed::Verdict)?.0)
     }
 
     /// The error for a vibration whose amplitude is infinite next to a state.
@@ -126,14 +126,13 @@ impl<'a> Along<'a> {
         resonance(&state.equilibrium, with, frequency)
     }
 
-    fn equilibrium(&self, value: f64, from: &[f64], poles: bool) -> Result<(Equilibrium, Modes), Error> {
+    fn equilibrium(&self, value: f64, from: &[f64], needed: Needed) -> Result<(Equilibrium, Modes), Error> {
         if self.watch.stopped() {
             return Err(Error::Stopped);
         }
         let mut inputs = Vector::from(self.inputs);
         inputs[self.input.index()] = value;
         let point = OperatingPoint::new(self.mechanism, &inputs, self.design)?;
-        let needed = if poles { Needed::Modes } else { Needed::State };
         let point = point.held_by(&self.following.held).only(needed);
         point.check_start(from)?;
         let mut at = Equilibrium::blank(&point.description, &inputs, self.design);
@@ -141,7 +140,7 @@ impl<'a> Along<'a> {
             .map_err(|failure| failure.explain(&point.description))?;
         at.regular()?;
         let mut modes = Modes::empty(Family::of(&at.description), &at.description);
-        if poles {
+        if needed == Needed::Modes {
             modes.solve_at(&at, judged)?;
         }
         self.watch.advance(1);

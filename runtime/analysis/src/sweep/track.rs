@@ -10,7 +10,7 @@ use super::points::SweepPoint;
 use super::search::Route;
 use crate::algebra::Vector;
 use crate::batched::{Block, KERNELS, Workspace, possible};
-use crate::equilibrium::{Held, Needed, OperatingPoint, Path, Policy, solve_from_prediction, solve_into};
+use crate::equilibrium::{Held, Needed, OperatingPoint, Path, Policy, confirmed, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels, Linear, RestParts};
 use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
 use crate::scalar::{Batch, Instructions, WIDTH};
@@ -322,6 +322,13 @@ impl<'a> Tracker<'a> {
         Ok(true)
     }
 
+    /// A value between the last point and this one, if there is any.
+    fn middle(&self, value: f64) -> Option<f64> {
+        let last = self.last.as_ref()?.value;
+        let middle = 0.5 * (last + value);
+        ((middle - last) * (value - middle) > 0.0).then_some(middle)
+    }
+
     fn step(&mut self, value: f64, halvings: usize) -> Result<Step, Error> {
         if self.stays(value)? {
             return Ok(Step::Arrived);
@@ -335,6 +342,16 @@ impl<'a> Tracker<'a> {
         let (state, point_modes) = point.solved_mut().map_err(|error| error.clone())?;
         let at = (value, self.policy);
         let judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
+        // Without modes to recognise, a state that is not where the path leads may be on another branch.
+        let astray = |predicted: &Vector| !confirmed(&state.coordinates, predicted, &self.from);
+        if self.needed < Needed::Modes
+            && halvings > 0
+            && predicted.as_ref().is_some_and(astray)
+            && let Some(middle) = self.middle(value)
+        {
+            self.spare = Some(point);
+            return Ok(Step::TooFar(middle));
+        }
         if self.needed == Needed::Modes
             && let Err(error) = point_modes.solve_at(state, judged)
         {
@@ -350,9 +367,10 @@ impl<'a> Tracker<'a> {
             let repeated = |r: usize| merged(point_modes, r) || near_another(point_modes, r, CLUSTER_GAP);
             let doubtful =
                 order.iter().flatten().any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
-            let middle = 0.5 * (last.value + value);
-            let between = (middle - last.value) * (value - middle) > 0.0;
-            if doubtful && halvings > 0 && between {
+            if doubtful
+                && halvings > 0
+                && let Some(middle) = self.middle(value)
+            {
                 self.spare = Some(point);
                 return Ok(Step::TooFar(middle));
             }

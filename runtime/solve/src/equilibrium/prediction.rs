@@ -68,7 +68,7 @@ impl Path {
 
 /// Whether the state found from a prediction is the predicted one: much closer to the prediction than to the last
 /// state, and within half a turn of it, since angles bring the same place back.
-pub(crate) fn confirmed(values: &[f64], predicted: &[f64], last: &[f64]) -> bool {
+pub fn confirmed(values: &[f64], predicted: &[f64], last: &[f64]) -> bool {
     let distance = |from: &[f64]| {
         let pairs = values.iter().zip(from);
         pairs.fold(0.0, |most, (a, b)| greater(most, (a - b).abs()))

@@ -117,6 +117,8 @@ fn counted(machines: u64) -> usize {
         let Some(found) = growing(&pencil) else { return false };
         let mut expected = Growing::default();
         for root in solve(&pencil).unwrap() {
+            // Who asks for the modes is told the same.
+            assert!(root.s.re.abs() > root.error, "{seed}: {root:?}");
             match root.s.im == 0.0 {
                 _ if root.s.re < 0.0 => {}
                 true => expected.real += 1,
