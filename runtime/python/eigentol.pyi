@@ -136,6 +136,20 @@ class _Result:
         pandas.DataFrame and polars.DataFrame take. Values are in declared units. Without a name it is the
         first, the answer.
         """
+    def plot(self, ax: Any | None = None) -> Any:
+        """Draws the figure of the result on matplotlib axes, new ones unless `ax` is given: one pair, or as many as
+        the figure has panels. Returns the axes.
+
+        Raises TypeError for a result that has no figure, ImportError without matplotlib.
+        """
+    def to_frame(self, name: str | None = None) -> Any:
+        """A table of the result as a pandas.DataFrame; without a name the first, the answer."""
+    def to_xarray(self, name: str | None = None) -> Any:
+        """A table of the result as an xarray.Dataset, without a name the first. Its axes are the input that varies, and
+        what tells the rows at one value apart: the mode, the output, the excitations. Units are attributes.
+
+        Raises ValueError for a table whose rows have no axes.
+        """
     def to_json(self) -> str:
         """The result as a JSON document, with every digit: what `eigentol --json` prints. Its schema is
         `eigentol.json_schema()`; under "result" it holds every number of the result, SI.
@@ -427,6 +441,12 @@ class Mechanism:
     @property
     def text(self) -> str:
         """The declaration."""
+    def in_units(self, units: Mapping[str, str] | None = None, frequency: str | None = None) -> Self:
+        """The same mechanism, whose answers state inputs, design variables, coordinates and outputs in these units, by name, and
+        frequencies in the unit `frequency`: `mechanism.in_units({"orbit": "um"}, frequency="Hz")`. Arrays stay in SI.
+
+        Raises UnknownName for a name that nothing has, InvalidValue for a text that is no unit of it.
+        """
     def motion(self, inputs: Numbers | None = None, design: Numbers | None = None) -> Motion:
         """The nonlinear motion at these inputs and this design, for `scipy.integrate.solve_ivp`.
 

@@ -22,6 +22,8 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     free_directions: 0,
     held: Shared::Static(&[]),
     length: 1.0,
+    frequency: eigentol::Unit::si("rad/s"),
+    resolved_modes: None,
     damping: DampingKind::Zero,
     kernels: Shared::Static(&[]),
 });

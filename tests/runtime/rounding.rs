@@ -128,6 +128,8 @@ impl Model for Chain {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -407,6 +409,8 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     }));

@@ -18,6 +18,9 @@ use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
 
 pub use answer::campbell_table;
 
+/// How far above the lines modes are shown.
+const MARGIN: f64 = 1.2;
+
 /// One mode at one value of the input.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -79,6 +82,9 @@ pub struct Campbell {
     pub flutter_onsets: Vec<EventTolerance>,
     /// The range that was searched for events, and how finely; `None` without a range.
     pub searched: Option<Searched>,
+    /// How many modes texts and figures show; `None` for those that the lines reach and the coordinates of beams resolve.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub modes: Option<usize>,
     /// Number of standard deviations that a tolerance represents.
     pub sigma_level: f64,
     /// The family of the modes shown.
@@ -95,6 +101,51 @@ impl Campbell {
     pub fn with_all_crossings(mut self) -> Self {
         self.crossings.append(&mut self.not_excited);
         self
+    }
+
+    /// The diagram whose texts and figures show this many modes.
+    #[must_use]
+    pub fn with_modes(mut self, count: usize) -> Self {
+        self.modes = Some(count);
+        self
+    }
+
+    /// The diagram with the modes that texts and figures show: of those that the coordinates of beams resolve, all that a
+    /// line reaches somewhere, one at least; or as many as are asked for.
+    #[must_use]
+    pub fn shown(&self) -> Self {
+        let mut shown = self.clone();
+        let most = self.modes.or(self.description.resolved_modes).unwrap_or(usize::MAX);
+        let reach = self.reach().filter(|_| self.modes.is_none()).unwrap_or(f64::INFINITY);
+        let lowest = |label: usize| {
+            let all = self.branch(label).filter_map(|(_, mode)| mode.behaviour.frequency());
+            all.fold(f64::INFINITY, f64::min)
+        };
+        let labels = self.labels().into_iter().filter(|&label| label < most.max(1));
+        let labels: Vec<usize> = labels.filter(|&label| label == 0 || lowest(label) <= reach).collect();
+        for modes in shown.points.iter_mut().filter_map(|point| point.modes.as_mut().ok()) {
+            modes.retain(|mode| labels.contains(&mode.label));
+        }
+        shown
+    }
+
+    /// Somewhat above all lines, rad/s; `None` without lines.
+    fn reach(&self) -> Option<f64> {
+        let ends = [self.points.first()?.value, self.points.last()?.value];
+        let heights = self.orders.iter().flat_map(|line| ends.map(|end| line.ratio * end + line.offset));
+        heights.reduce(f64::max).map(|height| MARGIN * height)
+    }
+
+    /// Says that modes are left out.
+    #[must_use]
+    pub fn modes_left_out(&self, shown: &Self) -> Option<String> {
+        let (all, shown) = (self.labels().len(), shown.labels().len());
+        let more = all.checked_sub(shown).filter(|more| *more > 0)?;
+        let verb = if more == 1 { "mode is" } else { "modes are" };
+        Some(format!(
+            "{more} {verb} left out, above what the lines reach or the coordinates of beams resolve: `campbell --modes {all}` \
+             shows all"
+        ))
     }
 
     /// Says that crossings are left out of the list.
@@ -223,6 +274,7 @@ pub fn campbell_each(
         not_excited: Vec::new(),
         flutter_onsets: Vec::new(),
         searched: None,
+        modes: None,
         sigma_level: tolerances.sigma_level(),
         family: tracker.family(),
         inputs: u.into(),

@@ -87,7 +87,7 @@ impl Response {
 
     /// Its name in texts and tables, for example `frequency 1` or `critical speed`.
     ///
-    /// An output has its declared name, a crossing one such as `speed where frequency 2 is 1 times speed`. `of`
+    /// An output has its declared name, a crossing one such as `speed where frequency 2 crosses 1x speed`. `of`
     /// describes the mechanism.
     #[must_use]
     pub fn name(&self, of: &Description) -> String {

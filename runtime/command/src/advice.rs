@@ -19,9 +19,9 @@ static UNBALANCED: OnceLock<Option<String>> = OnceLock::new();
 
 /// Remembers the machine.
 pub(crate) fn remember(machine: &Interpreted, compilation: &Compilation) {
-    let _ = GOOD.set(machine.good_modes());
     let _ = UNBALANCED.set(compilation.functions.free.unbalanced.clone());
-    let d = eigentol::kernels::Kernels::description(machine);
+    let d = machine.description();
+    let _ = GOOD.set(d.resolved_modes);
     let unknowns = || d.coordinates.iter();
     let stretches = |beam: &str| {
         unknowns().any(|item| {

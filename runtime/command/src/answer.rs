@@ -17,6 +17,8 @@ use crate::failure::Failure;
 /// The results of a question; the one that answers it comes first.
 pub(crate) struct Answer {
     form: Form,
+    /// Characters on a line of text.
+    page: Option<usize>,
     results: Vec<Written>,
     /// The last mode that a result rests on, if the machine has beams.
     last_mode: usize,
@@ -48,8 +50,9 @@ struct Written {
 }
 
 impl Answer {
-    pub(crate) fn new(form: Form) -> Self {
-        Self { form, results: Vec::new(), last_mode: 0 }
+    /// An answer in this form, texts with so many characters on a line if that is known.
+    pub(crate) fn new(form: Form, page: Option<usize>) -> Self {
+        Self { form, page, results: Vec::new(), last_mode: 0 }
     }
 
     /// Which of the results of a question [`Self::written`] will show: only those need to be computed. `kinds` are all
@@ -66,15 +69,28 @@ impl Answer {
     pub(crate) fn add<R: eigentol_tables::Answer + Serialize>(&mut self, result: &R) -> Result<(), Failure> {
         let kind = R::KIND;
         let (text, tables) = match self.form {
-            Form::Text => (result.findings().to_string(), Vec::new()),
+            Form::Text => {
+                let findings = result.findings();
+                let text = match self.page {
+                    Some(page) => format!("{findings:page$}"),
+                    None => findings.to_string(),
+                };
+                (text, Vec::new())
+            }
             Form::Csv | Form::Parquet => (String::new(), result.tables()),
             Form::Json => (json::to_string(result)?, Vec::new()),
         };
-        if advice::has_beams() && kind != "convergence" {
+        let of_few = self.form == Form::Text && kind == "Campbell diagram";
+        if advice::has_beams() && kind != "convergence" && !of_few {
             self.last_mode = self.last_mode.max(advice::last_mode(&result.tables()));
         }
         self.results.push(Written { kind, text, tables, aside: false });
         Ok(())
+    }
+
+    /// Says that the answer rests on modes up to this one.
+    pub(crate) fn rests_on(&mut self, mode: usize) {
+        self.last_mode = self.last_mode.max(mode);
     }
 
     /// What beams are too coarse for.

@@ -9,7 +9,7 @@ use eigentol::Error;
 
 use crate::color::Color;
 use crate::commands::{
-    allocate, branches, campbell, check, completions, converge, equilibria, expand, import, merge, modes, new,
+    allocate, branches, campbell, check, completions, converge, equilibria, expand, grade, import, merge, modes, new,
     probability, report, response, sample, schema, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
@@ -89,6 +89,7 @@ enum Command {
     Tolerance(tolerance::Tolerance),
     Probability(probability::Probability),
     Response(response::Response),
+    Grade(grade::Grade),
     Campbell(campbell::Campbell),
     Sweep(sweep::Follow),
     Branches(branches::Branches),
@@ -101,6 +102,8 @@ enum Command {
     Import(import::Import),
     Schema(schema::Schema),
     Completions(completions::Completions),
+    #[cfg(feature = "man")]
+    Man(crate::commands::man::Man),
 }
 
 impl Arguments {
@@ -143,6 +146,7 @@ impl Command {
             Self::Tolerance(tolerance) => tolerance.run(),
             Self::Probability(probability) => probability.run(),
             Self::Response(response) => response.run(),
+            Self::Grade(grade) => grade.run(),
             Self::Campbell(campbell) => campbell.run(),
             Self::Sweep(sweep) => sweep.run(),
             Self::Branches(branches) => branches.run(),
@@ -155,6 +159,8 @@ impl Command {
             Self::Import(import) => import.run(),
             Self::Schema(schema) => schema.run(),
             Self::Completions(completions) => completions.run(Arguments::command()),
+            #[cfg(feature = "man")]
+            Self::Man(man) => man.run(Arguments::command()),
         }
     }
 }

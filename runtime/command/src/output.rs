@@ -1,5 +1,6 @@
 //! The output format of an answer.
 
+use std::env;
 use std::io::{self, IsTerminal as _};
 use std::path::Path;
 
@@ -34,6 +35,8 @@ pub(crate) struct Output {
     place: Destination,
 }
 
+/// Fewest characters on a line.
+const NARROWEST: usize = 40;
 /// Endings of files that hold a text.
 const TEXTS: [&str; 5] = ["txt", "text", "md", "log", "out"];
 
@@ -98,7 +101,17 @@ impl Output {
 
     /// An empty answer in this format.
     pub(crate) fn answer(&self) -> Answer {
-        Answer::new(self.form())
+        Answer::new(self.form(), self.page())
+    }
+
+    /// Characters on a line of text: as many as the terminal has, or as `COLUMNS` says.
+    fn page(&self) -> Option<usize> {
+        if self.place.path().is_some() {
+            return None;
+        }
+        let terminal = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
+        let columns = || env::var("COLUMNS").ok()?.parse().ok();
+        Some(terminal.or_else(columns)?.max(NARROWEST))
     }
 
     /// Which of the results that a question can have will be shown ([`Answer::shown`]).

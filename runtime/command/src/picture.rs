@@ -9,7 +9,6 @@ use crate::destination::Target;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::point::Question;
-use crate::study_file::FrequencyUnit;
 
 /// Where a figure goes.
 #[derive(Args, Debug)]
@@ -27,14 +26,11 @@ pub(crate) struct Wording {
     /// Names of the modes in figures, in order: `bounce,pitch`; modes without one keep their number
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     mode_names: Vec<String>,
-    /// Unit of frequencies in figures [default: Hz along an input in rpm or Hz, otherwise rad/s]
-    #[arg(long, value_name = "UNIT", value_enum)]
-    frequency_unit: Option<FrequencyUnit>,
 }
 
 impl Wording {
     fn is_given(&self) -> bool {
-        !self.mode_names.is_empty() || self.frequency_unit.is_some()
+        !self.mode_names.is_empty()
     }
 
     fn names<'a>(&'a self, question: &'a Question) -> &'a [String] {
@@ -59,15 +55,9 @@ impl Wording {
         Err(Failure::usage(message, format!("leave out `{unknown}`")))
     }
 
-    /// Mode names and units from the study file, overridden by the command line.
+    /// Mode names from the study file, overridden by the command line.
     pub(crate) fn style(&self, question: &Question) -> Style {
-        let names = self.names(question);
-        let style = Style::default().name_modes(names.iter().map(|name| name.trim()));
-        match self.frequency_unit.or(question.file.frequency_unit) {
-            None => style,
-            Some(FrequencyUnit::Hertz) => style.hertz(),
-            Some(FrequencyUnit::RadiansPerSecond) => style.radians_per_second(),
-        }
+        Style::default().name_modes(self.names(question).iter().map(|name| name.trim()))
     }
 }
 
@@ -81,7 +71,7 @@ impl Picture {
     /// files.
     pub(crate) fn check(&self, output: &Output) -> Result<(), Failure> {
         if self.figure.is_none() && self.wording.is_given() {
-            let message = "names of modes and a unit of frequencies only apply to a figure";
+            let message = "names of modes only apply to a figure";
             return Err(Failure::usage(message, "ask for one: `--figure modes.svg`"));
         }
         if let Some(path) = &self.figure {

@@ -8,7 +8,7 @@ use eigentol::equilibrium::{Equilibria, Search};
 use eigentol::judge;
 use eigentol::{Coordinate, CoordinateInfo, DesignVariable, Input, Matrix, Parameter, Role, Study, Unit};
 use eigentol_compiler::Compilation;
-use eigentol_interpreter::{Interpreted, design_tolerance, tolerance, value, with_unit_of};
+use eigentol_interpreter::{Interpreted, UnitError, design_tolerance, tolerance, value, with_unit_of};
 
 use crate::advice;
 use crate::declaration::Declaration;
@@ -53,6 +53,13 @@ pub(crate) struct Point {
     /// Where a dependent coordinate starts, free to move while a mechanism with loops is assembled
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     guess: Vec<(String, String)>,
+    /// Unit in which answers state an input, design variable, coordinate or output: `y=um`
+    #[arg(long, value_name = "NAME=UNIT", value_parser = pair)]
+    unit: Vec<(String, String)>,
+    /// Unit of frequencies in texts and figures, `Hz`, `rad/s` or `rpm` [default: Hz where an input is in rpm or Hz,
+    /// otherwise rad/s]
+    #[arg(long, value_name = "UNIT")]
+    frequency_unit: Option<String>,
     /// How many standard deviations make a half-width [default: 3]
     #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     sigma_level: Option<f64>,
@@ -151,6 +158,33 @@ impl Question {
 }
 
 impl Point {
+    /// The mechanism with the units in which answers are to state its quantities.
+    fn stated(&self, machine: Interpreted, file: &StudyFile) -> Result<Interpreted, Failure> {
+        let options = self.unit.iter().map(|(name, unit)| (name, unit));
+        let mut stated = machine;
+        for (name, unit) in file.unit.iter().chain(options) {
+            let label = format!("unit {name}={unit}");
+            stated = match stated.clone().in_unit(name, unit) {
+                Ok(stated) => stated,
+                Err(UnitError::Mistakes(mistakes)) => return Err(Failure::value(label, &mistakes)),
+                Err(_) => {
+                    let d = stated.description();
+                    let named = d.inputs.iter().map(|info| &*info.name).chain(d.design.iter().map(|info| &*info.name));
+                    let named = named.chain(d.coordinates.iter().map(|info| &*info.name));
+                    let named = named.chain(d.outputs.iter().map(|info| &*info.name));
+                    return Err(unknown(&d.name, "input, design variable, coordinate or output", name, named));
+                }
+            };
+        }
+        match self.frequency_unit.as_ref().or(file.frequency_unit.as_ref()) {
+            None => Ok(stated),
+            Some(unit) => {
+                let refused = |mistakes| Failure::value(format!("frequency_unit {unit}"), &mistakes);
+                stated.frequencies_in(unit).map_err(refused)
+            }
+        }
+    }
+
     /// Reads the files and applies all settings.
     pub(crate) fn question(&self) -> Result<Question, Failure> {
         let file = match &self.study {
@@ -163,7 +197,7 @@ impl Point {
         };
         let declaration = Declaration::read(path)?;
         let compilation = declaration.compiled()?;
-        let machine = Interpreted::new(&compilation);
+        let machine = self.stated(Interpreted::new(&compilation), &file)?;
         advice::remember(&machine, &compilation);
         let mut study = Study::new(machine);
         if let Some(level) = self.sigma_level.or(file.sigma_level) {

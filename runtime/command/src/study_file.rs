@@ -5,7 +5,6 @@ use std::fmt::{self, Display};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
 use serde::{Deserialize, Deserializer};
 
 use crate::failure::Failure;
@@ -49,7 +48,11 @@ pub(crate) struct StudyFile {
     /// Names, as for `--mode-names`.
     #[serde(default)]
     pub(crate) mode_names: Vec<String>,
-    pub(crate) frequency_unit: Option<FrequencyUnit>,
+    /// The unit of frequencies in texts and figures.
+    pub(crate) frequency_unit: Option<String>,
+    /// Units in which answers state inputs, design variables, coordinates and outputs.
+    #[serde(default)]
+    pub(crate) unit: BTreeMap<String, String>,
     pub(crate) samples: Option<usize>,
     pub(crate) seed: Option<u64>,
     pub(crate) stream: Option<u64>,
@@ -109,17 +112,6 @@ impl Display for Written {
             Self::Number(number) => number.fmt(f),
         }
     }
-}
-
-/// The unit of frequencies in figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
-pub(crate) enum FrequencyUnit {
-    #[value(name = "Hz", alias = "hz")]
-    #[serde(rename = "Hz")]
-    Hertz,
-    #[value(name = "rad/s")]
-    #[serde(rename = "rad/s")]
-    RadiansPerSecond,
 }
 
 /// A half-width or a nominal value that may be chosen between limits.

@@ -32,7 +32,7 @@ pub(crate) struct Points {
 /// Which multiples of the input.
 #[derive(Args, Debug)]
 pub(crate) struct Orders {
-    /// Engine orders whose crossings to locate: `1,2`; may be given several times [default: none]
+    /// Engine orders whose crossings to locate: `1,2`; may be given several times
     #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',', allow_negative_numbers = true)]
     orders: Vec<f64>,
 }
@@ -121,6 +121,17 @@ const MOST_POINTS: usize = 100_000;
 const MOST_ROWS: usize = 100_000_000;
 
 impl Orders {
+    /// [`Self::along`]; the first order where none is given and the input is an angular speed.
+    pub(crate) fn or_first(&self, range: Option<&Range>, question: &Question) -> Result<Vec<f64>, Failure> {
+        let first = Self { orders: vec![1.0] };
+        match range {
+            Some(_) if self.orders.is_empty() && question.file.orders.is_none() => {
+                Ok(first.along(range, question).unwrap_or_default())
+            }
+            _ => self.along(range, question),
+        }
+    }
+
     /// The orders, without repetitions, from the command line or else the study file. Where the range has negative
     /// speeds, an order is a multiple of their amount: it has the line of the negative order too.
     pub(crate) fn along(&self, range: Option<&Range>, question: &Question) -> Result<Vec<f64>, Failure> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use eigentol::modes::Character;
-use eigentol::{InputInfo, Kernels, Study};
+use eigentol::{Description, Kernels, Study};
 
 use crate::caption::{design, number};
 
@@ -23,7 +23,8 @@ pub struct Style {
     frequency: Option<Frequency>,
     lowest: Option<f64>,
     highest: Option<f64>,
-    true_width: bool,
+    widened: bool,
+    ratio: Option<f64>,
     marks: Vec<(f64, String)>,
     notes: Vec<String>,
 }
@@ -74,7 +75,7 @@ impl Style {
         self
     }
 
-    /// Shows frequencies in Hz. By default they are in Hz along an input in rpm or Hz, and in rad/s otherwise.
+    /// Shows frequencies in Hz. By default they are in the unit of the mechanism's answers (`Description::frequency`).
     #[must_use]
     pub fn hertz(mut self) -> Self {
         self.frequency = Some(Frequency::Hertz);
@@ -102,10 +103,18 @@ impl Style {
         self
     }
 
-    /// Draws bands at true width, even if they are too narrow to see.
+    /// Draws bands that are too narrow to see a round number of times as wide, and says so.
     #[must_use]
-    pub fn true_width(mut self) -> Self {
-        self.true_width = true;
+    pub fn widened(mut self) -> Self {
+        self.widened = true;
+        self
+    }
+
+    /// Draws amplitudes on a logarithmic axis where they differ by more than this factor, 100 unless it is set: 1 for always,
+    /// infinity for never.
+    #[must_use]
+    pub fn logarithmic_beyond(mut self, factor: f64) -> Self {
+        self.ratio = Some(factor).filter(|factor| *factor >= 1.0);
         self
     }
 
@@ -144,17 +153,13 @@ impl Style {
         }
     }
 
-    /// The value of one rad/s in the unit of frequencies, along an input or at a point, and the symbol of that unit.
+    /// The value of one rad/s in the unit of frequencies, and the symbol of that unit.
     #[must_use]
-    pub fn frequency(&self, along: Option<&InputInfo>) -> (f64, &'static str) {
-        let turning = |info: &InputInfo| matches!(&*info.unit.symbol, "rpm" | "Hz");
-        let hertz = match self.frequency {
-            Some(frequency) => frequency == Frequency::Hertz,
-            None => along.is_some_and(turning),
-        };
-        match hertz {
-            true => (1.0 / TAU, "Hz"),
-            false => (1.0, "rad/s"),
+    pub fn frequency(&self, of: &Description) -> (f64, String) {
+        match self.frequency {
+            Some(Frequency::Hertz) => (1.0 / TAU, "Hz".to_owned()),
+            Some(Frequency::RadiansPerSecond) => (1.0, "rad/s".to_owned()),
+            None => (1.0 / of.frequency.scale, of.frequency.symbol.to_string()),
         }
     }
 
@@ -162,8 +167,12 @@ impl Style {
         self.lowest.unwrap_or(0.0)
     }
 
-    pub(crate) fn has_true_width(&self) -> bool {
-        self.true_width
+    pub(crate) fn is_widened(&self) -> bool {
+        self.widened
+    }
+
+    pub(crate) fn ratio(&self) -> Option<f64> {
+        self.ratio
     }
 
     pub(crate) fn top(&self) -> Option<f64> {

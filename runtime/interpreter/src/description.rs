@@ -6,7 +6,6 @@ use eigentol::{
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::mechanics;
-use eigentol_compiler::model::beam::Beam;
 use eigentol_compiler::model::mechanism;
 
 fn text(text: impl Into<String>) -> Text {
@@ -36,22 +35,6 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
             mechanism::Law::OneOf(values) => Law::OneOf(values.clone().into()),
         },
     }
-}
-
-/// How many of its first modes are good by the rule for beams, if it has any: those of the beams, and one for each other
-/// coordinate that no constraint takes away.
-pub(crate) fn good_modes(of: &Compilation) -> Option<usize> {
-    let beams = &of.mechanism.beams;
-    let moves = |unknown: &&mechanics::Unknown| {
-        matches!(unknown.role, mechanics::Role::Position(_) | mechanics::Role::Speed(_))
-    };
-    let unknowns = &of.functions.unknowns;
-    let moving = unknowns.iter().filter(moves).count();
-    let reactions = unknowns.len() - moving;
-    let of_beams: usize = beams.iter().map(Beam::size).sum();
-    let good: usize = beams.iter().map(Beam::good_modes).sum();
-    let others = moving.saturating_sub(of_beams + reactions);
-    (!beams.is_empty()).then_some(others + good)
 }
 
 /// Names, units, nominal values and properties of a compiled declaration, for those who need no kernels.
@@ -125,6 +108,8 @@ pub fn description(compilation: &Compilation) -> Description {
         free_directions: functions.free.count,
         held: functions.held.clone().into(),
         length: mechanism.length,
+        frequency: unit(&mechanism.frequency_unit()),
+        resolved_modes: mechanics::resolved_modes(mechanism, functions),
         damping: match functions.properties.damping {
             mechanics::Damping::Zero => DampingKind::Zero,
             mechanics::Damping::Gyroscopic => DampingKind::Gyroscopic,

@@ -157,11 +157,11 @@ fn run_batch(tape: &Option<Tape>, instructions: Instructions, arguments: &[&[Bat
 
 impl Kernels for Interpreted {
     fn description(&self) -> Shared<Description> {
-        self.shared.description.clone()
+        self.description.clone()
     }
 
     fn sizes(&self) -> Sizes {
-        let description = &self.shared.description;
+        let description = &self.description;
         Sizes {
             coordinates: description.coordinates.len(),
             inputs: description.inputs.len(),

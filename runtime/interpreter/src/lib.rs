@@ -9,12 +9,13 @@ mod picture;
 mod registers;
 mod schedule;
 mod tape;
+mod units;
 mod wanted;
 
 pub use description::description;
 pub use given::{design_tolerance, tolerance, tolerate, value};
 pub use mechanism::Interpreted;
-pub use mistakes::{Mistake, Mistakes, ReadError, RefineError};
+pub use mistakes::{Mistake, Mistakes, ReadError, RefineError, UnitError};
 pub use wanted::{
     FORMS, WantedError, excitation, multiple, output, range, requirement, response, vibration, with_unit_of,
 };

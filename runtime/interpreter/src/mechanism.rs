@@ -11,7 +11,7 @@ use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{Compilation, compile_refined, compile_text, tokens};
 
-use crate::description::{description, good_modes};
+use crate::description::description;
 use crate::mistakes::{Mistakes, ReadError, RefineError};
 use crate::picture::picture;
 use crate::tape::Tape;
@@ -24,13 +24,11 @@ use crate::tape::Tape;
 #[derive(Clone)]
 pub struct Interpreted {
     pub(crate) shared: Arc<Tables>,
+    pub(crate) description: Shared<Description>,
 }
 
 pub(crate) struct Tables {
-    pub(crate) description: Shared<Description>,
     pub(crate) picture: Shared<PictureInfo>,
-    /// How many of its first modes are good by the rule; `None` without beams.
-    good_modes: Option<usize>,
     pub(crate) tapes: Tapes,
     /// Quantity and requirement of each value of the violation kernel.
     pub(crate) requirements: Vec<(Text, Text)>,
@@ -128,39 +126,29 @@ impl Interpreted {
         });
         let poses = functions.poses.iter();
         let tables = Tables {
-            description: Shared::Counted(Arc::new(description(compilation))),
             picture: Shared::Counted(Arc::new(picture(&functions.picture))),
-            good_modes: good_modes(compilation),
             tapes: Tapes::new(&compilation.program),
             requirements: requirements.collect(),
             poses: poses.map(|pose| (Text::from(pose.joint.clone()), pose.least)).collect(),
         };
-        Self { shared: Arc::new(tables) }
-    }
-
-    /// How many of the first modes the coordinates of its beams are enough for, by the rule that `m` modes of a plane of
-    /// bending take `1.5 m + 2`; `None` without beams.
-    ///
-    /// [`Study::convergence`](eigentol::Study::convergence) finds out.
-    pub fn good_modes(&self) -> Option<usize> {
-        self.shared.good_modes
+        Self { shared: Arc::new(tables), description: Shared::Counted(Arc::new(description(compilation))) }
     }
 
     /// Names, units, nominal values and properties proved by the compiler.
     pub fn description(&self) -> &Description {
-        &self.shared.description
+        &self.description
     }
 }
 
 impl fmt::Debug for Interpreted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Interpreted").field("description", &self.shared.description).finish_non_exhaustive()
+        f.debug_struct("Interpreted").field("description", &self.description).finish_non_exhaustive()
     }
 }
 
 impl PartialEq for Interpreted {
-    /// Whether both share the same data.
+    /// Whether both share the same data and state it in the same units.
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.shared, &other.shared)
+        Arc::ptr_eq(&self.shared, &other.shared) && self.description == other.description
     }
 }

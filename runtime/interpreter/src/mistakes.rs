@@ -21,6 +21,21 @@ pub enum RefineError {
     Mistakes(#[from] Mistakes),
 }
 
+/// The reason why something is not stated in a unit.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum UnitError {
+    /// Nothing has this name.
+    #[error("no input, design variable, coordinate or output is called `{name}`")]
+    Unknown {
+        /// The name.
+        name: String,
+    },
+    /// The text is no unit of it.
+    #[error("{0}")]
+    Mistakes(#[from] Mistakes),
+}
+
 /// The reason why a file gave no mechanism.
 #[derive(Debug, Error)]
 #[non_exhaustive]

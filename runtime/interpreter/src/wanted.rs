@@ -1,5 +1,7 @@
 //! Responses and requirements as text, in the shell, in study files and in Python: `frequency 1 >= 20 Hz`.
 
+use std::f64::consts::SQRT_2;
+
 use eigentol::forced::Measure;
 use eigentol::peaks::PeakQuantity;
 use eigentol::requirement::Requirement;
@@ -14,8 +16,8 @@ use crate::mistakes::Mistakes;
 
 /// The forms of a requirement, of which a response is the part before the limit.
 pub const FORMS: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `growth 1 <= 0`, `angle <= 5 deg`, \
-                         `vibration shake under u <= 0.1 mm`, `vibration shake as velocity <= 3 mm/s`, \
-                         `vibration shake along speed=0..6000rpm <= 0.1 mm`, `peak shake along speed=0..6000rpm away from speed by 15%`, \
+                         `vibration shake under u <= 0.1 mm`, `velocity shake <= 4.5 mm/s rms`, \
+                         `vibration shake along speed=0..6000rpm <= 100 um p-p`, `peak shake along speed=0..6000rpm away from speed by 15%`, \
                          `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, \
                          `resonance 1 speed=0..6000rpm order 2 >= 4000 rpm`, `flutter 1 speed=0..6000rpm >= 4000 rpm`, or `stable`";
 
@@ -85,7 +87,7 @@ pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement
     };
     let response = response(study, what)?;
     let unit = response.unit(study.description());
-    let end = |text: &str| read(text, &unit, what.trim(), word);
+    let end = |text: &str| limit_of(&response, text, &unit, what.trim(), word);
     Ok(match word {
         ">=" | ">" => Requirement::Within { response, low: end(limit)?, high: f64::INFINITY },
         "<=" | "<" => Requirement::Within { response, low: f64::NEG_INFINITY, high: end(limit)? },
@@ -154,13 +156,18 @@ pub fn response(study: &Study<Interpreted>, text: &str) -> Result<Response> {
             };
             crossing(of, Condition::Line(Line::from(multiple(order, &range, study)?)), range)
         }
-        [what @ ("vibration" | "peak"), ..] => {
-            let (vibration, along) = clauses(study, text.trim(), &words[1..])?;
+        [what @ ("vibration" | "peak" | "velocity" | "acceleration"), _, ..] => {
+            let (mut vibration, along) = clauses(study, text.trim(), &words[1..])?;
+            match what {
+                "velocity" => vibration.measure = Measure::Velocity,
+                "acceleration" => vibration.measure = Measure::Acceleration,
+                _ => {}
+            }
             match (what, along) {
-                ("vibration", None) => Ok(Response::Vibration(vibration)),
-                ("vibration", Some(range)) => Ok(Response::Peak { vibration, range, quantity: PeakQuantity::Height }),
-                (_, Some(range)) => Ok(Response::Peak { vibration, range, quantity: PeakQuantity::Place }),
-                (_, None) => no(text.trim(), "a response"),
+                ("peak", Some(range)) => Ok(Response::Peak { vibration, range, quantity: PeakQuantity::Place }),
+                ("peak", None) => no(text.trim(), "a response"),
+                (_, None) => Ok(Response::Vibration(vibration)),
+                (_, Some(range)) => Ok(Response::Peak { vibration, range, quantity: PeakQuantity::Height }),
             }
         }
         ["output", name] | [name] => Ok(Response::Output(output(study, name)?)),
@@ -302,6 +309,21 @@ pub fn multiple(order: f64, range: &Range, study: &Study<Interpreted>) -> Result
         _ => return Ok(order),
     };
     wrong(format!("order {order} crosses no mode"), help)
+}
+
+/// Words behind a limit of a vibration, and the amplitude from 0 to peak of what they count as one.
+const MEASURED: [(&str, f64); 5] = [("rms", SQRT_2), ("p-p", 0.5), ("pp", 0.5), ("peak to peak", 0.5), ("0-p", 1.0)];
+
+/// A limit as it is written, that of a vibration as the standards state it: `4.5 mm/s rms`, `60 um p-p`.
+fn limit_of(response: &Response, text: &str, unit: &Unit, what: &str, word: &str) -> Result<f64> {
+    let is_amplitude =
+        matches!(response, Response::Vibration(_) | Response::Peak { quantity: PeakQuantity::Height, .. });
+    let measured = MEASURED.iter().filter(|_| is_amplitude).find_map(|&(word, amplitude)| {
+        let text = text.trim().strip_suffix(word)?;
+        text.ends_with(char::is_whitespace).then_some((text, amplitude))
+    });
+    let (text, amplitude) = measured.unwrap_or((text, 1.0));
+    Ok(amplitude * read(text, unit, what, word)?)
 }
 
 fn read(text: &str, unit: &Unit, what: &str, word: &str) -> Result<f64> {

@@ -10,7 +10,7 @@ pub(crate) type Value<'py> = Bound<'py, PyAny>;
 /// Numbers by name or in the order of arrays, SI or texts with units. In Python `ArrayLike | Mapping[str, Value]`.
 pub(crate) type Numbers<'py> = Bound<'py, PyAny>;
 
-/// Numbers, SI. In Python `ArrayLike`.
+/// Numbers, SI, or a range as in the command, "0..6000 rpm", for 51 values. In Python `ArrayLike`.
 pub(crate) type ArrayLike<'py> = Bound<'py, PyAny>;
 
 /// A whole number that is not negative. In Python `int`.
@@ -42,3 +42,6 @@ pub(crate) type ResponseText<'py> = Bound<'py, PyAny>;
 
 /// A requirement, "frequency 1 >= 20 Hz". In Python `str`.
 pub(crate) type RequirementText<'py> = Bound<'py, PyAny>;
+
+/// Something of another library. In Python `Any`.
+pub(crate) type Anything<'py> = Bound<'py, PyAny>;

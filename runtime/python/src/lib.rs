@@ -4,6 +4,7 @@ mod allocation;
 mod arrays;
 mod clusters;
 mod errors;
+mod figures;
 mod hints;
 mod kernels;
 mod mechanism;

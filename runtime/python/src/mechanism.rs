@@ -1,16 +1,17 @@
 //! A mechanism read from a text.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use eigentol::Role;
-use eigentol_interpreter::Interpreted;
+use eigentol_interpreter::{Interpreted, UnitError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyType};
 
-use crate::errors;
+use crate::errors::{self, Kind, new};
 use crate::names;
 use crate::results::attributes;
-use crate::values::List;
+use crate::values::{List, refused};
 
 /// A mechanism: names, units and kernels.
 ///
@@ -19,6 +20,8 @@ use crate::values::List;
 pub(crate) struct Mechanism {
     pub(crate) inner: Interpreted,
     text: String,
+    /// Units in which answers are stated, by name, and the unit of frequencies.
+    stated: (BTreeMap<String, String>, Option<String>),
 }
 
 impl Mechanism {
@@ -31,11 +34,14 @@ impl Mechanism {
     /// Reads the mechanism declared in a text.
     pub(crate) fn read(py: Python<'_>, text: String) -> PyResult<Self> {
         match py.detach(|| Interpreted::from_text(&text)) {
-            Ok(inner) => Ok(Self { inner, text }),
+            Ok(inner) => Ok(Self { inner, text, stated: Default::default() }),
             Err(mistakes) => Err(errors::declaration(py, &mistakes, None)),
         }
     }
 }
+
+/// What a mechanism is restored from: text, units, unit of frequencies.
+type Restored = (String, BTreeMap<String, String>, Option<String>);
 
 /// In Python `dict[str, float]`.
 type Nominal<'py> = Bound<'py, PyDict>;
@@ -104,7 +110,7 @@ impl Mechanism {
             Ok((inner, std::fs::read_to_string(&path).unwrap_or_default()))
         };
         let (inner, text) = py.detach(read).map_err(|error| errors::file(py, error))?;
-        Ok(Self { inner, text })
+        Ok(Self { inner, text, stated: Default::default() })
     }
 
     /// The mechanism that a text declares: `mechanism Name { ... }`.
@@ -139,8 +145,46 @@ impl Mechanism {
         )
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let read = slf.get_type().getattr("from_text")?;
-        Ok((read, (slf.get().text.clone(),)))
+    /// The same mechanism, whose answers state inputs, design variables, coordinates and outputs in these units, by name, and
+    /// frequencies in the unit `frequency`: `mechanism.in_units({"orbit": "um"}, frequency="Hz")`. Arrays stay in SI.
+    ///
+    /// Raises UnknownName for a name that nothing has, InvalidValue for a text that is no unit of it.
+    #[pyo3(signature = (units=None, frequency=None))]
+    fn in_units(
+        &self,
+        py: Python<'_>,
+        units: Option<BTreeMap<String, String>>,
+        frequency: Option<String>,
+    ) -> PyResult<Self> {
+        let units = units.unwrap_or_default();
+        let mut inner = self.inner.clone();
+        for (name, unit) in &units {
+            inner = inner.in_unit(name, unit).map_err(|error| match error {
+                UnitError::Mistakes(mistakes) => refused(py, unit, &mistakes),
+                other => new(py, Kind::UnknownName, other.to_string()),
+            })?;
+        }
+        if let Some(unit) = &frequency {
+            inner = inner.frequencies_in(unit).map_err(|mistakes| refused(py, unit, &mistakes))?;
+        }
+        let (mut known, last) = self.stated.clone();
+        known.extend(units);
+        Ok(Self { inner, text: self.text.clone(), stated: (known, frequency.or(last)) })
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Restored)> {
+        let own = slf.get();
+        let (units, frequency) = own.stated.clone();
+        Ok((slf.get_type().getattr("_restored")?, (own.text.clone(), units, frequency)))
+    }
+
+    #[classmethod]
+    fn _restored(
+        class: &Bound<'_, PyType>,
+        text: String,
+        units: BTreeMap<String, String>,
+        frequency: Option<String>,
+    ) -> PyResult<Self> {
+        Self::read(class.py(), text)?.in_units(class.py(), Some(units), frequency)
     }
 }

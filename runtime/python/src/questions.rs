@@ -14,6 +14,9 @@ use crate::results::{Answer, Equilibrium, ForcedResponse, Modes, MonteCarlo, Sen
 use crate::study::Study;
 use crate::values::{List, meaningless, mode_number, not_finite, number, numbers, text};
 
+/// Steps between the values of a range that a text gives.
+const STEPS: usize = 50;
+
 /// Analyses without arguments.
 macro_rules! questions {
     ($($(#[$doc:meta])* $question:ident -> $result:ident = $wrap:expr;)*) => {
@@ -164,8 +167,14 @@ impl Study {
         let converted = match numbers(values, input) {
             Ok(values) => values.into_iter().map(|value| value * scale).collect(),
             Err(_) if values.is_instance_of::<PyString>() => {
-                let message = format!("`{input}`: a list of values is expected, not {values}");
-                return Err(invalid(py, message));
+                let text = values.cast::<PyString>()?.to_cow()?;
+                if !text.contains("..") {
+                    let message = format!("`{input}`: a list of values or a range is expected, not {values}");
+                    return Err(invalid(py, message));
+                }
+                let range = range(&self.inner, &format!("{input}={text}")).map_err(|error| meaningless(py, error))?;
+                let step = (range.high - range.low) / (STEPS as f64);
+                (0..=STEPS).map(|k| if k == STEPS { range.high } else { range.low + k as f64 * step }).collect()
             }
             Err(error) => {
                 let each = values.try_iter().map_err(|_| error)?;

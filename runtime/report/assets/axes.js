@@ -1,6 +1,12 @@
 // Scales, ticks and axes of one panel.
 
-function scale([low, high], [from, to]) {
+function scale([low, high], [from, to], logarithmic) {
+  if (logarithmic) {
+    const inner = scale([Math.log10(low), Math.log10(high)], [from, to]);
+    const place = (value) => inner(Math.log10(value));
+    place.inverse = (pixel) => 10 ** inner.inverse(pixel);
+    return place;
+  }
   const slope = (to - from) / (high - low);
   const place = (value) => from + slope * (value - low);
   place.inverse = (pixel) => low + (pixel - from) / slope;
@@ -34,6 +40,18 @@ function ticks([low, high], count, unit) {
   return found;
 }
 
+// Tens within a range, with twice and five times these where there is room; within less than a ten, equal steps.
+function ratios([low, high], count) {
+  const decades = Math.log10(high / low);
+  if (decades < 1) return ticks([low, high], count);
+  const factors = count / decades >= 3 ? [1, 2, 5] : [1];
+  const found = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power += 1) {
+    found.push(...factors.map((factor) => Number((factor * 10 ** power).toPrecision(12))));
+  }
+  return found.filter((value) => value >= low && value <= high);
+}
+
 function heading(axis) {
   return axis.unit ? `${axis.name} [${axis.unit}]` : axis.name;
 }
@@ -44,7 +62,8 @@ function marksOf(axis, range, count) {
     const all = axis.categories.map((name, place) => [place, name]);
     return all.filter(([place]) => place >= range[0] && place <= range[1]);
   }
-  return ticks(range, count, axis.unit).map((value) => [value, numberText(value)]);
+  const found = axis.logarithmic ? ratios(range, count) : ticks(range, count, axis.unit);
+  return found.map((value) => [value, numberText(value)]);
 }
 
 function shortened(text, letters) {

@@ -72,6 +72,9 @@ function barLines(x, y, [left, right, low, high]) {
   return [span, `${y.name || "value"}: ${valueText(y, Math.abs(low) > Math.abs(high) ? low : high)}`];
 }
 
+// Black is the colour of the letters, on dark paper too.
+const tint = (colour) => (colour === "#000000" ? "currentColor" : colour);
+
 class Chart {
   static count = 0;
 
@@ -88,10 +91,10 @@ class Chart {
     const letters = (axis) => Math.max(0, ...axis.categories.map((name) => name.length));
     const left = room;
     // Names that do not fit beside each other stand aslant.
-    this.slant = 7.4 * letters(panel.x) > (wide - 18 - left) / Math.max(1, panel.x.categories.length);
+    this.slant = 7.4 * letters(panel.x) > (wide - 26 - left) / Math.max(1, panel.x.categories.length);
     const under = this.slant ? 44 + 4.6 * Math.min(18, letters(panel.x)) : 48;
     if (this.slant) this.size[1] += under - 48;
-    this.inner = { left, right: wide - 18, top: 12, bottom: this.size[1] - under };
+    this.inner = { left, right: wide - 26, top: 12, bottom: this.size[1] - under };
     this.box = htmlElement("div", { class: "panel" }, parent);
     this.legend();
     this.plot = htmlElement("div", { class: "plot" }, this.box);
@@ -133,8 +136,8 @@ class Chart {
       this.view = equalised(this.view, (right - left) / (bottom - top));
       if (all) this.whole = this.view;
     }
-    this.x = scale(this.view[0], [left, right]);
-    this.y = scale(this.view[1], [bottom, top]);
+    this.x = scale(this.view[0], [left, right], this.panel.x.logarithmic);
+    this.y = scale(this.view[1], [bottom, top], this.panel.y.logarithmic);
     this.svg.replaceChildren();
     const clip = svgElement("clipPath", { id: this.id }, svgElement("defs", {}, this.svg));
     svgElement("rect", { x: left, y: top, width: right - left, height: bottom - top }, clip);
@@ -201,7 +204,7 @@ class Chart {
     const path = (points) => points.map((at, k) => `${k ? "L" : "M"}${this.pixel(at).map((v) => v.toFixed(2)).join(" ")}`).join("");
     if (kind === "curve") {
       for (const piece of own.pieces) {
-        svgElement("path", { d: path(piece), fill: "none", stroke: own.colour, "stroke-width": 2, "stroke-dasharray": DASHES[own.stroke] }, group);
+        svgElement("path", { d: path(piece), fill: "none", stroke: tint(own.colour), "stroke-width": 2, "stroke-dasharray": DASHES[own.stroke] }, group);
       }
     } else if (kind === "band") {
       const upper = own.edges.map(([at, , high]) => [at, high]);
@@ -332,9 +335,10 @@ class Chart {
   }
 
   zoomBy(factor) {
-    const about = this.view.map(([low, high]) => {
+    const about = [this.x, this.y].map((scaled, axis) => {
+      const [low, high] = this.view[axis].map((end) => scaled(end));
       const [middle, half] = [(low + high) / 2, ((high - low) / 2) * factor];
-      return [middle - half, middle + half];
+      return [scaled.inverse(middle - half), scaled.inverse(middle + half)];
     });
     this.zoom(about);
   }
@@ -366,7 +370,7 @@ function leftMargin(axis, range) {
 
 function swatch({ kind, own }, picture) {
   if (kind === "curve") {
-    svgElement("line", { x1: 1, x2: 33, y1: 7, y2: 7, stroke: own.colour, "stroke-width": 2.4, "stroke-dasharray": DASHES[own.stroke] }, picture);
+    svgElement("line", { x1: 1, x2: 33, y1: 7, y2: 7, stroke: tint(own.colour), "stroke-width": 2.4, "stroke-dasharray": DASHES[own.stroke] }, picture);
   } else if (kind === "band" || kind === "bars") {
     svgElement("rect", { x: 3, y: 2, width: 28, height: 10, fill: own.colour, "fill-opacity": kind === "band" ? 0.25 : strength(own.colour) }, picture);
   } else if (kind === "mark") {
@@ -380,14 +384,14 @@ function swatch({ kind, own }, picture) {
 function errorBar(low, high, colour, parent) {
   const upright = Math.abs(low[0] - high[0]) < Math.abs(low[1] - high[1]);
   const cap = upright ? [4, 0] : [0, 4];
-  const line = (a, b) => svgElement("line", { x1: a[0], y1: a[1], x2: b[0], y2: b[1], stroke: colour, "stroke-width": 1.5 }, parent);
+  const line = (a, b) => svgElement("line", { x1: a[0], y1: a[1], x2: b[0], y2: b[1], stroke: tint(colour), "stroke-width": 1.5 }, parent);
   line(low, high);
   for (const end of [low, high]) line([end[0] - cap[0], end[1] - cap[1]], [end[0] + cap[0], end[1] + cap[1]]);
 }
 
 function marker(shape, colour, [x, y], parent) {
-  const hollow = { fill: "#fff", "fill-opacity": 0.6, stroke: colour, "stroke-width": 1.7 };
-  const filled = { fill: colour, stroke: "#fff", "stroke-width": 0.7 };
+  const hollow = { fill: "#fff", "fill-opacity": 0.6, stroke: tint(colour), "stroke-width": 1.7 };
+  const filled = { fill: tint(colour), stroke: "#fff", "stroke-width": 0.7 };
   const polygon = (points, style) => svgElement("polygon", { points: points.map(([a, b]) => `${x + a},${y + b}`).join(" "), ...style }, parent);
   if (shape === "ring") svgElement("circle", { cx: x, cy: y, r: 4.2, ...hollow }, parent);
   else if (shape === "disc") svgElement("circle", { cx: x, cy: y, r: 4.2, ...filled }, parent);
@@ -395,6 +399,6 @@ function marker(shape, colour, [x, y], parent) {
   else if (shape === "triangle") polygon([[0, -5.5], [5, 4], [-5, 4]], filled);
   else if (shape === "diamond") polygon([[0, -5.5], [5.5, 0], [0, 5.5], [-5.5, 0]], filled);
   else for (const sign of [1, -1]) {
-    svgElement("line", { x1: x - 4, y1: y - 4 * sign, x2: x + 4, y2: y + 4 * sign, stroke: colour, "stroke-width": 2 }, parent);
+    svgElement("line", { x1: x - 4, y1: y - 4 * sign, x2: x + 4, y2: y + 4 * sign, stroke: tint(colour), "stroke-width": 2 }, parent);
   }
 }

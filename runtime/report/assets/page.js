@@ -7,5 +7,14 @@ for (const data of document.querySelectorAll("script[data-kind]")) {
   if (data.dataset.kind === "figure") drawFigure(content, box.querySelector(".drawing"));
   if (data.dataset.kind === "scene") showMechanism(content, box.querySelector(".drawing"));
 }
+// A link into folded details unfolds them; a printed page has them all.
+const unfold = () => {
+  const target = document.getElementById(location.hash.slice(1));
+  if (target instanceof HTMLDetailsElement) target.open = true;
+};
+addEventListener("hashchange", unfold);
+unfold();
+for (const link of document.querySelectorAll("nav a")) link.addEventListener("click", () => setTimeout(unfold));
+addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((own) => { own.open = true; }));
 // What tests and other scripts wait for.
 document.documentElement.dataset.drawn = "yes";

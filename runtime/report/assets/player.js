@@ -171,9 +171,9 @@ class Player {
       keys[event.key]();
       event.preventDefault();
     });
-    addEventListener("resize", () => {
+    new ResizeObserver(() => {
       this.paint();
       this.paintGallery();
-    });
+    }).observe(large);
   }
 }

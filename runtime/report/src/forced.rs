@@ -13,6 +13,9 @@ use crate::answer::answer;
 /// Number of designs solved anew to check each band.
 const CHECKED: usize = 8;
 
+/// Number of vibrations whose curves are refined.
+const DRAWN: usize = 6;
+
 /// The vibration of every output under every harmonic.
 pub(crate) struct Forced {
     pub(crate) response: Result<ForcedResponse, Error>,
@@ -40,14 +43,20 @@ impl Forced {
         let spread = varies && response.is_ok() && !wanted.is_empty();
         let spread = spread.then(|| answer(study.vibration_spread(&wanted)));
         let along = along.map(|(input, values)| {
-            let bode = match varies {
-                true => study.bode_bands(input, values, &wanted, CHECKED),
-                false => study.bode(input, values),
-            };
             let ends = (values.first(), values.last());
             let peaks = match ends {
                 (Some(&first), Some(&last)) if first != last => peaks(study, &wanted, input, (first, last)),
                 _ => Vec::new(),
+            };
+            let bode = match varies {
+                true => study.bode_bands(input, values, &wanted, CHECKED),
+                false => study.bode(input, values),
+            };
+            let known = peaks.iter().take(DRAWN).filter_map(|(_, peaks)| peaks.as_ref().ok());
+            let between: Vec<f64> = known.flat_map(Peaks::bends).collect();
+            let bode = match between.is_empty() {
+                true => bode,
+                false => bode.and_then(|bode| Ok(bode.with_between(study.bode(input, &between)?))),
             };
             ForcedAlong { bode, peaks }
         });

@@ -38,15 +38,15 @@ impl<'a> View<'a> {
             let mode = modes?.modes.get(mode_pictures.mode)?;
             let frames = mode_pictures.frames.iter().map(|poses| flat(poses, size));
             Some(Motion {
-                title: title(mode, style),
-                about: about(mode, mode_pictures.amplitude),
+                title: title(mode, d, style),
+                about: about(mode, mode_pictures.amplitude, &style.frequency(d).1),
                 frames: frames.collect(),
             })
         };
         let vibrations = harmonics(d).into_iter().zip(&pictures.vibrations);
         let forced = vibrations.filter_map(|(excitation, item)| {
             let own = item.as_ref().ok()?;
-            let (scale, unit) = style.frequency(None);
+            let (scale, unit) = style.frequency(d);
             let frequency = number(scale * own.frequency);
             Some(Motion {
                 title: format!("Under {}: {frequency} {unit}", excitations(d, excitation)),
@@ -75,9 +75,9 @@ fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
     all.collect()
 }
 
-fn title(mode: &Mode, style: &Style) -> String {
+fn title(mode: &Mode, d: &Description, style: &Style) -> String {
     let name = capital(&style.mode(mode.label));
-    let (scale, unit) = style.frequency(None);
+    let (scale, unit) = style.frequency(d);
     match mode.frequency() {
         Some(omega) => format!("{name}: {} {unit}", number(scale * omega)),
         None => format!("{name}: {}", mode.behaviour),
@@ -91,13 +91,15 @@ fn enlarged(vibration_pictures: &VibrationPictures) -> String {
     }
 }
 
-fn about(mode: &Mode, amplitude: f64) -> String {
+fn about(mode: &Mode, amplitude: f64, unit: &str) -> String {
     if amplitude == 0.0 {
         return format!("{}; it moves no body", mode.behaviour);
     }
     let damping = mode.damping_ratio().filter(|ratio| *ratio != 0.0 && mode.frequency().is_some());
     let damping = damping.map_or_else(String::new, |ratio| format!(", damping ratio {}", number(ratio)));
     let pace = match mode.frequency() {
+        // The title has the other one.
+        Some(omega) if unit == "Hz" => format!("{} rad/s, ", number(omega)),
         Some(omega) => format!("{} Hz, ", number(omega / TAU)),
         None => String::new(),
     };

@@ -3,7 +3,7 @@
 use eigentol_contract::{Description, Unit};
 
 use crate::grid::Grid;
-use crate::numbers::converted;
+use crate::numbers::{converted, heading, or_dash};
 use crate::table::{Column, Table, Values};
 
 /// A table under construction: its rows are known, and each column says what it takes from a row.
@@ -78,6 +78,18 @@ impl<'a, R> Columns<'a, R> {
         self.text.push((heading.to_owned(), cells.collect()));
     }
 
+    /// A column of the text alone: frequencies, rad/s, in the unit of answers.
+    pub fn frequencies(
+        &mut self,
+        name: &str,
+        d: &Description,
+        form: fn(f64) -> String,
+        of: &dyn Fn(&R) -> Option<f64>,
+    ) {
+        let unit = &d.frequency;
+        self.cells(&heading(name, unit), &|row| or_dash(of(row).map(|omega| converted(omega, unit)), form));
+    }
+
     /// One column of data for each design variable: its value in a row that has a design.
     pub fn design(&mut self, d: &Description, of: &dyn Fn(&R) -> Option<&[f64]>) {
         for (k, info) in d.design.iter().enumerate() {
@@ -135,6 +147,17 @@ impl Added<'_> {
             let cell = |&row: &usize| column.values.shown(row, form);
             let cells = self.shown.iter().map(cell).collect();
             self.text.push((column.heading(), cells));
+        }
+        self
+    }
+
+    /// It belongs in the text, SI numbers in this unit with this many digits.
+    pub fn digits_in(self, unit: &Unit, form: fn(f64) -> String) -> Self {
+        if let Some(column) = self.column
+            && let Values::Numbers(values) = &column.values
+        {
+            let cell = |&row: &usize| or_dash(values[row].map(|value| converted(value, unit)), form);
+            self.text.push((heading(&column.name, unit), self.shown.iter().map(cell).collect()));
         }
         self
     }

@@ -5,7 +5,7 @@ use core::fmt;
 use eigentol_contract::{Description, Input, Shared};
 
 use crate::columns::Columns;
-use crate::grid::Grid;
+use crate::grid::{Grid, lines};
 use crate::table::Table;
 
 /// A result that describes itself.
@@ -115,7 +115,8 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// What a result says: titles, tables and sentences, in order.
+/// What a result says: titles, tables and sentences, in order. As text, the width of the format is that of the page:
+/// `format!("{findings:80}")`; without one, sentences stand on one line each.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     parts: Vec<Part>,
@@ -139,6 +140,11 @@ impl Findings {
     /// Adds a sentence.
     pub fn note(&mut self, sentence: impl Into<String>) {
         self.parts.push(Part::Note(sentence.into()));
+    }
+
+    /// Adds a sentence, if there is one.
+    pub fn note_if_any(&mut self, sentence: Option<String>) {
+        self.parts.extend(sentence.map(Part::Note));
     }
 
     /// Adds a table: its data, and its text if any of its columns belongs there.
@@ -193,13 +199,37 @@ impl Findings {
 
 impl fmt::Display for Findings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.parts.iter().try_for_each(|part| match part {
-            Part::Title(title) => writeln!(f, "{title}"),
-            Part::Text(grid) => write!(f, "{grid}"),
-            Part::Note(sentence) => writeln!(f, "  {sentence}"),
-            Part::Data(_) => Ok(()),
+        let mut below_table = false;
+        self.parts.iter().try_for_each(|part| {
+            // Tables that follow each other stand apart.
+            match part {
+                Part::Text(_) if below_table => writeln!(f)?,
+                Part::Text(_) => below_table = true,
+                Part::Data(_) => {}
+                Part::Title(_) | Part::Note(_) => below_table = false,
+            }
+            match (part, f.width()) {
+                (Part::Title(title), None) => writeln!(f, "{title}"),
+                (Part::Title(title), Some(page)) => written(f, &lines(title, page), ["", "  "]),
+                (Part::Text(grid), _) => grid.fmt(f),
+                (Part::Note(sentence), None) => writeln!(f, "  {sentence}"),
+                (Part::Note(sentence), Some(page)) => {
+                    written(f, &lines(sentence, page.saturating_sub(4)), ["  ", "    "])
+                }
+                (Part::Data(_), _) => Ok(()),
+            }
         })
     }
+}
+
+/// Writes lines, the first and the others with these indents.
+fn written(f: &mut fmt::Formatter<'_>, lines: &[String], [first, others]: [&str; 2]) -> fmt::Result {
+    let mut indent = first;
+    for line in lines {
+        writeln!(f, "{indent}{line}")?;
+        indent = others;
+    }
+    Ok(())
 }
 
 /// The text of results: what they say ([`Answer::findings`]).

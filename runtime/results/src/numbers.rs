@@ -107,6 +107,16 @@ pub fn heading(name: &str, unit: &Unit) -> String {
     if unit.symbol.is_empty() { name.to_owned() } else { format!("{name} [{}]", unit.symbol) }
 }
 
+/// What frequencies in this unit are called: `omega` in rad/s, else `f`.
+pub fn frequency_symbol(unit: &Unit) -> &'static str {
+    if &*unit.symbol == "rad/s" { "omega" } else { "f" }
+}
+
+/// A frequency, rad/s, in the unit of answers: `25.0 Hz`.
+pub fn frequency_in(omega: f64, unit: &Unit, form: fn(f64) -> String) -> String {
+    with_unit(form(converted(omega, unit)), unit)
+}
+
 /// A number with its unit, if it has one: `3000 rpm`.
 pub fn with_unit(number: String, unit: &Unit) -> String {
     match unit.symbol.is_empty() {

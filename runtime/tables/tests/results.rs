@@ -165,7 +165,7 @@ fn lists_say_how_many_they_are_and_what_each_is() {
     let crossings = crossings.expect("a resonance");
     let text = crossings.findings().to_string();
     assert!(text.starts_with("RotatingBar: 1 crossing\n"), "{text}");
-    assert!(text.contains("frequency 1 is 1 times speed"), "{text}");
+    assert!(text.contains("frequency 1 crosses 1x speed"), "{text}");
     let speed = (0.75_f64 * 9.81).sqrt() * 60.0 / std::f64::consts::TAU;
     assert!(text.contains(&format!("{speed:.4}")), "{text}");
     let table = &crossings.tables()[0];

@@ -33,6 +33,8 @@ macro_rules! law {
                     free_directions: 0,
                     held: Shared::Static(&[]),
                     length: 1.0,
+                    frequency: eigentol::Unit::si("rad/s"),
+                    resolved_modes: None,
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),
                 }

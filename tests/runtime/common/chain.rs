@@ -50,6 +50,8 @@ macro_rules! chain {
                     free_directions: 0,
                     held: Shared::Static(&[]),
                     length: 1.0,
+                    frequency: eigentol::Unit::si("rad/s"),
+                    resolved_modes: None,
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),
                 }

@@ -29,6 +29,8 @@ impl Model for Plate {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -71,6 +73,8 @@ impl Model for Spring {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -102,6 +106,8 @@ impl Model for Follower {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -142,6 +148,8 @@ impl Model for Pair {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -180,6 +188,8 @@ impl Model for Triple {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -221,6 +231,8 @@ impl Model for Slipping {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -256,6 +268,8 @@ impl Model for Supercritical {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -290,6 +304,8 @@ impl Model for Overdamped {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

@@ -28,6 +28,8 @@ const fn described(
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping,
         kernels: Shared::Static(&[]),
     }

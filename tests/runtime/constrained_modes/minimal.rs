@@ -177,6 +177,8 @@ mod contradictory {
             free_directions: 0,
             held: Shared::Static(&[]),
             length: 1.0,
+            frequency: eigentol::Unit::si("rad/s"),
+            resolved_modes: None,
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };
@@ -234,6 +236,8 @@ pub(crate) mod held {
             free_directions: 0,
             held: Shared::Static(&[]),
             length: 1.0,
+            frequency: eigentol::Unit::si("rad/s"),
+            resolved_modes: None,
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

@@ -345,6 +345,8 @@ impl Model for Rated {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -391,6 +393,8 @@ fn a_free_mass_drifts() {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     });

@@ -34,6 +34,8 @@ const fn described(
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     }

@@ -47,6 +47,8 @@ impl Model for Gears {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

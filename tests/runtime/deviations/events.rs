@@ -140,6 +140,8 @@ impl Model for Fed {
         free_directions: 0,
         held: Shared::Static(&[]),
         length: 1.0,
+        frequency: eigentol::Unit::si("rad/s"),
+        resolved_modes: None,
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

@@ -435,6 +435,8 @@ mod declared {
             free_directions: 0,
             held: Shared::Static(&[]),
             length: 1.0,
+            frequency: eigentol::Unit::si("rad/s"),
+            resolved_modes: None,
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

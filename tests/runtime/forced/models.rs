@@ -34,6 +34,8 @@ macro_rules! described {
             free_directions: $free,
             held: Shared::Static(&[]),
             length: 1.0,
+            frequency: eigentol::Unit::si("rad/s"),
+            resolved_modes: None,
             damping: eigentol::DampingKind::General,
             kernels: Shared::Static(&[]),
         }

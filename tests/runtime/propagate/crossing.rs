@@ -39,7 +39,7 @@ fn a_resonance_and_its_derivatives() {
         assert_eq!((&found.values[0], &found.gradients[0]), (&None, &None));
     });
     let names = Bar::DESCRIPTION;
-    assert_eq!(resonance().name(&names), "omega where frequency 1 is 0.8 times omega");
+    assert_eq!(resonance().name(&names), "omega where frequency 1 crosses 0.8x omega");
     assert_eq!(&*resonance().unit(&names).symbol, "rad/s");
 }
 
@@ -86,7 +86,7 @@ fn a_resonance_can_be_required() {
     let points = found.limits[0].design_points.as_ref().unwrap();
     close(points[0].normal.beta, (limit - 1.0) / 0.02, 1e-6);
     let text = found.to_string();
-    let says = "omega where frequency 1 is 0.8 times omega at least 4.8 rad/s";
+    let says = "omega where frequency 1 crosses 0.8x omega at least 4.8 rad/s";
     assert!(text.contains(says), "{text}");
 }
 

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use super::tolerance;
-use crate::mechanics::{self, Damping, Functions, Role, Unknown};
+use crate::mechanics::{self, Damping, Functions, Role, Unknown, resolved_modes};
 use crate::model::exchanged::Exchanged;
 use crate::model::mechanism::{Mechanism, Unit};
 use crate::program::Program;
@@ -60,6 +60,11 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
     let free_directions = functions.free.count;
     let held = &functions.held;
     let length = mechanism.length;
+    let frequency = unit(&mechanism.frequency_unit());
+    let resolved_modes = match resolved_modes(mechanism, functions) {
+        Some(count) => quote!(::core::option::Option::Some(#count)),
+        None => quote!(::core::option::Option::None),
+    };
     let damping = match functions.properties.damping {
         Damping::Zero => quote!(Zero),
         Damping::Gyroscopic => quote!(Gyroscopic),
@@ -84,6 +89,8 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
             free_directions: #free_directions,
             held: ::eigentol::Shared::Static(&[#(#held),*]),
             length: #length,
+            frequency: #frequency,
+            resolved_modes: #resolved_modes,
             damping: ::eigentol::DampingKind::#damping,
             kernels: ::eigentol::Shared::Static(&[#(#kernels),*]),
         };

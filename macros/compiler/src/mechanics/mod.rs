@@ -15,6 +15,7 @@ mod loads;
 mod motion;
 mod picture;
 mod print;
+mod resolved;
 mod setup;
 
 #[cfg(test)]
@@ -27,3 +28,4 @@ pub use functions::{
 pub(crate) use inertia::compared;
 pub use kernel_name::KernelName;
 pub use picture::{Picture, PictureBeam, PictureBody, PictureJoint, PictureLink, SolidKind};
+pub use resolved::resolved_modes;

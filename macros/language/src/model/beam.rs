@@ -50,8 +50,8 @@ impl Beam {
         all.map(Vec::len).sum()
     }
 
-    /// How many of its modes are good by the rule: `m` modes of a plane take `n = 1.5 m + 2` coordinates.
-    pub fn good_modes(&self) -> usize {
+    /// How many modes its coordinates resolve by the rule: `m` modes of a plane take `n = 1.5 m + 2` coordinates.
+    pub fn resolved_modes(&self) -> usize {
         let [_, about_y, about_z] = &self.coordinates;
         let of_plane = |plane: &Vec<CoordinateId>| plane.len().saturating_sub(2) * 2 / 3;
         of_plane(about_y) + of_plane(about_z)

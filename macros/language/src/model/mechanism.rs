@@ -7,6 +7,8 @@
 //! (`model/resolve/joints/kinds.rs`); no later stage knows the kinds. A joint declared from the body to its parent is
 //! traversed backwards with opposite axes.
 
+use std::f64::consts::TAU;
+
 use proc_macro2::Ident;
 
 pub use super::beam::{Beam, Section, Station};
@@ -113,6 +115,15 @@ impl Mechanism {
     pub fn beam(&self, body: BodyId) -> Option<BeamId> {
         let index = self.beams.iter().position(|beam| beam.body == body);
         index.map(BeamId::new)
+    }
+
+    /// The unit of frequencies in answers: Hz where an input turns something by the minute or the second, else rad/s.
+    pub fn frequency_unit(&self) -> Unit {
+        let turns = |input: &Input| matches!(input.unit.symbol.as_str(), "rpm" | "rps" | "Hz");
+        match self.inputs.iter().any(turns) {
+            true => Unit { symbol: "Hz".to_owned(), scale: TAU },
+            false => Unit::one("rad/s"),
+        }
     }
 
     /// Design variables that nothing refers to.

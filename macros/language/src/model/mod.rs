@@ -11,6 +11,7 @@ pub mod inertia;
 pub mod mechanism;
 mod print;
 pub mod resolve;
+pub mod rotor;
 mod rules;
 pub mod shape;
 mod simplify;

@@ -105,8 +105,8 @@ pub enum ItemKind {
     Constraint(Constraint),
     /// `steady UNKNOWN = VALUE;`
     Steady(Named),
-    /// `output NAME = VALUE;`
-    Output(Named),
+    /// `output NAME = VALUE;` or `output NAME: UNIT = VALUE;`
+    Output(Output),
 }
 
 impl ItemKind {
@@ -115,7 +115,8 @@ impl ItemKind {
         match self {
             ItemKind::Input(input) => Some(&input.name),
             ItemKind::Design(design) => Some(&design.name),
-            ItemKind::Let(named) | ItemKind::Output(named) => Some(&named.name),
+            ItemKind::Let(named) => Some(&named.name),
+            ItemKind::Output(output) => Some(&output.name),
             ItemKind::Curve(curve) => Some(&curve.name),
             ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) | ItemKind::Steady(_) => None,
             ItemKind::Body(body) => Some(&body.name),
@@ -255,11 +256,22 @@ pub enum LawKind {
     Beta(Box<[Value; 2]>),
 }
 
-/// A name for a value: a `let` or an output.
+/// A name for a value: a `let` or a steady value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
     /// Name.
     pub name: Ident,
+    /// Value.
+    pub value: Value,
+}
+
+/// An output.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Name.
+    pub name: Ident,
+    /// Unit in which it is stated.
+    pub unit: Option<Unit>,
     /// Value.
     pub value: Value,
 }

@@ -75,7 +75,10 @@ fn item(kind: &ItemKind) -> String {
             format!("curve {}: {} -> {}", curve.name, value(&curve.arguments), value(&curve.values))
         }
         ItemKind::Steady(named) => format!("steady {} = {}", named.name, value(&named.value)),
-        ItemKind::Output(named) => format!("output {} = {}", named.name, value(&named.value)),
+        ItemKind::Output(output) => {
+            let unit = output.unit.as_ref().map_or_else(String::new, |x| format!(": {}", unit(x)));
+            format!("output {}{unit} = {}", output.name, value(&output.value))
+        }
         ItemKind::Gravity(gravity) => match &gravity.along {
             Some(along) => format!("gravity {} along {}", value(&gravity.value), value(along)),
             None => format!("gravity {}", value(&gravity.value)),

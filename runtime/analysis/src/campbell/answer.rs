@@ -1,6 +1,6 @@
 //! Campbell diagrams as text and tables: events, one line per mode, and the points.
 
-use eigentol_results::numbers::{given, given_in, optional, or_dash, rough};
+use eigentol_results::numbers::{converted, frequency_symbol, given, given_in, number, optional, or_dash, rough};
 use eigentol_results::relevance::{EVERYTHING, shown};
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
@@ -64,12 +64,12 @@ impl Answer for Campbell {
         not_reached(&mut said, self.unreached);
         said.data(mode_table(d, self.input, &self.points));
         self.events(&mut said);
-        if let Some(sentence) = self.left_out() {
-            said.note(sentence);
-        }
+        said.note_if_any(self.left_out());
         unresolved(&mut said, d, self.input, self.searched.as_ref());
-        self.by_mode(&mut said);
-        self.by_point(&mut said);
+        let few = self.shown();
+        few.by_mode(&mut said);
+        few.by_point(&mut said);
+        said.note_if_any(self.modes_left_out(&few));
         undamped(&mut said, self.family, d);
         said
     }
@@ -222,12 +222,15 @@ impl Campbell {
         let motions: Vec<Motion<'_>> = each.collect();
         let mut table = Columns::new("modes", &motions);
         table.cells("mode", &|row| (row.label + 1).to_string());
-        table.cells("omega [rad/s]", &|row| optional(row.frequency(row.points.first())));
-        table.cells("to", &|row| optional(row.frequency(row.points.last())));
-        table.cells("most sigma", &|row| or_dash(row.widest().map(|pair| pair.1), rough));
+        let d = &*self.description;
+        table.frequencies(frequency_symbol(&d.frequency), d, number, &|row| row.frequency(row.points.first()));
+        let in_unit = |omega: f64| converted(omega, &d.frequency);
+        table.cells("to", &|row| optional(row.frequency(row.points.last()).map(in_unit)));
+        table.cells("most sigma", &|row| or_dash(row.widest().map(|pair| in_unit(pair.1)), rough));
         let at = format!("at {}", info.name);
         table.cells(&at, &|row| formatted(row.widest().map(|pair| pair.0)));
-        if self.family == Family::General {
+        let damped = |row: &Motion<'_>| row.least_damped().is_some_and(|(.., x)| x.mean != 0.0);
+        if self.family == Family::General && motions.iter().any(damped) {
             table.cells("least damping ratio", &|row| or_dash(row.least_damped().map(|(.., x)| x.mean), rough));
             table.cells("sigma", &|row| {
                 let separate = row.least_damped().filter(|(_, mode, _)| !mode.clustered);
@@ -235,7 +238,9 @@ impl Campbell {
             });
             table.cells(&at, &|row| formatted(row.least_damped().map(|pair| pair.0)));
         }
-        table.cells("kind", &Motion::kinds);
+        if motions.iter().any(|motion| motion.kinds() != "-") {
+            table.cells("kind", &Motion::kinds);
+        }
         table.cells("motion", &Motion::behaviours);
         said.text(table.finish().1);
     }
@@ -254,8 +259,8 @@ impl Campbell {
                 mode.behaviour.frequency()
             };
             if self.points.iter().any(|point| frequency(point).is_some()) {
-                let heading = format!("omega{} [rad/s]", label + 1);
-                table.cells(&heading, &|row| optional(frequency(row)));
+                let name = format!("{}{}", frequency_symbol(&self.description.frequency), label + 1);
+                table.frequencies(&name, &self.description, number, &|row| frequency(row));
             }
         }
         let failed = self.points.iter().filter(|point| point.modes.is_err()).count();

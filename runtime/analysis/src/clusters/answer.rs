@@ -2,12 +2,13 @@ use core::fmt;
 
 use eigentol_results::grid::cells;
 use eigentol_results::naming::named;
-use eigentol_results::numbers::{number, optional, or_dash, rough, short};
+use eigentol_results::numbers::{converted, heading, in_unit, optional, or_dash, rough, rough_in, short};
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Grid, Listed, Subject, displayed};
 
 use super::tolerance::ClusterTolerance;
 use super::{ClusterSpread, DirectionalDerivatives, SortedSpread};
+use crate::Unit;
 use crate::modes::Family;
 use crate::tolerance::{Spread, Statistics, statistics};
 
@@ -125,41 +126,42 @@ impl ClusterTolerance {
     }
 
     fn sorted(&self, spread: &ClusterSpread) -> Grid {
+        let unit = &self.description.frequency;
         let mut table = Grid::new(cells(["sorted", "mean", "sigma", "min", "max", "samples"]));
         if let Some(spread) = frequency_of_mean(self) {
-            let name = "of the mean eigenvalue [rad/s]";
-            let (mean, sigma) = (number(spread.mean), rough(spread.sigma));
-            table.row(cells([name, &mean, &sigma, "-", "-", "-"]));
+            let (mean, sigma) = (in_unit(spread.mean, unit), rough_in(spread.sigma, unit));
+            table.row(cells([&heading("of the mean eigenvalue", unit), &mean, &sigma, "-", "-", "-"]));
         }
-        sorted_members(&mut table, "frequency [rad/s]", &spread.frequency);
+        sorted_members(&mut table, ("frequency", unit), &spread.frequency);
         let splitting = spread.frequency.splitting.as_ref();
-        sorted_row(&mut table, "splitting [rad/s]", splitting);
+        sorted_row(&mut table, &heading("splitting", unit), unit, splitting);
         if let Some(damping_ratio) = &spread.damping_ratio {
-            sorted_members(&mut table, "damping ratio", damping_ratio);
+            sorted_members(&mut table, ("damping ratio", &Unit::si("")), damping_ratio);
         }
         table
     }
 }
 
 /// Rows for the lowest member, those in between, and the highest.
-fn sorted_members(table: &mut Grid, quantity: &str, spread: &SortedSpread) {
+fn sorted_members(table: &mut Grid, (quantity, unit): (&str, &Unit), spread: &SortedSpread) {
     let count = spread.members.len();
     for (k, member) in spread.members.iter().enumerate() {
+        let quantity = heading(quantity, unit);
         let name = match k {
             0 => format!("lowest {quantity}"),
             k if k + 1 == count => format!("highest {quantity}"),
             k => format!("{quantity} {} of {count}", k + 1),
         };
-        sorted_row(table, &name, member.value.as_ref());
+        sorted_row(table, &name, unit, member.value.as_ref());
     }
 }
 
-fn sorted_row(table: &mut Grid, name: &str, value: Option<&Statistics>) {
-    let of = |pick: fn(&Statistics) -> f64| optional(value.map(pick));
+fn sorted_row(table: &mut Grid, name: &str, unit: &Unit, value: Option<&Statistics>) {
+    let of = |pick: fn(&Statistics) -> f64| optional(value.map(|own| converted(pick(own), unit)));
     table.row(vec![
         name.to_owned(),
         of(|own| own.mean),
-        or_dash(value.and_then(|own| own.sigma), rough),
+        or_dash(value.and_then(|own| own.sigma).map(|sigma| converted(sigma, unit)), rough),
         of(|own| own.min),
         of(|own| own.max),
         value.map_or(0, |own| own.count).to_string(),

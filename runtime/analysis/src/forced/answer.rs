@@ -1,6 +1,6 @@
 //! Forced vibration at one operating point as text and tables.
 
-use eigentol_results::numbers::{converted, in_unit as number_in, number, short, with_unit};
+use eigentol_results::numbers::{converted, frequency_in, in_unit as number_in, number, short, with_unit};
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
@@ -8,17 +8,13 @@ use super::{ForcedCurvature, ForcedResponse, ForcedSensitivities, Harmonic, Meas
 use crate::second_order::{Pair, names, pairs};
 use crate::sensitivity::Slopes;
 use crate::sensitivity::derivatives::{Derived, data, say, variables};
-use crate::{Complex, Description, Error, Output, Text, Unit};
+use crate::{Complex, Description, Error, Output, Unit};
 
 displayed!(ForcedResponse, ForcedSensitivities);
 
 /// What every amplitude and phase means.
 pub(crate) const CONVENTIONS: &str =
     "Amplitudes are from 0 to peak, half of peak to peak; a positive phase is ahead of cos(w t).";
-
-const fn unit(symbol: &'static str) -> Unit {
-    Unit { symbol: Text::Static(symbol), scale: 1.0 }
-}
 
 /// `forced response`: a row for each output of each harmonic; `shares`: a row for each excitation besides; `vibration of
 /// unknowns`: a row for each unknown of each harmonic.
@@ -143,7 +139,7 @@ impl Row<'_> {
         let same = of.harmonics.iter().filter(|harmonic| harmonic.frequency == frequency);
         match (of.harmonics.len(), same.count()) {
             (1, _) => name.to_owned(),
-            (_, 1) => format!("{name} at {} rad/s", short(frequency)),
+            (_, 1) => format!("{name} at {}", frequency_in(frequency, &of.description.frequency, short)),
             _ => {
                 let under = self.harmonic.excitations(&of.description);
                 format!("{name} under {under}")
@@ -153,7 +149,7 @@ impl Row<'_> {
 
     fn unit(&self, of: &Description) -> Unit {
         let info = of.outputs.get(self.output);
-        info.map_or(unit(""), |info| info.unit.clone())
+        info.map_or(Unit::si(""), |info| info.unit.clone())
     }
 }
 
@@ -172,7 +168,7 @@ impl Harmonic {
 /// Columns of the excitations and the frequency of a harmonic.
 fn of_harmonic<R>(table: &mut Columns<'_, R>, d: &Description, of: &dyn Fn(&R) -> &Harmonic) {
     table.words("excitations", &|row| Some(of(row).excitations(d))).shown();
-    table.number("frequency", "rad/s", &|row| Some(of(row).frequency)).digits(number);
+    table.number("frequency", "rad/s", &|row| Some(of(row).frequency)).digits_in(&d.frequency, number);
 }
 
 /// Columns of an output and its amplitude, in the text too.
@@ -220,11 +216,11 @@ impl Answer for ForcedSensitivities {
             let modulus = self.modulus(row.place, output, measure);
             amplitudes.push(derived(name("amplitude"), row.unit(&of.description), modulus));
             let phase = self.phase(row.place, output, measure);
-            others.push(derived(name("phase"), unit("rad"), phase));
+            others.push(derived(name("phase"), Unit::si("rad"), phase));
         }
         for (harmonic, sensitivity) in of.harmonics.iter().zip(&self.harmonics) {
             let name = format!("frequency {}", short(harmonic.frequency));
-            others.push(derived(name, unit("rad/s"), Some(sensitivity.frequency.clone())));
+            others.push(derived(name, Unit::si("rad/s"), Some(sensitivity.frequency.clone())));
         }
         say(&mut said, &variables, &amplitudes);
         amplitudes.append(&mut others);

@@ -104,11 +104,20 @@ impl Vibration {
 
     pub(crate) fn unit(&self, of: &Description) -> Option<Unit> {
         let unit = &of.outputs.get(self.output.index())?.unit;
-        let per = match self.measure {
+        // Velocities of what moves by lengths are in mm/s or inches a second, as the standards state them.
+        let (per, length) = match self.measure {
             Measure::Displacement => return Some(unit.clone()),
-            Measure::Velocity => "/s",
-            Measure::Acceleration => "/s^2",
+            Measure::Velocity => ("/s", ("mm", 1e-3)),
+            Measure::Acceleration => ("/s^2", ("m", 1.0)),
         };
+        let length = match &*unit.symbol {
+            "m" | "dm" | "cm" | "mm" | "um" | "nm" => Some(length),
+            "inch" | "mil" => Some(("inch", 0.0254)),
+            _ => None,
+        };
+        if let Some((symbol, scale)) = length {
+            return Some(Unit { symbol: Text::from(format!("{symbol}{per}")), scale });
+        }
         let symbol = match &*unit.symbol {
             "" => format!("1{per}"),
             symbol => format!("{symbol}{per}"),

@@ -7,9 +7,9 @@ use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Listed, Subject, Table, displayed};
 
 use super::{HalfPower, Moving, Peak, Peaks};
+use crate::Unit;
 use crate::along::{name_of, place, value_of, varied};
 use crate::forced::CONVENTIONS;
-use crate::{Text, Unit};
 
 displayed!(Peaks);
 
@@ -94,14 +94,13 @@ fn derivatives(all: &[Row<'_>]) -> Table {
 impl Peaks {
     /// The units of place, frequency, height and amplification factor.
     fn units(&self) -> [Unit; 4] {
-        let plain = |symbol| Unit { symbol: Text::Static(symbol), scale: 1.0 };
         let d = &self.description;
         let input = d.inputs.get(self.range.input.index());
         [
-            input.map_or(plain(""), |info| info.unit.clone()),
-            plain("rad/s"),
-            self.vibration.unit(d).unwrap_or(plain("")),
-            plain(""),
+            input.map_or(Unit::si(""), |info| info.unit.clone()),
+            Unit::si("rad/s"),
+            self.vibration.unit(d).unwrap_or(Unit::si("")),
+            Unit::si(""),
         ]
     }
 

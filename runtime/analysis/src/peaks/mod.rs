@@ -83,6 +83,28 @@ pub enum HalfPower {
     RisesAgain,
 }
 
+/// Values on either side of a peak between which its curve is drawn.
+const BENDS: u32 = 16;
+
+impl Peaks {
+    /// Values of the input, SI, about each peak that has half-power points: in equal steps of the angle about the centre of
+    /// the circle that the complex amplitude of a single mode runs through.
+    #[must_use]
+    pub fn bends(&self) -> Vec<f64> {
+        let ends = [self.range.low.min(self.range.high), self.range.low.max(self.range.high)];
+        let about = self.peaks.iter().flat_map(|peak| {
+            let top = peak.place.value;
+            let widths = peak.half_power.iter().filter_map(|half| Some((half.place()?.value - top).abs()));
+            let width = widths.reduce(f64::min).unwrap_or(0.0);
+            (1..=BENDS).flat_map(move |k| {
+                let step = width * (f64::from(k) * core::f64::consts::FRAC_PI_2 / f64::from(BENDS + 1)).tan();
+                [top - step, top + step]
+            })
+        });
+        about.filter(|value| (ends[0]..=ends[1]).contains(value)).collect()
+    }
+}
+
 impl HalfPower {
     /// The value of the input, if there is one.
     #[must_use]

@@ -12,7 +12,7 @@ use crate::diagnostics;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
-use crate::point::Point;
+use crate::point::{Point, whole};
 use crate::progress;
 use crate::sweep::{Orders, Points, Sweep};
 use crate::verdict::Verdict;
@@ -28,6 +28,9 @@ pub(crate) struct Campbell {
     points: Points,
     #[command(flatten)]
     orders: Orders,
+    /// How many modes texts and figures show [default: those that the orders reach and the coordinates of beams resolve]
+    #[arg(long, value_name = "COUNT", value_parser = whole)]
+    modes: Option<usize>,
     /// List all crossings, also of modes that no unbalance excites
     #[arg(long)]
     all_crossings: bool,
@@ -44,7 +47,7 @@ impl Campbell {
         let mut question = self.point.question()?;
         let range = self.sweep.range(&question)?;
         let values = self.points.values(&range, &question, !self.output.streams())?;
-        let orders = self.orders.along(Some(&range), &question)?;
+        let orders = self.orders.or_first(Some(&range), &question)?;
         let bar = progress::bar("values", Some(values.len() as u64));
         question.study = progress::watched(question.study, &bar);
         let study = &question.study;
@@ -77,6 +80,9 @@ impl Campbell {
         if self.all_crossings {
             found = found.with_all_crossings();
         }
+        if let Some(count) = self.modes {
+            found = found.with_modes(count);
+        }
         let modes = found.labels().last().map_or(0, |last| last + 1);
         let style = self.picture.style(&question, modes)?;
         self.picture.draw(|| figures::campbell(&found, &style))?;
@@ -93,6 +99,7 @@ impl Campbell {
             None => {
                 let mut answer = self.output.answer();
                 answer.add(&found)?;
+                answer.rests_on(found.shown().labels().last().map_or(0, |last| last + 1));
                 self.output.write(&answer)?;
             }
         }

@@ -8,7 +8,10 @@ pub(crate) mod completions;
 pub(crate) mod converge;
 pub(crate) mod equilibria;
 pub(crate) mod expand;
+pub(crate) mod grade;
 pub(crate) mod import;
+#[cfg(feature = "man")]
+pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod modes;
 pub(crate) mod new;

@@ -1,13 +1,18 @@
 //! Equilibrium and natural modes.
 
 use clap::Args;
-use eigentol_figures::mode_shapes;
+use eigentol_figures::{deflections, mode_shapes};
 
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
 use crate::point::Point;
 use crate::verdict::Verdict;
+
+/// Modes in a figure of deflection curves.
+const DRAWN: usize = 6;
+/// Their displacement, as a fraction of the size, so small that nothing but the mode is seen.
+const SMALL: f64 = 1e-4;
 
 /// Equilibrium and natural modes at one operating point
 #[derive(Args, Debug)]
@@ -31,7 +36,16 @@ impl Modes {
         answer.add(&modes.with_whirls(question.study.whirls()?))?;
         answer.add(&question.study.equilibrium()?)?;
         let style = self.picture.style(&question, modes.modes.len())?;
-        self.picture.draw(|| mode_shapes(&modes, &style))?;
+        if self.picture.is_wanted() {
+            let study = &question.study;
+            let scene = study.picture()?;
+            let moving = (0..modes.modes.len().min(DRAWN)).filter_map(|mode| study.mode_pictures(mode, 4, SMALL).ok());
+            let moving: Vec<_> = moving.collect();
+            self.picture.draw(|| match scene.beams.is_empty() {
+                true => mode_shapes(&modes, &style),
+                false => deflections(&scene, &modes, &moving, &style),
+            })?;
+        }
         self.output.write(&answer)?;
         Ok(Verdict::of(&question.study)?)
     }

@@ -25,7 +25,7 @@ const KEYS: &str = concat!(
     "  --require 'vibration shake along speed=0..6000rpm <= 0.1 mm'   the greatest amplitude in a range\n",
     "  --require 'peak shake along speed=0..6000rpm away from speed by 15%'   where the highest peak is\n",
     "  --require 'critical speed=0..6000rpm >= 3000 rpm'   where the equilibrium loses its stiffness\n",
-    "  --require 'resonance 1 speed=0..6000rpm order 2 >= 4000 rpm'   where frequency 1 is 2 (1) times the speed\n",
+    "  --require 'resonance 1 speed=0..6000rpm order 2 >= 4000 rpm'   where frequency 1 crosses 2x (1x) the speed\n",
     "  --require 'flutter 1 speed=0..6000rpm >= 4000 rpm'   where mode 1 begins or ceases to grow\n",
     "  --require stable\n\n",
     "A study file takes the same texts; `failure`, which may be left out, is compared with what is found:\n",

@@ -66,7 +66,7 @@ impl Report {
             .samples(question.few_samples(self.samples)?)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
-        let orders = self.orders.along(range.as_ref(), &question)?;
+        let orders = self.orders.or_first(range.as_ref(), &question)?;
         let mut report = eigentol_report::Report::new(&study)
             .style(self.wording.style(&question))
             .declaration(question.text)

@@ -95,6 +95,10 @@ impl Response {
             return self.peaks_in(&question.study, &range, &wanted);
         }
         let values = self.points.values(&range, &question, true)?;
+        // Without damping a peak is infinite, and the curves say so.
+        let drawn = wanted.first().copied().filter(|_| self.picture.is_wanted());
+        let peaks = drawn.and_then(|of| question.study.peaks(of, range.input, range.low, range.high).ok());
+        let peaks: Vec<_> = peaks.into_iter().collect();
         let bar = progress::bar("values", Some(values.len() as u64));
         question.study = progress::watched(question.study, &bar);
         let (study, input) = (&question.study, range.input);
@@ -104,8 +108,13 @@ impl Response {
             }
             false => study.bode(input, &values)?,
         };
+        let between: Vec<f64> = peaks.iter().flat_map(Peaks::bends).collect();
+        let course = match between.is_empty() {
+            true => bode.clone(),
+            false => bode.clone().with_between(study.bode(input, &between)?),
+        };
         drop(bar);
-        self.figure(&question, &range, &bode, wanted.first().copied())?;
+        self.figure(&question, &course, drawn, &peaks)?;
         let mut answer = self.output.answer();
         answer.add(&bode)?;
         self.output.write(&answer)?;
@@ -152,17 +161,20 @@ impl Response {
     }
 
     /// The Bode plot or the polar plot of a vibration; `None` without outputs or excitations, which the analysis refuses.
-    fn figure(&self, question: &Question, range: &Range, bode: &Bode, drawn: Option<Vibration>) -> Result<(), Failure> {
+    fn figure(
+        &self,
+        question: &Question,
+        bode: &Bode,
+        drawn: Option<Vibration>,
+        peaks: &[Peaks],
+    ) -> Result<(), Failure> {
         self.picture.draw(|| {
             let none = || figures::Error::Nothing("the mechanism has no output".to_owned());
             let drawn = drawn.ok_or_else(none)?;
-            let peaks = (question.study).peaks(drawn, range.input, range.low, range.high);
-            // Without damping a peak is infinite, and the curves say so.
-            let peaks: Vec<_> = peaks.into_iter().collect();
             let style = self.picture.plain_style(question);
             match self.polar {
-                true => figures::polar(bode, drawn, &peaks, &style),
-                false => figures::bode(bode, drawn, &peaks, &style),
+                true => figures::polar(bode, drawn, peaks, &style),
+                false => figures::bode(bode, drawn, peaks, &style),
             }
         })
     }

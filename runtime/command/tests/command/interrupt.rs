@@ -194,7 +194,7 @@ pub(crate) fn chain(folder: &Path, bars: usize) -> String {
 }
 
 /// Subcommands that are done at once, whatever they are about.
-const AT_ONCE: [&str; 6] = ["merge", "new", "import", "schema", "completions", "help"];
+const AT_ONCE: [&str; 7] = ["merge", "new", "import", "schema", "completions", "grade", "help"];
 
 /// Whatever it is busy with, a subcommand ends soon after it is asked to: within a second where nothing else runs.
 #[test]

@@ -37,6 +37,13 @@ pub struct Description {
     /// metre if there are none.
     #[cfg_attr(feature = "serde", serde(default = "one_metre"))]
     pub length: f64,
+    /// The unit of frequencies in texts and figures: Hz where an input is in rpm or Hz, rad/s otherwise. Data are in rad/s.
+    #[cfg_attr(feature = "serde", serde(default = "radians_per_second"))]
+    pub frequency: Unit,
+    /// How many of the first modes the coordinates of its beams resolve, by the rule that `m` modes of a plane of bending
+    /// take `1.5 m + 2` coordinates; `None` without beams.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub resolved_modes: Option<usize>,
     /// The kind of `Chat`.
     pub damping: DampingKind,
     /// The generated functions and their costs.
@@ -104,6 +111,11 @@ const fn one_metre() -> f64 {
     1.0
 }
 
+#[cfg(feature = "serde")]
+const fn radians_per_second() -> Unit {
+    Unit::si("rad/s")
+}
+
 #[cfg(feature = "std")]
 const fn same(a: &[u8], b: &[u8]) -> bool {
     let mut i = 0;
@@ -136,6 +148,12 @@ pub struct Unit {
 }
 
 impl Unit {
+    /// A unit of the SI, or none: `Unit::si("rad/s")`, `Unit::si("")`.
+    #[must_use]
+    pub const fn si(symbol: &'static str) -> Self {
+        Self { symbol: Text::Static(symbol), scale: 1.0 }
+    }
+
     /// Converts a value from this unit to SI.
     #[must_use]
     pub fn to_si(&self, value: f64) -> f64 {
@@ -236,7 +254,7 @@ pub struct DesignInfo {
 pub struct OutputInfo {
     /// Declared name.
     pub name: Text,
-    /// SI unit of the value.
+    /// Declared unit, or the SI unit of the value; kernels give SI.
     pub unit: Unit,
 }
 

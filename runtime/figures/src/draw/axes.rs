@@ -80,6 +80,9 @@ fn ticks(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
         let names = axis.categories.iter().enumerate();
         return names.map(|(k, name)| (k as f64, name.clone())).collect();
     }
+    if axis.logarithmic {
+        return ratios(axis, wanted);
+    }
     let [low, high] = axis.range;
     let rough = (high - low) / wanted.max(2.0);
     if !rough.is_normal() || rough < 0.0 {
@@ -90,6 +93,29 @@ fn ticks(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
     let count = (last - first).clamp(0.0, 100.0) as usize;
     let values = (0..=count).map(|k| first + k as f64).map(|x| x * step);
     values.map(|value| (value, number(value, step))).collect()
+}
+
+/// Ticks of a logarithmic axis, whose range is in powers of ten: at tens, also at twice and five times these where there is
+/// room; within one power of ten at equal steps.
+fn ratios(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
+    let [low, high] = axis.range;
+    let decades = high - low;
+    if decades < 1.0 {
+        let within = Axis { range: axis.range.map(|power| 10f64.powf(power)), logarithmic: false, ..axis.clone() };
+        return ticks(&within, wanted).into_iter().map(|(value, text)| (value.log10(), text)).collect();
+    }
+    let factors: &[f64] = match wanted / decades {
+        room if room >= 3.0 => &[1.0, 2.0, 5.0],
+        _ => &[1.0],
+    };
+    let powers = (low.floor() as i32..=high.ceil() as i32).map(|power| 10f64.powi(power));
+    let values = powers.flat_map(|power| factors.iter().map(move |factor| factor * power));
+    let inside = values.filter(|value| (low..=high).contains(&value.log10()));
+    let text = |value: f64| match (1e-3..1e5).contains(&value) {
+        true => number(value, value),
+        false => format!("{value:e}"),
+    };
+    inside.map(|value| (value.log10(), text(value))).collect()
 }
 
 /// The next larger round number; for angles, one that divides a turn.

@@ -50,9 +50,10 @@ fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> 
     pen.fitted(&figure.title, title, 22, Anchor::Middle, px(WIDTH - 48))?;
     legend::draw(&pen, layout)?;
     for (panel, frame) in figure.panels.iter().zip(&layout.panels) {
+        let panel = panel.straightened();
         match panel.equal_scales {
-            true => panel::draw(&pen, &equalised(panel, frame), frame)?,
-            false => panel::draw(&pen, panel, frame)?,
+            true => panel::draw(&pen, &equalised(&panel, frame), frame)?,
+            false => panel::draw(&pen, &panel, frame)?,
         }
     }
     for (k, line) in layout.caption.iter().enumerate() {

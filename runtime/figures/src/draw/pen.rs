@@ -47,6 +47,25 @@ fn fit(text: &str, size: i32, room: i32) -> (i32, String) {
     (SMALLEST, kept.chain("...".chars()).collect())
 }
 
+/// A path in parts that end where it turns back: the pixel backend cuts such a spike short.
+fn without_spikes(points: &[Pixel]) -> Vec<&[Pixel]> {
+    let turns = |k: usize| {
+        let step = |from: Pixel, to: Pixel| [i64::from(to.0 - from.0), i64::from(to.1 - from.1)];
+        let [a, b] = [step(points[k - 1], points[k]), step(points[k], points[k + 1])];
+        a[0] * b[0] + a[1] * b[1] < 0
+    };
+    let mut parts = Vec::new();
+    let mut first = 0;
+    for k in 1..points.len().saturating_sub(1) {
+        if turns(k) {
+            parts.push(&points[first..=k]);
+            first = k;
+        }
+    }
+    parts.push(&points[first..]);
+    parts
+}
+
 /// Draws onto an area.
 pub(super) struct Pen<'a, B: DrawingBackend> {
     area: &'a Area<B>,
@@ -110,7 +129,10 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     /// A solid line of this width, as shown.
     pub(super) fn line(&self, points: Vec<Pixel>, tint: Colour, width: i32) -> Outcome {
         let style = colour(tint).stroke_width(px(width) as u32);
-        self.area.draw(&PathElement::new(points, style)).map_err(words)
+        for part in without_spikes(&points) {
+            self.area.draw(&PathElement::new(part.to_vec(), style)).map_err(words)?;
+        }
+        Ok(())
     }
 
     /// A thin faint line.

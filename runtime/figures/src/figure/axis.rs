@@ -13,6 +13,8 @@ pub struct Axis {
     pub range: [f64; 2],
     /// The categories at 0, 1, 2, ...; empty for an axis of numbers.
     pub categories: Vec<String>,
+    /// Whether equal lengths are equal ratios; all values are then positive.
+    pub logarithmic: bool,
 }
 
 impl Axis {

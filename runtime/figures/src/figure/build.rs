@@ -6,6 +6,8 @@ use super::{
 
 /// Margin around the content, as a fraction of its extent.
 const ROOM: f64 = 0.05;
+/// Where a logarithmic axis begins at the latest, as a fraction of its greatest value.
+const LOWEST: f64 = 1e-4;
 
 impl Curve {
     /// A solid line through points, interrupted where a point is missing or not finite.
@@ -141,6 +143,57 @@ impl Panel {
         }
     }
 
+    /// Makes the vertical axis logarithmic, if the content spans more than this factor. It begins at most four decades below
+    /// its top; what is not positive is left out.
+    pub fn logarithmic_beyond(&mut self, factor: f64) {
+        let positive = self.points().into_iter().map(|point| point[1]).filter(|value| *value > 0.0);
+        let Some([low, high]) = positive.fold(None, |ends: Option<[f64; 2]>, value| {
+            let [low, high] = ends.unwrap_or([value, value]);
+            Some([low.min(value), high.max(value)])
+        }) else {
+            return;
+        };
+        if high <= factor * low {
+            return;
+        }
+        let low = low.max(high * LOWEST);
+        self.y.logarithmic = true;
+        self.y.range = [0.9 * low, high * 10f64.powf(ROOM * (high / low).log10())];
+        let floor = self.y.range[0];
+        let curves = std::mem::take(&mut self.curves);
+        self.curves =
+            curves.into_iter().map(|curve| Curve { pieces: positive_pieces(&curve.pieces), ..curve }).collect();
+        self.curves.retain(|curve| !curve.pieces.is_empty());
+        for edge in self.bands.iter_mut().flat_map(|band| &mut band.edges) {
+            *edge = [edge[0], edge[1].max(floor), edge[2].max(floor)];
+        }
+        for markers in &mut self.markers {
+            markers.points.retain(|point| point[1] > 0.0);
+        }
+    }
+
+    /// The panel as it is drawn on axes of equal steps: logarithms on a logarithmic axis.
+    #[must_use]
+    pub(crate) fn straightened(&self) -> Self {
+        let mut panel = self.clone();
+        if !panel.y.logarithmic {
+            return panel;
+        }
+        panel.y.range = panel.y.range.map(f64::log10);
+        let pieces = panel.curves.iter_mut().flat_map(|curve| &mut curve.pieces).flatten();
+        let markers = panel.markers.iter_mut().flat_map(|markers| &mut markers.points);
+        let bars = panel.error_bars.iter_mut().flat_map(|errors| &mut errors.bars);
+        let bars = bars.flat_map(|bar| [&mut bar.at, &mut bar.low, &mut bar.high]);
+        let labels = panel.labels.iter_mut().map(|label| &mut label.at);
+        for point in pieces.chain(markers).chain(bars).chain(labels) {
+            point[1] = point[1].log10();
+        }
+        for edge in panel.bands.iter_mut().flat_map(|band| &mut band.edges) {
+            *edge = [edge[0], edge[1].log10(), edge[2].log10()];
+        }
+        panel
+    }
+
     /// Widens one range about its middle until both axes have the same scale in a frame of these proportions, width over
     /// height.
     pub fn equalise(&mut self, proportions: f64) {
@@ -192,6 +245,12 @@ impl Axis {
         let middle = f64::midpoint(self.range[0], self.range[1]);
         self.range = [middle - 0.5 * length, middle + 0.5 * length];
     }
+}
+
+/// The parts of a curve whose values are positive.
+fn positive_pieces(pieces: &[Vec<Point>]) -> Vec<Vec<Point>> {
+    let parts = pieces.iter().flat_map(|piece| piece.split(|point| point[1] <= 0.0));
+    parts.filter(|part| part.len() > 1).map(<[Point]>::to_vec).collect()
 }
 
 fn finite(point: &Point) -> bool {

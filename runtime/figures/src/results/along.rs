@@ -3,7 +3,7 @@
 use eigentol::branches::SpecialKind;
 use eigentol::modes::{Character, Whirl};
 use eigentol::sweep::Sweep;
-use eigentol::{Campbell, Complex, Description, Equilibrium, Error, Input, InputInfo, Unit};
+use eigentol::{Campbell, Complex, Description, Equilibrium, Error, Input, Unit};
 
 use crate::caption::{design, in_unit, operating_point};
 use crate::figure::Axis;
@@ -149,11 +149,6 @@ impl<'a> Course<'a> {
             soft: soft.map(|(value, state)| (to_unit(value), state)).collect(),
         }
     }
-
-    pub(crate) fn info(&self) -> Option<&'a InputInfo> {
-        self.description.inputs.get(self.input.index())
-    }
-
     /// The horizontal axis, from the first to the last value.
     pub(crate) fn axis(&self) -> Axis {
         let mut axis = input_axis(self.description, self.input);

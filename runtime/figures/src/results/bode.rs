@@ -16,6 +16,8 @@ use crate::style::Style;
 const BAND: [f64; 2] = [0.02, 0.98];
 /// Error of an angle relative to an eighth of a turn.
 const ROUNDING: f64 = 1e-9;
+/// Factor between the amplitudes beyond which they are drawn on a logarithmic axis.
+const WIDE: f64 = 100.0;
 /// Number of stretches between the marked values of a polar plot.
 const STRETCHES: usize = 8;
 
@@ -59,17 +61,23 @@ pub fn bode(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style)
     let name = "nominal design";
     let mut upper = Panel::new(course.axis(), Axis::new("amplitude", &*course.unit.symbol));
     let moduli = course.curve(|x| Some(in_unit(x.norm(), &course.unit)));
-    upper.curve(Curve::new(name, Colour::Series(0), moduli));
+    course.draw(&mut upper, name, &moduli);
     course.bands(&mut upper);
     let lines = course.draw_peaks(&mut upper);
+    match style.top() {
+        None => upper.logarithmic_beyond(style.ratio().unwrap_or(WIDE)),
+        Some(top) => upper.y.range = [0.0, top],
+    }
     upper.fit();
-    upper.y.range = [0.0, style.top().unwrap_or(upper.y.range[1])];
+    if !upper.y.logarithmic {
+        upper.y.range[0] = 0.0;
+    }
     let mut lower = Panel::new(course.axis(), Axis::new("phase", "deg"));
     let phases = course.phases();
     lower.y.range = eighths(phases.iter().flatten().map(|x| x[1]));
-    lower.curve(Curve::new("", Colour::Series(0), phases));
+    course.draw(&mut lower, "", &phases);
     if upper.bands.is_empty() && lines.is_empty() {
-        for curve in &mut upper.curves {
+        for curve in upper.curves.iter_mut().filter(|curve| curve.label == name) {
             curve.label.clear();
         }
     }
@@ -108,7 +116,8 @@ pub fn polar(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style
     panel.equal_scales = true;
     let path: Vec<(f64, Option<Point>)> =
         (course.values.iter()).map(|(value, x)| (*value, x.map(|x| course.point(x)))).collect();
-    panel.curve(Curve::new("", Colour::Series(0), path.iter().map(|pair| pair.1)));
+    let points: Vec<Option<Point>> = path.iter().map(|pair| pair.1).collect();
+    course.draw(&mut panel, "", &points);
     panel.markers("", Colour::Grey, Shape::Cross, [[0.0, 0.0]]);
     let is_peak = |value: f64| course.places().any(|peak| peak == value);
     let known: Vec<(f64, Point)> = (path.iter())
@@ -193,6 +202,8 @@ struct Course<'a> {
     unit: Unit,
     /// Values of the input in its unit, those of the peaks among them, with the complex amplitudes, SI.
     values: Vec<(f64, Option<Complex>)>,
+    /// Ends of the stretches whose states are unstable, in the unit of the input.
+    unstable: Vec<[f64; 2]>,
 }
 
 impl<'a> Course<'a> {
@@ -204,8 +215,9 @@ impl<'a> Course<'a> {
             let harmonic = response.harmonic(vibration.excitation)?;
             harmonic.amplitude(vibration.output, vibration.measure)
         };
+        let course = result.course();
         let mut values: Vec<(f64, Option<Complex>)> =
-            (result.points.iter()).map(|point| (in_unit(point.value, &unit), amplitude(point))).collect();
+            (course.iter()).map(|point| (in_unit(point.value, &unit), amplitude(point))).collect();
         if values.iter().all(|value| value.1.is_none()) {
             return Err(Error::nothing("there is no such vibration at any of the values"));
         }
@@ -215,7 +227,28 @@ impl<'a> Course<'a> {
             let amplitude = Complex::from_polar(peak.height.value, peak.phase);
             insert(&mut values, in_unit(peak.place.value, &unit), amplitude);
         }
-        Ok(Self { result, vibration, peaks, unit: Response::Vibration(vibration).unit(d), values })
+        let mut unstable: Vec<[f64; 2]> = Vec::new();
+        for pair in course.windows(2).filter(|pair| pair.iter().any(|point| !point.stable && point.vibration.is_ok())) {
+            let [from, to] = [&pair[0], &pair[1]].map(|point| in_unit(point.value, &unit));
+            match unstable.last_mut() {
+                Some(last) if last[1] == from => last[1] = to,
+                _ => unstable.push([from, to]),
+            }
+        }
+        Ok(Self { result, vibration, peaks, unit: Response::Vibration(vibration).unit(d), values, unstable })
+    }
+
+    /// Draws points that belong to the values, dotted where no machine stays because the state is unstable.
+    fn draw(&self, panel: &mut Panel, label: &str, points: &[Option<Point>]) {
+        let inside = |value: f64, [from, to]: &[f64; 2]| (value - from) * (value - to) <= 0.0;
+        let at = |k: usize| self.values[k].0;
+        let lost = |k: usize| self.unstable.iter().any(|ends| inside(at(k), ends));
+        // A stretch takes the points at its ends with it.
+        let between = |k: usize| self.unstable.iter().any(|ends| inside(at(k), ends) && !ends.contains(&at(k)));
+        let stable = (0..points.len()).map(|k| points[k].filter(|_| !between(k)));
+        let unstable = (0..points.len()).map(|k| points[k].filter(|_| lost(k)));
+        panel.curve(Curve::new(label, Colour::Series(0), stable));
+        panel.curve(Curve::new("unstable", Colour::Series(0), unstable).stroke(Stroke::Dotted));
     }
 
     fn name(&self) -> String {
@@ -282,6 +315,7 @@ impl<'a> Course<'a> {
         });
         let median = Curve::new("median", Colour::Black, median).stroke(Stroke::Dashed);
         panel.curve(median);
+        let label = "within tolerances";
         let mut edges = Vec::new();
         for (value, spread) in &spreads {
             match spread.and_then(outer) {
@@ -289,10 +323,10 @@ impl<'a> Course<'a> {
                     let [low, high] = ends.map(|end| in_unit(end.value));
                     edges.push([*value, low, high]);
                 }
-                None => panel.band("", Colour::Series(0), std::mem::take(&mut edges)),
+                None => panel.band(label, Colour::Series(0), std::mem::take(&mut edges)),
             }
         }
-        panel.band("", Colour::Series(0), edges);
+        panel.band(label, Colour::Series(0), edges);
     }
 
     /// Where the peaks are, in the unit of the input.

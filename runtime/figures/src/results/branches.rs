@@ -11,6 +11,8 @@ use crate::style::Style;
 
 /// Maximum number of panels that fit on a page.
 const MOST: usize = 4;
+/// Coordinates (SI) below this are rounding.
+const ZERO: f64 = 1e-12;
 
 /// Branches of equilibria along the input, one panel per coordinate.
 ///
@@ -29,6 +31,12 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     let mut open_ends = false;
     let resting = d.coordinates.iter().enumerate();
     let resting = resting.filter(|(_, info)| info.role == Role::Position);
+    // What stays at zero has no picture, unless everything does.
+    let states = || result.branches.iter().flat_map(|branch| &branch.points);
+    let most = |k: usize| states().fold(0.0, |most: f64, x| most.max(x.equilibrium.coordinates[k].abs()));
+    let moves = |(k, _): &(usize, _)| most(*k) > ZERO;
+    let any = resting.clone().any(|x| moves(&x));
+    let resting = resting.filter(|x| moves(x) || !any);
     for (k, info) in resting.clone().take(MOST) {
         let y = Axis::new(&*info.name, &*info.unit.symbol);
         let mut panel = Panel::new(input_axis(d, first.input), y);
@@ -80,7 +88,7 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     let mut caption = about(d, result);
     let all = resting.count();
     if all > MOST {
-        caption.push(format!("The first {MOST} of {all} coordinates."));
+        caption.push(format!("The first {MOST} of {all} coordinates that move."));
     }
     caption = with_notes(caption, style, d);
     let unit = input_unit(d, first.input);

@@ -9,7 +9,7 @@ use eigentol::tolerance::Spread;
 use super::along::{Course, input_unit};
 use super::ends::Ends;
 use super::events;
-use super::scale::{factor, words};
+use super::scale::{self, factor, words};
 use super::tracks::{Motion, Track, tracks};
 use crate::Error;
 use crate::caption::{in_unit, number};
@@ -47,9 +47,12 @@ use crate::style::Style;
 /// # Errors
 /// [`Error::Nothing`] where no mode oscillates.
 pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
+    let few = result.shown();
+    let modes_left_out = result.modes_left_out(&few);
+    let result = &few;
     let course = Course::of(result);
-    let (scale, symbol) = style.frequency(course.info());
-    let mut panel = Panel::new(course.axis(), Axis::new("frequency", symbol));
+    let (scale, symbol) = style.frequency(&result.description);
+    let mut panel = Panel::new(course.axis(), Axis::new("frequency", &*symbol));
     let mut ends = Ends::default();
     for track in tracks(&course.stations, &course.critical) {
         if track.oscillates() {
@@ -92,6 +95,7 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     }
     caption.extend(lines);
     caption.extend(result.left_out());
+    caption.extend(modes_left_out);
     if beyond > 0 && style.top().is_none() {
         let lines = if beyond == 1 { "line lies" } else { "lines lie" };
         caption.push(format!("{beyond} more {lines} above the diagram"));
@@ -150,10 +154,11 @@ pub(super) fn bands(
         spread.band.is_finite().then_some((scale * spread.mean, scale * spread.band))
     };
     let modes = result.points.iter().flat_map(|point| point.modes.iter().flatten());
-    let times = match style.has_true_width() {
-        true => 1.0,
-        false => factor(modes.filter_map(quantity).map(|pair| pair.1), length),
+    let times = match style.is_widened() {
+        true => factor(modes.filter_map(quantity).map(|pair| pair.1), length),
+        false => 1.0,
     };
+    let mut legend = scale::legend(result.sigma_level, times);
     for label in result.labels() {
         let mut edges = Vec::new();
         let colour = Colour::Series(label);
@@ -168,7 +173,9 @@ pub(super) fn bands(
                 None => panel.band("", colour, std::mem::take(&mut edges)),
             }
         }
-        panel.band("", colour, edges);
+        // One entry of the legend stands for all bands.
+        let entry = if edges.len() > 1 { std::mem::take(&mut legend) } else { String::new() };
+        panel.band(entry, colour, edges);
     }
     times
 }

@@ -17,6 +17,7 @@ use crate::style::Style;
 /// # Errors
 /// [`Error::Nothing`] where no mode oscillates.
 pub fn damping_ratios(result: &Campbell, style: &Style) -> Result<Figure, Error> {
+    let result = &result.shown();
     let course = Course::of(result);
     let mut panel = Panel::new(course.axis(), Axis::new("damping ratio", "%"));
     let mut ends = Ends::default();

@@ -15,8 +15,8 @@ use crate::style::Style;
 /// [`Error::Nothing`] where no mode oscillates.
 pub fn frequencies<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result);
-    let (scale, symbol) = style.frequency(course.info());
-    let mut upper = Panel::new(course.axis(), Axis::new("frequency", symbol));
+    let (scale, symbol) = style.frequency(course.description);
+    let mut upper = Panel::new(course.axis(), Axis::new("frequency", &*symbol));
     let mut lower = Panel::new(course.axis(), Axis::new("damping ratio", "%"));
     let mut damped = false;
     let mut ends = Ends::default();

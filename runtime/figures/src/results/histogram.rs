@@ -79,8 +79,8 @@ impl<'a> Histogram<'a> {
             let why = format!("the samples of {name} have no two different frequencies");
             return Err(Error::nothing(why));
         };
-        let (scale, symbol) = style.frequency(None);
-        let mut panel = density_panel(&name, symbol);
+        let (scale, symbol) = style.frequency(d);
+        let mut panel = density_panel(&name, &symbol);
         let bars = histogram.edges.windows(2).zip(&histogram.shares);
         let bars = bars.map(|(edge, share)| {
             let (left, right) = (scale * edge[0], scale * edge[1]);

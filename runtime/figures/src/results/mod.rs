@@ -1,10 +1,12 @@
 //! Figures of the results of the library, one file for each kind.
 
 mod along;
+mod any;
 mod bode;
 mod branches;
 mod campbell;
 mod damping;
+mod deflection;
 mod eigenvalues;
 mod ends;
 mod equilibria;
@@ -19,10 +21,12 @@ mod spreads;
 mod tracks;
 
 pub use along::Along;
+pub use any::figure_of;
 pub use bode::{bode, polar};
 pub use branches::branches;
 pub use campbell::campbell;
 pub use damping::damping_ratios;
+pub use deflection::deflections;
 pub use eigenvalues::{eigenvalues, root_locus};
 pub use equilibria::equilibria;
 pub use frequencies::frequencies;

@@ -59,7 +59,7 @@ pub fn orbit<M>(
     let later = "an eighth of a period later";
     panel.markers(later, Colour::Black, Shape::Disc, [at(LATER)]);
     let names = [&*first.name, &*second.name];
-    let (scale, symbol) = style.frequency(None);
+    let (scale, symbol) = style.frequency(d);
     let frequency = format!("{} {symbol}", number(scale * harmonic.frequency));
     let vibration = Response::Vibration(Vibration::new(x, excitation)).name(d);
     let under = vibration.split_once(" under ").map_or("?", |pair| pair.1);

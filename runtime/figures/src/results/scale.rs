@@ -20,6 +20,14 @@ pub(crate) fn factor(half_widths: impl Iterator<Item = f64>, length: f64) -> f64
     steps.into_iter().rev().find(fits).unwrap_or(1.0)
 }
 
+/// What the legend calls bands of so many standard deviations.
+pub(crate) fn legend(sigma_level: f64, factor: f64) -> String {
+    match factor == 1.0 {
+        true => format!("{sigma_level} sigma"),
+        false => format!("{sigma_level} sigma, {factor} times"),
+    }
+}
+
 /// Describes what bands and error bars show.
 pub(crate) fn words(sigma_level: f64, factor: f64) -> String {
     let sigma = match sigma_level == 1.0 {

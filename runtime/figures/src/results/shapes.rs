@@ -1,6 +1,6 @@
 //! Mode shapes.
 
-use eigentol::{Complex, Equilibrium, Mode, Modes, Role};
+use eigentol::{Complex, Description, Equilibrium, Mode, Modes, Role};
 
 use super::along::with_notes;
 use crate::Error;
@@ -9,7 +9,7 @@ use crate::figure::{Axis, Colour, Figure, Panel, Shape};
 use crate::style::Style;
 
 /// Maximum number of modes that fit on a page.
-const MOST: usize = 6;
+pub(super) const MOST: usize = 6;
 /// Components smaller than this fraction of the largest have no meaningful phase.
 const VISIBLE: f64 = 1e-3;
 /// Half the width of the bars of one coordinate.
@@ -37,7 +37,7 @@ pub fn mode_shapes(result: &Modes, style: &Style) -> Result<Figure, Error> {
         let components = relative(result, mode);
         let heights = components.iter().map(|x| if real { x.re } else { x.norm() });
         let bars: Vec<[f64; 4]> = columns(heights, r, shown.len()).collect();
-        upper.bars(label(mode, style), Colour::Series(r), bars);
+        upper.bars(label(mode, &result.description, style), Colour::Series(r), bars);
         let phases = columns(components.iter().map(|x| x.arg().to_degrees()), r, shown.len());
         let phases = phases.zip(&components).filter(|(_, x)| x.norm() >= VISIBLE);
         let points =
@@ -85,7 +85,7 @@ pub fn participation(result: &Modes, at: &Equilibrium, style: &Style) -> Result<
         let whole: f64 = all.iter().sum();
         let percentages = resting(result).map(|k| 100.0 * all[k] / whole);
         let bars: Vec<[f64; 4]> = columns(percentages, r, shown.len()).collect();
-        panel.bars(label(mode, style), Colour::Series(r), bars);
+        panel.bars(label(mode, &result.description, style), Colour::Series(r), bars);
     }
     if panel.is_empty() {
         return Err(Error::nothing("no mode moves a mass"));
@@ -135,8 +135,8 @@ fn columns(heights: impl Iterator<Item = f64>, r: usize, modes: usize) -> impl I
     })
 }
 
-fn label(mode: &Mode, style: &Style) -> String {
-    let (scale, symbol) = style.frequency(None);
+pub(super) fn label(mode: &Mode, d: &Description, style: &Style) -> String {
+    let (scale, symbol) = style.frequency(d);
     let name = style.mode(mode.label);
     match mode.frequency() {
         Some(frequency) => format!("{name}, {} {symbol}", number(scale * frequency)),

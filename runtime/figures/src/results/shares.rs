@@ -106,7 +106,7 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
 }
 
 fn spread(result: &FirstOrder, mode: usize, style: &Style) -> String {
-    let (scale, symbol) = style.frequency(None);
+    let (scale, symbol) = style.frequency(&result.description);
     let frequency = result.modes.get(mode).and_then(ModeTolerance::frequency);
     frequency.map_or_else(String::new, |item| {
         let (mean, sigma) = (number(scale * item.mean), number(scale * item.sigma));

@@ -83,8 +83,8 @@ impl<'a> Spreads<'a> {
         let name = style.mode(self.mode);
         let nothing = || Error::nothing(format!("{name} has no spread"));
         let (d, inputs) = about.next().ok_or_else(nothing)?;
-        let (scale, symbol) = style.frequency(d.inputs.get(self.input.index()));
-        let panel = |what: &str| Panel::new(input_axis(d, self.input), Axis::new(what, symbol));
+        let (scale, symbol) = style.frequency(d);
+        let panel = |what: &str| Panel::new(input_axis(d, self.input), Axis::new(what, &*symbol));
         let mut upper = panel("sigma of the frequency");
         let mut lower = panel("mean less nominal");
         for (k, series) in self.series.iter().enumerate() {

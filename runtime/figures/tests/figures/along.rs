@@ -60,9 +60,9 @@ fn a_campbell_diagram_has_the_frequencies_bands_and_events_of_its_result() {
 }
 
 #[test]
-fn thin_bands_are_widened_and_the_caption_says_how_much() {
+fn thin_bands_are_widened_on_request_and_the_caption_says_how_much() {
     let result = rotor_diagram(31);
-    let figure = campbell(&result, &Style::default()).unwrap();
+    let figure = campbell(&result, &Style::default().widened()).unwrap();
     let panel = &figure.panels[0];
     let line = figure.caption.iter().find(|line| line.starts_with("Shaded: 3 standard"));
     let line = line.expect("the caption explains the bands");
@@ -82,7 +82,7 @@ fn thin_bands_are_widened_and_the_caption_says_how_much() {
 #[test]
 fn a_part_of_a_diagram_shows_what_lies_in_it_at_true_width() {
     let result = rotor_diagram(31);
-    let style = Style::default().lowest(15.0).highest(30.0).true_width();
+    let style = Style::default().lowest(15.0).highest(30.0);
     let figure = campbell(&result, &style).unwrap();
     let panel = &figure.panels[0];
     assert_eq!(panel.y.range, [15.0, 30.0]);
@@ -230,7 +230,7 @@ fn events_stand_where_they_happen_and_are_told_with_their_numbers() {
 #[test]
 fn bands_lie_about_their_modes() {
     let result = rotor_diagram(31);
-    let style = Style::default().true_width();
+    let style = Style::default();
     let frequencies = campbell(&result, &style).unwrap();
     let ratios = damping_ratios(&result, &style).unwrap();
     let mut seen = 0;

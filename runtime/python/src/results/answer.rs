@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use eigentol::Input;
+use eigentol_figures::{Figure, Style, figure_of};
 use eigentol_tables::{Error, Table, json};
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
@@ -26,6 +27,8 @@ pub(crate) trait Described: Send + Sync + 'static {
     fn operating_point(&self) -> BTreeMap<String, f64>;
     fn kind(&self) -> &str;
     fn document(&self) -> Result<String, Error>;
+    /// Its figure, if results of this type have one.
+    fn figure(&self) -> Option<Result<Figure, eigentol_figures::Error>>;
     /// Every number of it, SI, as the document has them.
     fn fields(&self) -> serde_json::Result<Value>;
 }
@@ -63,6 +66,10 @@ impl<A: eigentol_tables::Answer + Serialize + Send + Sync + 'static> Described f
 
     fn document(&self) -> Result<String, Error> {
         json::to_string(self)
+    }
+
+    fn figure(&self) -> Option<Result<Figure, eigentol_figures::Error>> {
+        figure_of(self, &Style::default())
     }
 
     fn fields(&self) -> serde_json::Result<Value> {
@@ -132,6 +139,10 @@ impl Described for Document {
 
     fn document(&self) -> Result<String, Error> {
         Ok(self.document.clone())
+    }
+
+    fn figure(&self) -> Option<Result<Figure, eigentol_figures::Error>> {
+        None
     }
 
     fn fields(&self) -> serde_json::Result<Value> {

@@ -66,6 +66,42 @@ macro_rules! result {
                 $crate::results::table(py, &self.0.all_tables(), name)
             }
 
+            /// Draws the figure of the result on matplotlib axes, new ones unless `ax` is given: one pair, or as many as
+            /// the figure has panels. Returns the axes.
+            ///
+            /// Raises TypeError for a result that has no figure, ImportError without matplotlib.
+            #[pyo3(signature = (ax=None))]
+            fn plot<'py>(
+                &self,
+                py: Python<'py>,
+                ax: Option<$crate::hints::Anything<'py>>,
+            ) -> PyResult<$crate::hints::Anything<'py>> {
+                $crate::figures::plot(py, self.0.figure(), ax)
+            }
+
+            /// A table of the result as a pandas.DataFrame; without a name the first, the answer.
+            #[pyo3(signature = (name=None))]
+            fn to_frame<'py>(
+                &self,
+                py: Python<'py>,
+                name: Option<&str>,
+            ) -> PyResult<$crate::hints::Anything<'py>> {
+                $crate::figures::frame(py, $crate::results::table(py, &self.0.all_tables(), name)?)
+            }
+
+            /// A table of the result as an xarray.Dataset, without a name the first. Its axes are the input that varies, and
+            /// what tells the rows at one value apart: the mode, the output, the excitations. Units are attributes.
+            ///
+            /// Raises ValueError for a table whose rows have no axes.
+            #[pyo3(signature = (name=None))]
+            fn to_xarray<'py>(
+                &self,
+                py: Python<'py>,
+                name: Option<&str>,
+            ) -> PyResult<$crate::hints::Anything<'py>> {
+                $crate::figures::dataset(py, $crate::results::table(py, &self.0.all_tables(), name)?, name)
+            }
+
             /// The result as a JSON document, with every digit: what `eigentol --json` prints. Its schema is
             /// `eigentol.json_schema()`; under "result" it holds every number of the result, SI.
             fn to_json(&self, py: Python<'_>) -> PyResult<String> {

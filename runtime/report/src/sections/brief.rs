@@ -1,12 +1,16 @@
 //! The main findings, in sentences.
 
+use eigentol::peaks::Peaks;
+use eigentol::response::{Response, Vibration};
 use eigentol::sweep::{Condition, Event, EventTolerance};
 use eigentol::tolerance::{FirstOrder, MonteCarlo, Outcome};
 use eigentol::{Behaviour, Campbell, Description, Modes};
-use eigentol_figures::Style;
+use eigentol_figures::{self as figures, Style};
 
 use super::verdicts::NOTHING_VARIES;
+use super::vibration;
 use crate::Error;
+use crate::charts::chart;
 use crate::content::{Along, Content, Spreads};
 use crate::html::Html;
 use crate::words::{digits, is_rounding, number, sentence, with_unit};
@@ -27,6 +31,12 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             html.leaf("li", &[("class", class)], &text);
         }
     });
+    html.constant("<div class=\"pair\">\n");
+    if let Some(Ok(campbell)) = content.along.as_ref().map(|along| &along.campbell) {
+        chart(html, &figures::campbell(campbell, &content.brief_style.clone().title("Campbell diagram")))?;
+    }
+    vibration::first(html, content)?;
+    html.constant("</div>\n");
     Ok(())
 }
 
@@ -38,6 +48,7 @@ fn all(content: &Content) -> Vec<Line> {
     if let Ok(modes) = &content.modes {
         lines.extend(frequencies(content, modes));
     }
+    lines.extend(vibrations(content));
     match &content.spread {
         None => lines.push((None, NOTHING_VARIES.to_owned())),
         Some(spread) => lines.extend(tolerances(spread, &content.brief_style)),
@@ -64,7 +75,7 @@ fn equilibrium(content: &Content) -> Line {
 fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
     let first = (content.spread.as_ref()).and_then(|spread| spread.summary.as_ref().ok()).map(|summary| &summary.first);
     let style = &content.brief_style;
-    let (scale, unit) = style.frequency(None);
+    let (scale, unit) = style.frequency(&modes.description);
     let each = modes.modes.iter().enumerate().take(MODES);
     let mut lines: Vec<Line> = each
         .map(|(r, mode)| {
@@ -85,6 +96,35 @@ fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
         lines.push((None, format!("{more} more modes are in the table of modes.")));
     }
     lines
+}
+
+/// The amplitudes of the outputs at the operating point, and the highest peak of each along the input.
+fn vibrations(content: &Content) -> Vec<Line> {
+    let Some(forced) = &content.forced else {
+        return Vec::new();
+    };
+    let d = &content.description;
+    let at_point = |vibration: Vibration| -> Option<Line> {
+        let response = forced.response.as_ref().ok()?;
+        let harmonic = response.harmonic(vibration.excitation)?;
+        let amplitude = harmonic.amplitude(vibration.output, vibration.measure)?.norm();
+        let response = Response::Vibration(vibration);
+        let height = with_unit(amplitude, &response.unit(d));
+        Some((None, sentence(&format!("{} is {height} from 0 to peak", response.name(d)))))
+    };
+    let at_peak = |(vibration, peaks): &(Vibration, Result<Peaks, eigentol::Error>)| -> Option<Line> {
+        let peaks = peaks.as_ref().ok()?;
+        let highest = peaks.peaks.iter().max_by(|a, b| a.height.value.total_cmp(&b.height.value))?;
+        let response = Response::Vibration(*vibration);
+        let info = d.inputs.get(peaks.range.input.index())?;
+        let [height, place] =
+            [with_unit(highest.height.value, &response.unit(d)), with_unit(highest.place.value, &info.unit)];
+        let unstable = if highest.stable { "" } else { ", at an unstable equilibrium" };
+        Some((None, sentence(&format!("the highest peak of {} is {height}, at {place}{unstable}", response.name(d)))))
+    };
+    let wanted = Vibration::all(d).into_iter().filter(|_| forced.along.is_none());
+    let peaks = forced.along.iter().flat_map(|along| &along.peaks);
+    wanted.filter_map(at_point).take(MODES).chain(peaks.filter_map(at_peak).take(MODES)).collect()
 }
 
 /// What a mode without a frequency does, after "it".
@@ -186,7 +226,7 @@ fn along(along: &Along, style: &Style) -> Vec<Line> {
     lines
 }
 
-/// `The frequency of mode 2 is 1 times speed at speed = 2045 rpm +- 27 (3 sigma).`
+/// `Mode 2 crosses 1x speed at 2045 rpm +- 27 (3 sigma).`
 fn happening(campbell: &Campbell, event: &EventTolerance, style: &Style) -> String {
     let d: &Description = &campbell.description;
     let Some(info) = d.inputs.get(event.input.index()) else {
@@ -194,7 +234,7 @@ fn happening(campbell: &Campbell, event: &EventTolerance, style: &Style) -> Stri
     };
     let what = match event.event {
         Event::Crossing { mode, condition: Condition::Line(line), .. } => {
-            format!("the frequency of {} is {} times {}", style.mode(mode), line.ratio, info.name)
+            format!("{} crosses {}x {}", style.mode(mode), line.ratio, info.name)
         }
         Event::Crossing { mode, .. } => format!("{} begins or ceases to grow", style.mode(mode)),
         _ => "the equilibrium loses its stiffness".to_owned(),
@@ -206,5 +246,9 @@ fn happening(campbell: &Campbell, event: &EventTolerance, style: &Style) -> Stri
         _ => String::new(),
     };
     let value = with_unit(event.value, &info.unit);
-    sentence(&format!("{what} at {} = {value}{spread}", info.name))
+    let at = match event.event {
+        Event::Crossing { condition: Condition::Line(_), .. } => value,
+        _ => format!("{} = {value}", info.name),
+    };
+    sentence(&format!("{what} at {at}{spread}"))
 }

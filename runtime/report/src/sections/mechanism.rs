@@ -38,7 +38,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         html.paragraph("Some of the variables are correlated.");
     }
     if let Ok(pictures) = &content.pictures {
-        for (caption, listing) in parts::tables(&pictures.scene) {
+        for (caption, listing) in parts::tables(&pictures.scene, d) {
             table(html, caption, &listing, &[])?;
         }
     }

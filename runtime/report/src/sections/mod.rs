@@ -18,6 +18,9 @@ use crate::content::Content;
 use crate::html::Html;
 use crate::words::sentence;
 
+/// The section that is the answer.
+const ANSWER: &str = "brief";
+
 /// A question: anchor, heading, and what writes the answer.
 pub(crate) struct Section {
     pub(crate) id: &'static str,
@@ -30,7 +33,7 @@ type Write = fn(&mut Html, &Content) -> Result<(), Error>;
 /// The sections, in order. What nothing excites has none about forced vibration.
 pub(crate) fn of(content: &Content) -> Vec<Section> {
     let all: [(_, _, Write); 9] = [
-        ("brief", "In short", brief::section),
+        (ANSWER, "In short", brief::section),
         ("mechanism", "Mechanism", mechanism::section),
         ("equilibrium", "Equilibrium", equilibrium::section),
         ("modes", "Modes", modes::section),
@@ -51,10 +54,18 @@ pub(crate) fn of(content: &Content) -> Vec<Section> {
 pub(crate) fn all(html: &mut Html, content: &Content) -> Result<(), Error> {
     for Section { id, heading, write } in of(content) {
         let mut written = Ok(());
-        html.element("section", &[("id", id)], |html| {
-            html.leaf("h2", &[], heading);
-            written = write(html, content);
-        });
+        // The answer is on one page; the details unfold.
+        if id == ANSWER {
+            html.element("section", &[("id", id)], |html| {
+                html.leaf("h2", &[], heading);
+                written = write(html, content);
+            });
+        } else {
+            html.element("details", &[("id", id), ("class", "section")], |html| {
+                html.element("summary", &[], |html| html.leaf("h2", &[], heading));
+                written = write(html, content);
+            });
+        }
         html.constant("\n");
         written?;
     }

@@ -1,7 +1,7 @@
 //! The vibration modes of the mechanism.
 
 use eigentol::picture::Scene;
-use eigentol_figures::{mode_shapes, participation};
+use eigentol_figures::{deflections, mode_shapes, participation};
 use eigentol_tables::Answer as _;
 
 use super::refused;
@@ -38,7 +38,14 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         return Ok(());
     }
     let style = content.brief_style.clone();
-    chart(html, &mode_shapes(modes, &style.clone().title("Mode shapes")))?;
+    let titled = style.clone().title("Mode shapes");
+    match &content.pictures {
+        Ok(pictures) if !pictures.scene.beams.is_empty() => {
+            let moving: Vec<_> = pictures.modes.iter().filter_map(|picture| picture.clone().ok()).collect();
+            chart(html, &deflections(&pictures.scene, modes, &moving, &titled))?;
+        }
+        _ => chart(html, &mode_shapes(modes, &titled))?,
+    }
     if let Ok(state) = &content.equilibrium {
         chart(html, &participation(modes, state, &style.title("What moves in each mode")))?;
     }

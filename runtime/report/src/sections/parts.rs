@@ -1,19 +1,31 @@
 //! Tables of bodies, joints, forces and constraints.
 
 use eigentol::picture::{Beam, Body, Joint, Scene, Shape, Solid};
+use eigentol::{Description, ExcitationInfo};
 use eigentol_tables::Table;
 
 use crate::words::number;
 
 /// The non-empty tables with their captions.
-pub(super) fn tables(scene: &Scene) -> Vec<(&'static str, Table)> {
+pub(super) fn tables(scene: &Scene, d: &Description) -> Vec<(&'static str, Table)> {
     let all = [
         ("Bodies; lengths in m, masses in kg", bodies(scene)),
         ("Joints", joints(scene)),
         ("Gravity, drives, forces, constraints and curves; numbers in SI", elements(scene)),
+        ("Excitations", excitations(d)),
         ("What rolls", wheels(scene)),
     ];
     all.into_iter().filter(|(_, x)| x.rows() > 0).collect()
+}
+
+fn excitations(d: &Description) -> Table {
+    let mut table = Table::new("excitations");
+    let all = || d.excitations.iter();
+    table.texts("excitation", all().map(|info| Some(info.name.to_string())));
+    table.texts("kind", all().map(|info| Some(info.kind.to_string())));
+    let order = |info: &ExcitationInfo| Some(info.order.to_string()).filter(|order| !order.is_empty());
+    table.texts("order", all().map(order));
+    table
 }
 
 fn bodies(scene: &Scene) -> Table {

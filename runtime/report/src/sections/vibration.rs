@@ -92,6 +92,20 @@ fn motion(html: &mut Html, content: &Content) {
     }
 }
 
+/// The Bode plot of the first vibration, for the page with the answer.
+pub(super) fn first(html: &mut Html, content: &Content) -> Result<(), Error> {
+    let along = content.forced.as_ref().and_then(|forced| forced.along.as_ref());
+    let (Some(along), Some(&vibration)) = (along, Vibration::all(&content.description).first()) else {
+        return Ok(());
+    };
+    if let Ok(course) = &along.bode {
+        let peaks: Vec<_> = along.peaks.iter().filter_map(|peak| peak.1.clone().ok()).collect();
+        let name = Response::Vibration(vibration).name(&content.description);
+        chart(html, &bode(course, vibration, &peaks, &content.brief_style.clone().title(format!("Vibration {name}"))))?;
+    }
+    Ok(())
+}
+
 fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Result<(), Error> {
     let course = match &along.bode {
         Ok(bode) => bode,

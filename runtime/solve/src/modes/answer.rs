@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use eigentol_results::columns::Columns;
-use eigentol_results::numbers::{optional, or_dash, rough};
+use eigentol_results::numbers::{number, optional, or_dash, rough};
 use eigentol_results::relevance::{COLUMNS, EVERYTHING, largest, names, relevant, unless_rounding};
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Findings, Subject, displayed};
@@ -26,7 +26,7 @@ impl Answer for Modes {
         let mut said = Findings::titled(format!("{title}: natural modes"));
         let shapes = Shapes::of(self);
         let mut table = Columns::new("modes", &self.modes);
-        eigenvalues(&mut table, self.family);
+        eigenvalues(&mut table, self.family, &self.description);
         self.kinds(&mut table);
         shapes.columns(&mut table);
         components(&mut table, &self.description);
@@ -57,11 +57,14 @@ impl Modes {
 }
 
 /// Adds the columns of eigenvalues and what they mean.
-fn eigenvalues(table: &mut Columns<'_, Mode>, family: Family) {
+fn eigenvalues(table: &mut Columns<'_, Mode>, family: Family, d: &Description) {
     table.whole("mode", &|mode| Some(mode.label + 1)).shown();
     let frequency = table.number("frequency", "rad/s", &Mode::frequency);
     frequency.shown().headed("omega [rad/s]");
-    table.cells("f [Hz]", &|mode| optional(mode.frequency().map(|omega| omega / TAU)));
+    match &*d.frequency.symbol {
+        "rad/s" => table.cells("f [Hz]", &|mode| optional(mode.frequency().map(|omega| omega / TAU))),
+        _ => table.frequencies("f", d, number, &Mode::frequency),
+    }
     table.number("natural frequency", "rad/s", &Mode::natural_frequency);
     table.number("damping ratio", "", &Mode::damping_ratio);
     table.number("Re s", "1/s", &|mode| Some(mode.s.re));

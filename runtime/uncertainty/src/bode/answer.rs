@@ -43,7 +43,7 @@ impl Answer for Bode {
         if self.harmonics() > 1 {
             column.shown();
         }
-        table.number("frequency", "rad/s", &|row| Some(row.found?.0.frequency)).digits(number);
+        table.number("frequency", "rad/s", &|row| Some(row.found?.0.frequency)).digits_in(&d.frequency, number);
         table.words("output", &|row| Some(row.name(d)?.to_owned())).shown();
         table.words("unit", &|row| Some(row.unit(d)?.to_owned())).shown();
         table.number("amplitude", "", &|row| row.scaled(d, Complex::norm)).digits(number);

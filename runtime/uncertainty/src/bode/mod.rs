@@ -24,6 +24,9 @@ pub struct Bode {
     pub input: Input,
     /// A point for each of its values.
     pub points: Vec<BodePoint>,
+    /// Points between the values, for figures alone.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub between: Vec<BodePoint>,
     /// The vibrations that have bands.
     pub banded: Vec<Vibration>,
     /// Number of values not reached because the run was stopped.
@@ -32,6 +35,29 @@ pub struct Bode {
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
+}
+
+impl Bode {
+    /// The answer with points of `others` between its values, which figures show besides: those about peaks
+    /// ([`Peaks::bends`](crate::peaks::Peaks::bends)).
+    #[must_use]
+    pub fn with_between(mut self, others: Self) -> Self {
+        self.between.extend(others.points);
+        self
+    }
+
+    /// All points in the order of the values.
+    pub fn course(&self) -> Vec<&BodePoint> {
+        let mut all: Vec<&BodePoint> = self.points.iter().chain(&self.between).collect();
+        if self.between.is_empty() {
+            return all;
+        }
+        all.sort_by(|a, b| a.value.total_cmp(&b.value));
+        if self.points.first().map(|point| point.value) > self.points.last().map(|point| point.value) {
+            all.reverse();
+        }
+        all
+    }
 }
 
 /// Forced vibration at one value of an input.
@@ -132,6 +158,7 @@ pub fn bode(
     Ok(Bode {
         input,
         points,
+        between: Vec::new(),
         banded: banded.map_or(Vec::new(), |banded| banded.wanted.clone()),
         unreached,
         inputs: u.into(),

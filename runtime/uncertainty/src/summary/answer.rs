@@ -1,4 +1,4 @@
-use eigentol_results::numbers::{number, or_dash, rough};
+use eigentol_results::numbers::{converted, heading, number, or_dash, rough};
 use eigentol_results::relevance::{NOTHING_VARIES, unless_rounding};
 use eigentol_results::shares::mostly;
 use eigentol_results::title::title;
@@ -113,10 +113,12 @@ impl Summary {
             table.show_rows(Vec::new());
         }
         table.whole("mode", &|row| Some(row.mode + 1)).shown();
+        let unit = &self.description.frequency;
+        let in_unit = |omega: f64| converted(omega, unit);
         let nominal = table.number("frequency", "rad/s", &|row| row.first.behaviour.frequency());
-        nominal.digits(number).headed("nominal [rad/s]");
+        nominal.digits_in(unit, number).headed(&heading("nominal", unit));
         table.number("sigma, first order", "rad/s", &|row| Some(row.spread()?.sigma));
-        table.cells("sigma: first order", &|row| or_dash(row.sigma(), rough));
+        table.cells("sigma: first order", &|row| or_dash(row.sigma().map(in_unit), rough));
         table.number("sigma, second order", "rad/s", &|row| {
             let second = self.second.modes.get(row.mode).filter(|_| row.alone)?;
             Some(second.as_ref().ok()?.frequency.moments.sigma)
@@ -124,11 +126,11 @@ impl Summary {
         table.cells("second order", &|row| {
             let nominal = row.first.behaviour.frequency().unwrap_or(0.0);
             let sigma = self.second_order_sigma(row.mode).filter(|_| row.alone);
-            or_dash(sigma.map(|sigma| unless_rounding(sigma, nominal)), rough)
+            or_dash(sigma.map(|sigma| in_unit(unless_rounding(sigma, nominal))), rough)
         });
         let sampled = table.number("sigma, sampled", "rad/s", &|row| row.sampled(Quantity::Frequency));
         if self.sampled().is_some() {
-            sampled.digits(rough).headed("sampled");
+            sampled.digits_in(unit, rough).headed("sampled");
         }
         table.number("standard error of sampled sigma", "rad/s", &|row| {
             Some(row.trust.check(Quantity::Frequency)?.sigma.standard_error)
@@ -136,7 +138,7 @@ impl Summary {
         table.whole("samples", &|row| Some(row.trust.check(Quantity::Frequency)?.count));
         table.number("band", "rad/s", &|row| Some(row.spread()?.band));
         let level = self.first.sigma_level;
-        table.cells(&format!("{level} sigma"), &|row| or_dash(row.sigma().map(|sigma| sigma * level), rough));
+        table.cells(&format!("{level} sigma"), &|row| or_dash(row.sigma().map(|sigma| in_unit(sigma * level)), rough));
         table.cells("mostly from", &|row| match row.sigma().is_some_and(|sigma| sigma != 0.0) {
             true => mostly(&self.description, row.first.variance_shares()),
             false => "-".to_owned(),

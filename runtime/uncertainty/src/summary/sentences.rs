@@ -3,7 +3,7 @@
 use core::fmt;
 
 use eigentol_results::naming::{capital, named};
-use eigentol_results::numbers::{number, rough, short};
+use eigentol_results::numbers::{frequency_in, number, rough, short};
 
 use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampling, Summary, Trust};
 use crate::tolerance::{ModeTolerance, Outcome, doubt_sentences};
@@ -121,10 +121,10 @@ impl Summary {
             let side = if sigmas > 0.0 { "above" } else { "below" };
             counts.then(|| {
                 format!(
-                    "Mode {}: the mean frequency is {} rad/s, {} sigma {side} the nominal one: the limits of a variable \
+                    "Mode {}: the mean frequency is {}, {} sigma {side} the nominal one: the limits of a variable \
                      are not centred on its nominal value.",
                     r + 1,
-                    number(spread.mean),
+                    frequency_in(spread.mean, &self.description.frequency, number),
                     short(sigmas.abs())
                 )
             })

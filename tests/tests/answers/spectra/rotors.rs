@@ -189,7 +189,7 @@ fn the_campbell_diagram_of_the_disk() {
         assert!(least.fold(f64::INFINITY, f64::min) < 1e-9 * speed);
     }
     let text = diagram.to_string();
-    for part in ["Campbell", "forward", "backward", "is 2 times speed"] {
+    for part in ["Campbell", "forward", "backward", "crosses 2x speed"] {
         assert!(text.contains(part), "{part}: {text}");
     }
 }

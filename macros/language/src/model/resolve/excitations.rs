@@ -1,5 +1,7 @@
 //! Harmonic excitations: unbalances of turning bodies, harmonic forces, shaken joints.
 
+use std::rc::Rc;
+
 use proc_macro2::Ident;
 
 use super::arguments::{Arguments, Signature};
@@ -17,11 +19,10 @@ use crate::syntax::parse::GRADE;
 
 const UNBALANCE: &[Signature<()>] =
     &[Signature::new("unbalance", &[], "unbalance u: on disk, amount: 20 g*mm, angle: 30 deg;", ())
-        .optional(&["angle"])
-        .exactly_one(&["amount", "eccentricity", "tilt"])
+        .optional(&["angle", "service"])
+        .exactly_one(&["amount", "eccentricity", "tilt", "grade"])
         .refusing(&[
             ("mass", "an unbalance is a mass times its distance from the axis: `amount: 20 g*mm`"),
-            ("grade", GRADE),
             ("phase", "the phase of an unbalance is its `angle`"),
             ("order", "an unbalance turns with its body"),
             ("frequency", "an unbalance turns with its body"),
@@ -83,6 +84,7 @@ impl Resolver<'_> {
         let first_moment = Dimension::new(1, 1, 0);
         let amount = self.amplitude(&arguments, "amount", first_moment);
         let eccentricity = self.amplitude(&arguments, "eccentricity", Dimension::LENGTH);
+        let eccentricity = eccentricity.or(self.graded(&arguments, unbalance));
         let tilt = self.amplitude(&arguments, "tilt", Expected::angle());
         let moves_the_body = eccentricity.is_some() || tilt.is_some();
         let deviation =
@@ -110,6 +112,28 @@ impl Resolver<'_> {
             frequency: Frequency::OfTurning,
             phase: phase?,
         })
+    }
+
+    /// The eccentricity that a grade of balancing allows at the service speed (ISO 21940-11).
+    fn graded(&mut self, arguments: &Arguments, unbalance: &Unbalance) -> Option<Expr> {
+        let grade = self.amplitude(arguments, "grade", Dimension::new(1, 0, -1));
+        match (arguments.get("grade"), arguments.get("service")) {
+            (Some(_), Some(service)) => {
+                let service = self.positive(service, Dimension::RATE, "`service`")?;
+                Some(Expr::Divide(Rc::new(grade?), Rc::new(service)))
+            }
+            (Some(grade), None) => {
+                let message = "a grade of balancing holds at a service speed";
+                self.diagnostics.error_with_help(grade.extent, message, GRADE);
+                None
+            }
+            (None, Some(service)) => {
+                let message = format!("`service` is the speed of a `grade`, and `{}` has none", unbalance.name);
+                self.diagnostics.error(service.extent, message);
+                None
+            }
+            (None, None) => None,
+        }
     }
 
     fn is_massless(&self, body: &Ident) -> bool {

@@ -1,5 +1,6 @@
 //! Points fixed in bodies, and the outputs.
 
+use super::expected::Expected;
 use super::resolver::Resolver;
 use super::typed::ValueContext;
 use crate::base::dimension::Dimension;
@@ -28,10 +29,23 @@ impl Resolver<'_> {
             let ItemKind::Output(output) = &item.kind else {
                 continue;
             };
-            if let Some((value, quantity)) = self.scalar(&output.value, ValueContext::Output) {
-                let unit = self.unit_of(&value, quantity.dimension());
-                outputs.push(Output { name: output.name.clone(), docs: item.docs.clone(), unit, value });
-            }
+            let declared = output.unit.as_ref().map(|unit| self.declared_unit(unit));
+            let Some((value, quantity)) = self.scalar(&output.value, ValueContext::Output) else {
+                continue;
+            };
+            let unit = match declared {
+                None => self.unit_of(&value, quantity.dimension()),
+                Some((None, _)) => continue,
+                Some((Some(dimension), unit)) => {
+                    let what = format!("`{}`", output.name);
+                    let expected = Expected::in_unit(dimension, &unit.symbol);
+                    if self.expect(quantity, expected, &what, &output.value).is_none() {
+                        continue;
+                    }
+                    unit
+                }
+            };
+            outputs.push(Output { name: output.name.clone(), docs: item.docs.clone(), unit, value });
         }
         outputs
     }

@@ -18,23 +18,29 @@ impl Resolver<'_> {
             let ItemKind::Input(input) = &item.kind else {
                 continue;
             };
-            let resolved = self.unit(&input.unit);
-            let dimension = resolved.map(|(dimension, _)| dimension);
-            let symbol = match &input.unit.factors[..] {
-                [] => String::new(),
-                _ => print::unit(&input.unit),
-            };
-            let expected = dimension.map(|dimension| Expected::in_unit(dimension, &symbol));
+            let (dimension, unit) = self.declared_unit(&input.unit);
+            let expected = dimension.map(|dimension| Expected::in_unit(dimension, &unit.symbol));
             let tolerance = self.input_tolerance(input.tolerance.as_ref(), expected);
             self.inputs.push(dimension);
             inputs.push(Input {
                 name: input.name.clone(),
                 docs: item.docs.clone(),
-                unit: Unit { symbol, scale: resolved.map_or(1.0, |(_, scale)| scale) },
+                unit,
                 tolerance: tolerance.unwrap_or(Tolerance::NONE),
             });
         }
         inputs
+    }
+
+    /// The dimension of a unit that a declaration gives, if it is known, and the unit.
+    pub(super) fn declared_unit(&mut self, unit: &ast::Unit) -> (Option<Dimension>, Unit) {
+        let resolved = self.unit(unit);
+        let symbol = match &unit.factors[..] {
+            [] => String::new(),
+            _ => print::unit(unit),
+        };
+        let scale = resolved.map_or(1.0, |(_, scale)| scale);
+        (resolved.map(|(dimension, _)| dimension), Unit { symbol, scale })
     }
 
     pub(super) fn design_variables(&mut self) -> Vec<DesignVariable> {

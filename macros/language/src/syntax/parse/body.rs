@@ -2,7 +2,7 @@
 
 use proc_macro2::Delimiter;
 
-use super::super::ast::{Argument, Body, ItemKind, NamedCall, Term, Value, ValueKind};
+use super::super::ast::{Argument, Body, ItemKind, NamedCall, Term, Unit, UnitFactor, Value, ValueKind};
 use super::super::tokens::{Parsed, Tokens};
 use super::names::{colon, declared_name};
 use super::placement::placement;
@@ -87,6 +87,33 @@ fn sections(tokens: &mut Tokens) -> Parsed<Value> {
     Ok(Value::new(ValueKind::Sections(calls), extent))
 }
 
+/// Reads a grade of balancing, `G6.3` for 6.3 mm/s, or a value.
+fn grade(tokens: &mut Tokens) -> Parsed<Value> {
+    let mut ahead = *tokens;
+    let start = ahead.span();
+    let Some(mut digits) = ahead.ident().and_then(|word| word.to_string().strip_prefix('G').map(str::to_owned)) else {
+        return value(tokens);
+    };
+    if !digits.chars().all(|digit| digit.is_ascii_digit()) {
+        return value(tokens);
+    }
+    if digits.is_empty() || ahead.sign('.').is_some() {
+        let Some(literal) = ahead.literal() else {
+            return ahead.expected("a grade such as `G6.3`");
+        };
+        let point = if digits.is_empty() { "" } else { "." };
+        digits = format!("{digits}{point}{literal}");
+    }
+    let Ok(number) = digits.parse() else {
+        return tokens.expected("a grade such as `G6.3`");
+    };
+    let extent = Extent::from(start).to(ahead.last);
+    *tokens = ahead;
+    let factor = |name: &str, exponent| UnitFactor { name: name.to_owned(), extent, exponent };
+    let unit = Unit { factors: vec![factor("mm", 1), factor("s", -1)], extent };
+    Ok(Value::new(ValueKind::Number(number, Some(unit)), extent))
+}
+
 /// Reads `NAME: VALUE` or `NAME: VALUE of DRIVE`.
 pub(super) fn argument(tokens: &mut Tokens) -> Parsed<Argument> {
     let name = tokens.name("an argument")?;
@@ -94,6 +121,7 @@ pub(super) fn argument(tokens: &mut Tokens) -> Parsed<Argument> {
     let value = match tokens.peek_call() {
         true if name == "section" => sections(tokens)?,
         // Rust reserves the word, so it cannot be a name.
+        _ if name == "grade" => grade(tokens)?,
         _ if name == "shear" && tokens.peek_word("static") => keyword(tokens)?,
         _ => value(tokens)?,
     };

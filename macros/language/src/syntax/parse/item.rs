@@ -3,8 +3,8 @@
 use proc_macro2::Ident;
 
 use super::super::ast::{
-    Argument, Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Material, Named, NamedCall, Point,
-    Unbalance,
+    Argument, Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Material, Named, NamedCall, Output,
+    Point, Unbalance,
 };
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
@@ -44,7 +44,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "material" => return material(tokens),
         "constraint" => constraint,
         "steady" => |tokens| named(tokens).map(ItemKind::Steady),
-        "output" => |tokens| named(tokens).map(ItemKind::Output),
+        "output" => output,
         unknown => {
             let message = format!("unknown item `{unknown}`");
             let diagnostic = Diagnostic::new(&keyword, message).with_help(instead_of(unknown));
@@ -96,6 +96,16 @@ fn named(tokens: &mut Tokens) -> Parsed<Named> {
     equals(tokens, &name)?;
     let value = value(tokens)?;
     Ok(Named { name, value })
+}
+
+fn output(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let name = declared_name(tokens)?;
+    let unit = match tokens.sign(':') {
+        Some(_) => Some(unit::declared(tokens)?),
+        None => None,
+    };
+    equals(tokens, &name)?;
+    Ok(ItemKind::Output(Output { name, unit, value: value(tokens)? }))
 }
 
 const CURVE: &str = "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`";

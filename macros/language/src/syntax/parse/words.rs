@@ -122,4 +122,5 @@ pub(super) const COMMENT: &str = "a comment begins with `//`";
 pub(super) const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";
 
 /// Help for `G6.3`.
-pub(crate) const GRADE: &str = "a grade of balancing is eccentricity times speed (ISO 21940-11): G6.3 at 3000 rpm is `eccentricity: 6.3 mm/s / (3000 rpm)`";
+pub(crate) const GRADE: &str =
+    "a grade of balancing is eccentricity times service speed (ISO 21940-11): write `grade: G6.3, service: 3000 rpm`";

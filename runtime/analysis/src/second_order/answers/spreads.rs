@@ -1,12 +1,12 @@
-use eigentol_results::numbers::{number, rough};
+use eigentol_results::numbers::{converted, number, or_dash, rough};
 use eigentol_results::relevance::{NOTHING_VARIES, unless_rounding};
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
-use crate::Error;
 use crate::second_order::{ModeSecondOrder, ModelMoments, SecondOrder, SecondOrderSpread};
 use crate::tolerance::Doubt;
 use crate::tolerance::{doubted, joined};
+use crate::{Description, Error};
 
 /// `second-order tolerances`: a row for each mode, empty and with the reason if the mode has no second-order result.
 impl Answer for SecondOrder {
@@ -20,7 +20,7 @@ impl Answer for SecondOrder {
         let title = title(&self.description, &self.inputs);
         let mut said = Findings::titled(format!("{title}: spread of the frequencies to second order"));
         let rows = self.rows();
-        spreads(&mut said, &rows);
+        spreads(&mut said, &self.description, &rows);
         if !self.varies {
             said.note(NOTHING_VARIES);
         }
@@ -76,7 +76,7 @@ impl SecondOrder {
     }
 }
 
-fn spreads(said: &mut Findings, rows: &[Row<'_>]) {
+fn spreads(said: &mut Findings, d: &Description, rows: &[Row<'_>]) {
     let mut table = Columns::new("second-order tolerances", rows);
     let known = |r: &usize| rows[*r].mode.is_ok();
     table.show_rows((0..rows.len()).filter(known).collect());
@@ -86,12 +86,18 @@ fn spreads(said: &mut Findings, rows: &[Row<'_>]) {
     moments(&mut table, "damping ratio", "", DAMPING_RATIO);
     table.words("error", &|row| Some(row.mode.as_ref().err()?.to_string()));
     table.words("doubts", &|row| joined(row.doubts));
-    table.cells("nominal [rad/s]", &|row| row.cell(FREQUENCY, |spread| number(spread.model.value)));
-    table.cells("mean [rad/s]", &|row| row.cell(FREQUENCY, |spread| number(spread.moments.mean)));
+    let frequency = |row: &Row<'_>| row.spread(FREQUENCY).map(|spread| spread.moments);
+    table.frequencies("nominal", d, number, &|row| Some(row.spread(FREQUENCY)?.model.value));
+    table.frequencies("mean", d, number, &|row| Some(frequency(row)?.mean));
+    let unit = &d.frequency;
     table.cells("sigma, first order", &|row| {
-        row.cell(FREQUENCY, |spread| sigma(spread.moments.first_order_sigma, spread.moments.mean))
+        let own = frequency(row).map(|own| unless_rounding(own.first_order_sigma, own.mean));
+        or_dash(own.map(|own| converted(own, unit)), rough)
     });
-    table.cells("sigma [rad/s]", &|row| row.cell(FREQUENCY, |spread| sigma(spread.moments.sigma, spread.moments.mean)));
+    table.frequencies("sigma", d, rough, &|row| {
+        let own = frequency(row)?;
+        Some(unless_rounding(own.sigma, own.mean))
+    });
     table.cells("skewness", &|row| row.cell(FREQUENCY, |spread| format!("{:+.3}", spread.moments.skewness)));
     table.cells("damping ratio, mean", &|row| row.cell(DAMPING_RATIO, |spread| rough(spread.moments.mean)));
     table.cells("sigma", &|row| row.cell(DAMPING_RATIO, |spread| sigma(spread.moments.sigma, spread.moments.mean)));

@@ -54,7 +54,7 @@ impl Listed for EventTolerance {
 displayed!(EventTolerance);
 
 impl EventTolerance {
-    /// The event without the value: `frequency 1 is 2 times speed (backward)`.
+    /// The event without the value: `frequency 1 crosses 2x speed (backward)`.
     fn what_happens(&self) -> String {
         let Some((mode, condition)) = self.meeting() else {
             return "critical".to_owned();
@@ -122,7 +122,7 @@ impl EventTolerance {
 pub(crate) fn meeting(mode: usize, condition: Condition, change: Change, name: &str) -> String {
     let mode = mode + 1;
     match condition {
-        Condition::Line(line) => format!("frequency {mode} is {}", multiple(line, name)),
+        Condition::Line(line) => format!("frequency {mode} crosses {}", multiple(line, name)),
         Condition::FlutterOnset => match change {
             Change::End => format!("end of flutter of mode {mode}"),
             Change::Touch => format!("mode {mode} keeps its amplitude"),
@@ -181,12 +181,12 @@ pub(crate) fn unresolved(said: &mut Findings, d: &Description, input: Input, sea
     said.data(table.finish().0);
 }
 
-/// `2 times speed plus 30 rad/s`.
+/// `2x speed + 30 rad/s`.
 fn multiple(line: Line, name: &str) -> String {
-    let times = format!("{} times {name}", given(line.ratio));
+    let times = format!("{}x {name}", given(line.ratio));
     match line.offset {
         0.0 => times,
-        offset => format!("{times} plus {} rad/s", given(offset)),
+        offset => format!("{times} + {} rad/s", given(offset)),
     }
 }
 

@@ -108,7 +108,7 @@ fn crossing_columns(all: &[Crossing]) -> Option<Columns<'_, Crossing>> {
     varied(&mut table, d, one.input, number, &|x| x.value);
     meetings(&mut table, &|x| Some((x.mode, x.condition)));
     let frequency = |crossing: &Crossing| crossing.modes.modes.get(crossing.mode)?.frequency();
-    table.number("frequency", "rad/s", &frequency).digits(number);
+    table.number("frequency", "rad/s", &frequency).digits_in(&d.frequency, number);
     table.unknowns(d, &|row| Some(&row.equilibrium.coordinates[..]));
     let stability = table.words("stability", &|row| Some(row.equilibrium.stability_word()));
     stability.shown().headed("state");

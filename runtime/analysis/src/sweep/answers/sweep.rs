@@ -1,4 +1,4 @@
-use eigentol_results::numbers::{given, number};
+use eigentol_results::numbers::{frequency_symbol, given, heading, number};
 use eigentol_results::relevance::{EVERYTHING, shown};
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
@@ -100,7 +100,9 @@ fn columns<'a>(
         };
         let name = format!("frequency {number_of}");
         let column = table.number(&name, "rad/s", &|row| mode(row, Mode::frequency));
-        (column.digits(number)).headed(&format!("omega{number_of} [rad/s]"));
+        let unit = &d.frequency;
+        let symbol = format!("{}{number_of}", frequency_symbol(unit));
+        column.digits_in(unit, number).headed(&heading(&symbol, unit));
         let name = format!("damping ratio {number_of}");
         table.number(&name, "", &|row| mode(row, Mode::damping_ratio));
         let name = format!("Re s {number_of}");

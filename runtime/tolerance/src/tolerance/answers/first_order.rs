@@ -1,4 +1,4 @@
-use eigentol_results::numbers::{CLUSTER, number, of_mode, optional, or_dash, rough, short};
+use eigentol_results::numbers::{CLUSTER, converted, heading, number, of_mode, or_dash, rough, short};
 use eigentol_results::relevance::{NOTHING_VARIES, unless_rounding};
 use eigentol_results::shares::Shares;
 use eigentol_results::title::title;
@@ -138,15 +138,16 @@ impl FirstOrder {
         table.number(&format!("band of {quantity}"), &unit, &|row| Some(of(row)?.band));
         match quantity {
             Quantity::Frequency => {
-                table.cells("mean [rad/s]", &|row| {
+                let d = &*self.description;
+                let unit = &d.frequency;
+                let sigma = |row: &Row<'_>| row.mode.frequency().as_ref().map(|own| converted(spread_of(own), unit));
+                table.frequencies("mean", d, number, &|row| {
                     let nominal = row.mode.behaviour.frequency();
-                    optional(of(row).map(|x| x.mean).or(nominal))
+                    of(row).map(|x| x.mean).or(nominal)
                 });
-                table.cells("sigma [rad/s]", &|row| row.sigma(row.mode.frequency()));
-                table.cells(&format!("{} sigma [rad/s]", self.sigma_level), &|row| {
-                    let sigma = row.mode.frequency().as_ref().map(spread_of);
-                    let band = sigma.map(|sigma| sigma * self.sigma_level);
-                    of_mode(band, row.mode.clustered, rough)
+                table.cells(&heading("sigma", unit), &|row| of_mode(sigma(row), row.mode.clustered, rough));
+                table.cells(&heading(&format!("{} sigma", self.sigma_level), unit), &|row| {
+                    of_mode(sigma(row).map(|sigma| sigma * self.sigma_level), row.mode.clustered, rough)
                 });
             }
             Quantity::DampingRatio if general => {

@@ -1,4 +1,4 @@
-use eigentol_results::numbers::{given, number, or_dash, rough, short};
+use eigentol_results::numbers::{converted, given, number, or_dash, rough, short};
 use eigentol_results::relevance::{NOTHING_VARIES, names, unless_rounding};
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Grid, Subject, Table, displayed};
@@ -50,12 +50,6 @@ struct Row<'a> {
     damping: Option<&'a Statistics>,
 }
 
-impl Row<'_> {
-    fn shown(&self, pick: fn(&Statistics) -> Option<f64>, form: fn(f64) -> String) -> String {
-        or_dash(self.frequency.and_then(pick), form)
-    }
-}
-
 /// Skewness above which mean and sigma do not describe a distribution: the 3-sigma tails differ by half.
 const SKEWED: f64 = 0.1;
 /// Normal probabilities below minus three and minus one sigma, the median, and plus one and plus three sigma.
@@ -82,11 +76,15 @@ impl MonteCarlo {
         statistics(&mut table, "frequency", "rad/s", &|row| row.frequency);
         statistics(&mut table, "damping ratio", "", &|row| row.damping);
         origin(&mut table, self);
-        table.cells("mean [rad/s]", &|row| row.shown(|row| Some(row.mean), number));
-        table.cells("std. error", &|row| row.shown(|row| row.standard_error, short));
-        table.cells("sigma [rad/s]", &|row| row.shown(sigma, rough));
-        table.cells("min", &|row| row.shown(|row| Some(row.min), number));
-        table.cells("max", &|row| row.shown(|row| Some(row.max), number));
+        let unit = &self.description.frequency;
+        let in_unit = |omega: f64| converted(omega, unit);
+        let d = &*self.description;
+        table.frequencies("mean", d, number, &|row| Some(row.frequency?.mean));
+        let cell = |value: Option<f64>, form| or_dash(value.map(in_unit), form);
+        table.cells("std. error", &|row| cell(row.frequency.and_then(|own| own.standard_error), short));
+        table.frequencies("sigma", d, rough, &|row| sigma(row.frequency?));
+        table.cells("min", &|row| cell(row.frequency.map(|own| own.min), number));
+        table.cells("max", &|row| cell(row.frequency.map(|own| own.max), number));
         let complete = |statistics: &Statistics| statistics.count == self.counts.stable as u64;
         if !self.modes.iter().flatten().all(complete) {
             table.cells("samples", &|row| row.frequency.map_or(0, |frequency| frequency.count).to_string());

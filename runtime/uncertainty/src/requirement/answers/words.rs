@@ -33,7 +33,7 @@ impl Requirement {
                 let name = name_of(of, input);
                 let multiple = match order {
                     1.0 => name.to_owned(),
-                    order => format!("{} times {name}", given(order)),
+                    order => format!("{}x {name}", given(order)),
                 };
                 format!("away from {multiple} by {}", percent(fraction))
             }

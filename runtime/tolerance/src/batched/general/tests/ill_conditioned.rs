@@ -17,6 +17,8 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     free_directions: 0,
     held: Shared::Static(&[]),
     length: 1.0,
+    frequency: eigentol_contract::Unit::si("rad/s"),
+    resolved_modes: None,
     damping: DampingKind::General,
     kernels: Shared::Static(&[]),
 });
