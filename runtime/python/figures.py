@@ -79,19 +79,19 @@ def frame(table):
 
 
 def dataset(table, name):
-    """The table as an xarray.Dataset: its axes are the first column and as many columns of words and counts as tell its rows apart."""
-    import numpy
+    """The table as an xarray.Dataset: its axes are the first column, and as many columns of words and counts as tell its rows apart."""
+    from pandas.api.types import is_float_dtype
 
-    frame_ = frame(table)
-    whole = [key for key in frame_ if not numpy.issubdtype(frame_[key].dtype, numpy.floating) and frame_[key].nunique(dropna=False) > 1]
+    rows = frame(table)
+    telling = [key for key in rows if not is_float_dtype(rows[key].dtype) and rows[key].nunique(dropna=False) > 1]
     axes = []
-    for key in dict.fromkeys([frame_.columns[0], *whole]):
-        if not frame_.duplicated(axes).any() if axes else len(frame_) < 2:
-            break
+    for key in dict.fromkeys([rows.columns[0], *telling]):
         axes.append(key)
-    if frame_.duplicated(axes or [frame_.columns[0]]).any():
-        raise ValueError(f"the rows of the table {name!r} have no axes: take to_frame()")
-    data = frame_.set_index(axes or [frame_.columns[0]]).to_xarray()
+        if not rows.duplicated(axes).any():
+            break
+    else:
+        raise ValueError(f"the rows of the table {name or 'of the answer'} have no axes: take to_frame()")
+    data = rows.set_index(axes).to_xarray()
     for key in [*data.coords, *data.data_vars]:
         if key.endswith("]") and " [" in key:
             short, unit = key[:-1].rsplit(" [", 1)

@@ -18,6 +18,8 @@ use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
 
 pub use answer::campbell_table;
 
+/// So few modes are all shown.
+const FEW: usize = 6;
 /// How far above the lines modes are shown.
 const MARGIN: f64 = 1.2;
 
@@ -110,19 +112,27 @@ impl Campbell {
         self
     }
 
-    /// The diagram with the modes that texts and figures show: of those that the coordinates of beams resolve, all that a
-    /// line reaches somewhere, one at least; or as many as are asked for.
+    /// The diagram with the modes that texts and figures show: all if they are few, else of those that oscillate and that the
+    /// coordinates of beams resolve all that a line reaches somewhere, one at least; or as many as are asked for.
     #[must_use]
     pub fn shown(&self) -> Self {
         let mut shown = self.clone();
-        let most = self.modes.or(self.description.resolved_modes).unwrap_or(usize::MAX);
-        let reach = self.reach().filter(|_| self.modes.is_none()).unwrap_or(f64::INFINITY);
+        let all = self.labels();
         let lowest = |label: usize| {
             let all = self.branch(label).filter_map(|(_, mode)| mode.behaviour.frequency());
             all.fold(f64::INFINITY, f64::min)
         };
-        let labels = self.labels().into_iter().filter(|&label| label < most.max(1));
-        let labels: Vec<usize> = labels.filter(|&label| label == 0 || lowest(label) <= reach).collect();
+        let (oscillating, others): (Vec<usize>, Vec<usize>) = all.iter().partition(|label| lowest(**label).is_finite());
+        let labels: Vec<usize> = match self.modes {
+            Some(count) => oscillating.into_iter().chain(others).take(count).collect(),
+            None if all.len() <= FEW => all,
+            None => {
+                let resolved = self.description.resolved_modes.unwrap_or(usize::MAX).max(1);
+                let reach = self.reach().unwrap_or(f64::INFINITY);
+                let near = oscillating.into_iter().take(resolved).enumerate();
+                near.filter(|(k, label)| *k == 0 || lowest(*label) <= reach).map(|(_, label)| label).collect()
+            }
+        };
         for modes in shown.points.iter_mut().filter_map(|point| point.modes.as_mut().ok()) {
             modes.retain(|mode| labels.contains(&mode.label));
         }

@@ -3,6 +3,7 @@
 //! | chapter | contents |
 //! | --- | --- |
 //! | [From the pendulum to your own rotor](first_steps) | ten minutes with the command, then the same in Rust |
+//! | [A flexible rotor](flexible_rotor) | two disks on a shaft that bends: from the declaration to the balance grade |
 //! | [How to declare what](declare) | a glossary from the terms of other tools and of drawings to ours |
 //! | [Reading a tolerance result](tolerances) | every column, and when not to trust first order |
 //! | [Distributions and requirements](requirements) | how parts scatter, the probability of a good product, the cheapest tolerances |
@@ -21,6 +22,9 @@
 
 #[doc = include_str!("first_steps.md")]
 pub mod first_steps {}
+
+#[doc = include_str!("flexible_rotor.md")]
+pub mod flexible_rotor {}
 
 #[doc = include_str!("declare.md")]
 pub mod declare {}

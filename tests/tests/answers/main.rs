@@ -8,4 +8,5 @@ mod reference_values;
 mod scale;
 mod serial;
 mod spectra;
+mod stated_units;
 pub mod whirl;

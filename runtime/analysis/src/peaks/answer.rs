@@ -147,8 +147,10 @@ impl Peaks {
                 let value = |row: &Row<'_>| Some(converted(value(of(row.2)?)?, &row.0.units()[k]));
                 let unit = if is_height { "" } else { &units[k].symbol };
                 let column = table.number(name, unit, &value);
-                if let Some(form) = form {
-                    column.digits(form).headed(&heading(name, &units[k]));
+                match form {
+                    Some(form) if what == "frequency" => drop(column.digits_in(&d.frequency, form)),
+                    Some(form) => column.digits(form).headed(&heading(name, &units[k])),
+                    None => {}
                 }
             };
             if k > 0 {
@@ -174,7 +176,7 @@ impl Peaks {
         for peak in &self.peaks {
             if !peak.stable {
                 let value = place(d, input, peak.place.value);
-                said.note(format!("Unstable at {value}: nothing settles in this vibration."));
+                said.note(format!("Unstable at {value}: no machine stays in this vibration."));
             }
             let unknown = |moving: &Moving| moving.by_design.is_empty() && !d.design.is_empty();
             if unknown(&peak.height) || peak.amplification.as_ref().is_some_and(unknown) {

@@ -67,7 +67,7 @@ pub struct Peak {
     pub amplification: Option<Moving>,
     /// The equilibrium there.
     pub equilibrium: Equilibrium,
-    /// Whether that is stable. Elsewhere nothing settles in this vibration.
+    /// Whether that is stable. Elsewhere no machine stays in this vibration.
     pub stable: bool,
 }
 

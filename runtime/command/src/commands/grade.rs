@@ -114,7 +114,8 @@ impl Rotor {
         let response = Response::Vibration(vibration);
         let unbalance = self.first_moment(d, vibration)?;
         let nothing = || Failure::usage("the unbalances do not shake this output", "see `eigentol response`");
-        let highest = self.highest(vibration, range)?.filter(|highest| highest.mean > 0.0).ok_or_else(nothing)?;
+        let (highest, stable) = self.highest(vibration, range)?;
+        let highest = highest.filter(|highest| highest.mean > 0.0).ok_or_else(nothing)?;
         let (now, most) = (highest.mean, highest.mean + highest.band);
         let service = self.service(asked, vibration, range)?;
         let unit = response.unit(d);
@@ -131,12 +132,14 @@ impl Rotor {
             allowed: high / now * unbalance,
             grade,
             in_most,
+            stable,
             standard: STANDARD.into_iter().rev().find(|standard| *standard <= 1e3 * in_most),
         })
     }
 
-    /// The greatest amplitude and its spread, at the operating point or in a range: at its peaks and its ends.
-    fn highest(&self, vibration: Vibration, range: Option<Range>) -> Result<Option<Spread>, Failure> {
+    /// The greatest amplitude and its spread, at the operating point or in a range, at its peaks and its ends; and whether
+    /// all of these states are stable. Those that are not do not count in a range.
+    fn highest(&self, vibration: Vibration, range: Option<Range>) -> Result<(Option<Spread>, bool), Failure> {
         let study = &self.study;
         let tolerances = study.tolerances()?;
         let at = |study: &Study<Interpreted>| -> Result<Option<Spread>, Failure> {
@@ -153,15 +156,23 @@ impl Rotor {
             Ok(amplitude.map(|own| Spread::new(own.norm(), slopes.unwrap_or_else(zero), &tolerances)))
         };
         let Some(range) = range else {
-            return at(study);
+            return Ok((at(study)?, study.modes()?.stable()));
         };
         let peaks = study.peaks(vibration, Input::new(range.input.index()), range.low, range.high)?;
-        let peaks = peaks.peaks.into_iter().filter(|peak| peak.stable).filter_map(|peak| peak.height.spread);
-        let mut all: Vec<Spread> = peaks.collect();
+        // A peak whose derivatives are lost in rounding counts without a spread.
+        let still = |height: f64| Spread::new(height, vec![0.0; study.design_values().len()].into(), &tolerances);
+        let mut all_stable = peaks.peaks.iter().all(|peak| peak.stable);
+        let stable = peaks.peaks.into_iter().filter(|peak| peak.stable);
+        let mut all: Vec<Spread> =
+            stable.map(|peak| peak.height.spread.unwrap_or_else(|| still(peak.height.value))).collect();
         for end in [range.low, range.high] {
-            all.extend(at(&study.clone().input(Input::new(range.input.index()), end)).ok().flatten());
+            let end = study.clone().input(Input::new(range.input.index()), end);
+            match end.modes().is_ok_and(|modes| modes.stable()) {
+                true => all.extend(at(&end)?),
+                false => all_stable = false,
+            }
         }
-        Ok(all.into_iter().max_by(|a, b| a.mean.total_cmp(&b.mean)))
+        Ok((all.into_iter().max_by(|a, b| a.mean.total_cmp(&b.mean)), all_stable))
     }
 
     /// The sum of the unbalances that act on a vibration, kg m, if nothing else acts with them.
@@ -225,6 +236,8 @@ struct BalanceGrade {
     grade: f64,
     /// The grade at which designs meet it whose amplitude is greater by the band of the tolerances, m/s.
     in_most: f64,
+    /// Whether all states that were compared are stable.
+    stable: bool,
     /// The coarsest standard grade that is as fine, mm/s.
     standard: Option<f64>,
 }
@@ -259,6 +272,7 @@ impl Answer for Grades {
         table.number("grade", "mm/s", &|row| Some(1e3 * row.grade)).digits(short);
         table.number("with tolerances", "mm/s", &|row| Some(1e3 * row.in_most)).digits(short);
         table.number("standard grade", "mm/s", &|row| row.standard);
+        table.flag("stable", &|row| Some(row.stable));
         table.number("mass", "kg", &|row| Some(row.mass));
         table.number("service speed", "rad/s", &|row| Some(row.service));
         said.columns(table);
@@ -270,6 +284,9 @@ impl Answer for Grades {
                 Some(grade) => format!("G{grade} meets the limit of {}: {turning}.", row.vibration),
                 None => format!("No standard grade meets the limit of {}: {turning}.", row.vibration),
             });
+            if !row.stable {
+                said.note("Not all of these states are stable, and no machine stays in the others: they are left out.");
+            }
         }
         said.note("Limits are from 0 to peak. A grade is the eccentricity of all that turns times the service speed (ISO 21940-11).");
         said

@@ -39,7 +39,7 @@ impl Modes {
         if self.picture.is_wanted() {
             let study = &question.study;
             let scene = study.picture()?;
-            let moving = (0..modes.modes.len().min(DRAWN)).filter_map(|mode| study.mode_pictures(mode, 4, SMALL).ok());
+            let moving = modes.foremost(DRAWN).into_iter().filter_map(|mode| study.mode_pictures(mode, 4, SMALL).ok());
             let moving: Vec<_> = moving.collect();
             self.picture.draw(|| match scene.beams.is_empty() {
                 true => mode_shapes(&modes, &style),

@@ -23,5 +23,6 @@ mod starter;
 mod strangers;
 mod streams;
 mod subcommands;
+mod users;
 mod vibration;
 mod walkthrough;

@@ -26,7 +26,7 @@ pub(crate) fn command(arguments: &[&str]) -> Command {
 pub(crate) fn command_in(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_eigentol"));
     command.args(arguments).current_dir(folder);
-    command.env_remove("NO_COLOR").stdin(Stdio::null());
+    command.env_remove("NO_COLOR").env_remove("COLUMNS").stdin(Stdio::null());
     command
 }
 

@@ -127,7 +127,8 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// A solid line of this width, as shown.
-    pub(super) fn line(&self, points: Vec<Pixel>, tint: Colour, width: i32) -> Outcome {
+    pub(super) fn line(&self, mut points: Vec<Pixel>, tint: Colour, width: i32) -> Outcome {
+        points.dedup();
         let style = colour(tint).stroke_width(px(width) as u32);
         for part in without_spikes(&points) {
             self.area.draw(&PathElement::new(part.to_vec(), style)).map_err(words)?;

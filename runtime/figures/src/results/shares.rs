@@ -41,7 +41,9 @@ pub fn shares_of_all(result: &FirstOrder, style: &Style) -> Result<Figure, Error
     let d = &*result.description;
     let mut lines = vec![operating_point(d, &result.inputs, None)];
     let mut panels = Vec::new();
-    for mode in 0..result.modes.len() {
+    let (oscillating, others): (Vec<usize>, Vec<usize>) =
+        (0..result.modes.len()).partition(|&mode| result.modes[mode].behaviour.frequency().is_some());
+    for mode in oscillating.into_iter().chain(others) {
         if panels.len() == PANELS {
             lines.push(format!("The first {PANELS} modes of {}.", result.modes.len()));
             break;

@@ -51,7 +51,10 @@ fn all(content: &Content) -> Vec<Line> {
     lines.extend(vibrations(content));
     match &content.spread {
         None => lines.push((None, NOTHING_VARIES.to_owned())),
-        Some(spread) => lines.extend(tolerances(spread, &content.brief_style)),
+        Some(spread) => {
+            let foremost = super::foremost(content, usize::MAX);
+            lines.extend(tolerances(spread, &foremost, &content.brief_style));
+        }
     }
     let along = content.along.as_ref().map(|x| along(x, &content.brief_style));
     lines.extend(along.unwrap_or_default());
@@ -76,7 +79,7 @@ fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
     let first = (content.spread.as_ref()).and_then(|spread| spread.summary.as_ref().ok()).map(|summary| &summary.first);
     let style = &content.brief_style;
     let (scale, unit) = style.frequency(&modes.description);
-    let each = modes.modes.iter().enumerate().take(MODES);
+    let each = modes.foremost(MODES).into_iter().map(|r| (r, &modes.modes[r]));
     let mut lines: Vec<Line> = each
         .map(|(r, mode)| {
             let name = style.mode(r);
@@ -93,7 +96,9 @@ fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
         .collect();
     if modes.modes.len() > MODES {
         let more = modes.modes.len() - MODES;
-        lines.push((None, format!("{more} more modes are in the table of modes.")));
+        let still = modes.modes.iter().filter(|mode| mode.frequency().is_none()).count();
+        let still = if still > 0 { format!(", {still} of all do not oscillate") } else { String::new() };
+        lines.push((None, format!("{more} more modes are in the table of modes{still}.")));
     }
     lines
 }
@@ -158,18 +163,25 @@ fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
     format!(" \u{b1} {}{about} ({} sigma){cause}", digits(scale * spread.band, 3), first.sigma_level)
 }
 
-fn tolerances(spread: &Spreads, style: &Style) -> Vec<Line> {
+fn tolerances(spread: &Spreads, foremost: &[usize], style: &Style) -> Vec<Line> {
     let mut lines = Vec::new();
     match &spread.summary {
         Ok(summary) if summary.trusted() => {
             lines.push((Some(true), "The first-order spread of every mode can be trusted.".to_owned()));
         }
         Ok(summary) => {
-            let doubted = summary.trust.iter().filter(|x| !x.trusted());
+            let told = |mode: usize| foremost.contains(&mode);
+            let doubted = summary.trust.iter().filter(|x| !x.trusted() && told(x.mode));
             let doubted: Vec<String> = doubted.map(|doubted| style.mode(doubted.mode)).collect();
-            let text =
-                format!("The first-order spread of {} is not to be trusted. See Tolerances.", doubted.join(", "));
-            lines.push((Some(false), text));
+            lines.push(match doubted.is_empty() {
+                true => {
+                    (Some(true), "The first-order spread of these modes can be trusted, not of all others.".to_owned())
+                }
+                false => {
+                    let names = doubted.join(", ");
+                    (Some(false), format!("The first-order spread of {names} is not to be trusted. See Tolerances."))
+                }
+            });
         }
         Err(error) => lines.push((Some(false), sentence(&format!("no spread: {error}")))),
     }

@@ -5,7 +5,7 @@ use eigentol_tables::Answer as _;
 
 use super::brief::stable_samples;
 use super::verdicts::NOTHING_VARIES;
-use super::{MODES, beyond, refused};
+use super::{beyond, foremost, refused};
 use crate::Error;
 use crate::charts::charts;
 use crate::content::Content;
@@ -35,7 +35,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         html.paragraph(&format!("Not complete: {planned} samples were asked for."));
     }
     let count = monte_carlo.modes.len();
-    let figures = (0..count.min(MODES)).map(|mode| {
+    let figures = foremost(content, count).into_iter().map(|mode| {
         let style = &content.brief_style;
         let style = style.clone().title(capital(&style.mode(mode)));
         let mut histogram = Histogram::new(monte_carlo, mode);

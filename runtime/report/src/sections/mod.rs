@@ -75,6 +75,14 @@ pub(crate) fn all(html: &mut Html, content: &Content) -> Result<(), Error> {
 /// Maximum number of modes with figures of their own.
 const MODES: usize = 6;
 
+/// The modes with figures of their own: the first, those that oscillate before others.
+fn foremost(content: &Content, count: usize) -> Vec<usize> {
+    match &content.modes {
+        Ok(modes) => modes.foremost(MODES),
+        Err(_) => (0..count.min(MODES)).collect(),
+    }
+}
+
 /// Notes how many modes have no figures.
 fn beyond(html: &mut Html, modes: usize, what: &str) {
     if modes > MODES {

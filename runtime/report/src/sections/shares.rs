@@ -5,7 +5,7 @@ use eigentol_figures::{Style, shares};
 use eigentol_tables::{Answer as _, Table};
 
 use super::verdicts::NOTHING_VARIES;
-use super::{MODES, beyond, refused};
+use super::{beyond, foremost, refused};
 use crate::Error;
 use crate::charts::charts;
 use crate::content::Content;
@@ -34,7 +34,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         let name = style.mode(mode);
         shares(first, mode, &style.title(capital(&name)))
     };
-    charts(html, (0..count.min(MODES)).map(of))?;
+    charts(html, foremost(content, count).into_iter().map(of))?;
     beyond(html, count, "contributions of");
     table(html, "Shares in the variance of each frequency", &by_variable(first, &content.brief_style), &[])?;
     for listing in first.tables() {

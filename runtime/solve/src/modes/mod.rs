@@ -101,6 +101,19 @@ impl Modes {
         self.modes.iter().map(Mode::frequency).collect()
     }
 
+    /// The positions of so many modes at most, in order: of those that grow, of those that oscillate, of the others.
+    #[must_use]
+    pub fn foremost(&self, count: usize) -> Vec<usize> {
+        let rank = |mode: &Mode| match mode.behaviour.grows() {
+            true => 0,
+            false => 1 + usize::from(mode.frequency().is_none()),
+        };
+        let mut all: Vec<usize> = (0..self.modes.len()).collect();
+        all.sort_by_key(|&mode| rank(&self.modes[mode]));
+        all.truncate(count);
+        all
+    }
+
     /// The modal matrix: column `r` is the shape of mode `r`, row `i` belongs to unknown `i`.
     #[must_use]
     pub fn shapes(&self) -> Matrix<Complex> {
