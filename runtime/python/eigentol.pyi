@@ -1146,6 +1146,10 @@ class Study:
         """Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and
         `offset` (rad/s) more, and how tolerances move them.
         """
+    def motion_page(self) -> Any:
+        """The equilibrium, modes and forced vibrations in motion: a page that a notebook shows, and that `save(path)` writes for
+        a browser.
+        """
     def report(
         self,
         path: str | PathLike[str],

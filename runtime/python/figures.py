@@ -98,3 +98,20 @@ def dataset(table, name):
             data = data.rename({key: short})
             data[short].attrs["units"] = unit
     return data
+
+
+class Page:
+    """A page of HTML, which a notebook shows."""
+
+    def __init__(self, html):
+        self.html = html
+
+    def _repr_html_(self):
+        from html import escape
+
+        return f'<iframe srcdoc="{escape(self.html)}" width="100%" height="640" style="border: 0"></iframe>'
+
+    def save(self, path):
+        """Writes the page for a browser."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.html)

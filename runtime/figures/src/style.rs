@@ -133,7 +133,9 @@ impl Style {
         self
     }
 
-    pub(crate) fn titled(&self, otherwise: String) -> String {
+    /// The title that was set, or else another one.
+    #[must_use]
+    pub fn titled(&self, otherwise: String) -> String {
         self.title.clone().unwrap_or(otherwise)
     }
 

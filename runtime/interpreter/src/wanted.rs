@@ -8,6 +8,7 @@ use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
 use eigentol::sweep::{Condition, Line, Range};
 use eigentol::{Error, Excitation, Output, Quantity, Study, Unit};
+use eigentol_compiler::base::units;
 use thiserror::Error as ThisError;
 
 use crate::given::value;
@@ -87,7 +88,7 @@ pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement
     };
     let response = response(study, what)?;
     let unit = response.unit(study.description());
-    let end = |text: &str| limit_of(&response, text, &unit, what.trim(), word);
+    let end = |text: &str| limit_of(&response, &at_inputs(study, text), &unit, what.trim(), word);
     Ok(match word {
         ">=" | ">" => Requirement::Within { response, low: end(limit)?, high: f64::INFINITY },
         "<=" | "<" => Requirement::Within { response, low: f64::NEG_INFINITY, high: end(limit)? },
@@ -311,6 +312,23 @@ pub fn multiple(order: f64, range: &Range, study: &Study<Interpreted>) -> Result
     wrong(format!("order {order} crosses no mode"), help)
 }
 
+/// A limit with the values of the inputs in place of their names: `25.4 um * sqrt(12000 rpm / speed)`.
+fn at_inputs(study: &Study<Interpreted>, text: &str) -> String {
+    let inputs = study.description().inputs.iter().zip(study.input_values());
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let parts = text.split_inclusive(|c| !is_word(c)).map(|part| {
+        let (word, rest) = part.split_at(part.trim_end_matches(|c| !is_word(c)).len());
+        match inputs.clone().find(|(info, _)| *info.name == *word) {
+            // A word that is a unit stays one.
+            Some((info, value)) if units::find(word).is_none() => {
+                format!("({:e} {}){rest}", info.unit.from_si(*value), info.unit.symbol)
+            }
+            _ => part.to_owned(),
+        }
+    });
+    parts.collect()
+}
+
 /// Words behind a limit of a vibration, and the amplitude from 0 to peak of what they count as one.
 const MEASURED: [(&str, f64); 5] = [("rms", SQRT_2), ("p-p", 0.5), ("pp", 0.5), ("peak to peak", 0.5), ("0-p", 1.0)];
 
@@ -422,6 +440,23 @@ mod tests {
                 (format!("{what} {name} {}", clauses.join(" ")), peak(of), unit)
             }
         }
+    }
+
+    #[test]
+    fn limits_are_as_the_standards_state_them() {
+        let study = shaken().input(Input::new(1), 100.0);
+        let limit = |text: &str| match requirement(&study, text) {
+            Ok(Requirement::Within { high, .. }) => high,
+            other => panic!("{text}: {other:?}"),
+        };
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * b, "{a} {b}");
+        close(limit("velocity place under gust <= 4.5 mm/s rms"), 4.5e-3 * 2.0_f64.sqrt());
+        close(limit("vibration place under gust <= 60 um p-p"), 30e-6);
+        close(limit("vibration place under gust <= 60 um peak to peak"), 30e-6);
+        // API 617: 25.4 um times the root of 12,000 rpm over the speed, peak to peak.
+        let api = 25.4e-6 * (12_000.0 * std::f64::consts::PI / 30.0 / 100.0).sqrt();
+        close(limit("vibration place under gust <= 25.4 um * sqrt(12000 rpm / speed) p-p"), 0.5 * api);
+        assert!(requirement(&study, "place <= 3 mm p-p").is_err(), "an output at rest has no peaks");
     }
 
     /// Every form with every limit, put together at random: what is read is what was meant.

@@ -33,6 +33,11 @@ pub(crate) fn plot<'py>(
     function(py, "plot")?.call1((read, ax))
 }
 
+/// A page that a notebook shows.
+pub(crate) fn page<'py>(py: Python<'py>, html: &str) -> PyResult<Anything<'py>> {
+    function(py, "Page")?.call1((html,))
+}
+
 /// The table as a `pandas.DataFrame`.
 pub(crate) fn frame<'py>(py: Python<'py>, table: Table<'py>) -> PyResult<Anything<'py>> {
     function(py, "frame")?.call1((table,))

@@ -3,12 +3,14 @@
 use std::fs;
 use std::path::PathBuf;
 
-use eigentol_report::{Error, Report, Style};
+use eigentol_report::{Error, Report, Style, motion};
 use pyo3::exceptions::{PyOSError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::errors::raise;
+use crate::figures;
+use crate::hints::Anything;
 use crate::study::Study;
 use crate::values::not_finite;
 
@@ -20,6 +22,13 @@ type FrequencyUnit = str;
 
 #[pymethods]
 impl Study {
+    /// The equilibrium, modes and forced vibrations in motion: a page that a notebook shows, and that `save(path)` writes for
+    /// a browser.
+    fn motion_page<'py>(&self, py: Python<'py>) -> PyResult<Anything<'py>> {
+        let page = py.detach(|| motion(&self.inner, &Style::default()));
+        figures::page(py, &page.map_err(|error| refused(py, error))?)
+    }
+
     /// Writes a report: one HTML file with the mechanism in 3-D, its modes in motion, charts, verdicts and tables.
     ///
     /// `sweep` is a tuple of the name of an input and values of it, SI or texts with units, and may have a unit for
@@ -74,11 +83,16 @@ impl Study {
             }
             report.html()
         })?;
-        let html = html.map_err(|error| match error {
-            Error::Study(error) => raise(py, error),
-            other => PyOSError::new_err(other.to_string()),
-        })?;
+        let html = html.map_err(|error| refused(py, error))?;
         fs::write(&path, html).map_err(|source| PyOSError::new_err(Error::Write { path, source }.to_string()))
+    }
+}
+
+/// The exception for a page that is not written.
+fn refused(py: Python<'_>, error: Error) -> PyErr {
+    match error {
+        Error::Study(error) => raise(py, error),
+        other => PyOSError::new_err(other.to_string()),
     }
 }
 

@@ -16,4 +16,4 @@ mod words;
 
 pub use eigentol_figures::Style;
 pub use error::Error;
-pub use report::Report;
+pub use report::{Report, motion};

@@ -11,6 +11,7 @@
 
 use crate::content::Content;
 use crate::html::Html;
+use crate::scene::View;
 use crate::words::operating_point;
 use crate::{Error, sections};
 
@@ -36,24 +37,48 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 /// [`Error::Data`].
 pub(crate) fn html(content: &Content) -> Result<String, Error> {
     let mut html = Html::default();
-    html.constant("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-    html.open("meta", &[("http-equiv", "Content-Security-Policy"), ("content", POLICY)]);
-    html.constant("\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    html.leaf("title", &[], &content.title);
-    html.constant("\n<style>\n");
-    html.constant(include_str!("../assets/report.css"));
-    html.constant("</style>\n</head>\n<body>\n");
+    begin(&mut html, &content.title);
     header(&mut html, content);
     html.constant("<main>\n");
     sections::all(&mut html, content)?;
     html.constant("</main>\n");
     footer(&mut html);
+    Ok(end(html))
+}
+
+/// A page with nothing but the mechanism in motion.
+///
+/// # Errors
+/// [`Error::Data`].
+pub(crate) fn motion(title: &str, view: &View<'_>) -> Result<String, Error> {
+    let mut html = Html::default();
+    begin(&mut html, title);
+    html.constant("<main>\n");
+    html.leaf("h1", &[], title);
+    sections::player(&mut html, view)?;
+    html.constant("</main>\n");
+    Ok(end(html))
+}
+
+/// The head of a page, up to its body.
+fn begin(html: &mut Html, title: &str) {
+    html.constant("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+    html.open("meta", &[("http-equiv", "Content-Security-Policy"), ("content", POLICY)]);
+    html.constant("\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+    html.leaf("title", &[], title);
+    html.constant("\n<style>\n");
+    html.constant(include_str!("../assets/report.css"));
+    html.constant("</style>\n</head>\n<body>\n");
+}
+
+/// The scripts that bring a page to life, and its end.
+fn end(mut html: Html) -> String {
     html.constant("<script type=\"module\">\n");
     for script in SCRIPTS {
         html.constant(script);
     }
     html.constant("</script>\n</body>\n</html>\n");
-    Ok(html.finish())
+    html.finish()
 }
 
 fn header(html: &mut Html, content: &Content) {

@@ -8,6 +8,8 @@ use eigentol::{Input, Output, Study, Value};
 use eigentol_figures::Style;
 
 use crate::content::Content;
+use crate::pictures::Pictures;
+use crate::scene::View;
 use crate::{Error, page};
 
 /// A report of a study: the analyses it runs and its heading.
@@ -45,6 +47,17 @@ pub struct Report<M> {
     pub(crate) orders: Vec<f64>,
     pub(crate) orbits: Vec<[Output; 2]>,
     pub(crate) style: Style,
+}
+
+/// The equilibrium, modes and forced vibrations of a study in motion: an HTML file, which loads nothing, with the view in 3-D
+/// of a report.
+///
+/// # Errors
+/// [`Error::Study`] if there is no equilibrium or there are no modes.
+pub fn motion<M: PictureKernels>(study: &Study<M>, style: &Style) -> Result<String, Error> {
+    let (pictures, modes) = (Pictures::of(study)?, study.modes()?);
+    let title = style.titled(study.description().name.to_string());
+    page::motion(&title, &View::new(&pictures, study.description(), Some(&modes), style))
 }
 
 impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {

@@ -46,7 +46,12 @@ fn si(table: &Table) -> Vec<(String, Vec<Option<f64>>)> {
     };
     let of_row = |name: &str, row: usize| match name {
         // Pure numbers beside a column of units.
-        "sigma level" | "skewness" | "error of skewness" | "amplification" | "sigma of amplification" | "probability" => 1.0,
+        "sigma level"
+        | "skewness"
+        | "error of skewness"
+        | "amplification"
+        | "sigma of amplification"
+        | "probability" => 1.0,
         name if name.contains("share") || name.contains("correlation") => 1.0,
         _ => scale(&words("unit", row)) / scale(&words("per", row)),
     };

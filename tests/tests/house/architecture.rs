@@ -43,7 +43,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        444,
+        447,
     ),
     (
         "runtime/uncertainty",
@@ -80,8 +80,8 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ("macros/urdf", &["eigentol-compiler"], 46),
     ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 47),
     ("runtime/tables", &["eigentol-contract", "eigentol-results"], 20),
-    ("runtime/figures", &["eigentol"], 114),
-    ("runtime/report", &["eigentol", "eigentol-figures", "eigentol-tables"], 61),
+    ("runtime/figures", &["eigentol"], 115),
+    ("runtime/report", &["eigentol", "eigentol-figures", "eigentol-tables"], 63),
     (
         "runtime/command",
         &[

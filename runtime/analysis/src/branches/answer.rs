@@ -2,7 +2,7 @@
 
 use std::{ptr, slice};
 
-use eigentol_results::numbers::number;
+use eigentol_results::numbers::{converted, heading, number, optional};
 use eigentol_results::relevance::{EVERYTHING, shown};
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Grid, Subject, Table, displayed};
@@ -195,6 +195,9 @@ fn point_columns<'a>(
     varied(&mut table, d, one.input, number, &|(_, x)| x.value);
     table.unknowns(d, &|(_, x)| Some(&x.equilibrium.coordinates[..]));
     moving.columns(&mut table, &|(_, x)| Some(&x.equilibrium));
+    for (k, info) in d.outputs.iter().enumerate() {
+        table.measured(&info.name, &info.unit, &|(_, x)| x.outputs.get(k).copied()).digits(number);
+    }
     let stability = table.words("stability", &|(_, item)| Some(item.equilibrium.stability_word()));
     stability.shown().headed("state");
     table
@@ -259,5 +262,10 @@ fn stretches(one: &Branch, branches: &[Branch], moving: &Moving<'_>) -> Grid {
     }
     table.cells("state", &|row| row.stability.to_string());
     moving.columns_from_to(&mut table, &|x| x.ends.map(|end| &end.equilibrium));
+    for (k, info) in d.outputs.iter().enumerate() {
+        let at = |end: &BranchPoint| optional(end.outputs.get(k).map(|value| converted(*value, &info.unit)));
+        table.cells(&heading(&info.name, &info.unit), &|row| at(row.ends[0]));
+        table.cells("to", &|row| at(row.ends[1]));
+    }
     table.finish().1
 }

@@ -202,6 +202,7 @@ impl Curve<'_> {
             input: self.settings.input,
             points: vec![BranchPoint {
                 value: state.inputs[self.settings.input.index()],
+                outputs: self.outputs(&state),
                 equilibrium: state,
                 tangent: Vector::zeros(self.size()),
                 input_tangent: 0.0,

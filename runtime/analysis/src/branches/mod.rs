@@ -57,6 +57,9 @@ pub struct BranchPoint {
     pub tangent: Vector,
     /// `du/ds` along the branch, SI.
     pub input_tangent: f64,
+    /// The outputs, SI.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub outputs: Vector,
 }
 
 impl BranchPoint {

@@ -6,7 +6,10 @@ use super::ends::STRAY;
 use super::local_scaling::CurvePosition;
 use super::special::{Junction, Located, SpecialPoint, make_critical};
 use super::{BranchEnd, BranchPoint};
+use crate::Equilibrium;
+use crate::algebra::Vector;
 use crate::error::NotFound;
+use crate::kernels::Kernels;
 
 /// Minimum cosine of the angle between the tangents at two neighbouring points.
 const STRAIGHT: f64 = 0.9;
@@ -143,6 +146,10 @@ impl Curve<'_> {
         walk
     }
 
+    pub(crate) fn outputs(&self, at: &Equilibrium) -> Vector {
+        (self.mechanism as &dyn Kernels).outputs(&at.coordinates, &at.inputs, &at.design)
+    }
+
     pub(crate) fn point(&self, station: &CurvePoint) -> BranchPoint {
         let direction = station.direction();
         let mut equilibrium = station.equilibrium.clone();
@@ -150,7 +157,13 @@ impl Curve<'_> {
             // Equilibria form a continuum at one input: the mode along it is neutral.
             make_critical(&mut equilibrium, 1);
         }
-        BranchPoint { value: station.place.p, equilibrium, tangent: direction.q, input_tangent: direction.p }
+        BranchPoint {
+            value: station.place.p,
+            outputs: self.outputs(&equilibrium),
+            equilibrium,
+            tangent: direction.q,
+            input_tangent: direction.p,
+        }
     }
 
     /// A special point as a branch point of the branch that passes it in this direction (SI units).
@@ -161,6 +174,7 @@ impl Curve<'_> {
         let tangent = direction.scaled(1.0 / length);
         BranchPoint {
             value: special.value,
+            outputs: self.outputs(&special.equilibrium),
             equilibrium: special.equilibrium.clone(),
             tangent: tangent.q,
             input_tangent: tangent.p,

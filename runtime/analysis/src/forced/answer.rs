@@ -44,6 +44,7 @@ impl Answer for ForcedResponse {
             false => said.data(table.finish().0),
         }
         self.unknowns(&mut said);
+        self.together(&mut said);
         self.unknown_phases(&mut said);
         self.rough(&mut said);
         said.note(CONVENTIONS);
@@ -52,6 +53,31 @@ impl Answer for ForcedResponse {
 }
 
 impl ForcedResponse {
+    /// What outputs do under all excitations at once: the root of the mean square of vibrations of several frequencies, and the
+    /// sum of their amplitudes, which they reach if their peaks ever meet.
+    fn together(&self, said: &mut Findings) {
+        if self.harmonics.len() < 2 {
+            return;
+        }
+        let d = &self.description;
+        let amplitudes = |output: usize| -> Vec<f64> {
+            let all = self.harmonics.iter().filter_map(|harmonic| *harmonic.outputs.get(output)?);
+            all.map(Complex::norm).filter(|amplitude| *amplitude > 0.0).collect()
+        };
+        let rows: Vec<(usize, Vec<f64>)> = (0..d.outputs.len()).map(|output| (output, amplitudes(output))).collect();
+        let rows: Vec<_> = rows.into_iter().filter(|(_, amplitudes)| amplitudes.len() > 1).collect();
+        let mut table = Columns::new("all excitations", &rows);
+        let info = |row: &(usize, Vec<f64>)| d.outputs.get(row.0);
+        table.words("output", &|row| Some(info(row)?.name.to_string())).shown().headed("under all excitations");
+        table.words("unit", &|row| Some(info(row)?.unit.symbol.to_string())).shown();
+        let sum =
+            |row: &(usize, Vec<f64>), of: fn(f64) -> f64| row.1.iter().map(|amplitude| of(*amplitude)).sum::<f64>();
+        let rms = |row: &_| Some(converted((0.5 * sum(row, |x| x * x)).sqrt(), &info(row)?.unit));
+        table.number("rms", "", &rms).digits(number);
+        table.number("at most", "", &|row| Some(converted(sum(row, |x| x), &info(row)?.unit))).digits(number);
+        said.columns(table);
+    }
+
     /// What remains true if only the amounts of several excitations are known.
     fn unknown_phases(&self, said: &mut Findings) {
         let d = &self.description;

@@ -150,7 +150,7 @@ impl Motion<'_> {
     }
 }
 
-/// The largest displacement of the visible parts of the bodies and of the centre lines of beams; `displaced` gives the
+/// The largest displacement of the visible parts of bodies and beams; `displaced` gives the
 /// displacements of a place on a body, or on a section after all bodies, at two phases a quarter of a period apart.
 fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2]) -> f64 {
     let solids = scene.bodies.iter().enumerate().flat_map(|(body, parts)| {
@@ -161,7 +161,12 @@ fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2])
     let seats = seats.map(|seat| (seat.body, seat.place));
     let points = scene.points.iter().map(|point| (point.body, point.place));
     let fixed = seats.chain(points).filter_map(|(body, point)| Some((body?, point)));
-    let sections = (scene.bodies.len()..scene.poses()).map(|section| (section, [0.0; 3]));
+    // Two corners of a section, which move where it only twists.
+    let sections = scene.beams.iter().flat_map(|beam| &beam.sections).zip(scene.bodies.len()..);
+    let sections = sections.flat_map(|(section, pose)| {
+        let [width, height] = section.size.map(|size| 0.5 * size);
+        [[0.0; 3], [0.0, width, height], [0.0, width, -height]].map(|corner| (pose, corner))
+    });
     let places = solids.chain(fixed).chain(sections);
     places.map(|(body, point)| semi_major(displaced(body, point))).fold(0.0, f64::max)
 }

@@ -1,8 +1,11 @@
 //! Equilibrium and natural modes.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use eigentol_figures::{deflections, mode_shapes};
 
+use crate::destination::Target;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
@@ -23,6 +26,9 @@ pub(crate) struct Modes {
     output: Output,
     #[command(flatten)]
     picture: Picture,
+    /// Write the equilibrium, the modes and the forced vibrations in motion into a page for a browser: `modes.html`
+    #[arg(long, value_name = "FILE")]
+    motion: Option<PathBuf>,
 }
 
 impl Modes {
@@ -45,6 +51,11 @@ impl Modes {
                 true => mode_shapes(&modes, &style),
                 false => deflections(&scene, &modes, &moving, &style),
             })?;
+        }
+        if let Some(path) = &self.motion {
+            let page = eigentol_report::motion(&question.study, &style)?;
+            let written = Target::of(path).write(page.as_bytes());
+            written.map_err(|source| Failure::write(path, source))?;
         }
         self.output.write(&answer)?;
         Ok(Verdict::of(&question.study)?)

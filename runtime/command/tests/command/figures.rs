@@ -17,7 +17,7 @@ fn every_command_draws_its_figure_beside_the_same_answer() {
         ("modes", pendulum("modes", &[]), "mode shapes"),
         ("tolerance", pendulum("tolerance", &[]), "share in the variance"),
         ("campbell", [&campbell[..], &sweep].concat(), "Campbell diagram"),
-        ("branches", [&branches[..], &sweep].concat(), "theta [rad]"),
+        ("branches", [&branches[..], &sweep].concat(), "angle [rad]"),
         (
             "response",
             vec!["response", &shaken, "--sweep", "omega=60..140rad/s", "--points", "9", "--bands", "--samples", "100"],

@@ -173,6 +173,7 @@ impl Panel {
     }
 
     /// The panel as it is drawn on axes of equal steps: logarithms on a logarithmic axis.
+    #[cfg(feature = "draw")]
     #[must_use]
     pub(crate) fn straightened(&self) -> Self {
         let mut panel = self.clone();

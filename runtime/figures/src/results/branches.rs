@@ -1,7 +1,7 @@
 //! Branches of equilibria.
 
 use eigentol::branches::{Branch, BranchPoint, Branches, SpecialKind, SpecialPoint};
-use eigentol::{Description, Equilibrium, Role, Stability};
+use eigentol::{Description, Role, Stability, Text, Unit};
 
 use super::along::{input_axis, input_unit, with_notes};
 use crate::Error;
@@ -14,7 +14,7 @@ const MOST: usize = 4;
 /// Coordinates (SI) below this are rounding.
 const ZERO: f64 = 1e-12;
 
-/// Branches of equilibria along the input, one panel per coordinate.
+/// Branches of equilibria along the input, one panel for each output, or for each coordinate if none is declared.
 ///
 /// Stable stretches are solid, unstable ones dotted; folds and branch points are numbered.
 ///
@@ -29,21 +29,13 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     let special = result.special();
     let mut panels: Vec<Panel> = Vec::new();
     let mut open_ends = false;
-    let resting = d.coordinates.iter().enumerate();
-    let resting = resting.filter(|(_, info)| info.role == Role::Position);
-    // What stays at zero has no picture, unless everything does.
-    let states = || result.branches.iter().flat_map(|branch| &branch.points);
-    let most = |k: usize| states().fold(0.0, |most: f64, x| most.max(x.equilibrium.coordinates[k].abs()));
-    let moves = |(k, _): &(usize, _)| most(*k) > ZERO;
-    let any = resting.clone().any(|x| moves(&x));
-    let resting = resting.filter(|x| moves(x) || !any);
-    for (k, info) in resting.clone().take(MOST) {
-        let y = Axis::new(&*info.name, &*info.unit.symbol);
+    let shown = quantities(d, result);
+    for quantity in shown.iter().take(MOST) {
+        let y = Axis::new(&*quantity.name, &*quantity.unit.symbol);
         let mut panel = Panel::new(input_axis(d, first.input), y);
         let unit = input_unit(d, first.input);
-        let place = |value: f64, state: &Equilibrium| -> Option<Point> {
-            let coordinate = *state.coordinates.get(k)?;
-            Some([in_unit(value, &unit), in_unit(coordinate, &info.unit)])
+        let place = |point: &BranchPoint| -> Option<Point> {
+            Some([in_unit(point.value, &unit), in_unit(quantity.of(point)?, &quantity.unit)])
         };
         for (number, branch) in result.branches.iter().enumerate() {
             for (stability, stretch, before, after) in joined(branch) {
@@ -56,10 +48,10 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
                     _ => format!("branch {}, {word}", number + 1),
                 };
                 let middle = |pair: [&BranchPoint; 2]| {
-                    let [a, b] = pair.map(|point| place(point.value, &point.equilibrium));
+                    let [a, b] = pair.map(place);
                     Some(between(a?, b?))
                 };
-                let points = stretch.iter().map(|x| place(x.value, &x.equilibrium));
+                let points = stretch.iter().map(place);
                 let points = before.map(middle).into_iter().chain(points);
                 let points = points.chain(after.map(middle)).collect();
                 open_ends |= after.is_some_and(|[a, b]| holds(a) != holds(b));
@@ -70,11 +62,11 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
             [("fold", Shape::Triangle), ("branch point", Shape::Square), ("stiffness is lost", Shape::Cross)]
         {
             let here = special.iter().filter(|x| kind(x).0 == word);
-            let points = here.filter_map(|point| place(point.value, &point.equilibrium));
+            let points = here.filter_map(|special| place(point_of(result, special)?));
             panel.markers(word, Colour::Black, shape, points);
         }
         for (k, point) in special.iter().enumerate() {
-            if let Some(at) = place(point.value, &point.equilibrium) {
+            if let Some(at) = point_of(result, point).and_then(place) {
                 panel.label(at, (k + 1).to_string());
             }
         }
@@ -86,9 +78,8 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
         return Err(Error::nothing("the mechanism has no coordinates that rest"));
     }
     let mut caption = about(d, result);
-    let all = resting.count();
-    if all > MOST {
-        caption.push(format!("The first {MOST} of {all} coordinates that move."));
+    if shown.len() > MOST {
+        caption.push(format!("The first {MOST} of {} that change.", shown.len()));
     }
     caption = with_notes(caption, style, d);
     let unit = input_unit(d, first.input);
@@ -106,6 +97,57 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     }
     let title = style.titled(format!("{}: branches of equilibria", d.name));
     Ok(Figure::new(title, caption, panels))
+}
+
+/// What a panel shows.
+struct Quantity {
+    name: Text,
+    unit: Unit,
+    /// Its number among the outputs or the coordinates.
+    index: usize,
+    is_output: bool,
+}
+
+impl Quantity {
+    fn of(&self, point: &BranchPoint) -> Option<f64> {
+        let values = if self.is_output { &point.outputs } else { &point.equilibrium.coordinates };
+        values.get(self.index).copied()
+    }
+}
+
+/// The outputs that are not zero all along; else the coordinates that are not, or all if everything is.
+fn quantities(d: &Description, result: &Branches) -> Vec<Quantity> {
+    let all = |is_output: bool| -> Vec<Quantity> {
+        let quantity = |(index, name, unit): (usize, &Text, &Unit)| Quantity {
+            name: name.clone(),
+            unit: unit.clone(),
+            index,
+            is_output,
+        };
+        match is_output {
+            true => d.outputs.iter().enumerate().map(|(k, info)| quantity((k, &info.name, &info.unit))).collect(),
+            false => (d.coordinates.iter().enumerate())
+                .filter(|(_, info)| info.role == Role::Position)
+                .map(|(k, info)| quantity((k, &info.name, &info.unit)))
+                .collect(),
+        }
+    };
+    let points = || result.branches.iter().flat_map(|branch| &branch.points);
+    let changes = |own: &Quantity| points().any(|point| own.of(point).is_some_and(|value| value.abs() > ZERO));
+    for is_output in [true, false] {
+        let changing: Vec<Quantity> = all(is_output).into_iter().filter(changes).collect();
+        if !changing.is_empty() {
+            return changing;
+        }
+    }
+    all(false)
+}
+
+/// The point of a branch at which a special point lies.
+fn point_of<'a>(result: &'a Branches, special: &SpecialPoint) -> Option<&'a BranchPoint> {
+    let mut points = result.branches.iter().flat_map(|branch| &branch.points);
+    points
+        .find(|point| point.value == special.value && point.equilibrium.coordinates == special.equilibrium.coordinates)
 }
 
 fn holds(point: &BranchPoint) -> bool {

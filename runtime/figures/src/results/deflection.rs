@@ -92,6 +92,9 @@ impl Line {
     fn of(scene: &Scene) -> Option<Self> {
         let beams = || scene.beams.iter().filter(|beam| beam.sections.len() > 1);
         let rest: Vec<Pose> = beams().flat_map(|beam| beam.sections.iter().map(|section| section.pose)).collect();
+        if rest.is_empty() {
+            return None;
+        }
         let extent = |i: usize| {
             let ends = rest.iter().map(|pose| pose.position[i]);
             ends.clone().fold(f64::NEG_INFINITY, f64::max) - ends.fold(f64::INFINITY, f64::min)

@@ -148,6 +148,43 @@ fn an_orbit_is_passed_in_its_sense() {
     assert!(matches!(error, Error::Nothing(_)));
 }
 
+/// Eleven speeds are far too few for a resonance; with the points about its peak the path is the circle of the formula.
+#[test]
+fn a_polar_plot_has_points_where_the_path_bends() {
+    let coarse = swept(11);
+    let peaks = study().peaks(right(), Unbalanced::speed, 400.0 * RPM, 1800.0 * RPM).unwrap();
+    let between = study().bode(Unbalanced::speed, &peaks.bends()).unwrap();
+    let widest = |result: &Bode| {
+        let figure = polar(result, right(), &[], &Style::default()).unwrap();
+        let path = line(&figure.panels[0]);
+        let size = path.iter().map(|at| at[0].hypot(at[1])).fold(0.0, f64::max);
+        let chords = path.windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]));
+        chords.fold(0.0, f64::max) / size
+    };
+    assert!(widest(&coarse) > 0.5, "{}", widest(&coarse));
+    let fine = coarse.with_between(between);
+    assert!(widest(&fine) < 0.2, "{}", widest(&fine));
+    let figure = bode(&fine, right(), &[], &Style::default()).unwrap();
+    for at in line(&figure.panels[0]) {
+        assert!((at[1] / expected(at[0]).norm() - 1.0).abs() < 1e-6, "{at:?}");
+    }
+    // The answer has the values that were asked for.
+    assert_eq!(fine.points.len(), 11);
+}
+
+#[test]
+fn amplitudes_that_differ_much_stand_on_a_logarithmic_axis() {
+    let result = swept(141);
+    let plain = bode(&result, right(), &[], &Style::default().logarithmic_beyond(f64::INFINITY)).unwrap();
+    let figure = bode(&result, right(), &[], &Style::default().logarithmic_beyond(1.0)).unwrap();
+    let [linear, logarithmic] = [&plain, &figure].map(|figure| &figure.panels[0]);
+    assert!(!linear.y.logarithmic && logarithmic.y.logarithmic && logarithmic.y.range[0] > 0.0);
+    assert_eq!(line(linear), line(logarithmic));
+    let least = line(logarithmic).iter().map(|at| at[1]).fold(f64::INFINITY, f64::min);
+    assert!((0.5..1.0).contains(&(logarithmic.y.range[0] / least)));
+    save(&figure, "logarithmic");
+}
+
 #[test]
 fn a_point_without_a_vibration_leaves_a_gap() {
     let speeds = [800.0, 850.0, f64::NAN, 900.0, 950.0].map(|x| x * RPM);

@@ -1,6 +1,7 @@
 //! Figures against the results they show.
 
 mod along;
+mod deflected;
 mod degenerate;
 mod drawing;
 mod forced;

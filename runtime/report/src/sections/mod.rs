@@ -10,6 +10,7 @@ mod modes;
 mod parts;
 mod shares;
 mod variables;
+pub(crate) use modes::player;
 mod verdicts;
 mod vibration;
 

@@ -52,10 +52,12 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     Ok(())
 }
 
-/// The 3-D view of the mechanism.
-fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), Error> {
-    let modes = content.modes.as_ref().ok();
-    let json = serde_json::to_string(&View::new(pictures, &content.description, modes, &content.brief_style))?;
+/// The view in 3-D with its controls.
+///
+/// # Errors
+/// [`Error::Data`].
+pub(crate) fn player(html: &mut Html, view: &View<'_>) -> Result<(), Error> {
+    let json = serde_json::to_string(view)?;
     html.element("div", &[("class", "mechanism")], |html| {
         html.leaf("div", &[("class", "drawing")], "");
         html.data("scene", &json);
@@ -64,6 +66,13 @@ fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), E
         "Shapes are scaled so that the largest displacement is {:.0} % of the size of the mechanism. Grey: the equilibrium.",
         100.0 * AMPLITUDE
     ));
+    Ok(())
+}
+
+/// The 3-D view of the mechanism.
+fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), Error> {
+    let modes = content.modes.as_ref().ok();
+    player(html, &View::new(pictures, &content.description, modes, &content.brief_style))?;
     html.paragraph(&upwards(&pictures.scene));
     for (mode, picture) in pictures.modes.iter().enumerate() {
         if let Err(error) = picture {

@@ -90,6 +90,23 @@ fn the_page_is_drawn_without_a_complaint_and_loads_nothing() {
     fs::write(file.with_extension("pdf"), chrome.pdf()).unwrap();
 }
 
+/// The answer is on one page, and a link to what is folded unfolds it.
+#[test]
+fn the_answer_is_one_page_and_details_unfold() {
+    let file = save(&rotor(), "folded");
+    let Some(mut chrome) = Chrome::start("folded") else {
+        return;
+    };
+    chrome.open(&file);
+    let height = chrome.number("document.documentElement.scrollHeight");
+    assert!(height < 3000.0, "{height}");
+    assert_eq!(chrome.evaluate("document.querySelector('#modes').open"), json!(false));
+    chrome.evaluate("document.querySelector('nav a[href=\"#modes\"]').click()");
+    chrome.evaluate("new Promise((done) => setTimeout(done, 100))");
+    assert_eq!(chrome.evaluate("document.querySelector('#modes').open"), json!(true));
+    assert!(chrome.number("document.documentElement.scrollHeight") > height);
+}
+
 /// Faults of the chart texts: cut off by the edge, covered by others, or under the legend.
 const WORDS: &str = "(() => { const wrong = []; \
     const apart = (a, b) => a.left >= b.right - 1 || b.left >= a.right - 1 || a.top >= b.bottom - 3 || b.top >= a.bottom - 3; \

@@ -101,7 +101,8 @@ impl Modes {
         self.modes.iter().map(Mode::frequency).collect()
     }
 
-    /// The positions of so many modes at most, in order: of those that grow, of those that oscillate, of the others.
+    /// The positions of so many modes at most: where there are more, of those that grow, then of those that oscillate, then of
+    /// the others.
     #[must_use]
     pub fn foremost(&self, count: usize) -> Vec<usize> {
         let rank = |mode: &Mode| match mode.behaviour.grows() {
@@ -109,8 +110,10 @@ impl Modes {
             false => 1 + usize::from(mode.frequency().is_none()),
         };
         let mut all: Vec<usize> = (0..self.modes.len()).collect();
-        all.sort_by_key(|&mode| rank(&self.modes[mode]));
-        all.truncate(count);
+        if all.len() > count {
+            all.sort_by_key(|&mode| rank(&self.modes[mode]));
+            all.truncate(count);
+        }
         all
     }
 
