@@ -1150,6 +1150,10 @@ class Study:
         """The equilibrium, modes and forced vibrations in motion: a page that a notebook shows, and that `save(path)` writes for
         a browser.
         """
+    def plot_modes(self, ax: Any | None = None) -> Any:
+        """Draws the modes on matplotlib axes: of beams the bent equilibrium and deflection curves of the first modes that
+        oscillate, of other machines the shapes by coordinate, as `modes().plot()` does. Returns the axes.
+        """
     def report(
         self,
         path: str | PathLike[str],

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use eigentol_figures::{deflections, mode_shapes};
 use eigentol_report::{Error, Report, Style, motion};
 use pyo3::exceptions::{PyOSError, PyTypeError};
 use pyo3::prelude::*;
@@ -13,6 +14,11 @@ use crate::figures;
 use crate::hints::Anything;
 use crate::study::Study;
 use crate::values::not_finite;
+
+/// Modes in a figure of deflection curves.
+const DRAWN: usize = 6;
+/// Their displacement, as a fraction of the size, so small that nothing but the mode is seen.
+const SMALL: f64 = 1e-4;
 
 /// An input, its values and perhaps a unit. In Python `tuple[str, ArrayLike] | tuple[str, ArrayLike, str]`.
 type Along<'py> = Bound<'py, PyTuple>;
@@ -27,6 +33,24 @@ impl Study {
     fn motion_page<'py>(&self, py: Python<'py>) -> PyResult<Anything<'py>> {
         let page = py.detach(|| motion(&self.inner, &Style::default()));
         figures::page(py, &page.map_err(|error| refused(py, error))?)
+    }
+
+    /// Draws the modes on matplotlib axes: of beams the bent equilibrium and deflection curves of the first modes that
+    /// oscillate, of other machines the shapes by coordinate, as `modes().plot()` does. Returns the axes.
+    #[pyo3(signature = (ax=None))]
+    fn plot_modes<'py>(&self, py: Python<'py>, ax: Option<Anything<'py>>) -> PyResult<Anything<'py>> {
+        let drawn = py.detach(|| {
+            let (scene, modes) = (self.inner.picture()?, self.inner.modes()?);
+            let moving =
+                modes.foremost(DRAWN).into_iter().filter_map(|mode| self.inner.mode_pictures(mode, 4, SMALL).ok());
+            let moving: Vec<_> = moving.collect();
+            let style = Style::default();
+            Ok(match scene.beams.is_empty() {
+                true => mode_shapes(&modes, &style),
+                false => deflections(&scene, &modes, &moving, &style),
+            })
+        });
+        figures::plot(py, Some(drawn.map_err(|error| raise(py, error))?), ax)
     }
 
     /// Writes a report: one HTML file with the mechanism in 3-D, its modes in motion, charts, verdicts and tables.

@@ -88,3 +88,18 @@ def test_answers_are_stated_in_units_of_choice():
         mechanism.in_units({"shake": "kg"})
     with pytest.raises(eigentol.UnknownName):
         mechanism.in_units({"shok": "mm"})
+
+
+def test_beams_are_drawn_as_deflection_curves_and_move_in_a_page():
+    text = """mechanism Cantilever {
+        body arm: beam(length: 1 m, along: x, up: z, bending: 6, stiffness_y: 1 N*m^2, stiffness_z: 4 N*m^2, mass_per_length: 1 kg/m);
+        joint clamp: fixed from ground to arm;
+    }"""
+    study = eigentol.Study(eigentol.Mechanism.from_text(text))
+    page = study.motion_page()
+    assert page.html.startswith("<!doctype html>") and "srcdoc" in page._repr_html_()
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    axes = study.plot_modes()
+    assert [ax.get_ylabel() for ax in axes] == ["displacement along y", "displacement along z"]
+    assert all(ax.get_xlabel() == "x [m]" for ax in axes)

@@ -136,7 +136,7 @@ def test_mistakes_are_told(spinning, study):
         spinning.replace(inputs={"omega": 0.0}).forced_response()
     with pytest.raises(eigentol.UnknownName, match="did you mean `across`"):
         spinning.propagate(["vibration acros"])
-    with pytest.raises(eigentol.InvalidValue, match="as velocity"):
+    with pytest.raises(eigentol.InvalidValue, match="velocity shake"):
         spinning.response("vibration across under u as velocty")
     with pytest.raises(eigentol.InvalidValue, match="not a vibration"):
         spinning.vibration_spread(["vibration across along omega=1..2rad/s"])

@@ -94,7 +94,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        118,
+        119,
     ),
     (
         "runtime/python",
@@ -108,7 +108,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        106,
+        107,
     ),
 ];
 

@@ -220,7 +220,7 @@ fn vanishing_direction(factors: &Lu<Complex>, regular: bool, n: usize) -> Option
     is_singular.then_some(Vanishing { left, right })
 }
 
-/// Whether a force has a share along a direction.
+/// Whether a force excites a direction.
 fn drives(force: &[Complex], direction: &[Complex]) -> bool {
     let along: Complex = force.iter().zip(direction).map(|(f, l)| f * l).sum();
     along.norm() > NOT_DRIVEN * norm(force)

@@ -22,6 +22,8 @@ const KEYS: &str = concat!(
     "  --require 'angle <= 5 deg'            an output of the declaration\n",
     "  --require 'vibration shake under u <= 0.1 mm'   an amplitude, 0 to peak; `under u` may be left out if all\n",
     "                                        excitations have one frequency; `as velocity`, `as acceleration` may follow\n",
+    "  --require 'velocity shake <= 4.5 mm/s rms'   also `p-p`, and `acceleration`; a limit may depend on inputs:\n",
+    "                                        `vibration shake <= 25.4 um * sqrt(12000 rpm / speed) p-p`\n",
     "  --require 'vibration shake along speed=0..6000rpm <= 0.1 mm'   the greatest amplitude in a range\n",
     "  --require 'peak shake along speed=0..6000rpm away from speed by 15%'   where the highest peak is\n",
     "  --require 'critical speed=0..6000rpm >= 3000 rpm'   where the equilibrium loses its stiffness\n",
@@ -36,7 +38,7 @@ const KEYS: &str = concat!(
 /// Samples where each takes a search along an input.
 const SEARCHES: usize = 600;
 
-/// How probable it is that requirements are failed, with nothing to choose: by design points, lines of designs, or samples
+/// Probability of violating requirements; the method is chosen for you: design points, lines of designs, or samples
 #[derive(Args, Debug)]
 #[command(after_long_help = KEYS)]
 pub(crate) struct Probability {

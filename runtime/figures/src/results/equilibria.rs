@@ -51,7 +51,7 @@ pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
 }
 
 /// The stable or the unstable points; each stretch includes the first point of the next, so that they meet. At a
-/// critical value where the equilibrium does not jump, the curve leaves like a square root.
+/// critical value where the equilibrium does not jump, the curve starts with a square-root branch.
 fn stretch(course: &Course<'_>, stable: bool, value: impl Fn(&Equilibrium) -> Option<f64>) -> Vec<Option<Point>> {
     let mut points = Vec::new();
     let mut before: Option<(Point, bool)> = None;

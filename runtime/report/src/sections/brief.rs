@@ -174,9 +174,10 @@ fn tolerances(spread: &Spreads, foremost: &[usize], style: &Style) -> Vec<Line> 
             let doubted = summary.trust.iter().filter(|x| !x.trusted() && told(x.mode));
             let doubted: Vec<String> = doubted.map(|doubted| style.mode(doubted.mode)).collect();
             lines.push(match doubted.is_empty() {
-                true => {
-                    (Some(true), "The first-order spread of these modes can be trusted, not of all others.".to_owned())
-                }
+                true => (
+                    Some(true),
+                    "The first-order spread of these modes can be trusted, that of some others cannot.".to_owned(),
+                ),
                 false => {
                     let names = doubted.join(", ");
                     (Some(false), format!("The first-order spread of {names} is not to be trusted. See Tolerances."))

@@ -4,9 +4,9 @@
 //!
 //! When the solvers were compiled for each mechanism, kernel and solver were one function with its numbers in
 //! registers; through the table they pass in memory. For the double pendulum on one core (AVX2), relative to then: an
-//! equilibrium takes 1.26 of the time from afar and 1.36 from near, with first-order spreads 1.33 and 1.67, a state of
-//! a sweep with derivatives 1.33 in vectors and 1.2 alone, a sample 1.37 in vectors, a seventh of it for quantiles and
-//! higher moments that were not gathered then, and 1.1 alone.
+//! equilibrium takes 26 % longer from a distant start and 36 % from a near one, with first-order spreads 33 and 67 %, a
+//! state of a sweep with derivatives 33 % in vectors and 20 % alone, a sample 37 % in vectors, a seventh of it for quantiles
+//! and higher moments that were not gathered then, and 10 % alone.
 
 use super::batch::evaluate_batch;
 use super::interval::Interval;

@@ -39,7 +39,7 @@ pub struct Bode {
 
 impl Bode {
     /// The answer with points of `others` between its values, which figures show besides: those about peaks
-    /// ([`Peaks::bends`](crate::peaks::Peaks::bends)).
+    /// ([`Peaks::bends`](eigentol_analysis::peaks::Peaks::bends)).
     #[must_use]
     pub fn with_between(mut self, others: Self) -> Self {
         self.between.extend(others.points);

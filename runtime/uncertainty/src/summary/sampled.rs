@@ -27,7 +27,7 @@ const GOOD: f64 = 0.01;
 const CLEARLY: f64 = 4.0;
 /// With a standard error of the error this small, the case is decided.
 const FINE: f64 = 0.004;
-/// Fewer values say nothing about a standard deviation.
+/// A standard deviation needs at least this many values.
 pub(super) const FEWEST: usize = 128;
 /// Standard deviations below this, relative to the quantity, are rounding errors.
 pub(super) const ROUNDING: f64 = 1e-10;

@@ -1,5 +1,5 @@
-//! The way along which events are sought: the equilibrium found at its start, followed along its branch; where that
-//! ends or loses its stability, the one to which the mechanism goes from there.
+//! The path on which events are sought. It starts at the equilibrium at the low end and follows its branch; where the branch
+//! ends or loses stability, it continues from the state the mechanism settles into.
 
 use core::ops::ControlFlow;
 

@@ -64,8 +64,7 @@ const MERGED: f64 = 3e-5;
 const NEARLY: f64 = 1e-3;
 /// Distance of two events, as a share of the step, below which they are one for several modes.
 const SAME: f64 = 1e-9;
-/// Share of what the branch bends between two known stations by which it may miss the cubic between them, and share of
-/// the way by which it may miss it in addition.
+/// A solved state may lie this far from the cubic through its neighbours: a share of their bend plus a share of the step.
 const ASTRAY: f64 = 0.05;
 const CLOSE: f64 = 1e-6;
 /// Rounding of a solved state, local.
