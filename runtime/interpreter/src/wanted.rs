@@ -7,7 +7,7 @@ use eigentol::peaks::PeakQuantity;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
 use eigentol::sweep::{Condition, Line, Range};
-use eigentol::{Error, Excitation, Output, Quantity, Study, Unit};
+use eigentol::{Error, Excitation, Input, Output, Quantity, Study, Unit};
 use eigentol_compiler::base::units;
 use thiserror::Error as ThisError;
 
@@ -88,7 +88,13 @@ pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement
     };
     let response = response(study, what)?;
     let unit = response.unit(study.description());
-    let end = |text: &str| limit_of(&response, &at_inputs(study, text), &unit, what.trim(), word);
+    let varied = match response {
+        Response::Peak { range, .. } | Response::Critical(range) | Response::Crossing { range, .. } => {
+            Some(range.input)
+        }
+        _ => None,
+    };
+    let end = |text: &str| limit_of(&response, &at_inputs(study, text, varied)?, &unit, what.trim(), word);
     Ok(match word {
         ">=" | ">" => Requirement::Within { response, low: end(limit)?, high: f64::INFINITY },
         "<=" | "<" => Requirement::Within { response, low: f64::NEG_INFINITY, high: end(limit)? },
@@ -313,17 +319,29 @@ pub fn multiple(order: f64, range: &Range, study: &Study<Interpreted>) -> Result
 }
 
 /// A limit with the values of the inputs in place of their names: `25.4 um * sqrt(12000 rpm / speed)`.
-fn at_inputs(study: &Study<Interpreted>, text: &str) -> String {
-    let inputs = study.description().inputs.iter().zip(study.input_values());
+///
+/// # Errors
+/// The limit along an input names that input, so that it is none.
+fn at_inputs(study: &Study<Interpreted>, text: &str, varied: Option<Input>) -> Result<String> {
+    let inputs = study.description().inputs.iter().zip(study.input_values()).enumerate();
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let parts = text.split_inclusive(|c| !is_word(c)).map(|part| {
         let (word, rest) = part.split_at(part.trim_end_matches(|c| !is_word(c)).len());
-        match inputs.clone().find(|(info, _)| *info.name == *word) {
+        match inputs.clone().find(|(_, (info, _))| *info.name == *word) {
             // A word that is a unit stays one.
-            Some((info, value)) if units::find(word).is_none() => {
-                format!("({:e} {}){rest}", info.unit.from_si(*value), info.unit.symbol)
-            }
-            _ => part.to_owned(),
+            Some((k, (info, value))) if units::find(word).is_none() => match varied
+                .is_some_and(|input| input.index() == k)
+            {
+                false => Ok(format!("({:e} {}){rest}", info.unit.from_si(*value), info.unit.symbol)),
+                true => {
+                    let help = "state it at one value, or give a number";
+                    wrong(
+                        format!("`{word}` varies in this range: a limit that depends on it holds at one value only"),
+                        help,
+                    )
+                }
+            },
+            _ => Ok(part.to_owned()),
         }
     });
     parts.collect()
@@ -457,6 +475,9 @@ mod tests {
         let api = 25.4e-6 * (12_000.0 * std::f64::consts::PI / 30.0 / 100.0).sqrt();
         close(limit("vibration place under gust <= 25.4 um * sqrt(12000 rpm / speed) p-p"), 0.5 * api);
         assert!(requirement(&study, "place <= 3 mm p-p").is_err(), "an output at rest has no peaks");
+        let along = "vibration place under gust along speed=1..9rad/s <= 25.4 um * sqrt(12000 rpm / speed)";
+        let refused = requirement(&study, along).unwrap_err().to_string();
+        assert!(refused.contains("`speed` varies in this range"), "{refused}");
     }
 
     /// Every form with every limit, put together at random: what is read is what was meant.
