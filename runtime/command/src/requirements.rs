@@ -2,7 +2,7 @@
 
 use eigentol::requirement::Requirement;
 use eigentol::{Excitation, Output, Study};
-use eigentol_interpreter::{Interpreted, excitation, output, requirement};
+use eigentol_interpreter::{Interpreted, excitation, output};
 
 use crate::failure::Failure;
 use crate::study_file::StudyFile;
@@ -16,9 +16,19 @@ macro_rules! require_keys {
 }
 pub(crate) use require_keys;
 
-/// The requirements that texts state.
-pub(crate) fn requirements(study: &Study<Interpreted>, all: &[String]) -> Result<Vec<Requirement>, Failure> {
-    all.iter().map(|text| Ok(requirement(study, text)?)).collect()
+/// The requirements that texts state, with what each text has beside them, such as the probability that it allows.
+pub(crate) fn requirements<T: Clone>(
+    study: &Study<Interpreted>,
+    all: &[String],
+    beside: &[T],
+) -> Result<(Vec<Requirement>, Vec<T>), Failure> {
+    let (mut wanted, mut each) = (Vec::new(), Vec::new());
+    for (k, text) in all.iter().enumerate() {
+        let stated = eigentol_interpreter::requirements(study, text)?;
+        each.extend(beside.get(k).into_iter().flat_map(|own| vec![own.clone(); stated.len()]));
+        wanted.extend(stated);
+    }
+    Ok((wanted, each))
 }
 
 impl StudyFile {

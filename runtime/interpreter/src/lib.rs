@@ -17,5 +17,6 @@ pub use given::{design_tolerance, tolerance, tolerate, value};
 pub use mechanism::Interpreted;
 pub use mistakes::{Mistake, Mistakes, ReadError, RefineError, UnitError};
 pub use wanted::{
-    FORMS, WantedError, excitation, multiple, output, range, requirement, response, vibration, with_unit_of,
+    FORMS, WantedError, excitation, multiple, output, range, requirement, requirements, response, vibration,
+    with_unit_of,
 };

@@ -112,6 +112,39 @@ pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement
     })
 }
 
+/// The requirements that a text states: one, or that of each response of `max(a, b) <= 3 mm` and `min(a, b) >= 1 mm`.
+///
+/// ```
+/// use eigentol::Study;
+/// use eigentol_interpreter::{Interpreted, requirements};
+///
+/// let text = "mechanism A { body a: point(mass: 1 kg); joint x: prismatic(x) from ground to a;
+///     force s: spring(on: x, stiffness: 9 N/m); output left = x; output right = -x; }";
+/// let study = Study::new(Interpreted::from_text(text)?);
+/// assert_eq!(requirements(&study, "max(left, right) <= 3 mm")?.len(), 2);
+/// assert!(requirements(&study, "max(left, right) >= 3 mm").is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`WantedError`].
+pub fn requirements(study: &Study<Interpreted>, text: &str) -> Result<Vec<Requirement>> {
+    let extreme = ["max", "min"].into_iter().find_map(|word| {
+        let inside = text.trim().strip_prefix(word)?.trim_start().strip_prefix('(')?;
+        let (all, limit) = inside.split_once(')')?;
+        Some((word, all, limit.trim()))
+    });
+    let Some((word, all, limit)) = extreme else {
+        return Ok(vec![requirement(study, text)?]);
+    };
+    let sign = if word == "max" { '<' } else { '>' };
+    if !limit.starts_with(sign) {
+        let help = format!("write `{word}({all}) {sign}= ..`, or a requirement for the one that is meant");
+        return wrong(format!("`{text}` asks something of one of them, and does not say of which"), help);
+    }
+    all.split(',').map(|what| requirement(study, &format!("{} {limit}", what.trim()))).collect()
+}
+
 /// A requirement to stay away from a multiple of an input: `2 speed by 10%`.
 fn away(study: &Study<Interpreted>, response: Response, text: &str) -> Result<Requirement> {
     let parsed = || {

@@ -65,9 +65,10 @@ of_requirements! {
 impl Study {
     pub(crate) fn requirements(&self, given: &[RequirementText<'_>]) -> PyResult<Vec<requirement::Requirement>> {
         let one = |given: &RequirementText<'_>| {
-            let wanted = eigentol_interpreter::requirement(&self.inner, &text(given, "frequency 1 >= 20 Hz")?);
+            let wanted = eigentol_interpreter::requirements(&self.inner, &text(given, "frequency 1 >= 20 Hz")?);
             wanted.map_err(|error| meaningless(given.py(), error))
         };
-        given.iter().map(one).collect()
+        let each: Vec<Vec<_>> = given.iter().map(one).collect::<PyResult<_>>()?;
+        Ok(each.concat())
     }
 }

@@ -78,7 +78,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
     ("macros/urdf", &["eigentol-compiler"], 46),
-    ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 47),
+    ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 48),
     ("runtime/tables", &["eigentol-contract", "eigentol-results"], 20),
     ("runtime/figures", &["eigentol"], 115),
     ("runtime/report", &["eigentol", "eigentol-figures", "eigentol-tables"], 63),

@@ -56,8 +56,8 @@ impl Allocate {
             .samples(samples(self.samples, &file)?)
             .seed(file.seed.unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
-        let wanted = requirements(&study, &file.require)?;
-        let allowed = file.allowed()?.into_iter().enumerate().map(|(k, allowed)| {
+        let (wanted, allowed) = requirements(&study, &file.require, &file.allowed()?)?;
+        let allowed = allowed.into_iter().enumerate().map(|(k, allowed)| {
             let help = "give the greatest probability of violating it: `failure = 0.001`";
             allowed.ok_or_else(|| Failure::usage(format!("requirement {} allows no failure", k + 1), help))
         });

@@ -60,7 +60,7 @@ impl Grade {
         let bar = progress::bar("designs", None);
         let study = progress::watched(question.study.clone(), &bar);
         let rotor = Rotor::of(&question, study)?;
-        let wanted = requirements(&question.study, required)?;
+        let (wanted, _) = requirements::<()>(&question.study, required, &[])?;
         let each = wanted.iter().map(|wanted| rotor.grade(self, wanted, range.as_ref()));
         let each = each.collect::<Result<Vec<_>, _>>()?;
         drop(bar);

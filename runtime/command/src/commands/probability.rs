@@ -74,7 +74,7 @@ impl Probability {
         let study = progress::watched(question.study.clone(), &bar)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
-        let wanted = requirements(&study, required)?;
+        let (wanted, allowed) = requirements(&study, required, &allowed)?;
         let mut responses = wanted.iter().filter_map(Requirement::response);
         let usual = match responses.any(|response| !response.of_state()) {
             true => Some(SEARCHES),

@@ -120,6 +120,22 @@ fn limits_as_the_standards_state_them() {
     }
 }
 
+/// The greatest of several outputs is a requirement on each, with the probability that the study file allows.
+#[test]
+fn the_greatest_of_several_outputs_is_limited() {
+    let folder = folder("greatest");
+    let machine = std::fs::read_to_string(inputs().join("blower.mechanism")).unwrap();
+    let study = "mechanism = \"m.mechanism\"\nrequire = [\"max(shake, lift) <= 1 mm\", \"frequency 1 >= 60 Hz\"]\nfailure = [0.5, 0.9]\n";
+    std::fs::write(folder.join("study.toml"), study).unwrap();
+    let text = run_in(&folder, &machine, &["probability", "--study", "study.toml", "--set", "speed=3000rpm"]);
+    for line in ["1: shake at most", "2: lift at most", "3: frequency 1 at least"] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    let unclear = ["probability", "m.mechanism", "--set", "speed=3000rpm", "--require", "max(shake, lift) >= 1 mm"];
+    let refused = command_in(&folder, &unclear).output().unwrap();
+    assert!(refused.status.code() == Some(2), "{refused:?}");
+}
+
 /// An unbalance of the grade that `grade` finds reaches the limit, and a grade of the declaration is its eccentricity.
 #[test]
 fn the_grade_that_is_found_reaches_the_limit() {
