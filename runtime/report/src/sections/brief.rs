@@ -31,6 +31,9 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             html.leaf("li", &[("class", class)], &text);
         }
     });
+    if content.along.is_none() {
+        super::modes::shapes(html, content)?;
+    }
     html.constant("<div class=\"pair\">\n");
     if let Some(Ok(campbell)) = content.along.as_ref().map(|along| &along.campbell) {
         chart(html, &figures::campbell(campbell, &content.brief_style.clone().title("Campbell diagram")))?;

@@ -38,18 +38,34 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         return Ok(());
     }
     let style = content.brief_style.clone();
-    let titled = style.clone().title("Mode shapes");
-    match &content.pictures {
-        Ok(pictures) if !pictures.scene.beams.is_empty() => {
-            let moving: Vec<_> = pictures.modes.iter().filter_map(|picture| picture.clone().ok()).collect();
-            chart(html, &deflections(&pictures.scene, modes, &moving, &titled))?;
-        }
-        _ => chart(html, &mode_shapes(modes, &titled))?,
+    // Without diagrams along an input they are on the page with the answer.
+    if content.along.is_some() {
+        shapes(html, content)?;
     }
     if let Ok(state) = &content.equilibrium {
         chart(html, &participation(modes, state, &style.title("What moves in each mode")))?;
     }
     Ok(())
+}
+
+/// Deflection curves of beams, or shapes by coordinate; nothing where there is one component.
+///
+/// # Errors
+/// [`Error::Data`].
+pub(super) fn shapes(html: &mut Html, content: &Content) -> Result<(), Error> {
+    let (Ok(modes), 2..) = (&content.modes, content.description.coordinates.len()) else {
+        return Ok(());
+    };
+    let style = content.brief_style.clone().title("Mode shapes");
+    match &content.pictures {
+        Ok(pictures) if !pictures.scene.beams.is_empty() => {
+            let foremost = modes.foremost(super::MODES);
+            let moving = pictures.modes.iter().filter_map(|picture| picture.clone().ok());
+            let moving: Vec<_> = moving.filter(|picture| foremost.contains(&picture.mode)).collect();
+            chart(html, &deflections(&pictures.scene, modes, &moving, &style))
+        }
+        _ => chart(html, &mode_shapes(modes, &style)),
+    }
 }
 
 /// The view in 3-D with its controls.
