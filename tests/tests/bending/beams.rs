@@ -23,6 +23,7 @@ mod poses;
 mod required;
 mod rotating;
 mod sampled;
+mod sharp;
 mod strained;
 mod twisted;
 mod whirls;

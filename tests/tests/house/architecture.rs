@@ -73,7 +73,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
         58,
     ),
     ("macros/symbolic", &[], 69),
-    ("macros/language", &["eigentol-symbolic"], 365),
+    ("macros/language", &["eigentol-symbolic"], 366),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 387),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),

@@ -247,7 +247,8 @@ impl Resolver<'_> {
         None
     }
 
-    /// Shear that follows from the moments is derived for straight beams of sections that couple no strains.
+    /// Shear that follows from the moments is derived for straight beams of sections that couple no strains and that
+    /// all resist it.
     fn require_unsheared(&mut self, given: &Arguments<'_>, declared: &Declared) -> Option<()> {
         let message = if !declared.static_shear {
             return Some(());
@@ -255,6 +256,8 @@ impl Resolver<'_> {
             "`shear: static` takes a beam that is straight before it is loaded"
         } else if declared.table.is_coupled() {
             "`shear: static` takes a section whose strains are not coupled"
+        } else if declared.table.is_sharp() {
+            "`shear: static` takes a beam with a section at its tip"
         } else {
             return Some(());
         };

@@ -225,10 +225,10 @@ impl Resolver<'_> {
         let kind = signature.read;
         let (mut all, mut centers) = (Vec::new(), Vec::new());
         let mut is_matrix = false;
-        for end in calls {
+        for (index, end) in calls.iter().enumerate() {
             let arguments = self.arguments(end, signature);
             is_matrix |= arguments.get("stiffness").is_some();
-            all.push(self.dimensions(name, kind, &arguments));
+            all.push(self.dimensions(name, kind, &arguments, index > 0));
             centers.push(match &center {
                 [Expr::Number(0.0), Expr::Number(0.0)] => self.center(&arguments),
                 whole => self.only_center(&arguments, whole),
@@ -264,7 +264,8 @@ impl Resolver<'_> {
         })
     }
 
-    fn dimensions(&mut self, name: &Ident, kind: Kind, given: &Arguments<'_>) -> Option<Numbers> {
+    /// The dimensions of one end. Those of a tip may be zero: of a wedge the height, of a cone the radius.
+    fn dimensions(&mut self, name: &Ident, kind: Kind, given: &Arguments<'_>, is_tip: bool) -> Option<Numbers> {
         let names: &[&str] = match kind {
             Kind::Rectangle => &["width", "height"],
             Kind::Circle => &["radius"],
@@ -279,8 +280,10 @@ impl Resolver<'_> {
         for argument in names {
             let value = given.get(argument)?;
             let length = self.scalar_of(value, Dimension::LENGTH, &format!("`{argument}`"));
-            if let Some(length) = &length {
-                self.require_of_beam(name, argument, length, Dimension::LENGTH, value);
+            match &length {
+                Some(Expr::Number(0.0)) if is_tip => {}
+                Some(length) => self.require_of_beam(name, argument, length, Dimension::LENGTH, value),
+                None => {}
             }
             lengths.push((length, value));
         }

@@ -128,6 +128,9 @@ impl Resolver<'_> {
                 .filter(|(fraction, body)| *fraction == 1.0 || loaded.contains(&Frame::Body(*body)))
                 .copied()
                 .collect();
+            if let Some((_, tip)) = ends.last().filter(|_| declared.table.is_sharp()) {
+                self.require_unloaded(name, *tip, &loaded);
+            }
             let mut start = (0.0, BodyId::new(root));
             for (number, end) in ends.iter().enumerate() {
                 let name = match ends.len() {
@@ -141,6 +144,16 @@ impl Resolver<'_> {
             }
         }
         beams
+    }
+
+    /// A tip without a section takes neither a force nor a moment.
+    fn require_unloaded(&mut self, name: &Ident, tip: BodyId, loaded: &[Frame]) {
+        if loaded.contains(&Frame::Body(tip)) {
+            let message = format!("something stands on the tip of `{name}`, which is sharp: it carries no load");
+            let help =
+                format!("give the tip a small section, or load the beam before its end: `{name} at 0.99 length`");
+            self.diagnostics.error_with_help(name, message, help);
+        }
     }
 
     /// A part of a beam between loads, or all of it.

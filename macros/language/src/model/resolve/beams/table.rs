@@ -154,6 +154,17 @@ impl Table {
         }
     }
 
+    /// Whether nothing is left of a shape at the tip, which then carries no load: under one, the deflection of a wedge
+    /// grows like the logarithm of what is left of its height, that of a cone without bound.
+    pub(super) fn is_sharp(&self) -> bool {
+        let outer = match self.kind {
+            Kind::Numbers => 0,
+            Kind::Circle | Kind::Tube => 1,
+            Kind::Rectangle => 2,
+        };
+        self.ends[1].iter().take(outer).any(|size| *size == Expr::Number(0.0))
+    }
+
     /// Whether the section is a circle or a tube.
     pub(super) fn is_round(&self) -> bool {
         matches!(self.kind, Kind::Circle | Kind::Tube)
@@ -242,12 +253,16 @@ fn between(root: &Expr, tip: &Expr, fraction: f64) -> Expr {
 /// sum of `1/n^5` in closed form, so that three terms leave less than 1e-12 for `a >= b`.
 fn torsion_of_rectangle(long: &Expr, thick: &Expr) -> Expr {
     const SUM: f64 = 1.004_523_762_795_139_6;
+    if *thick == Expr::Number(0.0) {
+        return Expr::Number(0.0);
+    }
     let ratio = divide(long.clone(), thick.clone());
     let mut sum = Expr::Number(SUM);
     for n in [1.0_f64, 3.0, 5.0] {
-        let growing = call(Function::Exp, multiply(Expr::Number(n * PI), ratio.clone()));
-        let missing = divide(Expr::Number(2.0 / n.powi(5)), add(growing, Expr::Number(1.0)));
-        sum = subtract(sum, missing);
+        // Of a thin strip it vanishes, with its derivatives; the growing exponential would overflow.
+        let decay = call(Function::Exp, multiply(Expr::Number(-n * PI), ratio.clone()));
+        let share = divide(decay.clone(), add(decay, Expr::Number(1.0)));
+        sum = subtract(sum, multiply(Expr::Number(2.0 / n.powi(5)), share));
     }
     let factor = Expr::Number(64.0 / PI.powi(5));
     let loss = multiply(factor, divide(sum, ratio));
