@@ -1,19 +1,16 @@
 //! What turns, and how far it is out of balance: the numbers that a grade of balancing compares (ISO 21940-11).
 
-use super::evaluate::{Values, evaluate};
+use super::evaluate::Values;
 use super::expression::Expr;
-use super::mechanism::{Beam, CoordinateQuantity, Deviation, ExcitationLaw, Frame, Mechanism};
-use crate::base::ids::{BodyId, DesignId};
+use super::mechanism::{Beam, Body, CoordinateQuantity, Deviation, ExcitationLaw, Frame, Mechanism};
+use crate::base::ids::DesignId;
 
 /// The mass of all that a running coordinate turns, and of beams that spin, kg, at inputs `u` and design variables `b`, SI.
 pub fn turning_mass(mechanism: &Mechanism, u: &[f64], b: &[f64]) -> f64 {
     let values = Values::new(&mechanism.constants, u, b);
     let turns = turning(mechanism);
     let rigid = mechanism.bodies.iter().zip(&turns).filter(|(_, turns)| **turns);
-    let rigid = rigid.flat_map(|(body, _)| &body.parts).map(|part| {
-        let mass = values.of(part.shape.reduced().mass);
-        if part.hole { -mass } else { mass }
-    });
+    let rigid = rigid.map(|(body, _)| mass(body, &values));
     let spins = |beam: &&Beam| turns[beam.body.index()] || beam.spin != Expr::Number(0.0);
     let flexible = mechanism.beams.iter().filter(spins).map(|beam| {
         let density = beam.sections.iter().map(|(_, weight, section)| weight * values.of(&section.mass)).sum::<f64>();
@@ -51,16 +48,17 @@ pub struct Unbalanced {
 
 /// The unbalances with a first moment of mass: all but tilts.
 pub fn unbalances(mechanism: &Mechanism, u: &[f64], b: &[f64]) -> Vec<Unbalanced> {
+    let values = Values::new(&mechanism.constants, u, b);
     let each = mechanism.excitations.iter().enumerate().filter_map(|(excitation, declared)| {
         let ExcitationLaw::Unbalance { body, deviation, .. } = &declared.law else {
             return None;
         };
         let (size, mass) = match deviation {
             Deviation::Amount(amount) => (amount, 1.0),
-            Deviation::Eccentricity(eccentricity) => (eccentricity, mass_of(mechanism, *body, u, b)),
+            Deviation::Eccentricity(eccentricity) => (eccentricity, mass(&mechanism.bodies[body.index()], &values)),
             Deviation::Tilt(_) => return None,
         };
-        let first_moment = mass * evaluate(mechanism, size, u, b);
+        let first_moment = mass * values.of(size);
         let size = match size {
             Expr::Design(id) => Some(*id),
             _ => None,
@@ -70,11 +68,10 @@ pub fn unbalances(mechanism: &Mechanism, u: &[f64], b: &[f64]) -> Vec<Unbalanced
     each.collect()
 }
 
-fn mass_of(mechanism: &Mechanism, body: BodyId, u: &[f64], b: &[f64]) -> f64 {
-    let parts = mechanism.bodies[body.index()].parts.iter();
-    let mass = parts.map(|part| {
-        let mass = evaluate(mechanism, part.shape.reduced().mass, u, b);
+fn mass(body: &Body, values: &Values<'_>) -> f64 {
+    let parts = body.parts.iter().map(|part| {
+        let mass = values.of(part.shape.reduced().mass);
         if part.hole { -mass } else { mass }
     });
-    mass.sum()
+    parts.sum()
 }

@@ -167,7 +167,7 @@ impl Rotor {
             stable.map(|peak| peak.height.spread.unwrap_or_else(|| still(peak.height.value))).collect();
         for end in [range.low, range.high] {
             let end = study.clone().input(Input::new(range.input.index()), end);
-            match end.modes().is_ok_and(|modes| modes.stable()) {
+            match end.modes()?.stable() {
                 true => all.extend(at(&end)?),
                 false => all_stable = false,
             }

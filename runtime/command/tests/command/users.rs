@@ -162,6 +162,20 @@ fn the_grade_that_is_found_reaches_the_limit() {
     assert_eq!(responses[0], responses[1]);
 }
 
+/// Both disks turn, and the shaft, which bends: a grade refers to the mass of all.
+#[test]
+fn all_that_turns_is_weighed() {
+    let limit = ["--require", "velocity y1 under imbalance1 <= 2.8 mm/s rms"];
+    let found =
+        answer(120, &[&["grade", "two_disks.mechanism", "--set", "speed=1000rpm", "--json"], &limit[..]].concat());
+    let circle = |radius: f64| std::f64::consts::PI * radius * radius;
+    let mass = 7850.0 * (circle(0.025) * 1.2 + 2.0 * circle(0.14) * 0.06);
+    let weighed = number_after(&found, "\"mass\":");
+    assert!((weighed - mass).abs() < 1e-12 * mass, "{weighed} {mass}: {found}");
+    // 150 g*mm on each disk.
+    assert!((number_after(&found, "\"unbalance\":") - 300e-6).abs() < 1e-15, "{found}");
+}
+
 fn run_in(folder: &Path, text: &str, arguments: &[&str]) -> String {
     std::fs::write(folder.join("m.mechanism"), text).unwrap();
     let output = command_in(folder, arguments).output().unwrap();
