@@ -401,14 +401,11 @@ impl<'a> Responses<'a> {
                     (value, gradient)
                 }
                 Response::Vibration(vibration) => {
-                    let state = &solved.state;
                     let forced_response = derivatives.of_vibrations(self.mechanism, solved);
                     let value = forced_response.and_then(|found| vibration.of(found));
                     let gradient = value.filter(|_| slopes).and_then(|_| {
                         let all = derivatives.along_vibrations(self.mechanism, solved)?;
-                        let harmonic = vibration.place(&state.description)?;
-                        let slopes = all.modulus(harmonic, vibration.output, vibration.measure)?;
-                        Some(slopes.by_design)
+                        Some(vibration.slopes(all)?.by_design)
                     });
                     (value, gradient)
                 }

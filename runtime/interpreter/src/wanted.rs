@@ -2,7 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use eigentol::forced::Measure;
+use eigentol::forced::{Extent, Measure};
 use eigentol::peaks::PeakQuantity;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
@@ -18,8 +18,9 @@ use crate::mistakes::Mistakes;
 /// The forms of a requirement, of which a response is the part before the limit.
 pub const FORMS: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `growth 1 <= 0`, `angle <= 5 deg`, \
                          `vibration shake under u <= 0.1 mm`, `velocity shake <= 4.5 mm/s rms`, \
-                         `vibration shake along speed=0..6000rpm <= 100 um p-p`, `peak shake along speed=0..6000rpm away from speed by 15%`, \
-                         `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, \
+                         `vibration shake along speed=0..6000rpm <= 100 um p-p`, `vibration major(shake, lift) <= 50 um`, \
+                         `velocity shake under all <= 4.5 mm/s rms`, `peak shake along speed=0..6000rpm away from speed by 15%`, \
+                         `frequency 1 within 4..5 Hz`, `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, \
                          `resonance 1 speed=0..6000rpm order 2 >= 4000 rpm`, `flutter 1 speed=0..6000rpm >= 4000 rpm`, or `stable`";
 
 /// What is wrong with a response or a requirement.
@@ -87,6 +88,14 @@ pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement
         return no(text, "a requirement");
     };
     let response = response(study, what)?;
+    if let (Response::Peak { vibration, range, quantity: PeakQuantity::Height }, "<=" | "<") = (response, word) {
+        if names(limit, study.description().inputs[range.input.index()].name.as_ref()) {
+            let vibration = along_limit(study, vibration, range, limit)?;
+            let response = Response::Peak { vibration, range, quantity: PeakQuantity::Height };
+            return Ok(Requirement::at_most(response, 1.0));
+        }
+    }
+    let (response, limit) = rms_of_all(response, limit);
     let unit = response.unit(study.description());
     let varied = match response {
         Response::Peak { range, .. } | Response::Critical(range) | Response::Crossing { range, .. } => {
@@ -131,8 +140,9 @@ pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement
 pub fn requirements(study: &Study<Interpreted>, text: &str) -> Result<Vec<Requirement>> {
     let extreme = ["max", "min"].into_iter().find_map(|word| {
         let inside = text.trim().strip_prefix(word)?.trim_start().strip_prefix('(')?;
-        let (all, limit) = inside.split_once(')')?;
-        Some((word, all, limit.trim()))
+        let end = inside.find(['<', '>']).unwrap_or(inside.len());
+        let (all, _) = inside[..end].rsplit_once(')')?;
+        Some((word, all, inside[all.len() + 1..].trim()))
     });
     let Some((word, all, limit)) = extreme else {
         return Ok(vec![requirement(study, text)?]);
@@ -142,7 +152,27 @@ pub fn requirements(study: &Study<Interpreted>, text: &str) -> Result<Vec<Requir
         let help = format!("write `{word}({all}) {sign}= ..`, or a requirement for the one that is meant");
         return wrong(format!("`{text}` asks something of one of them, and does not say of which"), help);
     }
-    all.split(',').map(|what| requirement(study, &format!("{} {limit}", what.trim()))).collect()
+    arguments(all).map(|what| requirement(study, &format!("{} {limit}", what.trim()))).collect()
+}
+
+/// What commas outside brackets separate.
+fn arguments(text: &str) -> impl Iterator<Item = &str> {
+    let mut open = 0;
+    text.split(move |c| {
+        open += i32::from(c == '(') - i32::from(c == ')');
+        c == ',' && open == 0
+    })
+}
+
+/// Words, of which one may hold a pair in brackets: `major(shake, lift)`.
+fn words(text: &str) -> Vec<String> {
+    let mut open = 0;
+    let words = text.split(|c: char| {
+        open += i32::from(c == '(') - i32::from(c == ')');
+        c.is_whitespace() && open == 0
+    });
+    let close = |word: &str| word.split_whitespace().collect::<String>();
+    words.filter(|word| !word.is_empty()).map(close).collect()
 }
 
 /// A requirement to stay away from a multiple of an input: `2 speed by 10%`.
@@ -171,7 +201,8 @@ fn away(study: &Study<Interpreted>, response: Response, text: &str) -> Result<Re
 /// # Errors
 /// [`WantedError`].
 pub fn response(study: &Study<Interpreted>, text: &str) -> Result<Response> {
-    let words: Vec<&str> = text.split_whitespace().collect();
+    let words = words(text);
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let mode = |word: &str| match word.parse::<usize>() {
         Ok(0) => wrong("there is no mode 0", "modes are counted from 1: `frequency 1`"),
         Ok(number) => Ok(number - 1),
@@ -234,7 +265,8 @@ fn quantity(name: &str) -> Option<Quantity> {
 /// # Errors
 /// [`WantedError`].
 pub fn vibration(study: &Study<Interpreted>, text: &str) -> Result<Vibration> {
-    let words: Vec<&str> = text.split_whitespace().collect();
+    let words = words(text);
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match clauses(study, text, words.strip_prefix(&["vibration"]).unwrap_or(&words))? {
         (vibration, None) => Ok(vibration),
         (_, Some(_)) => no(text, "a vibration at one operating point"),
@@ -247,10 +279,11 @@ fn clauses(study: &Study<Interpreted>, text: &str, words: &[&str]) -> Result<(Vi
         return no(text, "a vibration");
     };
     let (mut under, mut measure, mut along) = (None, Measure::Displacement, None);
-    let output = output(study, name)?;
+    let (output, mut extent) = extent(study, name)?;
     for clause in more.chunk_by(|_, word| !matches!(*word, "under" | "as" | "along")) {
         match *clause {
             ["under", ref names @ ..] if !names.is_empty() => under = Some(names.join(" ")),
+            ["as", "rms"] if extent == Extent::Amplitude => extent = Extent::Rms,
             ["as", "displacement"] => measure = Measure::Displacement,
             ["as", "velocity"] => measure = Measure::Velocity,
             ["as", "acceleration"] => measure = Measure::Acceleration,
@@ -258,8 +291,32 @@ fn clauses(study: &Study<Interpreted>, text: &str, words: &[&str]) -> Result<(Vi
             _ => return no(text, "a vibration"),
         }
     }
-    let excitation = excitation(study, under.as_deref())?;
-    Ok((Vibration { output, excitation, measure }, along))
+    // An excitation may have this name.
+    let all = under.as_deref() == Some("all") && study.find_excitation("all").is_err();
+    let excitation = match (all, extent) {
+        (true, Extent::Amplitude | Extent::Rms) => {
+            if extent == Extent::Amplitude {
+                extent = Extent::Sum;
+            }
+            excitation(study, study.description().excitations.first().map(|first| &*first.name))?
+        }
+        (true, _) => return wrong("an orbit belongs to one frequency", "say under which excitation"),
+        (false, Extent::Rms) => return wrong("`as rms` is of all excitations", "write `under all as rms`"),
+        (false, _) => excitation(study, under.as_deref())?,
+    };
+    Ok((Vibration { output, excitation, measure, extent }, along))
+}
+
+/// An output, or a semi-axis of the orbit of two: `shake`, `major(shake,lift)`.
+fn extent(study: &Study<Interpreted>, name: &str) -> Result<(Output, Extent)> {
+    type Axis = fn(Output) -> Extent;
+    let axes: [(&str, Axis); 2] = [("major(", Extent::Major), ("minor(", Extent::Minor)];
+    let axis = axes.into_iter().find_map(|(word, of)| Some((name.strip_prefix(word)?.strip_suffix(')')?, of)));
+    match axis.map(|(inside, of)| (inside.split_once(','), of)) {
+        None => Ok((output(study, name)?, Extent::Amplitude)),
+        Some((Some((x, y)), of)) => Ok((output(study, x)?, of(output(study, y)?))),
+        Some((None, _)) => wrong(format!("`{name}` is not an axis of an orbit"), "name two outputs: `major(shake, lift)`"),
+    }
 }
 
 /// The output of this name.
@@ -351,33 +408,91 @@ pub fn multiple(order: f64, range: &Range, study: &Study<Interpreted>) -> Result
     wrong(format!("order {order} crosses no mode"), help)
 }
 
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// Whether an expression names an input. A word that is a unit stays one.
+fn names(text: &str, input: &str) -> bool {
+    units::find(input).is_none() && text.split(|c| !is_word(c)).any(|word| word == input)
+}
+
 /// A limit with the values of the inputs in place of their names: `25.4 um * sqrt(12000 rpm / speed)`.
 ///
 /// # Errors
-/// The limit along an input names that input, so that it is none.
+/// The limit along an input names that input.
 fn at_inputs(study: &Study<Interpreted>, text: &str, varied: Option<Input>) -> Result<String> {
-    let inputs = study.description().inputs.iter().zip(study.input_values()).enumerate();
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let inputs = &study.description().inputs;
+    if let Some(own) = varied.map(|varied| &*inputs[varied.index()].name).filter(|own| names(text, own)) {
+        let help = "state it at one value, or give a number";
+        return wrong(
+            format!("`{own}` varies in this range: a limit that depends on it holds at one value only"),
+            help,
+        );
+    }
+    let all = inputs.iter().zip(study.input_values());
     let parts = text.split_inclusive(|c| !is_word(c)).map(|part| {
         let (word, rest) = part.split_at(part.trim_end_matches(|c| !is_word(c)).len());
-        match inputs.clone().find(|(_, (info, _))| *info.name == *word) {
-            // A word that is a unit stays one.
-            Some((k, (info, value))) if units::find(word).is_none() => match varied
-                .is_some_and(|input| input.index() == k)
-            {
-                false => Ok(format!("({:e} {}){rest}", info.unit.from_si(*value), info.unit.symbol)),
-                true => {
-                    let help = "state it at one value, or give a number";
-                    wrong(
-                        format!("`{word}` varies in this range: a limit that depends on it holds at one value only"),
-                        help,
-                    )
-                }
-            },
-            _ => Ok(part.to_owned()),
+        match all.clone().find(|(info, _)| *info.name == *word && names(word, word)) {
+            Some((info, value)) => format!("({:e} {}){rest}", info.unit.from_si(*value), info.unit.symbol),
+            None => part.to_owned(),
         }
     });
-    parts.collect()
+    Ok(parts.collect())
+}
+
+/// A vibration over its limit along the input that sets its frequency, which a power of that input is: `25.4 um *
+/// sqrt(12000 rpm / speed)`.
+///
+/// # Errors
+/// A limit that is none, and a frequency that is no multiple of the input.
+fn along_limit(study: &Study<Interpreted>, vibration: Vibration, range: Range, text: &str) -> Result<Vibration> {
+    let info = &study.description().inputs[range.input.index()];
+    let response = Response::Vibration(vibration);
+    let unit = response.unit(study.description());
+    // The frequency, what the limit leaves of the output itself, and the input.
+    let at = |share: f64| -> Result<[f64; 3]> {
+        let u = range.low + share * (range.high - range.low);
+        let there = study.clone().input(Input::new(range.input.index()), u);
+        let limit = limit_of(&response, &at_inputs(&there, text, None)?, &unit, "the vibration", "<=")?;
+        let found = there.forced_response()?;
+        let w = found.harmonic(vibration.excitation).map_or(f64::NAN, |harmonic| harmonic.frequency);
+        Ok([w, limit / vibration.measure.of(w, 1.0.into()).norm(), u.abs()])
+    };
+    let ([w, limit, u], middle) = (at(1.0)?, at(0.5)?);
+    let power = (middle[1] / limit).ln() / (middle[0] / w).ln();
+    let follows = |there: [f64; 3]| {
+        let close = |a: f64, b: f64| (a - b).abs() <= ROUNDING * b.abs();
+        close(there[1], limit * (there[0] / w).powf(power)) && close(there[0] / there[2], w / u)
+    };
+    if !is_of_all(vibration) && follows(at(0.6)?) && follows(at(0.9)?) {
+        return Ok(vibration.measure(Measure::OfLimit { limit: limit / w.powf(power), power }));
+    }
+    let name = &info.name;
+    let help = format!(
+        "write a power of it, such as `25.4 um * sqrt(12000 rpm / {name})`, for a vibration whose frequency is a multiple of it"
+    );
+    wrong(format!("`{name}` varies in this range, and this limit does not follow a power of it"), help)
+}
+
+/// Relative error of a limit that rounding explains.
+const ROUNDING: f64 = 1e-9;
+
+/// What all excitations do together, as root of the mean square if that is how its limit is stated.
+fn rms_of_all(response: Response, limit: &str) -> (Response, &str) {
+    let as_rms = |vibration: Vibration| vibration.extent(Extent::Rms);
+    let response = match (response, limit.strip_suffix(" rms")) {
+        (Response::Vibration(own), Some(_)) if is_of_all(own) => Response::Vibration(as_rms(own)),
+        (Response::Peak { vibration, range, quantity }, Some(_)) if is_of_all(vibration) => {
+            Response::Peak { vibration: as_rms(vibration), range, quantity }
+        }
+        _ => return (response, limit),
+    };
+    (response, limit.trim_end_matches(" rms"))
+}
+
+fn is_of_all(vibration: Vibration) -> bool {
+    matches!(vibration.extent, Extent::Sum | Extent::Rms)
 }
 
 /// Words behind a limit of a vibration, and the amplitude from 0 to peak of what they count as one.
@@ -385,8 +500,12 @@ const MEASURED: [(&str, f64); 5] = [("rms", SQRT_2), ("p-p", 0.5), ("pp", 0.5), 
 
 /// A limit as it is written, that of a vibration as the standards state it: `4.5 mm/s rms`, `60 um p-p`.
 fn limit_of(response: &Response, text: &str, unit: &Unit, what: &str, word: &str) -> Result<f64> {
-    let is_amplitude =
-        matches!(response, Response::Vibration(_) | Response::Peak { quantity: PeakQuantity::Height, .. });
+    let is_amplitude = match response {
+        Response::Vibration(vibration) | Response::Peak { vibration, quantity: PeakQuantity::Height, .. } => {
+            vibration.extent != Extent::Rms
+        }
+        _ => false,
+    };
     let measured = MEASURED.iter().filter(|_| is_amplitude).find_map(|&(word, amplitude)| {
         let text = text.trim().strip_suffix(word)?;
         text.ends_with(char::is_whitespace).then_some((text, amplitude))
@@ -463,7 +582,7 @@ mod tests {
             ("acceleration", Measure::Acceleration, "m/s^2"),
         ][pick(3)];
         let mut clauses = [format!("under {under}"), format!("as {word}"), format!("along {along}")];
-        let vibration = Vibration { output: Output::new(output), excitation: Excitation::new(excitation), measure };
+        let vibration = Vibration::new(Output::new(output), Excitation::<eigentol::Any>::new(excitation)).measure(measure);
         let crossing = |condition| Response::Crossing { mode: number, condition, range };
         let mode = |quantity| Response::Mode { mode: number, quantity };
         let peak = |quantity| Response::Peak { vibration, range, quantity };

@@ -3,7 +3,7 @@
 use crate::Complex;
 
 /// How a vibrating output is measured: by itself, or by one of its derivatives by time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Measure {
     /// The output itself, `y`, in its unit.
@@ -13,14 +13,23 @@ pub enum Measure {
     Velocity,
     /// The rate of its rate, `-w^2 y`, per second squared.
     Acceleration,
+    /// The output over a limit that follows the frequency, `limit w^power` with `w` in rad/s.
+    OfLimit {
+        /// The limit at 1 rad/s, in the unit of the output (SI).
+        limit: f64,
+        /// The power.
+        power: f64,
+    },
 }
 
 impl Measure {
-    fn order(self) -> i32 {
+    /// The power of the frequency that it is proportional to.
+    fn order(self) -> f64 {
         match self {
-            Self::Displacement => 0,
-            Self::Velocity => 1,
-            Self::Acceleration => 2,
+            Self::Displacement => 0.0,
+            Self::Velocity => 1.0,
+            Self::Acceleration => 2.0,
+            Self::OfLimit { power, .. } => -power,
         }
     }
 
@@ -31,12 +40,15 @@ impl Measure {
     }
 
     fn factor(self, w: f64) -> Complex {
-        Complex::new(0.0, w).powi(self.order())
+        match self {
+            Self::OfLimit { limit, power } => Complex::from(w.powf(-power) / limit),
+            _ => Complex::new(0.0, w).powi(self.order() as i32),
+        }
     }
 
     /// Its derivative, from the derivatives of frequency and amplitude.
     pub(super) fn slope(self, (w, y): (f64, Complex), dw: f64, dy: Complex) -> Complex {
-        let n = f64::from(self.order());
+        let n = self.order();
         self.factor(w) * (dy + y * (n * dw / w))
     }
 
@@ -47,7 +59,7 @@ impl Measure {
         [first, second]: [(f64, Complex); 2],
         (ddw, ddy): (f64, Complex),
     ) -> Complex {
-        let n = f64::from(self.order());
+        let n = self.order();
         let ((dw1, dy1), (dw2, dy2)) = (first, second);
         let mixed = dy1 * dw2 + dy2 * dw1 + y * ddw;
         self.factor(w) * (ddy + mixed * (n / w) + y * (n * (n - 1.0) * dw1 * dw2 / (w * w)))

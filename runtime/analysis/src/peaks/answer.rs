@@ -159,7 +159,7 @@ impl Peaks {
             let form = self.sigma_level.map(|_| rough as fn(f64) -> String);
             add(&format!("sigma of {what}"), form, &|item| Some(item.spread.as_ref()?.sigma));
         }
-        let phase = |row: &Row<'_>| Some(row.2.phase.to_degrees());
+        let phase = |row: &Row<'_>| Some(row.2.phase?.to_degrees());
         table.number("phase", "deg", &phase).digits(short);
         for (k, what) in ["half power before", "half power after"].into_iter().enumerate() {
             let location = |row: &Row<'_>| Some(row.2.half_power[k].place()?.value);

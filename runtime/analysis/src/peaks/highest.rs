@@ -51,7 +51,7 @@ pub(crate) fn highest(
             let ends = ends.into_iter().map(|end| (end.square_by_design(), end));
             let greatest = all.chain(ends).max_by(|a, b| lower(&a.1, &b.1));
             let (slopes, greatest) = greatest.ok_or_else(none)?;
-            (greatest.heard().square().value.sqrt(), greatest.modulus_by_design(&slopes))
+            (greatest.heard().height(), greatest.height_by_design(&slopes))
         }
         PeakQuantity::Place => {
             let top = tops.max_by(lower).ok_or_else(none)?;

@@ -54,12 +54,12 @@ pub struct Peaks {
 pub struct Peak {
     /// The value of the input, SI.
     pub place: Moving,
-    /// The frequency there, rad/s.
+    /// The frequency there, of several that which is loudest, rad/s.
     pub frequency: Moving,
-    /// The modulus, 0 to peak, in the unit of the measured output (SI).
+    /// The modulus, 0 to peak, or what of the vibration counts, in the unit of the measured output (SI).
     pub height: Moving,
-    /// The phase, rad.
-    pub phase: f64,
+    /// The phase of an amplitude, rad; `None` for what is made of several.
+    pub phase: Option<f64>,
     /// Where the modulus is `1/sqrt 2` of the height, before and after the peak.
     pub half_power: [HalfPower; 2],
     /// Amplification factor: the frequency at the peak over the difference of those at the half-power points. `None`
@@ -308,15 +308,15 @@ impl Search<'_> {
     fn peak(&self, k: usize, top: Curve) -> Result<Peak, Error> {
         let at = self.along.judged(&top.point)?;
         let stable = at.stability.holds();
-        let (square, line) = (top.heard().square(), top.heard().line);
+        let line = top.heard().line;
         let place = top.place_by_design();
         let by_design = top.frequency_by_design(&place);
         let before = self.half_power(&top, (0..k).rev())?;
         let after = self.half_power(&top, k..self.scan.states.len())?;
-        let [frequency, _] = line.frequency;
+        let [frequency, _] = line.frequency();
         let moving = |value, by_design| Moving::new(value, by_design, self.tolerances);
         let doubt = top.doubt(&at.design);
-        let height = moving(square.value.sqrt(), top.modulus_by_design(&top.top_by_design()));
+        let height = moving(top.heard().height(), top.height_by_design(&top.top_by_design()));
         let factor = match (&before, &after) {
             (Ok(a), Ok(b)) => amplification((frequency, &by_design), [a, b]),
             _ => None,
@@ -330,7 +330,7 @@ impl Search<'_> {
             place: moving(top.point.value, place),
             height: height.unless_rounding(doubt, &at.design),
             frequency: moving(frequency, by_design),
-            phase: line.amplitude[0].arg(),
+            phase: line.extent.phase(&line.amplitudes[0]),
             half_power,
             amplification,
             stable,
@@ -379,7 +379,7 @@ impl Search<'_> {
         let (at_peak, at_half) = (top.top_by_design(), zero.square_by_design());
         let pairs = at_peak.iter().zip(&at_half);
         let by_design: Vector = pairs.map(|(peak, half)| (0.5 * peak - half) / slope).collect();
-        let [frequency, _] = zero.heard().line.frequency;
+        let [frequency, _] = zero.heard().line.frequency();
         Ok(Half {
             frequency: (frequency, zero.frequency_by_design(&by_design)),
             place: Moving::new(zero.point.value, by_design, self.tolerances),

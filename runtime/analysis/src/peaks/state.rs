@@ -2,7 +2,7 @@
 
 use crate::algebra::Vector;
 use crate::equilibrium::{Needed, OperatingPoint, solve_into};
-use crate::forced::{CurvingLine, Line, Lines, Vibration, Wanted, resonance};
+use crate::forced::{Curving, CurvingLine, Extent, Line, Lines, Vibration, Wanted, resonance};
 use crate::kernels::CurvatureKernels;
 use crate::modes::{Family, Modes};
 use crate::sweep::{Following, Range};
@@ -15,7 +15,6 @@ pub(super) struct Along<'a> {
     design: &'a [f64],
     following: Following,
     input: Input,
-    vibrations: &'a [Vibration],
     wanted: Vec<Wanted>,
     pub(super) watch: Watch<'a>,
 }
@@ -53,16 +52,10 @@ impl<'a> Along<'a> {
     ) -> Result<Self, Error> {
         let description = mechanism.description();
         range.check(&description)?;
-        let wanted = vibrations.iter().map(|vibration| {
-            vibration.check(&description)?;
-            let harmonic =
-                vibration.place(&description).ok_or(Error::NoExcitation { mechanism: description.name.clone() })?;
-            Ok((harmonic, vibration.output, vibration.measure))
-        });
+        let wanted = vibrations.iter().map(|vibration| Wanted::new(*vibration, &description));
         Ok(Self {
             wanted: wanted.collect::<Result<_, Error>>()?,
             input: range.input,
-            vibrations,
             mechanism,
             inputs,
             design,
@@ -76,7 +69,7 @@ impl<'a> Along<'a> {
         let (equilibrium, modes) = self.equilibrium(value, from, Needed::Modes)?;
         let lines = Lines::new(self.mechanism, &equilibrium, self.input.index())?;
         let each = self.wanted.iter();
-        let lines = each.map(|wanted| lines.line(*wanted, &modes.modes));
+        let lines = each.map(|wanted| lines.line(wanted, &modes.modes));
         Ok(ResponsePoint {
             value,
             lines: lines.collect::<Result<_, Error>>()?,
@@ -87,13 +80,13 @@ impl<'a> Along<'a> {
 
     /// The state with one vibration and without poles.
     pub(super) fn vibration(&self, value: f64, from: &[f64], which: usize) -> Result<ResponsePoint, Error> {
-        let changing = |_: &Lines<'_>, _| Ok(());
+        let changing = |_: &Lines<'_>, _: &Wanted| Ok(());
         Ok(self.solved(value, from, which, changing)?.0)
     }
 
     /// The same, and how it changes.
     pub(super) fn curve(&self, value: f64, from: &[f64], which: usize) -> Result<Curve, Error> {
-        let changing = |lines: &Lines<'_>, wanted| lines.curving(wanted);
+        let changing = |lines: &Lines<'_>, wanted: &Wanted| lines.curving(wanted);
         let (point, curving) = self.solved(value, from, which, changing)?;
         Ok(Curve { point, curving, input: self.input.index() })
     }
@@ -103,11 +96,11 @@ impl<'a> Along<'a> {
         value: f64,
         from: &[f64],
         which: usize,
-        changing: impl Fn(&Lines<'_>, Wanted) -> Result<T, Error>,
+        changing: impl Fn(&Lines<'_>, &Wanted) -> Result<T, Error>,
     ) -> Result<(ResponsePoint, T), Error> {
         let (equilibrium, _) = self.equilibrium(value, from, Needed::State)?;
         let lines = Lines::new(self.mechanism, &equilibrium, self.input.index())?;
-        let wanted = self.wanted[which];
+        let wanted = &self.wanted[which];
         let line = lines.line(wanted, &[])?;
         let changes = changing(&lines, wanted)?;
         let point = ResponsePoint { value, lines: vec![line], poles: Vec::new(), equilibrium };
@@ -121,8 +114,8 @@ impl<'a> Along<'a> {
 
     /// The error for a vibration whose amplitude is infinite next to a state.
     pub(super) fn resonance(&self, which: usize, state: &ResponsePoint) -> Error {
-        let with = self.vibrations[which].excitation.index();
-        let [frequency, _] = state.lines[which].frequency;
+        let with = self.wanted[which].vibration.excitation.index();
+        let [frequency, _] = state.lines[which].frequency();
         resonance(&state.equilibrium, with, frequency)
     }
 
@@ -148,7 +141,7 @@ impl<'a> Along<'a> {
     }
 }
 
-/// The square of the modulus of the amplitude, `A`, and `dA/du` with the input `u`.
+/// The square of the vibration, `A`, and `dA/du` with the input `u`.
 pub(super) struct Square {
     pub(super) value: f64,
     pub(super) slope: f64,
@@ -168,30 +161,37 @@ impl Curve {
 
     /// `d2A/du2`.
     pub(super) fn bend(&self) -> f64 {
-        let [y, dy] = self.heard().line.amplitude;
-        let ddy = self.curving.amplitude.along.by_input[self.input];
-        2.0 * (dy.norm_sqr() + (y.conj() * ddy).re)
+        let Line { extent, amplitudes: [y, dy], .. } = self.heard().line;
+        extent.square_curvature(y, [dy, dy], &self.parts(|own| own.along.by_input[self.input]))
+    }
+
+    /// One derivative of each part.
+    fn parts(&self, of: impl Fn(&Curving<Complex>) -> Complex) -> Vec<Complex> {
+        self.curving.amplitudes.iter().map(of).collect()
+    }
+
+    /// By each design variable, a function of one derivative of each part, and of that along the input.
+    fn by_design(&self, of: impl Fn(&[Complex], &[Complex]) -> f64) -> Vector {
+        let one = |k: usize| of(&self.parts(|x| x.slopes.by_design[k]), &self.parts(|x| x.along.by_design[k]));
+        (0..self.point.equilibrium.design.len()).map(one).collect()
     }
 
     /// `dA/db` for each design variable.
     pub(super) fn square_by_design(&self) -> Vector {
-        let y = self.heard().line.amplitude[0].conj();
-        let slopes = self.curving.amplitude.slopes.by_design.iter();
-        slopes.map(|dy| 2.0 * (y * dy).re).collect()
+        let Line { extent, amplitudes: [y, _], .. } = self.heard().line;
+        self.by_design(|slope, _| extent.square_slope(y, slope))
     }
 
     /// `d2A/(du db)` for each design variable.
     pub(super) fn bend_by_design(&self) -> Vector {
-        let [y, along] = self.heard().line.amplitude.map(|y| y.conj());
-        let curving = &self.curving.amplitude;
-        let each = curving.slopes.by_design.iter().zip(&curving.along.by_design);
-        each.map(|(dy, ddy)| 2.0 * (along * dy + y * ddy).re).collect()
+        let Line { extent, amplitudes: [y, dy], .. } = self.heard().line;
+        self.by_design(|slope, along| extent.square_curvature(y, [dy, slope], along))
     }
 
-    /// The derivatives of the modulus by the design, of those of its square.
-    pub(super) fn modulus_by_design(&self, square: &Vector) -> Vector {
-        let modulus = self.heard().line.amplitude[0].norm();
-        square.map(|value| value / (2.0 * modulus))
+    /// The derivatives of the height by the design, of those of its square.
+    pub(super) fn height_by_design(&self, square: &Vector) -> Vector {
+        let height = self.heard().height();
+        square.map(|value| value / (2.0 * height))
     }
 
     /// The derivatives by the design of the square at the peak next to here: as if its place were exact, where a sharp
@@ -205,10 +205,11 @@ impl Curve {
     /// The part of the height of a peak here that rounding decides when each design variable changes by itself: its place
     /// moves by many widths, and height and width are what is left of differences.
     pub(super) fn doubt(&self, design: &[f64]) -> f64 {
-        let line = self.heard().line;
-        let slopes = self.curving.amplitude.slopes.by_design.iter().zip(design);
-        let moved = slopes.map(|(dy, value)| (dy * value).norm_sqr()).sum::<f64>().sqrt();
-        line.rounding * moved / line.amplitude[0].norm()
+        let design = design.iter();
+        let squares = |slopes: &[Complex]| slopes.iter().map(|dy| dy.norm_sqr()).sum::<f64>();
+        let moved = self.by_design(|slopes, _| squares(slopes));
+        let moved = moved.iter().zip(design).map(|(square, value)| square * value * value).sum::<f64>();
+        self.heard().line.rounding * moved.sqrt() / self.heard().height()
     }
 
     /// How far a peak here moves with the design.
@@ -219,32 +220,45 @@ impl Curve {
 
     /// How the frequency moves with the design at a place that moves so.
     pub(super) fn frequency_by_design(&self, place: &Vector) -> Vector {
-        let [_, slope] = self.heard().line.frequency;
-        let here = self.curving.frequency.slopes.by_design.iter().zip(place);
+        let line = self.heard().line;
+        let [_, slope] = line.frequency();
+        let here = self.curving.frequencies[line.loudest()].slopes.by_design.iter().zip(place);
         here.map(|(dw, du)| dw + slope * du).collect()
     }
 }
 
 impl<'a> Heard<'a> {
     pub(super) fn square(&self) -> Square {
-        let [y, dy] = self.line.amplitude;
-        Square { value: y.norm_sqr(), slope: 2.0 * (y.conj() * dy).re }
+        let Line { extent, amplitudes: [y, dy], .. } = self.line;
+        let slope = extent.square_slope(y, dy);
+        let value = match extent {
+            Extent::Amplitude => y[0].norm_sqr(),
+            _ => extent.value(y).powi(2),
+        };
+        Square { value, slope: if slope.is_nan() { 0.0 } else { slope } }
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.line.extent.value(&self.line.amplitudes[0])
     }
 
     /// How the poles that are heard here pass `i w` on the way to another state.
     pub(super) fn passages(self, to: Self) -> impl Iterator<Item = Passage> + 'a {
-        let [w, w_there] = [self, to].map(|state| state.line.frequency[0]);
-        let poles = self.point.poles.iter().zip(&self.line.residues);
-        let heard = poles.filter(|(s, residue)| **residue > QUIET * s.re.abs());
-        heard.map(move |(&s, _)| {
-            let there = nearest(s, &to.point.poles);
-            let moved = (w - w_there).abs() + (s - there).norm();
-            Passage {
-                holds: moved <= PART * (Complex::new(0.0, w) - s).norm(),
-                known: nearest(there, &self.point.poles) == s,
-                off: [w - s.im, w_there - there.im],
-                width: s.re.abs().max(there.re.abs()),
-            }
+        let tones = self.line.tones.iter().zip(&to.line.tones);
+        tones.flat_map(move |(tone, there)| {
+            let [w, w_there] = [tone, there].map(|tone| tone.frequency[0]);
+            let poles = self.point.poles.iter().zip(&tone.residues);
+            let heard = poles.filter(|(s, residue)| **residue > QUIET * s.re.abs());
+            heard.map(move |(&s, _)| {
+                let there = nearest(s, &to.point.poles);
+                let moved = (w - w_there).abs() + (s - there).norm();
+                Passage {
+                    holds: moved <= PART * (Complex::new(0.0, w) - s).norm(),
+                    known: nearest(there, &self.point.poles) == s,
+                    off: [w - s.im, w_there - there.im],
+                    width: s.re.abs().max(there.re.abs()),
+                }
+            })
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Second derivatives of a scalar, assembled from the derivatives of its gradient.
 
 use core::ops::{Add, Mul, Sub};
+use core::slice;
 
 use crate::algebra::Matrix;
 use crate::sensitivity::Slopes;
@@ -36,14 +37,29 @@ impl<T: Copy> SecondDerivatives<T> {
         first: &Slopes<F>,
         f: impl Fn(F, F, T) -> R,
     ) -> SecondDerivatives<R> {
-        let block = |matrix: &Matrix<T>, rows: &[F], columns: &[F]| {
-            Matrix::from_fn(rows.len(), columns.len(), |i, j| f(rows[i], columns[j], matrix[i][j]))
+        Self::each(slice::from_ref(self), slice::from_ref(first), |a, b, ab| f(a[0], b[0], ab[0]))
+    }
+
+    /// Combines elements of several numbers with the first derivatives of their row and column.
+    pub(crate) fn each<F: Copy, R: Copy + Default>(
+        all: &[Self],
+        first: &[Slopes<F>],
+        f: impl Fn(&[F], &[F], &[T]) -> R,
+    ) -> SecondDerivatives<R> {
+        type Side<F> = for<'a> fn(&'a Slopes<F>) -> &'a [F];
+        let block = |of: fn(&Self) -> &Matrix<T>, rows: Side<F>, columns: Side<F>| {
+            let Some(matrix) = all.first().map(of) else { return Matrix::zeros(0, 0) };
+            Matrix::from_fn(matrix.row_count(), matrix.column_count(), |i, j| {
+                let slopes = |side: Side<F>, k: usize| first.iter().map(|own| side(own)[k]).collect::<Vec<F>>();
+                let own: Vec<T> = all.iter().map(|own| of(own)[i][j]).collect();
+                f(&slopes(rows, i), &slopes(columns, j), &own)
+            })
         };
-        let (inputs, design) = (&first.by_input, &first.by_design);
+        let (inputs, design): (Side<F>, Side<F>) = (|own| &own.by_input, |own| &own.by_design);
         SecondDerivatives {
-            by_input: block(&self.by_input, inputs, inputs),
-            by_input_and_design: block(&self.by_input_and_design, inputs, design),
-            by_design: block(&self.by_design, design, design),
+            by_input: block(|own| &own.by_input, inputs, inputs),
+            by_input_and_design: block(|own| &own.by_input_and_design, inputs, design),
+            by_design: block(|own| &own.by_design, design, design),
         }
     }
 

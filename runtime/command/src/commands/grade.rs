@@ -1,6 +1,7 @@
 //! The grade of balancing that meets a limit.
 
 use clap::Args;
+use eigentol::forced::Extent;
 use eigentol::peaks::PeakQuantity;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
@@ -108,7 +109,7 @@ impl Rotor {
             (Response::Peak { vibration, range, quantity: PeakQuantity::Height }, _) => (vibration, Some(range)),
             _ => return Err(refused()),
         };
-        if !high.is_finite() {
+        if !high.is_finite() || matches!(vibration.extent, Extent::Sum | Extent::Rms) {
             return Err(refused());
         }
         let response = Response::Vibration(vibration);
@@ -144,16 +145,10 @@ impl Rotor {
         let tolerances = study.tolerances()?;
         let at = |study: &Study<Interpreted>| -> Result<Option<Spread>, Failure> {
             let found = study.forced_sensitivities()?;
-            let harmonics = found.response.harmonics.iter();
-            let harmonic = harmonics
-                .clone()
-                .position(|own| own.shares.iter().any(|share| share.excitation == vibration.excitation.index()));
-            let Some(harmonic) = harmonic else { return Ok(None) };
-            let modulus = found.modulus(harmonic, vibration.output, vibration.measure);
-            let amplitude = found.response.harmonics[harmonic].amplitude(vibration.output, vibration.measure);
-            let slopes = modulus.map(|slopes| slopes.by_design);
+            let slopes = vibration.slopes(&found).map(|slopes| slopes.by_design);
             let zero = || study.design_values().iter().map(|_| 0.0).collect();
-            Ok(amplitude.map(|own| Spread::new(own.norm(), slopes.unwrap_or_else(zero), &tolerances)))
+            let value = vibration.of(&found.response);
+            Ok(value.map(|value| Spread::new(value, slopes.unwrap_or_else(zero), &tolerances)))
         };
         let Some(range) = range else {
             return Ok((at(study)?, study.modes()?.stable()));

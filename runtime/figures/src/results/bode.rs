@@ -1,6 +1,7 @@
 //! Forced vibration along an input: amplitude and phase, and the path of the complex amplitude.
 
 use eigentol::bode::{Bode, BodePoint};
+use eigentol::forced::Extent;
 use eigentol::peaks::{HalfPower, Moving, Peak, Peaks};
 use eigentol::propagation::ResponseSpread;
 use eigentol::response::{Response, Vibration};
@@ -94,6 +95,7 @@ pub fn bode(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style)
     }
     let caption = course.finished(caption, lines, style);
     let mut panels = vec![upper, lower];
+    panels.truncate(if course.has_phase() { 2 } else { 1 });
     for panel in &mut panels {
         panel.marks.extend(style.marks());
     }
@@ -111,6 +113,9 @@ pub fn bode(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style)
 /// [`Error::Nothing`] if there is no such vibration at any of the values.
 pub fn polar(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result, vibration, peaks)?;
+    if !course.has_phase() {
+        return Err(Error::nothing("what is made of several amplitudes has no phase, and no polar plot"));
+    }
     let symbol = &*course.unit.symbol;
     let mut panel = Panel::new(Axis::new("Re", symbol), Axis::new("Im", symbol));
     panel.equal_scales = true;
@@ -143,7 +148,7 @@ pub fn polar(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style
     }
     let mut lines = Vec::new();
     for (k, peak) in course.peaks.iter().enumerate() {
-        let at = course.point(Complex::from_polar(peak.height.value, peak.phase));
+        let at = course.point(complex(peak.height.value, peak.phase));
         let label = if k == 0 { "peak" } else { "" };
         panel.markers(label, Colour::Series(1), Shape::Diamond, [at]);
         panel.label(at, format!("({})", k + 1));
@@ -212,8 +217,7 @@ impl<'a> Course<'a> {
         let unit = input_unit(d, result.input);
         let amplitude = |point: &BodePoint| {
             let response = &point.vibration.as_ref().ok()?.response;
-            let harmonic = response.harmonic(vibration.excitation)?;
-            harmonic.amplitude(vibration.output, vibration.measure)
+            Some(complex(vibration.of(response)?, vibration.phase(response)))
         };
         let course = result.course();
         let mut values: Vec<(f64, Option<Complex>)> =
@@ -224,7 +228,7 @@ impl<'a> Course<'a> {
         let belongs = |peaks: &&Peaks| peaks.vibration == vibration && peaks.range.input == result.input;
         let peaks: Vec<&Peak> = (peaks.iter().filter(belongs)).flat_map(|peak| &peak.peaks).collect();
         for peak in &peaks {
-            let amplitude = Complex::from_polar(peak.height.value, peak.phase);
+            let amplitude = complex(peak.height.value, peak.phase);
             insert(&mut values, in_unit(peak.place.value, &unit), amplitude);
         }
         let mut unstable: Vec<[f64; 2]> = Vec::new();
@@ -249,6 +253,10 @@ impl<'a> Course<'a> {
         let unstable = (0..points.len()).map(|k| points[k].filter(|_| lost(k)));
         panel.curve(Curve::new(label, Colour::Series(0), stable));
         panel.curve(Curve::new("unstable", Colour::Series(0), unstable).stroke(Stroke::Dotted));
+    }
+
+    fn has_phase(&self) -> bool {
+        self.vibration.extent == Extent::Amplitude
     }
 
     fn name(&self) -> String {
@@ -382,7 +390,10 @@ impl<'a> Course<'a> {
     fn caption(&self) -> Vec<String> {
         vec![
             operating_point(&self.result.description, &self.result.inputs, Some(self.result.input)),
-            format!("{}: amplitude from 0 to peak; a positive phase is ahead of cos(w t).", self.name()),
+            match self.has_phase() {
+                true => format!("{}: amplitude from 0 to peak; a positive phase is ahead of cos(w t).", self.name()),
+                false => format!("{}.", self.name()),
+            },
         ]
     }
 
@@ -391,6 +402,11 @@ impl<'a> Course<'a> {
         caption.extend(lines);
         caption
     }
+}
+
+/// The complex amplitude with a phase, which what is made of several amplitudes does not have.
+fn complex(amplitude: f64, phase: Option<f64>) -> Complex {
+    phase.map_or(Complex::from(amplitude), |phase| Complex::from_polar(amplitude, phase))
 }
 
 /// Inserts a known amplitude between two values that both have one.

@@ -113,9 +113,7 @@ fn vibrations(content: &Content) -> Vec<Line> {
     };
     let d = &content.description;
     let at_point = |vibration: Vibration| -> Option<Line> {
-        let response = forced.response.as_ref().ok()?;
-        let harmonic = response.harmonic(vibration.excitation)?;
-        let amplitude = harmonic.amplitude(vibration.output, vibration.measure)?.norm();
+        let amplitude = vibration.of(forced.response.as_ref().ok()?)?;
         let response = Response::Vibration(vibration);
         let height = with_unit(amplitude, &response.unit(d));
         Some((None, sentence(&format!("{} is {height} from 0 to peak", response.name(d)))))

@@ -10,12 +10,13 @@ use crate::forced::Resolvent;
 use crate::kernels::CurvatureKernels;
 use crate::response::{Response, Responses, Vibration};
 use crate::tolerance::{Outcome, Sampling, Tolerances};
-use crate::{Equilibrium, Error};
+use crate::{Description, Equilibrium, Error};
 
-/// Models of several vibrations, one resolvent for each harmonic.
+/// Models of several vibrations, one resolvent for each harmonic in them.
 struct Vibrations<'a> {
-    harmonics: Vec<(usize, Resolvent<'a>)>,
-    wanted: Vec<(usize, Vibration)>,
+    harmonics: Vec<Option<Resolvent<'a>>>,
+    wanted: Vec<Vibration>,
+    description: &'a Description,
     space: &'a Space<'a>,
 }
 
@@ -26,27 +27,19 @@ impl<'a> Vibrations<'a> {
         wanted: &[Response],
         space: &'a Space<'a>,
     ) -> Result<Self, Error> {
-        let mut this = Self { harmonics: Vec::new(), wanted: Vec::new(), space };
-        for response in wanted {
-            let Response::Vibration(vibration) = response else {
-                return Err(Error::Setting {
-                    setting: "responses",
-                    reason: "only vibrations have this model".to_owned(),
-                });
-            };
-            let with = at.description.excitations[vibration.excitation.index()].with;
-            let known = this.harmonics.iter().position(|(first, _)| *first == with);
-            let index = match known {
-                Some(index) => index,
-                None => {
-                    let model = Resolvent::new(mechanism, at, with, space.variables())?;
-                    this.harmonics.push((with, model));
-                    this.harmonics.len() - 1
-                }
-            };
-            this.wanted.push((index, *vibration));
-        }
-        Ok(this)
+        let one = |response: &Response| match response {
+            Response::Vibration(vibration) => Ok(*vibration),
+            _ => Err(Error::Setting { setting: "responses", reason: "only vibrations have this model".to_owned() }),
+        };
+        let wanted: Vec<Vibration> = wanted.iter().map(one).collect::<Result<_, Error>>()?;
+        let d = &*at.description;
+        let own: Vec<usize> = wanted.iter().flat_map(|vibration| vibration.harmonics(d)).collect();
+        let firsts = d.excitations.iter().enumerate().filter(|(k, info)| info.with == *k);
+        let models = firsts.enumerate().map(|(harmonic, (with, _))| match own.contains(&harmonic) {
+            true => Resolvent::new(mechanism, at, with, space.variables()).map(Some),
+            false => Ok(None),
+        });
+        Ok(Self { harmonics: models.collect::<Result<_, Error>>()?, wanted, description: d, space })
     }
 }
 
@@ -61,11 +54,12 @@ impl Model for Vibrations<'_> {
         for (k, z) in points.iter().enumerate() {
             self.space.design(z, design);
             let harmonics = self.harmonics.iter();
-            let amplitudes: Vec<_> = harmonics.map(|(_, model)| model.amplitudes(design)).collect();
-            for (value, (index, vibration)) in values.iter_mut().zip(&self.wanted) {
-                *value = amplitudes[*index].as_ref().and_then(|(frequency, outputs)| {
-                    let y = (*outputs.get(vibration.output.index())?)?;
-                    Some(vibration.measure.of(*frequency, y).norm())
+            let amplitudes: Vec<_> = harmonics.map(|model| model.as_ref()?.amplitudes(design)).collect();
+            for (value, vibration) in values.iter_mut().zip(&self.wanted) {
+                *value = vibration.value(self.description, |harmonic, output| {
+                    let (frequency, outputs) = amplitudes.get(harmonic)?.as_ref()?;
+                    let y = (*outputs.get(output.index())?)?;
+                    Some(vibration.measure.of(*frequency, y))
                 });
             }
             let outcome = Outcome::Stable;
