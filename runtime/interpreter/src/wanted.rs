@@ -5,7 +5,7 @@ use std::f64::consts::SQRT_2;
 use eigentol::forced::{Extent, Measure};
 use eigentol::peaks::PeakQuantity;
 use eigentol::requirement::Requirement;
-use eigentol::response::{Response, Vibration};
+use eigentol::response::{Response, Responses, Vibration};
 use eigentol::sweep::{Condition, Line, Range};
 use eigentol::{Error, Excitation, Input, Output, Quantity, Study, Unit};
 use eigentol_compiler::base::units;
@@ -20,7 +20,7 @@ pub const FORMS: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `dam
                          `vibration shake under u <= 0.1 mm`, `velocity shake <= 4.5 mm/s rms`, \
                          `vibration shake along speed=0..6000rpm <= 100 um p-p`, `vibration major(shake, lift) <= 50 um`, \
                          `velocity shake under all <= 4.5 mm/s rms`, `peak shake along speed=0..6000rpm away from speed by 15%`, \
-                         `frequency 1 within 4..5 Hz`, `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, \
+                         `frequency 1 within 4..5 Hz`, `frequency 1 within 1%`, `frequency 1 outside 4..5 Hz`, `frequency 1 away from 2 speed by 10%`, `critical speed=0..6000rpm >= 3000 rpm`, \
                          `resonance 1 speed=0..6000rpm order 2 >= 4000 rpm`, `flutter 1 speed=0..6000rpm >= 4000 rpm`, or `stable`";
 
 /// What is wrong with a response or a requirement.
@@ -109,10 +109,24 @@ pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement
         "<=" | "<" => Requirement::Within { response, low: f64::NEG_INFINITY, high: end(limit)? },
         "away from" => return away(study, response, limit),
         _ => {
-            let Some((low, high)) = limit.split_once("..") else {
-                return no(text, "a requirement");
+            let (low, high) = match (limit.split_once(".."), limit.rsplit_once("+/-")) {
+                (Some((low, high)), _) => (end(&with_unit_of(low, high))?, end(high)?),
+                (None, Some((middle, reach))) => {
+                    let middle = end(middle.trim())?;
+                    let reach = match percentage(reach) {
+                        Some(share) => share * middle.abs(),
+                        None => end(reach.trim())?,
+                    };
+                    (middle - reach, middle + reach)
+                }
+                (None, None) => match percentage(limit) {
+                    Some(share) => {
+                        let middle = nominal(study, response)?;
+                        (middle - share * middle.abs(), middle + share * middle.abs())
+                    }
+                    None => return no(text, "a requirement"),
+                },
             };
-            let (low, high) = (end(&with_unit_of(low, high))?, end(high)?);
             match word {
                 "outside" => Requirement::Outside { response, low, high },
                 _ => Requirement::Within { response, low, high },
@@ -155,6 +169,23 @@ pub fn requirements(study: &Study<Interpreted>, text: &str) -> Result<Vec<Requir
     arguments(all).map(|what| requirement(study, &format!("{} {limit}", what.trim()))).collect()
 }
 
+/// `5%` as a fraction.
+fn percentage(text: &str) -> Option<f64> {
+    text.trim().strip_suffix('%')?.trim().parse::<f64>().ok().map(|percent| percent / 100.0)
+}
+
+/// The value of a response without deviations, SI.
+fn nominal(study: &Study<Interpreted>, response: Response) -> Result<f64> {
+    let (state, modes) = (study.equilibrium()?, study.modes()?);
+    let responses = Responses::new(study.mechanism(), &state, &modes, vec![response])?;
+    let found = responses.at(&mut responses.workspace(), &state.design)?.values[0];
+    match (found, responses.missing(response)) {
+        (Some(value), _) => Ok(value),
+        (None, Some(error)) => Err(error.into()),
+        (None, None) => no(&response.name(study.description()), "a response that this state has"),
+    }
+}
+
 /// What commas outside brackets separate.
 fn arguments(text: &str) -> impl Iterator<Item = &str> {
     let mut open = 0;
@@ -180,10 +211,7 @@ fn away(study: &Study<Interpreted>, response: Response, text: &str) -> Result<Re
     let parsed = || {
         let (what, fraction) = text.split_once(" by ")?;
         let number = |text: &str| text.trim().parse::<f64>().ok();
-        let fraction = match fraction.trim().strip_suffix('%') {
-            Some(percent) => number(percent)? / 100.0,
-            None => number(fraction)?,
-        };
+        let fraction = percentage(fraction).or_else(|| number(fraction))?;
         match what.trim().split_once(' ') {
             Some((order, name)) => Some((number(order)?, name.trim(), fraction)),
             None => Some((1.0, what.trim(), fraction)),

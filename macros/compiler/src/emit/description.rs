@@ -164,12 +164,11 @@ fn unit(unit: &Unit) -> TokenStream {
     quote! { ::eigentol::Unit { symbol: ::eigentol::Shared::Static(#symbol), scale: #scale } }
 }
 
-/// What rustc warns of at the declaration: an unread local variable for every design variable that nothing refers to, and
+/// What rustc warns of at the declaration: an unread local variable for every input and design variable that nothing refers to, and
 /// the use of a deprecated constant for every beam whose stiffness seems to be exchanged. The usual attributes silence
 /// both. The functions shadow constants of the same names, which `let` would otherwise match.
 pub(super) fn warnings(mechanism: &Mechanism) -> TokenStream {
-    let unused = mechanism.unused_design();
-    let names: Vec<_> = unused.map(|variable| &variable.name).collect();
+    let names: Vec<_> = mechanism.unused().collect();
     let exchanged = mechanism.exchanged();
     if names.is_empty() && exchanged.is_empty() {
         return TokenStream::new();

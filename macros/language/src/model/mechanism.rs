@@ -126,9 +126,10 @@ impl Mechanism {
         }
     }
 
-    /// Design variables that nothing refers to.
-    pub fn unused_design(&self) -> impl Iterator<Item = &DesignVariable> {
-        self.design.iter().filter(|variable| !variable.is_used)
+    /// Inputs and design variables that nothing refers to.
+    pub fn unused(&self) -> impl Iterator<Item = &Ident> {
+        let inputs = self.inputs.iter().filter(|input| !input.is_used).map(|input| &input.name);
+        inputs.chain(self.design.iter().filter(|variable| !variable.is_used).map(|variable| &variable.name))
     }
 }
 
@@ -143,6 +144,8 @@ pub struct Input {
     pub unit: Unit,
     /// Tolerance about the value given at run time.
     pub tolerance: Tolerance,
+    /// Whether anything refers to it.
+    pub is_used: bool,
 }
 
 /// A design variable.

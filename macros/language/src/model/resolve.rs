@@ -83,9 +83,9 @@ pub fn resolve_what_is_right(ast: &Ast, more: usize) -> Resolution {
         items.inputs.len(),
         &mut resolver.diagnostics,
     );
-    for (variable, is_used) in items.design.iter_mut().zip(&resolver.used_design) {
-        variable.is_used = *is_used;
-    }
+    let is_used = |name: &syn::Ident| resolver.used.contains(&name.to_string());
+    items.inputs.iter_mut().for_each(|input| input.is_used = is_used(&input.name));
+    items.design.iter_mut().for_each(|variable| variable.is_used = is_used(&variable.name));
     let length = resolver.typical_length();
     let mechanism = Mechanism {
         name: ast.name.clone(),

@@ -8,7 +8,7 @@ use super::mechanism::Mechanism;
 use crate::mistakes::{Mistake, mistake};
 
 impl Mechanism {
-    /// The warnings that rustc gives if the declaration is written in a macro: design variables that nothing refers to, and
+    /// The warnings that rustc gives if the declaration is written in a macro: inputs and design variables that nothing refers to, and
     /// beams whose stiffness seems to be [exchanged](Exchanged). A leading underscore or an attribute marks what is meant.
     ///
     /// ```
@@ -23,9 +23,9 @@ impl Mechanism {
     /// # Ok::<(), Mistakes>(())
     /// ```
     pub fn warnings(&self) -> Vec<Mistake> {
-        let unused = self.unused_design().filter_map(|variable| {
-            let name = variable.name.to_string();
-            let (plain, span) = (name.trim_start_matches("r#"), variable.name.span());
+        let unused = self.unused().filter_map(|variable| {
+            let name = variable.to_string();
+            let (plain, span) = (name.trim_start_matches("r#"), variable.span());
             let message = format!("unused variable: `{name}`");
             let help = format!("if this is intentional, prefix it with an underscore: `_{plain}`");
             (!plain.starts_with('_')).then(|| mistake((span, span), message, Some(help)))

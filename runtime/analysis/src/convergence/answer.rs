@@ -25,9 +25,13 @@ impl Answer for Convergence {
         let mut table = Columns::new("convergence", &self.changes);
         table.words("answer", &|row| Some(row.answer.name(d)));
         table.words("unit", &|row| Some(row.answer.unit(d).symbol.to_string()));
-        table.cells("answer", &|row| heading(&row.answer.name(d), &row.answer.unit(d)));
-        let value = |change: &Change| Some(converted(change.value, &change.answer.unit(d)));
-        table.number("as declared", "", &value).digits(number);
+        let shown = |row: &Change| match row.answer.unit(d) {
+            unit if &*unit.symbol == "rad/s" => d.frequency.clone(),
+            unit => unit,
+        };
+        table.cells("answer", &|row| heading(&row.answer.name(d), &shown(row)));
+        table.number("as declared", "", &|row| Some(converted(row.value, &row.answer.unit(d))));
+        table.cells("as declared", &|row| number(converted(row.value, &shown(row))));
         for (k, name) in ["change with 1 more", "change with 2 more"].into_iter().enumerate() {
             table.number(name, "", &|row| row.relative[k]).digits(short);
         }

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use eigentol::forced::Extent;
-use eigentol::peaks::PeakQuantity;
+use eigentol::peaks::{Peak, PeakQuantity};
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
 use eigentol::sweep::Range;
@@ -12,7 +12,7 @@ use eigentol_compiler::compile_text;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::model::rotor::{Unbalanced, turning_mass, unbalances};
 use eigentol_interpreter::{Interpreted, value};
-use eigentol_results::numbers::{number, rough, short};
+use eigentol_results::numbers::{frequency_in, in_unit as number_in, number, rough, short, with_unit};
 use eigentol_results::{Answer, Columns, Findings, Subject};
 use serde::Serialize;
 
@@ -65,6 +65,13 @@ impl Grade {
         let each = wanted.iter().map(|wanted| rotor.grade(self, wanted, range.as_ref()));
         let each = each.collect::<Result<Vec<_>, _>>()?;
         drop(bar);
+        let verdict = match () {
+            () if each.iter().any(|grade| !grade.stable) => Verdict::No("not every state is stable".to_owned()),
+            () if each.iter().any(|grade| grade.standard.is_none()) => {
+                Verdict::No("no standard grade meets every limit".to_owned())
+            }
+            () => Verdict::of(&question.study)?,
+        };
         let mut answer = self.output.answer();
         answer.add(&Grades {
             each,
@@ -72,7 +79,7 @@ impl Grade {
             description: Shared::from(question.study.description().clone()),
         })?;
         self.output.write(&answer)?;
-        Ok(Verdict::of(&question.study)?)
+        Ok(verdict)
     }
 }
 
@@ -116,8 +123,12 @@ impl Rotor {
         let unbalance = self.first_moment(d, vibration)?;
         let nothing = || Failure::usage("the unbalances do not shake this output", "see `eigentol response`");
         let (highest, stable) = self.highest(vibration, range)?;
-        let highest = highest.filter(|highest| highest.mean > 0.0).ok_or_else(nothing)?;
-        let (now, most) = (highest.mean, highest.mean + highest.band);
+        let highest = highest.filter(|highest| highest.spread.mean > 0.0).ok_or_else(nothing)?;
+        let (now, most) = (highest.spread.mean, highest.spread.mean + highest.spread.band);
+        let place = highest.place.zip(range).and_then(|(place, range)| {
+            let unit = &d.inputs.get(range.input.index())?.unit;
+            Some(with_unit(number_in(place, unit), unit))
+        });
         let service = self.service(asked, vibration, range)?;
         let unit = response.unit(d);
         let of = |amplitude: f64| high / amplitude * unbalance / self.mass * service;
@@ -134,40 +145,47 @@ impl Rotor {
             grade,
             in_most,
             stable,
+            place,
+            amplification: highest.amplification,
             standard: STANDARD.into_iter().rev().find(|standard| *standard <= 1e3 * in_most),
         })
     }
 
     /// The greatest amplitude and its spread, at the operating point or in a range, at its peaks and its ends; and whether
     /// all of these states are stable. Those that are not do not count in a range.
-    fn highest(&self, vibration: Vibration, range: Option<Range>) -> Result<(Option<Spread>, bool), Failure> {
+    fn highest(&self, vibration: Vibration, range: Option<Range>) -> Result<(Option<Highest>, bool), Failure> {
         let study = &self.study;
         let tolerances = study.tolerances()?;
-        let at = |study: &Study<Interpreted>| -> Result<Option<Spread>, Failure> {
+        let at = |study: &Study<Interpreted>, place: Option<f64>| -> Result<Option<Highest>, Failure> {
             let found = study.forced_sensitivities()?;
             let slopes = vibration.slopes(&found).map(|slopes| slopes.by_design);
             let zero = || study.design_values().iter().map(|_| 0.0).collect();
             let value = vibration.of(&found.response);
-            Ok(value.map(|value| Spread::new(value, slopes.unwrap_or_else(zero), &tolerances)))
+            let spread = |value| Spread::new(value, slopes.unwrap_or_else(zero), &tolerances);
+            Ok(value.map(|value| Highest { spread: spread(value), place, amplification: None }))
         };
         let Some(range) = range else {
-            return Ok((at(study)?, study.modes()?.stable()));
+            return Ok((at(study, None)?, study.modes()?.stable()));
         };
         let peaks = study.peaks(vibration, Input::new(range.input.index()), range.low, range.high)?;
         // A peak whose derivatives are lost in rounding counts without a spread.
         let still = |height: f64| Spread::new(height, vec![0.0; study.design_values().len()].into(), &tolerances);
         let mut all_stable = peaks.peaks.iter().all(|peak| peak.stable);
         let stable = peaks.peaks.into_iter().filter(|peak| peak.stable);
-        let mut all: Vec<Spread> =
-            stable.map(|peak| peak.height.spread.unwrap_or_else(|| still(peak.height.value))).collect();
-        for end in [range.low, range.high] {
-            let end = study.clone().input(Input::new(range.input.index()), end);
+        let top = |peak: Peak| Highest {
+            spread: peak.height.spread.unwrap_or_else(|| still(peak.height.value)),
+            place: Some(peak.place.value),
+            amplification: peak.amplification.map(|factor| factor.value),
+        };
+        let mut all: Vec<Highest> = stable.map(top).collect();
+        for place in [range.low, range.high] {
+            let end = study.clone().input(Input::new(range.input.index()), place);
             match end.modes()?.stable() {
-                true => all.extend(at(&end)?),
+                true => all.extend(at(&end, Some(place))?),
                 false => all_stable = false,
             }
         }
-        Ok((all.into_iter().max_by(|a, b| a.mean.total_cmp(&b.mean)), all_stable))
+        Ok((all.into_iter().max_by(|a, b| a.spread.mean.total_cmp(&b.spread.mean)), all_stable))
     }
 
     /// The sum of the unbalances that act on a vibration, kg m, if nothing else acts with them.
@@ -208,6 +226,17 @@ impl Rotor {
     }
 }
 
+/// The highest amplitude that a limit meets.
+struct Highest {
+    spread: Spread,
+    /// The value of the input, SI.
+    place: Option<f64>,
+    amplification: Option<f64>,
+}
+
+/// Amplification factor beyond which a resonance has hardly any damping.
+const UNDAMPED: f64 = 1e3;
+
 /// The grade of balancing that meets one limit.
 #[derive(Clone, Debug, Serialize)]
 struct BalanceGrade {
@@ -219,6 +248,10 @@ struct BalanceGrade {
     limit: f64,
     /// The amplitude under the declared unbalances.
     now: f64,
+    /// Where in a range that is.
+    place: Option<String>,
+    /// The amplification factor of the peak there.
+    amplification: Option<f64>,
     /// The service speed, rad/s.
     service: f64,
     /// The mass of what turns, kg.
@@ -261,6 +294,11 @@ impl Answer for Grades {
         table.words("unit", &|row| Some(row.unit.clone())).shown();
         table.number("limit", "", &|row| Some(row.limit)).digits(rough);
         table.number("now", "", &|row| Some(row.now)).digits(rough);
+        let place = table.words("highest at", &|row| row.place.clone());
+        if self.each.iter().any(|row| row.place.is_some()) {
+            place.shown();
+        }
+        table.number("amplification factor", "", &|row| row.amplification);
         table.number("unbalance", "g*mm", &|row| Some(1e6 * row.unbalance)).digits(rough);
         table.number("allowed", "g*mm", &|row| Some(1e6 * row.allowed)).digits(rough);
         table.number("eccentricity", "um", &|row| Some(1e6 * row.allowed / row.mass)).digits(short);
@@ -272,17 +310,31 @@ impl Answer for Grades {
         table.number("service speed", "rad/s", &|row| Some(row.service));
         said.columns(table);
         for row in &self.each {
-            let speed = self.description.frequency.from_si(row.service);
-            let unit = &self.description.frequency.symbol;
-            let turning = format!("{} kg turning at {} {unit}", number(row.mass), number(speed));
+            let unit = &self.description.frequency;
+            let turning = format!("{} kg turning at {}", number(row.mass), frequency_in(row.service, unit, number));
             said.note(match row.standard {
-                Some(grade) => format!("G{grade} meets the limit of {}: {turning}.", row.vibration),
+                Some(grade) if row.stable => format!("G{grade} meets the limit of {}: {turning}.", row.vibration),
+                Some(grade) => format!("In the stable states G{grade} meets the limit of {}: {turning}.", row.vibration),
                 None => format!("No standard grade meets the limit of {}: {turning}.", row.vibration),
             });
             if !row.stable {
                 said.note("Not all of these states are stable, and no machine stays in the others: they are left out.");
             }
+            if let (Some(place), Some(factor)) = (&row.place, row.amplification.filter(|factor| *factor > UNDAMPED)) {
+                said.note(format!(
+                    "At {place} a mode with hardly any damping resonates, amplification factor {}: leave that out of the range, \
+                     or declare its damping.",
+                    short(factor)
+                ));
+            }
         }
+        let standard: Option<Vec<f64>> = self.each.iter().map(|row| row.standard).collect();
+        if let Some(grade) = standard.filter(|all| all.len() > 1).and_then(|all| all.into_iter().reduce(f64::min)) {
+            said.note(format!("All limits: G{grade}."));
+        }
+        said.note(
+            "With tolerances: in a design whose amplitude is greater by as many standard deviations as the tolerances span.",
+        );
         said.note("Limits are from 0 to peak. A grade is the eccentricity of all that turns times the service speed (ISO 21940-11).");
         said
     }

@@ -8,7 +8,7 @@ use eigentol_results::relevance::{COLUMNS, EVERYTHING, largest, names, relevant,
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Findings, Subject, displayed};
 
-use super::Family;
+use super::{Behaviour, Family};
 use crate::{Complex, CoordinateInfo, Description, Mode, Modes, Role};
 
 displayed!(Modes);
@@ -26,12 +26,16 @@ impl Answer for Modes {
         let mut said = Findings::titled(format!("{title}: natural modes"));
         let shapes = Shapes::of(self);
         let mut table = Columns::new("modes", &self.modes);
+        let behaviours: Vec<Behaviour> = self.modes.iter().map(|mode| mode.behaviour).collect();
+        let (resolved, left_out) = Behaviour::resolved(&behaviours, &self.description);
+        table.show_rows(resolved);
         eigenvalues(&mut table, self.family, &self.description);
         self.kinds(&mut table);
         shapes.columns(&mut table);
         components(&mut table, &self.description);
         said.columns(table);
         shapes.rest(&mut said);
+        said.note_if_any(left_out);
         if self.damping_ignored {
             said.note("Damping and gyroscopic forces (Chat) are not zero here and are ignored: undamped modes.");
         }

@@ -13,7 +13,7 @@ use core::fmt;
 
 use eigentol_results::numbers::rough;
 
-use crate::Complex;
+use crate::{Complex, Description};
 use crate::algebra::Vector;
 use crate::eigenproblem::ApproximatePair;
 use crate::rounding::{Sign, sign};
@@ -52,6 +52,34 @@ impl Behaviour {
             Self::Oscillating(omega) | Self::Damped(omega) | Self::Flutter(omega) => Some(omega),
             Self::Decaying(_) | Self::Free | Self::Neutral | Self::Divergent(_) => None,
         }
+    }
+
+    /// Angular frequency or rate, whichever it has; zero without either.
+    fn speed(self) -> f64 {
+        match self {
+            Self::Oscillating(x) | Self::Damped(x) | Self::Flutter(x) | Self::Decaying(x) | Self::Divergent(x) => x.abs(),
+            Self::Free | Self::Neutral => 0.0,
+        }
+    }
+
+    /// Which of these modes the coordinates of beams resolve: those that are no faster than the last oscillation that
+    /// they do, all without beams; and what texts say about the others.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn resolved(all: &[Self], of: &Description) -> (Vec<usize>, Option<String>) {
+        let mut frequencies: Vec<f64> = all.iter().filter_map(|mode| mode.frequency()).collect();
+        frequencies.sort_by(f64::total_cmp);
+        let last = of.resolved_modes.and_then(|count| frequencies.get(count.max(1) - 1));
+        let shows = |mode: &Self| mode.grows() || last.is_none_or(|last| mode.speed() <= *last);
+        let shown: Vec<usize> = (0..all.len()).filter(|k| shows(&all[*k])).collect();
+        let said = match all.len() - shown.len() {
+            0 => None,
+            1 => Some("One mode is left out that the coordinates of beams do not resolve: CSV and JSON have it.".to_owned()),
+            more => Some(format!(
+                "{more} modes are left out that the coordinates of beams do not resolve: CSV and JSON have them."
+            )),
+        };
+        (shown, said)
     }
 
     /// Its name in tables: `oscillating`.

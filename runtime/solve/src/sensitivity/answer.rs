@@ -1,13 +1,13 @@
 //! What derivatives say, per declared unit of each variable.
 
 use eigentol_results::columns::Columns;
-use eigentol_results::numbers::{in_unit, with_unit};
+use eigentol_results::numbers::{frequency_symbol, in_unit, with_unit};
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Findings, Subject, displayed};
 
 use super::derivatives::{Derived, Variable, data, say, variables};
 use super::{EquilibriumShift, ModeSensitivity, OutputSensitivities, Quantity, Sensitivities};
-use crate::modes::{Family, undamped};
+use crate::modes::{Behaviour, Family, undamped};
 
 displayed!(Sensitivities, EquilibriumShift, OutputSensitivities);
 
@@ -25,7 +25,10 @@ impl Answer for Sensitivities {
         let mut said = Findings::titled(format!("{title}: sensitivities of the frequencies, {method}"));
         let variables = variables(&self.description, &self.inputs);
         self.data(&mut said, &variables);
-        say(&mut said, &variables, &self.shown());
+        let behaviours: Vec<Behaviour> = self.modes.iter().map(ModeSensitivity::behaviour).collect();
+        let (resolved, left_out) = Behaviour::resolved(&behaviours, &self.description);
+        say(&mut said, &variables, &self.shown(&resolved));
+        said.note_if_any(left_out);
         self.free(&mut said);
         undamped(&mut said, self.family, &self.description);
         self.clusters(&mut said);
@@ -57,16 +60,17 @@ impl Sensitivities {
     }
 
     /// The quantities in the text: one of each mode that is not free, then damping ratios.
-    fn shown(&self) -> Vec<Derived> {
-        let moving = self.modes.iter().enumerate();
+    fn shown(&self, resolved: &[usize]) -> Vec<Derived> {
+        let moving = resolved.iter().map(|&k| (k, &self.modes[k]));
         let moving = moving.filter(|(_, mode)| !mode.is_free());
+        let frequency = &self.description.frequency;
         let derived = |(r, of, mode): (usize, Quantity, &ModeSensitivity)| Derived {
             name: match of {
                 Quantity::Growth => format!("growth{}", r + 1),
                 Quantity::DampingRatio => format!("damping ratio {}", r + 1),
-                _ => format!("omega{}", r + 1),
+                _ => format!("{}{}", frequency_symbol(frequency), r + 1),
             },
-            unit: of.unit(),
+            unit: if of == Quantity::Frequency { frequency.clone() } else { of.unit() },
             clustered: mode.clustered,
             slopes: slopes(mode, of),
         };

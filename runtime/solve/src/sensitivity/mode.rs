@@ -8,7 +8,7 @@
 
 use super::Quantity;
 use crate::algebra::{Vector, all_finite, greater, unless_finite};
-use crate::modes::Family;
+use crate::modes::{Behaviour, Family};
 use crate::{Complex, Mode};
 
 /// First derivatives of one number with respect to every input and design variable.
@@ -121,6 +121,14 @@ impl ModeSensitivity {
     /// Whether the mode oscillates.
     pub(crate) fn oscillates(&self) -> bool {
         self.value.im > 0.0
+    }
+
+    /// What it does, as far as its eigenvalue tells.
+    pub(crate) fn behaviour(&self) -> Behaviour {
+        match self.oscillates() {
+            true => Behaviour::Oscillating(self.value.im),
+            false => Behaviour::Decaying(self.value.re),
+        }
     }
 
     /// Whether its eigenvalue is zero for every input and design.

@@ -1,6 +1,6 @@
 //! Forced vibration along an input as text and tables.
 
-use eigentol_results::numbers::{converted, given, number, percent, short};
+use eigentol_results::numbers::{converted, given, number, percent, short, with_unit};
 use eigentol_results::relevance::{EVERYTHING, shown};
 use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
@@ -63,6 +63,7 @@ impl Answer for Bode {
         if few < all {
             said.note(format!("{few} of {all} points are shown: {EVERYTHING}."));
         }
+        self.greatest(&mut said, &rows);
         if let Some(error) = self.points.iter().find_map(|point| point.vibration.as_ref().err()) {
             let failed = self.points.iter().filter(|point| point.vibration.is_err());
             let failed = failed.count();
@@ -127,6 +128,24 @@ impl Bode {
         let solved = self.points.iter().flat_map(|point| &point.vibration);
         let counts = solved.map(|vibration| vibration.response.harmonics.len());
         counts.max().unwrap_or(0)
+    }
+
+    /// The greatest amplitude of each output at these values, and where.
+    fn greatest(&self, said: &mut Findings, rows: &[Row<'_>]) {
+        let d = &self.description;
+        let tops = (0..d.outputs.len()).filter_map(|output| {
+            let own = rows.iter().filter(|row| row.found.is_some_and(|found| found.1 == output));
+            let all = own.filter_map(|row| Some((row.scaled(d, Complex::norm)?, row.value)));
+            let (height, value) = all.reduce(|most, own| if own.0 > most.0 { own } else { most })?;
+            let info = &d.outputs[output];
+            let height = with_unit(number(height), &info.unit);
+            (self.points.len() > 1).then(|| format!("{} {height} at {}", info.name, place(d, self.input, value)))
+        });
+        let tops: Vec<String> = tops.collect();
+        if !tops.is_empty() {
+            let all = tops.join(", ");
+            said.note(format!("Greatest at these values: {all}. Peaks between them: `eigentol response --peaks`."));
+        }
     }
 
     /// Where the vibration exists but no machine stays there.

@@ -7,7 +7,7 @@ use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
 use crate::Quantity;
 use crate::clusters::ClusterTolerance;
 use crate::judge::Doubt;
-use crate::modes::undamped;
+use crate::modes::{Behaviour, undamped};
 use crate::summary::{Advice, Summary, Trust};
 use crate::tolerance::{ModeTolerance, Spread, far, spread_of, unmoved};
 
@@ -109,9 +109,9 @@ impl Summary {
     fn frequencies(&self, said: &mut Findings, moved: bool) {
         let rows = self.rows();
         let mut table = Columns::new("summary", &rows);
-        if !moved {
-            table.show_rows(Vec::new());
-        }
+        let behaviours: Vec<_> = rows.iter().map(|row| row.first.behaviour).collect();
+        let (resolved, left_out) = Behaviour::resolved(&behaviours, &self.description);
+        table.show_rows(if moved { resolved } else { Vec::new() });
         table.whole("mode", &|row| Some(row.mode + 1)).shown();
         let unit = &self.description.frequency;
         let in_unit = |omega: f64| converted(omega, unit);
@@ -147,6 +147,7 @@ impl Summary {
         table.cells("trusted", &|row| verdict(&row.trust.doubts).to_owned());
         table.words("use", &|row| Some(row.trust.advice.word().to_owned()));
         said.columns(table);
+        said.note_if_any(left_out.filter(|_| moved));
     }
 
     /// The spread of each damping ratio, if any varies, in the same form.

@@ -20,6 +20,11 @@ impl Expected {
         Self::named(Dimension::NONE, "an angle", "rad")
     }
 
+    /// Whether it is an angle in radians.
+    pub(super) fn is_angle(&self) -> bool {
+        self.dimension.is_none() && self.unit == "rad"
+    }
+
     pub(super) fn rotary_stiffness() -> Self {
         Self::named(Dimension::MOMENT, "a rotary stiffness", "N*m/rad")
     }

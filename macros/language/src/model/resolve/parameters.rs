@@ -27,6 +27,7 @@ impl Resolver<'_> {
                 docs: item.docs.clone(),
                 unit,
                 tolerance: tolerance.unwrap_or(Tolerance::NONE),
+                is_used: false,
             });
         }
         inputs
@@ -51,7 +52,6 @@ impl Resolver<'_> {
             };
             let nominal = self.nominal(design);
             self.design.push(nominal.clone());
-            self.used_design.push(false);
             if let Some(nominal) = nominal {
                 variables.push(DesignVariable {
                     name: design.name.clone(),

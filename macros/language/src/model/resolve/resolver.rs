@@ -26,7 +26,7 @@ pub(super) struct Resolver<'a> {
     pub(super) scope: Scope,
     pub(super) inputs: Vec<Option<Dimension>>,
     pub(super) design: Vec<Option<Nominal>>,
-    pub(super) used_design: Vec<bool>,
+    pub(super) used: BTreeSet<String>,
     /// `None` for a wrong curve.
     pub(super) curves: Vec<Option<Curve>>,
     pub(super) curve_arguments: Vec<CurveArgument>,
@@ -58,7 +58,7 @@ impl<'a> Resolver<'a> {
             scope,
             inputs: Vec::new(),
             design: Vec::new(),
-            used_design: Vec::new(),
+            used: BTreeSet::new(),
             curves: Vec::new(),
             curve_arguments: Vec::new(),
             lets: Vec::new(),

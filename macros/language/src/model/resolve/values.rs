@@ -93,11 +93,12 @@ impl Resolver<'_> {
         }
         match meaning {
             Meaning::Input(id) => {
+                self.used.insert(text);
                 let dimension = (*self.inputs.get(id.index())?)?;
                 Some(Typed::Scalar(Expr::Input(id), Quantity::Of(dimension)))
             }
             Meaning::Design(id) => {
-                *self.used_design.get_mut(id.index())? = true;
+                self.used.insert(text);
                 let dimension = self.design.get(id.index())?.as_ref()?.dimension;
                 Some(Typed::Scalar(Expr::Design(id), Quantity::Of(dimension)))
             }
@@ -392,7 +393,15 @@ impl Resolver<'_> {
     ) -> Option<()> {
         let expected = expected.into();
         if expected.admits(quantity, value) {
-            return Some(());
+            return match self.degrees(&expected, value) {
+                None => Some(()),
+                Some(number) => {
+                    let message = format!("`{number}` has no unit and counts as radians: more than a turn");
+                    let help = format!("write `{number} deg`, or `{number} rad` if that is meant");
+                    self.diagnostics.error_with_help(value.extent, message, help);
+                    None
+                }
+            };
         }
         if let Some(written) = bare_number(value) {
             self.diagnostics.error(value.extent, expected.needs_unit(&written));
@@ -420,6 +429,16 @@ impl Resolver<'_> {
     }
 
     /// The first name in a value that is declared as a number without a unit, and that number.
+    /// A number without a unit that is meant as degrees: an angle of more than a turn, written here or where it is declared.
+    fn degrees(&self, expected: &Expected, value: &Value) -> Option<String> {
+        let number = match value.bare().kind {
+            ValueKind::Name(_) => self.declared_without_unit(value)?.1,
+            _ => bare_number(value)?,
+        };
+        let beyond = number.parse::<f64>().is_ok_and(|angle| angle.abs() > std::f64::consts::TAU);
+        (expected.is_angle() && beyond).then_some(number)
+    }
+
     pub(super) fn declared_without_unit(&self, value: &Value) -> Option<(String, String)> {
         value.names().into_iter().find_map(|name| {
             let mut items = self.ast.items.iter();

@@ -25,10 +25,10 @@ impl Requirement {
     fn words(&self, unit: &Unit, of: &Description) -> String {
         match *self {
             Self::Within { low, .. } if low.is_finite() => {
-                format!("at least {}", ends(&[low], unit))
+                format!("at least {}", ends(&[low], unit, of))
             }
-            Self::Within { high, .. } => format!("at most {}", ends(&[high], unit)),
-            Self::Outside { low, high, .. } => format!("outside {}", ends(&[low, high], unit)),
+            Self::Within { high, .. } => format!("at most {}", ends(&[high], unit, of)),
+            Self::Outside { low, high, .. } => format!("outside {}", ends(&[low, high], unit, of)),
             Self::Away { input, order, fraction, .. } => {
                 let name = name_of(of, input);
                 let multiple = match order {
@@ -53,13 +53,15 @@ impl EstimatedBy {
     }
 }
 
-/// The ends of a limit, in Hz if that is shorter: a limit given in Hz is a short number in Hz only.
-pub(super) fn ends(all: &[f64], unit: &Unit) -> String {
+/// The ends of a limit; those of a frequency in the unit of answers, or in Hz if that is shorter: a limit given in Hz is a
+/// short number in Hz only.
+fn ends(all: &[f64], unit: &Unit, of: &Description) -> String {
     let hertz = Unit { symbol: Text::Static("Hz"), scale: TAU };
     let digits = |unit: &Unit| -> usize { all.iter().map(|end| given_in(*end, unit).len()).sum() };
-    let unit = match &*unit.symbol == "rad/s" && digits(&hertz) < digits(unit) {
-        true => &hertz,
-        false => unit,
+    let unit = match &*unit.symbol == "rad/s" {
+        true if *of.frequency.symbol != *unit.symbol => &of.frequency,
+        true if digits(&hertz) < digits(unit) => &hertz,
+        _ => unit,
     };
     let all = all.iter().map(|end| with_unit(given_in(*end, unit), unit));
     all.collect::<Vec<_>>().join(" to ")
