@@ -3,6 +3,7 @@
 mod bands;
 mod closed_forms;
 mod exceedance;
+mod extents;
 mod requirements;
 mod rigid_rotor;
 mod rough;

@@ -186,7 +186,7 @@ impl Vibration {
         let measure = match self.measure {
             Measure::Displacement => "",
             Measure::OfLimit { .. } => return format!("{output} under {} over its limit", names.join(", ")),
-            Measure::Velocity => "rate of ",
+            Measure::Velocity => "velocity of ",
             Measure::Acceleration => "acceleration of ",
         };
         format!("{measure}{output} under {}", names.join(", "))

@@ -428,7 +428,6 @@ impl Resolver<'_> {
         None
     }
 
-    /// The first name in a value that is declared as a number without a unit, and that number.
     /// A number without a unit that is meant as degrees: an angle of more than a turn, written here or where it is declared.
     fn degrees(&self, expected: &Expected, value: &Value) -> Option<String> {
         let number = match value.bare().kind {
@@ -439,6 +438,7 @@ impl Resolver<'_> {
         (expected.is_angle() && beyond).then_some(number)
     }
 
+    /// The first name in a value that is declared as a number without a unit, and that number.
     pub(super) fn declared_without_unit(&self, value: &Value) -> Option<(String, String)> {
         value.names().into_iter().find_map(|name| {
             let mut items = self.ast.items.iter();
