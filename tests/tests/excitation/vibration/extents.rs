@@ -21,8 +21,10 @@ const MACHINE: &str = "mechanism Plane {
     joint x: prismatic(x) from ground to carriage;
     joint y: prismatic(y) from carriage to shuttle;
     joint spin: revolute(z) from shuttle to disk, driven at speed;
-    force shaft_x: spring_damper(on: x, stiffness: kx, damping: c);
-    force shaft_y: spring_damper(on: y, stiffness: ky, damping: c);
+    force shaft_x: spring(on: x, stiffness: kx);
+    force oil_x: damper(on: x, damping: c);
+    force shaft_y: spring(on: y, stiffness: ky);
+    force oil_y: damper(on: y, damping: c);
     unbalance u: on disk, eccentricity: e;
     force gust: harmonic(on: x, force: push, frequency: 2.5 * speed);
     output side = x; output up = y;
