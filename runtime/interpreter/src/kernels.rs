@@ -4,9 +4,9 @@ use std::array::from_fn;
 use std::slice::from_ref;
 
 use eigentol::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Curvature, CurvatureKernels,
-    Directional, DirectionalKernels, Gradient, Interval, Kernel, Kernels, Linear, MotionKernel, MotionKernels,
-    PartialMatrices, PictureKernels, Second, Sizes, gradient_results, linear_results,
+    BatchKernels, BatchLinear, BatchPartials, BatchPoint, Curvature, CurvatureKernels, Directional, DirectionalKernels,
+    Gradient, Interval, Kernel, Kernels, Linear, MotionKernel, MotionKernels, PartialMatrices, PictureKernels, Second,
+    Sizes, gradient_results, linear_results,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Description, Dual, PictureInfo, PoseMargin, Shared, Violation};
@@ -368,35 +368,14 @@ impl PictureKernels for Interpreted {
 }
 
 impl BatchKernels for Interpreted {
-    fn residual_and_stiffness_batch(
+    fn evaluate_states(
         &self,
         instructions: Instructions,
-        at: BatchPoint<'_>,
-        residual: &mut [Batch],
-        stiffness: &mut [Batch],
+        kernel: Kernel,
+        arguments: &[&[Batch]],
+        results: &mut [&mut [Batch]],
     ) {
-        let mut to = [residual, stiffness];
-        let tape = self.tape(Kernel::ResidualAndStiffness);
-        run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
-    }
-
-    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
-        let mut to = [&mut *linear.mass, &mut *linear.damping, &mut *linear.stiffness];
-        let tape = self.tape(Kernel::Linear);
-        run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
-    }
-
-    fn parts_and_linear_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        parts: &mut BatchParts<'_>,
-        linear: &mut BatchLinear<'_>,
-    ) {
-        let mut to = [&mut *parts.inertia, &mut *parts.applied];
-        let tape = self.tape(Kernel::ResidualParts);
-        run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
-        self.linear_batch(instructions, at, linear);
+        run_batch(self.tape(kernel), instructions, arguments, results);
     }
 
     fn partials_batch(
@@ -420,40 +399,6 @@ impl BatchKernels for Interpreted {
         }
         let tape = self.tape(Kernel::ResidualPartials);
         run_batch(tape, instructions, &arguments, &mut residual);
-    }
-
-    fn mode_gradient_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        phi: &[Batch],
-        lambda: &Batch,
-        gradient: &mut BatchGradient<'_>,
-    ) {
-        let arguments = [at.q, at.u, at.b, phi, std::slice::from_ref(lambda)];
-        let tape = self.tape(Kernel::ModeGradient);
-        run_batch(
-            tape,
-            instructions,
-            &arguments,
-            &mut [&mut *gradient.coordinates, &mut *gradient.inputs, &mut *gradient.design],
-        );
-    }
-
-    fn residual_gradient_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        w: &[Batch],
-        gradient: &mut BatchGradient<'_>,
-    ) {
-        let tape = self.tape(Kernel::ResidualGradient);
-        run_batch(
-            tape,
-            instructions,
-            &[at.q, at.u, at.b, w],
-            &mut [&mut *gradient.coordinates, &mut *gradient.inputs, &mut *gradient.design],
-        );
     }
 }
 

@@ -343,7 +343,9 @@ fn extent(study: &Study<Interpreted>, name: &str) -> Result<(Output, Extent)> {
     match axis.map(|(inside, of)| (inside.split_once(','), of)) {
         None => Ok((output(study, name)?, Extent::Amplitude)),
         Some((Some((x, y)), of)) => Ok((output(study, x)?, of(output(study, y)?))),
-        Some((None, _)) => wrong(format!("`{name}` is not an axis of an orbit"), "name two outputs: `major(shake, lift)`"),
+        Some((None, _)) => {
+            wrong(format!("`{name}` is not an axis of an orbit"), "name two outputs: `major(shake, lift)`")
+        }
     }
 }
 
@@ -610,7 +612,8 @@ mod tests {
             ("acceleration", Measure::Acceleration, "m/s^2"),
         ][pick(3)];
         let mut clauses = [format!("under {under}"), format!("as {word}"), format!("along {along}")];
-        let vibration = Vibration::new(Output::new(output), Excitation::<eigentol::Any>::new(excitation)).measure(measure);
+        let vibration =
+            Vibration::new(Output::new(output), Excitation::<eigentol::Any>::new(excitation)).measure(measure);
         let crossing = |condition| Response::Crossing { mode: number, condition, range };
         let mode = |quantity| Response::Mode { mode: number, quantity };
         let peak = |quantity| Response::Peak { vibration, range, quantity };

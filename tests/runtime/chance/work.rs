@@ -116,20 +116,15 @@ impl CurvatureKernels for Counting<'_> {
 }
 
 impl BatchKernels for Counting<'_> {
-    fn residual_and_stiffness_batch(
+    fn evaluate_states(
         &self,
         instructions: Instructions,
-        at: BatchPoint<'_>,
-        residual: &mut [Batch],
-        stiffness: &mut [Batch],
+        kernel: Kernel,
+        arguments: &[&[Batch]],
+        results: &mut [&mut [Batch]],
     ) {
         self.count(Kind::Batch);
-        self.inner.residual_and_stiffness_batch(instructions, at, residual, stiffness);
-    }
-
-    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
-        self.count(Kind::Batch);
-        self.inner.linear_batch(instructions, at, linear);
+        self.inner.evaluate_states(instructions, kernel, arguments, results);
     }
 
     fn parts_and_linear_batch(
@@ -152,29 +147,6 @@ impl BatchKernels for Counting<'_> {
     ) {
         self.count(Kind::Batch);
         self.inner.partials_batch(instructions, at, matrices, residual);
-    }
-
-    fn mode_gradient_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        phi: &[Batch],
-        lambda: &Batch,
-        gradient: &mut BatchGradient<'_>,
-    ) {
-        self.count(Kind::Batch);
-        self.inner.mode_gradient_batch(instructions, at, phi, lambda, gradient);
-    }
-
-    fn residual_gradient_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        w: &[Batch],
-        gradient: &mut BatchGradient<'_>,
-    ) {
-        self.count(Kind::Batch);
-        self.inner.residual_gradient_batch(instructions, at, w, gradient);
     }
 }
 

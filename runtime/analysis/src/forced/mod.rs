@@ -20,10 +20,10 @@ mod vibration;
 pub(crate) use answer::CONVENTIONS;
 pub use curvature::{ForcedCurvature, HarmonicCurvature, second_derivatives};
 pub use eigentol_statistics::random_phases::RandomPhases;
+pub use extent::Extent;
 pub(crate) use line::{Curving, CurvingLine, Line, Lines, Wanted};
 pub use measure::Measure;
 pub use orbit::{Orbit, Turning};
-pub use extent::Extent;
 #[doc(hidden)]
 pub use resolvent::Resolvent;
 pub(crate) use response::resonance;

@@ -314,7 +314,9 @@ impl Answer for Grades {
             let turning = format!("{} kg turning at {}", number(row.mass), frequency_in(row.service, unit, number));
             said.note(match row.standard {
                 Some(grade) if row.stable => format!("G{grade} meets the limit of {}: {turning}.", row.vibration),
-                Some(grade) => format!("In the stable states G{grade} meets the limit of {}: {turning}.", row.vibration),
+                Some(grade) => {
+                    format!("In the stable states G{grade} meets the limit of {}: {turning}.", row.vibration)
+                }
                 None => format!("No standard grade meets the limit of {}: {turning}.", row.vibration),
             });
             if !row.stable {

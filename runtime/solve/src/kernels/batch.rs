@@ -4,6 +4,8 @@
 //! unknowns. Every result is, bit for bit, what the kernel gives for that state alone, whatever the processor: the
 //! operations are the same, each is rounded once, and none are fused.
 
+use core::slice;
+
 use super::{DirectionalKernels, Kernels};
 use crate::mechanism::{Array, Gradient, GradientOf, Linear, LinearPartials, Mechanism, RestParts, Square};
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
@@ -33,25 +35,13 @@ pub type BatchGradient<'a> = Gradient<&'a mut [Batch]>;
 /// The kernels that sweeps and Monte Carlo need, evaluated at every state of a batch. Results are written to slices of
 /// exactly their length, matrices row by row.
 pub trait BatchKernels: DirectionalKernels {
-    /// [`Kernels::residual_and_stiffness_into`](super::Kernels::residual_and_stiffness_into).
-    fn residual_and_stiffness_batch(
+    /// [`Kernels::evaluate`](super::Kernels::evaluate) at every state with these instructions.
+    fn evaluate_states(
         &self,
         instructions: Instructions,
-        at: BatchPoint<'_>,
-        residual: &mut [Batch],
-        stiffness: &mut [Batch],
-    );
-
-    /// [`Kernels::linear_into`](super::Kernels::linear_into).
-    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>);
-
-    /// [`Kernels::parts_and_linear_into`](super::Kernels::parts_and_linear_into).
-    fn parts_and_linear_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        parts: &mut BatchParts<'_>,
-        linear: &mut BatchLinear<'_>,
+        kernel: super::Kernel,
+        arguments: &[&[Batch]],
+        results: &mut [&mut [Batch]],
     );
 
     /// [`Kernels::partials_into`](super::Kernels::partials_into); `residual` holds the derivatives with respect to
@@ -64,6 +54,37 @@ pub trait BatchKernels: DirectionalKernels {
         residual: [&mut [Batch]; 2],
     );
 
+    /// [`Kernels::parts_and_linear_into`](super::Kernels::parts_and_linear_into).
+    fn parts_and_linear_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        parts: &mut BatchParts<'_>,
+        linear: &mut BatchLinear<'_>,
+    ) {
+        let results = &mut [&mut *parts.inertia, &mut *parts.applied];
+        self.evaluate_states(instructions, super::Kernel::ResidualParts, &at.lists(), results);
+        self.linear_batch(instructions, at, linear);
+    }
+
+    /// [`Kernels::residual_and_stiffness_into`](super::Kernels::residual_and_stiffness_into).
+    fn residual_and_stiffness_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        residual: &mut [Batch],
+        stiffness: &mut [Batch],
+    ) {
+        let results = &mut [residual, stiffness];
+        self.evaluate_states(instructions, super::Kernel::ResidualAndStiffness, &at.lists(), results);
+    }
+
+    /// [`Kernels::linear_into`](super::Kernels::linear_into).
+    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
+        let results = &mut [&mut *linear.mass, &mut *linear.damping, &mut *linear.stiffness];
+        self.evaluate_states(instructions, super::Kernel::Linear, &at.lists(), results);
+    }
+
     /// [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into), with a separate mode for each state.
     fn mode_gradient_batch(
         &self,
@@ -72,7 +93,10 @@ pub trait BatchKernels: DirectionalKernels {
         phi: &[Batch],
         lambda: &Batch,
         gradient: &mut BatchGradient<'_>,
-    );
+    ) {
+        let arguments = [at.q, at.u, at.b, phi, slice::from_ref(lambda)];
+        self.evaluate_states(instructions, super::Kernel::ModeGradient, &arguments, &mut results(gradient));
+    }
 
     /// [`Kernels::residual_gradient_into`](super::Kernels::residual_gradient_into).
     fn residual_gradient_batch(
@@ -81,7 +105,21 @@ pub trait BatchKernels: DirectionalKernels {
         at: BatchPoint<'_>,
         w: &[Batch],
         gradient: &mut BatchGradient<'_>,
-    );
+    ) {
+        let arguments = [at.q, at.u, at.b, w];
+        self.evaluate_states(instructions, super::Kernel::ResidualGradient, &arguments, &mut results(gradient));
+    }
+}
+
+/// A gradient as results.
+fn results<'a>(gradient: &'a mut BatchGradient<'_>) -> [&'a mut [Batch]; 3] {
+    [&mut *gradient.coordinates, &mut *gradient.inputs, &mut *gradient.design]
+}
+
+impl<'a> BatchPoint<'a> {
+    fn lists(&self) -> [&'a [Batch]; 3] {
+        [self.q, self.u, self.b]
+    }
 }
 
 #[inline(always)]
@@ -199,7 +237,7 @@ macro_rules! call {
 }
 
 kernel! {
-    ResidualAndStiffness<'a> { residual: &'a mut [Batch], stiffness: &'a mut [Batch] },
+    ResidualAndStiffnessTask<'a> { residual: &'a mut [Batch], stiffness: &'a mut [Batch] },
     m, (q, u, b), at, V => {
         let found = call!(V: m.residual_and_stiffness or residual_and_stiffness_inlined(q, u, b));
         store(found.0.as_ref(), residual, at);
@@ -236,14 +274,14 @@ kernel! {
     }
 }
 kernel! {
-    ModeGradient<'a, 'b> { phi: &'a [Batch], lambda: &'a Batch, gradient: &'a mut BatchGradient<'b> },
+    ModeGradientTask<'a, 'b> { phi: &'a [Batch], lambda: &'a Batch, gradient: &'a mut BatchGradient<'b> },
     m, (q, u, b), at, V => {
         let found = call!(V: m.mode_gradient or mode_gradient_inlined(q, u, b, &load(phi, at), V::load(lambda, at)));
         store_gradient::<V, M>(&found, gradient, at);
     }
 }
 kernel! {
-    ResidualGradient<'a, 'b> { w: &'a [Batch], gradient: &'a mut BatchGradient<'b> },
+    ResidualGradientTask<'a, 'b> { w: &'a [Batch], gradient: &'a mut BatchGradient<'b> },
     m, (q, u, b), at, V => {
         let found = call!(V: m.residual_gradient or residual_gradient_inlined(q, u, b, &load(w, at)));
         store_gradient::<V, M>(&found, gradient, at);
@@ -376,19 +414,40 @@ fn run<M: Mechanism>(
 }
 
 impl<M: Mechanism> BatchKernels for M {
-    fn residual_and_stiffness_batch(
+    fn evaluate_states(
         &self,
         instructions: Instructions,
-        at: BatchPoint<'_>,
-        residual: &mut [Batch],
-        stiffness: &mut [Batch],
+        kernel: super::Kernel,
+        arguments: &[&[Batch]],
+        results: &mut [&mut [Batch]],
     ) {
-        let kernel = ResidualAndStiffness { residual, stiffness };
-        run(self, instructions, at, const { generated(const { &M::DESCRIPTION }, "residual_and_stiffness") }, kernel);
-    }
-
-    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
-        run(self, instructions, at, const { generated(const { &M::DESCRIPTION }, "linear") }, LinearTask { linear });
+        use super::Kernel::{Linear, ModeGradient, ResidualAndStiffness, ResidualGradient};
+        let at = BatchPoint { q: arguments[0], u: arguments[1], b: arguments[2] };
+        match (kernel, results) {
+            (ResidualAndStiffness, [residual, stiffness]) => {
+                let generated = const { generated(const { &M::DESCRIPTION }, "residual_and_stiffness") };
+                run(self, instructions, at, generated, ResidualAndStiffnessTask { residual, stiffness });
+            }
+            (Linear, [mass, damping, stiffness]) => {
+                let generated = const { generated(const { &M::DESCRIPTION }, "linear") };
+                let linear = &mut BatchLinear { mass, damping, stiffness };
+                run(self, instructions, at, generated, LinearTask { linear });
+            }
+            (ModeGradient, [coordinates, inputs, design]) => {
+                let generated = const { generated(const { &M::DESCRIPTION }, "mode_gradient") };
+                let gradient = &mut BatchGradient { coordinates, inputs, design };
+                let (phi, lambda) = (arguments[3], &arguments[4][0]);
+                run(self, instructions, at, generated, ModeGradientTask { phi, lambda, gradient });
+            }
+            (ResidualGradient, [coordinates, inputs, design]) => {
+                let generated = const { generated(const { &M::DESCRIPTION }, "residual_gradient") };
+                let gradient = &mut BatchGradient { coordinates, inputs, design };
+                run(self, instructions, at, generated, ResidualGradientTask { w: arguments[3], gradient });
+            }
+            (_, results) => lane_by_lane(arguments, results, |arguments, results| {
+                self.evaluate(kernel, arguments, results);
+            }),
+        }
     }
 
     fn parts_and_linear_batch(
@@ -398,13 +457,8 @@ impl<M: Mechanism> BatchKernels for M {
         parts: &mut BatchParts<'_>,
         linear: &mut BatchLinear<'_>,
     ) {
-        run(
-            self,
-            instructions,
-            at,
-            const { generated(const { &M::DESCRIPTION }, "linear") },
-            PartsAndLinear { parts, linear },
-        );
+        let generated = const { generated(const { &M::DESCRIPTION }, "linear") };
+        run(self, instructions, at, generated, PartsAndLinear { parts, linear });
     }
 
     fn partials_batch(
@@ -414,36 +468,8 @@ impl<M: Mechanism> BatchKernels for M {
         matrices: &mut BatchPartials<'_>,
         residual: [&mut [Batch]; 2],
     ) {
-        let kernel = Partials { matrices, residual };
-        run(self, instructions, at, const { generated(const { &M::DESCRIPTION }, "linear_partials") }, kernel);
-    }
-
-    fn mode_gradient_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        phi: &[Batch],
-        lambda: &Batch,
-        gradient: &mut BatchGradient<'_>,
-    ) {
-        let kernel = ModeGradient { phi, lambda, gradient };
-        run(self, instructions, at, const { generated(const { &M::DESCRIPTION }, "mode_gradient") }, kernel);
-    }
-
-    fn residual_gradient_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        w: &[Batch],
-        gradient: &mut BatchGradient<'_>,
-    ) {
-        run(
-            self,
-            instructions,
-            at,
-            const { generated(const { &M::DESCRIPTION }, "residual_gradient") },
-            ResidualGradient { w, gradient },
-        );
+        let generated = const { generated(const { &M::DESCRIPTION }, "linear_partials") };
+        run(self, instructions, at, generated, Partials { matrices, residual });
     }
 }
 

@@ -13,10 +13,10 @@ use core::fmt;
 
 use eigentol_results::numbers::rough;
 
-use crate::{Complex, Description};
 use crate::algebra::Vector;
 use crate::eigenproblem::ApproximatePair;
 use crate::rounding::{Sign, sign};
+use crate::{Complex, Description};
 
 /// How a disturbance along a mode develops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +57,9 @@ impl Behaviour {
     /// Angular frequency or rate, whichever it has; zero without either.
     fn speed(self) -> f64 {
         match self {
-            Self::Oscillating(x) | Self::Damped(x) | Self::Flutter(x) | Self::Decaying(x) | Self::Divergent(x) => x.abs(),
+            Self::Oscillating(x) | Self::Damped(x) | Self::Flutter(x) | Self::Decaying(x) | Self::Divergent(x) => {
+                x.abs()
+            }
             Self::Free | Self::Neutral => 0.0,
         }
     }
@@ -74,7 +76,9 @@ impl Behaviour {
         let shown: Vec<usize> = (0..all.len()).filter(|k| shows(&all[*k])).collect();
         let said = match all.len() - shown.len() {
             0 => None,
-            1 => Some("One mode is left out that the coordinates of beams do not resolve: CSV and JSON have it.".to_owned()),
+            1 => Some(
+                "One mode is left out that the coordinates of beams do not resolve: CSV and JSON have it.".to_owned(),
+            ),
             more => Some(format!(
                 "{more} modes are left out that the coordinates of beams do not resolve: CSV and JSON have them."
             )),

@@ -276,7 +276,11 @@ fn a_band_may_be_stated_about_the_nominal_value() {
         ("frequency 1 within 1%", (1.9e6_f64 / 12.0).sqrt(), 0.01),
         ("frequency 1 within 400 rad/s +/- 2%", 400.0, 0.02),
         ("frequency 1 within 400 rad/s +/- 4 rad/s", 400.0, 0.01),
-        ("vibration side under u within 5%", exact("side under u over its limit", 300.0, study.design_values()) * limit(300.0), 0.05),
+        (
+            "vibration side under u within 5%",
+            exact("side under u over its limit", 300.0, study.design_values()) * limit(300.0),
+            0.05,
+        ),
     ] {
         let Ok(Requirement::Within { low, high, .. }) = requirement(&study, text) else { panic!("{text}") };
         // The frequency is a damped one.

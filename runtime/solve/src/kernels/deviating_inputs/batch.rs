@@ -2,46 +2,25 @@
 
 use super::DeviatingInputs;
 use super::deviations::Deviations;
-use crate::algebra::Vector;
-use crate::kernels::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
+use crate::kernels::{BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Kernel};
 use crate::scalar::{Batch, Instructions};
 
-/// The arguments passed to the mechanism.
-struct Applied<'a> {
-    q: &'a [Batch],
-    u: Vector<Batch>,
-    b: &'a [Batch],
-}
-
-impl Applied<'_> {
-    fn point(&self) -> BatchPoint<'_> {
-        BatchPoint { q: self.q, u: &self.u, b: self.b }
-    }
-}
-
-impl<K: ?Sized> DeviatingInputs<'_, K> {
-    fn applied_batch<'a>(&self, at: BatchPoint<'a>) -> Applied<'a> {
-        let sum = |a: Batch, b: Batch| Batch::from_fn(|state| a.0[state] + b.0[state]);
-        let (u, b) = self.deviations.applied(at.u, at.b, sum);
-        Applied { q: at.q, u, b }
-    }
+fn sum(a: Batch, b: Batch) -> Batch {
+    Batch::from_fn(|state| a.0[state] + b.0[state])
 }
 
 impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
-    fn residual_and_stiffness_batch(
+    fn evaluate_states(
         &self,
         instructions: Instructions,
-        at: BatchPoint<'_>,
-        residual: &mut [Batch],
-        stiffness: &mut [Batch],
+        kernel: Kernel,
+        arguments: &[&[Batch]],
+        results: &mut [&mut [Batch]],
     ) {
-        let at = self.applied_batch(at);
-        self.kernels.residual_and_stiffness_batch(instructions, at.point(), residual, stiffness);
-    }
-
-    fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
-        let at = self.applied_batch(at);
-        self.kernels.linear_batch(instructions, at.point(), linear);
+        let shape = (kernel.arguments(), kernel.results());
+        self.deviations.evaluated(sum, [arguments], shape, results, |[arguments], results| {
+            self.kernels.evaluate_states(instructions, kernel, arguments, results);
+        });
     }
 
     fn parts_and_linear_batch(
@@ -51,8 +30,8 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         parts: &mut BatchParts<'_>,
         linear: &mut BatchLinear<'_>,
     ) {
-        let at = self.applied_batch(at);
-        self.kernels.parts_and_linear_batch(instructions, at.point(), parts, linear);
+        let (u, b) = self.deviations.applied(at.u, at.b, sum);
+        self.kernels.parts_and_linear_batch(instructions, BatchPoint { q: at.q, u: &u, b }, parts, linear);
     }
 
     fn partials_batch(
@@ -63,57 +42,17 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         [by_input, by_design]: [&mut [Batch]; 2],
     ) {
         let n = at.q.len();
-        let at = self.applied_batch(at);
+        let (u, b) = self.deviations.applied(at.u, at.b, sum);
         let mut residual: Vec<Batch> = self.deviations.narrow(by_design.len());
         self.deviations.batch_partials(n * n, matrices, |matrices| {
             let residual = [&mut *by_input, &mut residual[..]];
-            self.kernels.partials_batch(instructions, at.point(), matrices, residual);
+            self.kernels.partials_batch(instructions, BatchPoint { q: at.q, u: &u, b }, matrices, residual);
         });
         self.deviations.join_rows(by_design, by_input, &residual);
-    }
-
-    fn mode_gradient_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        phi: &[Batch],
-        lambda: &Batch,
-        gradient: &mut BatchGradient<'_>,
-    ) {
-        let at = self.applied_batch(at);
-        self.deviations.batch_gradient(gradient, |gradient| {
-            self.kernels.mode_gradient_batch(instructions, at.point(), phi, lambda, gradient);
-        });
-    }
-
-    fn residual_gradient_batch(
-        &self,
-        instructions: Instructions,
-        at: BatchPoint<'_>,
-        w: &[Batch],
-        gradient: &mut BatchGradient<'_>,
-    ) {
-        let at = self.applied_batch(at);
-        self.deviations.batch_gradient(gradient, |gradient| {
-            self.kernels.residual_gradient_batch(instructions, at.point(), w, gradient);
-        });
     }
 }
 
 impl Deviations {
-    /// Converts a gradient of the mechanism.
-    fn batch_gradient(&self, gradient: &mut BatchGradient<'_>, kernel: impl FnOnce(&mut BatchGradient<'_>)) {
-        let (by_design, deviations) = gradient.design.split_at_mut(self.design());
-        kernel(&mut BatchGradient {
-            coordinates: &mut *gradient.coordinates,
-            inputs: &mut *gradient.inputs,
-            design: by_design,
-        });
-        for (to, &input) in deviations.iter_mut().zip(self.inputs()) {
-            *to = gradient.inputs[input];
-        }
-    }
-
     /// Converts derivatives of matrices with the given number of entries.
     fn batch_partials(
         &self,

@@ -1,7 +1,7 @@
 //! The position of deviations among the design variables, and the resulting conversion of arguments and results.
 
 use crate::algebra::Vector;
-use crate::kernels::PartialMatrices;
+use crate::kernels::{Extent, PartialMatrices, Shape};
 
 /// Deviations of inputs, which follow the mechanism's own design variables.
 #[derive(Debug)]
@@ -44,6 +44,37 @@ impl Deviations {
             applied[input] = sum(applied[input], deviation);
         }
         (applied, design)
+    }
+
+    /// Calls the mechanism's kernel with lists of arguments, or of their changes, of which the first two are `u` and `b`
+    /// after `at` others, and returns results with the derivatives by the deviations.
+    pub(super) fn evaluated<T: Copy + Default, const N: usize>(
+        &self,
+        sum: fn(T, T) -> T,
+        lists: [&[&[T]]; N],
+        (arguments, shapes): (&[Extent], &[Shape]),
+        results: &mut [&mut [T]],
+        kernel: impl FnOnce([&[&[T]]; N], &mut [&mut [T]]),
+    ) {
+        let inputs = arguments.iter().take_while(|list| **list != Extent::Inputs);
+        let at = inputs.count();
+        let applied = lists.map(|list| self.applied(list[at], list[at + 1], sum));
+        let mut adjusted = lists.map(<[_]>::to_vec);
+        for (list, (u, b)) in adjusted.iter_mut().zip(&applied) {
+            list[at] = u;
+            list[at + 1] = b;
+        }
+        let adjusted = adjusted.each_ref().map(Vec::as_slice);
+        match (shapes, results) {
+            ([.., [_, Extent::Design]], [before @ .., by_input, by_design]) => {
+                let mut narrow = self.narrow(by_design.len());
+                let mut narrowed: Vec<&mut [T]> = before.iter_mut().map(|x| &mut **x).collect();
+                narrowed.extend([&mut **by_input, &mut narrow[..]]);
+                kernel(adjusted, &mut narrowed);
+                self.join_rows(by_design, by_input, &narrow);
+            }
+            (_, results) => kernel(adjusted, results),
+        }
     }
 
     /// Converts derivatives of the matrices.

@@ -5,44 +5,14 @@ use core::ops::Add;
 use super::DeviatingInputs;
 use crate::algebra::Vector;
 use crate::kernels::{
-    Costs, Curvature, CurvatureKernels, Directional, DirectionalKernels, Extent, Kernel, Kernels, Linear, MotionKernel,
-    MotionKernels, PartialMatrices, PictureKernels, RestParts, Second, Shape, Sizes,
+    Costs, Curvature, CurvatureKernels, Directional, DirectionalKernels, Kernel, Kernels, Linear, MotionKernel,
+    MotionKernels, PartialMatrices, PictureKernels, RestParts, Second, Sizes,
 };
 use crate::mechanism::{Description, PictureInfo, PoseMargin, Shared, Violation};
 
 impl<K: ?Sized> DeviatingInputs<'_, K> {
     fn applied<'b>(&self, u: &[f64], b: &'b [f64]) -> (Vector, &'b [f64]) {
         self.deviations.applied(u, b, f64::add)
-    }
-
-    /// Calls the mechanism's kernel with lists of arguments, or of their changes, of which the first two are `u` and `b`
-    /// after `at` others, and returns results with the derivatives by the deviations.
-    fn evaluated<const N: usize>(
-        &self,
-        lists: [&[&[f64]]; N],
-        (arguments, shapes): (&[Extent], &[Shape]),
-        results: &mut [&mut [f64]],
-        kernel: impl FnOnce([&[&[f64]]; N], &mut [&mut [f64]]),
-    ) {
-        let inputs = arguments.iter().take_while(|list| **list != Extent::Inputs);
-        let at = inputs.count();
-        let applied = lists.map(|list| self.applied(list[at], list[at + 1]));
-        let mut adjusted = lists.map(<[_]>::to_vec);
-        for (list, (u, b)) in adjusted.iter_mut().zip(&applied) {
-            list[at] = u;
-            list[at + 1] = b;
-        }
-        let adjusted = adjusted.each_ref().map(Vec::as_slice);
-        match (shapes, results) {
-            ([.., [_, Extent::Design]], [before @ .., by_input, by_design]) => {
-                let mut narrow = self.deviations.narrow(by_design.len());
-                let mut narrowed: Vec<&mut [f64]> = before.iter_mut().map(|x| &mut **x).collect();
-                narrowed.extend([&mut **by_input, &mut narrow[..]]);
-                kernel(adjusted, &mut narrowed);
-                self.deviations.join_rows(by_design, by_input, &narrow);
-            }
-            (_, results) => kernel(adjusted, results),
-        }
     }
 }
 
@@ -68,7 +38,7 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
 
     fn evaluate(&self, kernel: Kernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
         let shape = (kernel.arguments(), kernel.results());
-        self.evaluated([arguments], shape, results, |[arguments], results| {
+        self.deviations.evaluated(f64::add, [arguments], shape, results, |[arguments], results| {
             self.kernels.evaluate(kernel, arguments, results);
         });
     }
@@ -130,7 +100,7 @@ impl<K: DirectionalKernels + ?Sized> DirectionalKernels for DeviatingInputs<'_, 
     ) {
         let row = Kernel::from(kernel);
         let shape = (row.arguments(), row.results());
-        self.evaluated([arguments, direction], shape, results, |[at, along], to| {
+        self.deviations.evaluated(f64::add, [arguments, direction], shape, results, |[at, along], to| {
             self.kernels.evaluate_along(kernel, at, along, to);
         });
     }
@@ -146,7 +116,7 @@ impl<K: CurvatureKernels + ?Sized> CurvatureKernels for DeviatingInputs<'_, K> {
     ) {
         let row = Kernel::from(kernel);
         let shape = (row.arguments(), row.results());
-        self.evaluated([arguments, direction], shape, results, |[at, along], to| {
+        self.deviations.evaluated(f64::add, [arguments, direction], shape, results, |[at, along], to| {
             self.kernels.evaluate_curvature(kernel, at, along, to);
         });
     }
@@ -155,7 +125,7 @@ impl<K: CurvatureKernels + ?Sized> CurvatureKernels for DeviatingInputs<'_, K> {
 impl<K: MotionKernels + ?Sized> MotionKernels for DeviatingInputs<'_, K> {
     fn evaluate_motion(&self, kernel: MotionKernel, arguments: &[&[f64]], results: &mut [&mut [f64]]) {
         let shape = (kernel.arguments(), kernel.results());
-        self.evaluated([arguments], shape, results, |[arguments], results| {
+        self.deviations.evaluated(f64::add, [arguments], shape, results, |[arguments], results| {
             self.kernels.evaluate_motion(kernel, arguments, results);
         });
     }
