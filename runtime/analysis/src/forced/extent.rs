@@ -1,8 +1,7 @@
 //! What of one or several complex amplitudes counts: a modulus, a semi-axis of an orbit, a sum over frequencies.
 
-use super::vibration::Vibration;
 use crate::sensitivity::Slopes;
-use crate::{Complex, Description, Output};
+use crate::{Complex, Output};
 
 /// What of a vibration counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,28 +29,6 @@ pub(crate) struct Part {
 
 /// Share of all that counts as zero where a modulus has a kink: rounding of amplitudes near a resonance.
 const STILL: f64 = 1e-10;
-
-impl Vibration {
-    /// What its extent is made of; `None` for handles of another mechanism.
-    pub(crate) fn parts(&self, of: &Description) -> Option<Vec<Part>> {
-        let one = |harmonic| Part { harmonic, terms: vec![(self.output, Complex::new(1.0, 0.0))] };
-        Some(match self.extent {
-            Extent::Amplitude => vec![one(self.place(of)?)],
-            Extent::Major(other) | Extent::Minor(other) => {
-                let harmonic = self.place(of)?;
-                let circle = |turn| Part {
-                    harmonic,
-                    terms: vec![(self.output, Complex::new(0.5, 0.0)), (other, Complex::new(0.0, turn))],
-                };
-                vec![circle(0.5), circle(-0.5)]
-            }
-            Extent::Sum | Extent::Rms => {
-                let firsts = of.excitations.iter().enumerate().filter(|(k, info)| info.with == *k);
-                (0..firsts.count()).map(one).collect()
-            }
-        })
-    }
-}
 
 impl Part {
     /// Its value, from that of an output.

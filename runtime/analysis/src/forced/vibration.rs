@@ -57,6 +57,26 @@ impl Vibration {
         Self { extent, ..self }
     }
 
+    /// What its extent is made of; `None` for handles of another mechanism.
+    pub(crate) fn parts(&self, of: &Description) -> Option<Vec<Part>> {
+        let one = |harmonic| Part { harmonic, terms: vec![(self.output, Complex::new(1.0, 0.0))] };
+        Some(match self.extent {
+            Extent::Amplitude => vec![one(self.place(of)?)],
+            Extent::Major(other) | Extent::Minor(other) => {
+                let harmonic = self.place(of)?;
+                let circle = |turn| Part {
+                    harmonic,
+                    terms: vec![(self.output, Complex::new(0.5, 0.0)), (other, Complex::new(0.0, turn))],
+                };
+                vec![circle(0.5), circle(-0.5)]
+            }
+            Extent::Sum | Extent::Rms => {
+                let firsts = of.excitations.iter().enumerate().filter(|(k, info)| info.with == *k);
+                (0..firsts.count()).map(one).collect()
+            }
+        })
+    }
+
     /// Its value in a response, SI; `None` where it has none.
     #[must_use]
     pub fn of(&self, response: &ForcedResponse) -> Option<f64> {

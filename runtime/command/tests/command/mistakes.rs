@@ -74,6 +74,17 @@ warning: unused variable: `µ_bar`
     }
 }
 
+/// A speed that drives nothing is as useless as a length of nothing.
+#[test]
+fn inputs_that_nothing_uses_are_warned_of() {
+    let text = "mechanism A { input speed: rpm; input _later: N; body bar: rod(mass: 3 kg, length: 1 m, along: -z);
+        joint t: revolute(y) from ground to bar; }";
+    let Run { code, err, .. } = run_with_input(&["check", "-"], text);
+    assert!(code == 0 && err.contains("unused variable: `speed`") && !err.contains("`_later`"), "{err}");
+    let used = run_with_input(&["check", "-"], &text.replace("ground to bar", "ground to bar, driven at speed"));
+    assert!(!used.err.contains("unused variable: `speed`"), "{}", used.err);
+}
+
 /// What a section by numbers says of its extent against what it says of its stiffness.
 #[test]
 fn stiffness_in_the_wrong_plane_is_warned_of() {

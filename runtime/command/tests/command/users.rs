@@ -176,6 +176,46 @@ fn all_that_turns_is_weighed() {
     assert!((number_after(&found, "\"unbalance\":") - 300e-6).abs() < 1e-15, "{found}");
 }
 
+/// A grade is no answer where the rotor is unstable or none is fine enough, and says where the amplitude is greatest.
+#[test]
+fn a_grade_that_cannot_be_met_is_a_no() {
+    let grade = |text: &str, sweep: &str, limit: &str| {
+        let folder = folder("no grade");
+        std::fs::write(folder.join("m.mechanism"), text).unwrap();
+        let output = command_in(&folder, &["grade", "m.mechanism", "--sweep", sweep, "--require", limit]);
+        let output = { output }.env("COLUMNS", "200").output().unwrap();
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    let machine = |name: &str| std::fs::read_to_string(inputs().join(name)).unwrap();
+    let blower = machine("blower.mechanism");
+    let (code, text) = grade(&blower, "speed=2000..6000rpm", "vibration shake under u <= 100 um");
+    assert!(code == Some(0) && text.contains(" rpm ") && text.contains(" meets the limit of shake"), "{text}");
+    let (code, text) = grade(&blower, "speed=2000..6000rpm", "vibration shake under u <= 1 nm");
+    assert!(code == Some(1) && text.contains("No standard grade meets"), "{text}");
+    // The damping of a material that turns drives the rotor beyond its critical speed.
+    let shaft = machine("two_disks_no_torsion.mechanism");
+    let lagging = shaft.replace("torsion: 0)", "torsion: 0, lag: 20 us)");
+    let (code, text) = grade(&lagging, "speed=2200..6000rpm", "vibration y1 <= 1 mm");
+    assert!(code == Some(1) && text.contains("Not all of these states are stable"), "{text}");
+    assert!(!text.contains("\n  G"), "{text}");
+}
+
+#[test]
+fn modes_that_beams_hardly_resolve_are_not_shown() {
+    for (words, ends) in
+        [(["modes", "--set", "speed=3000rpm"], "oscillates"), (["tolerance", "--set", "speed=3000rpm"], "yes")]
+    {
+        let arguments = [&[words[0], "tapered_blade.mechanism"], &words[1..]].concat();
+        let text = answer(150, &arguments);
+        assert_eq!(text.lines().filter(|line| line.ends_with(ends)).count(), 5, "{text}");
+        assert!(text.contains("7 modes are left out"), "{text}");
+        let table = answer(150, &[&arguments[..], &["--csv"]].concat());
+        assert_eq!(table.lines().count(), 13, "{table}");
+    }
+    let slopes = answer(150, &["sensitivities", "tapered_blade.mechanism", "--set", "speed=3000rpm"]);
+    assert!(slopes.contains("f5 [Hz]") && !slopes.contains("f6 [Hz]") && !slopes.contains("omega"), "{slopes}");
+}
+
 fn run_in(folder: &Path, text: &str, arguments: &[&str]) -> String {
     std::fs::write(folder.join("m.mechanism"), text).unwrap();
     let output = command_in(folder, arguments).output().unwrap();

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use eigentol::bode::Bode;
-use eigentol::forced::Measure;
+use eigentol::forced::{Extent, Measure};
 use eigentol::response::Vibration;
 use eigentol::{Complex, Study};
 use eigentol_figures::figure::{Panel, Point};
@@ -53,6 +53,22 @@ fn a_bode_plot_has_amplitude_and_unwrapped_phase() {
     assert_eq!(line(upper).len(), 141);
     assert!(figure.caption.iter().any(|own| own.contains("0 to peak")));
     save(&figure, "bode");
+}
+
+/// A semi-axis has no phase: one panel, and no polar plot.
+#[test]
+fn a_semi_axis_has_an_amplitude_only() {
+    let axis = right().extent(Extent::Major(Unbalanced::up.any()));
+    let figure = bode(&swept(141), axis, &[], &Style::default()).unwrap();
+    let [upper] = &figure.panels[..] else { panic!("one panel") };
+    let both = swept(141);
+    for (amplitude, point) in line(upper).iter().zip(&both.points) {
+        let harmonic = &point.vibration.as_ref().unwrap().response.harmonics[0];
+        let [long, _] = harmonic.orbit(Unbalanced::right.any(), Unbalanced::up.any()).unwrap().semi_axes();
+        assert!((amplitude[1] / long - 1.0).abs() < 1e-12, "{amplitude:?} {long}");
+    }
+    assert!(matches!(polar(&swept(3), axis, &[], &Style::default()), Err(Error::Nothing(_))));
+    save(&figure, "bode_of_semi_axis");
 }
 
 /// The acceleration starts at half a turn and falls by another one: it passes from -180 to 180 deg.

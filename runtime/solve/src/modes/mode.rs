@@ -38,6 +38,9 @@ pub enum Behaviour {
     Divergent(f64),
 }
 
+/// How far above the last mode that beams resolve by their number those of other kinds are shown.
+const BESIDE: f64 = 1.5;
+
 impl Behaviour {
     /// Whether a small disturbance grows.
     #[must_use]
@@ -64,7 +67,7 @@ impl Behaviour {
         }
     }
 
-    /// Which of these modes the coordinates of beams resolve: those that are no faster than the last oscillation that
+    /// Which of these modes the coordinates of beams resolve: those that are hardly faster than the last oscillation that
     /// they do, all without beams; and what texts say about the others.
     #[doc(hidden)]
     #[must_use]
@@ -72,15 +75,15 @@ impl Behaviour {
         let mut frequencies: Vec<f64> = all.iter().filter_map(|mode| mode.frequency()).collect();
         frequencies.sort_by(f64::total_cmp);
         let last = of.resolved_modes.and_then(|count| frequencies.get(count.max(1) - 1));
-        let shows = |mode: &Self| mode.grows() || last.is_none_or(|last| mode.speed() <= *last);
+        let shows = |mode: &Self| mode.grows() || last.is_none_or(|last| mode.speed() <= BESIDE * last);
         let shown: Vec<usize> = (0..all.len()).filter(|k| shows(&all[*k])).collect();
         let said = match all.len() - shown.len() {
             0 => None,
             1 => Some(
-                "One mode is left out that the coordinates of beams do not resolve: CSV and JSON have it.".to_owned(),
+                "One mode is left out that the coordinates of beams hardly resolve: CSV and JSON have it.".to_owned(),
             ),
             more => Some(format!(
-                "{more} modes are left out that the coordinates of beams do not resolve: CSV and JSON have them."
+                "{more} modes are left out that the coordinates of beams hardly resolve: CSV and JSON have them."
             )),
         };
         (shown, said)

@@ -44,7 +44,11 @@ fn exact(text: &str, w: f64, design: &[f64]) -> f64 {
     let sum = (ax + ay).hypot(2.0 * b) * (ay - ax).abs() * force * force / (square(kx, w) * square(ky, w));
     match text {
         "major(side, up) under u" => ((x + y + sum) / 2.0).sqrt(),
-        "minor(side, up) under u" => ((x + y - sum) / 2.0).sqrt(),
+        // The area of the ellipse over the other axis: a difference would lose digits.
+        "minor(side, up) under u" => {
+            let area = (ax * ay + b * b).abs() * force * force / (square(kx, w) * square(ky, w));
+            area / ((x + y + sum) / 2.0).sqrt()
+        }
         "side under all" => x.sqrt() + gust.sqrt(),
         "side under all as rms" => ((x + gust) / 2.0).sqrt(),
         "side under u over its limit" => x.sqrt() / limit(w),
@@ -117,7 +121,7 @@ fn values_and_both_derivatives_are_exact() {
                     let name = format!("{text} by {i}");
                     let along = |x: f64| exact(text, speed, &moved(i, x));
                     let size = 1e-3 * value / design[i];
-                    close(first.by_design[i], slope(&along, design[i], 1e-3), size, 1e-7, &name);
+                    close(first.by_design[i], slope(&along, design[i], 2e-4), size, 1e-7, &name);
                     for j in 0..design.len() {
                         let inner = |x: f64, y: f64| {
                             let mut both = moved(i, x);
@@ -135,7 +139,7 @@ fn values_and_both_derivatives_are_exact() {
                     }
                 }
                 let along = |w: f64| exact(text, w, &design);
-                close(first.by_input[0], slope(&along, speed, 1e-3), 1e-3 * value / speed, 1e-6, text);
+                close(first.by_input[0], slope(&along, speed, 2e-4), 1e-3 * value / speed, 1e-6, text);
             }
         }
     }
