@@ -146,10 +146,7 @@ pub(crate) fn assemble(robot: &Robot, tree: &Tree, options: &Options) -> Result<
             return Err(alone(robot.at.mistake(reason)));
         }
     }
-    let dampers = match options.damping {
-        true => dampers(robot, &joint_names, &moving, &mut names),
-        false => Vec::new(),
-    };
+    let dampers = if options.damping { dampers(robot, &joint_names, &moving, &mut names) } else { Vec::new() };
     for joint in tree.held.iter().map(|&index| robot.joints[index].name.clone()) {
         notes.push(Note::Held { joint });
     }

@@ -237,10 +237,7 @@ impl<'a> Responses<'a> {
     /// Fails if the work has been stopped.
     #[doc(hidden)]
     pub fn go_on(&self) -> Result<(), Error> {
-        match self.watch.stopped() {
-            true => Err(Error::Stopped),
-            false => Ok(()),
-        }
+        if self.watch.stopped() { Err(Error::Stopped) } else { Ok(()) }
     }
 
     /// Counts one evaluated design; fails if the work has been stopped.
@@ -393,9 +390,10 @@ impl<'a> Responses<'a> {
                     let gradient = slopes.and(index).and_then(|position| {
                         let all = derivatives.of_modes(self.mechanism, solved)?;
                         let mode = all.modes.get(position)?;
-                        match mode.clustered {
-                            false => Some(mode.of(*quantity)?.by_design),
-                            true => self.common_gradient(solved, position, *quantity),
+                        if mode.clustered {
+                            self.common_gradient(solved, position, *quantity)
+                        } else {
+                            Some(mode.of(*quantity)?.by_design)
                         }
                     });
                     (value, gradient)
@@ -528,10 +526,7 @@ fn tells_stability(response: &Response) -> bool {
 
 fn check_mode(mode: usize, modes: &Modes) -> Result<(), Error> {
     let count = modes.modes.len();
-    match mode < count {
-        true => Ok(()),
-        false => Err(Error::NoSuchMode { mode, count }),
-    }
+    if mode < count { Ok(()) } else { Err(Error::NoSuchMode { mode, count }) }
 }
 
 /// Derivatives at one design, computed when first needed.

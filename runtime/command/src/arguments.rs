@@ -64,18 +64,13 @@ pub(crate) fn with_hint(mut error: clap::Error) -> clap::Error {
 
 /// Prints a command-line error, or the requested help.
 pub(crate) fn explain(error: &clap::Error) {
-    let terminal = match error.use_stderr() {
-        true => io::stderr().is_terminal(),
-        false => io::stdout().is_terminal(),
-    };
-    let text = match Color::asked().on(terminal) {
-        true => error.render().ansi().to_string(),
-        false => error.render().to_string(),
-    };
+    let terminal = if error.use_stderr() { io::stderr().is_terminal() } else { io::stdout().is_terminal() };
+    let text = if Color::asked().on(terminal) { error.render().ansi().to_string() } else { error.render().to_string() };
     // If the output is closed, there is nothing more to say.
-    let _ = match error.use_stderr() {
-        true => io::stderr().write_all(text.as_bytes()),
-        false => io::stdout().write_all(text.as_bytes()),
+    let _ = if error.use_stderr() {
+        io::stderr().write_all(text.as_bytes())
+    } else {
+        io::stdout().write_all(text.as_bytes())
     };
 }
 

@@ -46,9 +46,10 @@ fn interrupted() {
 }
 
 fn end() {
-    let written = match answers() || PRINTS.load(Ordering::Relaxed) {
-        true => "before the answer was complete",
-        false => "nothing was written",
+    let written = if answers() || PRINTS.load(Ordering::Relaxed) {
+        "before the answer was complete"
+    } else {
+        "nothing was written"
     };
     eprintln!("stopped: {written}");
     process::exit(i32::from(INTERRUPTED));

@@ -34,10 +34,7 @@ impl Wording {
     }
 
     fn names<'a>(&'a self, question: &'a Question) -> &'a [String] {
-        match self.mode_names.is_empty() {
-            true => &question.file.mode_names,
-            false => &self.mode_names,
-        }
+        if self.mode_names.is_empty() { &question.file.mode_names } else { &self.mode_names }
     }
 
     /// Refuses more names than there are modes. Fewer are enough: modes without a name keep their number.

@@ -60,10 +60,7 @@ impl<'a, T> Rows<'a, T> {
             File::Csv(_) => self.waiting.len() >= CSV_BLOCK || self.written.elapsed() >= PATIENCE,
             File::Parquet(_) => self.waiting.len() >= PARQUET_BLOCK,
         };
-        match full {
-            true => self.write(),
-            false => Ok(()),
-        }
+        if full { self.write() } else { Ok(()) }
     }
 
     /// Writes the remaining rows and moves the file into place. Without rows, a file has only headings.

@@ -136,16 +136,10 @@ impl Orders {
     /// speeds, an order is a multiple of their amount: it has the line of the negative order too.
     pub(crate) fn along(&self, range: Option<&Range>, question: &Question) -> Result<Vec<f64>, Failure> {
         let Some(range) = range else {
-            return match self.orders.is_empty() {
-                true => Ok(Vec::new()),
-                false => Err(unswept("--order")),
-            };
+            return if self.orders.is_empty() { Ok(Vec::new()) } else { Err(unswept("--order")) };
         };
         let file = question.file.orders.as_deref().unwrap_or_default();
-        let given = match self.orders.is_empty() {
-            true => file,
-            false => &self.orders,
-        };
+        let given = if self.orders.is_empty() { file } else { &self.orders };
         let mut orders = Vec::new();
         let along = eigentol::sweep::Range::new(range.input.any(), range.low, range.high);
         for &order in given {

@@ -15,27 +15,18 @@ pub(crate) fn number(value: f64) -> String {
         return format!("{value:.4e}");
     }
     let text = format!("{value:.*}", places.max(0) as usize);
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// A value in its unit; unchanged if the unit's scale is zero.
 pub(crate) fn in_unit(value: f64, unit: &Unit) -> f64 {
-    match unit.scale == 0.0 {
-        true => value,
-        false => unit.from_si(value),
-    }
+    if unit.scale == 0.0 { value } else { unit.from_si(value) }
 }
 
 /// `3000 rpm`.
 pub(crate) fn with_unit(value: f64, unit: &Unit) -> String {
     let value = number(in_unit(value, unit));
-    match unit.symbol.is_empty() {
-        true => value,
-        false => format!("{value} {}", unit.symbol),
-    }
+    if unit.symbol.is_empty() { value } else { format!("{value} {}", unit.symbol) }
 }
 
 /// `Rotor at speed = 3000 rpm, load = 2 N`, without the input that varies.
@@ -45,10 +36,7 @@ pub(crate) fn operating_point(d: &Description, inputs: &[f64], varied: Option<In
     let fixed = each.filter(|(k, _)| Some(*k) != varied);
     let values = fixed.map(|(_, (info, &value))| format!("{} = {}", info.name, with_unit(value, &info.unit)));
     let values: Vec<String> = values.collect();
-    match values.is_empty() {
-        true => d.name.to_string(),
-        false => format!("{} at {}", d.name, values.join(", ")),
-    }
+    if values.is_empty() { d.name.to_string() } else { format!("{} at {}", d.name, values.join(", ")) }
 }
 
 /// `m = 3 kg, l = 1 m +/- 0.03 m`; empty without design variables.

@@ -184,10 +184,7 @@ impl Style {
     pub(crate) fn marks(&self) -> impl Iterator<Item = crate::figure::Mark> {
         let finite = self.marks.iter().filter(|(at, _)| at.is_finite());
         finite.map(|(at, label)| crate::figure::Mark {
-            label: match label.is_empty() {
-                true => number(*at),
-                false => label.clone(),
-            },
+            label: if label.is_empty() { number(*at) } else { label.clone() },
             at: *at,
         })
     }

@@ -253,10 +253,7 @@ impl Kernels for Interpreted {
             let poses =
                 poses.map(|(margin, (joint, least))| PoseMargin { joint: joint.clone(), margin, least: *least });
             let beyond = |pose_margin: &PoseMargin<f64>| pose_margin.margin - pose_margin.least;
-            poses.reduce(|least, other| match beyond(&other) < beyond(&least) {
-                true => other,
-                false => least,
-            })
+            poses.reduce(|least, other| if beyond(&other) < beyond(&least) { other } else { least })
         };
         scalar(tape, &[q, u, b], least)
     }

@@ -111,9 +111,10 @@ impl Interpreted {
     pub fn refined(text: &str, more: usize) -> Result<Self, RefineError> {
         let tokens = tokens(text)?;
         let compilation = compile_refined(tokens, Limits::default(), more).map_err(Mistakes::from)?;
-        match compilation.mechanism.beams.is_empty() {
-            true => Err(RefineError::NoBeam { mechanism: compilation.mechanism.name.to_string() }),
-            false => Ok(Self::new(&compilation)),
+        if compilation.mechanism.beams.is_empty() {
+            Err(RefineError::NoBeam { mechanism: compilation.mechanism.name.to_string() })
+        } else {
+            Ok(Self::new(&compilation))
         }
     }
 

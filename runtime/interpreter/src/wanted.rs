@@ -88,12 +88,12 @@ pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement
         return no(text, "a requirement");
     };
     let response = response(study, what)?;
-    if let (Response::Peak { vibration, range, quantity: PeakQuantity::Height }, "<=" | "<") = (response, word) {
-        if names(limit, study.description().inputs[range.input.index()].name.as_ref()) {
-            let vibration = along_limit(study, vibration, range, limit)?;
-            let response = Response::Peak { vibration, range, quantity: PeakQuantity::Height };
-            return Ok(Requirement::at_most(response, 1.0));
-        }
+    if let (Response::Peak { vibration, range, quantity: PeakQuantity::Height }, "<=" | "<") = (response, word)
+        && names(limit, &study.description().inputs[range.input.index()].name)
+    {
+        let vibration = along_limit(study, vibration, range, limit)?;
+        let response = Response::Peak { vibration, range, quantity: PeakQuantity::Height };
+        return Ok(Requirement::at_most(response, 1.0));
     }
     let (response, limit) = rms_of_all(response, limit);
     let unit = response.unit(study.description());
@@ -369,9 +369,10 @@ pub fn excitation(study: &Study<Interpreted>, under: Option<&str>) -> Result<Exc
             let named = under.split(',').map(|name| study.find_excitation(name.trim()));
             let named: Vec<_> = named.collect::<core::result::Result<_, _>>()?;
             let with = |excitation: &Excitation<Interpreted>| all[excitation.index()].with;
-            match named.iter().all(|other| with(other) == with(&named[0])) {
-                true => Ok(named[0].any()),
-                false => wrong(format!("`{under}` act with different frequencies"), "name one of them"),
+            if named.iter().all(|other| with(other) == with(&named[0])) {
+                Ok(named[0].any())
+            } else {
+                wrong(format!("`{under}` act with different frequencies"), "name one of them")
             }
         }
         None if all.is_empty() => {

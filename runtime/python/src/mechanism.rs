@@ -129,10 +129,7 @@ impl Mechanism {
 
     fn __repr__(&self, py: Python<'_>) -> String {
         let of = self.inner.description();
-        let listed = |names: Vec<&str>| match names.is_empty() {
-            true => "none".to_owned(),
-            false => names.join(", "),
-        };
+        let listed = |names: Vec<&str>| if names.is_empty() { "none".to_owned() } else { names.join(", ") };
         format!(
             "Mechanism {}\n  coordinates: {}\n  reactions: {}\n  inputs: {}\n  design: {}\n  outputs: {}\n  excitations: {}",
             of.name,

@@ -45,9 +45,10 @@ impl Study {
                 modes.foremost(DRAWN).into_iter().filter_map(|mode| self.inner.mode_pictures(mode, 4, SMALL).ok());
             let moving: Vec<_> = moving.collect();
             let style = Style::default();
-            Ok(match scene.beams.is_empty() {
-                true => mode_shapes(&modes, &style),
-                false => deflections(&scene, &modes, &moving, &style),
+            Ok(if scene.beams.is_empty() {
+                mode_shapes(&modes, &style)
+            } else {
+                deflections(&scene, &modes, &moving, &style)
             })
         });
         figures::plot(py, Some(drawn.map_err(|error| raise(py, error))?), ax)

@@ -160,10 +160,7 @@ fn real(given: &Bound<'_, PyAny>, name: &str) -> PyResult<f64> {
 }
 
 pub(crate) fn whole<'py, T: FromPyObjectOwned<'py>>(given: &Bound<'py, PyAny>, name: &str) -> PyResult<T> {
-    let extracted = match given.is_instance_of::<PyBool>() {
-        true => None,
-        false => given.extract().ok(),
-    };
+    let extracted = if given.is_instance_of::<PyBool>() { None } else { given.extract().ok() };
     extracted.ok_or_else(|| PyTypeError::new_err(format!("`{name}`: a whole number that is not negative is needed")))
 }
 

@@ -78,10 +78,7 @@ impl Study {
                 | Error::NoEquilibrium { .. }
                 | Error::NotAssembled { .. }
         );
-        let names = match by_values {
-            true => settings::unset_inputs(&self.inner, self.settings.bind(py)),
-            false => Vec::new(),
-        };
+        let names = if by_values { settings::unset_inputs(&self.inner, self.settings.bind(py)) } else { Vec::new() };
         let note = match &names[..] {
             [] => return raise(py, error),
             [name] => format!("the input `{name}` was given no value and counts as 0"),

@@ -98,10 +98,7 @@ impl Content {
             None => None,
         };
         let swept = swept.as_ref().map(|(input, values)| (*input, &values[..]));
-        let forced = match description.excitations.is_empty() {
-            true => None,
-            false => Some(Forced::of(study, swept, varies)?),
-        };
+        let forced = if description.excitations.is_empty() { None } else { Some(Forced::of(study, swept, varies)?) };
         let along = swept.map(|along| Along::of(study, along, &report.orders));
         Ok(Self {
             title: (report.title.clone()).unwrap_or_else(|| description.name.to_string()),

@@ -48,15 +48,14 @@ impl Forced {
                 (Some(&first), Some(&last)) if first != last => peaks(study, &wanted, input, (first, last)),
                 _ => Vec::new(),
             };
-            let bode = match varies {
-                true => study.bode_bands(input, values, &wanted, CHECKED),
-                false => study.bode(input, values),
-            };
+            let bode =
+                if varies { study.bode_bands(input, values, &wanted, CHECKED) } else { study.bode(input, values) };
             let known = peaks.iter().take(DRAWN).filter_map(|(_, peaks)| peaks.as_ref().ok());
             let between: Vec<f64> = known.flat_map(Peaks::bends).collect();
-            let bode = match between.is_empty() {
-                true => bode,
-                false => bode.and_then(|bode| Ok(bode.with_between(study.bode(input, &between)?))),
+            let bode = if between.is_empty() {
+                bode
+            } else {
+                bode.and_then(|bode| Ok(bode.with_between(study.bode(input, &between)?)))
             };
             ForcedAlong { bode, peaks }
         });

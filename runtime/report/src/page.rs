@@ -86,10 +86,7 @@ fn header(html: &mut Html, content: &Content) {
     html.element("header", &[], |html| {
         html.leaf("h1", &[], &content.title);
         let point = operating_point(d, &content.setup.inputs);
-        let name = match point.is_empty() {
-            true => d.name.to_string(),
-            false => format!("{} at {point}", d.name),
-        };
+        let name = if point.is_empty() { d.name.to_string() } else { format!("{} at {point}", d.name) };
         html.leaf("p", &[("class", "subject")], &name);
         html.constant(
             "<noscript><p class=\"refused\">Charts, the view in 3-D and the copy buttons need JavaScript. Words and tables are here without it.</p></noscript>",

@@ -62,10 +62,7 @@ fn left_out(rows: usize, columns: usize) -> String {
         _ => Some(format!("{count} more {what}s")),
     };
     let more: Vec<String> = [count(rows, "row"), count(columns, "column")].into_iter().flatten().collect();
-    match more.is_empty() {
-        true => " with all digits".to_owned(),
-        false => format!(" with all digits, {}", more.join(" and ")),
-    }
+    if more.is_empty() { " with all digits".to_owned() } else { format!(" with all digits, {}", more.join(" and ")) }
 }
 
 fn head(html: &mut Html, columns: &[&Column]) {
@@ -82,10 +79,9 @@ fn head(html: &mut Html, columns: &[&Column]) {
 /// Writes a cell; a number within rounding error relative to `largest` is shown as zero.
 fn cell(html: &mut Html, values: &Values, row: usize, largest: f64) {
     let text = match values {
-        Values::Numbers(all) => all[row].map(|item| match is_rounding(item, largest) {
-            true => number(0.0),
-            false => number(item),
-        }),
+        Values::Numbers(all) => {
+            all[row].map(|item| if is_rounding(item, largest) { number(0.0) } else { number(item) })
+        }
         Values::Whole(all) => all[row].map(|x| x.to_string()),
         Values::Texts(all) => all[row].clone(),
         Values::Flags(all) => all[row].map(|x| if x { "yes" } else { "no" }.to_owned()),

@@ -48,10 +48,7 @@ fn trimmed(text: &str) -> String {
 /// A value with its unit: `3000 rpm`.
 pub(crate) fn with_unit(value: f64, unit: &Unit) -> String {
     let number = number(unit.from_si(value));
-    match unit.symbol.is_empty() {
-        true => number,
-        false => format!("{number} {}", unit.symbol),
-    }
+    if unit.symbol.is_empty() { number } else { format!("{number} {}", unit.symbol) }
 }
 
 /// `speed = 3000 rpm, load = 2 N`; empty without inputs.

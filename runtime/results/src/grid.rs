@@ -115,9 +115,10 @@ impl fmt::Display for Grid {
                     for (column, lines) in &cells {
                         let (text, width) = (lines.get(k).map_or("", String::as_str), widths[*column]);
                         line.push_str("  ");
-                        line.push_str(&match words[*column] {
-                            true => format!("{text:<width$}"),
-                            false => format!("{text:>width$}"),
+                        line.push_str(&if words[*column] {
+                            format!("{text:<width$}")
+                        } else {
+                            format!("{text:>width$}")
                         });
                     }
                     writeln!(f, "{}", line.trim_end())?;

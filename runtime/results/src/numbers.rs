@@ -27,10 +27,7 @@ pub fn given(value: f64) -> String {
 }
 
 fn without_zeros(text: &str) -> &str {
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.'),
-        false => text,
-    }
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 
 fn digits(value: f64, count: usize) -> String {
@@ -119,10 +116,7 @@ pub fn frequency_in(omega: f64, unit: &Unit, form: fn(f64) -> String) -> String 
 
 /// A number with its unit, if it has one: `3000 rpm`.
 pub fn with_unit(number: String, unit: &Unit) -> String {
-    match unit.symbol.is_empty() {
-        true => number,
-        false => format!("{number} {}", unit.symbol),
-    }
+    if unit.symbol.is_empty() { number } else { format!("{number} {}", unit.symbol) }
 }
 
 /// A user-chosen value as the user wrote it: 3000 rpm, not 3000.0000000000005. Rounded to 15 digits if these give the

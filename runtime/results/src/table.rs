@@ -65,10 +65,7 @@ impl Column {
     /// The heading: `name [unit]`, or the name alone if there is no unit.
     #[must_use]
     pub fn heading(&self) -> String {
-        match self.unit.is_empty() {
-            true => self.name.clone(),
-            false => format!("{} [{}]", self.name, self.unit),
-        }
+        if self.unit.is_empty() { self.name.clone() } else { format!("{} [{}]", self.name, self.unit) }
     }
 }
 

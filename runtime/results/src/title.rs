@@ -21,8 +21,5 @@ fn named(d: &Description, inputs: &[f64], varied: Option<usize>) -> String {
         format!("{} = {value}", info.name)
     });
     let values: Vec<String> = values.collect();
-    match values.is_empty() {
-        true => d.name.to_string(),
-        false => format!("{} at {}", d.name, values.join(", ")),
-    }
+    if values.is_empty() { d.name.to_string() } else { format!("{} at {}", d.name, values.join(", ")) }
 }

@@ -77,12 +77,11 @@ impl<M: Kernels> Study<M> {
         M: CurvatureKernels,
     {
         let vibrations = Vibration::all(self.description());
-        match vibrations.is_empty() {
-            true => Ok(Vec::new()),
-            false => {
-                let input = Input::new(range.input.index());
-                self.peaks_of(&vibrations, input, range.low, range.high)
-            }
+        if vibrations.is_empty() {
+            Ok(Vec::new())
+        } else {
+            let input = Input::new(range.input.index());
+            self.peaks_of(&vibrations, input, range.low, range.high)
         }
     }
 

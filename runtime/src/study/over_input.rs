@@ -312,10 +312,7 @@ pub(super) fn first_of(values: &[f64]) -> f64 {
 /// Reports progress after one more value, and checks whether to stop.
 fn go_on(wanted: ControlFlow<()>, watch: Watch<'_>) -> ControlFlow<()> {
     watch.advance(1);
-    match watch.stopped() {
-        true => ControlFlow::Break(()),
-        false => wanted,
-    }
+    if watch.stopped() { ControlFlow::Break(()) } else { wanted }
 }
 
 /// First-order spread at one input value, or the error there.

@@ -292,10 +292,7 @@ impl Settings {
     pub(super) fn held_in(&self, search: Option<&Search>, start: &[f64]) -> Option<Search> {
         let search = search.cloned();
         let search = search.or_else(|| (!self.holds.is_empty()).then(|| Search::new(start, start).starts(0)))?;
-        Some(match search.held.is_empty() {
-            true => search.held(self.holds.clone()),
-            false => search,
-        })
+        Some(if search.held.is_empty() { search.held(self.holds.clone()) } else { search })
     }
 
     /// The equilibrium at this value of an input that is to be kept along it: a start value that is given keeps an

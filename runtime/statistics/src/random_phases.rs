@@ -107,10 +107,7 @@ impl RandomPhases {
         }
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
-            match self.probability_below(middle) < probability {
-                true => low = middle,
-                false => high = middle,
-            }
+            if self.probability_below(middle) < probability { low = middle } else { high = middle }
         }
         Ok(0.5 * (low + high))
     }

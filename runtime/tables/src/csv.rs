@@ -157,10 +157,7 @@ fn cell(values: &Values, row: usize) -> String {
 /// Converts the cells to values of one kind.
 fn values(cells: Vec<String>) -> Values {
     fn all<T>(cells: &[String], read: impl Fn(&str) -> Option<T>) -> Option<Vec<Option<T>>> {
-        let one = |cell: &String| match cell.is_empty() {
-            true => Some(None),
-            false => read(cell).map(Some),
-        };
+        let one = |cell: &String| if cell.is_empty() { Some(None) } else { read(cell).map(Some) };
         cells.iter().map(one).collect()
     }
     let finite = |cell: &str| cell.parse().ok().filter(|value: &f64| value.is_finite());

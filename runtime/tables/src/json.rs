@@ -271,10 +271,7 @@ fn reading(error: serde_json::Error) -> Error {
     if error.is_io() {
         return Error::Read(error.into());
     }
-    let reason = match error.is_eof() {
-        true => "the file is cut off".to_owned(),
-        false => error.to_string(),
-    };
+    let reason = if error.is_eof() { "the file is cut off".to_owned() } else { error.to_string() };
     Error::Malformed { line: error.line() as u64, reason }
 }
 

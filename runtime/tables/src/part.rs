@@ -34,9 +34,10 @@ pub fn to_string(part: &impl Serialize) -> Result<String, Error> {
 /// [`Error::Content`] if the text is cut off, is none of a part, or has changed since it was written.
 pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
     let refused = |error: serde_json::Error| {
-        Error::Content(match error.is_eof() {
-            true => "the file is cut off".to_owned(),
-            false => format!("this is not a partial result: {error}"),
+        Error::Content(if error.is_eof() {
+            "the file is cut off".to_owned()
+        } else {
+            format!("this is not a partial result: {error}")
         })
     };
     let document: Document<'_> = serde_json::from_str(text).map_err(refused)?;

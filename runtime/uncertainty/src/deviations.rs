@@ -107,9 +107,12 @@ impl<'a> Deviations<'a> {
     pub(crate) fn by_half_width(&self, z: &[f64]) -> Vector {
         let design = self.unscaled(z);
         let all = self.tolerances.half_widths().iter().enumerate();
-        all.map(|(k, half_width)| match *half_width > 0.0 {
-            true => (design[k] - self.mean(k)) / half_width,
-            false => self.own_normal(k, z) / self.tolerances.sigma_level(),
+        all.map(|(k, half_width)| {
+            if *half_width > 0.0 {
+                (design[k] - self.mean(k)) / half_width
+            } else {
+                self.own_normal(k, z) / self.tolerances.sigma_level()
+            }
         })
         .collect()
     }

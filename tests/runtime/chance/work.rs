@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use eigentol::clusters::clusters;
 use eigentol::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Curvature, CurvatureKernels,
-    Directional, DirectionalKernels, Kernel, Kernels, PartialMatrices, Second, Sizes, SummaryKernels,
+    BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Curvature, CurvatureKernels, Directional,
+    DirectionalKernels, Kernel, Kernels, PartialMatrices, Second, Sizes, SummaryKernels,
 };
 use eigentol::scalar::{Batch, Instructions};
 use eigentol::second_order::second_order;

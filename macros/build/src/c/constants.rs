@@ -53,10 +53,7 @@ fn one(symbol: &str) -> String {
 /// The declared unit, with its SI value if it is not an SI unit.
 fn si(unit: &Unit) -> String {
     let symbol = one(&unit.symbol);
-    match unit.scale == 1.0 {
-        true => symbol,
-        false => format!("SI; one {symbol} is {:?}", unit.scale),
-    }
+    if unit.scale == 1.0 { symbol } else { format!("SI; one {symbol} is {:?}", unit.scale) }
 }
 
 struct Constants<'a> {

@@ -148,10 +148,7 @@ impl<'a> Body<'a> {
                 }
             };
             let sign = matches!(instruction.operation, Operation::Unary(Unary::Negate, _));
-            let least = match self.places[index].is_empty() {
-                true => operations < INLINE,
-                false => true,
-            };
+            let least = if self.places[index].is_empty() { operations < INLINE } else { true };
             let inline = sign || (uses[index] == 1 && instruction.name.is_none() && least);
             if inline {
                 size[index] = operations + usize::from(!sign);

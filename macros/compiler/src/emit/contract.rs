@@ -70,9 +70,10 @@ pub(super) fn method(kernel: &Kernel, form: Form) -> String {
 fn run(kernel: &Kernel, body: &str) -> String {
     let count = kernel.instructions.len();
     let chosen = is_one_of(kernel, &CHOSEN) || count >= LONG;
-    match chosen && count > 0 {
-        true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
-        false => format!("{{\n{body}\n}}\n"),
+    if chosen && count > 0 {
+        format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n")
+    } else {
+        format!("{{\n{body}\n}}\n")
     }
 }
 

@@ -17,10 +17,7 @@ pub(super) fn signature(kernel: &Kernel, returned: &str, bound: &str) -> String 
 pub(super) fn head(kernel: &Kernel, name: &str, last: &str, returned: &str, bound: &str) -> String {
     let mut parameters = String::new();
     for parameter in &kernel.parameters {
-        let kind = match parameter.scalar {
-            true => "T".to_owned(),
-            false => format!("&[T; {}]", parameter.entries.len()),
-        };
+        let kind = if parameter.scalar { "T".to_owned() } else { format!("&[T; {}]", parameter.entries.len()) };
         let _ = write!(parameters, ", {}: {kind}", local(parameter.name));
     }
     if !last.is_empty() {

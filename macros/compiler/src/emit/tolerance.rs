@@ -42,14 +42,12 @@ pub(super) fn doc(tolerance: &Tolerance, unit: &str, scale: f64) -> String {
     if !tolerance.varies() {
         return String::new();
     }
-    let (unit, scale) = match tolerance.relative {
-        true => ("%", 0.01),
-        false => (unit, scale),
-    };
+    let (unit, scale) = if tolerance.relative { ("%", 0.01) } else { (unit, scale) };
     let [lower, upper] = [tolerance.lower, tolerance.upper].map(|limit| rounded(limit / scale));
-    let mut text = match tolerance.is_symmetric() {
-        true => format!(", tolerance {upper} {unit} either way"),
-        false => format!(", tolerance {upper:+} {lower:+} {unit}"),
+    let mut text = if tolerance.is_symmetric() {
+        format!(", tolerance {upper} {unit} either way")
+    } else {
+        format!(", tolerance {upper:+} {lower:+} {unit}")
     };
     if tolerance.law != Law::Normal {
         text += &format!(", {}", tolerance.law);

@@ -173,9 +173,10 @@ fn unknowns(context: &Context) -> Vec<Unknown> {
         let coordinate = &mechanism.coordinates[id.index()];
         Unknown {
             name: coordinate.name.to_string(),
-            unit: match mechanism.strains(id) {
-                true => "1".to_owned(),
-                false => format!("{}{per_second}", coordinate.quantity.unit()),
+            unit: if mechanism.strains(id) {
+                "1".to_owned()
+            } else {
+                format!("{}{per_second}", coordinate.quantity.unit())
             },
             role: role(id),
         }
@@ -185,10 +186,7 @@ fn unknowns(context: &Context) -> Vec<Unknown> {
     let reactions = context.rows.iter().map(|row| Unknown {
         name: row.label.clone(),
         unit: row.unit.clone(),
-        role: match row.of_velocities {
-            false => Role::PositionReaction,
-            true => Role::VelocityReaction,
-        },
+        role: if row.of_velocities { Role::VelocityReaction } else { Role::PositionReaction },
     });
     free.chain(coasting).chain(reactions).collect()
 }

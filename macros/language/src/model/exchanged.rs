@@ -63,10 +63,7 @@ fn contradiction(values: &Values<'_>, beam: &Beam) -> Option<String> {
         evidence.into_iter().find_map(|(ratio, y, z)| {
             let ratio = ratio?;
             let is_clear = stiffness.abs() > ALIKE && ratio.abs() > ALIKE;
-            let (stiffer, larger, smaller) = match ratio > 0.0 {
-                true => ('z', y, z),
-                false => ('y', z, y),
-            };
+            let (stiffer, larger, smaller) = if ratio > 0.0 { ('z', y, z) } else { ('y', z, y) };
             (is_clear && stiffness * ratio < 0.0)
                 .then(|| format!("is stiffer about {stiffer}, although {larger} is greater than {smaller}"))
         })

@@ -120,10 +120,7 @@ impl Mechanism {
     /// The unit of frequencies in answers: Hz where an input turns something by the minute or the second, else rad/s.
     pub fn frequency_unit(&self) -> Unit {
         let turns = |input: &Input| matches!(input.unit.symbol.as_str(), "rpm" | "rps" | "Hz");
-        match self.inputs.iter().any(turns) {
-            true => Unit { symbol: "Hz".to_owned(), scale: TAU },
-            false => Unit::one("rad/s"),
-        }
+        if self.inputs.iter().any(turns) { Unit { symbol: "Hz".to_owned(), scale: TAU } } else { Unit::one("rad/s") }
     }
 
     /// Inputs and design variables that nothing refers to.

@@ -19,9 +19,6 @@ impl Unit {
 
     /// The SI unit of a dimension.
     pub fn si(dimension: Dimension) -> Self {
-        match dimension.is_none() {
-            true => Self::one(""),
-            false => Self::one(&dimension.si_symbol()),
-        }
+        if dimension.is_none() { Self::one("") } else { Self::one(&dimension.si_symbol()) }
     }
 }

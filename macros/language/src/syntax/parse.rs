@@ -61,10 +61,7 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
         tokens.skip();
     }
     if tokens.word("mechanism").is_none() {
-        let help = match tokens.peek_word("use") {
-            true => ALONE,
-            false => "declare it as `pub mechanism Pendulum { ... }`",
-        };
+        let help = if tokens.peek_word("use") { ALONE } else { "declare it as `pub mechanism Pendulum { ... }`" };
         let expected = tokens.expected::<Ast>("`mechanism NAME { ... }`");
         return expected.map_err(|diagnostic| Box::new(diagnostic.with_help(help)));
     }

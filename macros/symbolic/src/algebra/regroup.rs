@@ -47,8 +47,5 @@ pub fn regroup(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
     let before = size(graph, roots);
     let smaller = size(graph, &shared) < before;
     taken(|| format!("regroup: smaller {smaller}"));
-    match smaller {
-        true => shared,
-        false => roots.to_vec(),
-    }
+    if smaller { shared } else { roots.to_vec() }
 }

@@ -274,9 +274,10 @@ impl<'a> Curve<'a> {
     /// The free directions at a point of the branch, and what holds it.
     fn free_at(&self, at: &CurvePosition, stiffness: &Matrix) -> FreeDirections {
         let count = self.description.free_directions;
-        match self.place.held.is_empty() {
-            true => FreeDirections::of(stiffness, count),
-            false => FreeDirections::of_member(stiffness, count, self.held_at(at)),
+        if self.place.held.is_empty() {
+            FreeDirections::of(stiffness, count)
+        } else {
+            FreeDirections::of_member(stiffness, count, self.held_at(at))
         }
     }
 

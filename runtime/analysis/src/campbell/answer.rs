@@ -176,10 +176,7 @@ impl Motion<'_> {
             }
         }
         let words: Vec<String> = said.iter().map(Character::to_string).collect();
-        match words.is_empty() {
-            true => "-".to_owned(),
-            false => words.join(", then "),
-        }
+        if words.is_empty() { "-".to_owned() } else { words.join(", then ") }
     }
 
     /// Its behaviours in order, each once.

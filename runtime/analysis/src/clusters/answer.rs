@@ -110,9 +110,10 @@ impl ClusterTolerance {
                 return Findings::titled(format!("{title}: {modes} form a cluster: {error}"));
             }
         };
-        let are = match self.equal {
-            true => "are equal in every design".to_owned(),
-            false => format!("form a cluster, {} standard deviations apart", short(self.distance)),
+        let are = if self.equal {
+            "are equal in every design".to_owned()
+        } else {
+            format!("form a cluster, {} standard deviations apart", short(self.distance))
         };
         let samples = spread.samples;
         let mut said = Findings::titled(format!("{title}: {modes} {are}; {samples} samples"));

@@ -112,8 +112,9 @@ fn less_than(change: f64) -> String {
 
 /// A large change.
 fn share(change: f64) -> String {
-    match change.is_finite() {
-        true => format!("{} %", short(100.0 * change)),
-        false => "so much that it no longer exists".to_owned(),
+    if change.is_finite() {
+        format!("{} %", short(100.0 * change))
+    } else {
+        "so much that it no longer exists".to_owned()
     }
 }

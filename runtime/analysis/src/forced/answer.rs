@@ -39,9 +39,10 @@ impl Answer for ForcedResponse {
         let excitation = |row: &_| Some(d.excitations.get(share(row)?.excitation)?.name.to_string());
         table.words("excitation", &excitation).shown();
         of_output(&mut table, d, &|row| row.0.output, &|row| share(row)?.outputs.get(row.0.output).copied().flatten());
-        match self.harmonics.iter().any(|harmonic| harmonic.shares.len() > 1) {
-            true => said.columns(table),
-            false => said.data(table.finish().0),
+        if self.harmonics.iter().any(|harmonic| harmonic.shares.len() > 1) {
+            said.columns(table)
+        } else {
+            said.data(table.finish().0)
         }
         self.unknowns(&mut said);
         self.together(&mut said);

@@ -144,9 +144,10 @@ const NONE: i32 = i32::MIN / 2;
 fn twice_log2(value: f64) -> i32 {
     const DIGITS: u64 = (1 << 52) - 1;
     let bits = value.to_bits();
-    match value > 0.0 && value.is_finite() {
-        true => 2 * ((bits >> 52) as i32 - 1023) + i32::from(bits & DIGITS != 0),
-        false => NONE,
+    if value > 0.0 && value.is_finite() {
+        2 * ((bits >> 52) as i32 - 1023) + i32::from(bits & DIGITS != 0)
+    } else {
+        NONE
     }
 }
 
@@ -156,10 +157,7 @@ fn scales(n: usize, logarithms: &[i32]) -> (Vector, Vector) {
     let (mut rows, mut columns) = (vec![0; n], vec![0; n]);
     let mut by_column = vec![NONE; n];
     // Half of the logarithm, rounded.
-    let root = |most: i32| match most > NONE / 2 {
-        true => (most + 2 * most.signum()) / 4 * 2,
-        false => 0,
-    };
+    let root = |most: i32| if most > NONE / 2 { (most + 2 * most.signum()) / 4 * 2 } else { 0 };
     for _ in 0..ROUNDS {
         let mut changed = false;
         by_column.fill(NONE);

@@ -188,14 +188,15 @@ impl<'a> Lines<'a> {
             (scale * size, share)
         });
         let amplitude = [measure.of(w, y), measure.slope((w, y), dw, dy)];
-        match amplitude.iter().all(|value| value.is_finite()) && dw.is_finite() {
-            true => Ok(Term {
+        if amplitude.iter().all(|value| value.is_finite()) && dw.is_finite() {
+            Ok(Term {
                 terms: scale * terms(&at.linear, w, &output_adjoint.factors.left, &harmonic.unknowns),
                 residues: residues.collect(),
                 frequency: [w, dw],
                 amplitude,
-            }),
-            false => Err(self.solved.not_finite()),
+            })
+        } else {
+            Err(self.solved.not_finite())
         }
     }
 

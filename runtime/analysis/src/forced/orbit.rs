@@ -62,10 +62,7 @@ impl Orbit {
         if short <= ROUNDING * long {
             return None;
         }
-        Some(match self.forward.norm() > self.backward.norm() {
-            true => Turning::Forward,
-            false => Turning::Backward,
-        })
+        Some(if self.forward.norm() > self.backward.norm() { Turning::Forward } else { Turning::Backward })
     }
 }
 

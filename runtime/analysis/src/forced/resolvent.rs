@@ -205,10 +205,7 @@ impl Bordered {
             (false, true) => right[i - n][j].conj(),
             (false, false) => Complex::ZERO,
         });
-        let unit = Matrix::from_fn(n + k, n + k, |i, j| match i == j {
-            true => Complex::ONE,
-            false => Complex::ZERO,
-        });
+        let unit = Matrix::from_fn(n + k, n + k, |i, j| if i == j { Complex::ONE } else { Complex::ZERO });
         let inverse = Lu::of(matrix)?.solve_columns(&unit);
         Some(Self {
             g: Matrix::from_fn(n, n, |i, j| inverse[i][j]),

@@ -200,10 +200,8 @@ fn closes(at: &Equilibrium, forces: &Forces) -> Result<(), Error> {
         for (excitation, info) in at.description.excitations.iter().enumerate() {
             let s = Complex::new(0.0, forces.frequency(excitation));
             let gaps = forces.force(excitation, 1.0);
-            let opened = |i: usize| match structure.position_rows().contains(&i) {
-                true => s * n[i] * gaps[i],
-                false => n[i] * gaps[i],
-            };
+            let opened =
+                |i: usize| if structure.position_rows().contains(&i) { s * n[i] * gaps[i] } else { n[i] * gaps[i] };
             let takes_part = |i: &usize| n[*i].abs() > TAKES_PART * largest(&n);
             let rows = (structure.motions()..n.len()).filter(takes_part);
             let all: Complex = rows.clone().map(opened).sum();
@@ -228,10 +226,7 @@ fn shares(
     members: Vec<usize>,
     (stiffness, seen, smooth): (&DynamicStiffness, &Matrix<Complex>, &[bool]),
 ) -> Result<Vec<Share>, usize> {
-    let turn = |excitation: usize| match forces.frequency(excitation) < 0.0 {
-        true => -1.0,
-        false => 1.0,
-    };
+    let turn = |excitation: usize| if forces.frequency(excitation) < 0.0 { -1.0 } else { 1.0 };
     let each = members.iter().map(|&member| forces.force(member, turn(member)));
     let each: Vec<Vector<Complex>> = each.collect();
     if let Some(driven) = each.iter().position(|force| stiffness.driven_by(force)) {

@@ -176,9 +176,10 @@ impl Vibration {
             check_output(other, of)?;
         }
         let (index, count) = (self.excitation.index(), of.excitations.len());
-        match index < count {
-            true => Ok(()),
-            false => Err(Error::UnknownHandle { kind: "excitation", index, mechanism: of.name.clone(), count }),
+        if index < count {
+            Ok(())
+        } else {
+            Err(Error::UnknownHandle { kind: "excitation", index, mechanism: of.name.clone(), count })
         }
     }
 

@@ -199,10 +199,8 @@ impl Peaks {
                 None => given(value),
             });
             let name = name_of(d, input);
-            let place = match from == to {
-                true => format!("at {name} = {from}"),
-                false => format!("for {name} from {from} to {to}"),
-            };
+            let place =
+                if from == to { format!("at {name} = {from}") } else { format!("for {name} from {from} to {to}") };
             said.note(format!("No vibration {place}: {}.", gap.reason));
         }
     }

@@ -151,9 +151,10 @@ impl Moving {
     fn unless_rounding(self, doubt: f64, design: &[f64]) -> Self {
         let parts = self.by_design.iter().zip(design).map(|(slope, value)| slope * value);
         let change = parts.map(|x| x * x).sum::<f64>().sqrt();
-        match doubt * self.value.abs() <= KNOWN * change + STILL * self.value.abs() {
-            true => self,
-            false => Self { value: self.value, by_design: Vector::default(), spread: None },
+        if doubt * self.value.abs() <= KNOWN * change + STILL * self.value.abs() {
+            self
+        } else {
+            Self { value: self.value, by_design: Vector::default(), spread: None }
         }
     }
 }
@@ -295,10 +296,7 @@ impl Search<'_> {
             }
             let between = (newton - low) * (high - newton) > 0.0;
             newton_led = between && (newton - value).abs() <= 0.5 * last.abs();
-            let next = match newton_led {
-                true => newton,
-                false => 0.5 * (low + high),
-            };
+            let next = if newton_led { newton } else { 0.5 * (low + high) };
             (last, value, from) = (next - value, next, coordinates);
         }
         solve(value, &from).map(|found| found.0)

@@ -67,10 +67,7 @@ fn margin(peak: &Peak, [low, high]: [f64; 2]) -> SeparationMargin {
     };
     let required = peak.amplification.as_ref().map(|amplification| {
         let factor = amplification.value;
-        match factor < DAMPED {
-            true => 0.0,
-            false => extra + 0.17 * (1.0 - 1.0 / (factor - 1.5)),
-        }
+        if factor < DAMPED { 0.0 } else { extra + 0.17 * (1.0 - 1.0 / (factor - 1.5)) }
     });
     SeparationMargin { actual: location.scaled(slope, value), required }
 }

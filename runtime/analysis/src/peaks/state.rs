@@ -283,8 +283,5 @@ const QUIET: f64 = 1e-6;
 fn nearest(s: Complex, poles: &[Complex]) -> Complex {
     let mut poles = poles.iter().copied();
     let first = poles.next().unwrap_or(s);
-    poles.fold(first, |best, pole| match (pole - s).norm() < (best - s).norm() {
-        true => pole,
-        false => best,
-    })
+    poles.fold(first, |best, pole| if (pole - s).norm() < (best - s).norm() { pole } else { best })
 }

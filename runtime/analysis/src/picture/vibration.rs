@@ -77,10 +77,7 @@ fn over_a_period(
     }
     let structure = Structure::of(&mechanism.description());
     let shape: Vec<Complex> = (shape.iter().enumerate())
-        .map(|(k, &value)| match k < structure.coordinates {
-            true => value,
-            false => Complex::ZERO,
-        })
+        .map(|(k, &value)| if k < structure.coordinates { value } else { Complex::ZERO })
         .collect();
     let motion = Motion { mechanism, at, closes: structure.position_constraints > 0 };
     let factor = motion.factor(&shape, amplitude)?;
@@ -104,10 +101,7 @@ impl Motion<'_> {
         let Equilibrium { coordinates, inputs, design, .. } = self.at;
         let moved = coordinates.iter().zip(shape);
         let moved: Vec<f64> = moved.map(|(q, phi)| q + (factor * phi).re).collect();
-        let closed = match self.closes {
-            true => assemble(self.mechanism, inputs, design, &moved, &[]).ok(),
-            false => None,
-        };
+        let closed = if self.closes { assemble(self.mechanism, inputs, design, &moved, &[]).ok() } else { None };
         let q = closed.as_ref().map_or(&*moved, |state| &*state.coordinates);
         poses(self.mechanism, q, inputs, design)
     }
@@ -142,10 +136,7 @@ impl Motion<'_> {
         let turn = (0..scene.poses())
             .map(|pose| semi_major([&first, &second].map(|[a, b]| turned(&a[pose], &b[pose]))))
             .fold(0.0, f64::max);
-        let by_turn = match turn > 0.0 {
-            true => MOST_TURN / turn,
-            false => f64::INFINITY,
-        };
+        let by_turn = if turn > 0.0 { MOST_TURN / turn } else { f64::INFINITY };
         Ok(step * (share * size / travel).min(by_turn))
     }
 }

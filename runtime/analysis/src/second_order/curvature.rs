@@ -93,9 +93,12 @@ pub(super) fn mode_curvatures(
 ) -> Vec<Result<ModeCurvature, Error>> {
     let mut pending: Vec<Result<PendingMode<'_>, Error>> = positions
         .clone()
-        .map(|mode| match is_free(modes, mode) {
-            true => Err(Error::NotOscillating { mode, lambda: 0.0 }),
-            false => PendingMode::new(mechanism, at, modes, mode),
+        .map(|mode| {
+            if is_free(modes, mode) {
+                Err(Error::NotOscillating { mode, lambda: 0.0 })
+            } else {
+                PendingMode::new(mechanism, at, modes, mode)
+            }
         })
         .collect();
     if pending.iter().any(Result::is_ok) {
@@ -129,9 +132,8 @@ pub(super) fn mode_curvatures(
         }
     }
     let each = pending.into_iter().zip(positions);
-    each.map(|(item, position)| match is_free(modes, position) {
-        true => Ok(ModeCurvature::of_free(at, position)),
-        false => item?.curvature(at, modes),
+    each.map(|(item, position)| {
+        if is_free(modes, position) { Ok(ModeCurvature::of_free(at, position)) } else { item?.curvature(at, modes) }
     })
     .collect()
 }

@@ -29,9 +29,10 @@ impl Equilibria {
         if interrupt::stopped() {
             return Ok(Verdict::Stopped(format!("after {} starts", states.starts)));
         }
-        Ok(match states.iter().any(|state| state.stability.holds()) {
-            true => Verdict::Yes,
-            false => Verdict::No("no stable equilibrium was found".to_owned()),
+        Ok(if states.iter().any(|state| state.stability.holds()) {
+            Verdict::Yes
+        } else {
+            Verdict::No("no stable equilibrium was found".to_owned())
         })
     }
 }

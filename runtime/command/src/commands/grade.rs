@@ -180,10 +180,7 @@ impl Rotor {
         let mut all: Vec<Highest> = stable.map(top).collect();
         for place in [range.low, range.high] {
             let end = study.clone().input(Input::new(range.input.index()), place);
-            match end.modes()?.stable() {
-                true => all.extend(at(&end, Some(place))?),
-                false => all_stable = false,
-            }
+            if end.modes()?.stable() { all.extend(at(&end, Some(place))?) } else { all_stable = false }
         }
         Ok((all.into_iter().max_by(|a, b| a.spread.mean.total_cmp(&b.spread.mean)), all_stable))
     }

@@ -47,9 +47,12 @@ impl Modes {
             let scene = study.picture()?;
             let moving = modes.foremost(DRAWN).into_iter().filter_map(|mode| study.mode_pictures(mode, 4, SMALL).ok());
             let moving: Vec<_> = moving.collect();
-            self.picture.draw(|| match scene.beams.is_empty() {
-                true => mode_shapes(&modes, &style),
-                false => deflections(&scene, &modes, &moving, &style),
+            self.picture.draw(|| {
+                if scene.beams.is_empty() {
+                    mode_shapes(&modes, &style)
+                } else {
+                    deflections(&scene, &modes, &moving, &style)
+                }
             })?;
         }
         if let Some(path) = &self.motion {

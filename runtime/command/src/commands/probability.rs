@@ -62,10 +62,8 @@ impl Probability {
         self.output.check()?;
         let question = self.point.question()?;
         let file = &question.file;
-        let (required, allowed) = match self.require.is_empty() {
-            true => (&file.require, file.allowed()?),
-            false => (&self.require, Vec::new()),
-        };
+        let (required, allowed) =
+            if self.require.is_empty() { (&file.require, file.allowed()?) } else { (&self.require, Vec::new()) };
         if required.is_empty() {
             let help = format!("state one by `--require`: {FORMS}; or by `require = [..]` in a study file");
             return Err(Failure::usage("nothing is required", help));
@@ -76,12 +74,11 @@ impl Probability {
             .stream(file.stream.unwrap_or(0));
         let (wanted, allowed) = requirements(&study, required, &allowed)?;
         let mut responses = wanted.iter().filter_map(Requirement::response);
-        let usual = match responses.any(|response| !response.of_state()) {
-            true => Some(SEARCHES),
-            false => {
-                question.note_unset();
-                study.modes().ok().map(|modes| judge::affordable(&modes, 100.0).max(SEARCHES))
-            }
+        let usual = if responses.any(|response| !response.of_state()) {
+            Some(SEARCHES)
+        } else {
+            question.note_unset();
+            study.modes().ok().map(|modes| judge::affordable(&modes, 100.0).max(SEARCHES))
         };
         let count = samples(self.samples.or(file.samples).or(usual), file)?;
         let study = study.samples(count);

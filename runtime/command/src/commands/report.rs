@@ -94,10 +94,7 @@ impl Report {
 
     /// Refuses more names than there can be modes: of those along an input only the greatest number is known before.
     fn check_names(&self, question: &Question, is_swept: bool) -> Result<(), Failure> {
-        let most = match is_swept {
-            true => 2 * question.study.description().coordinates.len(),
-            false => 0,
-        };
+        let most = if is_swept { 2 * question.study.description().coordinates.len() } else { 0 };
         // The report says why there are no modes.
         match question.study.modes() {
             Ok(modes) => self.wording.check(question, most.max(modes.modes.len())),

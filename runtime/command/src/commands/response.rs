@@ -102,17 +102,14 @@ impl Response {
         let bar = progress::bar("values", Some(values.len() as u64));
         question.study = progress::watched(question.study, &bar);
         let (study, input) = (&question.study, range.input);
-        let bode = match self.bands {
-            true => {
-                study.bode_bands(input, &values, &wanted, self.checked.unwrap_or((number / 12).clamp(8, CHECKED)))?
-            }
-            false => study.bode(input, &values)?,
+        let bode = if self.bands {
+            study.bode_bands(input, &values, &wanted, self.checked.unwrap_or((number / 12).clamp(8, CHECKED)))?
+        } else {
+            study.bode(input, &values)?
         };
         let between: Vec<f64> = peaks.iter().flat_map(Peaks::bends).collect();
-        let course = match between.is_empty() {
-            true => bode.clone(),
-            false => bode.clone().with_between(study.bode(input, &between)?),
-        };
+        let course =
+            if between.is_empty() { bode.clone() } else { bode.clone().with_between(study.bode(input, &between)?) };
         drop(bar);
         self.figure(&question, &course, drawn, &peaks)?;
         let mut answer = self.output.answer();
@@ -172,9 +169,10 @@ impl Response {
             let none = || figures::Error::Nothing("the mechanism has no output".to_owned());
             let drawn = drawn.ok_or_else(none)?;
             let style = self.picture.plain_style(question);
-            match self.polar {
-                true => figures::polar(bode, drawn, peaks, &style),
-                false => figures::bode(bode, drawn, peaks, &style),
+            if self.polar {
+                figures::polar(bode, drawn, peaks, &style)
+            } else {
+                figures::bode(bode, drawn, peaks, &style)
             }
         })
     }

@@ -49,15 +49,10 @@ impl Tolerance {
         let summary = of(Summary::KIND).then(|| study.summary());
         drop(bar);
         let stopped = matches!(summary, Some(Err(Error::Stopped)));
-        let first = match of(FirstOrder::KIND) || stopped || self.picture.is_wanted() {
-            true => Some(study.first_order()?),
-            false => None,
-        };
+        let first =
+            if of(FirstOrder::KIND) || stopped || self.picture.is_wanted() { Some(study.first_order()?) } else { None };
         if let Some(first) = &first {
-            match stopped {
-                true => answer.add(first)?,
-                false => answer.add_aside(first)?,
-            }
+            if stopped { answer.add(first)? } else { answer.add_aside(first)? }
         }
         if let Some(summary) = summary.filter(|_| !stopped) {
             answer.add(&summary?)?;

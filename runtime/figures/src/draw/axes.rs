@@ -48,9 +48,10 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
             pen.hair([(x, top), (x, bottom)], 0.12)?;
             pen.hair([(x, bottom), (x, bottom + px(5))], 1.0)?;
         }
-        match hanging {
-            true => pen.fitted(&text, (x, bottom + px(10)), TICK, Anchor::Below, px(HANGING))?,
-            false => pen.text(&text, (x, bottom + px(16)), TICK, Anchor::Middle)?,
+        if hanging {
+            pen.fitted(&text, (x, bottom + px(10)), TICK, Anchor::Below, px(HANGING))?
+        } else {
+            pen.text(&text, (x, bottom + px(16)), TICK, Anchor::Middle)?
         }
     }
     for (value, text) in ticks(&panel.y, f64::from(bottom - top) / f64::from(px(52))) {
@@ -111,10 +112,7 @@ fn ratios(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
     let powers = (low.floor() as i32..=high.ceil() as i32).map(|power| 10f64.powi(power));
     let values = powers.flat_map(|power| factors.iter().map(move |factor| factor * power));
     let inside = values.filter(|value| (low..=high).contains(&value.log10()));
-    let text = |value: f64| match (1e-3..1e5).contains(&value) {
-        true => number(value, value),
-        false => format!("{value:e}"),
-    };
+    let text = |value: f64| if (1e-3..1e5).contains(&value) { number(value, value) } else { format!("{value:e}") };
     inside.map(|value| (value.log10(), text(value))).collect()
 }
 
@@ -126,10 +124,7 @@ fn step(rough: f64, unit: &str) -> f64 {
         "deg" => &[15.0, 30.0, 45.0, 90.0, 180.0],
         _ => &[],
     };
-    let all = match rough > 10.0 {
-        true => turns.iter().chain(&decimal),
-        false => [].iter().chain(&decimal),
-    };
+    let all = if rough > 10.0 { turns.iter().chain(&decimal) } else { [].iter().chain(&decimal) };
     let mut wide = all.copied().filter(|x| *x >= 0.999 * rough);
     wide.next().unwrap_or(10.0 * power)
 }
@@ -143,10 +138,7 @@ fn number(value: f64, step: f64) -> String {
     }
     let decimals = (1.0 - step.log10().floor()).clamp(0.0, 9.0) as usize;
     let text = format!("{value:.decimals$}");
-    let text = match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.'),
-        false => &text,
-    };
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0" } else { text }.to_owned()
 }
 

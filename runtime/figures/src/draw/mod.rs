@@ -51,9 +51,10 @@ fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> 
     legend::draw(&pen, layout)?;
     for (panel, frame) in figure.panels.iter().zip(&layout.panels) {
         let panel = panel.straightened();
-        match panel.equal_scales {
-            true => panel::draw(&pen, &equalised(&panel, frame), frame)?,
-            false => panel::draw(&pen, &panel, frame)?,
+        if panel.equal_scales {
+            panel::draw(&pen, &equalised(&panel, frame), frame)?
+        } else {
+            panel::draw(&pen, &panel, frame)?
         }
     }
     for (k, line) in layout.caption.iter().enumerate() {

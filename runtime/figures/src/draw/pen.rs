@@ -199,10 +199,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         self.line(vec![from, to], colour, 1)?;
         let stop = px(4);
         for (x, y) in [from, to] {
-            let ends = match level {
-                true => vec![(x, y - stop), (x, y + stop)],
-                false => vec![(x - stop, y), (x + stop, y)],
-            };
+            let ends = if level { vec![(x, y - stop), (x, y + stop)] } else { vec![(x - stop, y), (x + stop, y)] };
             self.line(ends, colour, 1)?;
         }
         Ok(())

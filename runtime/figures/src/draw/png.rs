@@ -20,10 +20,7 @@ const DENSITY: u32 = 11_811;
 pub(super) fn register_font() -> Result<(), Error> {
     static DONE: OnceLock<bool> = OnceLock::new();
     let register = || plotters::style::register_font(FONT, FontStyle::Normal, LETTERS).is_ok();
-    match DONE.get_or_init(register) {
-        true => Ok(()),
-        false => Err(Error::Drawing("the letters cannot be read".to_owned())),
-    }
+    if *DONE.get_or_init(register) { Ok(()) } else { Err(Error::Drawing("the letters cannot be read".to_owned())) }
 }
 
 impl Figure {

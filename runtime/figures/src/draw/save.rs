@@ -30,9 +30,10 @@ impl Form {
             Some("png") => Ok(Self::Png),
             _ => Err(Error::Ending {
                 path: path.to_owned(),
-                known: match cfg!(feature = "png") {
-                    true => "`.svg` or `.png`",
-                    false => "`.svg`, and as `.png` by a program built with the feature `png`",
+                known: if cfg!(feature = "png") {
+                    "`.svg` or `.png`"
+                } else {
+                    "`.svg`, and as `.png` by a program built with the feature `png`"
                 },
             }),
         }

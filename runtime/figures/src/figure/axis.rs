@@ -33,9 +33,6 @@ impl Axis {
     /// Name and unit: `speed [rpm]`.
     #[must_use]
     pub fn heading(&self) -> String {
-        match self.unit.is_empty() {
-            true => self.name.clone(),
-            false => format!("{} [{}]", self.name, self.unit),
-        }
+        if self.unit.is_empty() { self.name.clone() } else { format!("{} [{}]", self.name, self.unit) }
     }
 }

@@ -58,10 +58,7 @@ impl Panel {
         let (lines, alone): (Vec<_>, Vec<_>) = (curve.pieces.into_iter()).partition(|piece| piece.len() > 1);
         let lines: Vec<Vec<Point>> = lines.into_iter().filter(|piece| piece.iter().all(finite)).collect();
         if !alone.is_empty() {
-            let label = match lines.is_empty() {
-                true => curve.label.clone(),
-                false => String::new(),
-            };
+            let label = if lines.is_empty() { curve.label.clone() } else { String::new() };
             let points = alone.into_iter().flatten();
             self.markers(label, curve.colour, Shape::Disc, points);
         }

@@ -130,10 +130,8 @@ pub fn polar(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style
         .filter(|(value, _)| !is_peak(*value))
         .collect();
     let axis = input_axis(&result.description, result.input);
-    let words = |value: f64| match axis.unit.is_empty() {
-        true => number(value),
-        false => format!("{} {}", number(value), axis.unit),
-    };
+    let words =
+        |value: f64| if axis.unit.is_empty() { number(value) } else { format!("{} {}", number(value), axis.unit) };
     let marked = spaced(&known);
     for (k, &(value, point)) in marked.iter().enumerate() {
         let (label, shape) = match k {
@@ -390,9 +388,10 @@ impl<'a> Course<'a> {
     fn caption(&self) -> Vec<String> {
         vec![
             operating_point(&self.result.description, &self.result.inputs, Some(self.result.input)),
-            match self.has_phase() {
-                true => format!("{}: amplitude from 0 to peak; a positive phase is ahead of cos(w t).", self.name()),
-                false => format!("{}.", self.name()),
+            if self.has_phase() {
+                format!("{}: amplitude from 0 to peak; a positive phase is ahead of cos(w t).", self.name())
+            } else {
+                format!("{}.", self.name())
             },
         ]
     }

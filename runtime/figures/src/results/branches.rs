@@ -39,10 +39,8 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
         };
         for (number, branch) in result.branches.iter().enumerate() {
             for (stability, stretch, before, after) in joined(branch) {
-                let (word, stroke) = match stability.holds() {
-                    true => ("stable", Stroke::Solid),
-                    false => ("unstable", Stroke::Dotted),
-                };
+                let (word, stroke) =
+                    if stability.holds() { ("stable", Stroke::Solid) } else { ("unstable", Stroke::Dotted) };
                 let label = match result.branches.len() {
                     1 => word.to_owned(),
                     _ => format!("branch {}, {word}", number + 1),
@@ -124,12 +122,13 @@ fn quantities(d: &Description, result: &Branches) -> Vec<Quantity> {
             index,
             is_output,
         };
-        match is_output {
-            true => d.outputs.iter().enumerate().map(|(k, info)| quantity((k, &info.name, &info.unit))).collect(),
-            false => (d.coordinates.iter().enumerate())
+        if is_output {
+            d.outputs.iter().enumerate().map(|(k, info)| quantity((k, &info.name, &info.unit))).collect()
+        } else {
+            (d.coordinates.iter().enumerate())
                 .filter(|(_, info)| info.role == Role::Position)
                 .map(|(k, info)| quantity((k, &info.name, &info.unit)))
-                .collect(),
+                .collect()
         }
     };
     let points = || result.branches.iter().flat_map(|branch| &branch.points);

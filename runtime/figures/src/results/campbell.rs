@@ -154,10 +154,7 @@ pub(super) fn bands(
         spread.band.is_finite().then_some((scale * spread.mean, scale * spread.band))
     };
     let modes = result.points.iter().flat_map(|point| point.modes.iter().flatten());
-    let times = match style.is_widened() {
-        true => factor(modes.filter_map(quantity).map(|pair| pair.1), length),
-        false => 1.0,
-    };
+    let times = if style.is_widened() { factor(modes.filter_map(quantity).map(|pair| pair.1), length) } else { 1.0 };
     let mut legend = scale::legend(result.sigma_level, times);
     for label in result.labels() {
         let mut edges = Vec::new();

@@ -58,8 +58,5 @@ pub fn damping_ratios(result: &Campbell, style: &Style) -> Result<Figure, Error>
 /// Damping ratio in percent.
 pub(super) fn percent(state: &TrackPoint) -> f64 {
     let size = state.s.norm();
-    match size > 0.0 {
-        true => -100.0 * state.s.re / size,
-        false => 0.0,
-    }
+    if size > 0.0 { -100.0 * state.s.re / size } else { 0.0 }
 }

@@ -173,10 +173,7 @@ impl Line {
                 *part /= unit;
             }
             // Twist and travel have no common unit: a mode is seen by one of them.
-            match torsional {
-                true => parts[..3].fill(Complex::ZERO),
-                false => parts[3] = Complex::ZERO,
-            }
+            if torsional { parts[..3].fill(Complex::ZERO) } else { parts[3] = Complex::ZERO }
         }
         Some(shape)
     }

@@ -26,9 +26,10 @@ pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let mut panel = Panel::new(course.axis(), Axis::new("eigenvalue", "1/s"));
     let mut ends = Ends::default();
     for track in tracks(&course.stations, &course.critical) {
-        let real = match track.oscillates() {
-            true => format!("{}, real part", style.mode(track.label)),
-            false => format!("{}, real", style.mode(track.label)),
+        let real = if track.oscillates() {
+            format!("{}, real part", style.mode(track.label))
+        } else {
+            format!("{}, real", style.mode(track.label))
         };
         let curve = Curve {
             label: real,
@@ -89,10 +90,7 @@ pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
     }
     let [first, last] = course.axis().range;
     let unit = course.axis().unit;
-    let words = |value: f64| match unit.is_empty() {
-        true => number(value),
-        false => format!("{} {unit}", number(value)),
-    };
+    let words = |value: f64| if unit.is_empty() { number(value) } else { format!("{} {unit}", number(value)) };
     for (value, shape) in [(first, Shape::Ring), (last, Shape::Disc)] {
         let states = all.iter().flat_map(|track: &Track| track.pieces.iter().flatten());
         let here = states.filter(|state| state.value == value);

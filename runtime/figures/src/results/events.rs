@@ -73,9 +73,10 @@ fn line(index: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> Str
     let what = match event.event {
         Event::Crossing { mode, condition: Condition::Line(line), whirl, .. } => {
             let name = style.whirling(mode, whirl.map(Whirl::character));
-            let order = match line.ratio == 0.0 {
-                true => format!("{} rad/s", number(line.offset)),
-                false => format!("{} x", number(line.ratio)),
+            let order = if line.ratio == 0.0 {
+                format!("{} rad/s", number(line.offset))
+            } else {
+                format!("{} x", number(line.ratio))
             };
             format!("{name} meets {order}")
         }

@@ -22,21 +22,20 @@ pub(crate) fn factor(half_widths: impl Iterator<Item = f64>, length: f64) -> f64
 
 /// What the legend calls bands of so many standard deviations.
 pub(crate) fn legend(sigma_level: f64, factor: f64) -> String {
-    match factor == 1.0 {
-        true => format!("{sigma_level} sigma"),
-        false => format!("{sigma_level} sigma, {factor} times"),
-    }
+    if factor == 1.0 { format!("{sigma_level} sigma") } else { format!("{sigma_level} sigma, {factor} times") }
 }
 
 /// Describes what bands and error bars show.
 pub(crate) fn words(sigma_level: f64, factor: f64) -> String {
-    let sigma = match sigma_level == 1.0 {
-        true => "1 standard deviation".to_owned(),
-        false => format!("{sigma_level} standard deviations"),
+    let sigma = if sigma_level == 1.0 {
+        "1 standard deviation".to_owned()
+    } else {
+        format!("{sigma_level} standard deviations")
     };
-    match factor == 1.0 {
-        true => format!("Shaded: {sigma} to either side."),
-        false => format!("Shaded: {sigma} to either side, drawn {factor} times as wide."),
+    if factor == 1.0 {
+        format!("Shaded: {sigma} to either side.")
+    } else {
+        format!("Shaded: {sigma} to either side, drawn {factor} times as wide.")
     }
 }
 

@@ -99,9 +99,10 @@ pub fn participation(result: &Modes, at: &Equilibrium, style: &Style) -> Result<
 
 fn shown(result: &Modes) -> Result<Vec<&Mode>, Error> {
     let shown: Vec<&Mode> = result.foremost(MOST).into_iter().map(|mode| &result.modes[mode]).collect();
-    match shown.is_empty() || resting(result).next().is_none() {
-        true => Err(Error::nothing("the mechanism has no modes")),
-        false => Ok(shown),
+    if shown.is_empty() || resting(result).next().is_none() {
+        Err(Error::nothing("the mechanism has no modes"))
+    } else {
+        Ok(shown)
     }
 }
 

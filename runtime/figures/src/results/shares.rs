@@ -88,17 +88,12 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
     });
     let bars: Vec<[f64; 4]> = bars.collect();
     let names = all.iter().map(|pair| pair.0.clone()).collect();
-    let heading = match name.is_empty() {
-        true => "share in the variance".to_owned(),
-        false => format!("share in the variance of {name}"),
-    };
+    let heading =
+        if name.is_empty() { "share in the variance".to_owned() } else { format!("share in the variance of {name}") };
     let mut panel = Panel::new(Axis::new(heading, "%"), Axis::of_categories("", names));
     panel.bars("", Colour::Series(0), bars);
     for (k, (_, share)) in all.iter().enumerate() {
-        let text = match share.abs() < 0.05 {
-            true => "below 0.1".to_owned(),
-            false => format!("{share:.1}"),
-        };
+        let text = if share.abs() < 0.05 { "below 0.1".to_owned() } else { format!("{share:.1}") };
         panel.label([share.max(0.0), k as f64], text);
     }
     let ends = all.iter().map(|pair| pair.1);

@@ -109,12 +109,11 @@ impl<'a> Spreads<'a> {
             let samples = monte_carlo.drawn();
             caption.push(format!("Monte Carlo: {samples}; bars are standard errors."));
         }
-        let panels = match lower.is_empty() {
-            true => vec![upper],
-            false => {
-                lower.level_line(0.0);
-                vec![upper, lower]
-            }
+        let panels = if lower.is_empty() {
+            vec![upper]
+        } else {
+            lower.level_line(0.0);
+            vec![upper, lower]
         };
         let title = style.titled(format!("{}: spread of {name}", d.name));
         Ok(Figure::new(title, with_notes(caption, style, d), panels))

@@ -210,10 +210,7 @@ fn state(station: &Station, sample: &Sample) -> TrackPoint {
 
 /// A step takes the kind and sense at its end or, if nothing spins there, at its beginning.
 fn motion(from: &Sample, to: &Sample) -> Motion {
-    match to.oscillates {
-        true => Motion::Oscillation(to.character.or(from.character)),
-        false => Motion::Real,
-    }
+    if to.oscillates { Motion::Oscillation(to.character.or(from.character)) } else { Motion::Real }
 }
 
 fn undamped(a: &Sample, b: &Sample) -> bool {

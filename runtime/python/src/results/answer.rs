@@ -201,9 +201,10 @@ impl Answer {
 
     /// A field of the result, SI.
     fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        match name.starts_with('_') {
-            true => Err(PyAttributeError::new_err(name.to_owned())),
-            false => self.fields(py)?.getattr(name),
+        if name.starts_with('_') {
+            Err(PyAttributeError::new_err(name.to_owned()))
+        } else {
+            self.fields(py)?.getattr(name)
         }
     }
 
@@ -233,10 +234,7 @@ impl Answer {
 fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     if let (Value::Array(_), Some((shape, numbers))) = (value, array(value)) {
         let array = vector(py, numbers).into_any().call_method1("reshape", (shape,))?;
-        return match whole(value) {
-            true => array.call_method1("astype", ("int64",)),
-            false => Ok(array),
-        };
+        return if whole(value) { array.call_method1("astype", ("int64",)) } else { Ok(array) };
     }
     Ok(match value {
         Value::Null => py.None().into_bound(py),

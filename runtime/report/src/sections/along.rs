@@ -13,9 +13,10 @@ use crate::tables::table;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     let Some(along) = &content.along else {
-        let text = match content.description.inputs.is_empty() {
-            true => "The mechanism has no input.",
-            false => "No sweep was asked for.",
+        let text = if content.description.inputs.is_empty() {
+            "The mechanism has no input."
+        } else {
+            "No sweep was asked for."
         };
         html.leaf("p", &[("class", "refused")], text);
         return Ok(());

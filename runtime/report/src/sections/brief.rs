@@ -157,10 +157,7 @@ fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
     // The band lies about the mean, which unequal limits move away from the nominal frequency.
     let nominal = first.modes[mode].behaviour.frequency();
     let moved = nominal.is_some_and(|nominal| (spread.mean - nominal).abs() > 0.03 * spread.band);
-    let about = match moved {
-        true => format!(" about a mean of {}", number(scale * spread.mean)),
-        false => String::new(),
-    };
+    let about = if moved { format!(" about a mean of {}", number(scale * spread.mean)) } else { String::new() };
     format!(" \u{b1} {}{about} ({} sigma){cause}", digits(scale * spread.band, 3), first.sigma_level)
 }
 
@@ -174,15 +171,14 @@ fn tolerances(spread: &Spreads, foremost: &[usize], style: &Style) -> Vec<Line> 
             let told = |mode: usize| foremost.contains(&mode);
             let doubted = summary.trust.iter().filter(|x| !x.trusted() && told(x.mode));
             let doubted: Vec<String> = doubted.map(|doubted| style.mode(doubted.mode)).collect();
-            lines.push(match doubted.is_empty() {
-                true => (
+            lines.push(if doubted.is_empty() {
+                (
                     Some(true),
                     "The first-order spread of these modes can be trusted, that of some others cannot.".to_owned(),
-                ),
-                false => {
-                    let names = doubted.join(", ");
-                    (Some(false), format!("The first-order spread of {names} is not to be trusted. See Tolerances."))
-                }
+                )
+            } else {
+                let names = doubted.join(", ");
+                (Some(false), format!("The first-order spread of {names} is not to be trusted. See Tolerances."))
             });
         }
         Err(error) => lines.push((Some(false), sentence(&format!("no spread: {error}")))),

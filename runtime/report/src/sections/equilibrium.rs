@@ -19,9 +19,10 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         }
     };
     let class = if state.stability.holds() { "good" } else { "bad" };
-    let stability = match state.constraints.singular {
-        true => "not decided in a singular configuration".to_owned(),
-        false => state.stability.to_string(),
+    let stability = if state.constraints.singular {
+        "not decided in a singular configuration".to_owned()
+    } else {
+        state.stability.to_string()
     };
     let text = sentence(&format!("the equilibrium is {stability}"));
     html.leaf("p", &[("class", class)], &text);

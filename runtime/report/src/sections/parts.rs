@@ -46,9 +46,12 @@ fn bodies(scene: &Scene) -> Table {
 }
 
 fn beam(member: &Beam) -> String {
-    let size = |[width, height]: [f64; 2]| match member.round {
-        true => format!("diameter {}", number(width)),
-        false => format!("{} x {}", number(width), number(height)),
+    let size = |[width, height]: [f64; 2]| {
+        if member.round {
+            format!("diameter {}", number(width))
+        } else {
+            format!("{} x {}", number(width), number(height))
+        }
     };
     let ends = [member.sections.first(), member.sections.last()];
     let [Some(root), Some(tip)] = ends.map(|end| end.map(|section| section.size)) else {

@@ -161,10 +161,7 @@ pub fn fix_gauge(stiffness: &mut Matrix, structure: Structure) {
         let row = rows.scaled_down(&stiffness[i][..places.start]);
         greater(most, largest(&row) / rows.scale(i))
     });
-    let stiffest = match stiffest > 0.0 {
-        true => stiffest,
-        false => largest(&rows.size),
-    };
+    let stiffest = if stiffest > 0.0 { stiffest } else { largest(&rows.size) };
     for k in 0..rows.dependent() {
         let m = rows.null_left_scaled(k);
         for i in 0..rows.count() {

@@ -29,9 +29,10 @@ impl Answer for Equilibrium {
     fn findings(&self) -> Findings {
         let d = &self.description;
         let title = title(d, &self.inputs);
-        let stability = match self.constraints.singular {
-            true => format!("stability {}", self.stability_word()),
-            false => self.stability_word(),
+        let stability = if self.constraints.singular {
+            format!("stability {}", self.stability_word())
+        } else {
+            self.stability_word()
         };
         let mut said = Findings::titled(format!("{title}: equilibrium, {stability}"));
         said.columns(states("equilibrium", d, &[(0, self)]));
@@ -134,10 +135,8 @@ impl Assembly {
             Some(AssemblyMode::Negative) => ", negative assembly mode",
             None => "",
         };
-        let margin = match self.margin < 1.0 {
-            true => format!(", margin to a dead centre {:.1e}", self.margin),
-            false => String::new(),
-        };
+        let margin =
+            if self.margin < 1.0 { format!(", margin to a dead centre {:.1e}", self.margin) } else { String::new() };
         let iterations = self.iterations;
         format!("{title}: assembled in {iterations} iterations{mode}{margin}")
     }

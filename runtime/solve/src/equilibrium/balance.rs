@@ -97,9 +97,12 @@ fn remove(data: &Data<'_>, q: &[f64], [rows, columns]: &[Vec<bool>; 2], stiffnes
         let (_, stiffness) = data.mechanism.residual_and_stiffness(q, inputs, design);
         stiffness.as_flattened().into()
     });
-    let of = |i: usize, j: usize| match data.description.symmetric_stiffness {
-        true => greater(change[i * n + j], change[j * n + i]),
-        false => change[i * n + j],
+    let of = |i: usize, j: usize| {
+        if data.description.symmetric_stiffness {
+            greater(change[i * n + j], change[j * n + i])
+        } else {
+            change[i * n + j]
+        }
     };
     for i in 0..rows.len() {
         for j in 0..columns.len() {

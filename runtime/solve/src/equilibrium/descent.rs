@@ -113,10 +113,8 @@ where
             };
             departures += 1;
             if departures > MAX_DEPARTURES {
-                let reason = match grows_without_bound(point, &base.q) {
-                    true => NotFound::Unbounded,
-                    false => NotFound::OnlyUnstable,
-                };
+                let reason =
+                    if grows_without_bound(point, &base.q) { NotFound::Unbounded } else { NotFound::OnlyUnstable };
                 return Err(failure(point, reason, &base.q, iterations));
             }
             let shape = base.space.lift(Vector::from(&curved.pairs.shapes[0]));

@@ -54,10 +54,8 @@ pub(super) fn select_member(
     };
     let differs = |unknown: usize, a: f64, b: f64| (a - b).abs() > DIFFERENT * (a.abs() + b.abs() + unit[unknown]);
     let moves = |held: &Held| differs(held.unknown, q[held.unknown], held.value);
-    let mut settled = match held.iter().any(moves) {
-        true => finished(point, continued_to(point, start, q, &held)?)?,
-        false => solved_state,
-    };
+    let mut settled =
+        if held.iter().any(moves) { finished(point, continued_to(point, start, q, &held)?)? } else { solved_state };
     let state = &mut settled.state;
     let dimension = held.len();
     for coordinate in &mut held {
@@ -80,10 +78,7 @@ pub(super) fn select_member(
 
 /// Where a steady motion belongs to no family, nothing can hold a member of it.
 pub(super) fn refuse_held(point: &OperatingPoint<'_>) -> Result<(), Failure> {
-    match point.held.is_empty() {
-        true => Ok(()),
-        false => Err(refused(point, 0)),
-    }
+    if point.held.is_empty() { Ok(()) } else { Err(refused(point, 0)) }
 }
 
 fn refused(point: &OperatingPoint<'_>, dimension: usize) -> Failure {
@@ -202,10 +197,8 @@ fn newton(point: &OperatingPoint<'_>, from: &[f64], held: &[Held]) -> Option<Vec
             (false, true) if held[i - n].unknown == j => 1.0,
             _ => 0.0,
         });
-        let right = Vector::from_fn(size, |i| match i < n {
-            true => -residual[i],
-            false => held[i - n].value - q[held[i - n].unknown],
-        });
+        let right =
+            Vector::from_fn(size, |i| if i < n { -residual[i] } else { held[i - n].value - q[held[i - n].unknown] });
         let step = Lu::of(whole)?.solve(&right);
         let step = &step[..n];
         q = add_scaled(&q, 1.0, step);

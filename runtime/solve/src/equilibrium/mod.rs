@@ -93,10 +93,7 @@ impl Policy {
     /// its stability, the equilibrium next to it.
     #[doc(hidden)]
     pub fn about(known: &Equilibrium) -> Self {
-        match known.stability.holds() && !known.kept {
-            true => Self::Stable,
-            false => Self::Nearest,
-        }
+        if known.stability.holds() && !known.kept { Self::Stable } else { Self::Nearest }
     }
 }
 

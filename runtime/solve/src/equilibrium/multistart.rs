@@ -107,12 +107,13 @@ impl Search {
                 Role::PositionReaction | Role::VelocityReaction => {}
             }
         }
-        match missing.is_empty() {
-            true => Ok(Self::new(lower, upper)),
-            false => Err(Error::Setting {
+        if missing.is_empty() {
+            Ok(Self::new(lower, upper))
+        } else {
+            Err(Error::Setting {
                 setting: "search for equilibria",
                 reason: format!("nothing says how far {} may move: give bounds", missing.join(", ")),
-            }),
+            })
         }
     }
 

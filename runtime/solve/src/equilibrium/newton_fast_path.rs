@@ -79,10 +79,7 @@ fn newton(
             for ((end, q), step) in state.coordinates[..n].iter_mut().zip(&*q).zip(&*step) {
                 *end = q + step;
             }
-            return match ends(n, point, residual, (lower, pivots), state) {
-                true => Ok(()),
-                false => Err(progress),
-            };
+            return if ends(n, point, residual, (lower, pivots), state) { Ok(()) } else { Err(progress) };
         }
         let size = largest(step);
         let limited = size > progress.radius;

@@ -102,9 +102,10 @@ impl<'a> OperatingPoint<'a> {
     #[doc(hidden)]
     #[inline]
     pub fn held_like(mut self, other: &FreeDirections) -> Self {
-        match other.held.is_empty() {
-            true => self.held.clear(),
-            false => self.held = self.at_declared_values(&other.held),
+        if other.held.is_empty() {
+            self.held.clear()
+        } else {
+            self.held = self.at_declared_values(&other.held)
         }
         self
     }
@@ -181,10 +182,7 @@ impl<'a> OperatingPoint<'a> {
 
     /// Number of free directions; none if it is known that there are none.
     pub(crate) fn free(&self) -> usize {
-        match self.place.is_some_and(FreeDirections::is_empty) {
-            true => 0,
-            false => self.description.free_directions,
-        }
+        if self.place.is_some_and(FreeDirections::is_empty) { 0 } else { self.description.free_directions }
     }
 
     /// This point without its free directions if there are none at `q`: by the stiffness there, something resists.

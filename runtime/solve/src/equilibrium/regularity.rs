@@ -162,15 +162,9 @@ fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linea
     let unknowns = &point.description.coordinates;
     let turns = |j: usize| unknowns[j].unit.symbol == *"rad";
     // A length that rotates is rounded as a whole.
-    let size = Vector::from_fn(q.len(), |j| match turns(j) {
-        true => greater(1.0, q[j].abs()),
-        false => q[j].abs(),
-    });
+    let size = Vector::from_fn(q.len(), |j| if turns(j) { greater(1.0, q[j].abs()) } else { q[j].abs() });
     let coordinates = 0..point.structure.coordinates;
-    let slides = Vector::from_fn(q.len(), |j| match coordinates.contains(&j) && !turns(j) {
-        true => 1.0,
-        false => 0.0,
-    });
+    let slides = Vector::from_fn(q.len(), |j| if coordinates.contains(&j) && !turns(j) { 1.0 } else { 0.0 });
     let arguments = (q, point.inputs, point.design);
     Vector::from_fn(q.len(), |i| {
         let mut terms = parts.inertia[i].abs() + parts.applied[i].abs();

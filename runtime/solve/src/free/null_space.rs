@@ -46,9 +46,10 @@ impl NullSpace {
         let basis = orthonormal(elimination.right());
         let (right, rows) = vectors(&basis, &column);
         // Of a symmetric matrix exactly the same, so that what is built from both stays symmetric.
-        let (left, columns) = match is_symmetric(matrix) {
-            true => (right.clone(), rows.clone()),
-            false => vectors(&orthonormal(elimination.left()), &row),
+        let (left, columns) = if is_symmetric(matrix) {
+            (right.clone(), rows.clone())
+        } else {
+            vectors(&orthonormal(elimination.left()), &row)
         };
         Self { right, left, rows, columns, basis, remainder: elimination.remainder() }
     }

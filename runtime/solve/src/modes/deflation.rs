@@ -601,10 +601,8 @@ fn others(vectors: impl IntoIterator<Item = Vector>) -> Vec<usize> {
     for k in 0..rest.len() {
         let weight = |i: usize| rest[k][i].abs();
         // A margin makes the first of equal ones win, regardless of rounding.
-        let pivot = (kept.iter().copied()).reduce(|best, i| match weight(i) > weight(best) * (1.0 + 1e-9) {
-            true => i,
-            false => best,
-        });
+        let pivot =
+            (kept.iter().copied()).reduce(|best, i| if weight(i) > weight(best) * (1.0 + 1e-9) { i } else { best });
         let Some(pivot) = pivot else {
             return kept;
         };

@@ -105,10 +105,7 @@ impl Modes {
     /// the others.
     #[must_use]
     pub fn foremost(&self, count: usize) -> Vec<usize> {
-        let rank = |mode: &Mode| match mode.behaviour.grows() {
-            true => 0,
-            false => 1 + usize::from(mode.frequency().is_none()),
-        };
+        let rank = |mode: &Mode| if mode.behaviour.grows() { 0 } else { 1 + usize::from(mode.frequency().is_none()) };
         let mut all: Vec<usize> = (0..self.modes.len()).collect();
         if all.len() > count {
             all.sort_by_key(|&mode| rank(&self.modes[mode]));
@@ -390,12 +387,11 @@ fn solve_undamped(
 pub fn accelerates(linear: &Linear, structure: Structure, free: usize) -> bool {
     free > 0
         && structure.holonomic()
-        && match structure.open() {
-            true => deflation::accelerates(linear, free),
-            false => {
-                let reduced = Tangent::new(linear, structure).reduce_linear(linear);
-                deflation::accelerates(&reduced, free)
-            }
+        && if structure.open() {
+            deflation::accelerates(linear, free)
+        } else {
+            let reduced = Tangent::new(linear, structure).reduce_linear(linear);
+            deflation::accelerates(&reduced, free)
         }
 }
 

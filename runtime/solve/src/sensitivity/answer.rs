@@ -40,10 +40,7 @@ impl Sensitivities {
     fn data(&self, said: &mut Findings, variables: &[Variable<'_>]) {
         let mut rows = Vec::new();
         for (r, mode) in self.modes.iter().enumerate() {
-            let slopes = Quantity::ALL.map(|of| match mode.clustered {
-                true => Vec::new(),
-                false => slopes(mode, of),
-            });
+            let slopes = Quantity::ALL.map(|of| if mode.clustered { Vec::new() } else { slopes(mode, of) });
             let values_of = |j| slopes.each_ref().map(|slopes| slopes.get(j).copied());
             let each = variables.iter().enumerate();
             rows.extend(each.map(|(j, variable)| (r, variable, values_of(j))));
@@ -112,10 +109,7 @@ impl Sensitivities {
 /// The quantity of a mode that comes first: a mode that does not oscillate has only a rate, a free one not even that.
 fn first(mode: &ModeSensitivity) -> Quantity {
     let oscillates = mode.oscillates() || mode.clustered;
-    match !oscillates && mode.of(Quantity::Growth).is_some() {
-        true => Quantity::Growth,
-        false => Quantity::Frequency,
-    }
+    if !oscillates && mode.of(Quantity::Growth).is_some() { Quantity::Growth } else { Quantity::Frequency }
 }
 
 /// Derivatives of a quantity by inputs and design variables; empty if it has none.

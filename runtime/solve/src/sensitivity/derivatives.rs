@@ -72,9 +72,12 @@ impl<'a> Shown<'a> {
     fn matters(&self, j: usize, variable: &Variable<'_>) -> bool {
         let effect = self.of.effect(j, variable);
         self.of.clustered
-            || effect.is_some_and(|effect| match variable.value == 0.0 {
-                true => unless_rounding(effect, self.most) != 0.0,
-                false => relevant(effect, self.most),
+            || effect.is_some_and(|effect| {
+                if variable.value == 0.0 {
+                    unless_rounding(effect, self.most) != 0.0
+                } else {
+                    relevant(effect, self.most)
+                }
             })
     }
 

@@ -125,10 +125,7 @@ impl ModeSensitivity {
 
     /// What it does, as far as its eigenvalue tells.
     pub(crate) fn behaviour(&self) -> Behaviour {
-        match self.oscillates() {
-            true => Behaviour::Oscillating(self.value.im),
-            false => Behaviour::Decaying(self.value.re),
-        }
+        if self.oscillates() { Behaviour::Oscillating(self.value.im) } else { Behaviour::Decaying(self.value.re) }
     }
 
     /// Whether its eigenvalue is zero for every input and design.

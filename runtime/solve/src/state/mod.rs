@@ -106,9 +106,10 @@ impl Equilibrium {
     /// [`Self::stability`] in words; a singular configuration has none.
     #[must_use]
     pub fn stability_word(&self) -> String {
-        match self.constraints.singular {
-            true => "not decided in a singular configuration".to_owned(),
-            false => self.stability.to_string(),
+        if self.constraints.singular {
+            "not decided in a singular configuration".to_owned()
+        } else {
+            self.stability.to_string()
         }
     }
 

@@ -121,9 +121,10 @@ impl Solution {
     /// Whether the sample is as stable, or as unstable, as the nominal state.
     #[doc(hidden)]
     pub fn continues(&self, nominal: &Equilibrium) -> bool {
-        match nominal.stability.holds() {
-            true => self.outcome == Outcome::Stable,
-            false => self.solved && self.state.stability == nominal.stability,
+        if nominal.stability.holds() {
+            self.outcome == Outcome::Stable
+        } else {
+            self.solved && self.state.stability == nominal.stability
         }
     }
 

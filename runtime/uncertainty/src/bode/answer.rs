@@ -225,14 +225,10 @@ impl Bode {
             return;
         };
         let number = checks().map(|check| check.samples).max().unwrap_or_default();
-        said.note(match worst > WORTH_SAYING {
-            true => {
-                format!("Solving {number} designs anew at each point shows the bands up to {} off.", percent(worst))
-            }
-            false => format!(
-                "Solving {number} designs anew at each point confirms the bands within {}.",
-                percent(WORTH_SAYING)
-            ),
+        said.note(if worst > WORTH_SAYING {
+            format!("Solving {number} designs anew at each point shows the bands up to {} off.", percent(worst))
+        } else {
+            format!("Solving {number} designs anew at each point confirms the bands within {}.", percent(WORTH_SAYING))
         });
     }
 }

@@ -132,10 +132,7 @@ pub fn bode(
             points.push(point?);
             watch.advance(1);
         }
-        Ok(match watch.stopped() {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        })
+        Ok(if watch.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
     };
     let (mut waiting, mut failed) = (Vec::with_capacity(together), None);
     states_each(mechanism, (u, b), start, (following.into(), needed), (input, values), |at| {

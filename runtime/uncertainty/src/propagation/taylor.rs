@@ -169,10 +169,7 @@ impl Models<'_> {
         };
         let other = self.model(i, expansion, Some(curvature))?;
         let ratio = self.ratio(expansion, curvature);
-        let (mut spread, other, share) = match second {
-            true => (other, first, ratio),
-            false => (first, other, 1.0),
-        };
+        let (mut spread, other, share) = if second { (other, first, ratio) } else { (first, other, 1.0) };
         add_difference(&mut spread, &other, share);
         let sigma = spread.sigma.as_mut();
         if let Some((sigma, error)) = sigma.and_then(|sigma| Some((sigma.value, sigma.error.as_mut()?))) {

@@ -35,9 +35,12 @@ impl<'a> Vibrations<'a> {
         let d = &*at.description;
         let own: Vec<usize> = wanted.iter().flat_map(|vibration| vibration.harmonics(d)).collect();
         let firsts = d.excitations.iter().enumerate().filter(|(k, info)| info.with == *k);
-        let models = firsts.enumerate().map(|(harmonic, (with, _))| match own.contains(&harmonic) {
-            true => Resolvent::new(mechanism, at, with, space.variables()).map(Some),
-            false => Ok(None),
+        let models = firsts.enumerate().map(|(harmonic, (with, _))| {
+            if own.contains(&harmonic) {
+                Resolvent::new(mechanism, at, with, space.variables()).map(Some)
+            } else {
+                Ok(None)
+            }
         });
         Ok(Self { harmonics: models.collect::<Result<_, Error>>()?, wanted, description: d, space })
     }
@@ -152,10 +155,7 @@ const UPPER: f64 = 0.99;
 /// The relative error of a number of the model, if both exist.
 fn relative(value: Option<f64>, right: Option<f64>) -> Option<f64> {
     let (value, right) = value.zip(right)?;
-    Some(match right == value {
-        true => 0.0,
-        false => value / right - 1.0,
-    })
+    Some(if right == value { 0.0 } else { value / right - 1.0 })
 }
 
 /// The mechanism and the model, at the same designs; designs that fail have neither value.

@@ -234,10 +234,7 @@ impl Search<'_> {
         let widths = self.limits.iter().map(|(low, high)| high - low);
         let changes: Vec<f64> = slopes.iter().zip(widths).map(|(s, w)| s * w).collect();
         let most = changes.iter().fold(0.0_f64, |most, change| most.max(change.abs()));
-        let sign = |change: &f64| match change.abs() > NO_SIGN * most {
-            true => change.signum() as i8,
-            false => 0,
-        };
+        let sign = |change: &f64| if change.abs() > NO_SIGN * most { change.signum() as i8 } else { 0 };
         Some(changes.iter().map(sign).collect())
     }
 

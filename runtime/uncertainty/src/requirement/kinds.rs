@@ -104,9 +104,10 @@ impl Requirement {
         let of = |limit: Self| {
             let band = limit.band(responses.mechanism(), inputs, design);
             let distance = value.map(|value| beyond(band, value));
-            match lost {
-                true => Some(distance.filter(|distance| *distance <= 0.0).unwrap_or(f64::NEG_INFINITY)),
-                false => distance,
+            if lost {
+                Some(distance.filter(|distance| *distance <= 0.0).unwrap_or(f64::NEG_INFINITY))
+            } else {
+                distance
             }
         };
         let mut limits = self.limits().into_iter();

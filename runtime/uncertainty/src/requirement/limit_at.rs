@@ -77,9 +77,10 @@ impl<'a> LimitAt<'a> {
     fn at(&self, z: &[f64], slopes: bool) -> Result<Realisation, String> {
         let design = self.deviations.design(z);
         let mut room = self.room.borrow_mut();
-        let realisation = match slopes {
-            true => self.responses.with_gradients(&mut room, &design),
-            false => self.responses.at(&mut room, &design),
+        let realisation = if slopes {
+            self.responses.with_gradients(&mut room, &design)
+        } else {
+            self.responses.at(&mut room, &design)
         };
         realisation.map_err(|error| error.to_string())
     }

@@ -151,9 +151,10 @@ impl Requirements<'_> {
         let count = self.wanted().len();
         let sharp = |index| settled(index).is_some_and(|chance| chance.is_sharp());
         // Of lines, which are weighted, it cannot be said that none of their designs has a response.
-        let chances = match (0..=count).all(sharp) && self.nominal_has_all() {
-            true => None,
-            false => Some(chances_of(self, deviations, sampling)?),
+        let chances = if (0..=count).all(sharp) && self.nominal_has_all() {
+            None
+        } else {
+            Some(chances_of(self, deviations, sampling)?)
         };
         let one = |index: usize| {
             let sampled =

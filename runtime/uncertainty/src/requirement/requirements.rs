@@ -153,10 +153,7 @@ impl<'a> Requirements<'a> {
 
 /// Whether all requirements are met, as far as can be told: a single failure decides.
 pub(super) fn all_met(each: &[Option<bool>]) -> Option<bool> {
-    match each.contains(&Some(false)) {
-        true => Some(false),
-        false => (!each.contains(&None)).then_some(true),
-    }
+    if each.contains(&Some(false)) { Some(false) } else { (!each.contains(&None)).then_some(true) }
 }
 
 /// Distance from failing any requirement, as far as can be told: a single failure decides.

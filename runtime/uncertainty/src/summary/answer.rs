@@ -139,9 +139,12 @@ impl Summary {
         table.number("band", "rad/s", &|row| Some(row.spread()?.band));
         let level = self.first.sigma_level;
         table.cells(&format!("{level} sigma"), &|row| or_dash(row.sigma().map(|sigma| in_unit(sigma * level)), rough));
-        table.cells("mostly from", &|row| match row.sigma().is_some_and(|sigma| sigma != 0.0) {
-            true => mostly(&self.description, row.first.variance_shares()),
-            false => "-".to_owned(),
+        table.cells("mostly from", &|row| {
+            if row.sigma().is_some_and(|sigma| sigma != 0.0) {
+                mostly(&self.description, row.first.variance_shares())
+            } else {
+                "-".to_owned()
+            }
         });
         table.flag("trusted", &|row| Some(row.trust.trusted()));
         table.cells("trusted", &|row| verdict(&row.trust.doubts).to_owned());

@@ -148,9 +148,10 @@ impl<'a> Judge<'a> {
         });
         if let Some(cluster) = cluster {
             let modes = cluster.modes.clone();
-            let clustered = match cluster.equal {
-                true => Doubt::EqualInEveryDesign { modes },
-                false => Doubt::Clustered { modes, distance: cluster.distance, defective: cluster.defective() },
+            let clustered = if cluster.equal {
+                Doubt::EqualInEveryDesign { modes }
+            } else {
+                Doubt::Clustered { modes, distance: cluster.distance, defective: cluster.defective() }
             };
             let leading = doubts.iter().take_while(|doubt| **doubt == Doubt::NoFrequency);
             doubts.insert(leading.count(), clustered);

@@ -193,9 +193,12 @@ fn measured(mode: usize, check: &Check, converges: bool) -> String {
     let first = check.first_order_error;
     let first = first.map(|item| format!("; first order is off by {}", percent(item)));
     let second = check.second_order_error;
-    let second = second.map(|item| match converges {
-        true => format!(", second order by {}", percent(item)),
-        false => "; the second-order series does not converge".to_owned(),
+    let second = second.map(|item| {
+        if converges {
+            format!(", second order by {}", percent(item))
+        } else {
+            "; the second-order series does not converge".to_owned()
+        }
     });
     let errors = first.unwrap_or_default() + &second.unwrap_or_default();
     let number = mode + 1;

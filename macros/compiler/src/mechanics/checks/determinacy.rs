@@ -137,10 +137,7 @@ fn with_constraints(n: usize, mass: &[Disturbed], constraints: &[Disturbed], ope
         let square: f64 = a.iter().map(|x| x.value() * x.value()).sum();
         let moved = a.iter().zip(&masses).filter(|(_, mass)| **mass > 0.0);
         let mobility: f64 = moved.map(|(x, mass)| x.value() * x.value() / mass).sum();
-        let weight = match mobility > 0.0 {
-            true => 1.0 / mobility,
-            false => most / square,
-        };
+        let weight = if mobility > 0.0 { 1.0 / mobility } else { most / square };
         let weight = Disturbed::exact(weight);
         if square > 0.0 {
             for (k, entry) in sum.iter_mut().enumerate() {

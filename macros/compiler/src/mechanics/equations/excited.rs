@@ -117,14 +117,13 @@ fn across(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyI
     let reference = (nearest + 1) % 3;
     let zero = vanish(g, context, &axis.0);
     let exactly = (0..3).all(|k| k == nearest || zero[k]);
-    let first = match exactly {
-        true => unit[reference],
-        false => {
-            let part = axis.scale(g, axis.0[reference]);
-            let across = unit[reference].sub(g, part);
-            let length = across.norm(g);
-            Vector3(across.0.map(|component| g.div(component, length)))
-        }
+    let first = if exactly {
+        unit[reference]
+    } else {
+        let part = axis.scale(g, axis.0[reference]);
+        let across = unit[reference].sub(g, part);
+        let length = across.norm(g);
+        Vector3(across.0.map(|component| g.div(component, length)))
     };
     Some([first, axis.cross(g, first)])
 }

@@ -255,10 +255,7 @@ pub(crate) fn mass_matrix(g: &mut Graph, context: &Context, kinematics: &Kinemat
                 }
                 let shift = motion.frame.offset.cross(g, load.force);
                 load.moment = load.moment.add(g, shift);
-                let turning = match context.runs.layout.of(at.body).continues_run {
-                    true => shift,
-                    false => load.moment,
-                };
+                let turning = if context.runs.layout.of(at.body).continues_run { shift } else { load.moment };
                 let seen = Wrench { moment: turning, ..load };
                 set(g, kinematics.of(parent), seen);
                 let Some(next) = tree.branch(parent) else {

@@ -80,9 +80,10 @@ pub(crate) fn inertial(
         let mut wrench = own_load(g, &bodies[index], &motion.frame, &gathered[index]);
         if let Some(id) = mechanism.beam(branch.body) {
             let (beam, from) = (&kinematics.beams[id.index()], &from_stations[id.index()]);
-            let load = match selection.gravity || selection.inertia.contains(branch.body) {
-                true => BeamInertia::new(g, context, id).load(g, beam, &motion.frame, from),
-                false => from.turning(g, beam),
+            let load = if selection.gravity || selection.inertia.contains(branch.body) {
+                BeamInertia::new(g, context, id).load(g, beam, &motion.frame, from)
+            } else {
+                from.turning(g, beam)
             };
             load.add_along(g, context.sections, id, beam, &mut along_sections);
             wrench.force = wrench.force.add(g, load.force);
@@ -123,10 +124,8 @@ pub(crate) fn inertial(
             let shift = motion.frame.offset.cross(g, handed);
             at.moment = at.moment.add(g, shift);
         }
-        let slot = match context.runs.layout.of(branch.body).continues_run {
-            true => &mut at.moment_of_run,
-            false => &mut at.moment,
-        };
+        let slot =
+            if context.runs.layout.of(branch.body).continues_run { &mut at.moment_of_run } else { &mut at.moment };
         *slot = slot.add(g, moment);
     }
     Inertial { along, along_sections, beams, wrenches }

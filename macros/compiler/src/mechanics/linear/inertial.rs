@@ -96,20 +96,16 @@ impl<'a> Inertial<'a> {
         let Self { context, equations, outward, rest } = self;
         let (runs, inertial) = (context.runs, &equations.parts.inertial);
         let running = vec![g.zero(); context.symbols.running.ids.len()];
-        let mass = match context.sections.rows.is_empty() {
-            true => {
-                let kinematics = for_inertia(g, context, &running, ForceSelection::INERTIA);
-                mass_matrix(g, context, &kinematics)
-            }
-            false => columns(g, inertial, &runs.acceleration),
+        let mass = if context.sections.rows.is_empty() {
+            let kinematics = for_inertia(g, context, &running, ForceSelection::INERTIA);
+            mass_matrix(g, context, &kinematics)
+        } else {
+            columns(g, inertial, &runs.acceleration)
         };
         // the acceleration of a coasting coordinate is the rate of an unknown
         let symmetric = context.topology.coasting.is_empty();
         let mass = runs.matrix(g, &mass, symmetric, outward);
-        let relation = match symmetric {
-            true => Mirrored::Equal,
-            false => Mirrored::Unrelated,
-        };
+        let relation = if symmetric { Mirrored::Equal } else { Mirrored::Unrelated };
         let mass = context.sections.matrix(g, &mass, relation);
         let stiffness = columns(g, rest, &runs.position);
         let damping = columns(g, inertial, &runs.velocity);

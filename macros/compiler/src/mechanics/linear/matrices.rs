@@ -53,15 +53,14 @@ impl Linear {
                 })
                 .collect(),
         };
-        let stiffness = match properties.symmetric_stiffness {
-            true => symmetric(&jacobians.stiffness),
-            false => general(&jacobians.stiffness),
+        let stiffness = if properties.symmetric_stiffness {
+            symmetric(&jacobians.stiffness)
+        } else {
+            general(&jacobians.stiffness)
         };
         // The acceleration of a coasting coordinate is the rate of an unknown.
-        let mass = match context.topology.coasting.is_empty() {
-            true => symmetric(&jacobians.mass),
-            false => general(&jacobians.mass),
-        };
+        let mass =
+            if context.topology.coasting.is_empty() { symmetric(&jacobians.mass) } else { general(&jacobians.mass) };
         let this = Self { mass, damping, stiffness };
         this.set_names(g, n);
         this

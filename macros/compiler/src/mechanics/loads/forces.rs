@@ -83,9 +83,10 @@ impl AppliedForces {
             ForceLaw::Load { point, force, moment, following } => {
                 let (force, moment) = (values.vector(g, force), values.vector(g, moment));
                 let axes = force_context.point(*point).axes;
-                let load = match following {
-                    true => Wrench { force: axes.apply(g, force), moment: axes.apply(g, moment) },
-                    false => Wrench { force, moment },
+                let load = if *following {
+                    Wrench { force: axes.apply(g, force), moment: axes.apply(g, moment) }
+                } else {
+                    Wrench { force, moment }
                 };
                 self.apply(g, force_context, *point, load, Frame::Ground);
             }

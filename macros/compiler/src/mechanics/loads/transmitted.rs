@@ -33,9 +33,10 @@ pub(crate) fn transmitted(
     let Context { mechanism, topology, .. } = *context;
     let force_context = ForceContext::new(context, kinematics);
     let mut applied = applied_forces(g, &force_context, selection);
-    let constraints = match selection.constraints {
-        true => constraints(g, &force_context, &mut applied),
-        false => vec![g.zero(); context.rows.len()],
+    let constraints = if selection.constraints {
+        constraints(g, &force_context, &mut applied)
+    } else {
+        vec![g.zero(); context.rows.len()]
     };
     let mut loads: Vec<Loads> = applied.on_bodies.iter().map(|on| negated(g, on)).collect();
 

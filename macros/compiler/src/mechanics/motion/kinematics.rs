@@ -167,9 +167,10 @@ impl Kinematics {
         parent: &FrameMotion,
         name: &str,
     ) -> BodyMotion {
-        let (inboard, outboard) = match reversed {
-            false => (&joint.from_placement, &joint.to_placement),
-            true => (&joint.to_placement, &joint.from_placement),
+        let (inboard, outboard) = if reversed {
+            (&joint.to_placement, &joint.from_placement)
+        } else {
+            (&joint.from_placement, &joint.to_placement)
         };
         let (inboard_offset, inboard_rotation) = values.placement(g, inboard);
         let (outboard_offset, outboard_rotation) = values.placement(g, outboard);
@@ -178,10 +179,7 @@ impl Kinematics {
         let mut moving = start.displaced(g, inboard_offset).rotated(g, inboard_rotation);
         let joint_frame = moving;
         let mut steps = Vec::new();
-        let order: Vec<_> = match reversed {
-            false => joint.steps.iter().collect(),
-            true => joint.steps.iter().rev().collect(),
-        };
+        let order: Vec<_> = if reversed { joint.steps.iter().rev().collect() } else { joint.steps.iter().collect() };
         if gliding {
             (moving, steps) = self.glide(g, values, joint, moving, name);
         }
@@ -205,9 +203,10 @@ impl Kinematics {
             }
             if let Some(direction) = turn {
                 let turn = (axis, direction);
-                moving = match layout.continues_run {
-                    false => moving.turned(g, turn, motion, name),
-                    true => moving.turned_on(g, turn, motion, name),
+                moving = if layout.continues_run {
+                    moving.turned_on(g, turn, motion, name)
+                } else {
+                    moving.turned(g, turn, motion, name)
                 };
             }
         }
@@ -219,11 +218,10 @@ impl Kinematics {
         for step in &mut steps {
             step.point = step.point.sub(g, frame.offset);
         }
-        let (from_axes, from_origin) = match reversed {
-            false => (joint_frame.orientation.axes, joint_frame.offset.sub(g, frame.offset)),
-            true => {
-                (frame.orientation.then_fixed(g, outboard_rotation).axes, frame.orientation.express(g, outboard_offset))
-            }
+        let (from_axes, from_origin) = if reversed {
+            (frame.orientation.then_fixed(g, outboard_rotation).axes, frame.orientation.express(g, outboard_offset))
+        } else {
+            (joint_frame.orientation.axes, joint_frame.offset.sub(g, frame.offset))
         };
         let to_parent = layout.own_axes.then_some(frame.orientation.axes);
         if gliding {
@@ -302,10 +300,7 @@ impl Kinematics {
     ) -> Vec<Vector3> {
         let mut to_body = outboard.unwrap_or_else(|| Matrix3::identity(g));
         let mut axes = Vec::new();
-        let inwards: Vec<_> = match reversed {
-            false => joint.steps.iter().rev().collect(),
-            true => joint.steps.iter().collect(),
-        };
+        let inwards: Vec<_> = if reversed { joint.steps.iter().collect() } else { joint.steps.iter().rev().collect() };
         for step in inwards {
             let axis = values.vector(g, &step.axis);
             let axis = if reversed { axis.neg(g) } else { axis };

@@ -63,10 +63,8 @@ pub(crate) fn for_inertia(
             *turns = turns.map(still);
         }
     }
-    let ground = match selection.gravity {
-        true => context.values.vector(g, &context.mechanism.gravity).neg(g),
-        false => Vector3::zero(g),
-    };
+    let ground =
+        if selection.gravity { context.values.vector(g, &context.mechanism.gravity).neg(g) } else { Vector3::zero(g) };
     let layout = &context.runs.layout;
     Kinematics::new(g, context.mechanism, context.topology, context.values, (motions, turns), layout, ground)
 }

@@ -138,10 +138,7 @@ pub(crate) fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBe
             let one = g.constant(1.0);
             let mut compliance = |stiffness: ExprId| {
                 let of_length = g.mul(stiffness, square);
-                match g.is(stiffness, 0.0) {
-                    true => stiffness,
-                    false => g.div(one, of_length),
-                }
+                if g.is(stiffness, 0.0) { stiffness } else { g.div(one, of_length) }
             };
             let compliances = [compliance(shear_y), compliance(shear_z)];
             let twist = values.scalar(g, &section.twist);

@@ -87,10 +87,7 @@ impl Turned {
             let lost = both(g, &powers, &self.half.0, a, b);
             let kept = both(g, &scaled.0, &self.in_section.0, a, b);
             let curved = g.sub(kept, lost);
-            match a == b {
-                true => g.sub(curved, sum),
-                false => curved,
-            }
+            if a == b { g.sub(curved, sum) } else { curved }
         };
         // equal entries must be one node
         let curved = [0, 1, 2].map(|a| [0, 1, 2].map(|b: usize| curved(b.min(a), b.max(a))));

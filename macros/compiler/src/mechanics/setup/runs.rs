@@ -258,10 +258,7 @@ impl Runs {
         outward: &[usize],
     ) -> Vec<Vec<ExprId>> {
         let n = columns.len();
-        let ordered = |i: usize, j: usize| match symmetric && outward[i] > outward[j] {
-            false => (i, j),
-            true => (j, i),
-        };
+        let ordered = |i: usize, j: usize| if symmetric && outward[i] > outward[j] { (j, i) } else { (i, j) };
         let entry = |i: usize, j: usize| {
             let (row, column) = ordered(i, j);
             columns[column][row]

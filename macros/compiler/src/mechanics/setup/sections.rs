@@ -115,10 +115,7 @@ impl Sections {
     fn beam(&mut self, g: &mut Graph, topology: &Topology, beam: &Beam) -> OfBeam<Option<usize>> {
         let name = beam.name.clone();
         let mut row = |label: String, component: usize, factors: fn(usize, f64) -> Vec<f64>, x| {
-            let ids = match label.starts_with("strain") {
-                true => &beam.strains[component],
-                false => &beam.coordinates[component],
-            };
+            let ids = if label.starts_with("strain") { &beam.strains[component] } else { &beam.coordinates[component] };
             let last = ids.len().checked_sub(1)?;
             let factors = factors(last, x);
             let unknown = |id| topology.free.iter().position(|x| x == id);
@@ -139,10 +136,7 @@ impl Sections {
             };
             rotations.push(rows("section", integrals));
             slopes.push(rows("slope", polynomials));
-            curls.push(match beam.static_shear {
-                true => rows("curl", derivatives),
-                false => [None; 3],
-            });
+            curls.push(if beam.static_shear { rows("curl", derivatives) } else { [None; 3] });
             strains.push(rows("strain", polynomials));
         }
         let stations = beam.stations.iter().enumerate();
@@ -286,10 +280,7 @@ impl Sections {
             odd.push(g.scale(opposite, unknowns[unknown]));
         }
         let (even, odd) = (g.sum(even), g.sum(odd));
-        match first == row {
-            true => g.add(even, odd),
-            false => g.sub(even, odd),
-        }
+        if first == row { g.add(even, odd) } else { g.sub(even, odd) }
     }
 
     /// Forces along the unknowns, from forces along the unknowns followed by those along the sections.

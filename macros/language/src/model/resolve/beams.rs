@@ -315,10 +315,7 @@ impl Resolver<'_> {
             (used[*a], used[*b]) = (sum, sum);
         }
         let [torsion, about_y, about_z] = used;
-        let shears = |strains: usize, bends: usize| match declared.static_shear {
-            true => bends,
-            false => strains,
-        };
+        let shears = |strains: usize, bends: usize| if declared.static_shear { bends } else { strains };
         let [_, bends_y, bends_z] = counts;
         let bending = Dimension::new(3, 1, -2);
         let force = Dimension::FORCE;

@@ -111,9 +111,10 @@ impl Resolver<'_> {
         let Some(&(name, parameters, needs)) = known else {
             let words = SIGNATURES.iter().map(|(known, ..)| *known);
             let is_curve = |meaning| matches!(meaning, Meaning::Curve(_));
-            let help = match ABOUT_MODES.contains(&name.as_str()) {
-                true => Some(MODES.to_string()),
-                false => advice(&name, words, &SYNONYMS).or_else(|| self.scope.nearest(&name, is_curve).map(meant)),
+            let help = if ABOUT_MODES.contains(&name.as_str()) {
+                Some(MODES.to_string())
+            } else {
+                advice(&name, words, &SYNONYMS).or_else(|| self.scope.nearest(&name, is_curve).map(meant))
             };
             self.report(function, format!("unknown function `{name}`"), help);
             return None;

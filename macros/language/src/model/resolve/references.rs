@@ -82,9 +82,10 @@ impl Resolver<'_> {
         let Some(joint) = coordinates::joints(self.ast).nth(id.index()) else {
             return;
         };
-        let message = match joint.name == *name {
-            true => format!("`{name}` is cut, so it has no coordinate"),
-            false => format!("`{name}` belongs to the cut joint `{}`, which has no coordinates", joint.name),
+        let message = if joint.name == *name {
+            format!("`{name}` is cut, so it has no coordinate")
+        } else {
+            format!("`{name}` belongs to the cut joint `{}`, which has no coordinates", joint.name)
         };
         let help = "cut another joint of the loop, or leave out `cut`: then one that nothing refers to is chosen";
         self.diagnostics.error_with_help(name, message, help);

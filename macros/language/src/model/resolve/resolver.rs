@@ -97,10 +97,7 @@ impl<'a> Resolver<'a> {
     /// A length typical of the mechanism, m; one metre if it has none.
     pub(super) fn typical_length(&self) -> f64 {
         let [shortest, longest] = self.lengths;
-        match shortest <= longest {
-            true => shortest.sqrt() * longest.sqrt(),
-            false => 1.0,
-        }
+        if shortest <= longest { shortest.sqrt() * longest.sqrt() } else { 1.0 }
     }
 
     /// Requires values to be finite at the nominal design; `what` names them, a vector only once.

@@ -14,12 +14,11 @@ impl Resolver<'_> {
                 continue;
             };
             if let Some(steady) = self.steady(named) {
-                match all.iter().any(|x| x.coordinate == steady.coordinate) {
-                    true => {
-                        let message = format!("`{}` is given a steady value twice", named.name);
-                        self.diagnostics.error(&named.name, message);
-                    }
-                    false => all.push(steady),
+                if all.iter().any(|x| x.coordinate == steady.coordinate) {
+                    let message = format!("`{}` is given a steady value twice", named.name);
+                    self.diagnostics.error(&named.name, message);
+                } else {
+                    all.push(steady)
                 }
             }
         }

@@ -136,10 +136,7 @@ impl Resolver<'_> {
         let greatest = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let (lower, upper) = (least - value, greatest - value);
         self.representable(&[lower, upper, greatest - least], extent)?;
-        let fraction = |number: f64| match greatest > least {
-            true => (number - least) / (greatest - least),
-            false => 0.0,
-        };
+        let fraction = |number: f64| if greatest > least { (number - least) / (greatest - least) } else { 0.0 };
         let limits = Limits { lower, upper, relative: false };
         let places = numbers.into_iter().map(fraction).zip(weights);
         Some(limits.with(Law::OneOf(places.collect())))

@@ -141,10 +141,7 @@ fn apart(number: Option<f64>, unit: &Unit, index: usize) -> String {
         let sign = if factor.exponent < 0 { '/' } else { '*' };
         let above = UnitFactor { exponent: factor.exponent.abs(), ..factor.clone() };
         let symbol = part(&[above]);
-        text += &match k == index {
-            true => format!(" {sign} {symbol}"),
-            false => format!(" {sign} (1 {symbol})"),
-        };
+        text += &if k == index { format!(" {sign} {symbol}") } else { format!(" {sign} (1 {symbol})") };
     }
     text
 }

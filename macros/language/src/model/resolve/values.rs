@@ -297,10 +297,7 @@ impl Resolver<'_> {
                 self.note_length(value * scale, quantity.dimension());
             }
         }
-        let scaled = |expr| match scale == 1.0 {
-            true => expr,
-            false => simplify::multiply(Expr::Number(scale), expr),
-        };
+        let scaled = |expr| if scale == 1.0 { expr } else { simplify::multiply(Expr::Number(scale), expr) };
         Some(typed.map(scaled, quantity))
     }
 

@@ -109,10 +109,7 @@ impl GivenInertia {
     fn problem(&self, at: &Values) -> String {
         const NAMES: [&str; 3] = ["Jxx", "Jyy", "Jzz"];
         let central = tensor(&self.central, at);
-        let about = match self.central == self.tensor {
-            true => "",
-            false => "about its centre of mass, ",
-        };
+        let about = if self.central == self.tensor { "" } else { "about its centre of mass, " };
         let diagonal = [0, 1, 2].map(|k: usize| central[k][k]);
         if let Some(k) = diagonal.iter().position(|&moment| moment < 0.0) {
             let (name, value) = (NAMES[k], digits(diagonal[k], 6));
@@ -121,10 +118,8 @@ impl GivenInertia {
         let is_diagonal = (0..3).all(|i| (0..i).all(|j| central[i][j] == 0.0));
         let (values, _) = principal(&central);
         if !is_diagonal {
-            let which = match values[0] < 0.0 {
-                true => "the first is negative",
-                false => "the first two sum to less than the third",
-            };
+            let which =
+                if values[0] < 0.0 { "the first is negative" } else { "the first two sum to less than the third" };
             return format!("{about}of its principal moments {}, {which}", moments(values));
         }
         let (mut order, [a, b, c]) = ([0, 1, 2], values);

@@ -173,9 +173,10 @@ fn violation(requirement: &Requirement, at: &Values) -> Option<Violation> {
 }
 
 fn in_unit(value: f64, dimension: Dimension) -> String {
-    match dimension.is_none() {
-        true => rounded(value).to_string(),
-        false => format!("{} {}", rounded(value), dimension.si_symbol()),
+    if dimension.is_none() {
+        rounded(value).to_string()
+    } else {
+        format!("{} {}", rounded(value), dimension.si_symbol())
     }
 }
 

@@ -23,10 +23,9 @@ use crate::base::span::Extent;
 pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let Some(keyword) = tokens.peek_ident() else {
         let is_comment = ['%', '!', '/', '\''].iter().any(|&sign| tokens.peek_sign(sign));
-        return tokens.expected("an item such as `body` or `joint`").map_err(|error| match is_comment {
-            true => Box::new(error.with_help(COMMENT)),
-            false => error,
-        });
+        return tokens
+            .expected("an item such as `body` or `joint`")
+            .map_err(|error| if is_comment { Box::new(error.with_help(COMMENT)) } else { error });
     };
     let read: fn(&mut Tokens) -> Parsed<ItemKind> = match keyword.to_string().as_str() {
         "input" => input,
@@ -85,9 +84,12 @@ fn design(tokens: &mut Tokens) -> Parsed<ItemKind> {
 /// Reads the sign between a name and its value, which says its unit.
 fn equals(tokens: &mut Tokens, name: &Ident) -> Parsed<Extent> {
     let read = tokens.expect_sign('=', "`=`");
-    read.map_err(|error| match tokens.peek_sign(':') {
-        true => Box::new(error.with_help(format!("write `{name} = ...`: its unit is that of the value"))),
-        false => error,
+    read.map_err(|error| {
+        if tokens.peek_sign(':') {
+            Box::new(error.with_help(format!("write `{name} = ...`: its unit is that of the value")))
+        } else {
+            error
+        }
     })
 }
 

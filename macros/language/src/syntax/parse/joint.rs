@@ -35,10 +35,7 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
             Some(clause) => clauses.push(clause),
             None if comma => {
                 let error = tokens.expected("`at`, `rotated`, `driven`, `coasting`, `shaken` or `cut`");
-                return error.map_err(|error| match decimal {
-                    true => Box::new(error.with_help(DECIMAL_POINT)),
-                    false => error,
-                });
+                return error.map_err(|error| if decimal { Box::new(error.with_help(DECIMAL_POINT)) } else { error });
             }
             None => break,
         }
@@ -81,10 +78,7 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
     }
     let mut ahead = *tokens;
     let is_named = ahead.ident().is_some() && ["driven", "coasting", "shaken"].iter().any(|word| ahead.peek_word(word));
-    let coordinate = match is_named {
-        true => Some(tokens.name("a coordinate")?),
-        false => None,
-    };
+    let coordinate = if is_named { Some(tokens.name("a coordinate")?) } else { None };
     if let Some(keyword) = tokens.word("coasting") {
         let known = |tokens: &Tokens| CLAUSES.iter().any(|word| tokens.peek_word(word));
         let mut ahead = *tokens;

@@ -149,9 +149,10 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
             return digits_missing(point);
         }
         let error = tokens.expected("a value");
-        return match tokens.peek_sign('*') {
-            true => error.map_err(|error| Box::new(error.with_help("a power is written `x^2`"))),
-            false => error,
+        return if tokens.peek_sign('*') {
+            error.map_err(|error| Box::new(error.with_help("a power is written `x^2`")))
+        } else {
+            error
         };
     }
     let name = tokens.name("a value")?;

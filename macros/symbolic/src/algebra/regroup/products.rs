@@ -49,10 +49,7 @@ impl Products {
     fn holds(&self, list: usize, (a, b): (Factor, Factor)) -> bool {
         let factors = &self.lists[list].1;
         let count = |wanted: Factor| factors.iter().filter(|&&f| f == wanted).count();
-        match a == b {
-            true => count(a) > 1,
-            false => count(a) > 0 && count(b) > 0,
-        }
+        if a == b { count(a) > 1 } else { count(a) > 0 && count(b) > 0 }
     }
 
     /// While two products share a pair, turns the most frequently shared pair into one factor.

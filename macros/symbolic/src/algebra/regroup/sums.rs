@@ -31,9 +31,10 @@ pub(super) fn factor_sums(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
             .into_iter()
             .map(|(minus, term)| {
                 let mut factors = Vec::new();
-                match uses.in_sum(term) {
-                    true => uses.factors(graph, term, &mut factors),
-                    false => factors.push(term),
+                if uses.in_sum(term) {
+                    uses.factors(graph, term, &mut factors)
+                } else {
+                    factors.push(term)
                 }
                 let factors = factors.iter().map(|&f| image(images, f)).collect();
                 Term { minus, factors }

@@ -47,10 +47,7 @@ pub(super) struct Estimate {
 impl Curve {
     /// A slope that is not known, as where eigenvalues merge, counts as zero; the remainder shows it.
     pub(super) fn new(t: [f64; 3], jets: [[f64; 2]; 3]) -> Self {
-        let jets = jets.map(|[value, slope]| match slope.is_finite() {
-            true => [value, slope],
-            false => [value, 0.0],
-        });
+        let jets = jets.map(|[value, slope]| if slope.is_finite() { [value, slope] } else { [value, 0.0] });
         let h = t[2] - t[0];
         let share = (t[1] - t[0]) / h;
         let [value, slope] = cubic(jets[0], jets[2], h, share);

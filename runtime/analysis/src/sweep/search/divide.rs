@@ -405,10 +405,7 @@ impl Division {
             counted.map(|r| roots[r].value).collect::<Vec<Complex>>()
         });
         let rises = after.len() > before.len();
-        let (more, fewer) = match rises {
-            true => (&mut after, &before),
-            false => (&mut before, &after),
-        };
+        let (more, fewer) = if rises { (&mut after, &before) } else { (&mut before, &after) };
         for value in fewer {
             let apart = |other: &Complex| (*other - *value).norm();
             let all = more.iter().enumerate();

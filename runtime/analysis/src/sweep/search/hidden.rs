@@ -292,10 +292,7 @@ impl Pair {
         let x = if self.imaginary { -x } else { x };
         let norm = x.hypot(y);
         // (|z| + x) (|z| - x) = y^2
-        let twice = match x < 0.0 {
-            true => y * y / (norm - x),
-            false => norm + x,
-        };
+        let twice = if x < 0.0 { y * y / (norm - x) } else { norm + x };
         0.5 * (0.5 * twice).sqrt()
     }
 
@@ -305,9 +302,10 @@ impl Pair {
         // Either part of a root grows with |y|; the real one with x, the imaginary one against it.
         let least = self.half(x - dx, (y.abs() - dy).max(0.0));
         let most = self.half(x + dx, y.abs() + dy);
-        match self.upper {
-            true => [mean.0 - mean.1 + least, mean.0 + mean.1 + most],
-            false => [mean.0 - mean.1 - most, mean.0 + mean.1 - least],
+        if self.upper {
+            [mean.0 - mean.1 + least, mean.0 + mean.1 + most]
+        } else {
+            [mean.0 - mean.1 - most, mean.0 + mean.1 - least]
         }
     }
 }
@@ -400,10 +398,7 @@ impl Number for Both<'_> {
 fn highest(function: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
     for _ in 0..60 {
         let third = (to - from) / 3.0;
-        match function(from + third) > function(to - third) {
-            true => to -= third,
-            false => from += third,
-        }
+        if function(from + third) > function(to - third) { to -= third } else { from += third }
     }
     0.5 * (from + to)
 }

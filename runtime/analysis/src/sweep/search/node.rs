@@ -49,10 +49,7 @@ impl Question<'_> {
             Family::Undamped => undamped(&modes.modes, &change),
             Family::General => general(&modes.modes, &state.linear, &change),
         };
-        let stiffness = match self.stiffness {
-            true => stiffness(state, &change)?,
-            false => Vec::new(),
-        };
+        let stiffness = if self.stiffness { stiffness(state, &change)? } else { Vec::new() };
         let input = [point.place.p + self.deviation, along.p];
         Ok(Node { spectrum: Rc::new(Spectrum { t, input, roots, stiffness }), point, modes })
     }

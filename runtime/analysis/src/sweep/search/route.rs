@@ -257,10 +257,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         match walk.end {
             end if end == curve.end_at(self.settings.high) => {
                 if let Some(end) = walk.points.last() {
-                    let beside = match reached.place.p == self.settings.high {
-                        true => &behind,
-                        false => &reached,
-                    };
+                    let beside = if reached.place.p == self.settings.high { &behind } else { &reached };
                     self.critical_at_end(&curve, &end.equilibrium, beside);
                 }
                 Next::Done
@@ -315,10 +312,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let Some(mut step) = step else {
             return ControlFlow::Continue(Pass::On);
         };
-        let findings = match step.follows() {
-            true => step.findings(self.wanted, located, outer, RESOLUTION),
-            false => None,
-        };
+        let findings = if step.follows() { step.findings(self.wanted, located, outer, RESOLUTION) } else { None };
         let shorter = step.can_be_shorter();
         let Some(findings) = findings else {
             drop(step);
@@ -360,10 +354,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
                     let last = located.last().map(|x| &x.special);
                     let ends = |located: &Located| located.ends_arm && located.special == *special;
                     let arm = located.iter().any(ends) || turns && last == Some(&*special);
-                    next = match stop {
-                        true => Some(Next::Done),
-                        false => self.goes_on(&special, arm, settled(&mut step, t)),
-                    };
+                    next = if stop { Some(Next::Done) } else { self.goes_on(&special, arm, settled(&mut step, t)) };
                 }
                 Event::Met { value, condition, node, modes, change, merging } => {
                     let ends = (t == 0.0 && self.route.points.len() <= 1, t == 1.0 && closes);
@@ -565,10 +556,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let mut trial = value;
         let mut resumed = None;
         while trial != high && resumed.is_none() {
-            trial = match (high - trial - step) * self.forward() > 0.0 {
-                true => trial + step,
-                false => high,
-            };
+            trial = if (high - trial - step) * self.forward() > 0.0 { trial + step } else { high };
             resumed = self.solve(trial, from, self.along.policy).ok();
         }
         let Some(state) = resumed else {
@@ -595,9 +583,10 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let Ok(station) = curve.begin(state) else {
             let value = state.inputs[self.settings.input.index()];
             self.gap(limit, value, error);
-            return match value == self.settings.high {
-                true => Next::Done,
-                false => Next::Seek(value, state.coordinates.clone(), Error::CriticalState),
+            return if value == self.settings.high {
+                Next::Done
+            } else {
+                Next::Seek(value, state.coordinates.clone(), Error::CriticalState)
             };
         };
         let mut begin = station.clone();

@@ -31,10 +31,7 @@ pub(super) fn in_trouble(pair: &Pair) -> bool {
 fn crowd<'f>(computed: &'f ComputedPairs, i: usize) -> impl Iterator<Item = usize> + use<'f> {
     let pair = &computed.pairs[i];
     // One that is far from defective has no other with the same vectors that close.
-    let reach = match pair.condition <= DEFECTIVE {
-        true => pair.reach.max(pair.radius()),
-        false => pair.reach,
-    };
+    let reach = if pair.condition <= DEFECTIVE { pair.reach.max(pair.radius()) } else { pair.reach };
     let near = move |j: &usize| (pair.s - computed.pairs[*j].s).norm() <= reach;
     let others = (0..computed.count).filter(move |&j| j != i && !pair.merged);
     others.filter(near)

@@ -73,21 +73,21 @@ pub fn solve_near(problem: Eigenproblem, near: &[ApproximatePair]) -> Result<Vec
         left: take(&mut complex, count * n),
     };
     let predicted = n <= DIRECT && predict(problem, near, rate, values);
-    let mut troubles = match predicted {
-        true => {
-            for (i, near) in near.iter().enumerate() {
-                let range = i * n..(i + 1) * n;
-                start(&mut computed.right[range.clone()], near.right, right_units);
-                start(&mut computed.left[range], near.left, left_units);
-            }
-            find(&mut solver, &mut computed, Values::near(values), label)
+    let mut troubles = if predicted {
+        for (i, near) in near.iter().enumerate() {
+            let range = i * n..(i + 1) * n;
+            start(&mut computed.right[range.clone()], near.right, right_units);
+            start(&mut computed.left[range], near.left, left_units);
         }
-        false => usize::MAX,
+        find(&mut solver, &mut computed, Values::near(values), label)
+    } else {
+        usize::MAX
     };
     if troubles > 0 {
-        let form = match n <= DIRECT {
-            true => hessenberg::reduce(count, companion, reflections, vector),
-            false => hessenberg::reduce_graded(count, companion, reflections, vector),
+        let form = if n <= DIRECT {
+            hessenberg::reduce(count, companion, reflections, vector)
+        } else {
+            hessenberg::reduce_graded(count, companion, reflections, vector)
         };
         let mut copy = form.h.to_vec();
         let (pencil, order) = (&solver.pencil, &mut *solver.order);

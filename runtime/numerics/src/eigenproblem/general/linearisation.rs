@@ -110,10 +110,7 @@ impl<'a> Linearisation<'a> {
                 rows.map(|row| row[q] * row[q] + row[q + 1] * row[q + 1]).sum::<f64>()
             };
             // Both halves hold the right vector; the larger one is better known.
-            let (half, scales) = match size(upper) >= size(lower) {
-                true => (upper, up),
-                false => (lower, down),
-            };
+            let (half, scales) = if size(upper) >= size(lower) { (upper, up) } else { (lower, down) };
             for i in 0..n {
                 let (from, to) = (i * columns + q, &mut shapes[i * columns + q..]);
                 for part in 0..2 {

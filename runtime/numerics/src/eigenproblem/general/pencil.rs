@@ -91,10 +91,7 @@ impl Pencil<'_> {
     }
 
     fn matrices(&self, transposed: bool) -> [&[f64]; 3] {
-        match transposed {
-            false => [self.mass, self.damping, self.stiffness],
-            true => self.transposed,
-        }
+        if transposed { self.transposed } else { [self.mass, self.damping, self.stiffness] }
     }
 
     /// Products with `x` from the right or with `x^T` from the left.

@@ -20,10 +20,7 @@ pub(super) fn roots(linear: &Linear, tangent: &Tangent, free: usize) -> Result<V
     };
     let reduced =
         deflation::first_order_roots((&matrix, &terms), free, |matrix| roots_of(Eigenproblem::FirstOrder(matrix)))?;
-    let size = match tangent.structure.holonomic() {
-        true => Normalisation::Mass,
-        false => Normalisation::Largest,
-    };
+    let size = if tangent.structure.holonomic() { Normalisation::Mass } else { Normalisation::Largest };
     let mut gathered = Gathered::new(linear, tangent.structure, size);
     for (i, root) in reduced.iter().enumerate() {
         let phi = system.motion(&root.right);
@@ -74,10 +71,7 @@ impl System<'_> {
         let rounding = 4.0 * self.velocities() as f64 * f64::EPSILON * most;
         let force = Vector::from_fn(self.velocities(), |a| {
             let sum: Complex = terms(a).sum();
-            match sum.norm() <= rounding {
-                true => Complex::default(),
-                false => sum,
-            }
+            if sum.norm() <= rounding { Complex::default() } else { sum }
         });
         let re = self.velocity.multipliers(&force.map(|value| value.re));
         let im = self.velocity.multipliers(&force.map(|value| value.im));

@@ -61,9 +61,10 @@ pub(super) fn measured(linear: &Linear, structure: Structure, reduced: &[Root]) 
     let mut gathered = Gathered::new(linear, structure, Normalisation::Mass);
     for (i, root) in reduced.iter().enumerate() {
         let (right, left) = (root.right.clone(), root.left.clone());
-        match deflation::is_standing(root) {
-            true => gathered.keep(root.clone(), right, left),
-            false => gathered.add(root, is_shared(reduced, i), right, left),
+        if deflation::is_standing(root) {
+            gathered.keep(root.clone(), right, left)
+        } else {
+            gathered.add(root, is_shared(reduced, i), right, left)
         }
     }
     gathered.roots
@@ -133,10 +134,7 @@ impl<'a> Gathered<'a> {
         let settle = |right: &mut [Complex], left: &mut [Complex]| self.settle(right, left);
         if !settle(&mut right, &mut left) {
             // The eigenvalue is that of the smaller problem; without vectors it has no derivative.
-            let numbers = |x: Vector<Complex>| match x.iter().all(|x| x.is_finite()) {
-                true => x,
-                false => Vector::zeros(x.len()),
-            };
+            let numbers = |x: Vector<Complex>| if x.iter().all(|x| x.is_finite()) { x } else { Vector::zeros(x.len()) };
             let (right, left) = (numbers(right), numbers(left));
             let (s, error) = (reduced.s, reduced.error);
             let (residual, condition) = (f64::INFINITY, f64::INFINITY);
@@ -178,9 +176,10 @@ impl<'a> Gathered<'a> {
         }
         let mut condition = reduced.condition;
         if measure.residual.is_nan() || measure.residual > measure::ACCEPTED {
-            match measure.rounding_only {
-                true => measure.residual = measure::ROUNDING,
-                false => (s, condition) = (reduced.s, f64::INFINITY),
+            if measure.rounding_only {
+                measure.residual = measure::ROUNDING
+            } else {
+                (s, condition) = (reduced.s, f64::INFINITY)
             }
         }
         let estimate = measure.doubt + 2.0 * measure.newton.norm() + f64::EPSILON * s.norm();

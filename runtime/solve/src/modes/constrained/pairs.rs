@@ -85,10 +85,7 @@ fn refine(linear: &Linear, tangent: &Tangent, pairs: &mut Pairs) {
         let (off, rounding) = deflation::quotient(linear, lambda, shape);
         pairs.residuals[mode] = residual(linear, tangent, lambda, shape);
         let error = rounding + 2.0 * off.abs();
-        pairs.errors[mode] = match accurate(pairs.residuals[mode]) {
-            true => error,
-            false => error.max(pairs.errors[mode]),
-        };
+        pairs.errors[mode] = if accurate(pairs.residuals[mode]) { error } else { error.max(pairs.errors[mode]) };
     }
 }
 

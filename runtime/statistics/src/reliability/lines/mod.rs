@@ -150,10 +150,7 @@ impl LineSampler {
     fn line<L: LimitState>(&self, limit: &L, group: usize, samples: &mut NormalSamples) -> Line {
         let (choice, sample) = samples.next_with_choice();
         let direction = self.mixture.pick(group, choice);
-        let across = match self.alone() {
-            true => vec![0.0; self.dimension],
-            false => self.across(sample, direction),
-        };
+        let across = if self.alone() { vec![0.0; self.dimension] } else { self.across(sample, direction) };
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
         let value = Self::along(limit, &across, direction);
         let scanned = scan::scan(value, everywhere, self.settings.reach, self.spacing());
@@ -180,10 +177,7 @@ impl LineSampler {
     /// Between the points of a line at first. A single line takes as many points as half of the evaluations allow.
     fn spacing(&self) -> f64 {
         if !self.alone() {
-            return match self.settings.evaluations < FEW {
-                true => COARSE_SPACING,
-                false => SPACING,
-            };
+            return if self.settings.evaluations < FEW { COARSE_SPACING } else { SPACING };
         }
         let points = (self.settings.evaluations / 2).clamp(33, POINTS_OF_ONE);
         2.0 * self.settings.reach / (points - 1) as f64
@@ -196,18 +190,16 @@ impl LineSampler {
         // What is rarer, failure or its opposite, and whether enough lines meet it for their scatter to be meaningful.
         let safe = |line: &Line| 1.0 + line.known[0] - line.without_value - line.fails;
         let opposite = 1.0 - without_value.value - probability.value;
-        let (rarer, part): (Vec<f64>, f64) = match probability.value <= opposite {
-            true => (lines.iter().map(|line| line.fails).collect(), probability.value),
-            false => (lines.iter().map(safe).collect(), opposite),
+        let (rarer, part): (Vec<f64>, f64) = if probability.value <= opposite {
+            (lines.iter().map(|line| line.fails).collect(), probability.value)
+        } else {
+            (lines.iter().map(safe).collect(), opposite)
         };
         let (sum, squares) = (rarer.iter().sum::<f64>(), dot(&rarer, &rarer));
         let enough = lines.len() as u64 >= FEWEST && part > 0.0;
         let settled = self.alone() || enough && sum * sum >= CONTRIBUTING * squares;
         let many = self.alone() || lines.len() as u64 >= MANY;
-        let unmet = match self.alone() {
-            true => PLACED * part,
-            false => UNMET * part / lines.len() as f64,
-        };
+        let unmet = if self.alone() { PLACED * part } else { UNMET * part / lines.len() as f64 };
         let probability = Estimate { standard_error: probability.standard_error.hypot(unmet), ..probability };
         LineProbability {
             settled,
@@ -221,12 +213,11 @@ impl LineSampler {
 
     /// About how many evaluations the fewest lines take.
     pub fn fewest(&self) -> u64 {
-        let lines = match self.alone() {
-            true => 1,
-            false => {
-                let round = self.mixture.groups().count() as u64;
-                FEWEST.div_ceil(round).max(2) * round
-            }
+        let lines = if self.alone() {
+            1
+        } else {
+            let round = self.mixture.groups().count() as u64;
+            FEWEST.div_ceil(round).max(2) * round
         };
         (lines as f64 * 2.0 * self.settings.reach / self.spacing()) as u64
     }
@@ -350,10 +341,7 @@ impl LineSampler {
 
 /// Lines of a round along the directions in which failure is expected.
 fn round(settings: &LineSettings) -> usize {
-    match settings.evaluations < FEW {
-        true => COARSE_ROUND,
-        false => ROUND,
-    }
+    if settings.evaluations < FEW { COARSE_ROUND } else { ROUND }
 }
 
 /// The mean over lines of whole rounds, less what their scatter shares with quantities whose means are known to be zero

@@ -171,10 +171,7 @@ fn may_hide(points: &[Point], k: usize) -> bool {
     let after = (points.get(k + 1)).and_then(|next| bend(b, [a, b, *next]));
     let bent = before.into_iter().chain(after).fold(0.0, f64::max);
     let (first, second) = (a.value.abs(), b.value.abs());
-    let left = match same {
-        true => first.min(second),
-        false => first + second,
-    };
+    let left = if same { first.min(second) } else { first + second };
     width > NARROW_JUMP && CAUTION * bent > left
 }
 

@@ -30,10 +30,7 @@ pub fn doubt_sentences(all: &[impl AsRef<[Doubt]>]) -> Vec<String> {
 
 /// The verdict on a number that is in doubt.
 pub fn standing(doubt: &Doubt) -> &'static str {
-    match doubt.certain() {
-        true => "Not to be trusted",
-        false => "Doubtful",
-    }
+    if doubt.certain() { "Not to be trusted" } else { "Doubtful" }
 }
 
 /// Writes the doubts that distances raise, and names the analysis that can settle them.

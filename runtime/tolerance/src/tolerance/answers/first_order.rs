@@ -86,10 +86,7 @@ impl Row<'_> {
     }
 
     fn distance(&self, distance: f64) -> String {
-        match self.alone() {
-            true => far(distance),
-            false => CLUSTER.to_owned(),
-        }
+        if self.alone() { far(distance) } else { CLUSTER.to_owned() }
     }
 }
 

@@ -82,9 +82,8 @@ fn limit(said: &mut Findings, limit_reliability: &LimitReliability, d: &Descript
     });
     said.note(format!("Designs solved anew: probability of failure {}.", limit_reliability.judgement));
     let doubtful = |claimed| limit_reliability.judgement.confirms(claimed) && !limit_reliability.verified();
-    let verdict = limit_reliability.probability().map(|claimed| match doubtful(claimed) {
-        true => "not verified".to_owned(),
-        false => verdict(&limit_reliability.judgement, claimed),
+    let verdict = limit_reliability.probability().map(|claimed| {
+        if doubtful(claimed) { "not verified".to_owned() } else { verdict(&limit_reliability.judgement, claimed) }
     });
     let verdict = verdict.unwrap_or_default();
     for at in limit_reliability.design_points.iter().flatten() {

@@ -48,10 +48,7 @@ pub(super) struct Carrier {
 impl Carrier {
     /// Number of candidates: the motions of space, and the spins of a ball.
     pub(super) fn len(&self) -> usize {
-        match self.offsets.is_empty() {
-            true => RIGID,
-            false => RIGID + 3,
-        }
+        if self.offsets.is_empty() { RIGID } else { RIGID + 3 }
     }
 }
 

@@ -62,10 +62,7 @@ pub(crate) fn free_directions(
         }
     }
     let rests = first.as_ref().is_some_and(|count| count.rests);
-    let nominal = match alike {
-        true => first,
-        false => count(&system, NOMINAL),
-    };
+    let nominal = if alike { first } else { count(&system, NOMINAL) };
     let state = at_random(&system, NOMINAL, Friction::Any);
     let (Some(nominal), Some(state)) = (nominal, state) else {
         return Ok(free);
@@ -78,15 +75,9 @@ pub(crate) fn free_directions(
         Proof::AtZero(_) => (Vec::new(), Friction::Any),
         Proof::Symmetries(symmetries, friction) => (symmetries, friction),
     };
-    let loaded = match nominal.rests {
-        true => Vec::new(),
-        false => unbalanced(&system, NOMINAL, &symmetries, friction),
-    };
+    let loaded = if nominal.rests { Vec::new() } else { unbalanced(&system, NOMINAL, &symmetries, friction) };
     if loaded.is_empty() {
-        let elsewhere = match rests {
-            true => Vec::new(),
-            false => unbalanced(&system, 1, &symmetries, friction),
-        };
+        let elsewhere = if rests { Vec::new() } else { unbalanced(&system, 1, &symmetries, friction) };
         let text = |along: &Vec<f64>| described(context, &fields, along).text;
         let texts: Vec<String> = elsewhere.iter().map(text).collect();
         if !texts.is_empty() {

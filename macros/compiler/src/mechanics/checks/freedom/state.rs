@@ -74,11 +74,13 @@ impl<'a> System<'a> {
         let evaluator = Evaluator::new(self.g, &self.roots);
         let consistent = self.place(state);
         let unknowns = &self.context.symbols.q.ids[self.first_of_velocities()..];
-        let values =
-            evaluator.at(state.motion, |symbol| match friction == Friction::None && unknowns.contains(&symbol) {
-                true => Disturbed::exact(0.0),
-                false => self.found(&consistent, state, symbol),
-            });
+        let values = evaluator.at(state.motion, |symbol| {
+            if friction == Friction::None && unknowns.contains(&symbol) {
+                Disturbed::exact(0.0)
+            } else {
+                self.found(&consistent, state, symbol)
+            }
+        });
         self.linearised(&values, evaluator.operations())
     }
 

@@ -51,8 +51,5 @@ impl Units {
 const REACTION: f64 = 1.0 / 64.0;
 
 fn power_of_two(size: f64) -> f64 {
-    match size.is_normal() {
-        true => size.log2().round().exp2(),
-        false => 1.0,
-    }
+    if size.is_normal() { size.log2().round().exp2() } else { 1.0 }
 }

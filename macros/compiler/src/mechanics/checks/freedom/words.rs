@@ -24,12 +24,13 @@ pub(super) fn note(system: &System, count: &Count, state: &Linearised) -> String
             let others = reduced(&unresisted.rates[unresisted.wholes.len()..]);
             let all = reduced(&unresisted.rates);
             let moved = |rates: &Vec<f64>| rates.iter().filter(|x| x.abs() > NOTHING).count();
-            match all.iter().all(|rates| moved(rates) <= FEW) {
-                true => all.iter().map(|x| together(system.context, system.fields, x)).collect(),
-                false => wholes
+            if all.iter().all(|rates| moved(rates) <= FEW) {
+                all.iter().map(|x| together(system.context, system.fields, x)).collect()
+            } else {
+                wholes
                     .map(|whole| described(system.context, system.fields, &whole).text)
                     .chain(others.iter().map(|x| together(system.context, system.fields, x)))
-                    .collect(),
+                    .collect()
             }
         }
         Proof::Symmetries(combinations, _) => {
@@ -44,9 +45,10 @@ pub(super) fn note(system: &System, count: &Count, state: &Linearised) -> String
     list.truncate(count.directions);
     let rest = count.directions - list.len();
     if rest > 0 {
-        let cause = match system.first_of_velocities() < system.size() {
-            true => "rolling leaves open",
-            false => "nothing resists at the equilibrium",
+        let cause = if system.first_of_velocities() < system.size() {
+            "rolling leaves open"
+        } else {
+            "nothing resists at the equilibrium"
         };
         list.push(format!("{rest} more that {cause}"));
     }

@@ -104,10 +104,7 @@ impl Resolver<'_> {
         let loaded = self.loaded(joints, points);
         for (index, (beam, fraction)) in stations.used.iter().enumerate() {
             let name = &stations.beams[*beam].0;
-            let word = match *fraction == 1.0 {
-                true => "tip".to_owned(),
-                false => format!("station_{index}"),
-            };
+            let word = if *fraction == 1.0 { "tip".to_owned() } else { format!("station_{index}") };
             bodies.push(Body { name: self.unused(&format!("{name}_{word}"), name), parts: Vec::new() });
         }
         for (index, (name, declared)) in stations.beams.iter().enumerate() {

@@ -212,9 +212,10 @@ impl Table {
                 let second = |across: &Expr, along: &Expr| {
                     scaled(1.0 / 12.0, multiply(across.clone(), power_integer(along.clone(), 3)))
                 };
-                let torsion = match self.is_flat {
-                    true => torsion_of_rectangle(width, height),
-                    false => torsion_of_rectangle(height, width),
+                let torsion = if self.is_flat {
+                    torsion_of_rectangle(width, height)
+                } else {
+                    torsion_of_rectangle(height, width)
                 };
                 (multiply(width.clone(), height.clone()), [second(width, height), second(height, width)], torsion)
             }
@@ -240,11 +241,10 @@ impl Table {
 
 /// What changes linearly from the root to the tip.
 fn between(root: &Expr, tip: &Expr, fraction: f64) -> Expr {
-    match root == tip {
-        true => root.clone(),
-        false => {
-            add(multiply(Expr::Number(1.0 - fraction), root.clone()), multiply(Expr::Number(fraction), tip.clone()))
-        }
+    if root == tip {
+        root.clone()
+    } else {
+        add(multiply(Expr::Number(1.0 - fraction), root.clone()), multiply(Expr::Number(fraction), tip.clone()))
     }
 }
 

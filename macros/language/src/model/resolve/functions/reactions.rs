@@ -18,10 +18,7 @@ impl Resolver<'_> {
     pub(super) fn reaction_vector(&mut self, function: &str, of: &Value) -> Option<Typed> {
         let name = self.name_of(of, KIND)?;
         let force = function == "reaction_force";
-        let (first, dimension) = match force {
-            true => (0, Dimension::FORCE),
-            false => (3, Dimension::MOMENT),
-        };
+        let (first, dimension) = if force { (0, Dimension::FORCE) } else { (3, Dimension::MOMENT) };
         let components = [0, 1, 2].map(|axis| first + axis);
         let vector = match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::Constraint(id)) => {
