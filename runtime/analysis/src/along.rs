@@ -87,8 +87,7 @@ impl<'a> Moving<'a> {
         states: impl Iterator<Item = &'b Equilibrium> + Clone,
         roles: &[Role],
     ) -> Self {
-        let infos = d.coordinates.iter().enumerate();
-        let asked = infos.filter(|(_, info)| roles.contains(&info.role));
+        let asked = d.coordinates.iter().enumerate().filter(|(_, info)| roles.contains(&info.role));
         let moves = |i: &usize| {
             let mut states = states.clone();
             states.any(|state| of_its_kind(d, &state.coordinates, *i) != 0.0)
@@ -143,11 +142,12 @@ impl<'a> Moving<'a> {
 pub(crate) fn critical_vectors(said: &mut Findings, d: &Description, v: &[f64], w: &[f64]) {
     let most = [v, w].map(|vector| largest(vector.iter().copied()));
     let entries = d.coordinates.iter().zip(v.iter().zip(w));
-    let entries = entries.map(|(info, (&v, &w))| {
-        let entry = [unless_rounding(v, most[0]), unless_rounding(w, most[1])];
-        (&*info.name, entry)
-    });
-    let (rows, zero): (Vec<_>, Vec<_>) = entries.partition(|(_, entry)| *entry != [0.0, 0.0]);
+    let (rows, zero): (Vec<_>, Vec<_>) = entries
+        .map(|(info, (&v, &w))| {
+            let entry = [unless_rounding(v, most[0]), unless_rounding(w, most[1])];
+            (&*info.name, entry)
+        })
+        .partition(|(_, entry)| *entry != [0.0, 0.0]);
     let mut table = Columns::new("critical vectors", &rows);
     table.cells("coordinate", &|(name, _)| (*name).to_owned());
     table.cells("critical mode v", &|(_, entry)| rough(entry[0]));

@@ -119,8 +119,7 @@ impl Campbell {
         let mut shown = self.clone();
         let all = self.labels();
         let lowest = |label: usize| {
-            let all = self.branch(label).filter_map(|(_, mode)| mode.behaviour.frequency());
-            all.fold(f64::INFINITY, f64::min)
+            self.branch(label).filter_map(|(_, mode)| mode.behaviour.frequency()).fold(f64::INFINITY, f64::min)
         };
         let (oscillating, others): (Vec<usize>, Vec<usize>) = all.iter().partition(|label| lowest(**label).is_finite());
         let labels: Vec<usize> = match self.modes {
@@ -172,8 +171,8 @@ impl Campbell {
     /// Labels of the modes that occur, in ascending order.
     #[must_use]
     pub fn labels(&self) -> Vec<usize> {
-        let modes = self.points.iter().filter_map(|point| point.modes.as_ref().ok());
-        let mut labels: Vec<usize> = modes.flatten().map(|mode| mode.label).collect();
+        let mut labels: Vec<usize> =
+            self.points.iter().filter_map(|point| point.modes.as_ref().ok()).flatten().map(|mode| mode.label).collect();
         labels.sort_unstable();
         labels.dedup();
         labels
@@ -182,8 +181,7 @@ impl Campbell {
     /// One branch of the diagram: the input values at which the mode with this label was found, and the mode there.
     pub fn branch(&self, label: usize) -> impl Iterator<Item = (f64, &CampbellMode)> {
         self.points.iter().filter_map(move |point| {
-            let modes = point.modes.as_ref().ok()?;
-            let mode = modes.iter().find(|mode| mode.label == label)?;
+            let mode = point.modes.as_ref().ok()?.iter().find(|mode| mode.label == label)?;
             Some((point.value, mode))
         })
     }

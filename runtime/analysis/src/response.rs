@@ -388,8 +388,7 @@ impl<'a> Responses<'a> {
                     let slopes = value.filter(|_| slopes);
                     let index = solved.place(*mode);
                     let gradient = slopes.and(index).and_then(|position| {
-                        let all = derivatives.of_modes(self.mechanism, solved)?;
-                        let mode = all.modes.get(position)?;
+                        let mode = derivatives.of_modes(self.mechanism, solved)?.modes.get(position)?;
                         if mode.clustered {
                             self.common_gradient(solved, position, *quantity)
                         } else {
@@ -411,13 +410,14 @@ impl<'a> Responses<'a> {
                     let k = output.index();
                     let state = &solved.state;
                     let kernels: &dyn Kernels = self.mechanism;
-                    let values = kernels.outputs(&state.coordinates, &state.inputs, design);
-                    let value = values.get(k).copied().filter(|value| value.is_finite());
+                    let value = kernels
+                        .outputs(&state.coordinates, &state.inputs, design)
+                        .get(k)
+                        .copied()
+                        .filter(|value| value.is_finite());
                     let slopes = value.filter(|_| slopes);
-                    let gradient = slopes.and_then(|_| {
-                        let all = derivatives.of_outputs(self.mechanism, solved)?;
-                        all.by_design.get(k)?.clone()
-                    });
+                    let gradient =
+                        slopes.and_then(|_| derivatives.of_outputs(self.mechanism, solved)?.by_design.get(k)?.clone());
                     (value, gradient)
                 }
             };
@@ -501,7 +501,6 @@ impl<'a> Responses<'a> {
         };
         let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
         let (values, what) = ((&**inputs, design), (mode, condition));
-        let known = self.flutter.iter().find(|(own, _)| own == response);
         first_crossing(
             self.mechanism,
             values,
@@ -509,7 +508,11 @@ impl<'a> Responses<'a> {
             Following::default(),
             range,
             what,
-            known.filter(|(_, all)| all.contains(&mode)).map(|(_, all)| &all[..]),
+            self.flutter
+                .iter()
+                .find(|(own, _)| own == response)
+                .filter(|(_, all)| all.contains(&mode))
+                .map(|(_, all)| &all[..]),
         )
         .ok()
         .flatten()

@@ -121,8 +121,7 @@ impl<'a> Shapes<'a> {
                 };
                 let right = side(linear, &mode.shape, leading.right);
                 let left = side(&transposed(linear), mode.left(), leading.left);
-                let both = right.zip(left);
-                both.map(|(right, left)| Sides::General { right: right.into(), left: left.into() })
+                right.zip(left).map(|(right, left)| Sides::General { right: right.into(), left: left.into() })
             }
         };
         Ok(Self { linear, mode, sides: sides.ok_or(clustered)?, rate: Rate::of(at, family, mode) })
@@ -172,8 +171,7 @@ impl<'a> Shapes<'a> {
             #[inline(always)]
             || side.factors.solve_columns(&right),
         );
-        let each = products.iter().enumerate();
-        Some(each.map(|(j, (_, m))| side.complete(&across.column(j), m)).collect())
+        Some(products.iter().enumerate().map(|(j, (_, m))| side.complete(&across.column(j), m)).collect())
     }
 
     /// `-(dQ + Q' dlambda) phi` of an undamped mode.
@@ -271,10 +269,7 @@ impl<T: Component> Side<T> {
             }
             Normalisation::Largest => Vector::from_fn(n, |i| T::from_parts(if i == lead { 1.0 } else { 0.0 }, 0.0)),
         };
-        let size = |vector: &[T]| {
-            let sizes = vector.iter().map(|value| value.modulus());
-            sizes.fold(0.0, f64::max)
-        };
+        let size = |vector: &[T]| vector.iter().map(|value| value.modulus()).fold(0.0, f64::max);
         let added = T::from_parts(scale / (size(&slope) * size(&weighted)), 0.0);
         let deflated = Matrix::from_fn(n, n, |i, j| pencil(i, j) + added * slope[i] * weighted[j].conj());
         Some(Self { shape: shape.into(), slope, size: normalisation, weighted, lead, factors: Lu::new(&deflated)? })

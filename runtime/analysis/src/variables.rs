@@ -12,8 +12,7 @@ pub(crate) struct Variable<'a> {
 
 /// All variables, inputs first.
 pub(crate) fn variables(d: &Description) -> Vec<Variable<'_>> {
-    let inputs = d.inputs.iter().map(|info| Variable { name: &info.name, unit: &info.unit });
-    inputs.chain(design_variables(d)).collect()
+    d.inputs.iter().map(|info| Variable { name: &info.name, unit: &info.unit }).chain(design_variables(d)).collect()
 }
 
 /// The design variables.

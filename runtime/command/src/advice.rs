@@ -52,16 +52,14 @@ pub(crate) fn last_mode(tables: &[Table]) -> usize {
             _ => false,
         };
         let filled = table.columns.iter().filter(filled);
-        let numbers = filled.filter_map(|column| column.name.strip_prefix("frequency ")?.parse().ok());
-        numbers.max()
+        filled.filter_map(|column| column.name.strip_prefix("frequency ")?.parse().ok()).max()
     };
     let least = |table: &Table| match &*table.name {
         "critical states" | "special points" => Some(1),
         "peaks" => Some(table.rows()),
         _ => None,
     };
-    let each = tables.iter();
-    let last = each.flat_map(|x| [by_rows(x), by_columns(x), least(x)]).flatten();
+    let last = tables.iter().flat_map(|x| [by_rows(x), by_columns(x), least(x)]).flatten();
     last.max().unwrap_or(0)
 }
 

@@ -20,8 +20,7 @@ impl Color {
             Some(k) => arguments.get(k + 1).map(String::as_str),
             None => arguments.iter().find_map(|argument| argument.strip_prefix("--color=")),
         };
-        let known = value.and_then(|value| Self::from_str(value, false).ok());
-        known.unwrap_or(Self::Auto)
+        value.and_then(|value| Self::from_str(value, false).ok()).unwrap_or(Self::Auto)
     }
 
     /// Whether to colour text, given whether it is written to a terminal.

@@ -46,8 +46,8 @@ fn declarations(folder: &Path) -> Vec<PathBuf> {
 fn files(folder: &Path) -> Vec<PathBuf> {
     let here = folder.as_os_str().is_empty();
     let read = fs::read_dir(if here { Path::new(".") } else { folder });
-    let entries = read.into_iter().flatten().flatten();
-    let mut files: Vec<PathBuf> = entries.map(|entry| folder.join(entry.file_name())).collect();
+    let mut files: Vec<PathBuf> =
+        read.into_iter().flatten().flatten().map(|entry| folder.join(entry.file_name())).collect();
     files.retain(|file| file.is_file());
     files.sort_by_key(|file| (!is_declaration(file), file.clone()));
     files

@@ -32,8 +32,7 @@ pub(crate) fn with_unit(value: f64, unit: &Unit) -> String {
 /// `Rotor at speed = 3000 rpm, load = 2 N`, without the input that varies.
 pub(crate) fn operating_point(d: &Description, inputs: &[f64], varied: Option<Input>) -> String {
     let varied = varied.map(Input::index);
-    let each = d.inputs.iter().zip(inputs).enumerate();
-    let fixed = each.filter(|(k, _)| Some(*k) != varied);
+    let fixed = d.inputs.iter().zip(inputs).enumerate().filter(|(k, _)| Some(*k) != varied);
     let values = fixed.map(|(_, (info, &value))| format!("{} = {}", info.name, with_unit(value, &info.unit)));
     let values: Vec<String> = values.collect();
     if values.is_empty() { d.name.to_string() } else { format!("{} at {}", d.name, values.join(", ")) }

@@ -69,10 +69,7 @@ fn run_along(tape: &Option<Tape>, arguments: &[&[f64]], direction: &[&[f64]], to
     let moved: Vec<Vec<Dual<f64>>> = arguments
         .iter()
         .zip(direction)
-        .map(|(values, slopes)| {
-            let pairs = values.iter().zip(*slopes);
-            pairs.map(|(&value, &slope)| Dual { value, slope }).collect()
-        })
+        .map(|(values, slopes)| values.iter().zip(*slopes).map(|(&value, &slope)| Dual { value, slope }).collect())
         .collect();
     let moved: Vec<&[Dual<f64>]> = moved.iter().map(Vec::as_slice).collect();
     scalar(tape, &moved, |registers| {
@@ -99,12 +96,14 @@ fn run_along_each<const N: usize>(
             continue;
         };
         let moved: [Vec<Dual<Batch>>; N] = from_fn(|list| {
-            let values = arguments[list].iter().enumerate();
-            let pairs = values.map(|(k, &value)| Dual {
-                value: Batch::all(value),
-                slope: Batch::from_fn(|lane| directions.get(lane).map_or(0.0, |direction| direction[list][k])),
-            });
-            pairs.collect()
+            arguments[list]
+                .iter()
+                .enumerate()
+                .map(|(k, &value)| Dual {
+                    value: Batch::all(value),
+                    slope: Batch::from_fn(|lane| directions.get(lane).map_or(0.0, |direction| direction[list][k])),
+                })
+                .collect()
         });
         along_each(tape, &moved.each_ref().map(Vec::as_slice), |registers| {
             for (lane, gradient) in gradients.iter_mut().enumerate() {
@@ -221,8 +220,7 @@ impl Kernels for Interpreted {
     fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {
         let tape = self.shared.tapes.violation.as_ref()?;
         let values = |registers: &[f64]| {
-            let places = tape.results.first()?;
-            let of = places.iter().map(|register| registers[*register as usize]);
+            let of = tape.results.first()?.iter().map(|register| registers[*register as usize]);
             let mut failing = of.zip(&self.shared.requirements);
             // NaN violates every requirement.
             failing.find(|(value, _)| value.is_nan() || *value <= 0.0)
@@ -247,8 +245,7 @@ impl Kernels for Interpreted {
     fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {
         let tape = self.shared.tapes.pose_margin.as_ref()?;
         let least = |registers: &[f64]| {
-            let places = tape.results.first()?;
-            let margins = places.iter().map(|register| registers[*register as usize].abs());
+            let margins = tape.results.first()?.iter().map(|register| registers[*register as usize].abs());
             let poses = margins.zip(&self.shared.poses);
             let poses =
                 poses.map(|(margin, (joint, least))| PoseMargin { joint: joint.clone(), margin, least: *least });
@@ -311,8 +308,7 @@ impl CurvatureKernels for Interpreted {
         directions: &[([&[f64]; 4], f64)],
         gradients: &mut [Gradient],
     ) {
-        let each = directions.iter();
-        let along = each.map(|([dq, du, db, dphi], rate)| [*dq, du, db, dphi, from_ref(rate)]);
+        let along = directions.iter().map(|([dq, du, db, dphi], rate)| [*dq, du, db, dphi, from_ref(rate)]);
         let along: Vec<[&[f64]; 5]> = along.collect();
         let tape = self.tape(Kernel::ModeGradient);
         run_along_each(tape, &[q, u, b, phi, &[lambda]], &along, gradients);
@@ -405,6 +401,9 @@ fn changes<'a>(matrices: &'a mut BatchLinear<'_>, entries: usize) -> impl Iterat
     let size = entries.max(1);
     let mut damping = matrices.damping.chunks_exact_mut(size);
     let stiffness = matrices.stiffness.chunks_exact_mut(size);
-    let both = matrices.mass.chunks_exact_mut(size).zip(stiffness);
-    both.map(move |(mass, stiffness)| [mass, damping.next().unwrap_or_default(), stiffness])
+    matrices
+        .mass
+        .chunks_exact_mut(size)
+        .zip(stiffness)
+        .map(move |(mass, stiffness)| [mass, damping.next().unwrap_or_default(), stiffness])
 }

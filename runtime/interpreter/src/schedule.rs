@@ -45,10 +45,8 @@ pub(crate) fn runs(kernel: &Kernel) -> Vec<Run> {
             ends[needed] += 1;
         }
     }
-    let users_of = |index: usize| {
-        let first = index.checked_sub(1).map_or(0, |before| ends[before]);
-        users[first..ends[index]].iter().copied()
-    };
+    let users_of =
+        |index: usize| users[index.checked_sub(1).map_or(0, |before| ends[before])..ends[index]].iter().copied();
     let mut ready: Vec<(Code, Vec<usize>)> = Vec::new();
     let make_ready = |ready: &mut Vec<(Code, Vec<usize>)>, index: usize| {
         let Some(code) = code(instructions, &partners, index) else {

@@ -64,10 +64,7 @@ impl Tape {
         let results = kernel
             .results
             .iter()
-            .map(|array| {
-                let entries = array.values.iter();
-                entries.map(|&entry| allocation.register(entry)).collect()
-            })
+            .map(|array| array.values.iter().map(|&entry| allocation.register(entry)).collect())
             .collect();
         Self {
             constants: allocation.constants,

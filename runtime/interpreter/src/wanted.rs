@@ -79,8 +79,7 @@ pub fn requirement(study: &Study<Interpreted>, text: &str) -> Result<Requirement
     if text.trim() == "stable" {
         return Ok(Requirement::Stable);
     }
-    let limits = [">=", "<=", ">", "<", " outside ", " within ", " away from "];
-    let split = limits.into_iter().find_map(|word| {
+    let split = [">=", "<=", ">", "<", " outside ", " within ", " away from "].into_iter().find_map(|word| {
         let (what, limit) = text.split_once(word)?;
         Some((what, word.trim(), limit.trim()))
     });
@@ -486,8 +485,7 @@ fn along_limit(study: &Study<Interpreted>, vibration: Vibration, range: Range, t
         let u = range.low + share * (range.high - range.low);
         let there = study.clone().input(Input::new(range.input.index()), u);
         let limit = limit_of(&response, &at_inputs(&there, text, None)?, &unit, "the vibration", "<=")?;
-        let found = there.forced_response()?;
-        let w = found.harmonic(vibration.excitation).map_or(f64::NAN, |harmonic| harmonic.frequency);
+        let w = there.forced_response()?.harmonic(vibration.excitation).map_or(f64::NAN, |harmonic| harmonic.frequency);
         Ok([w, limit / vibration.measure.of(w, 1.0.into()).norm(), u.abs()])
     };
     let ([w, limit, u], middle) = (at(1.0)?, at(0.5)?);

@@ -68,8 +68,7 @@ impl Clusters {
         let each = self.0.iter().map(|item| {
             let spread = item.spread.as_ref().ok().and_then(part);
             let members = (0..item.modes.len()).map(|k| spread?.members.get(k)?.value.as_ref());
-            let all = members.chain([spread.and_then(|spread| spread.splitting.as_ref())]);
-            optional(py, all.map(|x| x.and_then(&of)))
+            optional(py, members.chain([spread.and_then(|spread| spread.splitting.as_ref())]).map(|x| x.and_then(&of)))
         });
         Ok(each.collect())
     }

@@ -137,8 +137,7 @@ kernels! { self, py;
     /// design), SI.
     residual_partials() -> (Array2<'py>, Array2<'py>) = |q, u, b| {
         let (by_input, by_design) = py.detach(|| self.kernels().residual_partials(&q, &u, &b));
-        let all = [&by_input, &by_design];
-        self.finite(py, &q, all.into_iter().map(|x| x.as_flattened()))?;
+        self.finite(py, &q, [&by_input, &by_design].into_iter().map(|x| x.as_flattened()))?;
         Ok((arrays::matrix(py, &by_input)?, arrays::matrix(py, &by_design)?))
     };
     /// Explicit gradient of `phi^T (Khat - lambda Mhat) phi`, SI, by unknowns, inputs and design variables: arrays of
@@ -233,7 +232,6 @@ kernels! { self, py;
     ///
     /// `Mechanism.motion` gives a right-hand side that integrators call.
     accelerations(velocity) -> Array1<'py> = |q, u, b| {
-        let found = py.detach(|| motion::accelerations(&self.inner, &velocity, &q, &u, &b));
-        Ok(arrays::vector(py, found.map_err(|error| raise(py, error))?))
+        Ok(arrays::vector(py, py.detach(|| motion::accelerations(&self.inner, &velocity, &q, &u, &b)).map_err(|error| raise(py, error))?))
     };
 }

@@ -27,8 +27,12 @@ pub(crate) struct Mechanism {
 impl Mechanism {
     fn of_roles(&self, wanted: impl Fn(Role) -> bool) -> Vec<&str> {
         let of = self.inner.description();
-        let all = names::coordinates(of).into_iter().zip(of.coordinates.iter());
-        all.filter(|(_, info)| wanted(info.role)).map(|(name, _)| name).collect()
+        names::coordinates(of)
+            .into_iter()
+            .zip(of.coordinates.iter())
+            .filter(|(_, info)| wanted(info.role))
+            .map(|(name, _)| name)
+            .collect()
     }
 
     /// Reads the mechanism declared in a text.
@@ -81,17 +85,14 @@ attributes! {
         harmonics: Vec<Vec<&str>> = names::harmonics(self.inner.description());
         /// The nominal design, SI, by name.
         nominal: PyResult<Nominal<'py>> = {
-            let all = self.inner.description().design.iter();
-            all.map(|x| (&*x.name, x.nominal)).into_py_dict(py)
+            self.inner.description().design.iter().map(|x| (&*x.name, x.nominal)).into_py_dict(py)
         };
         /// The declared unit of every input, design variable, unknown and output, by name: "rpm".
         units: PyResult<Units<'py>> = {
             let of = self.inner.description();
             let outputs = of.outputs.iter().map(|output| (output.name.clone(), output.unit.clone()));
             let lists = [List::Coordinates, List::Design, List::Inputs];
-            let others = lists.into_iter().flat_map(|list| list.quantities(of));
-            let all = outputs.chain(others.map(|other| (other.name, other.unit)));
-            all.map(|(name, unit)| (name.to_string(), unit.symbol.to_string())).into_py_dict(py)
+            outputs.chain(lists.into_iter().flat_map(|list| list.quantities(of)).map(|other| (other.name, other.unit))).map(|(name, unit)| (name.to_string(), unit.symbol.to_string())).into_py_dict(py)
         };
     }
 }

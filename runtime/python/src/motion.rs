@@ -37,8 +37,7 @@ impl Motion {
     }
 
     fn count(&self, role: Role) -> usize {
-        let all = self.description().coordinates.iter();
-        all.filter(|x| x.role == role).count()
+        self.description().coordinates.iter().filter(|x| x.role == role).count()
     }
 
     fn rates(&self, y: &[f64]) -> Result<Vec<f64>, Error> {
@@ -83,8 +82,7 @@ attributes! {
         /// Names of the entries of `y`; a rate is marked by a prime: "theta", "theta'".
         names: Vec<String> = {
             let of = |role: Role| {
-                let all = self.description().coordinates.iter();
-                all.filter(move |x| x.role == role)
+                self.description().coordinates.iter().filter(move |x| x.role == role)
             };
             let positions = of(Role::Position).map(|x| x.name.to_string());
             let rates = of(Role::Position).map(|x| format!("{}'", x.name));

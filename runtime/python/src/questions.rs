@@ -176,10 +176,11 @@ impl Study {
                 let step = (range.high - range.low) / (STEPS as f64);
                 (0..=STEPS).map(|k| if k == STEPS { range.high } else { range.low + k as f64 * step }).collect()
             }
-            Err(error) => {
-                let each = values.try_iter().map_err(|_| error)?;
-                each.map(|value| number(&value?, &declared, input)).collect::<PyResult<_>>()?
-            }
+            Err(error) => values
+                .try_iter()
+                .map_err(|_| error)?
+                .map(|value| number(&value?, &declared, input))
+                .collect::<PyResult<_>>()?,
         };
         let values: Vec<f64> = converted;
         match values.iter().find(|value| !value.is_finite()) {

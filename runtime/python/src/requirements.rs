@@ -45,8 +45,7 @@ macro_rules! of_requirements {
                     requirements: Vec<RequirementText<'_>>,
                 ) -> PyResult<Answer> {
                     let wanted = self.requirements(&requirements)?;
-                    let found = self.ask_stoppably(py, |study| study.$question(&wanted));
-                    found.map(Answer::new)
+                    self.ask_stoppably(py, |study| study.$question(&wanted)).map(Answer::new)
                 }
             )*
         }

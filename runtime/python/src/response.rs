@@ -123,13 +123,15 @@ impl Response {
             let responses = Responses::new(&self.mechanism, equilibrium, modes, vec![self.wanted])?;
             let mut room = responses.workspace();
             let mut design = equilibrium.design.to_vec();
-            let each = designs.iter().map(|values| {
-                for (variable, value) in self.variables.iter().zip(values) {
-                    design[*variable] = *value;
-                }
-                question(&responses, &mut room, &design)
-            });
-            each.collect::<Result<Vec<R>, Error>>()
+            designs
+                .iter()
+                .map(|values| {
+                    for (variable, value) in self.variables.iter().zip(values) {
+                        design[*variable] = *value;
+                    }
+                    question(&responses, &mut room, &design)
+                })
+                .collect::<Result<Vec<R>, Error>>()
         };
         py.detach(run).map_err(|error| raise(py, error))
     }
@@ -159,8 +161,7 @@ attributes! {
         /// Names of the variables, in the order of `x`.
         names: Vec<String> = {
             let all = names::design(self.mechanism.description());
-            let own = self.variables.iter();
-            own.map(|place| all[*place].to_owned()).collect()
+            self.variables.iter().map(|place| all[*place].to_owned()).collect()
         };
         /// Nominal values of the variables, SI, shape (variables,).
         nominal: Array1<'py> = {

@@ -123,8 +123,7 @@ pub(crate) fn unset_inputs(study: &Study<Interpreted>, settings: &Bound<'_, PyDi
             Err(_) => return Vec::new(),
         },
     };
-    let inputs = study.description().inputs.iter();
-    let names = inputs.map(|info| info.name.to_string());
+    let names = study.description().inputs.iter().map(|info| info.name.to_string());
     let unset = |name: &String| !named.is_some_and(|named| named.contains(name).unwrap_or(true));
     names.filter(unset).collect()
 }

@@ -183,8 +183,7 @@ fn named<'a>(all: impl Iterator<Item = (&'a Text, &'a Unit)>) -> Vec<Quantity> {
 
 /// The exception for a name missing from this list; another list may have it.
 fn unknown(py: Python<'_>, of: &Description, list: List, name: &str) -> PyErr {
-    let all = [List::Coordinates, List::Inputs, List::Design];
-    let other = all.into_iter().find(|other| {
+    let other = [List::Coordinates, List::Inputs, List::Design].into_iter().find(|other| {
         let quantities = other.quantities(of);
         quantities.iter().any(|one| one.name == *name)
     });

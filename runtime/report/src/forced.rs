@@ -50,8 +50,8 @@ impl Forced {
             };
             let bode =
                 if varies { study.bode_bands(input, values, &wanted, CHECKED) } else { study.bode(input, values) };
-            let known = peaks.iter().take(DRAWN).filter_map(|(_, peaks)| peaks.as_ref().ok());
-            let between: Vec<f64> = known.flat_map(Peaks::bends).collect();
+            let between: Vec<f64> =
+                peaks.iter().take(DRAWN).filter_map(|(_, peaks)| peaks.as_ref().ok()).flat_map(Peaks::bends).collect();
             let bode = if between.is_empty() {
                 bode
             } else {
@@ -79,14 +79,12 @@ fn peaks<M: SummaryKernels>(
 
 /// The first excitation of each harmonic.
 pub(crate) fn harmonics(d: &Description) -> Vec<usize> {
-    let all = d.excitations.iter().enumerate();
-    let firsts = all.filter(|(k, info)| info.with == *k);
+    let firsts = d.excitations.iter().enumerate().filter(|(k, info)| info.with == *k);
     firsts.map(|(k, _)| k).collect()
 }
 
 /// The names of all excitations of the harmonic of one.
 pub(crate) fn excitations(d: &Description, harmonic: usize) -> String {
-    let all = d.excitations.iter().filter(|info| info.with == harmonic);
-    let names: Vec<&str> = all.map(|info| &*info.name).collect();
+    let names: Vec<&str> = d.excitations.iter().filter(|info| info.with == harmonic).map(|info| &*info.name).collect();
     names.join(", ")
 }

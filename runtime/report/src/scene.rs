@@ -67,12 +67,14 @@ fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
         // A multiple that is not exact in binary is rounded to a short decimal.
         format!("{digits:.6e}").parse().unwrap_or(digits)
     };
-    let all = poses.iter().flat_map(|pose| {
-        let position = pose.position.map(|value| round(value, step));
-        let rotation = pose.rotation.as_flattened().to_vec();
-        position.into_iter().chain(rotation.into_iter().map(|value| round(value, 1e-4)))
-    });
-    all.collect()
+    poses
+        .iter()
+        .flat_map(|pose| {
+            let position = pose.position.map(|value| round(value, step));
+            let rotation = pose.rotation.as_flattened().to_vec();
+            position.into_iter().chain(rotation.into_iter().map(|value| round(value, 1e-4)))
+        })
+        .collect()
 }
 
 fn title(mode: &Mode, d: &Description, style: &Style) -> String {

@@ -54,15 +54,15 @@ pub(crate) fn with_unit(value: f64, unit: &Unit) -> String {
 /// `speed = 3000 rpm, load = 2 N`; empty without inputs.
 pub(crate) fn operating_point(d: &Description, inputs: &[f64]) -> String {
     let each = d.inputs.iter().zip(inputs);
-    let each = each.map(|(info, &value)| format!("{} = {}", info.name, with_unit(value, &info.unit)));
-    each.collect::<Vec<_>>().join(", ")
+    each.map(|(info, &value)| format!("{} = {}", info.name, with_unit(value, &info.unit)))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// Capitalises the first letter.
 pub(crate) fn capital(text: &str) -> String {
     let mut letters = text.chars();
-    let first = letters.next().into_iter().flat_map(char::to_uppercase);
-    first.collect::<String>() + letters.as_str()
+    letters.next().into_iter().flat_map(char::to_uppercase).collect::<String>() + letters.as_str()
 }
 
 /// Makes a sentence: capital first letter, full stop at the end.

@@ -188,8 +188,7 @@ impl Findings {
     /// The tables of data.
     #[must_use]
     pub fn into_tables(self) -> Vec<Table> {
-        let parts = self.parts.into_iter();
-        let tables = parts.filter_map(|part| match part {
+        let tables = self.parts.into_iter().filter_map(|part| match part {
             Part::Data(table) => Some(table),
             _ => None,
         });

@@ -14,8 +14,7 @@ pub fn title_along(description: &Description, inputs: &[f64], varied: Input) -> 
 }
 
 fn named(d: &Description, inputs: &[f64], varied: Option<usize>) -> String {
-    let each = d.inputs.iter().zip(inputs).enumerate();
-    let fixed = each.filter(|(k, _)| Some(*k) != varied);
+    let fixed = d.inputs.iter().zip(inputs).enumerate().filter(|(k, _)| Some(*k) != varied);
     let values = fixed.map(|(_, (info, &value))| {
         let value = with_unit(given_in(value, &info.unit), &info.unit);
         format!("{} = {value}", info.name)

@@ -433,8 +433,7 @@ impl<M: Kernels> Study<M> {
     #[doc = include_str!("end.txt")]
     #[must_use]
     pub fn deviating_inputs(&self) -> Vec<Input<M>> {
-        let all = self.settings.deviating_inputs().into_iter();
-        all.map(|input| Input::new(input.index())).collect()
+        self.settings.deviating_inputs().into_iter().map(|input| Input::new(input.index())).collect()
     }
 
     /// The tolerances that result from the settings.

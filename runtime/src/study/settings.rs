@@ -260,8 +260,7 @@ impl Settings {
     fn tolerances_here(&self) -> Result<Tolerances, Error> {
         let inputs = self.input_variations.iter().zip(&self.inputs);
         let inputs = inputs.filter(|(x, _)| !x.is_none());
-        let design = self.design_variations.iter().zip(&self.design);
-        let all = design.chain(inputs);
+        let all = self.design_variations.iter().zip(&self.design).chain(inputs);
         let (level, correlation) = (self.sigma_level, self.correlation.clone());
         let normal = (all.clone()).map(|(x, value)| x.normal_half_width(*value));
         if normal.clone().all(|half_width| half_width.is_some()) {
@@ -276,8 +275,7 @@ impl Settings {
 
     /// The inputs that have a tolerance.
     pub(super) fn deviating_inputs(&self) -> Vec<Input> {
-        let all = self.input_variations.iter().enumerate();
-        let varied = all.filter(|(_, x)| !x.is_none());
+        let varied = self.input_variations.iter().enumerate().filter(|(_, x)| !x.is_none());
         varied.map(|(i, _)| Input::new(i)).collect()
     }
 
@@ -407,8 +405,7 @@ impl Settings {
     pub(super) fn solved(&self, mechanism: &dyn Kernels) -> Result<(&Equilibrium, &Modes), Error> {
         let state = self.regular(mechanism)?;
         let modes = &self.solution.modes;
-        let modes = modes.get_or_init(|| self.modes_about(state, Vec::new()));
-        Ok((state, modes.as_ref().map_err(Error::clone)?))
+        Ok((state, modes.get_or_init(|| self.modes_about(state, Vec::new())).as_ref().map_err(Error::clone)?))
     }
 
     fn modes_about(&self, state: &Equilibrium, judged: Vec<Mode>) -> Result<Modes, Error> {

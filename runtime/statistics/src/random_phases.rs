@@ -88,8 +88,7 @@ impl RandomPhases {
             return cosine.clamp(-1.0, 1.0).acos() / std::f64::consts::PI;
         }
         let x = length / all;
-        let terms = self.terms.iter();
-        let sum: f64 = terms.map(|[j, factor]| factor * libm::j1(j * x)).sum();
+        let sum: f64 = self.terms.iter().map(|[j, factor]| factor * libm::j1(j * x)).sum();
         (2.0 * x * sum).clamp(0.0, 1.0)
     }
 

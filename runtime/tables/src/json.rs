@@ -108,16 +108,18 @@ pub fn write<A: Answer + Serialize>(answer: &A, mut file: impl Write) -> Result<
     };
     let mut result = value(answer)?;
     leave_out(&mut result, &description);
-    let each = subject.iter().flat_map(|item| {
-        let each = item.description.inputs.iter().zip(item.inputs).enumerate();
-        let varied = item.varied.map(Input::index);
-        each.filter(move |(k, _)| Some(*k) != varied)
-    });
-    let inputs = each.map(|(_, (info, &value))| {
-        let value = as_written(value, &info.unit);
-        let unit = &*info.unit.symbol;
-        (&*info.name, Quantity { value, unit })
-    });
+    let inputs = subject
+        .iter()
+        .flat_map(|item| {
+            let each = item.description.inputs.iter().zip(item.inputs).enumerate();
+            let varied = item.varied.map(Input::index);
+            each.filter(move |(k, _)| Some(*k) != varied)
+        })
+        .map(|(_, (info, &value))| {
+            let value = as_written(value, &info.unit);
+            let unit = &*info.unit.symbol;
+            (&*info.name, Quantity { value, unit })
+        });
     let document = Written {
         format: FORMAT,
         version: VERSION,

@@ -134,8 +134,7 @@ fn physical(values: &Values) -> Physical {
 }
 
 fn listed(columns: &[(String, Physical)]) -> String {
-    let each = columns.iter().map(|(name, kind)| format!("{name} ({kind})"));
-    each.collect::<Vec<_>>().join(", ")
+    columns.iter().map(|(name, kind)| format!("{name} ({kind})")).collect::<Vec<_>>().join(", ")
 }
 
 fn begin<W: Write + Send>(file: W, table: &Table) -> Result<SerializedFileWriter<W>, ParquetError> {
@@ -275,8 +274,7 @@ fn entries<T: DataType>(reader: ColumnReader, rows: usize) -> Result<Vec<Option<
         levels = vec![1; values.len()];
     }
     let mut values = values.into_iter();
-    let entries = levels.into_iter().map(|level| if level == 1 { values.next() } else { None });
-    Ok(entries.collect())
+    Ok(levels.into_iter().map(|level| if level == 1 { values.next() } else { None }).collect())
 }
 
 fn writing(error: ParquetError) -> Error {

@@ -51,8 +51,10 @@ impl<'a> Deviations<'a> {
 
     /// The deviations about another nominal design, with other half-widths; those that are zero stay zero.
     pub(crate) fn moved(&self, nominal: &[f64], half_widths: &[f64]) -> Self {
-        let pairs = half_widths.iter().zip(self.tolerances.half_widths());
-        let scales = pairs.map(|(new, old)| if *old > 0.0 { new / old } else { 1.0 });
+        let scales = half_widths
+            .iter()
+            .zip(self.tolerances.half_widths())
+            .map(|(new, old)| if *old > 0.0 { new / old } else { 1.0 });
         Self { nominal: nominal.into(), scales: scales.collect(), ..self.clone() }
     }
 
@@ -106,15 +108,18 @@ impl<'a> Deviations<'a> {
     /// Derivative of each design variable with respect to its own half-width, scaling the distribution about its mean.
     pub(crate) fn by_half_width(&self, z: &[f64]) -> Vector {
         let design = self.unscaled(z);
-        let all = self.tolerances.half_widths().iter().enumerate();
-        all.map(|(k, half_width)| {
-            if *half_width > 0.0 {
-                (design[k] - self.mean(k)) / half_width
-            } else {
-                self.own_normal(k, z) / self.tolerances.sigma_level()
-            }
-        })
-        .collect()
+        self.tolerances
+            .half_widths()
+            .iter()
+            .enumerate()
+            .map(|(k, half_width)| {
+                if *half_width > 0.0 {
+                    (design[k] - self.mean(k)) / half_width
+                } else {
+                    self.own_normal(k, z) / self.tolerances.sigma_level()
+                }
+            })
+            .collect()
     }
 
     /// The standard normal variable behind a variable that does not vary.
@@ -138,8 +143,7 @@ impl<'a> Deviations<'a> {
         let share = |k: usize| {
             let mut alone = vec![0.0; size];
             alone[k] = by_design[k];
-            let each = self.gradient(z, &alone);
-            each.iter().zip(&by_normal).map(|(a, b)| a * b).sum::<f64>() / square
+            self.gradient(z, &alone).iter().zip(&by_normal).map(|(a, b)| a * b).sum::<f64>() / square
         };
         (0..size).map(share).collect()
     }

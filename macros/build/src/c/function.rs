@@ -146,9 +146,12 @@ impl Function {
             let entries: usize = answer.shape.iter().map(|&size| sizes.number(size)).product();
             Some(format!("{}.cast_const(), {entries}", answer.name))
         });
-        let all = arguments.chain(answers).enumerate();
-        let places = all.filter_map(|(k, array)| Some(format!("({}, {})", k + 1, array?)));
-        places.collect::<Vec<_>>().join(", ")
+        arguments
+            .chain(answers)
+            .enumerate()
+            .filter_map(|(k, array)| Some(format!("({}, {})", k + 1, array?)))
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 
     fn passed(&self) -> String {

@@ -75,8 +75,7 @@ fn forest(mechanism: &Mechanism, diagnostics: &mut Diagnostics) -> (Graph, Vec<J
                 // A beam hangs on its root: what may be cut lies between the ground and its station.
                 Some(_) => {
                     let inwards = graph.path(from, 0).unwrap_or_default();
-                    let pairs = closing.iter().zip(&inwards);
-                    let shared = pairs.take_while(|(x, other)| x == other).count();
+                    let shared = closing.iter().zip(&inwards).take_while(|(x, other)| x == other).count();
                     closing.drain(..shared);
                 }
             }

@@ -68,8 +68,7 @@ impl Gauss {
         let up_to = integrals(n - 1, x);
         let of = |(&point, &weight): (&f64, &f64)| {
             let here = polynomials(n - 1, point);
-            let terms = here.iter().zip(&up_to).enumerate();
-            let sum: f64 = terms.map(|(j, (p, i))| (2 * j + 1) as f64 * p * i).sum();
+            let sum: f64 = here.iter().zip(&up_to).enumerate().map(|(j, (p, i))| (2 * j + 1) as f64 * p * i).sum();
             weight * sum
         };
         self.points.iter().zip(&self.weights).map(of).collect()
@@ -84,8 +83,7 @@ impl Gauss {
             let slopes = derivatives(n - 1, x);
             let of = |(&point, &weight): (&f64, &f64)| {
                 let here = polynomials(n - 1, point);
-                let terms = here.iter().zip(&slopes).enumerate();
-                let sum: f64 = terms.map(|(j, (p, d))| (2 * j + 1) as f64 * p * d).sum();
+                let sum: f64 = here.iter().zip(&slopes).enumerate().map(|(j, (p, d))| (2 * j + 1) as f64 * p * d).sum();
                 weight * sum
             };
             self.points.iter().zip(&self.weights).map(of).collect()

@@ -164,23 +164,25 @@ const WORDS: [(&str, &str); 66] = [
 
 /// Advice for words that mean a hundredth, which is not a unit.
 pub fn per_cent(name: &str) -> Option<String> {
-    let words = ["percent", "per", "pct", "procent", "percentage"];
-    let is_one = words.iter().any(|word| word.eq_ignore_ascii_case(name));
+    let is_one = ["percent", "per", "pct", "procent", "percentage"].iter().any(|word| word.eq_ignore_ascii_case(name));
     is_one.then(|| "a tolerance in per cent is written `+/- 3%`; elsewhere write the number, `0.03`".to_string())
 }
 
 /// The intended unit if a power or a sign is spelt differently in this language: `m3`, `µm`, `N·m`.
 pub fn respelt(name: &str) -> Option<String> {
     let plain = name.replace(['µ', 'μ'], "u").replace('·', "*");
-    let parts = plain.split('*').map(|part| {
-        let base = part.trim_end_matches(|sign: char| sign.is_ascii_digit());
-        find(base)?;
-        Some(match &part[base.len()..] {
-            "" => base.to_string(),
-            power => format!("{base}^{power}"),
+    let text = plain
+        .split('*')
+        .map(|part| {
+            let base = part.trim_end_matches(|sign: char| sign.is_ascii_digit());
+            find(base)?;
+            Some(match &part[base.len()..] {
+                "" => base.to_string(),
+                power => format!("{base}^{power}"),
+            })
         })
-    });
-    let text = parts.collect::<Option<Vec<_>>>()?.join("*");
+        .collect::<Option<Vec<_>>>()?
+        .join("*");
     (text != name).then_some(text)
 }
 

@@ -46,8 +46,7 @@ pub struct Beam {
 impl Beam {
     /// The number of its coordinates.
     pub fn size(&self) -> usize {
-        let all = self.coordinates.iter().chain(&self.strains);
-        all.map(Vec::len).sum()
+        self.coordinates.iter().chain(&self.strains).map(Vec::len).sum()
     }
 
     /// How many modes its coordinates resolve by the rule: `m` modes of a plane take `n = 1.5 m + 2` coordinates.

@@ -94,8 +94,7 @@ impl Mechanism {
 
     /// Whether a coordinate is a strain of a beam.
     pub fn strains(&self, id: CoordinateId) -> bool {
-        let all = self.beams.iter().flat_map(|beam| beam.strains.iter().flatten());
-        all.into_iter().any(|x| *x == id)
+        self.beams.iter().flat_map(|beam| beam.strains.iter().flatten()).into_iter().any(|x| *x == id)
     }
 
     /// The beam on which a point lies, its place there as a fraction of the length, and the section.
@@ -125,8 +124,11 @@ impl Mechanism {
 
     /// Inputs and design variables that nothing refers to.
     pub fn unused(&self) -> impl Iterator<Item = &Ident> {
-        let inputs = self.inputs.iter().filter(|input| !input.is_used).map(|input| &input.name);
-        inputs.chain(self.design.iter().filter(|variable| !variable.is_used).map(|variable| &variable.name))
+        self.inputs
+            .iter()
+            .filter(|input| !input.is_used)
+            .map(|input| &input.name)
+            .chain(self.design.iter().filter(|variable| !variable.is_used).map(|variable| &variable.name))
     }
 }
 

@@ -69,9 +69,11 @@ pub fn unbalances(mechanism: &Mechanism, u: &[f64], b: &[f64]) -> Vec<Unbalanced
 }
 
 fn mass(body: &Body, values: &Values<'_>) -> f64 {
-    let parts = body.parts.iter().map(|part| {
-        let mass = values.of(part.shape.reduced().mass);
-        if part.hole { -mass } else { mass }
-    });
-    parts.sum()
+    body.parts
+        .iter()
+        .map(|part| {
+            let mass = values.of(part.shape.reduced().mass);
+            if part.hole { -mass } else { mass }
+        })
+        .sum()
 }

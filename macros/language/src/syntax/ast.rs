@@ -616,11 +616,14 @@ impl Value {
 
     /// Every name in the value that stands for a value, in order.
     pub fn names(&self) -> Vec<&Ident> {
-        let names = self.parts().into_iter().map(|part| match &part.kind {
-            ValueKind::Name(name) => Some(name),
-            _ => None,
-        });
-        names.flatten().collect()
+        self.parts()
+            .into_iter()
+            .map(|part| match &part.kind {
+                ValueKind::Name(name) => Some(name),
+                _ => None,
+            })
+            .flatten()
+            .collect()
     }
 
     /// Every unit in the value with the number before it, in order; units of vectors have no number.

@@ -130,16 +130,14 @@ impl Pivot {
     }
 
     fn others_times(&self, vector: &[Disturbed]) -> Disturbed {
-        let terms = self.others.iter().map(|&(k, entry)| entry * vector[k]);
-        terms.fold(Disturbed::exact(0.0), |sum, term| sum + term)
+        self.others.iter().map(|&(k, entry)| entry * vector[k]).fold(Disturbed::exact(0.0), |sum, term| sum + term)
     }
 }
 
 /// The product of a matrix, given row by row, with vectors: `result[i][k] = sum_j matrix[i][j] vectors[k][j]`.
 pub fn times(matrix: &[Vec<Disturbed>], vectors: &[Vec<Disturbed>]) -> Vec<Vec<Disturbed>> {
     let product = |row: &[Disturbed], vector: &[Disturbed]| {
-        let pairs = row.iter().zip(vector);
-        let present = pairs.filter(|(a, b)| !a.is_zero() && !b.is_zero());
+        let present = row.iter().zip(vector).filter(|(a, b)| !a.is_zero() && !b.is_zero());
         present.fold(Disturbed::exact(0.0), |sum, (&a, &b)| sum + a * b)
     };
     let row = |row: &Vec<Disturbed>| vectors.iter().map(|v| product(row, v)).collect();

@@ -20,8 +20,7 @@ pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<Ex
             by_symbol[symbol.index()] = adjoints.get(id).unwrap_or(zero);
         }
     }
-    let each = symbols.iter();
-    each.map(|symbol| by_symbol[symbol.index()]).collect()
+    symbols.iter().map(|symbol| by_symbol[symbol.index()]).collect()
 }
 
 /// The functions below `root` that have no slope somewhere, as a square root at zero, among those that change with one

@@ -160,11 +160,9 @@ impl PartialOrd for Spline {
 impl Ord for Spline {
     fn cmp(&self, other: &Self) -> Ordering {
         let bits = |spline: &Self| -> Vec<u64> {
-            let numbers = spline.0.pieces.as_flattened().iter();
-            numbers.map(|number| number.to_bits()).collect()
+            spline.0.pieces.as_flattened().iter().map(|number| number.to_bits()).collect()
         };
-        let names = self.name().cmp(other.name());
-        names.then_with(|| bits(self).cmp(&bits(other)))
+        self.name().cmp(other.name()).then_with(|| bits(self).cmp(&bits(other)))
     }
 }
 

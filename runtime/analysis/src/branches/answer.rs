@@ -18,8 +18,7 @@ use crate::{Role, Stability};
 pub fn branch_table(number: usize, branch: &Branch) -> Table {
     let branches = slice::from_ref(branch);
     let rows = points(number, branches);
-    let columns = point_columns(branch, &rows, Vec::new(), &moving(branch, branches));
-    let mut table = columns.finish().0;
+    let mut table = point_columns(branch, &rows, Vec::new(), &moving(branch, branches)).finish().0;
     table.operating_point(&branch.description, branch.inputs(), Some(branch.input));
     table
 }
@@ -122,8 +121,7 @@ displayed!(Branch, Branches, SpecialPoint);
 impl Branch {
     /// The inputs, SI; all but the varied one keep their values.
     fn inputs(&self) -> &[f64] {
-        let first = self.points.first();
-        first.map_or(&[], |point| &point.equilibrium.inputs)
+        self.points.first().map_or(&[], |point| &point.equilibrium.inputs)
     }
 
     fn title(&self) -> String {
@@ -164,21 +162,26 @@ fn branches_word(count: usize) -> &'static str {
 
 /// The coordinates and speeds that move; the text leaves reactions to the tables.
 fn moving<'a>(one: &'a Branch, branches: &[Branch]) -> Moving<'a> {
-    let points = branches.iter().flat_map(|branch| &branch.points);
-    let states = points.map(|point| &point.equilibrium);
+    let states = branches.iter().flat_map(|branch| &branch.points).map(|point| &point.equilibrium);
     Moving::of(&one.description, states, &[Role::Position, Role::Speed])
 }
 
 /// Points with the number of their branch, counted from `first`.
 fn points(first: usize, branches: &[Branch]) -> Vec<(usize, &BranchPoint)> {
-    let each = branches.iter().zip(first..);
-    each.flat_map(|(branch, number)| branch.points.iter().map(move |point| (number, point))).collect()
+    branches
+        .iter()
+        .zip(first..)
+        .flat_map(|(branch, number)| branch.points.iter().map(move |point| (number, point)))
+        .collect()
 }
 
 /// Special points with the number of their branch, counted from 1.
 fn special(branches: &[Branch]) -> Vec<(usize, &SpecialPoint)> {
-    let each = branches.iter().zip(1..);
-    each.flat_map(|(branch, number)| branch.special.iter().map(move |point| (number, point))).collect()
+    branches
+        .iter()
+        .zip(1..)
+        .flat_map(|(branch, number)| branch.special.iter().map(move |point| (number, point)))
+        .collect()
 }
 
 /// A row for each point; `one` is any branch of the same mechanism.
@@ -236,14 +239,16 @@ struct Stretch<'a> {
 
 impl<'a> Stretch<'a> {
     fn all(branches: &'a [Branch]) -> Vec<Self> {
-        let each = branches.iter().zip(1..);
-        each.flat_map(|(branch, number)| {
-            let runs = branch.stretches().into_iter().enumerate();
-            runs.filter_map(move |(i, (stability, run))| {
-                Some(Self { number: (i == 0).then_some(number), stability, ends: [run.first()?, run.last()?] })
+        branches
+            .iter()
+            .zip(1..)
+            .flat_map(|(branch, number)| {
+                let runs = branch.stretches().into_iter().enumerate();
+                runs.filter_map(move |(i, (stability, run))| {
+                    Some(Self { number: (i == 0).then_some(number), stability, ends: [run.first()?, run.last()?] })
+                })
             })
-        })
-        .collect()
+            .collect()
     }
 }
 

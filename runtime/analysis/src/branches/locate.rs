@@ -148,8 +148,8 @@ impl Curve<'_> {
         let first = a.signs.negative.zip(b.signs.negative).map_or(0, |(a, b)| a.min(b));
         let zero = changes.negative.unwrap_or(0).max(1);
         let mean = |station: &crate::Equilibrium| {
-            let pairs = free_pairs(&station.linear, &self.description).ok()?;
-            let sum: f64 = pairs.lambda.iter().skip(first).take(zero).sum();
+            let sum: f64 =
+                free_pairs(&station.linear, &self.description).ok()?.lambda.iter().skip(first).take(zero).sum();
             Some(sum)
         };
         let mut fraction = 0.5;

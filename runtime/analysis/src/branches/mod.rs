@@ -193,8 +193,11 @@ impl Branches {
     /// All special points without duplicates; those that differ by full turns of an angle count as one.
     #[must_use]
     pub fn special(&self) -> Vec<&SpecialPoint> {
-        let values = self.branches.iter().flat_map(|branch| &branch.points);
-        let size = values.fold(0.0, |most: f64, point| most.max(point.value.abs()));
+        let size = self
+            .branches
+            .iter()
+            .flat_map(|branch| &branch.points)
+            .fold(0.0, |most: f64, point| most.max(point.value.abs()));
         let mut all: Vec<&SpecialPoint> = Vec::new();
         for special in self.branches.iter().flat_map(|branch| &branch.special) {
             let at = &special.equilibrium;

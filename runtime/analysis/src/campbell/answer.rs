@@ -150,8 +150,7 @@ impl Motion<'_> {
     fn widest(&self) -> Option<(f64, f64)> {
         let single = self.points.iter().filter(|(_, x)| !x.clustered);
         let spreads = single.filter_map(|(value, item)| Some((*value, spread_of(item.frequency.as_ref()?))));
-        let spreads = spreads.filter(|(_, sigma)| *sigma > 0.0);
-        spreads.max_by(|(_, a), (_, b)| a.total_cmp(b))
+        spreads.filter(|(_, sigma)| *sigma > 0.0).max_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
     /// Where its damping ratio is smallest.
@@ -181,8 +180,7 @@ impl Motion<'_> {
 
     /// Its behaviours in order, each once.
     fn behaviours(&self) -> String {
-        let each = self.points.iter();
-        let mut said: Vec<&str> = each.map(|(_, mode)| mode.behaviour.word()).collect();
+        let mut said: Vec<&str> = self.points.iter().map(|(_, mode)| mode.behaviour.word()).collect();
         said.dedup();
         said.join(", then ")
     }
@@ -215,8 +213,8 @@ impl Campbell {
         };
         let formatted = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| given_in(value, &info.unit));
         let labels = self.labels().into_iter();
-        let each = labels.map(|label| Motion { label, points: self.branch(label).collect() });
-        let motions: Vec<Motion<'_>> = each.collect();
+        let motions: Vec<Motion<'_>> =
+            labels.map(|label| Motion { label, points: self.branch(label).collect() }).collect();
         let mut table = Columns::new("modes", &motions);
         table.cells("mode", &|row| (row.label + 1).to_string());
         let d = &*self.description;
@@ -251,8 +249,7 @@ impl Campbell {
         varied(&mut table, &self.description, self.input, given, &|x| x.value);
         for label in self.labels() {
             let frequency = |campbell_point: &CampbellPoint| {
-                let modes = campbell_point.modes.as_ref().ok()?;
-                let mode = modes.iter().find(|mode| mode.label == label)?;
+                let mode = campbell_point.modes.as_ref().ok()?.iter().find(|mode| mode.label == label)?;
                 mode.behaviour.frequency()
             };
             if self.points.iter().any(|point| frequency(point).is_some()) {

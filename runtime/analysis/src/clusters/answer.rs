@@ -86,8 +86,7 @@ impl ClusterTolerance {
         let mut rows = Vec::new();
         for (quantity, spreads) in quantities {
             let member = |name, value| Member { cluster: self, quantity, name, value };
-            let each = spreads.members.iter().enumerate();
-            rows.extend(each.map(|(k, x)| member((k + 1).to_string(), x.value.as_ref())));
+            rows.extend(spreads.members.iter().enumerate().map(|(k, x)| member((k + 1).to_string(), x.value.as_ref())));
             rows.push(member("splitting".to_owned(), spreads.splitting.as_ref()));
         }
         rows

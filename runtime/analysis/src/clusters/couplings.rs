@@ -273,8 +273,7 @@ impl PairSpreads {
             }
         }
         let ordinary = |sum: &f64| *sum == 0.0 || (SMALLEST..LARGEST).contains(sum);
-        let sums = apart.as_flattened().iter().chain(coupling.as_flattened());
-        let usable = sums.into_iter().all(ordinary);
+        let usable = apart.as_flattened().iter().chain(coupling.as_flattened()).into_iter().all(ordinary);
         Ok(usable.then(|| Self { apart: apart.map(f64::sqrt), coupling: coupling.map(f64::sqrt) }))
     }
 }

@@ -111,12 +111,14 @@ pub fn clusters(
     }
     let couplings = modal_couplings(mechanism, at, modes, &members)?;
     let mut first = 0;
-    let each = groups.iter().map(|group| {
-        let places: Vec<usize> = (first..first + group.len()).collect();
-        first += group.len();
-        tolerance(&couplings.among(&places), modes, tolerances)
-    });
-    Ok(each.collect())
+    Ok(groups
+        .iter()
+        .map(|group| {
+            let places: Vec<usize> = (first..first + group.len()).collect();
+            first += group.len();
+            tolerance(&couplings.among(&places), modes, tolerances)
+        })
+        .collect())
 }
 
 /// The positions of the modes of each cluster, as [`clusters`] finds them.

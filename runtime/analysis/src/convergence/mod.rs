@@ -141,8 +141,7 @@ pub struct Solved<'a> {
 impl<'a> Solved<'a> {
     /// The modes that oscillate, with their positions.
     fn oscillating(self) -> Vec<(usize, &'a Mode)> {
-        let all = self.modes.modes.iter().enumerate();
-        all.filter(|(_, mode)| mode.frequency().is_some()).collect()
+        self.modes.modes.iter().enumerate().filter(|(_, mode)| mode.frequency().is_some()).collect()
     }
 
     fn outputs(self) -> Vector {
@@ -189,8 +188,7 @@ fn of_modes(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Vec<Change> {
 
 fn of_outputs(declared: Solved<'_>, refined: [Solved<'_>; 2]) -> Vec<Change> {
     let refined = refined.map(Solved::outputs);
-    let values = declared.outputs().into_iter().enumerate();
-    let changes = values.map(|(k, value)| {
+    let changes = declared.outputs().into_iter().enumerate().map(|(k, value)| {
         let others = refined.each_ref().map(|all| all.get(k).copied());
         change(Response::Output(Output::new(k)), value, others)
     });

@@ -62,8 +62,12 @@ impl ForcedResponse {
         }
         let d = &self.description;
         let amplitudes = |output: usize| -> Vec<f64> {
-            let all = self.harmonics.iter().filter_map(|harmonic| *harmonic.outputs.get(output)?);
-            all.map(Complex::norm).filter(|amplitude| *amplitude > 0.0).collect()
+            self.harmonics
+                .iter()
+                .filter_map(|harmonic| *harmonic.outputs.get(output)?)
+                .map(Complex::norm)
+                .filter(|amplitude| *amplitude > 0.0)
+                .collect()
         };
         let rows: Vec<(usize, Vec<f64>)> = (0..d.outputs.len()).map(|output| (output, amplitudes(output))).collect();
         let rows: Vec<_> = rows.into_iter().filter(|(_, amplitudes)| amplitudes.len() > 1).collect();
@@ -105,8 +109,11 @@ impl ForcedResponse {
 
     /// Outputs without amplitude.
     fn rough(&self, said: &mut Findings) {
-        let first = self.harmonics.iter().take(1);
-        let all = first.flat_map(|harmonic| harmonic.outputs.iter().zip(self.description.outputs.iter()));
+        let all = self
+            .harmonics
+            .iter()
+            .take(1)
+            .flat_map(|harmonic| harmonic.outputs.iter().zip(self.description.outputs.iter()));
         for (_, info) in all.filter(|(amplitude, _)| amplitude.is_none()) {
             let output = info.name.clone();
             said.note(Error::NotSmooth { output }.to_string());
@@ -185,9 +192,12 @@ impl Harmonic {
     #[doc(hidden)]
     #[must_use]
     pub fn excitations(&self, d: &Description) -> String {
-        let shares = self.shares.iter();
-        let infos = shares.filter_map(|share| d.excitations.get(share.excitation));
-        let names: Vec<&str> = infos.map(|info| &*info.name).collect();
+        let names: Vec<&str> = self
+            .shares
+            .iter()
+            .filter_map(|share| d.excitations.get(share.excitation))
+            .map(|info| &*info.name)
+            .collect();
         names.join(", ")
     }
 }

@@ -55,8 +55,12 @@ impl ForcedCurvature {
         let o = output.index();
         let slopes = first.frequency.zip(first.outputs.get(o)?.as_ref()?);
         let value = (of.frequency, (*of.outputs.get(o)?)?);
-        let both = second.frequency.zip(second.outputs.get(o)?.as_ref()?);
-        Some(both.combine(&slopes, |a, b, ab| measure.curvature(value, [a, b], ab)))
+        Some(
+            second
+                .frequency
+                .zip(second.outputs.get(o)?.as_ref()?)
+                .combine(&slopes, |a, b, ab| measure.curvature(value, [a, b], ab)),
+        )
     }
 
     /// Second derivatives of the modulus `|y|`; `None` also where it is zero.

@@ -125,8 +125,7 @@ impl Scaled {
         };
         let terms = entries().map(|(k, c, m)| k.abs() + w * (c.abs() + w * m.abs()));
         let (rows, columns) = scales(n, &terms.map(twice_log2).collect::<Vec<i32>>());
-        let values = entries().map(|(k, c, m)| s * (s * m + c) + k);
-        let mut matrix = Matrix::from_rows(n, values.collect());
+        let mut matrix = Matrix::from_rows(n, entries().map(|(k, c, m)| s * (s * m + c) + k).collect());
         for (row, by_row) in matrix.iter_mut().zip(&rows) {
             for (value, by_column) in row.iter_mut().zip(&columns) {
                 *value *= by_row * by_column;
@@ -254,8 +253,7 @@ fn scale_rows(matrix: &mut Matrix<Complex>, scales: &[f64]) {
 
 #[inline(always)]
 fn combine(a: &mut Matrix<Complex>, b: &Matrix<Complex>, f: impl Fn(Complex, Complex) -> Complex) {
-    let pairs = a.as_flattened_mut().iter_mut().zip(b.as_flattened());
-    pairs.for_each(|(a, b)| *a = f(*a, *b));
+    a.as_flattened_mut().iter_mut().zip(b.as_flattened()).for_each(|(a, b)| *a = f(*a, *b));
 }
 
 pub(super) fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {

@@ -66,8 +66,8 @@ impl Forces {
     /// What of an excitation is not finite.
     pub(super) fn infinite(&self, excitation: usize) -> Option<f64> {
         let forces = [&self.0.cosine, &self.0.sine];
-        let parts = forces.into_iter().flat_map(|part| part[excitation].iter());
-        let mut all = parts.chain([&self.0.frequency[excitation]]).copied();
+        let mut all =
+            forces.into_iter().flat_map(|part| part[excitation].iter()).chain([&self.0.frequency[excitation]]).copied();
         all.find(|x| !x.is_finite())
     }
 
@@ -143,8 +143,7 @@ impl Seen {
     /// `dc/ds . z`.
     pub(super) fn slope(&self, output: usize, s: Complex, z: &[Complex]) -> Complex {
         let [acceleration, velocity, _] = &self.0;
-        let rows = acceleration[output].iter().zip(&velocity[output]);
-        rows.zip(z).map(|((a, v), z)| (2.0 * s * a + v) * z).sum()
+        acceleration[output].iter().zip(&velocity[output]).zip(z).map(|((a, v), z)| (2.0 * s * a + v) * z).sum()
     }
 
     /// `d2c/ds2`.

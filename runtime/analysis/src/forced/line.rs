@@ -46,8 +46,11 @@ impl Line {
 
     /// The position of the tone that is loudest.
     pub(crate) fn loudest(&self) -> usize {
-        let all = self.amplitudes[0].iter().map(|y| y.norm()).enumerate();
-        let (k, _) = all.fold((0, 0.0), |most, own| if own.1 > most.1 { own } else { most });
+        let (k, _) = self.amplitudes[0]
+            .iter()
+            .map(|y| y.norm())
+            .enumerate()
+            .fold((0, 0.0), |most, own| if own.1 > most.1 { own } else { most });
         k.min(self.tones.len() - 1)
     }
 
@@ -269,6 +272,5 @@ fn terms(linear: &Linear, w: f64, p: &[Complex], z: &[Complex]) -> f64 {
         let (k, c, m) = (&linear.stiffness[i], &linear.damping[i], &linear.mass[i]);
         each.fold(0.0, |sum, (j, z)| sum + (k[j].abs() + w * (c[j].abs() + w * m[j].abs())) * z.norm())
     };
-    let each = p.iter().enumerate();
-    each.map(|(i, p)| p.norm() * row(i)).sum()
+    p.iter().enumerate().map(|(i, p)| p.norm() * row(i)).sum()
 }

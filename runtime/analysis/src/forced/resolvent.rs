@@ -265,8 +265,7 @@ fn orthonormal(mut vectors: Vec<Vector<Complex>>) -> Option<Vec<Vector<Complex>>
 }
 
 fn negated(mut matrix: Matrix<Complex>) -> Matrix<Complex> {
-    let entries = matrix.as_flattened_mut().iter_mut();
-    entries.for_each(|entry| *entry = -*entry);
+    matrix.as_flattened_mut().iter_mut().for_each(|entry| *entry = -*entry);
     matrix
 }
 

@@ -47,8 +47,7 @@ impl ForcedSensitivities {
         let (of, sensitivity) = self.pair(harmonic)?;
         let slopes = sensitivity.outputs.get(output.index())?.as_ref()?;
         let value = (of.frequency, (*of.outputs.get(output.index())?)?);
-        let both = sensitivity.frequency.zip(slopes);
-        Some(both.map(|(dw, dy)| measure.slope(value, dw, dy)))
+        Some(sensitivity.frequency.zip(slopes).map(|(dw, dy)| measure.slope(value, dw, dy)))
     }
 
     /// Derivatives of the modulus `|y|`; `None` also where it is zero.

@@ -15,9 +15,8 @@ impl Harmonic {
     /// [`Error::Setting`] for an output that has no amplitude, and for one of another mechanism.
     pub fn unknown_phases(&self, output: Output, measure: Measure) -> Result<RandomPhases, Error> {
         let share = |y: crate::Complex| measure.of(self.frequency, y).norm();
-        let shares = self.shares.iter();
         let lengths: Option<Vec<f64>> =
-            shares.map(|x| x.outputs.get(output.index()).copied().flatten().map(share)).collect();
+            self.shares.iter().map(|x| x.outputs.get(output.index()).copied().flatten().map(share)).collect();
         let lengths = lengths.ok_or_else(|| Error::Setting {
             setting: "output",
             reason: format!("output {} has no amplitude", output.index() + 1),

@@ -39,8 +39,7 @@ impl Vibration {
         let harmonics = of.excitations.iter().enumerate();
         let firsts = harmonics.filter(|(k, info)| info.with == *k);
         let each = |(k, _)| {
-            let outputs = (0..of.outputs.len()).map(Output::<Any>::new);
-            outputs.map(move |output| Self::new(output, Excitation::new(k)))
+            (0..of.outputs.len()).map(Output::<Any>::new).map(move |output| Self::new(output, Excitation::new(k)))
         };
         firsts.flat_map(each).collect()
     }
@@ -156,8 +155,7 @@ impl Vibration {
 
     fn curvature(&self, all: &ForcedCurvature) -> Option<SecondDerivatives<f64>> {
         let (y, first) = (self.amplitudes(&all.first.response)?, self.first(&all.first)?);
-        let parts = self.parts(&all.first.response.description)?;
-        let terms: Vec<_> = (parts.iter().enumerate())
+        let terms: Vec<_> = (self.parts(&all.first.response.description)?.iter().enumerate())
             .flat_map(|(k, part)| part.terms.iter().map(move |(output, factor)| (part.harmonic, *output, (k, *factor))))
             .collect();
         let second = terms.iter().map(|(harmonic, output, _)| all.complex(*harmonic, *output, self.measure));

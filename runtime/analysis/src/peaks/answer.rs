@@ -75,8 +75,13 @@ fn derivatives(all: &[Row<'_>]) -> Table {
         ];
         for (what, unit, moving) in all {
             let Some(moving) = moving else { continue };
-            let design = of.description.design.iter().enumerate();
-            rows.extend(design.map(|(k, by)| (row, what, unit.clone(), (by, moving.by_design.get(k)))));
+            rows.extend(
+                of.description
+                    .design
+                    .iter()
+                    .enumerate()
+                    .map(|(k, by)| (row, what, unit.clone(), (by, moving.by_design.get(k)))),
+            );
         }
     }
     let mut table = Columns::new("derivatives of peaks", &rows);
@@ -109,8 +114,7 @@ impl Peaks {
     }
 
     fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        let each = self.peaks.iter().enumerate();
-        each.map(move |(k, peak)| (self, k + 1, peak))
+        self.peaks.iter().enumerate().map(move |(k, peak)| (self, k + 1, peak))
     }
 
     /// The text about the peaks of one vibration.

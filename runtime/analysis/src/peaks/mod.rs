@@ -149,8 +149,8 @@ impl Moving {
 
     /// Without derivatives if rounding decides them: `doubt` is an error of relative changes of this number with the design.
     fn unless_rounding(self, doubt: f64, design: &[f64]) -> Self {
-        let parts = self.by_design.iter().zip(design).map(|(slope, value)| slope * value);
-        let change = parts.map(|x| x * x).sum::<f64>().sqrt();
+        let change =
+            self.by_design.iter().zip(design).map(|(slope, value)| slope * value).map(|x| x * x).sum::<f64>().sqrt();
         if doubt * self.value.abs() <= KNOWN * change + STILL * self.value.abs() {
             self
         } else {
@@ -187,8 +187,7 @@ pub fn peaks(
     let scanned = scan(&along, &range, start)?;
     let each = vibrations.iter().enumerate().map(|(which, vibration)| {
         let search = Search { along: &along, scan: &scanned, ascending: range.high > range.low, tolerances, which };
-        let tops = search.tops()?.into_iter();
-        let peaks = tops.map(|(k, top)| search.peak(k, top));
+        let peaks = search.tops()?.into_iter().map(|(k, top)| search.peak(k, top));
         Ok(Peaks {
             vibration: *vibration,
             range,
@@ -375,8 +374,7 @@ impl Search<'_> {
         let zero = self.along.curve(zero.value, &zero.equilibrium.coordinates, self.which)?;
         let slope = zero.heard().square().slope;
         let (at_peak, at_half) = (top.top_by_design(), zero.square_by_design());
-        let pairs = at_peak.iter().zip(&at_half);
-        let by_design: Vector = pairs.map(|(peak, half)| (0.5 * peak - half) / slope).collect();
+        let by_design: Vector = at_peak.iter().zip(&at_half).map(|(peak, half)| (0.5 * peak - half) / slope).collect();
         let [frequency, _] = zero.heard().line.frequency();
         Ok(Half {
             frequency: (frequency, zero.frequency_by_design(&by_design)),

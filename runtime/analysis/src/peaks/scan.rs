@@ -49,8 +49,7 @@ pub(super) fn scan(along: &Along<'_>, range: &Range, start: &[f64]) -> Result<Sc
         last = scan.divide(along, last, next, DIVISIONS)?;
     }
     if scan.states.is_empty() {
-        let first = scan.gaps.into_iter().next();
-        return Err(first.map_or(Error::CriticalState, |gap| gap.reason));
+        return Err(scan.gaps.into_iter().next().map_or(Error::CriticalState, |gap| gap.reason));
     }
     // An end at which the frequency is zero has no vibration, but everything beside it has.
     scan.gaps.retain(|gap| !matches!(gap.reason, Error::NoFrequency { .. }));

@@ -124,8 +124,7 @@ type Row<'a> = (&'a Peaks, &'a Peak, &'a SeparationMargin);
 
 impl Separation {
     fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        let each = self.peaks.peaks.iter().zip(&self.margins);
-        each.map(|(peak, margin)| (&self.peaks, peak, margin))
+        self.peaks.peaks.iter().zip(&self.margins).map(|(peak, margin)| (&self.peaks, peak, margin))
     }
 
     /// The columns about peaks along the same input.

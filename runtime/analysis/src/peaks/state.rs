@@ -68,8 +68,7 @@ impl<'a> Along<'a> {
     pub(super) fn state(&self, value: f64, from: &[f64]) -> Result<ResponsePoint, Error> {
         let (equilibrium, modes) = self.equilibrium(value, from, Needed::Modes)?;
         let lines = Lines::new(self.mechanism, &equilibrium, self.input.index())?;
-        let each = self.wanted.iter();
-        let lines = each.map(|wanted| lines.line(wanted, &modes.modes));
+        let lines = self.wanted.iter().map(|wanted| lines.line(wanted, &modes.modes));
         Ok(ResponsePoint {
             value,
             lines: lines.collect::<Result<_, Error>>()?,
@@ -198,8 +197,7 @@ impl Curve {
     /// peak leaves nothing of the digits of its place.
     pub(super) fn top_by_design(&self) -> Vector {
         let off = self.heard().square().slope / self.bend();
-        let pairs = self.square_by_design().into_iter().zip(self.bend_by_design());
-        pairs.map(|(here, bend)| here - off * bend).collect()
+        self.square_by_design().into_iter().zip(self.bend_by_design()).map(|(here, bend)| here - off * bend).collect()
     }
 
     /// The part of the height of a peak here that rounding decides when each design variable changes by itself: its place

@@ -29,8 +29,7 @@ impl Solid {
             Shape::Sphere { radius } => *radius,
             Shape::Ellipsoid { axes, semi_axes } => {
                 let squares = axes.iter().zip(semi_axes);
-                let squares = squares.map(|(axis, length)| (along(*axis) * length).powi(2));
-                squares.sum::<f64>().sqrt()
+                squares.map(|(axis, length)| (along(*axis) * length).powi(2)).sum::<f64>().sqrt()
             }
         }
     }

@@ -37,8 +37,7 @@ impl Scene {
     #[must_use]
     pub fn size(&self) -> f64 {
         let [low, high] = self.bounds;
-        let squares = low.iter().zip(high).map(|(low, high)| (high - low).powi(2));
-        squares.sum::<f64>().sqrt()
+        low.iter().zip(high).map(|(low, high)| (high - low).powi(2)).sum::<f64>().sqrt()
     }
 
     /// The upward direction, a unit vector in the common frame: against gravity.

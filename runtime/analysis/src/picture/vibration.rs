@@ -158,8 +158,7 @@ fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2])
         let [width, height] = section.size.map(|size| 0.5 * size);
         [[0.0; 3], [0.0, width, height], [0.0, width, -height]].map(|corner| (pose, corner))
     });
-    let places = solids.chain(fixed).chain(sections);
-    places.map(|(body, point)| semi_major(displaced(body, point))).fold(0.0, f64::max)
+    solids.chain(fixed).chain(sections).map(|(body, point)| semi_major(displaced(body, point))).fold(0.0, f64::max)
 }
 
 /// Half of the rotation from one pose to the other, as a vector, to second order.

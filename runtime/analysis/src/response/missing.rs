@@ -19,11 +19,14 @@ impl Responses<'_> {
         let (u, b, start) = (&at.inputs, &at.design, &at.coordinates);
         let onsets = flutter_onsets(self.mechanism(), u, b, start, Following::default(), range);
         let onsets = onsets.into_iter().flatten();
-        let all = onsets.map(|crossing| {
-            let label = crossing.modes.modes[crossing.mode].label;
-            (label, crossing.value)
-        });
-        Some(all.collect())
+        Some(
+            onsets
+                .map(|crossing| {
+                    let label = crossing.modes.modes[crossing.mode].label;
+                    (label, crossing.value)
+                })
+                .collect(),
+        )
     }
 
     /// Why the nominal design lacks a response; `None` if it has it.
@@ -43,8 +46,7 @@ impl Responses<'_> {
             }
             Response::Output(output) => {
                 let kernels: &dyn Kernels = mechanism;
-                let outputs = kernels.outputs(&at.coordinates, &at.inputs, &at.design);
-                let finite = outputs.get(output.index())?.is_finite();
+                let finite = kernels.outputs(&at.coordinates, &at.inputs, &at.design).get(output.index())?.is_finite();
                 (!finite).then(|| Error::InfiniteOutput { output: name(output), coordinates: at.coordinates.to_vec() })
             }
             Response::Vibration(vibration) => match forced::response(mechanism, at) {

@@ -83,8 +83,7 @@ impl CriticalContext<'_> {
             let (dw, _) = factors.solve_transposed(&change.coordinates, [0.0]);
             subtract(&mut change, &self.residual_gradient(&dw));
             let by_input = change.inputs[input];
-            let each = change.design.iter().zip(self.first);
-            each.map(|(x, rate)| -(x + by_input * rate) / push).collect()
+            change.design.iter().zip(self.first).map(|(x, rate)| -(x + by_input * rate) / push).collect()
         });
         Ok(rows.collect())
     }
@@ -133,8 +132,10 @@ impl CriticalContext<'_> {
         let rows = directions.iter().enumerate().map(|(k, direction)| {
             let by_design = change(direction);
             let rate = product(&by_design, &input) + curved * rates[k];
-            let each = directions.iter().enumerate();
-            each.map(|(j, other)| -(product(&by_design, other) + mixed[j] * rates[k] + rate * rates[j]) / slope)
+            directions
+                .iter()
+                .enumerate()
+                .map(|(j, other)| -(product(&by_design, other) + mixed[j] * rates[k] + rate * rates[j]) / slope)
                 .collect()
         });
         Ok(rows.collect())

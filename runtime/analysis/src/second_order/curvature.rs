@@ -117,8 +117,7 @@ pub(super) fn mode_curvatures(
                         }
                         Family::General => {
                             for pending in &mut ready {
-                                let each = directions.iter().zip(&changes);
-                                let rows = each.map(|(direction, change)| {
+                                let rows = directions.iter().zip(&changes).map(|(direction, change)| {
                                     let (gradient, shapes) = (&pending.gradient, &pending.shapes);
                                     gradient.along(direction, change, shapes)
                                 });
@@ -131,11 +130,13 @@ pub(super) fn mode_curvatures(
             Err(error) => pending.iter_mut().filter(|x| x.is_ok()).for_each(|x| *x = Err(error.clone())),
         }
     }
-    let each = pending.into_iter().zip(positions);
-    each.map(|(item, position)| {
-        if is_free(modes, position) { Ok(ModeCurvature::of_free(at, position)) } else { item?.curvature(at, modes) }
-    })
-    .collect()
+    pending
+        .into_iter()
+        .zip(positions)
+        .map(|(item, position)| {
+            if is_free(modes, position) { Ok(ModeCurvature::of_free(at, position)) } else { item?.curvature(at, modes) }
+        })
+        .collect()
 }
 
 fn is_free(modes: &Modes, position: usize) -> bool {
@@ -281,8 +282,7 @@ impl<'a> AdjointGradient<'a> {
                 form_gradient(kernels, at, &form(mode), &mut room, &mut total);
             }
         }
-        let parts = total[..parts(family)].iter_mut();
-        let w = parts.map(|part| adjoint.total(part, &mut room[0])).collect();
+        let w = total[..parts(family)].iter_mut().map(|part| adjoint.total(part, &mut room[0])).collect();
         Ok(Self {
             mechanism,
             at,
@@ -314,8 +314,7 @@ impl<'a> AdjointGradient<'a> {
         let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
         let phi = mode.real_shape();
-        let each = directions.iter().zip(moved).zip(rates);
-        let along = each.map(|((direction, dphi), rate)| {
+        let along = directions.iter().zip(moved).zip(rates).map(|((direction, dphi), rate)| {
             let [dq, du, db] = direction.parts();
             ([dq, du, db, &**dphi], *rate)
         });
@@ -378,10 +377,7 @@ fn gradients(kernels: &(impl Kernels + ?Sized)) -> [ComplexGradient; 2] {
 
 /// Combines real and imaginary parts into derivatives with respect to inputs and design variables.
 pub(crate) fn joined([re, im]: &ComplexGradient) -> Slopes<Complex> {
-    let join = |re: &Vector, im: &Vector| {
-        let parts = re.iter().zip(im);
-        parts.map(|(&re, &im)| Complex { re, im }).collect()
-    };
+    let join = |re: &Vector, im: &Vector| re.iter().zip(im).map(|(&re, &im)| Complex { re, im }).collect();
     Slopes { by_input: join(&re.inputs, &im.inputs), by_design: join(&re.design, &im.design) }
 }
 

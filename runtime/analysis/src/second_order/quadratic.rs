@@ -60,8 +60,7 @@ impl Quadratic {
     #[doc(hidden)]
     pub fn change(&self, x: &[f64]) -> f64 {
         let bent = self.curvature.iter().map(|row| dot(row, x));
-        let parts = x.iter().zip(&self.slopes).zip(bent);
-        parts.fold(0.0, |sum, ((x, slope), bent)| sum + x * (slope + 0.5 * bent))
+        x.iter().zip(&self.slopes).zip(bent).fold(0.0, |sum, ((x, slope), bent)| sum + x * (slope + 0.5 * bent))
     }
 
     /// The same model expanded about the means of the variables.

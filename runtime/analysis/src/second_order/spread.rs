@@ -78,8 +78,7 @@ pub fn second_order(
     modes: &Modes,
     tolerances: &Tolerances,
 ) -> SecondOrder {
-    let all = blocks(mechanism, (at, modes), tolerances).flatten();
-    of_each(mechanism, (at, modes), all.collect(), tolerances)
+    of_each(mechanism, (at, modes), blocks(mechanism, (at, modes), tolerances).flatten().collect(), tolerances)
 }
 
 /// Like [`second_order`], but `watch` can stop it.
@@ -114,8 +113,7 @@ fn blocks<'a>(
     starts.map(move |start| {
         let block = start..count.min(start + TOGETHER);
         let mode_curvatures = mode_curvatures(mechanism, at, modes, block).into_iter();
-        let each = mode_curvatures.map(|item| mode_second_order(&item?, modes, tolerances, &mut undamped));
-        each.collect()
+        mode_curvatures.map(|item| mode_second_order(&item?, modes, tolerances, &mut undamped)).collect()
     })
 }
 

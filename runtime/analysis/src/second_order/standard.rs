@@ -54,8 +54,7 @@ impl Standard {
         if !self.scale.is_finite() {
             return Err(beyond_range());
         }
-        let parts = self.linear.iter_mut().chain(&mut self.quadratic);
-        parts.for_each(|value| *value /= size);
+        self.linear.iter_mut().chain(&mut self.quadratic).for_each(|value| *value /= size);
         Ok(())
     }
 
@@ -109,8 +108,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn times(matrix: &[f64], x: &[f64]) -> Vec<f64> {
-    let rows = (0..x.len()).map(|i| &matrix[i * x.len()..(i + 1) * x.len()]);
-    rows.map(|row| dot(row, x)).collect()
+    (0..x.len()).map(|i| &matrix[i * x.len()..(i + 1) * x.len()]).map(|row| dot(row, x)).collect()
 }
 
 fn transposed(matrix: &[f64], n: usize) -> Vec<f64> {

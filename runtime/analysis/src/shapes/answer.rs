@@ -22,8 +22,12 @@ impl Answer for ShapeSensitivity {
         let variables = variables(d);
         let mut rows = Vec::new();
         for (unknown, info) in d.coordinates.iter().enumerate() {
-            let each = variables.iter().enumerate();
-            rows.extend(each.map(|(column, by)| Row { unknown, name: &info.name, place: column, by: *by }));
+            rows.extend(variables.iter().enumerate().map(|(column, by)| Row {
+                unknown,
+                name: &info.name,
+                place: column,
+                by: *by,
+            }));
         }
         let inputs = d.inputs.len();
         let mut table = Columns::new("shape sensitivities", &rows);

@@ -104,8 +104,7 @@ impl Probability {
 
 /// No if a requirement fails more often than is allowed.
 fn verdict(allowed: &[Option<f64>], probabilities: &Probabilities) -> Verdict {
-    let all = allowed.iter().zip(&probabilities.each).enumerate();
-    let mut exceeded = all.filter_map(|(k, (allowed, probability))| {
+    let mut exceeded = allowed.iter().zip(&probabilities.each).enumerate().filter_map(|(k, (allowed, probability))| {
         let allowed = allowed.filter(|allowed| probability.value > *allowed)?;
         Some(format!(
             "requirement {} fails with a probability of {:.3e}, and {allowed} is allowed",

@@ -78,8 +78,7 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
 /// Positions and labels of the ticks, approximately as many as wanted.
 fn ticks(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
     if !axis.categories.is_empty() {
-        let names = axis.categories.iter().enumerate();
-        return names.map(|(k, name)| (k as f64, name.clone())).collect();
+        return axis.categories.iter().enumerate().map(|(k, name)| (k as f64, name.clone())).collect();
     }
     if axis.logarithmic {
         return ratios(axis, wanted);
@@ -92,8 +91,7 @@ fn ticks(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
     let step = step(rough, &axis.unit);
     let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
     let count = (last - first).clamp(0.0, 100.0) as usize;
-    let values = (0..=count).map(|k| first + k as f64).map(|x| x * step);
-    values.map(|value| (value, number(value, step))).collect()
+    (0..=count).map(|k| first + k as f64).map(|x| x * step).map(|value| (value, number(value, step))).collect()
 }
 
 /// Ticks of a logarithmic axis, whose range is in powers of ten: at tens, also at twice and five times these where there is
@@ -110,8 +108,9 @@ fn ratios(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
         _ => &[1.0],
     };
     let powers = (low.floor() as i32..=high.ceil() as i32).map(|power| 10f64.powi(power));
-    let values = powers.flat_map(|power| factors.iter().map(move |factor| factor * power));
-    let inside = values.filter(|value| (low..=high).contains(&value.log10()));
+    let inside = powers
+        .flat_map(|power| factors.iter().map(move |factor| factor * power))
+        .filter(|value| (low..=high).contains(&value.log10()));
     let text = |value: f64| if (1e-3..1e5).contains(&value) { number(value, value) } else { format!("{value:e}") };
     inside.map(|value| (value.log10(), text(value))).collect()
 }

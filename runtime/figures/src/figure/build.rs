@@ -247,8 +247,12 @@ impl Axis {
 
 /// The parts of a curve whose values are positive.
 fn positive_pieces(pieces: &[Vec<Point>]) -> Vec<Vec<Point>> {
-    let parts = pieces.iter().flat_map(|piece| piece.split(|point| point[1] <= 0.0));
-    parts.filter(|part| part.len() > 1).map(<[Point]>::to_vec).collect()
+    pieces
+        .iter()
+        .flat_map(|piece| piece.split(|point| point[1] <= 0.0))
+        .filter(|part| part.len() > 1)
+        .map(<[Point]>::to_vec)
+        .collect()
 }
 
 fn finite(point: &Point) -> bool {

@@ -61,18 +61,22 @@ pub(crate) mod sealed {
         }
 
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)> {
-            let each = self.points.iter().map(|point| {
-                let modes = point.modes.iter().flat_map(|mode| &mode.modes);
-                let modes = modes.map(|mode| (mode.label, mode.s, mode.frequency(), None));
-                (point.value, point.equilibrium.as_ref(), modes.collect())
-            });
-            each.collect()
+            self.points
+                .iter()
+                .map(|point| {
+                    let modes = point.modes.iter().flat_map(|mode| &mode.modes);
+                    (
+                        point.value,
+                        point.equilibrium.as_ref(),
+                        modes.map(|mode| (mode.label, mode.s, mode.frequency(), None)).collect(),
+                    )
+                })
+                .collect()
         }
 
         fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)> {
             let soft = SpecialKind::Pitchfork { supercritical: Some(true) };
-            let each = self.critical.iter();
-            each.map(|item| (item.value, (item.kind == soft).then_some(&item.equilibrium))).collect()
+            self.critical.iter().map(|item| (item.value, (item.kind == soft).then_some(&item.equilibrium))).collect()
         }
     }
 
@@ -91,11 +95,19 @@ pub(crate) mod sealed {
 
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)> {
             let each = self.points.iter().map(|point| {
-                let modes = point.modes.iter().flatten().map(|mode| {
-                    let kind = mode.whirl.map(Whirl::character);
-                    (mode.label, mode.s, mode.behaviour.frequency(), kind)
-                });
-                (point.value, point.equilibrium.as_ref(), modes.collect())
+                (
+                    point.value,
+                    point.equilibrium.as_ref(),
+                    point
+                        .modes
+                        .iter()
+                        .flatten()
+                        .map(|mode| {
+                            let kind = mode.whirl.map(Whirl::character);
+                            (mode.label, mode.s, mode.behaviour.frequency(), kind)
+                        })
+                        .collect(),
+                )
             });
             each.collect()
         }

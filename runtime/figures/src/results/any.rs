@@ -33,8 +33,15 @@ pub fn figure_of(result: &dyn Any, style: &Style) -> Option<Result<Figure, Error
         .or_else(|| of(result, |result: &MonteCarlo| Histogram::new(result, 0).figure(style)))
         .or_else(|| {
             of(result, |result: &Bode| {
-                let first = Vibration::all(&result.description).into_iter().next();
-                bode(result, first.ok_or_else(|| Error::nothing("the mechanism has no output"))?, &[], style)
+                bode(
+                    result,
+                    Vibration::all(&result.description)
+                        .into_iter()
+                        .next()
+                        .ok_or_else(|| Error::nothing("the mechanism has no output"))?,
+                    &[],
+                    style,
+                )
             })
         })
 }

@@ -272,8 +272,7 @@ impl<'a> Course<'a> {
     }
 
     fn curve(&self, height: impl Fn(Complex) -> Option<f64>) -> Vec<Option<Point>> {
-        let each = self.values.iter();
-        each.map(|(value, x)| Some([*value, height((*x)?)?])).collect()
+        self.values.iter().map(|(value, x)| Some([*value, height((*x)?)?])).collect()
     }
 
     /// Phases, deg, each within half a turn of the one before; a vibration that vanishes has none.
@@ -298,14 +297,12 @@ impl<'a> Course<'a> {
             all.get(index?)?.as_ref()
         };
         let unit = input_unit(&self.result.description, self.result.input);
-        let points = self.result.points.iter();
-        points.map(|point| (in_unit(point.value, &unit), spread(point))).collect()
+        self.result.points.iter().map(|point| (in_unit(point.value, &unit), spread(point))).collect()
     }
 
     /// The probabilities at the ends of the bands.
     fn quantiles(&self) -> Option<[f64; 2]> {
-        let spreads = self.spreads();
-        let spread = spreads.iter().find_map(|spread| spread.1)?;
+        let spread = self.spreads().iter().find_map(|spread| spread.1)?;
         let [low, high] = outer(spread)?.map(|quantile| quantile.probability);
         Some([low, high])
     }
@@ -338,8 +335,7 @@ impl<'a> Course<'a> {
     /// Where the peaks are, in the unit of the input.
     fn places(&self) -> impl Iterator<Item = f64> {
         let unit = input_unit(&self.result.description, self.result.input);
-        let each = self.peaks.iter();
-        each.map(move |peak| in_unit(peak.place.value, &unit))
+        self.peaks.iter().map(move |peak| in_unit(peak.place.value, &unit))
     }
 
     /// Draws the peaks, and returns a caption line for each.
@@ -354,17 +350,21 @@ impl<'a> Course<'a> {
         });
         panel.error_bars("peak", Colour::Series(1), Shape::Diamond, bars);
         let sides = self.peaks.iter().flat_map(|peak| {
-            let places = peak.half_power.iter().filter_map(HalfPower::place);
-            places.map(|item| [abscissa(item), height(peak) / std::f64::consts::SQRT_2])
+            peak.half_power
+                .iter()
+                .filter_map(HalfPower::place)
+                .map(|item| [abscissa(item), height(peak) / std::f64::consts::SQRT_2])
         });
         panel.markers("half power", Colour::Series(1), Shape::Cross, sides);
-        let each = self.peaks.iter().enumerate();
-        each.map(|(k, peak)| {
-            let at = [abscissa(&peak.place), height(peak)];
-            panel.label(at, format!("({})", k + 1));
-            self.peak(k, peak)
-        })
-        .collect()
+        self.peaks
+            .iter()
+            .enumerate()
+            .map(|(k, peak)| {
+                let at = [abscissa(&peak.place), height(peak)];
+                panel.label(at, format!("({})", k + 1));
+                self.peak(k, peak)
+            })
+            .collect()
     }
 
     /// `(1) peak of 0.12 mm at 1480 rpm, sigma 12 rpm, amplification factor 8.2`.

@@ -166,11 +166,11 @@ fn joined(branch: &Branch) -> Vec<Joined<'_>> {
         (!core::ptr::eq(last, next)).then_some([last, next])
     };
     let each = all.iter().enumerate();
-    let each = each.map(|(k, (stability, stretch))| {
+    each.map(|(k, (stability, stretch))| {
         let (before, after) = (gap(k.checked_sub(1), k), gap(Some(k), k + 1));
         (*stability, *stretch, before, after)
-    });
-    each.collect()
+    })
+    .collect()
 }
 
 /// The midpoint of two points.

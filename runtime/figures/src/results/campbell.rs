@@ -111,10 +111,7 @@ fn reached(panel: &Panel, result: &Campbell, scale: f64) -> Option<f64> {
     let lines = result.orders.iter();
     let heights = lines.flat_map(|line| ends.map(|end| scale * (line.ratio * end + line.offset)));
     let lines = heights.reduce(f64::max)?;
-    let greatest = |curve: &Curve| {
-        let points = curve.pieces.iter().flatten();
-        points.fold(0.0, |most: f64, point| most.max(point[1]))
-    };
+    let greatest = |curve: &Curve| curve.pieces.iter().flatten().fold(0.0, |most: f64, point| most.max(point[1]));
     let lowest = panel.curves.iter().map(greatest).reduce(f64::min)?;
     Some((1.2 * lines).max(1.2 * lowest))
 }
@@ -160,8 +157,7 @@ pub(super) fn bands(
         let mut edges = Vec::new();
         let colour = Colour::Series(label);
         for point in &result.points {
-            let modes = point.modes.as_deref().unwrap_or_default();
-            let mode = modes.iter().find(|mode| mode.label == label);
+            let mode = point.modes.as_deref().unwrap_or_default().iter().find(|mode| mode.label == label);
             match mode.and_then(quantity) {
                 Some((mean, half)) => {
                     let value = in_unit(point.value, &unit);

@@ -158,8 +158,11 @@ impl Line {
         };
         let mut shape: Shape = (0..self.rest.len()).map(parts).collect();
         let largest = |shape: &Shape, components: core::ops::Range<usize>| {
-            let all = shape.iter().flat_map(|parts| parts[components.clone()].to_vec());
-            all.max_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or(Complex::ZERO)
+            shape
+                .iter()
+                .flat_map(|parts| parts[components.clone()].to_vec())
+                .max_by(|a, b| a.norm().total_cmp(&b.norm()))
+                .unwrap_or(Complex::ZERO)
         };
         let (travel, twist) = (largest(&shape, 0..3), largest(&shape, 3..4));
         let length = self.places.last()? - self.places.first()?;

@@ -92,8 +92,8 @@ pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
     let unit = course.axis().unit;
     let words = |value: f64| if unit.is_empty() { number(value) } else { format!("{} {unit}", number(value)) };
     for (value, shape) in [(first, Shape::Ring), (last, Shape::Disc)] {
-        let states = all.iter().flat_map(|track: &Track| track.pieces.iter().flatten());
-        let here = states.filter(|state| state.value == value);
+        let here =
+            all.iter().flat_map(|track: &Track| track.pieces.iter().flatten()).filter(|state| state.value == value);
         let points: Vec<_> = here.map(|state| [state.s.re, state.s.im]).collect();
         let label = format!("{} = {}", course.axis().name, words(value));
         panel.markers(label, Colour::Black, shape, points);

@@ -108,8 +108,13 @@ fn shown(result: &Modes) -> Result<Vec<&Mode>, Error> {
 
 /// Coordinates and speeds; reactions are not part of the motion.
 fn resting(result: &Modes) -> impl Iterator<Item = usize> + '_ {
-    let infos = result.description.coordinates.iter().enumerate();
-    infos.filter(|(_, info)| matches!(info.role, Role::Position | Role::Speed)).map(|(k, _)| k)
+    result
+        .description
+        .coordinates
+        .iter()
+        .enumerate()
+        .filter(|(_, info)| matches!(info.role, Role::Position | Role::Speed))
+        .map(|(k, _)| k)
 }
 
 fn panel(result: &Modes, name: &str, unit: &str) -> Panel {

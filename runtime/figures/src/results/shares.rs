@@ -69,8 +69,10 @@ fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
     let this_mode = result.modes.get(mode);
     let this_mode = this_mode.ok_or(Error::UnknownMode { mode, modes })?;
     let shares = this_mode.variance_shares().iter().zip(result.description.design.iter());
-    let shares = shares.map(|(share, info)| (info.name.to_string(), 100.0 * share));
-    let mut all: Vec<(String, f64)> = shares.filter(|(_, share)| share.is_finite() && *share != 0.0).collect();
+    let mut all: Vec<(String, f64)> = shares
+        .map(|(share, info)| (info.name.to_string(), 100.0 * share))
+        .filter(|(_, share)| share.is_finite() && *share != 0.0)
+        .collect();
     if all.is_empty() {
         return Err(Error::nothing(format!("no tolerance moves mode {}", mode + 1)));
     }

@@ -218,8 +218,7 @@ fn undamped(a: &Sample, b: &Sample) -> bool {
 }
 
 fn softest(station: &Station) -> Option<usize> {
-    let modes = station.modes.iter();
-    let least = modes.min_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+    let least = station.modes.iter().min_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
     least.map(|least| least.label)
 }
 

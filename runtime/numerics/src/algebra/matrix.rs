@@ -291,8 +291,7 @@ pub fn largest_element(matrix: &Matrix) -> f64 {
 /// Whether no element is NaN or infinite.
 #[inline]
 pub fn all_finite_matrix(matrix: &Matrix) -> bool {
-    let values = matrix.as_flattened().iter();
-    values.fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
+    matrix.as_flattened().iter().fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
 }
 
 /// Whether mirrored elements are equal to the last bit.

@@ -14,8 +14,7 @@ impl<T: Exact> Serialize for Vector<T> {
 
 impl<'de, T: Exact + Copy + Default> Deserialize<'de> for Vector<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let entries = Vec::<T::Written>::deserialize(from)?;
-        Ok(entries.into_iter().map(T::read).collect())
+        Ok(Vec::<T::Written>::deserialize(from)?.into_iter().map(T::read).collect())
     }
 }
 
@@ -68,8 +67,7 @@ impl<'de, T: Exact + Copy + Default> Deserialize<'de> for Matrix<T> {
             )));
         }
         let mut matrix = Self::zeros(rows, columns);
-        let places = matrix.as_flattened_mut().iter_mut();
-        places.zip(entries).for_each(|(slot, entry)| *slot = T::read(entry));
+        matrix.as_flattened_mut().iter_mut().zip(entries).for_each(|(slot, entry)| *slot = T::read(entry));
         Ok(matrix)
     }
 }

@@ -55,8 +55,7 @@ impl<A: eigentol_tables::Answer + Serialize + Send + Sync + 'static> Described f
             return BTreeMap::new();
         };
         let varied = of.varied.map(Input::index);
-        let each = of.description.inputs.iter().zip(of.inputs).enumerate();
-        let fixed = each.filter(|(k, _)| Some(*k) != varied);
+        let fixed = of.description.inputs.iter().zip(of.inputs).enumerate().filter(|(k, _)| Some(*k) != varied);
         fixed.map(|(_, (info, value))| (info.name.to_string(), *value)).collect()
     }
 
@@ -219,8 +218,7 @@ impl Answer {
     #[getter]
     fn units(&self) -> BTreeMap<String, String> {
         let tables = self.0.all_tables().into_iter();
-        let columns = tables.flat_map(|table| table.columns).rev();
-        columns.map(|column| (column.name, column.unit)).collect()
+        tables.flat_map(|table| table.columns).rev().map(|column| (column.name, column.unit)).collect()
     }
 
     /// Its kind, as documents name it: "first-order spread".

@@ -22,8 +22,7 @@ result! {
 
 /// The complex amplitudes of all outputs of a harmonic, NaN for one that has none.
 fn amplitudes(of: &Harmonic, measure: Measure) -> impl Iterator<Item = Complex> + use<'_> {
-    let each = of.outputs.iter();
-    each.map(move |y| y.map_or(NONE, |y| measure.of(of.frequency, y)))
+    of.outputs.iter().map(move |y| y.map_or(NONE, |y| measure.of(of.frequency, y)))
 }
 
 fn or_none(outputs: &[Option<Complex>]) -> Vec<Complex> {
@@ -106,8 +105,7 @@ impl ForcedResponse {
 
     fn orbits(&self, py: Python<'_>, [x, y]: [&str; 2]) -> PyResult<Vec<Orbit>> {
         let (x, y) = (self.output(py, x)?, self.output(py, y)?);
-        let each = self.0.harmonics.iter();
-        Ok(each.filter_map(|item| item.orbit(x, y)).collect())
+        Ok(self.0.harmonics.iter().filter_map(|item| item.orbit(x, y)).collect())
     }
 
     /// A number of each output of each harmonic, if the phases of the excitations are unknown.
@@ -124,8 +122,7 @@ impl ForcedResponse {
                 Some(_) => of(&harmonic.unknown_phases(Output::new(k), measure)?),
                 None => Ok(f64::NAN),
             };
-            let all = harmonic.outputs.iter().enumerate().map(number);
-            all.collect::<Result<Vec<f64>, _>>()
+            harmonic.outputs.iter().enumerate().map(number).collect::<Result<Vec<f64>, _>>()
         };
         let all: Result<Vec<_>, _> = self.0.harmonics.iter().map(each).collect();
         rows(py, outputs, all.map_err(|error| raise(py, error))?)
@@ -156,8 +153,7 @@ impl ForcedResponse {
 
     /// Angles of the longest diameters of the orbits of two outputs from `x`, rad, shape (h,); NaN for a circle.
     fn orbit_directions<'py>(&self, py: Python<'py>, x: &str, y: &str) -> PyResult<Array1<'py>> {
-        let all = self.orbits(py, [x, y])?;
-        Ok(optional(py, all.iter().map(Orbit::direction)))
+        Ok(optional(py, self.orbits(py, [x, y])?.iter().map(Orbit::direction)))
     }
 
     /// How the orbits of two outputs are passed in each harmonic: "forward", from `x` to `y`, "backward", or None on a

@@ -80,8 +80,7 @@ attributes! {
         damping_ratios: PyResult<Array2<'py>> = self.of_samples(py, |sample| &sample.damping_ratios);
         /// What became of each sample: "Stable", "Divergent", "Flutter", "NoEquilibrium" ...
         outcomes: PyResult<Vec<String>> = {
-            let all = self.kept(py)?.iter();
-            Ok(all.map(|x| format!("{:?}", x.outcome)).collect())
+            Ok(self.kept(py)?.iter().map(|x| format!("{:?}", x.outcome)).collect())
         };
         /// Number of samples that were asked for: more than `samples` if the run was stopped or is a part.
         planned: usize = self.0.planned;
@@ -97,8 +96,7 @@ attributes! {
         varies: bool = self.0.varies;
         /// How many designs became what, by name.
         counts: PyResult<hints::Counts<'py>> = {
-            let all = Outcome::ALL.into_iter();
-            all.map(|outcome| (format!("{outcome:?}"), self.0.counts.of(outcome))).into_py_dict(py)
+            Outcome::ALL.into_iter().map(|outcome| (format!("{outcome:?}"), self.0.counts.of(outcome))).into_py_dict(py)
         };
     }
 }

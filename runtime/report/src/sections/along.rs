@@ -82,6 +82,10 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
 /// The columns that fit on a page; the rest is available by copying.
 fn on_a_page(table: &Table) -> Vec<&str> {
     let left_out = ["sigma level", "Re s", "Im s", "whirl ratio"];
-    let names = table.columns.iter().map(|column| &*column.name);
-    names.filter(|name| !name.starts_with("variance share of ") && !left_out.contains(name)).collect()
+    table
+        .columns
+        .iter()
+        .map(|column| &*column.name)
+        .filter(|name| !name.starts_with("variance share of ") && !left_out.contains(name))
+        .collect()
 }

@@ -150,8 +150,7 @@ fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
     let Some(spread) = this_mode.frequency().filter(|x| !is_rounding(x.sigma, x.mean)) else {
         return String::new();
     };
-    let shares = spread.variance_shares.iter().zip(first.description.design.iter());
-    let greatest = shares.max_by(|a, b| a.0.total_cmp(b.0));
+    let greatest = spread.variance_shares.iter().zip(first.description.design.iter()).max_by(|a, b| a.0.total_cmp(b.0));
     let cause = greatest
         .map_or_else(String::new, |(share, info)| format!(", mostly from {} ({:.0} %)", info.name, 100.0 * share));
     // The band lies about the mean, which unequal limits move away from the nominal frequency.

@@ -44,8 +44,10 @@ pub(crate) fn of(content: &Content) -> Vec<Section> {
         ("distributions", "Distributions", distributions::section),
         ("along", "Along an input", along::section),
     ];
-    let all = all.into_iter().map(|(id, heading, write)| Section { id, heading, write });
-    all.filter(|item| item.id != "vibration" || content.forced.is_some()).collect()
+    all.into_iter()
+        .map(|(id, heading, write)| Section { id, heading, write })
+        .filter(|item| item.id != "vibration" || content.forced.is_some())
+        .collect()
 }
 
 /// Writes all sections.

@@ -8,14 +8,16 @@ use crate::words::number;
 
 /// The non-empty tables with their captions.
 pub(super) fn tables(scene: &Scene, d: &Description) -> Vec<(&'static str, Table)> {
-    let all = [
+    [
         ("Bodies; lengths in m, masses in kg", bodies(scene)),
         ("Joints", joints(scene)),
         ("Gravity, drives, forces, constraints and curves; numbers in SI", elements(scene)),
         ("Excitations", excitations(d)),
         ("What rolls", wheels(scene)),
-    ];
-    all.into_iter().filter(|(_, x)| x.rows() > 0).collect()
+    ]
+    .into_iter()
+    .filter(|(_, x)| x.rows() > 0)
+    .collect()
 }
 
 fn excitations(d: &Description) -> Table {

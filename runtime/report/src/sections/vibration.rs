@@ -152,6 +152,5 @@ fn along_input(html: &mut Html, content: &Content, along: &ForcedAlong) -> Resul
 /// The columns that fit on a page; the rest is available by copying.
 fn on_a_page(table: &Table) -> Vec<&str> {
     let left_out = ["Re", "Im", "mean", "99.9 %", "designs solved anew"];
-    let names = table.columns.iter().map(|column| &*column.name);
-    names.filter(|name| !left_out.contains(name)).collect()
+    table.columns.iter().map(|column| &*column.name).filter(|name| !left_out.contains(name)).collect()
 }

@@ -120,8 +120,7 @@ fn change(data: &Data<'_>, q: &[f64], of: impl Fn(&[f64], &[f64], &[f64]) -> Vec
     let mut change = Vector::zeros(given.len());
     for sample in 0..SAMPLES {
         let disturbed = |values: &[f64], first: usize| -> Vector {
-            let values = values.iter().enumerate();
-            values.map(|(k, value)| value * disturbance(first + k, sample)).collect()
+            values.iter().enumerate().map(|(k, value)| value * disturbance(first + k, sample)).collect()
         };
         let inputs = disturbed(data.inputs, 0);
         let design = disturbed(data.design, inputs.len());

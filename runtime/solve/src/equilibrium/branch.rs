@@ -68,8 +68,7 @@ impl<'a> Branch<'a> {
         if halvings == 0 {
             return false;
         }
-        let both = a.design.iter().zip(b.design);
-        let design: Vector = both.map(|(a, b)| 0.5 * (a + b)).collect();
+        let design: Vector = a.design.iter().zip(b.design).map(|(a, b)| 0.5 * (a + b)).collect();
         let point = OperatingPoint::unchecked(self.mechanism, &self.nominal.inputs, &design);
         let point = point.held_like(&self.nominal.free);
         solve(&point, a.q, Policy::about(self.nominal)).is_ok_and(|middle| {

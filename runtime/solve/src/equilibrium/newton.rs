@@ -145,8 +145,7 @@ fn failure(reason: NotFound, q: &[f64], iterations: usize, relative: f64) -> Fai
 }
 
 fn merit(residual: &[f64], weight: &[f64]) -> f64 {
-    let pairs = residual.iter().zip(weight);
-    pairs.fold(0.0, |sum, (residual, weight)| sum + weight * residual * residual)
+    residual.iter().zip(weight).fold(0.0, |sum, (residual, weight)| sum + weight * residual * residual)
 }
 
 /// A damped least-squares step, used where `Khat` is singular.

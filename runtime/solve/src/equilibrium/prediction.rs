@@ -69,10 +69,7 @@ impl Path {
 /// Whether the state found from a prediction is the predicted one: much closer to the prediction than to the last
 /// state, and within half a turn of it, since angles bring the same place back.
 pub fn confirmed(values: &[f64], predicted: &[f64], last: &[f64]) -> bool {
-    let distance = |from: &[f64]| {
-        let pairs = values.iter().zip(from);
-        pairs.fold(0.0, |most, (a, b)| greater(most, (a - b).abs()))
-    };
+    let distance = |from: &[f64]| values.iter().zip(from).fold(0.0, |most, (a, b)| greater(most, (a - b).abs()));
     let still = STILL * greater(1.0, largest(values));
     let moved = distance(last);
     distance(predicted) <= MISSED * moved + still && moved <= core::f64::consts::PI

@@ -186,6 +186,5 @@ fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linea
 
 /// `sum_j |values_j| size_j`.
 fn magnitude(values: &[f64], size: &[f64]) -> f64 {
-    let pairs = values.iter().zip(size);
-    pairs.fold(0.0, |sum, (value, size)| sum + value.abs() * size)
+    values.iter().zip(size).fold(0.0, |sum, (value, size)| sum + value.abs() * size)
 }

@@ -200,8 +200,7 @@ fn by_eigenvalues(
     let drifts = |mode: &&Mode| {
         let near = |other: &Mode| (mode.s - other.s).norm() <= mode.error + other.error;
         let oscillates = matches!(mode.behaviour, Behaviour::Oscillating(_));
-        let others = spectrum.modes.iter().filter(|other| near(other));
-        oscillates && mode.condition > DEFECTIVE && others.count() > 1
+        oscillates && mode.condition > DEFECTIVE && spectrum.modes.iter().filter(|other| near(other)).count() > 1
     };
     let zero = zero + spectrum.modes.iter().filter(drifts).count();
     let stability = if divergent > 0 {

@@ -543,8 +543,7 @@ fn unreliable(error: &eigentol_statistics::Error) -> String {
 }
 
 fn listed(others: &[(Text, f64)]) -> String {
-    let each = others.iter().map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));
-    each.collect()
+    others.iter().map(|(name, gap)| format!(", `{name}` by {gap:.6e}")).collect()
 }
 
 impl From<eigentol_statistics::Error> for Error {

@@ -434,8 +434,7 @@ impl<M: Mechanism> CurvatureKernels for M {
                     .iter()
                     .zip(direction)
                     .map(|(values, slopes)| {
-                        let pairs = values.iter().zip(*slopes);
-                        pairs.map(|(&value, &slope)| Dual { value, slope }).collect()
+                        values.iter().zip(*slopes).map(|(&value, &slope)| Dual { value, slope }).collect()
                     })
                     .collect();
                 let moved: Vec<&[Dual<f64>]> = moved.iter().map(Vec::as_slice).collect();

@@ -38,8 +38,7 @@ impl PartialMatrices {
     pub(crate) fn matrices<'a>(&self, changes: &'a [f64]) -> impl ExactSizeIterator<Item = Linear> + use<'a> {
         let n = self.sizes.coordinates;
         let matrix = move |entries: &[f64]| Matrix::from_fn(n, n, |i, j| entries[i * n + j]);
-        let each = changes.chunks_exact(entries_of(n).max(1));
-        each.map(move |change| parts(change).map(matrix))
+        changes.chunks_exact(entries_of(n).max(1)).map(move |change| parts(change).map(matrix))
     }
 
     /// The derivatives with respect to the coordinates, one after the other, each as in [`parts`].

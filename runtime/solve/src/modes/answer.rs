@@ -107,8 +107,7 @@ fn components(table: &mut Columns<'_, Mode>, description: &Description) {
 
 /// The unknowns that a shape consists of, with their positions: reactions come last and are none of it.
 fn motions(description: &Description) -> impl Iterator<Item = (usize, &CoordinateInfo)> {
-    let infos = description.coordinates.iter().enumerate();
-    infos.filter(|(_, info)| matches!(info.role, Role::Position | Role::Speed))
+    description.coordinates.iter().enumerate().filter(|(_, info)| matches!(info.role, Role::Position | Role::Speed))
 }
 
 /// Shapes as columns: one column for each coordinate or speed that moves in any mode, or a single one with the largest

@@ -109,8 +109,7 @@ pub fn match_with_assurance(from: &Modes, to: &Modes, linear: &Linear) -> Vector
     // one half.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
-        let pairs = from.modes.iter().zip(&to.modes);
-        let assurances = pairs.map(|(x, other)| real_assurance(x, other, &linear.mass));
+        let assurances = from.modes.iter().zip(&to.modes).map(|(x, other)| real_assurance(x, other, &linear.mass));
         let matched: Vector<_> = assurances.enumerate().map(Some).collect();
         if matched.iter().flatten().all(|&(_, same)| same > CERTAIN) {
             return matched;
@@ -177,8 +176,7 @@ pub fn merged(modes: &Modes, r: usize) -> bool {
     if modes.family == Family::Undamped || free || mode.condition <= ILL_CONDITIONED {
         return false;
     }
-    let others = modes.modes.iter().enumerate().filter(|(j, _)| *j != r);
-    let gaps = others.map(|(_, other)| (mode.s - other.s).norm());
+    let gaps = modes.modes.iter().enumerate().filter(|(j, _)| *j != r).map(|(_, other)| (mode.s - other.s).norm());
     let conjugate = (mode.s.im > 0.0).then_some(2.0 * mode.s.im);
     !mode.condition.is_finite() || gaps.chain(conjugate).any(|gap| gap <= mode.error)
 }

@@ -85,8 +85,7 @@ impl<'a> Deflated<'a> {
             let mut vector = Vector::zeros(mass.row_count());
             vector[kept] = 1.0;
             for (row, z) in self.inverse.iter().zip(&self.right) {
-                let terms = row.iter().zip(&images);
-                let amount: f64 = terms.map(|(inverse, image)| inverse * image[kept]).sum();
+                let amount: f64 = row.iter().zip(&images).map(|(inverse, image)| inverse * image[kept]).sum();
                 add_to(&mut vector, -amount, z);
             }
             vector
@@ -223,8 +222,7 @@ pub(crate) fn roots(
         return solve(linear);
     };
     let standing = |(right, left): &(Vec<Vector>, Vec<Vector>)| -> Vec<Root> {
-        let pairs = right.iter().zip(left);
-        pairs.map(|(z, w)| standing(z, w)).collect()
+        right.iter().zip(left).map(|(z, w)| standing(z, w)).collect()
     };
     let damped = standing(&split.damped);
     let drifting = standing(&split.drifting);
@@ -418,8 +416,7 @@ impl WithoutZeros {
     fn moves(&self, root: &Root) -> f64 {
         let products = root.left.iter().zip(&root.right);
         let rate = products.map(|(l, r)| l * r).sum::<Complex64>().norm();
-        let rows = root.left.iter().zip(self.terms.iter());
-        let moved = rows.fold(0.0, |sum, (l, row)| {
+        let moved = root.left.iter().zip(self.terms.iter()).fold(0.0, |sum, (l, row)| {
             let along = row.iter().zip(&root.right);
             sum + l.norm() * along.map(|(term, r)| term * r.norm()).sum::<f64>()
         });
@@ -454,14 +451,12 @@ fn products(space: &NullSpace, count: usize) -> Matrix {
     // In the units of the elimination, in which the vectors are of order one.
     let clear = |(x, dual): (&f64, &f64)| if (x * dual).abs() <= NOTHING { 0.0 } else { *x };
     let cleared = |vectors: &[Vector], duals: &[Vector]| -> Vec<Vector> {
-        let pairs = vectors.iter().zip(duals).take(count);
-        pairs.map(|(x, dual)| x.iter().zip(dual).map(clear).collect()).collect()
+        vectors.iter().zip(duals).take(count).map(|(x, dual)| x.iter().zip(dual).map(clear).collect()).collect()
     };
     let right = cleared(&space.right, &space.rows);
     let left = cleared(&space.left, &space.columns);
     Matrix::from_fn(left.len(), right.len(), |i, j| {
-        let pairs = left[i].iter().zip(&right[j]);
-        let terms = pairs.fold(0.0, |sum, (w, z)| sum + (w * z).abs());
+        let terms = left[i].iter().zip(&right[j]).fold(0.0, |sum, (w, z)| sum + (w * z).abs());
         let product = dot(&left[i], &right[j]);
         if product.abs() <= UNDAMPED * terms { 0.0 } else { product }
     })

@@ -42,8 +42,7 @@ impl Sensitivities {
         for (r, mode) in self.modes.iter().enumerate() {
             let slopes = Quantity::ALL.map(|of| if mode.clustered { Vec::new() } else { slopes(mode, of) });
             let values_of = |j| slopes.each_ref().map(|slopes| slopes.get(j).copied());
-            let each = variables.iter().enumerate();
-            rows.extend(each.map(|(j, variable)| (r, variable, values_of(j))));
+            rows.extend(variables.iter().enumerate().map(|(j, variable)| (r, variable, values_of(j))));
         }
         let mut table = Columns::new("sensitivities", &rows);
         table.whole("mode", &|row| Some(row.0 + 1));
@@ -71,8 +70,7 @@ impl Sensitivities {
             clustered: mode.clustered,
             slopes: slopes(mode, of),
         };
-        let each = moving.clone().map(|(r, mode)| (r, first(mode), mode));
-        let mut shown: Vec<Derived> = each.map(derived).collect();
+        let mut shown: Vec<Derived> = moving.clone().map(|(r, mode)| (r, first(mode), mode)).map(derived).collect();
         if self.family == Family::General {
             let oscillating = moving.filter(|(_, mode)| first(mode) == Quantity::Frequency);
             let damping = oscillating.map(|(r, mode)| (r, Quantity::DampingRatio, mode));
@@ -130,8 +128,7 @@ impl Answer for EquilibriumShift {
         let d = &self.description;
         let title = title(d, &self.inputs);
         let mut said = Findings::titled(format!("{title}: shift of the equilibrium"));
-        let infos = d.coordinates.iter().enumerate();
-        let all = infos.map(|(i, info)| Derived {
+        let all = d.coordinates.iter().enumerate().map(|(i, info)| Derived {
             name: info.name.to_string(),
             unit: info.unit.clone(),
             clustered: false,
@@ -165,8 +162,7 @@ impl Answer for OutputSensitivities {
             let value = with_unit(in_unit(value, &info.unit), &info.unit);
             said.note(format!("{} = {value}", info.name));
         }
-        let infos = d.outputs.iter().enumerate();
-        let all = infos.map(|(o, info)| Derived {
+        let all = d.outputs.iter().enumerate().map(|(o, info)| Derived {
             name: info.name.to_string(),
             unit: info.unit.clone(),
             clustered: false,

@@ -59,8 +59,7 @@ struct Shown<'a> {
 
 impl<'a> Shown<'a> {
     fn new(of: &'a Derived, variables: &[Variable<'_>]) -> Self {
-        let each = variables.iter().enumerate();
-        let most = largest(each.filter_map(|(j, variable)| of.effect(j, variable)));
+        let most = largest(variables.iter().enumerate().filter_map(|(j, variable)| of.effect(j, variable)));
         Self { of, most }
     }
 
@@ -126,8 +125,7 @@ pub fn say(said: &mut Findings, variables: &[Variable<'_>], all: &[Derived]) {
 /// The data: a row for each quantity, which `what` says, and variable; the derivative in `unit` of the quantity per
 /// `per` of the variable.
 pub fn data(name: &str, what: &str, variables: &[Variable<'_>], all: &[Derived]) -> Table {
-    let each = all.iter();
-    let rows: Vec<_> = each.flat_map(|of| variables.iter().enumerate().map(move |x| (of, x))).collect();
+    let rows: Vec<_> = all.iter().flat_map(|of| variables.iter().enumerate().map(move |x| (of, x))).collect();
     let mut table = Columns::new(name, &rows);
     table.words(what, &|row| Some(row.0.name.clone()));
     table.words("unit", &|row| Some(row.0.unit.symbol.to_string()));

@@ -46,12 +46,14 @@ pub fn output_sensitivities(mechanism: &dyn Kernels, at: &Equilibrium) -> Result
         });
     }
     let rows = |slopes: &Matrix| {
-        let rows = slopes.iter().zip(by_coordinate.iter());
-        rows.map(|(row, rates)| {
-            let exists = all_finite(row) && !free_directions::depends(at, rates);
-            exists.then(|| row.into())
-        })
-        .collect()
+        slopes
+            .iter()
+            .zip(by_coordinate.iter())
+            .map(|(row, rates)| {
+                let exists = all_finite(row) && !free_directions::depends(at, rates);
+                exists.then(|| row.into())
+            })
+            .collect()
     };
     Ok(OutputSensitivities {
         values,

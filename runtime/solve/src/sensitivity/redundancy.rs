@@ -70,8 +70,10 @@ impl Scale {
         let weights = placed(tangent.structure, &tangent.all.size.map(|size| 1.0 / size));
         let motions = &at.coordinates[..tangent.structure.motions()];
         let opened = tangent.structure.constraint_rows().fold(0.0, |sum, i| {
-            let pairs = motions.iter().zip(&at.linear.stiffness[i]);
-            pairs.fold(sum, |sum, (q, slope)| sum + weights[i] * slope.abs() * (SMALL_MOTION + q.abs()))
+            motions
+                .iter()
+                .zip(&at.linear.stiffness[i])
+                .fold(sum, |sum, (q, slope)| sum + weights[i] * slope.abs() * (SMALL_MOTION + q.abs()))
         });
         Self { weights, opened }
     }

@@ -149,6 +149,10 @@ impl Equilibrium {
 }
 
 pub(crate) fn dependent_names(description: &Description, dependent: &[bool]) -> impl Iterator<Item = Text> {
-    let infos = description.coordinates.iter().zip(dependent);
-    infos.filter(|(_, takes_part)| **takes_part).map(|(info, _)| info.name.clone())
+    description
+        .coordinates
+        .iter()
+        .zip(dependent)
+        .filter(|(_, takes_part)| **takes_part)
+        .map(|(info, _)| info.name.clone())
 }

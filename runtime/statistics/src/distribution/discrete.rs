@@ -47,8 +47,7 @@ impl Discrete {
     }
 
     pub(super) fn sum(&self, of: impl Fn(f64) -> f64) -> f64 {
-        let each = self.values.iter().zip(&self.weights);
-        each.map(|(value, weight)| weight * of(*value)).sum()
+        self.values.iter().zip(&self.weights).map(|(value, weight)| weight * of(*value)).sum()
     }
 
     pub(super) fn quantile(&self, z: f64) -> f64 {
@@ -75,11 +74,13 @@ fn steps(weights: &[f64]) -> Vec<f64> {
     let below = running(&mut weights.iter());
     let mut above = running(&mut weights.iter().rev());
     above.reverse();
-    let each = below.iter().zip(above.iter().skip(1));
-    each.map(
-        |(below, above)| {
-            if below < above { normal::quantile(below.min(0.5)) } else { -normal::quantile(above.min(0.5)) }
-        },
-    )
-    .collect()
+    below
+        .iter()
+        .zip(above.iter().skip(1))
+        .map(
+            |(below, above)| {
+                if below < above { normal::quantile(below.min(0.5)) } else { -normal::quantile(above.min(0.5)) }
+            },
+        )
+        .collect()
 }

@@ -45,9 +45,8 @@ impl Sample {
         for row in inputs {
             length("inputs", row.len(), number)?;
         }
-        let pairs = inputs.iter().zip(results);
         let complete: Vec<(&Vec<f64>, f64)> =
-            pairs.filter_map(|(row, result)| result.map(|result| (row, result))).collect();
+            inputs.iter().zip(results).filter_map(|(row, result)| result.map(|result| (row, result))).collect();
         at_least("rows with a result", complete.len(), 3)?;
         let column = |j: usize| {
             let column = complete.iter().map(|(row, _)| row[j]).collect();
@@ -73,10 +72,8 @@ impl Sample {
 
     /// Pearson correlation coefficient of the result with each input, between -1 and 1.
     pub fn pearson(&self) -> Vec<f64> {
-        let product = |column: &Vec<f64>| {
-            let terms = column.iter().zip(&self.result);
-            terms.map(|(x, y)| x * y).sum::<f64>().clamp(-1.0, 1.0)
-        };
+        let product =
+            |column: &Vec<f64>| column.iter().zip(&self.result).map(|(x, y)| x * y).sum::<f64>().clamp(-1.0, 1.0);
         self.columns.iter().map(product).collect()
     }
 

@@ -66,8 +66,7 @@ impl Mask {
             let bits = self.0.get(word).copied().unwrap_or(0);
             bits & among == among
         };
-        let words = Self::words(start, Self::first(count));
-        count <= 64 && words.into_iter().all(has)
+        count <= 64 && Self::words(start, Self::first(count)).into_iter().all(has)
     }
 
     /// Sets `count` places (at most 64) from `start` on to the lowest bits of `bits`.
@@ -90,8 +89,7 @@ impl Mask {
     }
 
     pub(super) fn places(self) -> impl Iterator<Item = usize> {
-        let words = self.0.into_iter().enumerate();
-        words.flat_map(|(k, word)| {
+        self.0.into_iter().enumerate().flat_map(|(k, word)| {
             let bits = std::iter::successors(Some(word), |left| Some(left & left.wrapping_sub(1)));
             bits.take_while(|left| *left != 0).map(move |left| 64 * k + left.trailing_zeros() as usize)
         })

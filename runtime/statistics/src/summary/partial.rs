@@ -236,8 +236,8 @@ fn not_a_number(chunk: &Chunk) -> Error {
         let column = chunk.column(k).into_iter();
         column.flat_map(move |(values, mask)| mask.places().map(move |offset| (k, offset, values[offset])))
     });
-    let found = values.find(|(_, _, value)| value.is_nan() || value.abs() > LARGEST);
-    let (quantity, offset, value) = found.unwrap_or((0, 0, f64::NAN));
+    let (quantity, offset, value) =
+        values.find(|(_, _, value)| value.is_nan() || value.abs() > LARGEST).unwrap_or((0, 0, f64::NAN));
     let sample = chunk.index * CHUNK as u64 + offset as u64;
     Error::Value { quantity, sample, value: value.to_string() }
 }

@@ -33,8 +33,7 @@ pub fn monte_carlo(
     let about = (nominal, modes);
     // Nothing will be merged with this run, so its fingerprint may stay empty.
     let fingerprint = |method: &str| drawn(Fingerprint::default(), method, tolerances, sampling);
-    let all = run_samples(mechanism, about, tolerances, sampling, fingerprint)?;
-    Ok(all.into_result())
+    Ok(run_samples(mechanism, about, tolerances, sampling, fingerprint)?.into_result())
 }
 
 /// Like [`monte_carlo`], for one range of a run, to be merged with the others.

@@ -229,10 +229,7 @@ impl<'a> SampleSolver<'a> {
 /// A sample that passed the checks of its batch.
 fn accepted_member(solved: &SampleBatch<'_>, member: usize) -> Sample {
     let eigenvalues: Vec<Complex> = solved.eigenvalues(member).collect();
-    let all = |quantity: Quantity| {
-        let values = eigenvalues.iter().map(|s| quantity.of_stable(*s));
-        values.collect()
-    };
+    let all = |quantity: Quantity| eigenvalues.iter().map(|s| quantity.of_stable(*s)).collect();
     Sample {
         design: member_of(solved.design, member),
         outcome: Outcome::Stable,

@@ -18,8 +18,7 @@ impl Tolerances {
                 let means = nominal.iter().zip(self.shifts());
                 let rows = self.factor().iter().zip(means);
                 for (i, (value, (row, (nominal, shift)))) in into.iter_mut().zip(rows).enumerate() {
-                    let parts = row[..=i].iter().zip(z);
-                    *value = parts.fold(nominal + shift, |sum, (l, z)| sum + l * z);
+                    *value = row[..=i].iter().zip(z).fold(nominal + shift, |sum, (l, z)| sum + l * z);
                 }
             }
             Some((joint, about)) => {

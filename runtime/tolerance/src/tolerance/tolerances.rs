@@ -196,8 +196,9 @@ impl Tolerances {
         }
         let means = nominal.iter().zip(&self.shifts);
         let each = means.zip(&self.sigmas);
-        let each = each.map(|((nominal, shift), sigma)| Distribution::normal(nominal + shift, *sigma));
-        Ok(each.collect::<Result<_, _>>()?)
+        Ok(each
+            .map(|((nominal, shift), sigma)| Distribution::normal(nominal + shift, *sigma))
+            .collect::<Result<_, _>>()?)
     }
 
     /// The distribution of values that are not jointly normal, and the nominal values it was made for.
@@ -209,8 +210,7 @@ impl Tolerances {
     /// First-order effect of the means on a quantity with these slopes.
     #[doc(hidden)]
     pub fn mean_shift(&self, slopes: &[f64]) -> f64 {
-        let parts = slopes.iter().zip(&self.shifts);
-        parts.filter(|(_, shift)| **shift != 0.0).map(|(slope, shift)| slope * shift).sum()
+        slopes.iter().zip(&self.shifts).filter(|(_, shift)| **shift != 0.0).map(|(slope, shift)| slope * shift).sum()
     }
 
     /// Refuses tolerances that do not belong to `count` design variables.
@@ -295,8 +295,7 @@ impl Tolerances {
         if slopes.len() != self.sigmas.len() {
             return Vector::filled(self.sigmas.len(), f64::NAN);
         }
-        let each = slopes.iter().zip(&self.sigmas);
-        each.map(|(slope, sigma)| (unit * slope) * (unit * sigma)).collect()
+        slopes.iter().zip(&self.sigmas).map(|(slope, sigma)| (unit * slope) * (unit * sigma)).collect()
     }
 
     /// The correlation matrix times a vector.

@@ -114,8 +114,11 @@ impl Problem<'_> {
         let (cost, cost_slopes) = self.cost(x.len(), &wide)?;
         let mut reached: Vec<Reached> = Vec::new();
         for (requirement, failure) in self.choices.failure.iter().enumerate() {
-            let limits = self.limits.iter().filter(|limit| limit.requirement == requirement);
-            let parts = limits.map(|limit| self.limit(&deviations, &wide, limit));
+            let parts = self
+                .limits
+                .iter()
+                .filter(|limit| limit.requirement == requirement)
+                .map(|limit| self.limit(&deviations, &wide, limit));
             let parts: Vec<Vec<(f64, Vec<f64>)>> = parts.collect::<Result<_, _>>()?;
             if !parts.is_empty() {
                 let (beta, slopes) = joined(&parts.concat(), x.len());

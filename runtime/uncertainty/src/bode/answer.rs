@@ -34,8 +34,7 @@ impl Answer for Bode {
         let points = shown(self.points.len());
         let rows = self.rows();
         let mut table = Columns::new("forced vibration", &rows);
-        let places = rows.iter().enumerate();
-        let visible = places.filter(|(_, row)| points.contains(&row.point));
+        let visible = rows.iter().enumerate().filter(|(_, row)| points.contains(&row.point));
         table.show_rows(visible.map(|(k, _)| k).collect());
         varied(&mut table, d, self.input, given, &|row| row.value);
         let excitations = |row: &Row<'_>| Some(row.found?.0.excitations(d));
@@ -126,8 +125,7 @@ impl Bode {
     /// The largest number of harmonics at a value.
     fn harmonics(&self) -> usize {
         let solved = self.points.iter().flat_map(|point| &point.vibration);
-        let counts = solved.map(|vibration| vibration.response.harmonics.len());
-        counts.max().unwrap_or(0)
+        solved.map(|vibration| vibration.response.harmonics.len()).max().unwrap_or(0)
     }
 
     /// The greatest amplitude of each output at these values, and where.
@@ -135,8 +133,9 @@ impl Bode {
         let d = &self.description;
         let tops = (0..d.outputs.len()).filter_map(|output| {
             let own = rows.iter().filter(|row| row.found.is_some_and(|found| found.1 == output));
-            let all = own.filter_map(|row| Some((row.scaled(d, Complex::norm)?, row.value)));
-            let (height, value) = all.reduce(|most, own| if own.0 > most.0 { own } else { most })?;
+            let (height, value) = own
+                .filter_map(|row| Some((row.scaled(d, Complex::norm)?, row.value)))
+                .reduce(|most, own| if own.0 > most.0 { own } else { most })?;
             let info = &d.outputs[output];
             let height = with_unit(number(height), &info.unit);
             (self.points.len() > 1).then(|| format!("{} {height} at {}", info.name, place(d, self.input, value)))
@@ -201,8 +200,7 @@ impl Bode {
             return;
         }
         let mut table = Columns::new("bands", &rows);
-        let places = rows.iter().enumerate();
-        let visible = places.filter(|(_, row)| points.contains(&row.point));
+        let visible = rows.iter().enumerate().filter(|(_, row)| points.contains(&row.point));
         table.show_rows(visible.map(|(k, _)| k).collect());
         varied(&mut table, d, self.input, given, &|row| row.value);
         let named = |row: &Band<'_>| Response::Vibration(*row.vibration);

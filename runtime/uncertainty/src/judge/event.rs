@@ -63,8 +63,7 @@ impl Lines {
 
     /// The farthest distance.
     pub(crate) fn farthest(&self) -> f64 {
-        let all = self.directions.iter().map(|direction| direction.distance);
-        all.fold(0.0, f64::max)
+        self.directions.iter().map(|direction| direction.distance).fold(0.0, f64::max)
     }
 }
 

@@ -42,15 +42,18 @@ pub(super) fn expansions(
     let realisation = responses.with_gradients(&mut responses.workspace(), &at.design)?;
     let mut models = QuadraticModels::new(mechanism, responses);
     let values = realisation.values.iter().zip(realisation.gradients);
-    let all = responses.wanted().iter().zip(values);
-    let each = all.map(|(response, (value, slopes))| {
-        Some(Expansion {
-            value: (*value)?,
-            slopes: slopes?,
-            curvature: models.of(*response).ok().map(|model| model.quadratic.curvature),
+    Ok(responses
+        .wanted()
+        .iter()
+        .zip(values)
+        .map(|(response, (value, slopes))| {
+            Some(Expansion {
+                value: (*value)?,
+                slopes: slopes?,
+                curvature: models.of(*response).ok().map(|model| model.quadratic.curvature),
+            })
         })
-    });
-    Ok(each.collect())
+        .collect())
 }
 
 /// Evaluates every expansion to first order, then every one to second order.

@@ -244,8 +244,7 @@ impl Gathered<'_> {
         if !equal {
             return Ok(Vec::new());
         }
-        let all = self.0.iter().map(|part| part.statistics(response));
-        Ok(all.collect::<Result<Option<_>, _>>()?.unwrap_or_default())
+        Ok(self.0.iter().map(|part| part.statistics(response)).collect::<Result<Option<_>, _>>()?.unwrap_or_default())
     }
 }
 

@@ -11,15 +11,17 @@ pub(super) fn limits(nominal: &[f64], tolerances: &Tolerances) -> Vec<(f64, f64)
     let Some((joint, about)) = tolerances.joint() else {
         let means = nominal.iter().zip(tolerances.shifts());
         let means = means.map(|(nominal, shift)| nominal + shift);
-        let all = means.zip(tolerances.half_widths());
-        return all.map(|(mean, half)| (mean - half, mean + half)).collect();
+        return means.zip(tolerances.half_widths()).map(|(mean, half)| (mean - half, mean + half)).collect();
     };
-    let all = joint.variables().iter().zip(nominal.iter().zip(about));
-    all.map(|(item, (nominal, about))| {
-        let (low, high) = ends(item, level);
-        (low + (nominal - about), high + (nominal - about))
-    })
-    .collect()
+    joint
+        .variables()
+        .iter()
+        .zip(nominal.iter().zip(about))
+        .map(|(item, (nominal, about))| {
+            let (low, high) = ends(item, level);
+            (low + (nominal - about), high + (nominal - about))
+        })
+        .collect()
 }
 
 fn ends(variable: &Distribution, level: f64) -> (f64, f64) {

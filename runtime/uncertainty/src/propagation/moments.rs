@@ -28,10 +28,8 @@ fn shape(tolerances: &Tolerances) -> Option<Vec<[f64; 2]>> {
 pub(super) fn first_order(expansion: &Expansion, tolerances: &Tolerances) -> ExactMoments {
     let sigma = tolerances.sigma(&expansion.slopes);
     let a = times(&tolerances.factor().transpose(), &expansion.slopes);
-    let third = |shape: Vec<[f64; 2]>| {
-        let parts = a.iter().zip(shape);
-        parts.map(|(a, [skewness, _])| (a / sigma).powi(3) * skewness).sum()
-    };
+    let third =
+        |shape: Vec<[f64; 2]>| a.iter().zip(shape).map(|(a, [skewness, _])| (a / sigma).powi(3) * skewness).sum();
     ExactMoments {
         mean: expansion.value + tolerances.mean_shift(&expansion.slopes),
         sigma: Some(sigma),

@@ -218,12 +218,13 @@ impl Models<'_> {
 }
 
 fn exactly_normal(mean: f64, sigma: f64) -> Vec<Quantile> {
-    let each = QUANTILES.map(|probability| Quantile {
-        probability,
-        value: mean + sigma * normal::quantile(probability),
-        error: Some(0.0),
-    });
-    each.into()
+    QUANTILES
+        .map(|probability| Quantile {
+            probability,
+            value: mean + sigma * normal::quantile(probability),
+            error: Some(0.0),
+        })
+        .into()
 }
 
 /// Adds the fraction `share` of the difference from another spread to each error, and the whole difference to that of

@@ -158,12 +158,15 @@ struct Search<'a> {
 impl Search<'_> {
     fn design(&self, corner: &[i8]) -> Vector {
         let values = self.nominal.iter().zip(&self.limits);
-        let each = corner.iter().zip(values).map(|(side, (nominal, (low, high)))| match side {
-            -1 => *low,
-            1 => *high,
-            _ => *nominal,
-        });
-        each.collect()
+        corner
+            .iter()
+            .zip(values)
+            .map(|(side, (nominal, (low, high)))| match side {
+                -1 => *low,
+                1 => *high,
+                _ => *nominal,
+            })
+            .collect()
     }
 
     fn look(&mut self, corner: &[i8]) -> Result<(), Error> {
@@ -280,10 +283,8 @@ impl Search<'_> {
         let moved = |corner: &Corner| corner.iter().filter(|side| **side != 0).count();
         let (corner, value) = equal.min_by_key(|(corner, _)| moved(corner))?;
         let signs = self.signs(corner, response);
-        let outwards = |signs: &Corner| {
-            let pairs = corner.iter().zip(signs);
-            pairs.clone().all(|(side, sign)| *sign == 0 || *side == way * sign)
-        };
+        let outwards =
+            |signs: &Corner| corner.iter().zip(signs).clone().all(|(side, sign)| *sign == 0 || *side == way * sign);
         Some(Extreme { value, design: self.design(corner), confirmed: signs.as_ref().is_some_and(outwards) })
     }
 }

@@ -130,8 +130,10 @@ impl Requirements<'_> {
             });
         }
         self.check_flutter()?;
-        let variables = tolerances.joint().map(|(joint, _)| joint.variables());
-        let continuous = variables.is_none_or(|all| all.iter().all(Distribution::is_continuous));
+        let continuous = tolerances
+            .joint()
+            .map(|(joint, _)| joint.variables())
+            .is_none_or(|all| all.iter().all(Distribution::is_continuous));
         let mut reliability = None;
         let mut judgements: Vec<(Judgement, bool)> = Vec::new();
         if continuous {

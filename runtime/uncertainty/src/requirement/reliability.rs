@@ -98,8 +98,12 @@ impl Reliability {
     /// it has no design point.
     #[must_use]
     pub fn beta_of(&self, requirement: usize) -> Option<f64> {
-        let limits = self.limits.iter().filter(|limit| limit.requirement == requirement);
-        let parts: Vec<f64> = limits.filter_map(LimitReliability::probability).collect();
+        let parts: Vec<f64> = self
+            .limits
+            .iter()
+            .filter(|limit| limit.requirement == requirement)
+            .filter_map(LimitReliability::probability)
+            .collect();
         (!parts.is_empty()).then(|| -normal::quantile(parts.iter().sum::<f64>().min(1.0)))
     }
 
@@ -133,13 +137,15 @@ pub(crate) fn reliability_of(
 ) -> Result<Reliability, Error> {
     let state = requirements.responses().nominal();
     let limits = requirements.limits();
-    let each = limits.iter().map(|limit| LimitReliability {
-        requirement: limit.requirement,
-        limit: limit.alone,
-        design_points: design_points(requirements, deviations, limit, settings),
-        judgement: Judgement::Open(Unjudged::NotAsked),
-    });
-    let limit_reliabilities: Vec<LimitReliability> = each.collect();
+    let limit_reliabilities: Vec<LimitReliability> = limits
+        .iter()
+        .map(|limit| LimitReliability {
+            requirement: limit.requirement,
+            limit: limit.alone,
+            design_points: design_points(requirements, deviations, limit, settings),
+            judgement: Judgement::Open(Unjudged::NotAsked),
+        })
+        .collect();
     requirements.responses().go_on()?;
     let has_limit = |k: &usize| limits.iter().any(|limit| limit.requirement == *k);
     Ok(Reliability {
@@ -198,8 +204,7 @@ fn design_points(
             reason: "the centre of the distribution lies inside, with designs on both sides: sample".to_owned(),
         });
     }
-    let points = design_points.into_iter().map(|point| DesignPoint::new(&limit, deviations, point));
-    points.collect()
+    design_points.into_iter().map(|point| DesignPoint::new(&limit, deviations, point)).collect()
 }
 
 /// How many times the usual budget a probability is worth that was asked for by itself.
@@ -236,8 +241,7 @@ pub(super) fn judge_requirements(
     let count = requirements.wanted().len();
     let mut judgements = Vec::with_capacity(count + 1);
     for k in 0..count {
-        let limits = reliability.limits.iter().zip(&all);
-        let of_requirement: Vec<_> = limits.filter(|(x, _)| x.requirement == k).collect();
+        let of_requirement: Vec<_> = reliability.limits.iter().zip(&all).filter(|(x, _)| x.requirement == k).collect();
         let described = !of_requirement.is_empty() && of_requirement.iter().all(|(x, _)| x.described());
         let judgement = match &of_requirement[..] {
             [(only, _)] => only.judgement,
@@ -343,9 +347,12 @@ fn lines(
     index: usize,
     limit_reliability: &LimitReliability,
 ) -> Lines {
-    let points = limit_reliability.design_points.iter().flatten();
-    let directions: Vec<Direction> =
-        points.map(|point| Direction { along: point.normal.direction.clone(), distance: point.beta() }).collect();
+    let directions: Vec<Direction> = limit_reliability
+        .design_points
+        .iter()
+        .flatten()
+        .map(|point| Direction { along: point.normal.direction.clone(), distance: point.beta() })
+        .collect();
     if !directions.is_empty() {
         return Lines { directions, worth: 0, effort: 0.0, sequence: (0, 0) };
     }

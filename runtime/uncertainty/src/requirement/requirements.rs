@@ -136,18 +136,19 @@ impl<'a> Requirements<'a> {
 
     /// Whether each requirement is met.
     pub(super) fn each_met(&self, design: &[f64], realisation: &Realisation) -> Vec<Option<bool>> {
-        let each = self.distances(design, realisation).into_iter();
-        each.map(|distance| Some(distance? >= 0.0)).collect()
+        self.distances(design, realisation).into_iter().map(|distance| Some(distance? >= 0.0)).collect()
     }
 
     /// Distance from failing each requirement, as [`Requirement::distance`].
     pub(super) fn distances(&self, design: &[f64], realisation: &Realisation) -> Vec<Option<f64>> {
         let mut values = realisation.values.iter();
-        let each = self.wanted.iter().map(|wanted| {
-            let value = wanted.response().and_then(|_| values.next().copied());
-            wanted.distance(&self.responses, design, realisation.outcome, value.flatten())
-        });
-        each.collect()
+        self.wanted
+            .iter()
+            .map(|wanted| {
+                let value = wanted.response().and_then(|_| values.next().copied());
+                wanted.distance(&self.responses, design, realisation.outcome, value.flatten())
+            })
+            .collect()
     }
 }
 
@@ -158,7 +159,6 @@ pub(super) fn all_met(each: &[Option<bool>]) -> Option<bool> {
 
 /// Distance from failing any requirement, as far as can be told: a single failure decides.
 pub(super) fn least(distances: &[Option<f64>]) -> Option<f64> {
-    let known = distances.iter().flatten();
-    let least = known.fold(f64::INFINITY, |least, x| least.min(*x));
+    let least = distances.iter().flatten().fold(f64::INFINITY, |least, x| least.min(*x));
     (least < 0.0 || !distances.contains(&None)).then_some(least)
 }

@@ -89,10 +89,7 @@ impl Summary {
         let all = [Advice::FirstOrder, Advice::SecondOrder, Advice::Sampling];
         let sentence = |advice: Advice| {
             let oscillates = |trust: &&Trust| !trust.doubts.contains(&Doubt::NoFrequency);
-            let advised = || {
-                let all = self.trust.iter().filter(oscillates);
-                all.filter(|x| x.advice == advice)
-            };
+            let advised = || self.trust.iter().filter(oscillates).filter(|x| x.advice == advice);
             let modes: Vec<usize> = advised().map(|x| x.mode).collect();
             let (news, text) = match advice {
                 Advice::FirstOrder => (

@@ -84,9 +84,11 @@ fn has(beam: &Beam, body: BodyId) -> bool {
 /// Bodies with a mass that are welded to a beam that spins.
 fn welded_to(mechanism: &Mechanism, beam: &Beam) -> Vec<BodyId> {
     let welds = mechanism.joints.iter().filter(|joint| joint.steps.is_empty() && spins(beam));
-    let others = welds.filter_map(|joint| match (joint.from, joint.to) {
-        (Frame::Body(from), Frame::Body(to)) if has(beam, from) => Some(to),
-        _ => None,
-    });
-    others.filter(|x| !mechanism.bodies[x.index()].parts.is_empty()).collect()
+    welds
+        .filter_map(|joint| match (joint.from, joint.to) {
+            (Frame::Body(from), Frame::Body(to)) if has(beam, from) => Some(to),
+            _ => None,
+        })
+        .filter(|x| !mechanism.bodies[x.index()].parts.is_empty())
+        .collect()
 }

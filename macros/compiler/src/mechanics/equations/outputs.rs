@@ -68,8 +68,7 @@ impl State for Everything<'_> {
 pub(crate) fn carried(g: &mut Graph, context: &Context, running: &[ExprId], kinematics: &Kinematics) -> Vec<Wrench> {
     let loads = transmitted(g, context, kinematics, ForceSelection::ALL).wrenches;
     let inertial = inertial_wrenches(g, context, running, kinematics);
-    let pairs = loads.into_iter().zip(inertial);
-    pairs.map(|(load, inertial)| load.add(g, inertial)).collect()
+    loads.into_iter().zip(inertial).map(|(load, inertial)| load.add(g, inertial)).collect()
 }
 
 /// The force and moment that the `from` side of each joint exerts on its `to` side, at the origin of the joint frame on

@@ -39,8 +39,8 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
     let by_acceleration = columns(g, &along, &symbols.acceleration).concat();
     let blocks = [variation.by_position, variation.by_velocity, variation.mass].map(|matrix| matrix.concat());
     let entries = blocks.concat();
-    let pairs = exact.iter().chain(&by_acceleration).zip(&entries);
-    let differences: Vec<ExprId> = pairs.map(|(&one, &other)| g.sub(one, other)).collect();
+    let differences: Vec<ExprId> =
+        exact.iter().chain(&by_acceleration).zip(&entries).map(|(&one, &other)| g.sub(one, other)).collect();
     let evaluator = Evaluator::new(g, &differences);
     assert!(probe(&evaluator, &context).next().is_some());
     let equal = vanish(g, &context, &differences);

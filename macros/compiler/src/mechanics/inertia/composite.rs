@@ -239,8 +239,7 @@ pub(crate) fn mass_matrix(g: &mut Graph, context: &Context, kinematics: &Kinemat
             }) {
                 let seat = kinematics.of(next.body).frame.offset;
                 let acceleration = step.velocity(g, seat);
-                let first = whole[next.body.index()].first;
-                let moment = first.cross(g, acceleration);
+                let moment = whole[next.body.index()].first.cross(g, acceleration);
                 if !moment.is_zero(g) {
                     taken(|| "composite: moment of what goes on in a run".into());
                 }

@@ -137,13 +137,14 @@ impl BeamInertia {
     /// By section: the angular momentum along its axes.
     fn momenta(&self, g: &mut Graph, motion: &BeamMotion) -> Vec<Vector3> {
         let sections = motion.sections.iter().zip(&self.turning);
-        let both = sections.zip(&self.spin);
-        both.map(|((section, inertia), &spin_momentum)| {
-            let mut momentum = inertia.apply(g, section.spin);
-            momentum.0[0] = g.add(momentum.0[0], spin_momentum);
-            momentum
-        })
-        .collect()
+        sections
+            .zip(&self.spin)
+            .map(|((section, inertia), &spin_momentum)| {
+                let mut momentum = inertia.apply(g, section.spin);
+                momentum.0[0] = g.add(momentum.0[0], spin_momentum);
+                momentum
+            })
+            .collect()
     }
 
     /// Twice the kinetic energy of a beam whose root moves with the velocity `v`.

@@ -188,27 +188,29 @@ impl OwnBlocks {
             for &row in &rows {
                 all.extend(by_symbol(g, &outputs, list.ids[row]));
             }
-            let all = substitute(g, &all, &at_rest);
-            all.chunks(outputs.len()).map(<[_]>::to_vec).collect::<Vec<_>>()
+            substitute(g, &all, &at_rest).chunks(outputs.len()).map(<[_]>::to_vec).collect::<Vec<_>>()
         });
         self.set(g, context, (id, mobility), &columns);
         let loads = [1, 0].map(|kind: usize| {
-            let outputs = (forces.len()..outputs.len()).map(|output| {
-                let by_row = columns[kind].iter().map(|column| column[output]);
-                summed(g, context, rows.iter().copied().zip(by_row))
-            });
-            outputs.collect::<Vec<_>>()
+            (forces.len()..outputs.len())
+                .map(|output| {
+                    let by_row = columns[kind].iter().map(|column| column[output]);
+                    summed(g, context, rows.iter().copied().zip(by_row))
+                })
+                .collect::<Vec<_>>()
         });
-        let each = unknowns.iter().zip(asked);
-        each.map(|(&unknown, by_motion)| OwnColumn {
-            unknown,
-            by_motion,
-            loads: loads.each_ref().map(|outputs| {
-                let load = |first: usize| Vector3([0, 1, 2].map(|c| outputs[first + c][unknown]));
-                Wrench { force: load(0), moment: load(3) }
-            }),
-        })
-        .collect()
+        unknowns
+            .iter()
+            .zip(asked)
+            .map(|(&unknown, by_motion)| OwnColumn {
+                unknown,
+                by_motion,
+                loads: loads.each_ref().map(|outputs| {
+                    let load = |first: usize| Vector3([0, 1, 2].map(|c| outputs[first + c][unknown]));
+                    Wrench { force: load(0), moment: load(3) }
+                }),
+            })
+            .collect()
     }
 
     /// Sets the entries of a beam: mass, and from the columns of its rows damping and stiffness.

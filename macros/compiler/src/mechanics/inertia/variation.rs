@@ -166,8 +166,7 @@ fn steps(
         let moving = Moving { omega, second_rate, acceleration, leaving: zero };
         let mobility = &mobilities[beam.index()];
         let steps = station_steps(g, context, kinematics, mobility, (body, beam, station)).into_iter();
-        let steps = steps.map(|(unknown, axis)| Step { departing: zero, ..Step::new(g, unknown, axis, &moving) });
-        return steps.collect();
+        return steps.map(|(unknown, axis)| Step { departing: zero, ..Step::new(g, unknown, axis, &moving) }).collect();
     }
     let two = g.constant(2.0);
     let mut leaving = zero;

@@ -246,8 +246,7 @@ fn without_slope(g: &mut Graph, s: &Symbols, outputs: &[ExprId]) -> Vec<Option<E
             matches!(g.node(size), Node::Binary(Operator::Divide, _, divisor) if g.is(divisor, 0.0))
         };
         let mut pairs = all.as_chunks::<2>().0.iter();
-        let found = pairs.find(|[slope, factor]| infinite(g, *slope) && !g.is(*factor, 0.0));
-        found.map(|[slope, _]| *slope)
+        pairs.find(|[slope, factor]| infinite(g, *slope) && !g.is(*factor, 0.0)).map(|[slope, _]| *slope)
     };
     outputs.iter().map(of_output).collect()
 }

@@ -125,8 +125,7 @@ impl<'a> Numbers<'a> {
 
     fn pose(&mut self, position: Vector3, axes: Matrix3) {
         self.vector(position);
-        let rows = axes.transpose();
-        rows.0.into_iter().for_each(|row| self.vector(row));
+        axes.transpose().0.into_iter().for_each(|row| self.vector(row));
     }
 
     fn number(&mut self, g: &mut Graph, value: &Expr) {

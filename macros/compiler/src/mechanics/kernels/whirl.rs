@@ -87,8 +87,7 @@ fn sums(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Option<[Ex
         let trace = piece.second_moment(g, None);
         if omega.is_zero(g) {
             for [r, theta] in [real, imaginary] {
-                let squares = [(piece.mass, r), (trace, theta)];
-                let shares = squares.map(|(weight, moved)| {
+                let shares = [(piece.mass, r), (trace, theta)].map(|(weight, moved)| {
                     let square = moved.dot(g, moved);
                     g.mul(weight, square)
                 });

@@ -134,8 +134,7 @@ fn still(g: &mut Graph, context: &Context, roots: &[ExprId]) -> Vec<ExprId> {
 
 fn all_still(g: &mut Graph, context: &Context, columns: &Columns) -> Columns {
     let roots = still(g, context, &columns.concat());
-    let columns = roots.chunks(columns.len().max(1));
-    columns.map(<[_]>::to_vec).collect()
+    roots.chunks(columns.len().max(1)).map(<[_]>::to_vec).collect()
 }
 
 /// Asserts that both ways give the same, and counts the entries that are not zero; `None` if there is one way only.
@@ -145,8 +144,8 @@ pub(crate) fn compared(g: &mut Graph, context: &Context, equations: &Equations) 
     let walked = inertial.by_walks(g)?.map(|matrix| matrix.concat());
     let differentiated = inertial.by_differentiation(g).map(|matrix| matrix.concat());
     for (walked, differentiated) in walked.iter().zip(&differentiated) {
-        let pairs = walked.iter().zip(differentiated);
-        let differences: Vec<ExprId> = pairs.map(|(&one, &other)| g.sub(one, other)).collect();
+        let differences: Vec<ExprId> =
+            walked.iter().zip(differentiated).map(|(&one, &other)| g.sub(one, other)).collect();
         let equal = vanish(g, context, &differences);
         assert!(equal.iter().all(|equal| *equal), "{equal:?}");
     }

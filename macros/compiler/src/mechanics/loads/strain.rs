@@ -96,8 +96,7 @@ impl Strain {
 
     /// Stresses of strains of any values.
     fn stresses(&self, g: &mut Graph, values: &[ExprId]) -> Vec<ExprId> {
-        let pairs = values.iter().zip(&self.stiffness);
-        let mut stresses: Vec<ExprId> = pairs.map(|(&a, &b)| g.mul(a, b)).collect();
+        let mut stresses: Vec<ExprId> = values.iter().zip(&self.stiffness).map(|(&a, &b)| g.mul(a, b)).collect();
         for &(i, j, stiffness) in &self.coupling {
             for (on, by) in [(i, j), (j, i)] {
                 let share = g.mul(stiffness, values[by]);

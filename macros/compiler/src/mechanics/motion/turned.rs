@@ -50,8 +50,10 @@ impl Turned {
         }));
         for (c, &value) in vector.0.iter().enumerate() {
             let by_turn = turn.0.into_iter().zip(slopes.0);
-            let all = by_turn.chain(original.0.into_iter().zip(rotation.0));
-            g.set_slopes(value, all.map(|(by, slope)| (by, slope.0[c])).collect());
+            g.set_slopes(
+                value,
+                by_turn.chain(original.0.into_iter().zip(rotation.0)).map(|(by, slope)| (by, slope.0[c])).collect(),
+            );
         }
         Self { turn, factor, half, in_section: original, vector, slopes, rotation }
     }

@@ -50,8 +50,7 @@ impl Context<'_> {
     /// are set to one.
     pub(crate) fn nominal(&self, g: &Graph, value: ExprId) -> f64 {
         let value = evaluate(g, &[value], |symbol| {
-            let design = self.symbols.b.ids.iter().zip(&self.mechanism.design);
-            let mut nominal = design.filter(|(id, _)| **id == symbol);
+            let mut nominal = self.symbols.b.ids.iter().zip(&self.mechanism.design).filter(|(id, _)| **id == symbol);
             nominal.next().map_or(1.0, |(_, variable)| variable.nominal)
         });
         value[0]

@@ -39,8 +39,7 @@ impl Mechanism {
                 law: format!("through {points} points from {first} to {}", curve.with_unit(last)),
             }
         });
-        let all = gravity.into_iter().chain(drives).chain(forces);
-        all.chain(constraints).chain(curves).collect()
+        gravity.into_iter().chain(drives).chain(forces).chain(constraints).chain(curves).collect()
     }
 }
 

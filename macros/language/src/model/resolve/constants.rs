@@ -90,8 +90,7 @@ impl Resolver<'_> {
 
     /// The lets that a value uses, each once.
     fn used_lets(&self, named: &Named) -> Vec<usize> {
-        let names = named.value.names().into_iter();
-        let lets = names.filter_map(|name| match self.scope.find(&name.to_string()) {
+        let lets = named.value.names().into_iter().filter_map(|name| match self.scope.find(&name.to_string()) {
             Some(Meaning::Let(index)) => Some(index),
             _ => None,
         });

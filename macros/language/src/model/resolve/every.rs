@@ -136,12 +136,14 @@ impl Resolver<'_> {
     }
 
     fn free_coordinates(&self, quantity: CoordinateQuantity) -> Vec<CoordinateId> {
-        let all = self.coordinates.iter().enumerate();
-        all.filter(|(_, coordinate)| {
-            coordinate.quantity == Some(quantity) && coordinate.motion == DeclaredMotion::Free && !coordinate.cut
-        })
-        .map(|(index, _)| CoordinateId::new(index))
-        .collect()
+        self.coordinates
+            .iter()
+            .enumerate()
+            .filter(|(_, coordinate)| {
+                coordinate.quantity == Some(quantity) && coordinate.motion == DeclaredMotion::Free && !coordinate.cut
+            })
+            .map(|(index, _)| CoordinateId::new(index))
+            .collect()
     }
 }
 

@@ -128,8 +128,10 @@ impl Scope {
         diagnostics: &mut Diagnostics,
     ) {
         let of_joint = || {
-            let all = coordinates.iter().enumerate();
-            all.filter(|(_, coordinate)| coordinate.joint == id)
+            coordinates
+                .iter()
+                .enumerate()
+                .filter(|(_, coordinate)| coordinate.joint == id)
                 .map(|(index, coordinate)| (CoordinateId::new(index), coordinate.name))
         };
         // The only coordinate's name is the token that names the joint; any other can only be spelt like it.

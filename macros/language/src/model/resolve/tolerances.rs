@@ -55,8 +55,7 @@ impl Resolver<'_> {
         let limits = self.limits(declared, expected, help);
         let law = self.distribution(declared.law.as_ref());
         let (value, Expected { dimension, .. }) = nominal?;
-        let limits = self.at(value, limits?, declared.extent)?;
-        let tolerance = limits.with(law?);
+        let tolerance = self.at(value, limits?, declared.extent)?.with(law?);
         let mean = value + tolerance.middle();
         self.positive_mean(declared, &tolerance.law, mean, &dimension.si_symbol())?;
         Some(tolerance)
@@ -138,8 +137,7 @@ impl Resolver<'_> {
         self.representable(&[lower, upper, greatest - least], extent)?;
         let fraction = |number: f64| if greatest > least { (number - least) / (greatest - least) } else { 0.0 };
         let limits = Limits { lower, upper, relative: false };
-        let places = numbers.into_iter().map(fraction).zip(weights);
-        Some(limits.with(Law::OneOf(places.collect())))
+        Some(limits.with(Law::OneOf(numbers.into_iter().map(fraction).zip(weights).collect())))
     }
 
     /// The relative frequency of each of `count` values.

@@ -40,8 +40,9 @@ impl Moments {
     }
 
     pub(super) fn is_real(&self) -> bool {
-        let entries = self.first.iter().chain(self.second.iter().flatten());
-        self.mass > 0.0 && self.mass.is_finite() && entries.copied().all(f64::is_finite)
+        self.mass > 0.0
+            && self.mass.is_finite()
+            && self.first.iter().chain(self.second.iter().flatten()).copied().all(f64::is_finite)
     }
 
     pub(super) fn add(&mut self, other: &Self, factor: f64) {
@@ -65,10 +66,8 @@ fn central_moments(shape: &Shape, at: &Values) -> (f64, Vector, Matrix) {
     let shape = shape.reduced();
     let (mass, center) = (at.of(shape.mass), at.vector(shape.center));
     let square = |expr: &Expr| at.of(expr).powi(2);
-    let mean_square = |terms: &MeanSquare| -> f64 {
-        let squares = terms.iter().map(|(factor, length)| factor * square(length));
-        squares.sum()
-    };
+    let mean_square =
+        |terms: &MeanSquare| -> f64 { terms.iter().map(|(factor, length)| factor * square(length)).sum() };
     // `across` m^2 in each direction perpendicular to the axis, `along` along it
     let round = |axis: &expression::Vector, across: f64, along: f64| {
         let a = at.vector(axis);

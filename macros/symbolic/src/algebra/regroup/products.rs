@@ -36,8 +36,8 @@ impl Products {
             if is_product && !uses.in_product(id) {
                 let mut factors = Vec::new();
                 uses.factors(graph, id, &mut factors);
-                let places = factors.iter().filter_map(|&f| uses.nodes.place(f));
-                let mut factors: Vec<Factor> = places.map(|index| index as Factor).collect();
+                let mut factors: Vec<Factor> =
+                    factors.iter().filter_map(|&f| uses.nodes.place(f)).map(|index| index as Factor).collect();
                 factors.sort_unstable();
                 this.lists.push((id, factors));
             }

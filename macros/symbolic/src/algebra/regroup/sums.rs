@@ -89,8 +89,7 @@ fn sum(graph: &mut Graph, mut terms: Vec<Term>) -> ExprId {
     }
     let products: Vec<(bool, ExprId)> =
         terms.into_iter().map(|term| (term.minus, product(graph, &term.factors))).collect();
-    let all = products.into_iter().chain(done);
-    let (minus, plus): (Vec<_>, Vec<_>) = all.partition(|&(minus, _)| minus);
+    let (minus, plus): (Vec<_>, Vec<_>) = products.into_iter().chain(done).partition(|&(minus, _)| minus);
     let mut total = graph.zero();
     for (_, term) in plus {
         total = graph.add(total, term);

@@ -80,8 +80,7 @@ pub(crate) fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
     let each = all.iter().copied().enumerate();
     let pair = |(i, first), (j, second)| Pair { places: [i, j], variables: [first, second] };
     let rows = each.clone();
-    let rows = rows.flat_map(|first| each.clone().map(move |second| pair(first, second)));
-    rows.collect()
+    rows.flat_map(|first| each.clone().map(move |second| pair(first, second))).collect()
 }
 
 impl Pair<'_> {

@@ -70,9 +70,12 @@ const DAMPING_RATIO: Quantity = |mode| &mode.damping_ratio;
 
 impl SecondOrder {
     fn rows(&self) -> Vec<Row<'_>> {
-        let modes = self.modes.iter().zip(&self.doubts).enumerate();
-        let rows = modes.map(|(r, (mode, doubts))| Row { number: r + 1, mode, doubts });
-        rows.collect()
+        self.modes
+            .iter()
+            .zip(&self.doubts)
+            .enumerate()
+            .map(|(r, (mode, doubts))| Row { number: r + 1, mode, doubts })
+            .collect()
     }
 }
 

@@ -18,8 +18,7 @@ use crate::{Description, Equilibrium, Input, Mode, Role};
 /// where motions are replaced by others.
 #[must_use]
 pub fn sweep_table(d: &Description, inputs: &[f64], input: Input, points: &[SweepPoint], motions: usize) -> Table {
-    let columns = columns(d, input, points, motions, &moving(d, points));
-    let mut table = columns.finish().0;
+    let mut table = columns(d, input, points, motions, &moving(d, points)).finish().0;
     table.operating_point(d, inputs, Some(input));
     table
 }

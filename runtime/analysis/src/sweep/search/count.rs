@@ -140,7 +140,6 @@ impl Wanted {
 impl Spectrum {
     /// Number of motions that grow without oscillation.
     pub(super) fn divergent(&self) -> usize {
-        let all = self.roots.iter();
-        all.filter(|root| root.grows && !root.paired).count()
+        self.roots.iter().filter(|root| root.grows && !root.paired).count()
     }
 }

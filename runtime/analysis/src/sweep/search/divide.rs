@@ -346,20 +346,21 @@ impl Wanted {
             known.then(|| aim(jet, error))?
         });
         let merges = merging && grows;
-        let pairs = (0..roots.len()).filter(|_| merges).flat_map(|i| {
-            let conjugate = roots[i].paired.then(|| roots[i].conjugate());
-            conjugate.into_iter().chain(roots[i + 1..].iter().copied()).map(move |other| (i, other))
-        });
-        let both = pairs.filter_map(|(i, other)| {
-            let (distance, error) = (roots[i].value - other.value, roots[i].error + other.error);
-            let square = distance * distance;
-            let slope = 2.0 * (distance * (roots[i].slope - other.slope)).re;
-            let of_square = error * (2.0 * distance.norm() + error);
-            let real = square.im.abs() <= REAL * square.re.abs() + of_square;
-            real.then(|| aim([square.re, slope], of_square))?
-        });
-        let all = single.chain(both);
-        all.min_by(|a, b| a.step.total_cmp(&b.step))
+        let both = (0..roots.len())
+            .filter(|_| merges)
+            .flat_map(|i| {
+                let conjugate = roots[i].paired.then(|| roots[i].conjugate());
+                conjugate.into_iter().chain(roots[i + 1..].iter().copied()).map(move |other| (i, other))
+            })
+            .filter_map(|(i, other)| {
+                let (distance, error) = (roots[i].value - other.value, roots[i].error + other.error);
+                let square = distance * distance;
+                let slope = 2.0 * (distance * (roots[i].slope - other.slope)).re;
+                let of_square = error * (2.0 * distance.norm() + error);
+                let real = square.im.abs() <= REAL * square.re.abs() + of_square;
+                real.then(|| aim([square.re, slope], of_square))?
+            });
+        single.chain(both).min_by(|a, b| a.step.total_cmp(&b.step))
     }
 }
 
@@ -408,8 +409,7 @@ impl Division {
         let (more, fewer) = if rises { (&mut after, &before) } else { (&mut before, &after) };
         for value in fewer {
             let apart = |other: &Complex| (*other - *value).norm();
-            let all = more.iter().enumerate();
-            let nearest = all.min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
+            let nearest = more.iter().enumerate().min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
             if let Some(r) = nearest.map(|(r, _)| r) {
                 more.remove(r);
             }

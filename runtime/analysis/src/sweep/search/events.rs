@@ -109,10 +109,7 @@ pub(crate) type Growing = (f64, [usize; 2]);
 
 /// How many motions grow.
 pub(crate) fn growing(value: f64, modes: &Modes) -> Growing {
-    let count = |of: fn(&Behaviour) -> bool| {
-        let all = modes.modes.iter();
-        all.filter(|mode| of(&mode.behaviour)).count()
-    };
+    let count = |of: fn(&Behaviour) -> bool| modes.modes.iter().filter(|mode| of(&mode.behaviour)).count();
     let flutter = count(|behaviour| matches!(behaviour, Behaviour::Flutter(_)));
     let divergent = count(|behaviour| matches!(behaviour, Behaviour::Divergent(_)));
     (value, [flutter, divergent])
@@ -133,10 +130,7 @@ impl Events {
             // There the way goes on along another branch.
             let leaves =
                 self.critical.iter().any(|critical| inside(critical.value)) || self.searched.gaps.iter().any(gap);
-            let growth = || {
-                let all = self.crossings.iter();
-                all.filter(|x| x.condition == Condition::FlutterOnset && inside(x.value))
-            };
+            let growth = || self.crossings.iter().filter(|x| x.condition == Condition::FlutterOnset && inside(x.value));
             if leaves || growth().any(|x| at_end(x.value)) {
                 continue;
             }

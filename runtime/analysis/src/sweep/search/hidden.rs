@@ -74,8 +74,8 @@ impl Wanted {
         if kinds.is_empty() {
             return Ok(());
         }
-        let rows = rows(states.map(|state| &state.roots[..]), t);
-        let all: Vec<Followed> = rows.into_iter().map(|row| Followed::new(t, row)).collect();
+        let all: Vec<Followed> =
+            rows(states.map(|state| &state.roots[..]), t).into_iter().map(|row| Followed::new(t, row)).collect();
         let mut kinds = kinds.into_iter();
         kinds.try_for_each(|kind| self.general(kind, states, &all).map_err(|t| (t, kind)))
     }
@@ -106,8 +106,7 @@ impl Wanted {
             }
             // Of three that grow and meet on the real axis no two are a pair throughout.
             let real = |root: &Root| root.value.im == 0.0;
-            let rows = near.iter().map(|&j| &all[j]).chain([one]);
-            let parts = rows.flat_map(|x| &x.row).any(real);
+            let parts = near.iter().map(|&j| &all[j]).chain([one]).flat_map(|x| &x.row).any(real);
             if grows && near.len() > 1 && parts {
                 return Err(t[1]);
             }

@@ -175,8 +175,8 @@ fn slopes(count: usize, near: impl Fn(usize, usize) -> bool, of: impl Fn(&[usize
         let mut cluster = vec![first];
         let mut next = 0;
         while let Some(&member) = cluster.get(next) {
-            let all = (first..count).filter(|&r| !done[r] && near(member, r));
-            let new: Vec<usize> = all.filter(|r| !cluster.contains(r)).collect();
+            let new: Vec<usize> =
+                (first..count).filter(|&r| !done[r] && near(member, r)).filter(|r| !cluster.contains(r)).collect();
             cluster.extend(new);
             next += 1;
         }

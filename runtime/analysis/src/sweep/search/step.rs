@@ -87,8 +87,7 @@ impl States for Step<'_, '_> {
     }
 
     fn all(&self) -> Vec<Rc<Spectrum>> {
-        let all = self.nodes.iter();
-        all.map(|node| node.spectrum.clone()).collect()
+        self.nodes.iter().map(|node| node.spectrum.clone()).collect()
     }
 }
 
@@ -308,8 +307,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let apart = |r: &usize| (roots[*r].value - found.near).norm();
         let nearest = |but: Option<usize>| {
             let like = |r: &usize| but.is_some_and(|k| k == *r || roots[*r].is_like(&roots[k]));
-            let all = (0..roots.len()).filter(|r| free(r) && !like(r));
-            all.min_by(|a, b| apart(a).total_cmp(&apart(b)))
+            (0..roots.len()).filter(|r| free(r) && !like(r)).min_by(|a, b| apart(a).total_cmp(&apart(b)))
         };
         let first = nearest(None)?;
         let second = nearest(Some(first)).filter(|_| found.kind == Kind::Growth && !turning);
@@ -377,8 +375,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let side = usize::from(found.rises != Some(false));
         let beside = self.node(found.sides[side].t)?;
         let apart = |mode: &&Mode| (mode.s - found.near).norm();
-        let modes = beside.modes.modes.iter();
-        let mode = modes.min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+        let mode = beside.modes.modes.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
         let real = |shape: &[Complex]| shape.iter().map(|x| x.re).collect::<Vector>();
         let shapes = (&*real(&mode.shape), &*real(mode.left()));
         let special = self.curve.degenerate(&position, &from.frame, shapes, zero);

@@ -33,8 +33,7 @@ fn crowd<'f>(computed: &'f ComputedPairs, i: usize) -> impl Iterator<Item = usiz
     // One that is far from defective has no other with the same vectors that close.
     let reach = if pair.condition <= DEFECTIVE { pair.reach.max(pair.radius()) } else { pair.reach };
     let near = move |j: &usize| (pair.s - computed.pairs[*j].s).norm() <= reach;
-    let others = (0..computed.count).filter(move |&j| j != i && !pair.merged);
-    others.filter(near)
+    (0..computed.count).filter(move |&j| j != i && !pair.merged).filter(near)
 }
 
 /// Whether the pencil cannot tell pair `i` from another one, although they did not merge.
@@ -82,8 +81,8 @@ pub(super) fn second_order(solver: &mut PairSolver, computed: &mut ComputedPairs
             let distance = modulus(s - pair.s);
             (distance > pair.radius()).then_some(distance)
         };
-        let parts = others(computed, i).filter_map(|(s, j, _)| Some(weights[j] / apart(s)?));
-        let mut second = pair.second_order(1.0 / parts.sum::<f64>());
+        let mut second = pair
+            .second_order(1.0 / others(computed, i).filter_map(|(s, j, _)| Some(weights[j] / apart(s)?)).sum::<f64>());
         if second > pair.doubt() {
             let range = i * n..(i + 1) * n;
             let (right, left) = (&computed.right[range.clone()], &computed.left[range]);

@@ -95,8 +95,7 @@ fn by_size(n: usize, matrix: &[f64]) -> Vec<usize> {
     const CLASS: f64 = 1.0 / 256.0;
     let size = |i: usize| {
         let (row, column) = (&matrix[i * n..(i + 1) * n], matrix.iter().skip(i).step_by(n));
-        let sizes = row.iter().chain(column).map(|x| x.abs());
-        sizes.fold(0.0, f64::max)
+        row.iter().chain(column).map(|x| x.abs()).fold(0.0, f64::max)
     };
     let sizes: Vec<f64> = (0..n).map(size).collect();
     let most = sizes.iter().copied().fold(0.0, f64::max);

@@ -106,8 +106,7 @@ impl<'a> Linearisation<'a> {
         let (up, down) = self.scales.split_at(n);
         for q in (0..columns).step_by(4) {
             let size = |half: &[f64]| {
-                let rows = half.chunks_exact(columns);
-                rows.map(|row| row[q] * row[q] + row[q + 1] * row[q + 1]).sum::<f64>()
+                half.chunks_exact(columns).map(|row| row[q] * row[q] + row[q + 1] * row[q + 1]).sum::<f64>()
             };
             // Both halves hold the right vector; the larger one is better known.
             let (half, scales) = if size(upper) >= size(lower) { (upper, up) } else { (lower, down) };

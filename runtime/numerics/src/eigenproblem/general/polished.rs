@@ -83,12 +83,13 @@ impl PairSolver<'_> {
             iteration.correct(&self.linearisation, Side::Left, &mut change);
         }
         let along = along(&self.pencil, &self.of_left, &change);
-        let parts = change
+        change
             .iter()
             .zip(left)
             .enumerate()
-            .map(|(i, (d, x))| modulus(d - along * x) * modulus(self.of_right.value(pair.s, i)));
-        parts.sum::<f64>() / modulus(pair.slope)
+            .map(|(i, (d, x))| modulus(d - along * x) * modulus(self.of_right.value(pair.s, i)))
+            .sum::<f64>()
+            / modulus(pair.slope)
     }
 
     /// Newton steps from `s`, within a quarter of the gap about `start`.

@@ -41,8 +41,7 @@ impl Parts {
 
     /// Euclidean length.
     pub(super) fn length(&self) -> f64 {
-        let parts = self.re.iter().zip(&self.im);
-        parts.map(|(re, im)| re * re + im * im).sum::<f64>().sqrt()
+        self.re.iter().zip(&self.im).map(|(re, im)| re * re + im * im).sum::<f64>().sqrt()
     }
 
     /// The sum of the products, without conjugation.

@@ -140,10 +140,8 @@ fn correct(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64], (r, mut 
                 add(part, other, &mut shape);
             }
         }
-        let form = |matrix: &[f64], x: &[f64]| {
-            let rows = matrix.chunks_exact(n).zip(x);
-            rows.map(|(row, x)| x * dot(row, &shape)).sum::<f64>()
-        };
+        let form =
+            |matrix: &[f64], x: &[f64]| matrix.chunks_exact(n).zip(x).map(|(row, x)| x * dot(row, &shape)).sum::<f64>();
         let size = form(matrices.m, &shape);
         let value = form(matrices.k, &shape) / size;
         shape.iter_mut().for_each(|x| *x /= size.sqrt());

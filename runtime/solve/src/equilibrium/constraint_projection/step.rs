@@ -47,8 +47,7 @@ impl<'a> Aim<'a> {
 }
 
 pub(super) fn scaled(gaps: &[f64], rows: &Rows) -> Vector {
-    let pairs = gaps.iter().zip(&rows.size);
-    pairs.map(|(gap, size)| gap / size).collect()
+    gaps.iter().zip(&rows.size).map(|(gap, size)| gap / size).collect()
 }
 
 /// A Gauss-Newton step without the rows that almost depend on the others, if it reduces every gap.

@@ -56,8 +56,7 @@ impl Deviations {
         results: &mut [&mut [T]],
         kernel: impl FnOnce([&[&[T]]; N], &mut [&mut [T]]),
     ) {
-        let inputs = arguments.iter().take_while(|list| **list != Extent::Inputs);
-        let at = inputs.count();
+        let at = arguments.iter().take_while(|list| **list != Extent::Inputs).count();
         let applied = lists.map(|list| self.applied(list[at], list[at + 1], sum));
         let mut adjusted = lists.map(<[_]>::to_vec);
         for (list, (u, b)) in adjusted.iter_mut().zip(&applied) {

@@ -65,8 +65,7 @@ impl System<'_> {
             let given = l_y.get(a).copied();
             [-s * m[a], -c[a]].into_iter().chain(given).chain(forced)
         };
-        let all = (0..self.velocities()).flat_map(terms);
-        let most = all.fold(0.0, |most: f64, term| most.max(term.norm()));
+        let most = (0..self.velocities()).flat_map(terms).fold(0.0, |most: f64, term| most.max(term.norm()));
         // What rounding leaves of forces that cancel would make a reaction of its own.
         let rounding = 4.0 * self.velocities() as f64 * f64::EPSILON * most;
         let force = Vector::from_fn(self.velocities(), |a| {

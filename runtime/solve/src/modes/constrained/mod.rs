@@ -191,6 +191,5 @@ impl<'a> Gathered<'a> {
 
 /// Whether an eigenvalue occurs more than once in a list.
 fn is_shared(roots: &[Root], i: usize) -> bool {
-    let others = roots.iter().enumerate().filter(|(j, _)| *j != i);
-    others.map(|(_, other)| other.s).any(|s| s == roots[i].s)
+    roots.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other)| other.s).any(|s| s == roots[i].s)
 }

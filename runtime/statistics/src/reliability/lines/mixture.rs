@@ -102,8 +102,7 @@ impl Mixture {
 
     /// The group of directions to which each line of a round belongs.
     pub(super) fn groups(&self) -> impl Iterator<Item = usize> {
-        let counts = self.round.iter().enumerate();
-        counts.flat_map(|(group, count)| core::iter::repeat_n(group, *count))
+        self.round.iter().enumerate().flat_map(|(group, count)| core::iter::repeat_n(group, *count))
     }
 
     /// A direction of a group, by a number in (0, 1).
@@ -118,11 +117,15 @@ impl Mixture {
         let along: Vec<[f64; 3]> =
             along.map(|(other, weight)| [weight.ln(), dot(other, across), dot(other, direction)]).collect();
         let density = |t: f64| {
-            let all = along.iter().map(|[weight, start, slope]| {
-                let place = start + slope * t;
-                (weight + 0.5 * place * place).exp()
-            });
-            self.factors[group] / (TAU.sqrt() * all.sum::<f64>())
+            self.factors[group]
+                / (TAU.sqrt()
+                    * along
+                        .iter()
+                        .map(|[weight, start, slope]| {
+                            let place = start + slope * t;
+                            (weight + 0.5 * place * place).exp()
+                        })
+                        .sum::<f64>())
         };
         let whole = |(from, to): Stretch| {
             let near = 0.0_f64.clamp(from, to);
@@ -132,8 +135,7 @@ impl Mixture {
             legendre::composite((from, to), panels, density)
         };
         let sum = |wanted: Side| {
-            let all = scanned.stretches.iter().filter(|x| x.2 == wanted);
-            all.map(|(from, to, _)| whole((*from, *to))).sum::<f64>()
+            scanned.stretches.iter().filter(|x| x.2 == wanted).map(|(from, to, _)| whole((*from, *to))).sum::<f64>()
         };
         let (fails, without_value) = (sum(Side::Fails), sum(Side::WithoutValue));
         let mut known = vec![fails + without_value + sum(Side::Safe) - 1.0];

@@ -118,11 +118,13 @@ impl Buckets {
     /// The places with values and their counts, in order.
     pub(super) fn counted(&self) -> impl Iterator<Item = (i32, u64)> {
         let octaves = (self.first..).zip(&self.octaves);
-        let counts = octaves.flat_map(|(octave, counts)| {
-            let counts = counts.iter().flat_map(|counts| counts.iter());
-            (octave * OCTAVE..).zip(counts)
-        });
-        counts.filter(|(_, count)| **count > 0).map(|(bin, count)| (bin, *count))
+        octaves
+            .flat_map(|(octave, counts)| {
+                let counts = counts.iter().flat_map(|counts| counts.iter());
+                (octave * OCTAVE..).zip(counts)
+            })
+            .filter(|(_, count)| **count > 0)
+            .map(|(bin, count)| (bin, *count))
     }
 
     /// The sum of all counts; `None` if the octaves are not those from `least` to `greatest`.

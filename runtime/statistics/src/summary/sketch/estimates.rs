@@ -139,11 +139,14 @@ impl Sketch {
             return exact(self.min);
         }
         let mut below = 0;
-        let found = self.buckets().find(|bucket| {
-            below += bucket.count;
-            rank < below
-        });
-        let Some(bucket) = found.filter(|_| rank + 1 < self.count) else {
+        let Some(bucket) = self
+            .buckets()
+            .find(|bucket| {
+                below += bucket.count;
+                rank < below
+            })
+            .filter(|_| rank + 1 < self.count)
+        else {
             return exact(self.max);
         };
         let width = bucket.upper - bucket.lower;

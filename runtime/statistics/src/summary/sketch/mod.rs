@@ -161,8 +161,7 @@ impl Sketch {
 impl Sketch {
     /// Whether it can result from adding values.
     pub(in crate::summary) fn is_consistent(&self) -> bool {
-        let numbers = [self.reference, self.scale, self.min, self.max];
-        numbers.iter().all(|number| number.abs() <= super::LARGEST)
+        [self.reference, self.scale, self.min, self.max].iter().all(|number| number.abs() <= super::LARGEST)
             && self.scale > 0.0
             && self.min <= self.max
             && self.buckets.total(self.place(self.min), self.place(self.max)) == Some(self.count)

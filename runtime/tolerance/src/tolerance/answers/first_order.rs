@@ -94,8 +94,8 @@ impl FirstOrder {
     /// The spread of every mode and its sources; without its text where nothing is moved.
     fn spreads(&self, said: &mut Findings, doubts: &[Vec<Doubt>], moved: bool) {
         let d = &self.description;
-        let modes = self.modes.iter().zip(doubts).enumerate();
-        let rows = modes.map(|(r, (mode, doubts))| Row { number: r + 1, mode, doubts });
+        let rows =
+            self.modes.iter().zip(doubts).enumerate().map(|(r, (mode, doubts))| Row { number: r + 1, mode, doubts });
         let rows: Vec<Row<'_>> = rows.collect();
         let mut table = Columns::new("first-order tolerances", &rows);
         if !moved {

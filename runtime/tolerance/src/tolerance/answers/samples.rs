@@ -15,8 +15,7 @@ pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table
     let numbered = samples.iter().enumerate();
     let rows: Vec<_> = numbered.map(|(k, sample)| (first + k, sample)).collect();
     // A sample has a slot for each nominal mode, even where the mode was not found.
-    let modes = samples.iter().map(|sample| sample.frequencies.len()).max();
-    samples_columns(d, modes.unwrap_or(0), &rows).finish().0
+    samples_columns(d, samples.iter().map(|sample| sample.frequencies.len()).max().unwrap_or(0), &rows).finish().0
 }
 
 /// Like [`samples_table`], for samples that carry their own numbers, counted from 0, as returned by
@@ -25,8 +24,7 @@ pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table
 /// A part without samples has the same columns. Seed, stream and operating point come last, as in all tables of the run.
 #[must_use]
 pub fn numbered_samples_table(run: &MonteCarlo, samples: &[(u64, Sample)]) -> Table {
-    let each = samples.iter();
-    let rows: Vec<_> = each.map(|(number, sample)| (*number as usize, sample)).collect();
+    let rows: Vec<_> = samples.iter().map(|(number, sample)| (*number as usize, sample)).collect();
     let mut table = samples_columns(&run.description, run.modes.len(), &rows);
     origin(&mut table, run);
     let mut table = table.finish().0;

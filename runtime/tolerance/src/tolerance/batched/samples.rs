@@ -111,8 +111,7 @@ impl Memory {
 impl SampleBatch<'_> {
     /// Eigenvalues of a member, 1/s, in the order of the nominal modes.
     pub(in crate::tolerance) fn eigenvalues(&self, member: usize) -> impl Iterator<Item = Complex> {
-        let both = self.rates.iter().zip(&*self.frequencies);
-        both.map(move |(re, im)| Complex::new(re.0[member], im.0[member]))
+        self.rates.iter().zip(&*self.frequencies).map(move |(re, im)| Complex::new(re.0[member], im.0[member]))
     }
 
     /// Puts the modes of a group of equal nominal ones in ascending order, in every member.

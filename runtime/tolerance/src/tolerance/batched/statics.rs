@@ -93,11 +93,15 @@ fn well_conditioned(nominal: &Equilibrium, shapes: &Matrix, lambda: &[f64]) -> b
     let n = lambda.len();
     let linear = &nominal.linear;
     shapes.iter().zip(lambda).all(|(shape, lambda)| {
-        let terms = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| {
-            let size = linear.stiffness[i][j].abs() + lambda * linear.mass[i][j].abs();
-            (shape[i] * shape[j]).abs() * size
-        });
-        terms.sum::<f64>() * f64::EPSILON <= ROUNDING * lambda
+        (0..n)
+            .flat_map(|i| (0..n).map(move |j| (i, j)))
+            .map(|(i, j)| {
+                let size = linear.stiffness[i][j].abs() + lambda * linear.mass[i][j].abs();
+                (shape[i] * shape[j]).abs() * size
+            })
+            .sum::<f64>()
+            * f64::EPSILON
+            <= ROUNDING * lambda
     })
 }
 

@@ -23,8 +23,7 @@ impl Answer for Influence {
         said.note(format!("{total} designs: {counts}."));
         let mut all = Vec::new();
         for (response, influence) in self.wanted.iter().zip(&self.responses) {
-            let variables = influence.variables.iter();
-            let rows = variables.map(|variable| Row::new(response, d, variable));
+            let rows = influence.variables.iter().map(|variable| Row::new(response, d, variable));
             let rows: Vec<_> = rows.collect();
             described(&mut said, &rows, d);
             if influence.missing > 0 {

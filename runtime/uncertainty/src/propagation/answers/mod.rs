@@ -25,8 +25,7 @@ impl<T> Row<T> {
 
     /// A row for each response.
     fn each(responses: &[Response], d: &Description, all: impl IntoIterator<Item = T>) -> Vec<Self> {
-        let pairs = responses.iter().zip(all);
-        pairs.map(|(of, x)| Self::new(of, d, x)).collect()
+        responses.iter().zip(all).map(|(of, x)| Self::new(of, d, x)).collect()
     }
 
     /// A value in the unit of the response.

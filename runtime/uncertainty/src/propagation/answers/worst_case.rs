@@ -60,8 +60,7 @@ fn extremes(said: &mut Findings, rows: &[Limits<'_>], d: &Description) {
 
 /// The variables with which a response rises and falls.
 fn turning<'d>(limits: &ResponseLimits, d: &'d Description) -> Vec<&'d str> {
-    let infos = limits.turning.iter().filter_map(|&k| d.design.get(k));
-    infos.map(|info| &*info.name).collect()
+    limits.turning.iter().filter_map(|&k| d.design.get(k)).map(|info| &*info.name).collect()
 }
 
 /// Why the limits of a response may not hold.

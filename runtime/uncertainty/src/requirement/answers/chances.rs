@@ -52,8 +52,7 @@ impl Chances {
     /// Each and all in one table of the text, in two of data.
     fn tallies(&self, said: &mut Findings) {
         let each = self.each.iter().enumerate();
-        let each = each.map(|(k, x)| (Some(k + 1), x));
-        let mut rows: Vec<Row<'_>> = each.collect();
+        let mut rows: Vec<Row<'_>> = each.map(|(k, x)| (Some(k + 1), x)).collect();
         let mut table = Columns::new("chances", &rows);
         table.whole("requirement", &|(number, _)| *number);
         tallies(&mut table);

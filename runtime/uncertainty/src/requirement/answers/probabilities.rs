@@ -25,8 +25,7 @@ impl Answer for Probabilities {
         for table in details.flat_map(Findings::into_tables) {
             said.data(table);
         }
-        let all = self.each.iter().chain([&self.any]);
-        let untold = all.fold(0.0, |most: f64, x| most.max(x.untold));
+        let untold = self.each.iter().chain([&self.any]).fold(0.0, |most: f64, x| most.max(x.untold));
         if untold > CHANCE {
             said.note(format!(
                 "Designs with a probability of up to {} lack the response needed to tell; they do not count as failures.",

@@ -46,8 +46,10 @@ impl Reliability {
         let rows: Vec<Row<'_>> = self.limits.iter().flat_map(points).collect();
         let d = &self.description;
         design_points(said, &rows, d);
-        let pairs = rows.iter().filter_map(|(limit, x)| Some((*limit, (*x)?)));
-        let entries = pairs.flat_map(|(limit, x)| entries(limit.requirement, x, d));
+        let entries = rows
+            .iter()
+            .filter_map(|(limit, x)| Some((*limit, (*x)?)))
+            .flat_map(|(limit, x)| entries(limit.requirement, x, d));
         let entries: Vec<Entry<'_>> = entries.collect();
         said.data(entry_columns(&entries, Vec::new()).finish().0);
     }
@@ -112,16 +114,18 @@ struct Entry<'a> {
 fn entries<'a>(requirement: usize, at: &DesignPoint, d: &'a Description) -> Vec<Entry<'a>> {
     let values = at.design.iter().zip(&at.importance);
     let slopes = at.by_nominal.iter().zip(&at.by_half_width);
-    let each = d.design.iter().zip(values.zip(slopes));
-    let entries = each.map(|(info, ((design, importance), (nominal, half_width)))| Entry {
-        requirement,
-        info,
-        design: *design,
-        importance: *importance,
-        by_nominal: nominal.beta,
-        by_half_width: half_width.beta,
-    });
-    entries.collect()
+    d.design
+        .iter()
+        .zip(values.zip(slopes))
+        .map(|(info, ((design, importance), (nominal, half_width)))| Entry {
+            requirement,
+            info,
+            design: *design,
+            importance: *importance,
+            by_nominal: nominal.beta,
+            by_half_width: half_width.beta,
+        })
+        .collect()
 }
 
 fn entry_columns<'a, 'e>(rows: &'a [Entry<'e>], shown: Vec<usize>) -> Columns<'a, Entry<'e>> {
@@ -131,8 +135,7 @@ fn entry_columns<'a, 'e>(rows: &'a [Entry<'e>], shown: Vec<usize>) -> Columns<'a
     table.words("variable", &|row| Some(row.info.name.to_string()));
     table.words("unit", &|row| Some(row.info.unit.symbol.to_string()));
     table.cells("variable", &|row| heading(&row.info.name, &row.info.unit));
-    let design = table.number("design point", "", &|row| Some(converted(row.design, &row.info.unit)));
-    design.digits(number);
+    table.number("design point", "", &|row| Some(converted(row.design, &row.info.unit))).digits(number);
     let importance = table.number("importance", "", &|row| Some(row.importance));
     importance.digits(|share| format!("{share:.3}"));
     let slope = table.number("beta by nominal value", "per unit", &|row| Some(row.by_nominal * row.info.unit.scale));

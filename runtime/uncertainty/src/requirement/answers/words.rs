@@ -63,8 +63,7 @@ fn ends(all: &[f64], unit: &Unit, of: &Description) -> String {
         true if digits(&hertz) < digits(unit) => &hertz,
         _ => unit,
     };
-    let all = all.iter().map(|end| with_unit(given_in(*end, unit), unit));
-    all.collect::<Vec<_>>().join(" to ")
+    all.iter().map(|end| with_unit(given_in(*end, unit), unit)).collect::<Vec<_>>().join(" to ")
 }
 
 /// A probability without an error.

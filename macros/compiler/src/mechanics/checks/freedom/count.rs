@@ -213,8 +213,7 @@ fn greatest_term(state: &Linearised, coordinate: usize, combination: &[Disturbed
         let rate = rates.find(|(k, _)| **k == coordinate);
         rate.map_or(0.0, |(_, rate)| (rate.value() * share.value()).abs())
     };
-    let terms = state.fields.iter().zip(combination).map(term);
-    terms.fold(0.0, f64::max)
+    state.fields.iter().zip(combination).map(term).fold(0.0, f64::max)
 }
 
 /// Whether coordinates fail to describe some motion of space that they describe elsewhere.

@@ -62,8 +62,7 @@ impl Fields {
                 Frame::Ground => Vec::new(),
                 Frame::Body(parent) => paths[parent.index()].clone(),
             };
-            let steps = kinematics.of(branch.body).steps.iter();
-            let free_steps = steps.filter_map(|step| {
+            let free_steps = kinematics.of(branch.body).steps.iter().filter_map(|step| {
                 let index = topology.free.iter().position(|&id| id == step.coordinate)?;
                 Some((index, *step, branch.body))
             });
@@ -83,13 +82,15 @@ impl Fields {
 
     /// The expressions that [`Self::at`] reads.
     pub(super) fn roots(&self) -> Vec<ExprId> {
-        let all = self.carriers.iter().flat_map(|carrier| {
-            let slopes = carrier.slopes.iter().flatten();
-            let twists = carrier.twists.iter().chain(slopes).flatten();
-            let places = carrier.places.iter().chain(&carrier.offsets);
-            twists.chain(places.flatten())
-        });
-        all.copied().collect()
+        self.carriers
+            .iter()
+            .flat_map(|carrier| {
+                let slopes = carrier.slopes.iter().flatten();
+                let twists = carrier.twists.iter().chain(slopes).flatten();
+                twists.chain(carrier.places.iter().chain(&carrier.offsets).flatten())
+            })
+            .copied()
+            .collect()
     }
 
     /// The candidates at a state, from the values of the expressions.
@@ -296,8 +297,7 @@ impl<'a> Inverse<'a> {
 }
 
 fn product(a: &[Disturbed], b: &[Disturbed]) -> Disturbed {
-    let terms = a.iter().zip(b).map(|(&a, &b)| a * b);
-    terms.fold(Disturbed::exact(0.0), |sum, term| sum + term)
+    a.iter().zip(b).map(|(&a, &b)| a * b).fold(Disturbed::exact(0.0), |sum, term| sum + term)
 }
 
 /// `sum_k rates_k twists_k`.

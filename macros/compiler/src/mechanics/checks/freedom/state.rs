@@ -95,8 +95,7 @@ impl<'a> System<'a> {
     /// What the equations do over the units of their unknowns, relative to the unit of energy.
     fn in_units(&self, equations: &[Disturbed]) -> Vec<Disturbed> {
         let units = &self.fields.units;
-        let pairs = equations.iter().zip(&units.unknowns);
-        pairs.map(|(x, unit)| x.scaled(unit / units.energy)).collect()
+        equations.iter().zip(&units.unknowns).map(|(x, unit)| x.scaled(unit / units.energy)).collect()
     }
 
     /// Linearises where all coordinates are zero; `None` unless this is an equilibrium with some speeds and reactions.
@@ -206,8 +205,7 @@ impl<'a> System<'a> {
             return IteratedValues::default();
         }
         let mut roots: Vec<ExprId> = self.rest[rows.clone()].to_vec();
-        let columns = self.stiffness[..moving].iter();
-        roots.extend(columns.flat_map(|column| &column[rows.clone()]));
+        roots.extend(self.stiffness[..moving].iter().flat_map(|column| &column[rows.clone()]));
         let unknowns = &self.context.symbols.q.ids[..moving];
         let random = |symbol: &SymbolId| state.value(self.context, *symbol);
         let start = unknowns.iter().map(random).collect();

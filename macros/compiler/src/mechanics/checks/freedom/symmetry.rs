@@ -117,10 +117,7 @@ fn wholes(system: &System, state: &Linearised, more: usize) -> Combinations {
 /// `w . g` for each combination.
 pub(super) fn powers(state: &Linearised, along: &Combinations, loads: &[Disturbed], free: usize) -> Vec<Disturbed> {
     let coasting = loads[free..].iter().copied();
-    let power = |field: &Field| {
-        let pairs = field.coordinates.iter().zip(&field.rates);
-        sum(pairs.map(|(&k, &rate)| rate * loads[k]))
-    };
+    let power = |field: &Field| sum(field.coordinates.iter().zip(&field.rates).map(|(&k, &rate)| rate * loads[k]));
     let row: Vec<Disturbed> = state.fields.iter().map(power).chain(coasting).collect();
     let row: Vec<Disturbed> = row.into_iter().take(along.first().map_or(0, Vec::len)).collect();
     times(&[row], along).concat()
@@ -199,8 +196,7 @@ fn change(field: &Field, state: &Linearised, i: usize) -> Disturbed {
     if let ([k], []) = (&field.coordinates[..], &field.slopes[..]) {
         return state.stiffness[*k][i];
     }
-    let pairs = field.coordinates.iter().zip(&field.rates);
-    let product = sum(pairs.map(|(&k, &rate)| state.stiffness[k][i] * rate));
+    let product = sum(field.coordinates.iter().zip(&field.rates).map(|(&k, &rate)| state.stiffness[k][i] * rate));
     product + turned(field, state, i)
 }
 
@@ -209,8 +205,7 @@ fn slope(field: &Field, state: &Linearised, j: usize) -> Disturbed {
     if let ([k], []) = (&field.coordinates[..], &field.slopes[..]) {
         return state.stiffness[j][*k];
     }
-    let pairs = field.coordinates.iter().zip(&field.rates);
-    let product = sum(pairs.map(|(&k, &rate)| state.stiffness[j][k] * rate));
+    let product = sum(field.coordinates.iter().zip(&field.rates).map(|(&k, &rate)| state.stiffness[j][k] * rate));
     product + turned(field, state, j)
 }
 
@@ -219,8 +214,7 @@ fn turned(field: &Field, state: &Linearised, i: usize) -> Disturbed {
     match field.coordinates.iter().position(|&k| k == i) {
         None => Disturbed::exact(0.0),
         Some(index) => {
-            let pairs = field.coordinates.iter().zip(&field.slopes[index]);
-            sum(pairs.map(|(&k, &slope)| state.residual[k] * slope))
+            sum(field.coordinates.iter().zip(&field.slopes[index]).map(|(&k, &slope)| state.residual[k] * slope))
         }
     }
 }
@@ -232,10 +226,8 @@ fn sum(terms: impl Iterator<Item = Disturbed>) -> Disturbed {
 /// `sum_k weights_k vectors_k` for each list of weights.
 pub(super) fn combined(vectors: &Combinations, weights: &Combinations) -> Combinations {
     let length = vectors.first().map_or(0, Vec::len);
-    let entry = |j: usize, weights: &[Disturbed]| {
-        let terms = vectors.iter().zip(weights);
-        sum(terms.map(|(vector, &weight)| weight * vector[j]))
-    };
+    let entry =
+        |j: usize, weights: &[Disturbed]| sum(vectors.iter().zip(weights).map(|(vector, &weight)| weight * vector[j]));
     let one = |weights: &Vec<Disturbed>| (0..length).map(|j| entry(j, weights)).collect();
     weights.iter().map(one).collect()
 }

@@ -26,8 +26,7 @@ impl Units {
         units.unknowns = moving.map(motion).collect();
         let state = RandomState { design: 1, motion: 1 };
         let (free, ids) = (topology.free.len(), &context.symbols.q.ids);
-        let columns = jacobians.stiffness[..free].iter();
-        let roots: Vec<_> = columns.flat_map(|column| &column[..free]).copied().collect();
+        let roots: Vec<_> = jacobians.stiffness[..free].iter().flat_map(|column| &column[..free]).copied().collect();
         let stiffness = evaluate(g, &roots, |symbol| {
             let place = ids.iter().position(|id| *id == symbol);
             let unit = place.map_or(1.0, |k| units.unknowns.get(k).copied().unwrap_or(0.0));

@@ -81,8 +81,12 @@ pub(super) fn readable(system: &System, combinations: &Combinations, operations:
 
 /// Those combinations in which some candidates have no share.
 fn without(combinations: &Combinations, candidates: impl Iterator<Item = usize>, operations: usize) -> Vec<Vec<f64>> {
-    let shares = candidates.map(|k| combinations.iter().map(|combination| combination[k]).collect());
-    let weights = NullSpace::new(shares.collect(), 0, operations).vectors;
+    let weights = NullSpace::new(
+        candidates.map(|k| combinations.iter().map(|combination| combination[k]).collect()).collect(),
+        0,
+        operations,
+    )
+    .vectors;
     reduced(&combined(combinations, &weights))
 }
 
@@ -221,8 +225,7 @@ fn name<'a>(context: &'a Context, unknown: usize) -> &'a proc_macro2::Ident {
 }
 
 fn span_of(context: &Context, rates: &[f64]) -> Extent {
-    let first = rates.iter().position(|x| x.abs() > NOTHING);
-    name(context, first.unwrap_or(0)).span().into()
+    name(context, rates.iter().position(|x| x.abs() > NOTHING).unwrap_or(0)).span().into()
 }
 
 /// A number to five digits.

@@ -30,8 +30,7 @@ pub(in crate::model::resolve) struct Declared {
 impl Declared {
     /// The same with this many more coordinates of every component that has any, and as many points.
     pub(super) fn refined(mut self, more: usize) -> Self {
-        let counts = self.counts.iter_mut().chain(&mut self.strains);
-        counts.filter(|count| **count > 0).for_each(|count| *count += more);
+        self.counts.iter_mut().chain(&mut self.strains).filter(|count| **count > 0).for_each(|count| *count += more);
         self.points += more;
         self
     }

@@ -103,11 +103,12 @@ fn rows_of(value: &Value) -> Option<Vec<&[Value]>> {
     let ValueKind::Vector(rows, None) = &value.bare().kind else {
         return None;
     };
-    let entries = rows.iter().map(|row| match &row.bare().kind {
-        ValueKind::Vector(entries, None) => Some(entries.as_slice()),
-        _ => None,
-    });
-    entries.collect()
+    rows.iter()
+        .map(|row| match &row.bare().kind {
+            ValueKind::Vector(entries, None) => Some(entries.as_slice()),
+            _ => None,
+        })
+        .collect()
 }
 
 /// Rows whose strain something resists, with what must be positive for the matrix to be positive definite: the pivots of

@@ -308,8 +308,7 @@ impl Resolver<'_> {
     pub(super) fn nominal_of(&self, value: &Expr) -> f64 {
         let design: Vec<f64> = self.design.iter().map(|value| value.as_ref().map_or(f64::NAN, |x| x.value)).collect();
         let inputs = vec![1.0; self.inputs.len()];
-        let values = crate::model::evaluate::Values::new(&self.constants, &inputs, &design);
-        values.of(value)
+        crate::model::evaluate::Values::new(&self.constants, &inputs, &design).of(value)
     }
 }
 

@@ -56,8 +56,7 @@ impl Resolver<'_> {
         if fraction == 0.0 {
             return Some(root);
         }
-        let known = self.stations.used.iter().position(|x| *x == (beam, fraction));
-        let index = known.unwrap_or_else(|| {
+        let index = self.stations.used.iter().position(|x| *x == (beam, fraction)).unwrap_or_else(|| {
             self.stations.used.push((beam, fraction));
             self.stations.used.len() - 1
         });

@@ -107,12 +107,13 @@ impl Table {
     /// The section at a fraction of the length.
     pub(super) fn section(&self, fraction: f64, turned: (&Expr, &[Expr; 2])) -> Section {
         let [root, tip] = &self.ends;
-        let both = root.iter().zip(tip);
-        let at: Vec<Expr> = both.map(|(root, tip)| between(root, tip, fraction)).collect();
+        let at: Vec<Expr> = root.iter().zip(tip).map(|(root, tip)| between(root, tip, fraction)).collect();
         let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], fraction));
         let pairs = self.coupling[0].iter().zip(&self.coupling[1]);
-        let pairs = pairs.map(|((i, j, root), (.., tip))| (*i, *j, between(root, tip, fraction)));
-        let coupling = pairs.filter(|(.., x)| *x != Expr::Number(0.0)).collect();
+        let coupling = pairs
+            .map(|((i, j, root), (.., tip))| (*i, *j, between(root, tip, fraction)))
+            .filter(|(.., x)| *x != Expr::Number(0.0))
+            .collect();
         let share = |whole: &Expr| multiply(Expr::Number(fraction), whole.clone());
         let (twist, prebend) = (share(turned.0), turned.1.each_ref().map(share));
         if let [mass, about_y, about_z, torsion, inertia_y, inertia_z, axial, shear_y, shear_z, width, height] = &at[..]

@@ -61,8 +61,7 @@ impl Products {
 
 /// Numbers whose parts are interleaved.
 fn complex(parts: &[f64]) -> impl Iterator<Item = Complex64> {
-    let pairs = parts.chunks_exact(2);
-    pairs.map(|pair| Complex64::new(pair[0], pair[1]))
+    parts.chunks_exact(2).map(|pair| Complex64::new(pair[0], pair[1]))
 }
 
 /// A frequency before its bound is known.
@@ -88,17 +87,13 @@ pub(super) fn measured(pencil: &Pencil, lower: &[f64], phi: &[f64], sum: f64) ->
     let mut oscillations = Vec::with_capacity(n);
     for r in 0..n {
         let phi: Vec<_> = vectors.column(r).collect();
-        let product = |of: &Products| {
-            let values = phi.iter().zip(of.values.column(r));
-            values.map(|(x, y)| x.conj() * y).sum::<Complex64>()
-        };
+        let product = |of: &Products| phi.iter().zip(of.values.column(r)).map(|(x, y)| x.conj() * y).sum::<Complex64>();
         let (inertia, elastic) = (product(&mass).re, product(&stiffness).re);
         let omega = positive_root(inertia, product(&damping).im, elastic);
         let unit = 1.0 / inertia.sqrt();
         let s = Complex64::new(0.0, omega);
         let values = mass.values.column(r).zip(damping.values.column(r));
-        let values = values.zip(stiffness.values.column(r));
-        rest.set(r, values.map(|((m, c), k)| (s * (s * m + c) + k) * unit));
+        rest.set(r, values.zip(stiffness.values.column(r)).map(|((m, c), k)| (s * (s * m + c) + k) * unit));
         let sizes = mass.terms.column(r).zip(damping.terms.column(r));
         let sizes = sizes.zip(stiffness.terms.column(r));
         terms.set(r, sizes.map(|((m, c), k)| (omega * (omega * m + c) + k) * unit));
@@ -180,8 +175,7 @@ fn bounded(n: usize, mut measured: Vec<Measured>, lengths: &[f64]) -> Vec<Oscill
         }
         first = last + 1;
     }
-    let places = order.iter().zip(bounds);
-    let finished = places.map(|(&r, bound)| {
+    let finished = order.iter().zip(bounds).map(|(&r, bound)| {
         let own = &mut measured[r];
         // The slope `2 omega m + c` is `|x|^2 / omega`.
         let of_elements = relative(n) * own.terms * own.omega / (own.length * own.length);

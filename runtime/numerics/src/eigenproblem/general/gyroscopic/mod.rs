@@ -129,8 +129,7 @@ fn skew_matrix(pencil: &Pencil, lower: &[f64], root: &[f64]) -> Vec<f64> {
 fn shapes(n: usize, x: &[f64], slow: usize, (lower, root): (&[f64], &[f64])) -> Vec<f64> {
     let width = 2 * n;
     let columns = |rows: usize, range: core::ops::Range<usize>| -> Vec<f64> {
-        let rows = x[rows * width..(rows + n) * width].chunks_exact(width);
-        rows.flat_map(|row| &row[range.clone()]).copied().collect()
+        x[rows * width..(rows + n) * width].chunks_exact(width).flat_map(|row| &row[range.clone()]).copied().collect()
     };
     let mut displacements = columns(0, 0..2 * slow);
     let mut velocities = columns(n, 2 * slow..width);
