@@ -49,6 +49,5 @@ pub(crate) fn write(path: &Path, text: &str) -> Result<(), Error> {
         return Ok(());
     }
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
-    let written = folder.and_then(|()| fs::write(path, text));
-    written.map_err(|source| Error::Write { path: path.to_owned(), source })
+    folder.and_then(|()| fs::write(path, text)).map_err(|source| Error::Write { path: path.to_owned(), source })
 }

@@ -98,8 +98,7 @@ impl Names {
         let with_kind = format!("{wanted}_{kind}");
         let numbered = (2..).map(|number| format!("{with_kind}_{number}"));
         let mut candidates = [wanted.to_owned(), with_kind.clone()].into_iter().chain(numbered);
-        let free = candidates.find(|name| !self.taken.contains(name) && !is_reserved(name));
-        let name = free.unwrap_or_default();
+        let name = candidates.find(|name| !self.taken.contains(name) && !is_reserved(name)).unwrap_or_default();
         self.taken.insert(name.clone());
         name
     }

@@ -45,8 +45,7 @@ pub fn varied<R>(
 ) {
     if let Some(info) = d.inputs.get(input.index()) {
         let written = |row: &R| Some(as_written(of(row), &info.unit));
-        let column = table.number(&info.name, &info.unit.symbol, &written);
-        column.digits(form);
+        table.number(&info.name, &info.unit.symbol, &written).digits(form);
     }
 }
 

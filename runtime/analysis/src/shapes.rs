@@ -187,10 +187,7 @@ impl<'a> Shapes<'a> {
 
 /// Size of the elements of the pencil; constraints are no stiffness.
 fn scale(linear: &Linear, motions: usize, mode: &Mode) -> f64 {
-    let largest = |matrix: &Matrix| {
-        let moving = matrix.iter().take(motions).map(|row| largest(&row[..motions]));
-        moving.fold(0.0, greater)
-    };
+    let largest = |matrix: &Matrix| matrix.iter().take(motions).map(|row| largest(&row[..motions])).fold(0.0, greater);
     let s = mode.s.norm();
     let scale = largest(&linear.stiffness) + s * (largest(&linear.damping) + s * largest(&linear.mass));
     if scale > 0.0 { scale } else { 1.0 }

@@ -59,8 +59,7 @@ pub(crate) fn last_mode(tables: &[Table]) -> usize {
         "peaks" => Some(table.rows()),
         _ => None,
     };
-    let last = tables.iter().flat_map(|x| [by_rows(x), by_columns(x), least(x)]).flatten();
-    last.max().unwrap_or(0)
+    tables.iter().flat_map(|x| [by_rows(x), by_columns(x), least(x)]).flatten().max().unwrap_or(0)
 }
 
 /// What to say of an answer that rests on modes up to `last`, if beams have fewer good ones.

@@ -77,8 +77,7 @@ impl Destination {
 /// Writes to standard output.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    written.map_err(printing)
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(printing)
 }
 
 fn printing(error: io::Error) -> Failure {

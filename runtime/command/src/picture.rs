@@ -101,8 +101,7 @@ impl Picture {
     pub(crate) fn draw(&self, figure: impl FnOnce() -> Result<Figure, eigentol_figures::Error>) -> Result<(), Failure> {
         if let Some(path) = &self.figure {
             let file = figure()?.file(Form::of(path)?)?;
-            let written = Target::of(path).write(&file);
-            written.map_err(|source| Failure::write(path, source))?;
+            Target::of(path).write(&file).map_err(|source| Failure::write(path, source))?;
         }
         Ok(())
     }

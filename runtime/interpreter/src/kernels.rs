@@ -334,8 +334,7 @@ impl Interpreted {
         let mut column = vec![0.0; n];
         self.evaluate_motion(MotionKernel::Motion, &arguments[1..], &mut [&mut *mass[0], &mut column]);
         let tape = &self.shared.tapes.in_motion[MotionKernel::Residual as usize];
-        let zeros = arguments.iter().map(|list| vec![0.0; list.len()]);
-        let mut direction: Vec<_> = zeros.collect();
+        let mut direction: Vec<_> = arguments.iter().map(|list| vec![0.0; list.len()]).collect();
         for (list, matrix) in [(1, &mut damping[0]), (2, &mut stiffness[0])] {
             for k in 0..n {
                 direction[list][k] = 1.0;

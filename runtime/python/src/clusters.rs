@@ -32,8 +32,7 @@ impl Study {
         let of = self.inner.description();
         let inputs = List::Inputs.changes(py, of, inputs)?;
         let design = List::Design.changes(py, of, design)?;
-        let answer = self.ask(py, |study| study.directional_derivatives(mode, (&inputs, &design)));
-        answer.map(Answer::new)
+        self.ask(py, |study| study.directional_derivatives(mode, (&inputs, &design))).map(Answer::new)
     }
 }
 

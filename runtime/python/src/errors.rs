@@ -95,8 +95,7 @@ fn types(py: Python<'_>) -> PyResult<&Vec<Py<PyType>>> {
             namespace.set_item("__module__", "eigentol")?;
             namespace.set_item("__doc__", doc.trim_start())?;
             let made = py.get_type::<PyType>();
-            let made = made.call1((name, PyTuple::new(py, bases)?, namespace))?;
-            all.push(made.cast_into::<PyType>()?.unbind());
+            all.push(made.call1((name, PyTuple::new(py, bases)?, namespace))?.cast_into::<PyType>()?.unbind());
         }
         Ok(all)
     })

@@ -36,8 +36,7 @@ impl Part {
     /// A part from such a text.
     #[classmethod]
     fn from_json(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
-        let read = part::read(text).map(Self);
-        read.map_err(|error| new(py, Kind::InvalidValue, error.to_string()))
+        part::read(text).map(Self).map_err(|error| new(py, Kind::InvalidValue, error.to_string()))
     }
 
     /// Adds samples of the same run; those of another one, and samples that are here already, are refused.
@@ -68,7 +67,6 @@ impl Study {
     /// whole run.
     fn samples_between(&self, py: Python<'_>, start: &hints::Count<'_>, stop: &hints::Count<'_>) -> PyResult<Part> {
         let (start, stop) = (whole(start, "start")?, whole(stop, "stop")?);
-        let answer = self.ask_stoppably(py, |study| study.samples_between(start..stop));
-        answer.map(Part)
+        self.ask_stoppably(py, |study| study.samples_between(start..stop)).map(Part)
     }
 }

@@ -193,8 +193,7 @@ impl Study {
 impl Study {
     fn vibrations(&self, given: &[hints::ResponseText<'_>]) -> PyResult<Vec<Vibration>> {
         let one = |given: &hints::ResponseText<'_>| {
-            let wanted = vibration(&self.inner, &text(given, "vibration shake")?);
-            wanted.map_err(|error| meaningless(given.py(), error))
+            vibration(&self.inner, &text(given, "vibration shake")?).map_err(|error| meaningless(given.py(), error))
         };
         given.iter().map(one).collect()
     }
@@ -260,8 +259,7 @@ impl Study {
     ) -> PyResult<Answer> {
         let (input, values) = self.values(py, input, values, unit)?;
         let wanted = self.vibrations(&vibrations)?;
-        let answer = self.ask_stoppably(py, |study| study.bode_bands(input, &values, &wanted, checked));
-        answer.map(Answer::new)
+        self.ask_stoppably(py, |study| study.bode_bands(input, &values, &wanted, checked)).map(Answer::new)
     }
 
     /// The peaks of a vibration, a text such as "vibration shake", between two values of an input: places, heights,
@@ -322,8 +320,7 @@ impl Study {
         let mut search = self.ask(py, |study| study.search(&within))?;
         search.starts = starts.unwrap_or(search.starts);
         search.seed = seed.unwrap_or(search.seed);
-        let answer = self.ask(py, |study| study.equilibria(&search))?;
-        Ok(answer.into_iter().map(Equilibrium).collect())
+        Ok(self.ask(py, |study| study.equilibria(&search))?.into_iter().map(Equilibrium).collect())
     }
 
     /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; NaN where it

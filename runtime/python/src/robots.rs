@@ -96,8 +96,7 @@ fn options(py: Python<'_>, given: Option<&UrdfOptions<'_>>) -> PyResult<Options>
 fn read(py: Python<'_>, path: &Path, given: Option<&UrdfOptions<'_>>) -> PyResult<eigentol_urdf::Import> {
     let options = options(py, given)?;
     let text = std::fs::read_to_string(path).map_err(|source| errors::unreadable(path, &source))?;
-    let imported = py.detach(|| import(&text, &options));
-    imported.map_err(|error| errors::urdf(py, &error, path))
+    py.detach(|| import(&text, &options)).map_err(|error| errors::urdf(py, &error, path))
 }
 
 /// The declaration of a robot from its URDF file.
@@ -140,7 +139,6 @@ impl Mechanism {
     #[classmethod]
     #[pyo3(signature = (path, **options))]
     fn from_urdf(class: &Bound<'_, PyType>, path: PathBuf, options: Option<&UrdfOptions<'_>>) -> PyResult<Self> {
-        let imported = read(class.py(), &path, options)?;
-        Self::read(class.py(), imported.declaration)
+        Self::read(class.py(), read(class.py(), &path, options)?.declaration)
     }
 }

@@ -63,8 +63,7 @@ impl Study {
         py: Python<'_>,
         question: impl FnOnce(&eigentol::Study<Interpreted>) -> Result<R, Error> + Send,
     ) -> PyResult<R> {
-        let answer = py.detach(|| question(&self.inner));
-        answer.map_err(|error| self.explain(py, error))
+        py.detach(|| question(&self.inner)).map_err(|error| self.explain(py, error))
     }
 
     /// The exception for a failure. Where values may be to blame, it names the inputs that were never given any.
@@ -96,8 +95,7 @@ impl Study {
         py: Python<'_>,
         question: impl FnOnce(&eigentol::Study<Interpreted>) -> Result<R, Error> + Send,
     ) -> PyResult<R> {
-        let answer = self.stoppably(py, question)?;
-        answer.map_err(|error| self.explain(py, error))
+        self.stoppably(py, question)?.map_err(|error| self.explain(py, error))
     }
 
     /// Runs an analysis; Ctrl-C ends it and is raised.

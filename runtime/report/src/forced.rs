@@ -79,8 +79,7 @@ fn peaks<M: SummaryKernels>(
 
 /// The first excitation of each harmonic.
 pub(crate) fn harmonics(d: &Description) -> Vec<usize> {
-    let firsts = d.excitations.iter().enumerate().filter(|(k, info)| info.with == *k);
-    firsts.map(|(k, _)| k).collect()
+    d.excitations.iter().enumerate().filter(|(k, info)| info.with == *k).map(|(k, _)| k).collect()
 }
 
 /// The names of all excitations of the harmonic of one.

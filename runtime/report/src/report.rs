@@ -150,7 +150,6 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
     /// The errors of [`Report::html`]; [`Error::Write`].
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let path = path.as_ref();
-        let written = fs::write(path, self.html()?);
-        written.map_err(|source| Error::Write { path: path.to_owned(), source })
+        fs::write(path, self.html()?).map_err(|source| Error::Write { path: path.to_owned(), source })
     }
 }

@@ -74,8 +74,7 @@ impl<'a, R> Columns<'a, R> {
 
     /// A column of the text alone.
     pub fn cells(&mut self, heading: &str, of: &dyn Fn(&R) -> String) {
-        let cells = self.shown.iter().map(|&row| of(&self.rows[row]));
-        self.text.push((heading.to_owned(), cells.collect()));
+        self.text.push((heading.to_owned(), self.shown.iter().map(|&row| of(&self.rows[row])).collect()));
     }
 
     /// A column of the text alone: frequencies, rad/s, in the unit of answers.

@@ -60,8 +60,7 @@ pub(crate) fn of_data(
 
 /// Sum of the absolute values of the products.
 fn terms(slopes: &[f64], values: &[f64]) -> f64 {
-    let products = slopes.iter().zip(values);
-    products.fold(0.0, |sum, (slope, value)| sum + (slope * value).abs())
+    slopes.iter().zip(values).fold(0.0, |sum, (slope, value)| sum + (slope * value).abs())
 }
 
 /// Whether `Khat` is so clearly positive definite that rounding does not matter.

@@ -53,8 +53,7 @@ impl<M: CurvatureKernels> Study<M> {
     /// # Errors
     /// As [`Study::chances`].
     pub fn chances_by(&self, wanted: &[Requirement], sampling: &Sampling<'_>) -> Result<Chances, Error> {
-        let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
-        toleranced.requirements(wanted)?.chances(sampling)
+        TolerancedMachine::of(&self.settings, &self.mechanism)?.requirements(wanted)?.chances(sampling)
     }
 
     /// Failure probabilities from design points, with importance factors and exact derivatives

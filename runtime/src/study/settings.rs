@@ -253,8 +253,7 @@ impl Settings {
     /// The tolerances of the design variables, followed by those of the inputs that have one.
     pub(super) fn tolerances(&self) -> Result<&Tolerances, Error> {
         self.ready()?;
-        let made = self.tolerances.get_or_init(|| self.tolerances_here());
-        made.as_ref().map_err(Error::clone)
+        self.tolerances.get_or_init(|| self.tolerances_here()).as_ref().map_err(Error::clone)
     }
 
     fn tolerances_here(&self) -> Result<Tolerances, Error> {

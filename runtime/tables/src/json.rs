@@ -162,8 +162,7 @@ pub fn read<A: Answer + DeserializeOwned>(file: impl Read) -> Result<A, Error> {
     }
     let Whole { lengths: written, description, mut result } = serde_json::from_value(document).map_err(content)?;
     if written != lengths(&description, &result) {
-        let reason = "its lists have not the lengths with which they were written";
-        return Err(Error::Content(reason.to_owned()));
+        return Err(Error::Content("its lists have not the lengths with which they were written".to_owned()));
     }
     put_back(&mut result, &description);
     serde_json::from_value(result).map_err(content)
@@ -196,8 +195,7 @@ fn kind(document: &Value) -> Result<&str, Error> {
             expected: VERSION,
         });
     }
-    let kind = document.get("kind").and_then(Value::as_str);
-    kind.ok_or(Error::Foreign)
+    document.get("kind").and_then(Value::as_str).ok_or(Error::Foreign)
 }
 
 /// Hash (FNV-1a) of the lengths of all lists in order, as text.

@@ -250,8 +250,7 @@ fn append(group: &dyn RowGroupReader, column: usize, to: &mut Values) -> Result<
         Values::Flags(all) => all.extend(entries::<BoolType>(reader, rows)?),
         Values::Texts(all) => {
             for entry in entries::<ByteArrayType>(reader, rows)? {
-                let text = entry.map(|entry| entry.as_utf8().map(str::to_owned)).transpose();
-                all.push(text.map_err(content)?);
+                all.push(entry.map(|entry| entry.as_utf8().map(str::to_owned)).transpose().map_err(content)?);
             }
         }
     }

@@ -72,8 +72,7 @@ pub(super) fn choose(
     let mut joints = joints.to_vec();
     joints.sort();
     let freedom = |id: &JointId| mechanism.joints[id.index()].steps.len();
-    let free = joints.iter().filter(|id| !needed[id.index()]);
-    let chosen = free.max_by_key(|id| freedom(id)).copied();
+    let chosen = joints.iter().filter(|id| !needed[id.index()]).max_by_key(|id| freedom(id)).copied();
     if chosen.is_none() && joints.is_empty() {
         let message = "a beam hangs on itself: something it carries holds its root";
         diagnostics.error_with_help(&mechanism.name, message, "let the ground, or a body before it, hold the root");

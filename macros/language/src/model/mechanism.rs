@@ -112,8 +112,7 @@ impl Mechanism {
 
     /// The beam that a body is.
     pub fn beam(&self, body: BodyId) -> Option<BeamId> {
-        let index = self.beams.iter().position(|beam| beam.body == body);
-        index.map(BeamId::new)
+        self.beams.iter().position(|beam| beam.body == body).map(BeamId::new)
     }
 
     /// The unit of frequencies in answers: Hz where an input turns something by the minute or the second, else rad/s.

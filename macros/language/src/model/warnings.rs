@@ -55,6 +55,5 @@ fn is_allowed(attributes: &[Attribute], lints: &[&str]) -> bool {
     };
     let levels = ["allow", "warn", "deny", "forbid"];
     let is_level = |a: &&Attribute| levels.iter().any(|level| a.path().is_ident(level));
-    let last = attributes.iter().filter(is_level).rfind(is_meant);
-    last.is_some_and(|attribute| attribute.path().is_ident("allow"))
+    attributes.iter().filter(is_level).rfind(is_meant).is_some_and(|attribute| attribute.path().is_ident("allow"))
 }

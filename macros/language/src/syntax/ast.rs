@@ -332,8 +332,7 @@ pub struct NamedCall {
 impl NamedCall {
     /// The values of the arguments, last first.
     fn values(&self) -> impl Iterator<Item = &Value> {
-        let arguments = self.arguments.iter().flatten().rev();
-        arguments.map(|argument| &argument.value)
+        self.arguments.iter().flatten().rev().map(|argument| &argument.value)
     }
 }
 

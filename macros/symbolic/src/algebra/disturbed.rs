@@ -81,8 +81,7 @@ impl Disturbed {
 
     /// What rounding may have added in a computation of that many operations.
     pub fn rounding(&self, operations: usize) -> f64 {
-        let changes = self.0.iter().map(|lane| (lane - self.value()).abs());
-        let most = changes.fold(0.0, f64::max);
+        let most = self.0.iter().map(|lane| (lane - self.value()).abs()).fold(0.0, f64::max);
         MARGIN * (operations as f64).sqrt() * UNIT_ROUNDOFF / AMPLITUDE * most
     }
 

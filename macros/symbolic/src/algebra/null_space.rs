@@ -56,8 +56,7 @@ impl NullSpace {
                 }
                 let largest = |of: Range<usize>, counts: &dyn Fn(&Disturbed) -> bool| {
                     let size = |k: &usize| row[*k].value().abs() / sizes[*k];
-                    let present = of.filter(|&k| counts(&row[k]));
-                    present.max_by(|a, b| size(a).total_cmp(&size(b)))
+                    of.filter(|&k| counts(&row[k])).max_by(|a, b| size(a).total_cmp(&size(b)))
                 };
                 let any = |entry: &Disturbed| !entry.is_zero();
                 let of_lead = largest(0..lead, &clear);
@@ -99,8 +98,7 @@ pub fn scale(rows: &mut [Vec<Disturbed>], operations: usize) {
         let size = if size > 0.0 { size } else { most };
         if size > 0.0 {
             let unit = Disturbed::exact(size);
-            let present = row.iter_mut().filter(|entry| !entry.is_zero());
-            present.for_each(|entry| *entry = *entry / unit);
+            row.iter_mut().filter(|entry| !entry.is_zero()).for_each(|entry| *entry = *entry / unit);
         }
     }
 }
@@ -113,8 +111,7 @@ struct Pivot {
 
 impl Pivot {
     fn new(column: usize, row: &[Disturbed]) -> Self {
-        let present = row.iter().enumerate().filter(|(_, entry)| !entry.is_zero());
-        let others = present.filter(|(k, _)| *k != column);
+        let others = row.iter().enumerate().filter(|(_, entry)| !entry.is_zero()).filter(|(k, _)| *k != column);
         Self { column, others: others.map(|(k, &entry)| (k, entry / row[column])).collect() }
     }
 

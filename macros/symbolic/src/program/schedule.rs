@@ -93,8 +93,7 @@ impl<'a> Schedule<'a> {
     }
 
     fn index(&self, id: ExprId) -> usize {
-        let index = self.needed.place(id);
-        index.expect("results need their operands")
+        self.needed.place(id).expect("results need their operands")
     }
 
     /// Places a value after everything that it needs.

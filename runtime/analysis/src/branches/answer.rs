@@ -221,8 +221,7 @@ fn special_columns(
     let mut table = Columns::new("special points", points);
     table.show_rows(shown);
     table.whole("branch", &|(branch, _)| Some(*branch));
-    let kind = table.words("kind", &|(_, x)| Some(x.kind.to_string()));
-    kind.shown().headed("special point");
+    table.words("kind", &|(_, x)| Some(x.kind.to_string())).shown().headed("special point");
     varied(&mut table, d, one.input, number, &|(_, x)| x.value);
     table.cells("state", &|(_, x)| x.equilibrium.stability_word());
     table.unknowns(d, &|(_, x)| Some(&x.equilibrium.coordinates[..]));

@@ -140,8 +140,7 @@ fn units(curve_position: &CurvePosition, large: &[f64], range: f64, system: &Sys
         work += (force.sum::<f64>() + (system.by_input[i] * range).abs()) * units.q[i];
     }
     for j in motions..n {
-        let held = (0..motions).map(|i| (system.stiffness[i][j] * units.q[i]).abs());
-        let force = work / held.fold(0.0, f64::max);
+        let force = work / (0..motions).map(|i| (system.stiffness[i][j] * units.q[i]).abs()).fold(0.0, f64::max);
         if force.is_finite() {
             units.q[j] = units.q[j].max(force);
         }

@@ -95,8 +95,7 @@ pub(crate) fn common_slopes(
     let couplings = modal_couplings(mechanism, at, modes, &modes.cluster_of(mode)).ok()?;
     let size = couplings.mean().norm();
     let splits = |(matrix, variable): (&Matrix<Complex>, &f64)| {
-        let elements = matrix.as_flattened().iter();
-        let largest = elements.fold(0.0_f64, |most, element| most.max(element.norm()));
+        let largest = matrix.as_flattened().iter().fold(0.0_f64, |most, element| most.max(element.norm()));
         let rounding = ROUNDING * largest.max(size / variable.abs());
         let common = couplings.trace(matrix);
         let count = couplings.modes.len();

@@ -178,8 +178,7 @@ fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Erro
         return Err(refuse("eigenvalues of undamped modes are real".to_owned()));
     }
     for (k, matrix) in couplings.by_design.iter().enumerate() {
-        let elements = matrix.as_flattened().iter();
-        let size = elements.fold(0.0_f64, |most, x| most.max(x.l1_norm()));
+        let size = matrix.as_flattened().iter().fold(0.0_f64, |most, x| most.max(x.l1_norm()));
         let mirrored = |i: usize, j: usize| (matrix[i][j] - matrix[j][i].conj()).l1_norm();
         let wrong = |i: usize, j: usize| mirrored(i, j).max(matrix[i][j].im.abs());
         if (0..m).any(|i| (0..m).any(|j| wrong(i, j) > SYMMETRIC * size)) {

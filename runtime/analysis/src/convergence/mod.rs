@@ -105,8 +105,7 @@ impl Convergence {
             _ => answer,
         };
         let alike = |all: &[(Response, f64)], answer| -> Vec<f64> {
-            let alike = all.iter().filter(|(other, _)| unnumbered(*other) == answer);
-            alike.map(|(_, value)| *value).collect()
+            all.iter().filter(|(other, _)| unnumbered(*other) == answer).map(|(_, value)| *value).collect()
         };
         for (k, (answer, value)) in declared.iter().enumerate() {
             let place = alike(&declared[..k], unnumbered(*answer)).len();

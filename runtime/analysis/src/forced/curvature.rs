@@ -68,8 +68,7 @@ impl ForcedCurvature {
     pub fn modulus(&self, harmonic: usize, output: Output, measure: Measure) -> Option<SecondDerivatives<f64>> {
         let y = self.first.value(harmonic, output, measure)?;
         let slopes = self.first.complex(harmonic, output, measure)?;
-        let second = self.complex(harmonic, output, measure)?;
-        Some(second.combine(&slopes, |a, b, ab| modulus_curvature(y, [a, b], ab)))
+        Some(self.complex(harmonic, output, measure)?.combine(&slopes, |a, b, ab| modulus_curvature(y, [a, b], ab)))
     }
 
     /// Second derivatives of the phase, rad; `None` also where the modulus is zero.
@@ -77,8 +76,7 @@ impl ForcedCurvature {
     pub fn phase(&self, harmonic: usize, output: Output, measure: Measure) -> Option<SecondDerivatives<f64>> {
         let y = self.first.value(harmonic, output, measure)?;
         let slopes = self.first.complex(harmonic, output, measure)?;
-        let second = self.complex(harmonic, output, measure)?;
-        Some(second.combine(&slopes, |a, b, ab| (ab / y - a / y * (b / y)).im))
+        Some(self.complex(harmonic, output, measure)?.combine(&slopes, |a, b, ab| (ab / y - a / y * (b / y)).im))
     }
 }
 

@@ -178,8 +178,7 @@ impl<'a> Lines<'a> {
         let y = harmonic.outputs[output].ok_or(NOT_SMOOTH)?;
         let w = harmonic.frequency;
         let dw = frequency_along(mechanism, at, vibration, &self.along);
-        let moved = self.along.of(vibration, dw);
-        let dy = moved.output(&self.solved, output).ok_or(NOT_SMOOTH)?;
+        let dy = self.along.of(vibration, dw).output(&self.solved, output).ok_or(NOT_SMOOTH)?;
         let seen = &vibration.seen[output];
         let (forces, mut force) = (Forces::of(mechanism, at), Vector::zeros(at.coordinates.len()));
         for share in &harmonic.shares {

@@ -65,8 +65,7 @@ impl<'a> SideBySide<'a> {
         if lanes == 0 {
             return;
         }
-        let lists = self.state.iter().chain(&self.factors);
-        let arguments: Vec<&[Batch]> = lists.map(Vec::as_slice).collect();
+        let arguments: Vec<&[Batch]> = self.state.iter().chain(&self.factors).map(Vec::as_slice).collect();
         let (coordinates, rest) = self.found.split_at_mut(self.at.coordinates.len());
         let (inputs, design) = rest.split_at_mut(self.at.inputs.len());
         let results = &mut [coordinates, inputs, design];

@@ -36,8 +36,7 @@ impl Vibration {
     /// Every output under every harmonic, as a displacement.
     #[must_use]
     pub fn all(of: &Description) -> Vec<Self> {
-        let harmonics = of.excitations.iter().enumerate();
-        let firsts = harmonics.filter(|(k, info)| info.with == *k);
+        let firsts = of.excitations.iter().enumerate().filter(|(k, info)| info.with == *k);
         let each = |(k, _)| {
             (0..of.outputs.len()).map(Output::<Any>::new).map(move |output| Self::new(output, Excitation::new(k)))
         };
@@ -184,8 +183,7 @@ impl Vibration {
     /// The position of its harmonic.
     pub(crate) fn place(&self, of: &Description) -> Option<usize> {
         let with = of.excitations.get(self.excitation.index())?.with;
-        let firsts = of.excitations.iter().enumerate().take(with + 1);
-        firsts.filter(|(k, info)| info.with == *k).count().checked_sub(1)
+        of.excitations.iter().enumerate().take(with + 1).filter(|(k, info)| info.with == *k).count().checked_sub(1)
     }
 
     pub(crate) fn name(&self, of: &Description) -> String {

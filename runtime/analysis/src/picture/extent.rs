@@ -28,8 +28,7 @@ impl Solid {
             }
             Shape::Sphere { radius } => *radius,
             Shape::Ellipsoid { axes, semi_axes } => {
-                let squares = axes.iter().zip(semi_axes);
-                squares.map(|(axis, length)| (along(*axis) * length).powi(2)).sum::<f64>().sqrt()
+                axes.iter().zip(semi_axes).map(|(axis, length)| (along(*axis) * length).powi(2)).sum::<f64>().sqrt()
             }
         }
     }

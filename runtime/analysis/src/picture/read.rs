@@ -157,8 +157,7 @@ impl Numbers {
 
     /// The poses of all bodies, then of the sections of all beams.
     fn poses(&mut self, info: &PictureInfo) -> Vec<Pose> {
-        let sections = info.beams.iter().map(|beam| beam.sections as usize);
-        let count = info.bodies.len() + sections.sum::<usize>();
+        let count = info.bodies.len() + info.beams.iter().map(|beam| beam.sections as usize).sum::<usize>();
         (0..count).map(|_| self.pose()).collect()
     }
 

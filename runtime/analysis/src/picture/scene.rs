@@ -69,8 +69,7 @@ impl Scene {
     /// The number of poses: of all bodies, then of the sections of all beams.
     #[must_use]
     pub fn poses(&self) -> usize {
-        let sections = self.beams.iter().map(|beam| beam.sections.len());
-        self.bodies.len() + sections.sum::<usize>()
+        self.bodies.len() + self.beams.iter().map(|beam| beam.sections.len()).sum::<usize>()
     }
 
     /// Transforms a place on a body, or on the ground, to the common frame.

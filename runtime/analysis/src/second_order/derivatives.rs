@@ -79,8 +79,7 @@ impl<T: Copy> SecondDerivatives<T> {
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = &T> {
-        let blocks = [&self.by_input, &self.by_input_and_design, &self.by_design];
-        blocks.into_iter().flat_map(Matrix::as_flattened)
+        [&self.by_input, &self.by_input_and_design, &self.by_design].into_iter().flat_map(Matrix::as_flattened)
     }
 }
 

@@ -44,8 +44,7 @@ impl Standard {
 
     /// Moves the largest coefficient into the scale.
     fn rescale(&mut self) -> Result<(), Error> {
-        let parts = self.linear.iter().chain(&self.quadratic);
-        let size = parts.fold(0.0, |most: f64, value| most.max(value.abs()));
+        let size = self.linear.iter().chain(&self.quadratic).fold(0.0, |most: f64, value| most.max(value.abs()));
         if size == 0.0 {
             self.scale = 0.0;
             return Ok(());

@@ -379,8 +379,7 @@ impl<'a> Tracker<'a> {
         }
         self.from.clone_from(&state.coordinates);
         self.path.go(value, state.coordinates.iter().copied());
-        let labels = point_modes.modes.iter().map(|mode| mode.label + 1);
-        self.unused = labels.fold(self.unused, usize::max);
+        self.unused = point_modes.modes.iter().map(|mode| mode.label + 1).fold(self.unused, usize::max);
         self.spare = self.last.replace(point);
         Ok(Step::Arrived)
     }

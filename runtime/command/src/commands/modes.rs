@@ -57,8 +57,7 @@ impl Modes {
         }
         if let Some(path) = &self.motion {
             let page = eigentol_report::motion(&question.study, &style)?;
-            let written = Target::of(path).write(page.as_bytes());
-            written.map_err(|source| Failure::write(path, source))?;
+            Target::of(path).write(page.as_bytes()).map_err(|source| Failure::write(path, source))?;
         }
         self.output.write(&answer)?;
         Ok(Verdict::of(&question.study)?)

@@ -95,8 +95,7 @@ impl Probability {
         }
         self.output.write(&answer)?;
         if interrupt::stopped() {
-            let reason = "the probabilities are those of the samples that were drawn";
-            return Ok(Verdict::Stopped(reason.to_owned()));
+            return Ok(Verdict::Stopped("the probabilities are those of the samples that were drawn".to_owned()));
         }
         Ok(verdict(&allowed, &probabilities))
     }

@@ -85,8 +85,7 @@ impl Report {
         drop(bar);
         self.place.write(&html)?;
         if interrupt::stopped() {
-            let reason = "the report says what is done";
-            return Ok(Verdict::Stopped(reason.to_owned()));
+            return Ok(Verdict::Stopped("the report says what is done".to_owned()));
         }
         // An equilibrium or modes that the report lacks count here as the answer "no".
         Ok(Verdict::of(&study)?)

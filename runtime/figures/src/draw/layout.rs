@@ -114,8 +114,7 @@ fn wrapped(text: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     let words = text.split(' ').flat_map(|word| {
         let letters: Vec<char> = word.chars().collect();
-        let pieces = letters.chunks(LINE).map(|piece| piece.iter().collect());
-        pieces.collect::<Vec<String>>()
+        letters.chunks(LINE).map(|piece| piece.iter().collect()).collect::<Vec<String>>()
     });
     for word in words {
         let full = |line: &String| line.chars().count() + word.chars().count() >= LINE;

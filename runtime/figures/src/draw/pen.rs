@@ -43,8 +43,7 @@ fn fit(text: &str, size: i32, room: i32) -> (i32, String) {
         return (size, text.to_owned());
     }
     let letters = (f64::from(room) / (LETTER * f64::from(px(SMALLEST)))) as usize;
-    let kept = text.chars().take(letters.saturating_sub(3));
-    (SMALLEST, kept.chain("...".chars()).collect())
+    (SMALLEST, text.chars().take(letters.saturating_sub(3)).chain("...".chars()).collect())
 }
 
 /// A path in parts that end where it turns back: the pixel backend cuts such a spike short.

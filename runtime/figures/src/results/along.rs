@@ -210,6 +210,5 @@ pub(crate) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
 /// The unit of an input; a pure number if the input is unknown.
 pub(crate) fn input_unit(d: &Description, input: Input) -> Unit {
     let pure = || Unit { symbol: "".into(), scale: 1.0 };
-    let input = d.inputs.get(input.index());
-    input.map_or_else(pure, |info| info.unit.clone())
+    d.inputs.get(input.index()).map_or_else(pure, |info| info.unit.clone())
 }

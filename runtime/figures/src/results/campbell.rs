@@ -109,8 +109,7 @@ fn reached(panel: &Panel, result: &Campbell, scale: f64) -> Option<f64> {
     let unit = input_unit(&result.description, result.input);
     let ends = panel.x.range.map(|end| unit.to_si(end));
     let lines = result.orders.iter();
-    let heights = lines.flat_map(|line| ends.map(|end| scale * (line.ratio * end + line.offset)));
-    let lines = heights.reduce(f64::max)?;
+    let lines = lines.flat_map(|line| ends.map(|end| scale * (line.ratio * end + line.offset))).reduce(f64::max)?;
     let greatest = |curve: &Curve| curve.pieces.iter().flatten().fold(0.0, |most: f64, point| most.max(point[1]));
     let lowest = panel.curves.iter().map(greatest).reduce(f64::min)?;
     Some((1.2 * lines).max(1.2 * lowest))

@@ -14,8 +14,7 @@ const MOST: usize = 14;
 
 /// Events in the order of their numbers: crossings, critical values, flutter onsets, each ascending.
 pub(crate) fn events(campbell: &Campbell) -> Vec<&EventTolerance> {
-    let lists = [&campbell.crossings, &campbell.critical, &campbell.flutter_onsets];
-    lists.into_iter().flatten().collect()
+    [&campbell.crossings, &campbell.critical, &campbell.flutter_onsets].into_iter().flatten().collect()
 }
 
 /// How an event is drawn.

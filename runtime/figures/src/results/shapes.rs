@@ -76,8 +76,7 @@ pub fn participation(result: &Modes, at: &Equilibrium, style: &Style) -> Result<
     let mut panel = panel(result, "share of kinetic energy", "%");
     for (r, mode) in shown.iter().enumerate() {
         let product = |i: usize| -> Option<f64> {
-            let row = mass.iter().nth(i)?;
-            let complex: Complex = row.iter().zip(mode.shape.iter()).map(|(m, phi)| phi * *m).sum();
+            let complex: Complex = mass.iter().nth(i)?.iter().zip(mode.shape.iter()).map(|(m, phi)| phi * *m).sum();
             Some((mode.shape.get(i)?.conj() * complex).re)
         };
         let all: Option<Vec<f64>> = (0..mode.shape.len()).map(product).collect();

@@ -76,8 +76,7 @@ impl<'a> Spreads<'a> {
     /// # Errors
     /// [`Error::Nothing`] where the mode has no spread anywhere.
     pub fn figure(&self, style: &Style) -> Result<Figure, Error> {
-        let firsts = self.series.iter().flat_map(|x| x.first_order);
-        let about = firsts.map(|first| (&first.description, &first.inputs));
+        let about = self.series.iter().flat_map(|x| x.first_order).map(|first| (&first.description, &first.inputs));
         let sampled = self.series.iter().flat_map(|x| x.sampled);
         let mut about = about.chain(sampled.map(|sampled| (&sampled.description, &sampled.inputs)));
         let name = style.mode(self.mode);

@@ -69,8 +69,7 @@ impl<T: Field> Lu<T> {
         let mut size = Vector::zeros(n);
         let size = &mut size[..n];
         for i in 0..n {
-            let row = factors[i * n..(i + 1) * n].iter();
-            size[i] = row.fold(0.0, |most: f64, value| most.max(value.size()));
+            size[i] = factors[i * n..(i + 1) * n].iter().fold(0.0, |most: f64, value| most.max(value.size()));
         }
         for k in 0..n {
             let Some(best) = pivot_row(n, k, factors, size) else {

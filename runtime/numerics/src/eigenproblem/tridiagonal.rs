@@ -162,8 +162,7 @@ fn mix(carried: &mut [f64], columns: usize, i: usize, (sine, cosine): (f64, f64)
 fn sweep(d: &mut [f64], e: &mut [f64], (first, last): (usize, usize), carried: &mut [f64]) {
     let columns = carried.len() / d.len();
     let ratio = (d[first + 1] - d[first]) / (2.0 * e[first]);
-    let root = (ratio * ratio + 1.0).sqrt();
-    let mut g = d[last] - d[first] + e[first] / (ratio + root.copysign(ratio));
+    let mut g = d[last] - d[first] + e[first] / (ratio + (ratio * ratio + 1.0).sqrt().copysign(ratio));
     let (mut sine, mut cosine, mut p) = (1.0, 1.0, 0.0);
     for i in (first..last).rev() {
         let (f, b) = (sine * e[i], cosine * e[i]);

@@ -50,8 +50,7 @@ macro_rules! result {
 
             #[classmethod]
             fn _restored(class: &Bound<'_, pyo3::types::PyType>, document: &str, text: &str) -> PyResult<Self> {
-                let read = $read(document, Some(text));
-                read.map(Self).map_err(|error| $crate::results::refused(class.py(), &error))
+                $read(document, Some(text)).map(Self).map_err(|error| $crate::results::refused(class.py(), &error))
             }
 
             /// A table of the result as a dictionary, a column for each heading ("frequency [rad/s]"), which
@@ -111,8 +110,7 @@ macro_rules! result {
             /// The result that such a document holds, bit for bit. Raises InvalidValue for another text.
             #[classmethod]
             fn from_json(class: &Bound<'_, pyo3::types::PyType>, text: &str) -> PyResult<Self> {
-                let read = $read(text, None);
-                read.map(Self).map_err(|error| $crate::results::refused(class.py(), &error))
+                $read(text, None).map(Self).map_err(|error| $crate::results::refused(class.py(), &error))
             }
 
             /// Names of the tables.

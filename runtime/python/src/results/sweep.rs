@@ -16,8 +16,7 @@ result! {
 impl Sweep {
     fn labels(&self) -> usize {
         let modes = self.0.points.iter().filter_map(|point| point.modes.as_ref().ok());
-        let labels = modes.flat_map(|x| x.modes.iter().map(|mode| mode.label + 1));
-        labels.max().unwrap_or(0)
+        modes.flat_map(|x| x.modes.iter().map(|mode| mode.label + 1)).max().unwrap_or(0)
     }
 
     fn by_label<'py, T: numpy::Element + Copy>(
@@ -71,8 +70,7 @@ fn searched(of: Option<&Searched>) -> Option<(f64, f64, f64)> {
 fn unsearched(of: Option<&Searched>) -> Vec<(f64, f64)> {
     let unresolved = of.iter().flat_map(|x| &x.unresolved);
     let gaps = of.iter().flat_map(|x| &x.gaps);
-    let ends = unresolved.map(|x| (x.from, x.to));
-    ends.chain(gaps.map(|gap| (gap.from, gap.to))).collect()
+    unresolved.map(|x| (x.from, x.to)).chain(gaps.map(|gap| (gap.from, gap.to))).collect()
 }
 
 attributes! {

@@ -59,8 +59,7 @@ fn all(content: &Content) -> Vec<Line> {
             lines.extend(tolerances(spread, &foremost, &content.brief_style));
         }
     }
-    let along = content.along.as_ref().map(|x| along(x, &content.brief_style));
-    lines.extend(along.unwrap_or_default());
+    lines.extend(content.along.as_ref().map(|x| along(x, &content.brief_style)).unwrap_or_default());
     lines
 }
 

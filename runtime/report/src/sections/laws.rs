@@ -48,8 +48,7 @@ pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) 
 fn words(variable: &Variable<'_>, law: &Distribution, sigma_level: f64) -> String {
     let mean = number(variable.unit.from_si(law.mean()));
     let band = digits(variable.unit.from_si(sigma_level * law.sigma()), 3);
-    let text = format!("{}, {mean} \u{b1} {band} {}", law.name(), variable.unit.symbol);
-    text.trim_end().to_owned()
+    format!("{}, {mean} \u{b1} {band} {}", law.name(), variable.unit.symbol).trim_end().to_owned()
 }
 
 fn drawing(html: &mut Html, variable: &Variable<'_>, law: &Distribution) {
@@ -72,8 +71,7 @@ fn drawing(html: &mut Html, variable: &Variable<'_>, law: &Distribution) {
     let label = format!("Density of {}", variable.name);
     let attributes = [("viewBox", &*view), ("role", "img"), ("aria-label", &*label)];
     html.element("svg", &attributes, |html| {
-        let ends = [-1.0, 1.0].map(|side| law.mean() + side * variable.half_width);
-        let [left, right] = ends.map(x);
+        let [left, right] = [-1.0, 1.0].map(|side| law.mean() + side * variable.half_width).map(x);
         let numbers = [left, 0.0, right - left, base].map(|x| format!("{x:.1}"));
         let [left, top, width, height] = &numbers;
         let shade = [("class", "shade"), ("x", left), ("y", top), ("width", width), ("height", height)];

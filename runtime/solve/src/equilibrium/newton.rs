@@ -88,8 +88,7 @@ where
 
 /// The largest motion of a step in these units.
 fn size_in(units: &[f64], step: &[f64]) -> f64 {
-    let motions = step.iter().zip(units);
-    motions.fold(0.0, |most, (step, unit)| greater(most, (step / unit).abs()))
+    step.iter().zip(units).fold(0.0, |most, (step, unit)| greater(most, (step / unit).abs()))
 }
 
 /// Shortens a step whose motions are larger than `radius`; returns the share of it that is left.

@@ -98,8 +98,7 @@ fn newton(
         // NaN, infinite and overflowing values fail one of the two.
         let slope = dot(step, residual);
         let rows = stiffness.chunks_exact(n.max(1));
-        let forces = step.iter().zip(rows);
-        let curvature = forces.fold(-0.0, |sum, (x, row)| sum + x * dot(row, step));
+        let curvature = step.iter().zip(rows).fold(-0.0, |sum, (x, row)| sum + x * dot(row, step));
         let finite = slope.is_finite() && curvature.is_finite();
         if !(way.slope < 0.0 && finite && way.falls(1.0, slope, curvature)) {
             return Err(progress);

@@ -284,8 +284,7 @@ impl<'a> OperatingPoint<'a> {
 
     /// The largest component of a step, relative to [large changes](Description::large).
     pub(super) fn size_of(&self, step: &[f64]) -> f64 {
-        let sizes = step.iter().enumerate();
-        sizes.map(|(i, step)| (step / self.description.large(i)).abs()).fold(0.0, greater)
+        step.iter().enumerate().map(|(i, step)| (step / self.description.large(i)).abs()).fold(0.0, greater)
     }
 
     /// Inertia and applied forces at rest, which may not be finite.

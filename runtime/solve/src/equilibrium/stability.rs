@@ -74,8 +74,7 @@ pub fn judge(
 ) -> Result<Verdict, Failure> {
     let description = &mechanism.description();
     let structure = Structure::of(description);
-    let free = FreeDirections::of(&linear.stiffness, description.free_directions);
-    let held = free.held(&linear.stiffness);
+    let held = FreeDirections::of(&linear.stiffness, description.free_directions).held(&linear.stiffness);
     let doubt = |lambda, phi: &[f64]| rounding::of_data(mechanism, at, &held, (lambda, phi));
     let count = description.free_directions;
     let general = |unstable, floor| by_eigenvalues((linear, nearby), (description, count), unstable, floor);
@@ -248,8 +247,7 @@ fn dissipates(linear: &Linear) -> bool {
     let unit = linear.mass.iter().enumerate().map(|(i, row)| row[i].sqrt());
     let unit: Vector = unit.collect();
     let rounding = |i: usize| {
-        let elements = (0..n).map(|j| (damping[i][j].abs() + damping[j][i].abs()) / unit[j]);
-        let sum = unit[i] * elements.sum::<f64>();
+        let sum = unit[i] * (0..n).map(|j| (damping[i][j].abs() + damping[j][i].abs()) / unit[j]).sum::<f64>();
         if sum > 0.0 { MARGIN * rounding::of_elements(n) * sum } else { 1.0 }
     };
     let symmetric_part = |i: usize, j: usize| 0.5 * (damping[i][j] + damping[j][i]);

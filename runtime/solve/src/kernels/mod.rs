@@ -265,8 +265,7 @@ impl dyn Kernels + '_ {
     #[doc(hidden)]
     pub fn deviation(&self, input: usize, b: &[f64]) -> f64 {
         let of_input = |(design, _): &(usize, &f64)| self.input_of_deviation(*design) == Some(input);
-        let deviations = b.iter().enumerate().filter(of_input);
-        deviations.map(|(_, deviation)| deviation).sum()
+        b.iter().enumerate().filter(of_input).map(|(_, deviation)| deviation).sum()
     }
 
     /// Residual at rest.

@@ -148,8 +148,7 @@ impl<'a> Deflated<'a> {
             })
             .collect();
         for (a, z) in self.right.iter().enumerate() {
-            let row = self.inverse[a].iter().zip(&along);
-            let amount: Complex64 = row.map(|(inverse, along)| along * inverse).sum();
+            let amount: Complex64 = self.inverse[a].iter().zip(&along).map(|(inverse, along)| along * inverse).sum();
             for (phi, z) in phi.iter_mut().zip(z) {
                 *phi -= amount * z;
             }
@@ -177,8 +176,7 @@ impl<'a> Deflated<'a> {
             })
             .collect();
         for (b, w) in self.left.iter().enumerate() {
-            let column = along.iter().enumerate();
-            let amount: Complex64 = column.map(|(a, along)| along * self.inverse[a][b]).sum();
+            let amount: Complex64 = along.iter().enumerate().map(|(a, along)| along * self.inverse[a][b]).sum();
             for (psi, w) in psi.iter_mut().zip(w) {
                 *psi -= amount * w;
             }
@@ -414,11 +412,9 @@ impl WithoutZeros {
 
     /// How far the rounding of its elements may move an eigenvalue.
     fn moves(&self, root: &Root) -> f64 {
-        let products = root.left.iter().zip(&root.right);
-        let rate = products.map(|(l, r)| l * r).sum::<Complex64>().norm();
+        let rate = root.left.iter().zip(&root.right).map(|(l, r)| l * r).sum::<Complex64>().norm();
         let moved = root.left.iter().zip(self.terms.iter()).fold(0.0, |sum, (l, row)| {
-            let along = row.iter().zip(&root.right);
-            sum + l.norm() * along.map(|(term, r)| term * r.norm()).sum::<f64>()
+            sum + l.norm() * row.iter().zip(&root.right).map(|(term, r)| term * r.norm()).sum::<f64>()
         });
         f64::EPSILON * moved / rate
     }
@@ -439,8 +435,7 @@ impl WithoutZeros {
         let mut y = placed(self.size(), &self.kept, e);
         let along: Vec<Complex64> = self.zeros.iter().map(|z| product_with(z, &y)).collect();
         for (i, &index) in self.left_out.iter().enumerate() {
-            let column = along.iter().enumerate();
-            y[index] = -column.map(|(k, along)| along * self.inverse[k][i]).sum::<Complex64>();
+            y[index] = -along.iter().enumerate().map(|(k, along)| along * self.inverse[k][i]).sum::<Complex64>();
         }
         y
     }

@@ -217,8 +217,7 @@ impl Factors {
         {
             return Ok(Self::Definite(factors));
         }
-        let factors = Lu::of(stiffness.transpose());
-        factors.map(Self::General).ok_or(Error::CriticalState)
+        Lu::of(stiffness.transpose()).map(Self::General).ok_or(Error::CriticalState)
     }
 
     /// Solves in place for a right-hand side of `n` numbers; see [`for_size`].

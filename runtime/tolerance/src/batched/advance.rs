@@ -71,8 +71,7 @@ impl<'a> Workspace<'a> {
                 slopes(kernels, instructions, block, derivatives);
             }
         }
-        let passed = block.flags.0[..number].iter().take_while(|flag| **flag == 1.0);
-        passed.count()
+        block.flags.0[..number].iter().take_while(|flag| **flag == 1.0).count()
     }
 }
 

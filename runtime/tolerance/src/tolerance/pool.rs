@@ -67,10 +67,9 @@ pub fn run<R, T: Send>(
             Ok((0..pieces).map(|index| work(&mut room, index)).collect())
         }
         (0, None) => Ok((0..pieces).into_par_iter().map_init(room, work).collect()),
-        (threads, size) => Ok(of(threads, size)?.install(|| {
-            let pieces = (0..pieces).into_par_iter();
-            pieces.map_init(room, work).collect()
-        })),
+        (threads, size) => {
+            Ok(of(threads, size)?.install(|| (0..pieces).into_par_iter().map_init(room, work).collect()))
+        }
     }
 }
 

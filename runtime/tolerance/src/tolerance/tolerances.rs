@@ -194,8 +194,7 @@ impl Tolerances {
         if let Some((joint, _)) = &self.joint {
             return Ok(joint.variables().to_vec());
         }
-        let means = nominal.iter().zip(&self.shifts);
-        let each = means.zip(&self.sigmas);
+        let each = nominal.iter().zip(&self.shifts).zip(&self.sigmas);
         Ok(each
             .map(|((nominal, shift), sigma)| Distribution::normal(nominal + shift, *sigma))
             .collect::<Result<_, _>>()?)

@@ -56,8 +56,7 @@ impl Model for Vibrations<'_> {
     fn evaluate(&self, (design, values): &mut Self::Room, points: &[Vector], take: &mut Take<'_>) -> Result<(), Error> {
         for (k, z) in points.iter().enumerate() {
             self.space.design(z, design);
-            let harmonics = self.harmonics.iter();
-            let amplitudes: Vec<_> = harmonics.map(|model| model.as_ref()?.amplitudes(design)).collect();
+            let amplitudes: Vec<_> = self.harmonics.iter().map(|model| model.as_ref()?.amplitudes(design)).collect();
             for (value, vibration) in values.iter_mut().zip(&self.wanted) {
                 *value = vibration.value(self.description, |harmonic, output| {
                     let (frequency, outputs) = amplitudes.get(harmonic)?.as_ref()?;
@@ -132,8 +131,7 @@ fn check(
     let space = model.space;
     let both = Both { designs: Designs::new(responses, space), model };
     let unknowns = responses.nominal().coordinates.len();
-    let task = Task { model: &both, scales: [scales, scales].concat(), unknowns, space };
-    let parts = task.gather(sampling)?;
+    let parts = Task { model: &both, scales: [scales, scales].concat(), unknowns, space }.gather(sampling)?;
     let (gathered, count) = (Gathered(&parts), scales.len());
     let compared = |k: usize| {
         let sigma = |index| -> Result<_, Error> {
@@ -183,8 +181,7 @@ impl Model for Both<'_> {
             })?;
             self.model.evaluate(model, one, &mut |_, predicted| {
                 let exact = values.clone();
-                let alike = predicted.values.iter().zip(exact);
-                values.extend(alike.map(|(x, exact)| exact.and(*x)));
+                values.extend(predicted.values.iter().zip(exact).map(|(x, exact)| exact.and(*x)));
                 take(k, Evaluated { design: predicted.design, outcome, values: &values })
             })?;
         }

@@ -103,8 +103,7 @@ pub(crate) fn slopes_at(
 /// Whether the limit is crossed at this point.
 fn crosses(limit: &LimitAt<'_>, at: &reliability::DesignPoint) -> bool {
     let beside = |step: f64| {
-        let moved = at.point.iter().zip(&at.direction);
-        let z: Vec<f64> = moved.map(|(z, n)| z + step * n).collect();
+        let z: Vec<f64> = at.point.iter().zip(&at.direction).map(|(z, n)| z + step * n).collect();
         limit.value(&z).ok()
     };
     let (before, beyond) = (beside(-STEP), beside(STEP));

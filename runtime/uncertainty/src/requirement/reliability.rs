@@ -335,8 +335,7 @@ impl<'a> About<'a> {
 
     /// The directions in which stability is lost no less probably than within this distance.
     fn unstable_within(&self, distance: f64) -> impl Iterator<Item = Direction> {
-        let ways = self.unstable.iter().filter(move |way| way.distance <= distance);
-        ways.cloned()
+        self.unstable.iter().filter(move |way| way.distance <= distance).cloned()
     }
 }
 

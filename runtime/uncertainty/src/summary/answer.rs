@@ -120,8 +120,7 @@ impl Summary {
         table.number("sigma, first order", "rad/s", &|row| Some(row.spread()?.sigma));
         table.cells("sigma: first order", &|row| or_dash(row.sigma().map(in_unit), rough));
         table.number("sigma, second order", "rad/s", &|row| {
-            let second = self.second.modes.get(row.mode).filter(|_| row.alone)?;
-            Some(second.as_ref().ok()?.frequency.moments.sigma)
+            Some(self.second.modes.get(row.mode).filter(|_| row.alone)?.as_ref().ok()?.frequency.moments.sigma)
         });
         table.cells("second order", &|row| {
             let nominal = row.first.behaviour.frequency().unwrap_or(0.0);
@@ -174,8 +173,7 @@ impl Summary {
     }
 
     fn doubted(&self, said: &mut Findings) {
-        let modes = self.trust.iter();
-        let rows = modes.flat_map(|mode| mode.doubts.iter().map(move |doubt| (mode.mode, doubt)));
+        let rows = self.trust.iter().flat_map(|mode| mode.doubts.iter().map(move |doubt| (mode.mode, doubt)));
         let rows: Vec<_> = rows.collect();
         let mut table = Columns::new("doubts", &rows);
         table.whole("mode", &|(mode, _)| Some(mode + 1));

@@ -48,8 +48,7 @@ pub(crate) fn require_harmonic(
 /// The running coordinates that keep turning, with their places.
 fn running(context: &Context) -> Vec<(usize, CoordinateId)> {
     let runs = |id: CoordinateId| context.mechanism.coordinates[id.index()].motion.runs();
-    let coordinates = context.topology.running().enumerate();
-    coordinates.filter(|(_, id)| runs(*id)).collect()
+    context.topology.running().enumerate().filter(|(_, id)| runs(*id)).collect()
 }
 
 /// With `a` and `b` the derivatives along both directions across the axis, every running coordinate must have

@@ -16,8 +16,7 @@ pub(crate) fn poses(g: &mut Graph, context: &Context, kinematics: &Kinematics) -
         let motion = kinematics.of(branch.body);
         let turns: Vec<Vector3> = motion.steps.iter().filter_map(|step| step.turn).collect();
         if let [first, second, third] = turns[..] {
-            let normal = first.cross(g, second);
-            let margin = normal.dot(g, third);
+            let margin = first.cross(g, second).dot(g, third);
             let joint = context.mechanism.joints[branch.joint.index()].name.to_string();
             poses.push(Pose { joint, margin, least: 0.0 });
         }

@@ -200,8 +200,7 @@ fn inertia_of_a_body(g: &mut Graph, body: &str, [x, y, z]: [Vector3; 3]) -> Vec<
             let quantity = format!("the {name} minor of tr(J)/2 - J");
             list.push(require(&quantity, "kg^2*m^4", g.sub(product, square)));
         }
-        let normal = x.cross(g, y);
-        let determinant = normal.dot(g, z);
+        let determinant = x.cross(g, y).dot(g, z);
         list.push(require("the determinant of tr(J)/2 - J", "kg^3*m^6", determinant));
     }
     list

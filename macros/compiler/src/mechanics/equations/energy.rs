@@ -68,8 +68,7 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
     }
     for (index, beam) in context.mechanism.beams.iter().enumerate() {
         let inertia = BeamInertia::new(g, context, BeamId::new(index));
-        let position = kinematics.of(beam.body).frame.position;
-        let mut first = position.scale(g, inertia.mass);
+        let mut first = kinematics.of(beam.body).frame.position.scale(g, inertia.mass);
         let arms = kinematics.beams[index].arms();
         for ((_, arm), &share) in arms.zip(&inertia.first) {
             let share = arm.vector.scale(g, share);

@@ -139,8 +139,7 @@ fn axis(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId)
             if carrier == body {
                 return Some(step.own_axis);
             }
-            let axes = kinematics.of(body).frame.orientation.axes.transpose();
-            let axis = axes.apply(g, step.turn?);
+            let axis = kinematics.of(body).frame.orientation.axes.transpose().apply(g, step.turn?);
             let zeros = vec![g.zero(); context.symbols.q.ids.len()];
             let straight: Vec<_> = context.symbols.q.with(&zeros).collect();
             let axis = substitute(g, &axis.0, &straight);

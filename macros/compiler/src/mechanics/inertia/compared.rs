@@ -30,8 +30,7 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
     let running = vec![g.zero(); symbols.running.ids.len()];
     let loads = inertial_at(g, &context, &running, ForceSelection::ALL);
     let variation = variation(g, &context, &running)?;
-    let free = topology.free.iter();
-    let along: Vec<ExprId> = free.map(|id| loads.along[id.index()]).collect();
+    let along: Vec<ExprId> = topology.free.iter().map(|id| loads.along[id.index()]).collect();
     let along = runs.forces(g, &along);
     let along = context.in_unknowns(g, &along);
     let mut exact = columns(g, &along, &symbols.q).concat();
@@ -45,6 +44,5 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
     assert!(probe(&evaluator, &context).next().is_some());
     let equal = vanish(g, &context, &differences);
     assert!(equal.iter().all(|equal| *equal), "{equal:?}");
-    let zeros = vanish(g, &context, &exact);
-    Some(zeros.into_iter().filter(|zero| !zero).count())
+    Some(vanish(g, &context, &exact).into_iter().filter(|zero| !zero).count())
 }

@@ -263,8 +263,7 @@ impl<'a> Numbers<'a> {
 
     /// The axes of a frame, one after the other.
     fn axes(&mut self, g: &mut Graph, rotation: Option<Matrix3>) {
-        let axes = rotation.unwrap_or_else(|| Matrix3::identity(g));
-        axes.0.into_iter().for_each(|axis| self.vector(axis));
+        rotation.unwrap_or_else(|| Matrix3::identity(g)).0.into_iter().for_each(|axis| self.vector(axis));
     }
 
     fn joint(&mut self, g: &mut Graph, joint: &Joint) -> PictureJoint {

@@ -126,15 +126,13 @@ impl<'a> Inertial<'a> {
 fn still(g: &mut Graph, context: &Context, roots: &[ExprId]) -> Vec<ExprId> {
     let runs = context.runs;
     let zeros = vec![g.zero(); runs.position.ids.len()];
-    let rates = runs.velocity.with(&zeros);
-    let all: Vec<_> = rates.chain(runs.acceleration.with(&zeros)).collect();
+    let all: Vec<_> = runs.velocity.with(&zeros).chain(runs.acceleration.with(&zeros)).collect();
     let roots = substitute(g, roots, &all);
     at_rest(g, context.symbols, &roots)
 }
 
 fn all_still(g: &mut Graph, context: &Context, columns: &Columns) -> Columns {
-    let roots = still(g, context, &columns.concat());
-    roots.chunks(columns.len().max(1)).map(<[_]>::to_vec).collect()
+    still(g, context, &columns.concat()).chunks(columns.len().max(1)).map(<[_]>::to_vec).collect()
 }
 
 /// Asserts that both ways give the same, and counts the entries that are not zero; `None` if there is one way only.

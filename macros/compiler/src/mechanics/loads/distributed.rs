@@ -35,8 +35,7 @@ impl AppliedForces {
         for (a, (&point, &weight)) in rule.points.iter().zip(&rule.weights).enumerate() {
             let share = g.scale(weight, length);
             let along_root = curved(g, values, &beam.sections[a].2).apply(g, follower);
-            let axes = motion.sections[a].frame.orientation.axes;
-            let along = axes.apply(g, along_root);
+            let along = motion.sections[a].frame.orientation.axes.apply(g, along_root);
             let mut force = fixed.add(g, along);
             let reach: Vec<_> = rule.integrals_to(point).into_iter().map(|part| g.scale(part, length)).collect();
             let (mut arm, mut velocity) = (zero, root.velocity);

@@ -184,8 +184,7 @@ impl DirectionMotion {
             }
             None => {
                 let moment = self.vector.cross(g, force);
-                let axes = self.section.frame.orientation.axes;
-                let along = axes.transpose().apply(g, force);
+                let along = self.section.frame.orientation.axes.transpose().apply(g, force);
                 (self.section.project(g, moment), along)
             }
         };
@@ -240,8 +239,7 @@ impl SectionMotion {
         });
         let rotation = Matrix3(columns);
         let twist = |g: &mut Graph, rate: Vector3| {
-            let across = turn.cross(g, rate);
-            let half_of_it = Vector3(across.0.map(|x| g.scale(0.5, x)));
+            let half_of_it = Vector3(turn.cross(g, rate).0.map(|x| g.scale(0.5, x)));
             rate.add(g, half_of_it).scale(g, factor)
         };
         let spin = twist(g, rate);
@@ -280,8 +278,7 @@ impl SectionMotion {
                 powers
             }
             Turn::Rodrigues(turn, factor, _) => {
-                let across = turn.cross(g, local_moment);
-                let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
+                let half = Vector3(turn.cross(g, local_moment).0.map(|value| g.scale(0.5, value)));
                 local_moment.sub(g, half).scale(g, factor).0
             }
         }

@@ -44,8 +44,7 @@ pub(crate) fn bend_change(g: &mut Graph, turn: Vector3, slope: Vector3, curl: Ve
 
 /// `(slope - turn x slope / 2) / denominator`.
 fn part(g: &mut Graph, turn: Vector3, denominator: ExprId, slope: Vector3) -> Vector3 {
-    let across = turn.cross(g, slope);
-    let half = Vector3(across.0.map(|value| g.scale(0.5, value)));
+    let half = Vector3(turn.cross(g, slope).0.map(|value| g.scale(0.5, value)));
     Vector3(slope.sub(g, half).0.map(|value| g.div(value, denominator)))
 }
 
@@ -59,8 +58,7 @@ pub(crate) fn bend(g: &mut Graph, turn: Vector3, slope: Vector3) -> Vector3 {
     let bent = part(g, turn, denominator, slope);
     let by = bend_slopes(g, [turn, slope, bent]);
     for (c, &value) in bent.0.iter().enumerate() {
-        let by = by.iter().map(|(by, slope)| (*by, slope.0[c]));
-        g.set_slopes(value, by.collect());
+        g.set_slopes(value, by.iter().map(|(by, slope)| (*by, slope.0[c])).collect());
     }
     bent
 }

@@ -175,8 +175,7 @@ impl Kinematics {
         let (inboard_offset, inboard_rotation) = values.placement(g, inboard);
         let (outboard_offset, outboard_rotation) = values.placement(g, outboard);
 
-        let start = parent.departing(g);
-        let mut moving = start.displaced(g, inboard_offset).rotated(g, inboard_rotation);
+        let mut moving = parent.departing(g).displaced(g, inboard_offset).rotated(g, inboard_rotation);
         let joint_frame = moving;
         let mut steps = Vec::new();
         let order: Vec<_> = if reversed { joint.steps.iter().rev().collect() } else { joint.steps.iter().collect() };

@@ -45,8 +45,7 @@ impl Orientation {
         if g.is(angle, 0.0) {
             return self;
         }
-        let turned = Self { base, before, ..self };
-        turned.turned_on(g, axis, angle, name)
+        Self { base, before, ..self }.turned_on(g, axis, angle, name)
     }
 
     /// The orientation after turning about `axis` by `angle` since the last turn or since the beginning of a run of

@@ -70,8 +70,7 @@ impl Turned {
         let half = g.scale(0.5, square);
         let spread = self.in_section.add(g, self.vector).scale(g, half);
         let slowed = self.rate(g, rate).scale(g, along);
-        let kept = rate.scale(g, projection).sub(g, spread);
-        kept.sub(g, slowed).scale(g, self.factor)
+        rate.scale(g, projection).sub(g, spread).sub(g, slowed).scale(g, self.factor)
     }
 
     /// Power of a force on the vector per unit rate of each component of the turn, and the force along the axes of the

@@ -63,8 +63,7 @@ impl Context<'_> {
             self.topology.branches.iter().position(|branch| branch.joint == joint).unwrap_or(0)
         };
         let reactions = self.rows.iter().map(|_| usize::MAX);
-        let moving = self.topology.free.iter().chain(&self.topology.coasting);
-        moving.map(branch_index).chain(reactions).collect()
+        self.topology.free.iter().chain(&self.topology.coasting).map(branch_index).chain(reactions).collect()
     }
 
     /// Replaces each absolute angle by its sum of joint angles, and each section's rotation by its sum of coordinates.

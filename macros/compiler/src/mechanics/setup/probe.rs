@@ -68,8 +68,7 @@ pub(crate) fn mirrored(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>]
 }
 
 fn exact(context: &Context, seed: u64, symbol: SymbolId) -> Disturbed {
-    let state = RandomState { design: seed, motion: seed };
-    Disturbed::exact(state.value(context, symbol))
+    Disturbed::exact(RandomState { design: seed, motion: seed }.value(context, symbol))
 }
 
 /// A random state: design variables near their nominal values, everything else of the order of one.

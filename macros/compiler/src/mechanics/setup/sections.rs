@@ -72,14 +72,12 @@ impl<T: Copy> OfBeam<T> {
 impl OfBeam<Option<usize>> {
     /// All rows.
     pub(crate) fn rows(&self) -> Vec<usize> {
-        let lists = self.at_sections().into_iter().chain([&self.stations[..]]);
-        lists.flatten().flatten().flatten().copied().collect()
+        self.at_sections().into_iter().chain([&self.stations[..]]).flatten().flatten().flatten().copied().collect()
     }
 
     /// The rows of one section.
     pub(crate) fn of_section(&self, k: usize) -> Vec<usize> {
-        let lists = self.at_sections().into_iter();
-        lists.flat_map(|list| list[k]).flatten().collect()
+        self.at_sections().into_iter().flat_map(|list| list[k]).flatten().collect()
     }
 }
 

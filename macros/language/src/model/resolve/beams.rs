@@ -341,8 +341,7 @@ impl Resolver<'_> {
             if used == 0 {
                 continue;
             }
-            let asked = asked.iter().find_map(|name| given.get(name));
-            let extent = asked.map_or(word.into(), |value| value.extent);
+            let extent = asked.iter().find_map(|name| given.get(name)).map_or(word.into(), |value| value.extent);
             let values = ends.each_ref().map(|end| of(end).clone());
             if !declared.table.gives(what, &values[0]) {
                 let message = format!("the {what} of `{name}` is not given, or zero");

@@ -90,8 +90,7 @@ pub(super) fn declared(ast: &Ast) -> Vec<Declared<'_>> {
             continue;
         }
         // A joint of an unknown kind may also name coordinates; `lead` is not one of them.
-        let arguments = joint.arguments.iter().flatten();
-        let named = arguments.filter_map(|argument| argument.name.as_ref());
+        let named = joint.arguments.iter().flatten().filter_map(|argument| argument.name.as_ref());
         for (position, name) in named.filter(|name| *name != "lead").enumerate() {
             coordinates.push(Declared {
                 name,
@@ -118,8 +117,7 @@ fn motion(joint: &Joint, name: &Ident, is_only: bool) -> DeclaredMotion {
             meant.then_some(DeclaredMotion::Shaken)
         }
         JointClause::Coast(coast) => {
-            let meant = coast.coordinate.as_ref().is_none_or(|coordinate| coordinate == name);
-            meant.then_some(DeclaredMotion::Coasting)
+            coast.coordinate.as_ref().is_none_or(|coordinate| coordinate == name).then_some(DeclaredMotion::Coasting)
         }
         JointClause::Placement { .. } | JointClause::Cut(_) => None,
     });

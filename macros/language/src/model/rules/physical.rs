@@ -234,8 +234,7 @@ fn parallel(axes: &[f64]) -> bool {
     let &[ax, ay, az, bx, by, bz] = axes else {
         return false;
     };
-    let normal = cross([ax, ay, az], [bx, by, bz]);
-    normal.iter().all(|component| component.abs() < NEARLY)
+    cross([ax, ay, az], [bx, by, bz]).iter().all(|component| component.abs() < NEARLY)
 }
 
 fn in_one_plane(axes: &[f64]) -> bool {

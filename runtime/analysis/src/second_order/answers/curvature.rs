@@ -79,8 +79,7 @@ pub(crate) struct Pair<'a> {
 pub(crate) fn pairs<'a>(all: &[Variable<'a>]) -> Vec<Pair<'a>> {
     let each = all.iter().copied().enumerate();
     let pair = |(i, first), (j, second)| Pair { places: [i, j], variables: [first, second] };
-    let rows = each.clone();
-    rows.flat_map(|first| each.clone().map(move |second| pair(first, second))).collect()
+    each.clone().flat_map(|first| each.clone().map(move |second| pair(first, second))).collect()
 }
 
 impl Pair<'_> {

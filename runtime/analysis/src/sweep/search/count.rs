@@ -122,8 +122,7 @@ impl Wanted {
     /// Positions of the eigenvalues that count.
     pub(super) fn counted(&self, kind: Kind, state: &Spectrum) -> Vec<usize> {
         let roots = self.roots(kind, state).iter().enumerate();
-        let roots = roots.filter(|(_, root)| self.counts(kind, state, root));
-        roots.map(|(r, _)| r).collect()
+        roots.filter(|(_, root)| self.counts(kind, state, root)).map(|(r, _)| r).collect()
     }
 
     pub(super) fn count(&self, kind: Kind, state: &Spectrum) -> usize {
@@ -132,8 +131,7 @@ impl Wanted {
 
     /// How many numbers are within their errors of the threshold.
     pub(super) fn doubtful(&self, kind: Kind, state: &Spectrum) -> usize {
-        let roots = self.roots(kind, state).iter();
-        roots.filter(|root| self.touches(kind, state, root)).count()
+        self.roots(kind, state).iter().filter(|root| self.touches(kind, state, root)).count()
     }
 }
 

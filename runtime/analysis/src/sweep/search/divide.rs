@@ -233,8 +233,7 @@ fn enclose(
         }
         let (width, middle) = (high.t - low.t, 0.5 * (low.t + high.t));
         let aims = [&low, &high].map(|state| wanted.aim(kind, state, [low.t, high.t], NEWTON * finest));
-        let aims = aims.into_iter().flatten();
-        let aim = aims.min_by(|a, b| a.step.total_cmp(&b.step));
+        let aim = aims.into_iter().flatten().min_by(|a, b| a.step.total_cmp(&b.step));
         let reach = aim.map_or(finest, |aim| finest.max(4.0 * aim.error));
         if width <= 2.0 * reach {
             let aim = aim.map_or((middle, false), |aim| (aim.t, aim.merging));
@@ -322,8 +321,7 @@ impl Wanted {
     /// `known` that well.
     fn aim(&self, kind: Kind, state: &Spectrum, ends: [f64; 2], known: f64) -> Option<Aim> {
         let aims = [false, true].map(|merging| self.aims(kind, state, (ends, known), merging));
-        let aims = aims.into_iter().flatten();
-        aims.min_by(|a, b| a.step.total_cmp(&b.step))
+        aims.into_iter().flatten().min_by(|a, b| a.step.total_cmp(&b.step))
     }
 
     /// The nearest such place of single eigenvalues, or of two that merge.

@@ -181,8 +181,7 @@ impl Route {
         let forward = if end.value < first.value { -1.0 } else { 1.0 };
         let piece = |value: f64| {
             let reaches = |piece: &&(usize, f64)| (piece.1 - value) * forward >= 0.0;
-            let index = self.pieces.iter().position(|piece| reaches(&piece));
-            index.unwrap_or(self.pieces.len().saturating_sub(1))
+            self.pieces.iter().position(|piece| reaches(&piece)).unwrap_or(self.pieces.len().saturating_sub(1))
         };
         let index = piece(value);
         let from = self.pieces.get(index)?.0;

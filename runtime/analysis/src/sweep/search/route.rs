@@ -341,8 +341,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let settled = |step: &mut Step<'_, '_>, t: f64| {
             let next = criticals.iter().find(|other| **other > t);
             let behind = step.node(0.5 * (t + next.unwrap_or(&1.0)));
-            let state = behind.as_ref().map_or(after, |node| &node.point);
-            state.equilibrium.stability.holds()
+            behind.as_ref().map_or(after, |node| &node.point).equilibrium.stability.holds()
         };
         for (t, event) in findings.events {
             while let Some(fraction) = places.next_if(|fraction| *fraction <= t) {
@@ -406,8 +405,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             return;
         }
         let modes = self.labelled(&node);
-        let used = modes.modes.iter().map(|mode| mode.label + 1);
-        self.route.unused = used.fold(self.route.unused, usize::max);
+        self.route.unused = modes.modes.iter().map(|mode| mode.label + 1).fold(self.route.unused, usize::max);
         self.last = Some(modes.clone());
         self.route.points.push(SweepPoint {
             value: node.point.place.p,
@@ -434,8 +432,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         self.recognise(step, (from, middle), halvings - 1);
         if let Some(node) = step.node(middle) {
             let modes = self.labelled(&node);
-            let used = modes.modes.iter().map(|mode| mode.label + 1);
-            self.route.unused = used.fold(self.route.unused, usize::max);
+            self.route.unused = modes.modes.iter().map(|mode| mode.label + 1).fold(self.route.unused, usize::max);
             self.last = Some(modes);
         }
         self.recognise(step, (middle, to), halvings - 1);

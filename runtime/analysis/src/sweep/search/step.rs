@@ -350,8 +350,7 @@ impl<'a, 'b> Step<'a, 'b> {
     }
 
     fn holds_before(&self, t: f64) -> bool {
-        let before = self.before(t);
-        before.is_none_or(|node| holds(&node.point))
+        self.before(t).is_none_or(|node| holds(&node.point))
     }
 
     /// A state as near to a special point as it can be solved, on one side of it and no farther than `limit`.
@@ -391,8 +390,7 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// The last known state before a place.
     fn before(&self, t: f64) -> Option<Rc<Node>> {
-        let index = self.nodes.partition_point(|node| node.spectrum.t < t - SAME);
-        self.nodes.get(index.checked_sub(1)?).cloned()
+        self.nodes.get(self.nodes.partition_point(|node| node.spectrum.t < t - SAME).checked_sub(1)?).cloned()
     }
 
     /// The first known state after a place.

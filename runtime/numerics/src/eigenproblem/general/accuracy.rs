@@ -149,8 +149,7 @@ impl PairSolver<'_> {
     /// `x^H M phi`, or `x^T M phi` for the conjugate of `x`, with the right vector multiplied last.
     fn overlap(&self, x: &[Complex64], conjugate: bool) -> Complex64 {
         let weighed = self.pencil.weighed(&self.of_right).iter();
-        let products = x.iter().zip(weighed);
-        products.map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass }).sum()
+        x.iter().zip(weighed).map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass }).sum()
     }
 }
 

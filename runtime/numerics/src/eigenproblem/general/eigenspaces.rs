@@ -129,8 +129,7 @@ impl PairSolver<'_> {
             let x = &mut rest[..n];
             for _ in 0..2 {
                 for (done, weighed) in done.chunks_exact(n).zip(weighed.chunks_exact(n)) {
-                    let products = x.iter().zip(weighed);
-                    let part: Complex64 = products.map(|(x, mass)| x * mass.conj()).sum();
+                    let part: Complex64 = x.iter().zip(weighed).map(|(x, mass)| x * mass.conj()).sum();
                     for (x, done) in x.iter_mut().zip(done) {
                         *x -= part * done;
                     }

@@ -81,8 +81,7 @@ pub(super) fn reduce_graded<'a>(
     work: &mut [f64],
 ) -> Hessenberg<'a> {
     let order = by_size(n, a);
-    let elements = (0..n * n).map(|k| a[order[k / n] * n + order[k % n]]);
-    let sorted: Vec<f64> = elements.collect();
+    let sorted: Vec<f64> = (0..n * n).map(|k| a[order[k / n] * n + order[k % n]]).collect();
     a.copy_from_slice(&sorted);
     Hessenberg { order, ..reduce(n, a, reflections, work) }
 }

@@ -223,8 +223,7 @@ fn largest(n: usize, k: usize, matrix: &[Complex64]) -> (f64, (usize, usize)) {
             greatest = if size > greatest { size } else { greatest };
         }
         if greatest > most {
-            let column = row[k..].iter().position(|&z| bound(z) == greatest);
-            (most, entry) = (greatest, (i, k + column.unwrap_or(0)));
+            (most, entry) = (greatest, (i, k + row[k..].iter().position(|&z| bound(z) == greatest).unwrap_or(0)));
         }
     }
     (most, entry)

@@ -155,8 +155,7 @@ fn small(n: usize, k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]
     solve_lower(n, &lower, vectors);
     let (mut beside, mut product) = ([0.0; SMALL_SIZE], [0.0; SMALL_SIZE]);
     let room = [lambda, &mut beside[..n], &mut product[..n]];
-    let converged = tridiagonal::decompose(reduced, vectors, room);
-    converged.then_some(()).ok_or_else(not_found)
+    tridiagonal::decompose(reduced, vectors, room).then_some(()).ok_or_else(not_found)
 }
 
 /// `L^-1 X` in place, for square `X`.

@@ -178,7 +178,6 @@ fn orthonormalise(vectors: &mut [Vector], mass: &Matrix) -> Result<(), Vector> {
     let count = vectors.len();
     let images: Vec<Vector> = vectors.iter().map(|x| times(mass, x)).collect();
     let gram = Matrix::from_fn(count, count, |i, j| dot(&vectors[i], &images[j]));
-    let factors = Cholesky::new(&gram).map_err(|row| vectors[row].clone())?;
-    factors.orthonormalise(vectors);
+    Cholesky::new(&gram).map_err(|row| vectors[row].clone())?.orthonormalise(vectors);
     Ok(())
 }

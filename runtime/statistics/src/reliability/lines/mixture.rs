@@ -128,8 +128,7 @@ impl Mixture {
                         .sum::<f64>())
         };
         let whole = |(from, to): Stretch| {
-            let near = 0.0_f64.clamp(from, to);
-            let far = near.hypot((2.0 * NEGLIGIBLE).sqrt());
+            let far = 0.0_f64.clamp(from, to).hypot((2.0 * NEGLIGIBLE).sqrt());
             let (from, to) = (from.max(-far), to.min(far));
             let panels = (to - from).ceil().max(1.0) as usize;
             legendre::composite((from, to), panels, density)

@@ -12,8 +12,7 @@ use crate::tolerance::{MonteCarlo, Sample};
 /// other: all non-empty parts have the same columns.
 #[must_use]
 pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table {
-    let numbered = samples.iter().enumerate();
-    let rows: Vec<_> = numbered.map(|(k, sample)| (first + k, sample)).collect();
+    let rows: Vec<_> = samples.iter().enumerate().map(|(k, sample)| (first + k, sample)).collect();
     // A sample has a slot for each nominal mode, even where the mode was not found.
     samples_columns(d, samples.iter().map(|sample| sample.frequencies.len()).max().unwrap_or(0), &rows).finish().0
 }

@@ -80,8 +80,7 @@ impl Nominal<'_> {
     /// small displacement where the equilibrium does not move.
     pub(super) fn reach(&self, varied: &[usize], first: &[Vector], deviations: &[f64]) -> Vector {
         Vector::from_fn(self.state.coordinates.len(), |k| {
-            let motions = first.iter().zip(varied);
-            motions.fold(SMALL, |sum, (slope, &j)| sum + (slope[k] * deviations[j]).abs())
+            first.iter().zip(varied).fold(SMALL, |sum, (slope, &j)| sum + (slope[k] * deviations[j]).abs())
         })
     }
 

@@ -129,8 +129,7 @@ impl SampleBatch<'_> {
 
     /// Accepts the members that have passed every check so far.
     pub(super) fn accept(&mut self) {
-        let members = self.flags.0[..self.members].iter().enumerate();
-        let passed = members.map(|(k, flag)| u32::from(*flag >= 1.0) << k);
+        let passed = self.flags.0[..self.members].iter().enumerate().map(|(k, flag)| u32::from(*flag >= 1.0) << k);
         self.accepted = passed.sum();
     }
 

@@ -73,8 +73,7 @@ fn influences<'a, 'o>(rows: &'a [Of<'o>], shown: Vec<usize>, d: &Description) ->
     table.show_rows(shown);
     names_and_units(&mut table);
     let label = rows.first().map_or_else(String::new, Row::label);
-    let of = table.words("of", &|row| Some(d.design.get(row.result.variable)?.name.to_string()));
-    of.shown().headed(&label);
+    table.words("of", &|row| Some(d.design.get(row.result.variable)?.name.to_string())).shown().headed(&label);
     index(&mut table, "first", &|x| x.first);
     index(&mut table, "total", &|x| x.total);
     type Pick = fn(&VariableInfluence) -> Option<f64>;

@@ -51,8 +51,7 @@ type Row<'a> = (Option<usize>, &'a Tally);
 impl Chances {
     /// Each and all in one table of the text, in two of data.
     fn tallies(&self, said: &mut Findings) {
-        let each = self.each.iter().enumerate();
-        let mut rows: Vec<Row<'_>> = each.map(|(k, x)| (Some(k + 1), x)).collect();
+        let mut rows: Vec<Row<'_>> = self.each.iter().enumerate().map(|(k, x)| (Some(k + 1), x)).collect();
         let mut table = Columns::new("chances", &rows);
         table.whole("requirement", &|(number, _)| *number);
         tallies(&mut table);

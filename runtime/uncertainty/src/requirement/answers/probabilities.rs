@@ -81,8 +81,7 @@ impl Probabilities {
             format!("{} to {}", probability(lower), probability(upper))
         });
         table.number("probability without response", "", &|row| Some(row.failure.untold));
-        let by = table.words("found by", &|row| Some(row.failure.by.word().to_owned()));
-        by.shown();
+        table.words("found by", &|row| Some(row.failure.by.word().to_owned())).shown();
         let designs = table.whole("designs", &|row| usize::try_from(row.failure.designs).ok());
         designs.shown();
         said.columns(table);

@@ -201,8 +201,7 @@ fn dimension(system: &System, state: &Linearised, combinations: &Combinations, r
         });
         scaled.collect()
     };
-    let moved = sizes.iter().enumerate().filter(|(_, size)| **size > 0.0);
-    let scaled: Vec<Vec<f64>> = moved.map(scaled).collect();
+    let scaled: Vec<Vec<f64>> = sizes.iter().enumerate().filter(|(_, size)| **size > 0.0).map(scaled).collect();
     dimension.min(clear_pivots(scaled).len())
 }
 

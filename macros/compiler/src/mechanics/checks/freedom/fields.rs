@@ -197,8 +197,7 @@ impl Carrier {
         let flat: Vec<ExprId> = twists.iter().flatten().copied().collect();
         let slopes = path.iter().map(|(index, ..)| {
             let change = by_symbol(g, &flat, context.symbols.q.ids[*index]);
-            let change = change.chunks_exact(RIGID);
-            change.map(|twist| std::array::from_fn(|k| twist[k])).collect()
+            change.chunks_exact(RIGID).map(|twist| std::array::from_fn(|k| twist[k])).collect()
         });
         let slopes = slopes.collect();
         let wheel = context.mechanism.constraints.iter().find_map(|constraint| {

@@ -185,8 +185,7 @@ impl<'a> System<'a> {
         let (residual, values) = values.split_at(n);
         let units = &self.fields.units;
         let column = |(j, column): (usize, &[Disturbed])| {
-            let column = self.in_units(column).into_iter();
-            column.map(|x| x.scaled(units.unknowns[j])).collect()
+            self.in_units(column).into_iter().map(|x| x.scaled(units.unknowns[j])).collect()
         };
         Some(Linearised {
             stiffness: stiffness.chunks(n.max(1)).enumerate().map(column).collect(),

@@ -39,10 +39,7 @@ fn changes(system: &System, state: &Linearised) -> Rows {
     let moving = system.context.moving().1;
     let n = state.residual.len();
     let reactions = |i: usize| (moving..n).map(move |j| state.stiffness[j][i]);
-    let change = |i: usize| {
-        let fields = state.fields.iter();
-        fields.map(move |field| change(field, state, i))
-    };
+    let change = |i: usize| state.fields.iter().map(move |field| change(field, state, i));
     let row = |i: usize| reactions(i).chain(change(i)).collect();
     let mut rows: Rows = (0..n).map(row).collect();
     scale(&mut rows, state.operations);

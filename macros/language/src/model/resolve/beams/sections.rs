@@ -295,8 +295,7 @@ impl Resolver<'_> {
                 extent: at.extent,
             });
         }
-        let lengths = lengths.into_iter().map(|(length, _)| length);
-        Some((lengths.collect::<Option<_>>()?, Vec::new()))
+        Some((lengths.into_iter().map(|(length, _)| length).collect::<Option<_>>()?, Vec::new()))
     }
 
     /// Whether one value is above another at the nominal design.

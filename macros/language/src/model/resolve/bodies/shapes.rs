@@ -147,8 +147,7 @@ impl Quantities<'_, '_, '_> {
         let mass = self.mass_or_density(density, || length.clone());
         let center = self.center(|| {
             let half = multiply(Expr::Number(0.5), length.clone()?);
-            let along = along.clone()?;
-            Some(along.map(|component| multiply(half.clone(), component)))
+            Some(along.clone()?.map(|component| multiply(half.clone(), component)))
         });
         Some(Shape::Rod { mass: mass?, length: length?, along: along?, center: center? })
     }
