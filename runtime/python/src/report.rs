@@ -83,7 +83,7 @@ impl Study {
             Some(other) => {
                 let setting = "frequency_unit";
                 let reason = format!("\"Hz\" or \"rad/s\", not {other:?}");
-                return Err(raise(py, eigentol::Error::Setting { setting, reason }));
+                return Err(raise(py, eigentol::Error::setting(setting, reason)));
             }
         };
         if let Some(other) = orders.iter().find(|order| !order.is_finite()) {

@@ -5,7 +5,6 @@ use super::{Study, Value};
 use crate::kernels::{CurvatureKernels, DirectionalKernels};
 use crate::second_order::{self, EventCurvature};
 use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Events, Line, Range};
-use crate::tolerance::Tolerances;
 use crate::{Error, Input};
 
 impl<M: DirectionalKernels> Study<M> {
@@ -80,7 +79,7 @@ impl<M: DirectionalKernels> Study<M> {
         line: impl Into<Line>,
     ) -> Result<Vec<Crossing>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        Along::plain(&self.settings, &self.mechanism).crossings(range, line.into())
+        Along::plain(&self.settings, &self.mechanism).crossings(range, Some(line.into()))
     }
 
     /// Like [`Study::crossings`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
@@ -99,7 +98,7 @@ impl<M: DirectionalKernels> Study<M> {
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        Along::deviating(&self.settings, &self.mechanism)?.crossing_tolerances(range, line.into())
+        Along::deviating(&self.settings, &self.mechanism)?.crossing_tolerances(range, Some(line.into()))
     }
 
     /// Finds the values of an input between `low` and `high` where an oscillation starts or stops growing
@@ -117,7 +116,7 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Vec<Crossing>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        Along::plain(&self.settings, &self.mechanism).flutter_onsets(range)
+        Along::plain(&self.settings, &self.mechanism).crossings(range, None)
     }
 
     /// Like [`Study::flutter_onsets`], with sensitivities and spreads of the values ([`sweep::crossing_tolerance`]).
@@ -133,7 +132,7 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
-        Along::deviating(&self.settings, &self.mechanism)?.flutter_onset_tolerances(range)
+        Along::deviating(&self.settings, &self.mechanism)?.crossing_tolerances(range, None)
     }
 }
 
@@ -178,31 +177,20 @@ impl Along<'_> {
         Ok(sweep::critical_tolerance(self.kernels(), &state, tolerances))
     }
 
-    fn crossings(&self, range: Range, line: Line) -> Result<Vec<Crossing>, Error> {
+    /// Crossings of a line, without one onsets of flutter.
+    fn crossings(&self, range: Range, line: Option<Line>) -> Result<Vec<Crossing>, Error> {
         let (u, b) = (&self.settings.inputs, &self.design);
         let (start, following) = self.way(self.plain, (range.input, range.low))?;
-        sweep::crossings(self.kernels(), u, b, &start, following, range, line)
+        match line {
+            Some(line) => sweep::crossings(self.kernels(), u, b, &start, following, range, line),
+            None => sweep::flutter_onsets(self.kernels(), u, b, &start, following, range),
+        }
     }
 
-    fn crossing_tolerances(&self, range: Range, line: Line) -> Result<Vec<EventTolerance>, Error> {
+    /// The spread of each of their values.
+    fn crossing_tolerances(&self, range: Range, line: Option<Line>) -> Result<Vec<EventTolerance>, Error> {
         let tolerances = self.settings.tolerances()?;
-        Ok(self.spreads(&self.crossings(range, line)?, tolerances))
-    }
-
-    fn flutter_onsets(&self, range: Range) -> Result<Vec<Crossing>, Error> {
-        let (u, b) = (&self.settings.inputs, &self.design);
-        let (start, following) = self.way(self.plain, (range.input, range.low))?;
-        sweep::flutter_onsets(self.kernels(), u, b, &start, following, range)
-    }
-
-    fn flutter_onset_tolerances(&self, range: Range) -> Result<Vec<EventTolerance>, Error> {
-        let tolerances = self.settings.tolerances()?;
-        Ok(self.spreads(&self.flutter_onsets(range)?, tolerances))
-    }
-
-    /// The spread of each crossing value.
-    fn spreads(&self, crossings: &[Crossing], tolerances: &Tolerances) -> Vec<EventTolerance> {
         let spread = |crossing| sweep::crossing_tolerance(self.kernels(), crossing, tolerances);
-        crossings.iter().map(spread).collect()
+        Ok(self.crossings(range, line)?.iter().map(spread).collect())
     }
 }

@@ -116,3 +116,11 @@ pub enum Error {
         closest: Box<Closest>,
     },
 }
+
+impl Error {
+    /// An invalid setting.
+    #[doc(hidden)]
+    pub fn setting(setting: Word, reason: impl Into<String>) -> Self {
+        Self::Setting { setting, reason: reason.into() }
+    }
+}

@@ -38,7 +38,7 @@ impl RandomPhases {
     /// [`Error::Setting`] for a length that is negative or not finite.
     pub fn new(lengths: &[f64]) -> Result<Self, Error> {
         if let Some(wrong) = lengths.iter().find(|length| !(**length >= 0.0 && length.is_finite())) {
-            return Err(Error::Setting { setting: "lengths", reason: format!("{wrong} is no length") });
+            return Err(Error::setting("lengths", format!("{wrong} is no length")));
         }
         let mut lengths: Vec<f64> = lengths.iter().copied().filter(|length| *length > 0.0).collect();
         lengths.sort_by(|a, b| b.total_cmp(a));
@@ -98,7 +98,7 @@ impl RandomPhases {
     /// [`Error::Setting`] unless the probability lies between zero and one.
     pub fn quantile(&self, probability: f64) -> Result<f64, Error> {
         if !(0.0..=1.0).contains(&probability) {
-            return Err(Error::Setting { setting: "probability", reason: format!("{probability} is no probability") });
+            return Err(Error::setting("probability", format!("{probability} is no probability")));
         }
         let (mut low, mut high) = (self.least(), self.greatest());
         if probability == 1.0 {

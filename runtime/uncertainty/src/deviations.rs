@@ -43,10 +43,10 @@ impl<'a> Deviations<'a> {
             return Ok(());
         };
         let name = description.design.get(k).map_or("", |info| &*info.name);
-        Err(Error::Setting {
-            setting: "distribution",
-            reason: format!("`{name}` takes discrete values: a design point needs a density, sampling does not"),
-        })
+        Err(Error::setting(
+            "distribution",
+            format!("`{name}` takes discrete values: a design point needs a density, sampling does not"),
+        ))
     }
 
     /// The deviations about another nominal design, with other half-widths; those that are zero stay zero.

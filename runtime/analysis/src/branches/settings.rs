@@ -107,7 +107,7 @@ impl Continuation {
         } else {
             return Ok(());
         };
-        Err(Error::Setting { setting, reason: reason.to_owned() })
+        Err(Error::setting(setting, reason))
     }
 
     /// Width of the range, SI.

@@ -192,7 +192,7 @@ fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Erro
 const SYMMETRIC: f64 = 1e-9;
 
 fn refuse(reason: String) -> Error {
-    Error::Setting { setting: "cluster", reason }
+    Error::setting("cluster", reason)
 }
 
 /// Members from which the reduction to tridiagonal form is cheaper than rotations.

@@ -2,10 +2,11 @@
 //! frequency, vibration and adjoint with each variable.
 
 use super::adjoint::{Factors, Motion, OutputAdjoint, PARTS, Weights};
+use super::extent::Extent;
 use super::forces::{Forces, Seen};
 use super::measure::Measure;
 use super::response::{Solved, Vibration};
-use super::sensitivities::{ForcedSensitivities, first_derivatives, modulus_slope};
+use super::sensitivities::{ForcedSensitivities, first_derivatives};
 use crate::algebra::{Matrix, Vector, dot, dot_complex, times_complex};
 use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_results};
 use crate::modes::{pencil_slope_times, pencil_times, transposed};
@@ -68,7 +69,10 @@ impl ForcedCurvature {
     pub fn modulus(&self, harmonic: usize, output: Output, measure: Measure) -> Option<SecondDerivatives<f64>> {
         let y = self.first.value(harmonic, output, measure)?;
         let slopes = self.first.complex(harmonic, output, measure)?;
-        Some(self.complex(harmonic, output, measure)?.combine(&slopes, |a, b, ab| modulus_curvature(y, [a, b], ab)))
+        Some(
+            self.complex(harmonic, output, measure)?
+                .combine(&slopes, |a, b, ab| Extent::Amplitude.curvature(&[y], [&[a], &[b]], &[ab])),
+        )
     }
 
     /// Second derivatives of the phase, rad; `None` also where the modulus is zero.
@@ -78,12 +82,6 @@ impl ForcedCurvature {
         let slopes = self.first.complex(harmonic, output, measure)?;
         Some(self.complex(harmonic, output, measure)?.combine(&slopes, |a, b, ab| (ab / y - a / y * (b / y)).im))
     }
-}
-
-/// Second derivative of `|y|`.
-fn modulus_curvature(y: Complex, [a, b]: [Complex; 2], ab: Complex) -> f64 {
-    let [first, second] = [a, b].map(|x| modulus_slope(y, x));
-    ((a.conj() * b + y.conj() * ab).re - first * second) / y.norm()
 }
 
 /// The forced response with total first and second derivatives by every input and design variable.

@@ -1,6 +1,7 @@
 //! Total first derivatives of forced vibrations.
 
 use super::adjoint::{OutputAdjoint, Weights, gradients, results};
+use super::extent::Extent;
 use super::measure::Measure;
 use super::response::{ForcedResponse, Harmonic, Solved};
 use crate::algebra::{Matrix, Vector, add_to};
@@ -55,7 +56,7 @@ impl ForcedSensitivities {
     pub fn modulus(&self, harmonic: usize, output: Output, measure: Measure) -> Option<Slopes<f64>> {
         let y = self.value(harmonic, output, measure)?;
         let slopes = self.complex(harmonic, output, measure)?;
-        Some(slopes.map(|dy| modulus_slope(y, dy)))
+        Some(slopes.map(|dy| Extent::Amplitude.slope(&[y], &[dy])))
     }
 
     /// Derivatives of the phase, rad; `None` also where the modulus is zero.
@@ -77,11 +78,6 @@ impl ForcedSensitivities {
         let of = self.response.harmonics.get(harmonic)?;
         Some((of, self.harmonics.get(harmonic)?))
     }
-}
-
-/// Derivative of `|y|`.
-pub(super) fn modulus_slope(y: Complex, dy: Complex) -> f64 {
-    y.norm() * (dy / y).re
 }
 
 /// The forced response and its total derivatives by every input and design variable.

@@ -17,10 +17,8 @@ impl Harmonic {
         let share = |y: crate::Complex| measure.of(self.frequency, y).norm();
         let lengths: Option<Vec<f64>> =
             self.shares.iter().map(|x| x.outputs.get(output.index()).copied().flatten().map(share)).collect();
-        let lengths = lengths.ok_or_else(|| Error::Setting {
-            setting: "output",
-            reason: format!("output {} has no amplitude", output.index() + 1),
-        })?;
+        let lengths = lengths
+            .ok_or_else(|| Error::setting("output", format!("output {} has no amplitude", output.index() + 1)))?;
         Ok(RandomPhases::new(&lengths)?)
     }
 }

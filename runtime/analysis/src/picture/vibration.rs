@@ -70,10 +70,10 @@ fn over_a_period(
     amplitude: f64,
 ) -> Result<(f64, Vec<Vec<Pose>>), Error> {
     if !(amplitude >= 0.0 && amplitude.is_finite()) {
-        return Err(Error::Setting {
-            setting: "amplitude",
-            reason: format!("it has to be a share of the size of the mechanism, not {amplitude}"),
-        });
+        return Err(Error::setting(
+            "amplitude",
+            format!("it has to be a share of the size of the mechanism, not {amplitude}"),
+        ));
     }
     let structure = Structure::of(&mechanism.description());
     let shape: Vec<Complex> = (shape.iter().enumerate())

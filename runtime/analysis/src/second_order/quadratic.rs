@@ -101,5 +101,5 @@ impl Quadratic {
 }
 
 pub(super) fn beyond_range() -> Error {
-    Error::Setting { setting: "tolerance", reason: "it spreads the quantity beyond the range of a double".to_owned() }
+    Error::setting("tolerance", "it spreads the quantity beyond the range of a double")
 }

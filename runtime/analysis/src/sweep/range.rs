@@ -55,6 +55,6 @@ impl Range {
         } else {
             return Ok(());
         };
-        Err(Error::Setting { setting: "range", reason: refused.to_owned() })
+        Err(Error::setting("range", refused))
     }
 }

@@ -110,10 +110,10 @@ impl Search {
         if missing.is_empty() {
             Ok(Self::new(lower, upper))
         } else {
-            Err(Error::Setting {
-                setting: "search for equilibria",
-                reason: format!("nothing says how far {} may move: give bounds", missing.join(", ")),
-            })
+            Err(Error::setting(
+                "search for equilibria",
+                format!("nothing says how far {} may move: give bounds", missing.join(", ")),
+            ))
         }
     }
 

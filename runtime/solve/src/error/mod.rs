@@ -546,17 +546,25 @@ fn listed(others: &[(Text, f64)]) -> String {
     others.iter().map(|(name, gap)| format!(", `{name}` by {gap:.6e}")).collect()
 }
 
+impl Error {
+    /// An invalid setting.
+    #[doc(hidden)]
+    pub fn setting(setting: Word, reason: impl Into<String>) -> Self {
+        Self::Setting { setting, reason: reason.into() }
+    }
+}
+
 impl From<eigentol_statistics::Error> for Error {
     fn from(error: eigentol_statistics::Error) -> Self {
         match error {
-            eigentol_statistics::Error::Setting { setting, reason } => Self::Setting { setting, reason },
+            eigentol_statistics::Error::Setting { setting, reason } => Self::setting(setting, reason),
             eigentol_statistics::Error::WrongLength { kind, found, expected } => {
                 Self::WrongLength { kind, found, expected }
             }
             error @ (eigentol_statistics::Error::NoLimitValue { .. }
             | eigentol_statistics::Error::NoDesignPoint { .. }) => Self::NoReliability(Box::new(error)),
             eigentol_statistics::Error::Overlap { start, end } => Self::SamplesOverlap { start, end },
-            other => Self::Setting { setting: "statistics", reason: other.to_string() },
+            other => Self::setting("statistics", other.to_string()),
         }
     }
 }

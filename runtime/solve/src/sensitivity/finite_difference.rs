@@ -22,7 +22,7 @@ pub fn sensitivities_by_finite_difference(
 ) -> Result<Sensitivities, Error> {
     if !(step > 0.0 && step.is_finite()) {
         let reason = format!("{step} is not a positive number");
-        return Err(Error::Setting { setting: "finite-difference step", reason });
+        return Err(Error::setting("finite-difference step", reason));
     }
     let solve =
         |u: &[f64], b: &[f64]| equilibrium(mechanism, u, b, &at.coordinates, Policy::Nearest).map(|state| state.linear);

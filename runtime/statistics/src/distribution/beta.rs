@@ -11,10 +11,10 @@ pub(super) fn check(shape: f64) -> Result<(), Error> {
     if SHAPES.contains(&shape) {
         return Ok(());
     }
-    Err(Error::Setting {
-        setting: "shape of a beta distribution",
-        reason: format!("{shape} must lie between {} and {}", SHAPES.start(), SHAPES.end()),
-    })
+    Err(Error::setting(
+        "shape of a beta distribution",
+        format!("{shape} must lie between {} and {}", SHAPES.start(), SHAPES.end()),
+    ))
 }
 
 /// The `x` with the same probability below it as the standard normal `z`; if the flag is set, `1 - x` instead.

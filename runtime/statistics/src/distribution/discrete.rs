@@ -16,7 +16,7 @@ pub(super) struct Discrete {
 
 impl Discrete {
     pub(super) fn new(values: &[(f64, f64)]) -> Result<Self, Error> {
-        let wrong = |reason: String| Err(Error::Setting { setting: "discrete distribution", reason });
+        let wrong = |reason: String| Err(Error::setting("discrete distribution", reason));
         if let Some((value, _)) = values.iter().find(|(value, _)| !value.is_finite()) {
             return wrong(format!("value {value} must be finite"));
         }

@@ -149,10 +149,10 @@ impl Distribution {
         finite(&[low, peak, high])?;
         ordered(low, high)?;
         if !(low..=high).contains(&peak) {
-            return Err(Error::Setting {
-                setting: "peak of a triangular distribution",
-                reason: format!("{peak} must lie between the limits {low} and {high}"),
-            });
+            return Err(Error::setting(
+                "peak of a triangular distribution",
+                format!("{peak} must lie between the limits {low} and {high}"),
+            ));
         }
         let (below, above) = (peak - low, high - peak);
         Ok(Self {
@@ -275,7 +275,7 @@ impl Distribution {
 fn finite(values: &[f64]) -> Result<(), Error> {
     match values.iter().find(|value| !value.is_finite()) {
         None => Ok(()),
-        Some(value) => Err(Error::Setting { setting: "distribution", reason: format!("{value} must be finite") }),
+        Some(value) => Err(Error::setting("distribution", format!("{value} must be finite"))),
     }
 }
 
@@ -283,25 +283,19 @@ fn positive(setting: &'static str, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    Err(Error::Setting { setting, reason: format!("{value} must be positive and finite") })
+    Err(Error::setting(setting, format!("{value} must be positive and finite")))
 }
 
 fn not_negative(sigma: f64) -> Result<(), Error> {
     if (0.0..=f64::MAX).contains(&sigma) {
         return Ok(());
     }
-    Err(Error::Setting {
-        setting: "standard deviation",
-        reason: format!("{sigma} must be zero or positive and finite"),
-    })
+    Err(Error::setting("standard deviation", format!("{sigma} must be zero or positive and finite")))
 }
 
 fn ordered(low: f64, high: f64) -> Result<(), Error> {
     if low <= high {
         return Ok(());
     }
-    Err(Error::Setting {
-        setting: "limits",
-        reason: format!("the lower one {low} must not exceed the upper one {high}"),
-    })
+    Err(Error::setting("limits", format!("the lower one {low} must not exceed the upper one {high}")))
 }

@@ -24,12 +24,10 @@ impl Interval {
         let (from, to) = if mirrored { (-high, -low) } else { (low, high) };
         let above = (normal::cdf(-from), normal::cdf(-to));
         if above.0 - above.1 < 1e-300 {
-            return Err(Error::Setting {
-                setting: "limits of a truncated normal variable",
-                reason: format!(
-                    "between {low:e} and {high:e} standard deviations from the mean there is no probability left"
-                ),
-            });
+            return Err(Error::setting(
+                "limits of a truncated normal variable",
+                format!("between {low:e} and {high:e} standard deviations from the mean there is no probability left"),
+            ));
         }
         Ok(Self { low, high, mirrored, above })
     }

@@ -9,10 +9,10 @@ const SHAPES: std::ops::RangeInclusive<f64> = 0.05..=1e8;
 /// Mean and standard deviation.
 pub(super) fn unit_moments(shape: f64) -> Result<(f64, f64), Error> {
     if !SHAPES.contains(&shape) {
-        return Err(Error::Setting {
-            setting: "shape of a Weibull variable",
-            reason: format!("{shape} must lie between {} and {:e}", SHAPES.start(), SHAPES.end()),
-        });
+        return Err(Error::setting(
+            "shape of a Weibull variable",
+            format!("{shape} must lie between {} and {:e}", SHAPES.start(), SHAPES.end()),
+        ));
     }
     let mean = ln_gamma(1.0 + 1.0 / shape).exp();
     Ok((mean, mean * log_ratio(shape).exp_m1().sqrt()))
@@ -22,9 +22,11 @@ pub(super) fn unit_moments(shape: f64) -> Result<(f64, f64), Error> {
 pub(super) fn shape(variation: f64) -> Result<f64, Error> {
     let target = (variation * variation).ln_1p();
     let (mut low, mut high) = (SHAPES.start().ln(), SHAPES.end().ln());
-    let beyond = |from: f64, to: f64| Error::Setting {
-        setting: "standard deviation of a Weibull variable",
-        reason: format!("{variation} of the mean must lie between {from:.1e} and {to:.1e} of it"),
+    let beyond = |from: f64, to: f64| {
+        Error::setting(
+            "standard deviation of a Weibull variable",
+            format!("{variation} of the mean must lie between {from:.1e} and {to:.1e} of it"),
+        )
     };
     let ratio = |log_shape: f64| log_ratio(log_shape.exp());
     if !(ratio(high)..=ratio(low)).contains(&target) {

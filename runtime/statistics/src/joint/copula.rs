@@ -28,12 +28,9 @@ pub(super) fn normal_correlation(variables: &[Distribution], correlation: &[f64]
             };
             let scale = a.sigma() * b.sigma();
             let of = |r: f64| first.covariance(second, r) / scale;
-            let r = bracketed_root(of, wanted).map_err(|(least, most)| Error::Setting {
-                setting: "correlation matrix",
-                reason: format!(
+            let r = bracketed_root(of, wanted).map_err(|(least, most)| Error::setting("correlation matrix", format!(
                     "variables {j} and {i} with these distributions can have correlations from {least:.4} to {most:.4}, not {wanted}"
-                ),
-            })?;
+                )))?;
             values[i * count + j] = r;
             values[j * count + i] = r;
         }

@@ -20,7 +20,7 @@ pub fn semidefinite_factor(matrix: &[f64], size: usize) -> Result<Vec<f64>, Erro
             expected: size * size,
         });
     }
-    let wrong = |reason: String| Err(Error::Setting { setting: "correlation matrix", reason });
+    let wrong = |reason: String| Err(Error::setting("correlation matrix", reason));
     let indefinite = || wrong("it is not positive semidefinite".to_owned());
     let at = |i: usize, j: usize| i * size + j;
     let mut lower = vec![0.0; size * size];

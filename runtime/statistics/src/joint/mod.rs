@@ -61,11 +61,12 @@ impl Joint {
         let mut factor = semidefinite_factor(correlation, count)?;
         if !variables.iter().all(Distribution::is_normal) {
             let normal = normal_correlation(&variables, correlation)?;
-            factor = semidefinite_factor(&normal, count).map_err(|_| Error::Setting {
-                setting: "correlation matrix",
-                reason: "no jointly normal variables give these variables all of these correlations; \
-                         smaller ones may do"
-                    .to_owned(),
+            factor = semidefinite_factor(&normal, count).map_err(|_| {
+                Error::setting(
+                    "correlation matrix",
+                    "no jointly normal variables give these variables all of these correlations; \
+                         smaller ones may do",
+                )
             })?;
         }
         Ok(Self { variables, dependence: Some(Dependence { correlation: correlation.to_vec(), factor }) })

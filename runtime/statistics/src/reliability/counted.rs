@@ -31,7 +31,7 @@ impl<'a> Counted<'a> {
     pub(super) fn new<L: LimitState>(limit: &'a L) -> Result<Self, Error> {
         let dimension = limit.dimension();
         if dimension == 0 {
-            return Err(Error::Setting { setting: "dimension", reason: "a limit state needs a variable".into() });
+            return Err(Error::setting("dimension", "a limit state needs a variable"));
         }
         Ok(Self { limit, dimension, total: Cell::new(0), without_value: Cell::new(0), reason: RefCell::default() })
     }

@@ -78,7 +78,7 @@ fn check(failures: u64, samples: u64, confidence: f64) -> Result<(), Error> {
     } else {
         return Ok(());
     };
-    Err(Error::Setting { setting, reason })
+    Err(Error::setting(setting, reason))
 }
 
 /// Quantile of the beta distribution, by bisection of its distribution function.
@@ -89,8 +89,7 @@ fn beta_quantile(a: f64, b: f64, probability: f64) -> Result<f64, Error> {
         if middle <= left || middle >= right {
             return Ok(middle);
         }
-        let below = checked_beta_reg(a, b, middle)
-            .map_err(|error| Error::Setting { setting: "failures", reason: error.to_string() })?;
+        let below = checked_beta_reg(a, b, middle).map_err(|error| Error::setting("failures", error.to_string()))?;
         if below < probability {
             left = middle;
         } else {

@@ -40,7 +40,7 @@ impl SaltelliDesign {
     /// [`Error::Setting`] if the number of dimensions is odd, if the sequence has fewer points, or for zero rows.
     pub fn new(sequence: Sequence, rows: u64) -> Result<Self, Error> {
         let dimensions = sequence.dimensions();
-        let setting = |setting, reason| Err(Error::Setting { setting, reason });
+        let setting = |setting, reason| Err(Error::setting(setting, reason));
         if !dimensions.is_multiple_of(2) {
             let reason = format!("{dimensions}: two are needed for each input");
             return setting("dimensions", reason);

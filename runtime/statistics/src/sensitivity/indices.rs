@@ -74,10 +74,7 @@ pub fn sobol_indices(
     at_least("inputs", inputs, 1)?;
     at_least("resamples", bootstrap.resamples, 1)?;
     if !(bootstrap.confidence > 0.0 && bootstrap.confidence < 1.0) {
-        return Err(Error::Setting {
-            setting: "confidence",
-            reason: format!("{}, not between 0 and 1", bootstrap.confidence),
-        });
+        return Err(Error::setting("confidence", format!("{}, not between 0 and 1", bootstrap.confidence)));
     }
     let rows = Rows::complete(inputs, values)?;
     let number = rows.number();

@@ -82,10 +82,7 @@ impl Sequence {
     /// [`Error::Setting`] for zero dimensions, zero points or more than 2^32 points.
     pub fn latin_hypercube(dimensions: usize, points: u64, seed: u64, stream: u64) -> Result<Self, Error> {
         if points == 0 || points > 1 << 32 {
-            return Err(Error::Setting {
-                setting: "points",
-                reason: format!("a Latin hypercube has between 1 and 2^32, not {points}"),
-            });
+            return Err(Error::setting("points", format!("a Latin hypercube has between 1 and 2^32, not {points}")));
         }
         Self::new(dimensions, points, || Kind::LatinHypercube(LatinHypercube::new(dimensions, points, seed, stream)))
     }
@@ -111,19 +108,19 @@ impl Sequence {
 
     fn new_sobol(dimensions: usize, sobol: impl FnOnce() -> Sobol) -> Result<Self, Error> {
         if dimensions > MAX_DIMENSIONS {
-            return Err(Error::Setting {
-                setting: "dimensions",
-                reason: format!(
+            return Err(Error::setting(
+                "dimensions",
+                format!(
                     "a Sobol' sequence has at most {MAX_DIMENSIONS}, not {dimensions}: take random points or a Latin hypercube"
                 ),
-            });
+            ));
         }
         Self::new(dimensions, 1 << DIGITS, || Kind::Sobol(sobol()))
     }
 
     fn new(dimensions: usize, points: u64, kind: impl FnOnce() -> Kind) -> Result<Self, Error> {
         if dimensions == 0 {
-            return Err(Error::Setting { setting: "dimensions", reason: "a point has at least one coordinate".into() });
+            return Err(Error::setting("dimensions", "a point has at least one coordinate"));
         }
         Ok(Self { dimensions, points, kind: kind() })
     }

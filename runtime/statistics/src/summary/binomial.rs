@@ -79,5 +79,5 @@ fn check_inside(setting: &'static str, value: f64) -> Result<(), Error> {
         return Ok(());
     }
     let reason = format!("{value} is not strictly between 0 and 1");
-    Err(Error::Setting { setting, reason })
+    Err(Error::setting(setting, reason))
 }

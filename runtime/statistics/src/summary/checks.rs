@@ -8,7 +8,7 @@ pub(super) fn check_below(setting: &'static str, index: usize, count: usize) -> 
         return Ok(());
     }
     let reason = format!("there is no {index}, they count from 0 to below {count}");
-    Err(Error::Setting { setting, reason })
+    Err(Error::setting(setting, reason))
 }
 
 /// Rejects NaN and values above [`LARGEST`] in magnitude.
@@ -17,5 +17,5 @@ pub(super) fn check_number(setting: &'static str, value: f64) -> Result<(), Erro
         return Ok(());
     }
     let reason = format!("{value} is not a number of at most {LARGEST:e} in magnitude");
-    Err(Error::Setting { setting, reason })
+    Err(Error::setting(setting, reason))
 }

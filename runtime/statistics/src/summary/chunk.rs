@@ -73,7 +73,7 @@ impl Chunk {
         let index = samples.start / CHUNK as u64;
         if samples.is_empty() || samples.end > END || (samples.end - 1) / CHUNK as u64 != index {
             let reason = format!("{samples:?} is not a part of one chunk; use `chunks` to split a range");
-            return Err(Error::Setting { setting: "samples", reason });
+            return Err(Error::setting("samples", reason));
         }
         let start = (samples.start % CHUNK as u64) as usize;
         self.index = index;
@@ -93,7 +93,7 @@ impl Chunk {
         let offset = (sample % CHUNK as u64) as usize;
         if sample / CHUNK as u64 != self.index || !self.covered.has(offset) {
             let reason = format!("{sample} is not among the samples of this chunk");
-            return Err(Error::Setting { setting: "sample", reason });
+            return Err(Error::setting("sample", reason));
         }
         self.present[quantity].set(offset, value.is_some());
         self.values[quantity * CHUNK + offset] = value.unwrap_or_default();
@@ -132,7 +132,7 @@ impl Chunk {
         let (start, count) = ((first % CHUNK as u64) as usize, values.len());
         if first / CHUNK as u64 != self.index || !self.covered.has_all(start, count) {
             let reason = format!("{first} and the next, {count} in all, are not among those of this chunk");
-            return Err(Error::Setting { setting: "samples", reason });
+            return Err(Error::setting("samples", reason));
         }
         let offset = quantity * CHUNK + start;
         self.values[offset..offset + count].copy_from_slice(values);

@@ -181,7 +181,7 @@ impl Partial {
         let pair = (first.min(second), first.max(second));
         let Ok(index) = self.plan.pairs.binary_search(&pair) else {
             let reason = format!("that of {first} and {second} is not planned; ask for it with `Plan::covariances`");
-            return Err(Error::Setting { setting: "covariance", reason });
+            return Err(Error::setting("covariance", reason));
         };
         let mut all = Comoments::default();
         self.fold(|node| all.merge(&node.pairs[index]));

@@ -104,7 +104,7 @@ impl Sorted {
 pub(super) fn place(count: u64, p: f64) -> Result<(u64, f64), Error> {
     if !(0.0..=1.0).contains(&p) {
         let reason = format!("{p} is not between 0 and 1");
-        return Err(Error::Setting { setting: "p", reason });
+        return Err(Error::setting("p", reason));
     }
     let last = count.checked_sub(1).ok_or(Error::NoValues)?;
     let position = last as f64 * p;

@@ -108,9 +108,8 @@ impl Statistics {
     }
 
     fn distribution(&self) -> Result<&Sketch, Error> {
-        self.sketch.as_ref().ok_or_else(|| Error::Setting {
-            setting: "quantile",
-            reason: "the plan has no sketch of this quantity; ask for it with `Plan::sketch`".to_owned(),
+        self.sketch.as_ref().ok_or_else(|| {
+            Error::setting("quantile", "the plan has no sketch of this quantity; ask for it with `Plan::sketch`")
         })
     }
 }

@@ -14,10 +14,10 @@ pub fn distribution(value: f64, tolerance: &ToleranceInfo, sigma_level: f64) -> 
     let size = if tolerance.relative { value.abs() } else { 1.0 };
     let (lower, upper) = (tolerance.lower * size, tolerance.upper * size);
     if !(lower <= upper && (upper - lower).is_finite()) && lower != -upper {
-        return Err(Error::Setting {
-            setting: "tolerance",
-            reason: format!("limits {lower} and {upper} must be finite, the lower one first"),
-        });
+        return Err(Error::setting(
+            "tolerance",
+            format!("limits {lower} and {upper} must be finite, the lower one first"),
+        ));
     }
     let half_width = 0.5 * (upper - lower);
     let sigma = standard_deviation(half_width, sigma_level)?;
@@ -34,10 +34,10 @@ pub fn distribution(value: f64, tolerance: &ToleranceInfo, sigma_level: f64) -> 
         Law::Beta { alpha, beta } => Distribution::beta((*alpha, *beta), (low, high)),
         Law::OneOf(values) => {
             if let Some((fraction, _)) = values.iter().find(|(fraction, _)| !(0.0..=1.0).contains(fraction)) {
-                return Err(Error::Setting {
-                    setting: "place of a value",
-                    reason: format!("{fraction} is not between 0, the lower limit, and 1, the upper one"),
-                });
+                return Err(Error::setting(
+                    "place of a value",
+                    format!("{fraction} is not between 0, the lower limit, and 1, the upper one"),
+                ));
             }
             let value = |fraction: f64| {
                 if fraction == 1.0 { high } else { low + fraction * (high - low) }
@@ -50,7 +50,7 @@ pub fn distribution(value: f64, tolerance: &ToleranceInfo, sigma_level: f64) -> 
 
 /// The standard deviation, from a half-width that spans `sigma_level` of them.
 pub(super) fn standard_deviation(half_width: f64, sigma_level: f64) -> Result<f64, Error> {
-    let refuse = |setting, reason| Err(Error::Setting { setting, reason });
+    let refuse = |setting, reason| Err(Error::setting(setting, reason));
     if !(0.0..=f64::MAX).contains(&half_width) {
         let reason = format!("half-width {half_width} must be zero or positive");
         return refuse("tolerance", reason);

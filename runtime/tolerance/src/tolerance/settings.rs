@@ -95,7 +95,7 @@ impl<'a> Sampling<'a> {
     /// Number of samples in each randomisation.
     #[doc(hidden)]
     pub fn of_each(&self) -> Result<u64, Error> {
-        let refused = |setting, reason| Err(Error::Setting { setting, reason });
+        let refused = |setting, reason| Err(Error::setting(setting, reason));
         let (samples, groups) = (self.samples as u64, self.groups());
         match self.points {
             Points::Random => Ok(samples),
@@ -129,10 +129,7 @@ impl<'a> Sampling<'a> {
         let total = self.total()?;
         let range = self.range.clone().unwrap_or(0..total);
         if range.start > range.end || range.end > total {
-            return Err(Error::Setting {
-                setting: "range",
-                reason: format!("{range:?} is not a range of the {total} samples"),
-            });
+            return Err(Error::setting("range", format!("{range:?} is not a range of the {total} samples")));
         }
         Ok(range)
     }
@@ -143,10 +140,7 @@ impl<'a> Sampling<'a> {
         if self.points == Points::Random {
             return Ok(());
         }
-        Err(Error::Setting {
-            setting: "points",
-            reason: "only responses can be sampled at others than random points".to_owned(),
-        })
+        Err(Error::setting("points", "only responses can be sampled at others than random points"))
     }
 
     /// The progress callback and the stop flag.

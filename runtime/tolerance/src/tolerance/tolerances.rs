@@ -357,10 +357,10 @@ fn covariance_factor(sigmas: &[f64], correlation: Option<&Matrix>) -> Result<Mat
     let found = (matrix.row_count(), matrix.column_count());
     if found != (size, size) {
         let (rows, columns) = found;
-        return Err(Error::Setting {
-            setting: "correlation matrix",
-            reason: format!("it is {rows} by {columns} and must be {size} by {size}"),
-        });
+        return Err(Error::setting(
+            "correlation matrix",
+            format!("it is {rows} by {columns} and must be {size} by {size}"),
+        ));
     }
     let root = semidefinite_factor(matrix.as_flattened(), size)?;
     Ok(Matrix::from_fn(size, size, |i, j| root[i * size + j] * sigmas[i]))

@@ -120,5 +120,5 @@ fn distinct(requirements: &Requirements<'_>, all: impl Iterator<Item = (usize, (
 }
 
 fn refuse<T>(setting: &'static str, reason: String) -> Result<T, Error> {
-    Err(Error::Setting { setting, reason })
+    Err(Error::setting(setting, reason))
 }

@@ -134,10 +134,10 @@ impl Problem<'_> {
             let half_width = wide[choice.variable];
             let (cost, slope) = choice.cost.of(half_width);
             if !(cost.is_finite() && slope.is_finite()) {
-                return Err(Error::Setting {
-                    setting: "cost",
-                    reason: format!("half-width {half_width} costs {cost} with derivative {slope}"),
-                });
+                return Err(Error::setting(
+                    "cost",
+                    format!("half-width {half_width} costs {cost} with derivative {slope}"),
+                ));
             }
             sum += cost;
             *place = slope * half_width;

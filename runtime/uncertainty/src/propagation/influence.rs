@@ -158,10 +158,10 @@ fn table(responses: &Responses<'_>, space: &Space<'_>, sampling: &Sampling<'_>) 
     table.blocks = if independent(space) { d + 2 } else { 1 };
     let rows = sampling.samples / table.blocks;
     if rows < 16 {
-        return Err(Error::Setting {
-            setting: "samples",
-            reason: format!("{} are less than 16 rows of {} designs each", sampling.samples, table.blocks),
-        });
+        return Err(Error::setting(
+            "samples",
+            format!("{} are less than 16 rows of {} designs each", sampling.samples, table.blocks),
+        ));
     }
     let rows = 1 << rows.ilog2();
     let points = Points::new(table.blocks, d, rows, sampling)?;

@@ -55,7 +55,7 @@ pub struct Samples {
 /// [`Error::Threads`]. Samples that fail are counted, not errors.
 pub fn sampled(responses: &Responses<'_>, tolerances: &Tolerances, sampling: &Sampling<'_>) -> Result<Samples, Error> {
     if sampling.samples == 0 {
-        return Err(Error::Setting { setting: "samples", reason: "there must be one".to_owned() });
+        return Err(Error::setting("samples", "there must be one"));
     }
     let at = responses.nominal();
     let space = Space::new(at, tolerances)?;

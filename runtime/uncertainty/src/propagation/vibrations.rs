@@ -29,7 +29,7 @@ impl<'a> Vibrations<'a> {
     ) -> Result<Self, Error> {
         let one = |response: &Response| match response {
             Response::Vibration(vibration) => Ok(*vibration),
-            _ => Err(Error::Setting { setting: "responses", reason: "only vibrations have this model".to_owned() }),
+            _ => Err(Error::setting("responses", "only vibrations have this model")),
         };
         let wanted: Vec<Vibration> = wanted.iter().map(one).collect::<Result<_, Error>>()?;
         let d = &*at.description;

@@ -121,10 +121,7 @@ pub(crate) fn chances_of(
     sampling.check_random()?;
     let range = sampling.now()?;
     if range.is_empty() {
-        return Err(Error::Setting {
-            setting: if sampling.samples == 0 { "samples" } else { "range" },
-            reason: "at least one is needed".to_owned(),
-        });
+        return Err(Error::setting(if sampling.samples == 0 { "samples" } else { "range" }, "at least one is needed"));
     }
     let watch = sampling.watch();
     let state = requirements.responses().nominal();

@@ -165,7 +165,7 @@ impl Requirement {
     }
 
     pub(super) fn check(&self, mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
-        let refuse = |reason: String| Err(Error::Setting { setting: "requirement", reason });
+        let refuse = |reason: String| Err(Error::setting("requirement", reason));
         match *self {
             Self::Stable => Ok(()),
             Self::Within { low, high, .. } | Self::Outside { low, high, .. } => {

@@ -124,10 +124,7 @@ impl Requirements<'_> {
         let (deviations, state) = (self.deviations(), self.responses().nominal());
         let tolerances = deviations.tolerances();
         if !tolerances.vary() {
-            return Err(Error::Setting {
-                setting: "tolerances",
-                reason: "no tolerance is declared, so nothing is left to chance".to_owned(),
-            });
+            return Err(Error::setting("tolerances", "no tolerance is declared, so nothing is left to chance"));
         }
         self.check_flutter()?;
         let continuous = tolerances

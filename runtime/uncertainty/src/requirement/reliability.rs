@@ -169,10 +169,7 @@ pub(crate) fn check(requirements: &Requirements<'_>, deviations: &Deviations<'_>
         });
     }
     if deviations.tolerances().normal_dimensions().is_empty() {
-        return Err(Error::Setting {
-            setting: "tolerances",
-            reason: "nothing varies: at least one tolerance must be positive".to_owned(),
-        });
+        return Err(Error::setting("tolerances", "nothing varies: at least one tolerance must be positive"));
     }
     Ok(())
 }
@@ -199,10 +196,10 @@ fn design_points(
     let inside = design_points.first().is_some_and(|point| point.beta < 0.0);
     let sides = limit.sides();
     if inside && !sides.is_empty() && (sides.into_iter()).all(|side| failure_regions(&at(side), settings).is_ok()) {
-        return Err(Error::Setting {
-            setting: "forbidden band",
-            reason: "the centre of the distribution lies inside, with designs on both sides: sample".to_owned(),
-        });
+        return Err(Error::setting(
+            "forbidden band",
+            "the centre of the distribution lies inside, with designs on both sides: sample",
+        ));
     }
     design_points.into_iter().map(|point| DesignPoint::new(&limit, deviations, point)).collect()
 }

@@ -47,7 +47,7 @@ impl<'a> Requirements<'a> {
         wanted: Vec<Requirement>,
     ) -> Result<Self, Error> {
         if wanted.is_empty() {
-            return Err(Error::Setting { setting: "requirements", reason: "at least one is needed".to_owned() });
+            return Err(Error::setting("requirements", "at least one is needed"));
         }
         let check = |requirement: &Requirement| requirement.check(mechanism, nominal);
         wanted.iter().try_for_each(check)?;
@@ -108,15 +108,15 @@ impl<'a> Requirements<'a> {
             if let Some((other, value)) = onsets.first().filter(|_| !own) {
                 let of = &self.responses.nominal().description;
                 let unit = response.unit(of);
-                return Err(Error::Setting {
-                    setting: "requirement",
-                    reason: format!(
+                return Err(Error::setting(
+                    "requirement",
+                    format!(
                         "the nominal design has no `{}`; mode {} flutters from {} on",
                         response.name(of),
                         other + 1,
                         with_unit(short(value / unit.scale), &unit)
                     ),
-                });
+                ));
             }
         }
         Ok(())

@@ -87,10 +87,7 @@ pub(crate) fn search(
     along.range.check(&description)?;
     for Line { ratio, offset } in &sought.lines {
         if !(ratio.is_finite() && offset.is_finite()) {
-            return Err(Error::Setting {
-                setting: "line",
-                reason: format!("{ratio} times the input + {offset} rad/s is not finite"),
-            });
+            return Err(Error::setting("line", format!("{ratio} times the input + {offset} rad/s is not finite")));
         }
     }
     let settings = Continuation {

@@ -46,13 +46,13 @@ impl FormSettings {
         let positive = [("tolerance", self.tolerance), ("radius", self.radius), ("separation", self.separation)];
         for (setting, value) in positive {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::Setting { setting, reason: format!("{value} is not positive and finite") });
+                return Err(Error::setting(setting, format!("{value} is not positive and finite")));
             }
         }
         let reason = "at least one is needed".to_string();
         match (self.iterations, self.regions) {
-            (0, _) => Err(Error::Setting { setting: "iterations", reason }),
-            (_, 0) => Err(Error::Setting { setting: "regions", reason }),
+            (0, _) => Err(Error::setting("iterations", reason)),
+            (_, 0) => Err(Error::setting("regions", reason)),
             _ => Ok(()),
         }
     }

@@ -122,7 +122,7 @@ impl LineSampler {
         directions: &[Direction],
         settings: &LineSettings,
     ) -> Result<Self, Error> {
-        let wrong = |setting, reason: String| Err(Error::Setting { setting, reason });
+        let wrong = |setting, reason: String| Err(Error::setting(setting, reason));
         if variables.is_empty() || variables.iter().any(|k| *k >= dimension) {
             return wrong("variables", format!("{variables:?} of {dimension}"));
         }

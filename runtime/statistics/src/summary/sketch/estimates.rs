@@ -77,7 +77,7 @@ impl Sketch {
     pub fn cdf(&self, value: f64) -> Result<Estimate, Error> {
         if value.is_nan() {
             let reason = "NaN is not a number".to_owned();
-            return Err(Error::Setting { setting: "value", reason });
+            return Err(Error::setting("value", reason));
         }
         if self.count == 0 {
             return Err(Error::NoValues);
@@ -114,7 +114,7 @@ impl Sketch {
     pub fn histogram(&self, bins: usize) -> Result<Histogram, Error> {
         if bins == 0 {
             let reason = "there must be at least one".to_owned();
-            return Err(Error::Setting { setting: "bins", reason });
+            return Err(Error::setting("bins", reason));
         }
         let bins = if self.min == self.max { 1 } else { bins };
         let step = (self.max - self.min) / bins as f64;

@@ -65,7 +65,7 @@ impl Sketch {
         check_number("scale", scale)?;
         if scale <= 0.0 {
             let reason = format!("{scale} is not positive");
-            return Err(Error::Setting { setting: "scale", reason });
+            return Err(Error::setting("scale", reason));
         }
         Ok(Self { reference, scale, buckets: Buckets::default(), count: 0, min: 0.0, max: 0.0 })
     }
