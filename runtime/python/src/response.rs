@@ -68,6 +68,8 @@ impl Study {
     /// `of` is a text as in the shell, modes counted from 1: "frequency 1", "natural_frequency 1" (rad/s), "damping_ratio 1" or
     /// "growth 1" (1/s); the name of an output; "vibration shake", the amplitude (0 to peak) of an output under the
     /// excitations, with "under u" where they have several frequencies, and "as velocity" or "as acceleration";
+    /// "vibration major(shake, lift)" or "minor(..)", a semi-axis of the orbit of two outputs; "vibration shake under all", the
+    /// sum over all excitations, with "as rms" the root of the mean square;
     /// "vibration shake along speed=0..6000rpm", the greatest amplitude in a range of an input, and "peak shake along
     /// speed=0..6000rpm", the value of the input at its highest peak; "critical speed=0..6000rpm", where the equilibrium
     /// loses its stiffness; "resonance 1 speed=0..6000rpm order 2", where a frequency is 2 (1) times the input; "flutter 1

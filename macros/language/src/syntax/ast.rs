@@ -617,11 +617,10 @@ impl Value {
     pub fn names(&self) -> Vec<&Ident> {
         self.parts()
             .into_iter()
-            .map(|part| match &part.kind {
+            .filter_map(|part| match &part.kind {
                 ValueKind::Name(name) => Some(name),
                 _ => None,
             })
-            .flatten()
             .collect()
     }
 

@@ -108,8 +108,11 @@ impl Response {
             study.bode(input, &values)?
         };
         let between: Vec<f64> = peaks.iter().flat_map(Peaks::bends).collect();
-        let course =
-            if between.is_empty() { bode.clone() } else { bode.clone().with_between(study.bode(input, &between)?) };
+        let mut course = bode.clone();
+        if !between.is_empty() {
+            let bands = self.bands.then(|| study.bode_bands(input, &between, &wanted, 0));
+            course = course.with_between(bands.unwrap_or_else(|| study.bode(input, &between))?);
+        }
         drop(bar);
         self.figure(&question, &course, drawn, &peaks)?;
         let mut answer = self.output.answer();

@@ -297,7 +297,7 @@ impl<'a> Course<'a> {
             all.get(index?)?.as_ref()
         };
         let unit = input_unit(&self.result.description, self.result.input);
-        self.result.points.iter().map(|point| (in_unit(point.value, &unit), spread(point))).collect()
+        self.result.course().into_iter().map(|point| (in_unit(point.value, &unit), spread(point))).collect()
     }
 
     /// The probabilities at the ends of the bands.
