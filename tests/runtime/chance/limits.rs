@@ -51,6 +51,16 @@ mechanism! {
     }
 }
 
+mechanism! {
+    mechanism Mass {
+        design k = 100.0 N/m;
+        design m = 2.0 kg;
+        body block: point(mass: m);
+        joint x: prismatic(x) from ground to block;
+        force hold: spring(on: x, stiffness: k);
+    }
+}
+
 fn mode(mode: usize, quantity: Quantity) -> Response {
     Response::Mode { mode, quantity }
 }
@@ -145,5 +155,24 @@ fn agrees<M: Mechanism>(study: &Study<M>, wanted: &[Requirement]) {
         let sampled = run.each[limit.requirement].clopper_pearson(0.9999).unwrap();
         let claimed = limit.probability().unwrap();
         assert!(0.9 * claimed <= sampled.upper && sampled.lower <= 1.1 * claimed, "{found}{run}");
+    }
+}
+
+/// `w < a` where `k < a^2 m`: a difference of normal numbers. Of a band both ends count, however rare.
+#[test]
+fn a_band_fails_at_either_end() {
+    let (k, m, [by_k, by_m]) = (100.0, 2.0, [2.0, 0.02]);
+    let study = Study::new(Mass).sigma_level(1.0).tolerance(Mass::k, by_k).tolerance(Mass::m, by_m);
+    let middle = f64::sqrt(k / m);
+    for (below, above) in [(0.005, 0.01), (0.02, 0.02), (0.03, 0.05), (0.06, 0.06), (0.07, 0.3)] {
+        let [low, high] = [middle * (1.0 - below), middle * (1.0 + above)];
+        let end = |w: f64| upper((k - w * w * m).abs() / by_k.hypot(w * w * by_m));
+        let exact = end(low) + end(high);
+        let wanted = Requirement::Within { response: mode(0, Quantity::Frequency), low, high };
+        let answer = study.probability(&[wanted]).unwrap();
+        let own = &answer.each[0];
+        assert!((own.value / exact - 1.0).abs() < 0.08, "{exact}: {answer}");
+        assert!((own.interval.lower..=own.interval.upper).contains(&exact), "{exact}: {answer}");
+        assert!(own.interval.upper - own.interval.lower < 0.3 * exact, "{exact}: {answer}");
     }
 }

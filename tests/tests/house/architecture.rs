@@ -56,7 +56,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        182,
+        183,
     ),
     (
         "runtime",

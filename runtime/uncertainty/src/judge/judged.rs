@@ -48,6 +48,23 @@ impl Judged {
         }
     }
 
+    /// Of one of two events that exclude each other.
+    pub(crate) fn or(&self, other: &Self) -> Self {
+        let [a, b] = [self.probability, other.probability];
+        let untold = if self.untold.value > other.untold.value { self.untold } else { other.untold };
+        Self {
+            probability: Estimate {
+                value: (a.value + b.value).min(1.0),
+                standard_error: a.standard_error + b.standard_error,
+            },
+            untold,
+            unseen: self.unseen + other.unseen,
+            settled: self.settled && other.settled,
+            lines: self.lines + other.lines,
+            designs: self.designs + other.designs,
+        }
+    }
+
     /// 95 % confidence interval of the probability.
     #[must_use]
     pub fn interval(&self) -> Interval {

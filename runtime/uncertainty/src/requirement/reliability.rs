@@ -1,5 +1,7 @@
 //! Failure probabilities from design points.
 
+use core::cell::Cell;
+
 use eigentol_statistics::normal;
 use eigentol_statistics::reliability::lines::Direction;
 use eigentol_statistics::reliability::{FormSettings, failure_regions};
@@ -240,9 +242,14 @@ pub(super) fn judge_requirements(
     for k in 0..count {
         let of_requirement: Vec<_> = reliability.limits.iter().zip(&all).filter(|(x, _)| x.requirement == k).collect();
         let described = !of_requirement.is_empty() && of_requirement.iter().all(|(x, _)| x.described());
-        let judgement = match &of_requirement[..] {
-            [(only, _)] => only.judgement,
-            _ => {
+        let known = match &of_requirement[..] {
+            [(only, _)] => Some(only.judgement),
+            [(low, _), (high, _)] => about.either(low, high),
+            _ => None,
+        };
+        let judgement = match known {
+            Some(judgement) => judgement,
+            None => {
                 let lines = about.together(of_requirement.iter().map(|(_, lines)| *lines), of_requirement.is_empty());
                 about.event(&lines, &|design, realisation| requirements.distances(design, realisation)[k])?
             }
@@ -266,6 +273,8 @@ struct About<'a> {
     sequence: (u64, u64),
     /// Where modes lose their stability.
     unstable: Vec<Direction>,
+    /// Whether a design without a state that stays was among those solved for limits.
+    lost: Cell<bool>,
 }
 
 impl<'a> About<'a> {
@@ -275,7 +284,8 @@ impl<'a> About<'a> {
         worth: u64,
         sequence: (u64, u64),
     ) -> Self {
-        Self { requirements, deviations, worth, sequence, unstable: ways_to_instability(requirements, deviations) }
+        let unstable = ways_to_instability(requirements, deviations);
+        Self { requirements, deviations, worth, sequence, unstable, lost: Cell::new(false) }
     }
 
     /// Judges every limit; returns along which lines.
@@ -297,6 +307,7 @@ impl<'a> About<'a> {
             }
             limit.judgement = self.event(&lines, &|design, realisation| {
                 let value = realisation.values.get(index).copied().flatten();
+                self.lost.set(self.lost.get() || realisation.outcome.lost());
                 alone.distance(responses, design, realisation.outcome, value)
             })?;
             let described = limit.described();
@@ -306,6 +317,13 @@ impl<'a> About<'a> {
             all.push(lines);
         }
         Ok(all)
+    }
+
+    /// The judgement of a band by those of its ends, of which a design fails one at most unless it is lost; `None` where
+    /// they do not tell.
+    fn either(&self, low: &LimitReliability, high: &LimitReliability) -> Option<Judgement> {
+        let (low, high) = (low.judgement.judged()?, high.judgement.judged()?);
+        (low.settled && high.settled && !self.lost.get()).then(|| Judgement::Judged(low.or(high)))
     }
 
     /// Judges all requirements together.
