@@ -176,6 +176,23 @@ fn all_that_turns_is_weighed() {
     assert!((number_after(&found, "\"unbalance\":") - 300e-6).abs() < 1e-15, "{found}");
 }
 
+/// Of a disk on equal springs the greatest amplitude is the eccentricity over `2 z sqrt(1 - z^2)`, `z` the damping ratio.
+#[test]
+fn a_grade_is_that_of_the_resonance() {
+    let (mass, stiffness, damping) = (12.0_f64, 1.9e6, 310.0);
+    let limit = "vibration shake under u <= 100 um";
+    let arguments = ["grade", "blower.mechanism", "--sweep", "speed=2000..6000rpm", "--require", limit, "--json"];
+    let found = answer(120, &arguments);
+    let z = damping / (2.0 * (stiffness * mass).sqrt());
+    let service = 6000.0 * std::f64::consts::PI / 30.0;
+    let expected = 100e-6 * 2.0 * z * (1.0 - z * z).sqrt() * service;
+    let grade = number_after(&found, "\"grade\":");
+    assert!((grade / expected - 1.0).abs() < 1e-9, "{grade} {expected}: {found}");
+    // At r = w / w0 with r^2 = 1 / (1 - 2 z^2).
+    let speed = (stiffness / mass / (1.0 - 2.0 * z * z)).sqrt() * 30.0 / std::f64::consts::PI;
+    assert!(found.contains(&format!("{speed:.2} rpm")), "{found}");
+}
+
 /// A grade is no answer where the rotor is unstable or none is fine enough, and says where the amplitude is greatest.
 #[test]
 fn a_grade_that_cannot_be_met_is_a_no() {
