@@ -4,6 +4,7 @@ mod bands;
 mod closed_forms;
 mod exceedance;
 mod extents;
+mod followed;
 mod requirements;
 mod rigid_rotor;
 mod rough;
