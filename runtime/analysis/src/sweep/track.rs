@@ -343,10 +343,13 @@ impl<'a> Tracker<'a> {
         let at = (value, self.policy);
         let judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
         // Without modes to recognise, a state that is not where the path leads may be on another branch.
-        let astray = |predicted: &Vector| !confirmed(&state.coordinates, predicted, &self.from);
+        let astray = match &predicted {
+            Some(predicted) => !confirmed(&state.coordinates, predicted, &self.from),
+            None => self.path.is_far(value),
+        };
         if self.needed < Needed::Modes
             && halvings > 0
-            && predicted.as_ref().is_some_and(astray)
+            && astray
             && let Some(middle) = self.middle(value)
         {
             self.spare = Some(point);

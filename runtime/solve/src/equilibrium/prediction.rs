@@ -6,6 +6,8 @@ use crate::algebra::{Vector, all_finite, greater, largest};
 pub const MISSED: f64 = 0.25;
 /// Largest difference between coordinates that count as unchanged.
 pub const STILL: f64 = 1e-9;
+/// Last steps beyond which a parabola through them is no prediction.
+const FAR: f64 = 8.0;
 
 /// A value of the input and the state there.
 pub type Passed<'a> = (f64, &'a [f64]);
@@ -45,12 +47,19 @@ impl Path {
         })
     }
 
+    /// Whether a value of the input is too far beyond the last states for them to tell the state there.
+    #[doc(hidden)]
+    pub fn is_far(&self, value: f64) -> bool {
+        let [(u0, _), (u1, _), _] = self.latest_first();
+        self.count > 1 && (value - u0).abs() > FAR * (u0 - u1).abs()
+    }
+
     /// Extrapolates the state to a value of the input, by a parabola or straight line through the last states. `None`
-    /// if there are fewer than two states, or if values of the input repeat.
+    /// if there are fewer than two states, if the value is [far](Self::is_far), or if values of the input repeat.
     #[doc(hidden)]
     pub fn at(&self, value: f64) -> Option<Vector> {
         let [(u0, q0), (u1, q1), (u2, q2)] = self.latest_first();
-        if self.count < 2 {
+        if self.count < 2 || self.is_far(value) {
             return None;
         }
         let (first, second) = ((value - u0) / (u0 - u1), (value - u1) / (u0 - u2));
