@@ -208,8 +208,7 @@ fn floating() -> Vec<Motion> {
 fn in_plane(normal: Vector) -> Vec<Motion> {
     let unit = |v: Vector| v.map(|x| x / norm(v));
     let normal = unit(normal);
-    let least = (0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()));
-    let across = [X, Y, Z][least.unwrap_or(0)];
+    let across = [X, Y, Z][(0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs())).unwrap_or(0)];
     let second = unit(cross(normal, across));
     vec![("px", unit(cross(second, normal)), false), ("py", second, false), ("yaw", normal, true)]
 }

@@ -32,10 +32,7 @@ pub(crate) fn read(text: &str) -> Result<Robot, ImportError> {
     if root.tag_name().name() != "robot" {
         return Err(only(at, Reason::NotARobot(root.tag_name().name().to_owned())));
     }
-    let is_macro = |node: &Node| {
-        let namespace = node.tag_name().namespace();
-        namespace.is_some_and(|uri| uri.contains("xacro"))
-    };
+    let is_macro = |node: &Node| node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro"));
     if let Some(node) = root.children().find(is_macro) {
         return Err(only(reader.place(node), Reason::Template));
     }
@@ -102,8 +99,7 @@ impl<'a> Reader<'a> {
     }
 
     fn attribute(&mut self, node: Node<'a, 'a>, attribute: &'static str) -> Option<&'a str> {
-        let trimmed = node.attribute(attribute).map(str::trim);
-        let text = trimmed.filter(|text| !text.is_empty());
+        let text = node.attribute(attribute).map(str::trim).filter(|text| !text.is_empty());
         if text.is_none() {
             let element = node.tag_name().name().to_owned();
             self.report(node, Reason::MissingAttribute { element, attribute });

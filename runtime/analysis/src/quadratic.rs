@@ -58,8 +58,7 @@ impl<'a> QuadraticModels<'a> {
                 })
             }
             Response::Vibration(vibration) => {
-                let derivatives = vibration.quadratic(mechanism, at)?;
-                let ((value, first), second) = derivatives.ok_or(missing)?;
+                let ((value, first), second) = vibration.quadratic(mechanism, at)?.ok_or(missing)?;
                 Ok(QuadraticModel {
                     quadratic: Quadratic { value, slopes: first.by_design, curvature: second.by_design },
                     by_input: Some((first.by_input, second.by_input_and_design)),
@@ -80,8 +79,7 @@ impl<'a> QuadraticModels<'a> {
     fn of_mode(&mut self, mode: usize, quantity: Quantity) -> Result<QuadraticModel, Error> {
         let modes = self.responses.modes();
         let solve = || mode_curvature(self.mechanism, self.responses.nominal(), modes, mode);
-        let entry = self.of_mode.entry(mode).or_insert_with(solve);
-        let curvature = entry.as_ref().map_err(Clone::clone)?;
+        let curvature = self.of_mode.entry(mode).or_insert_with(solve).as_ref().map_err(Clone::clone)?;
         let lambda = modes.modes[mode].lambda;
         let silent = || Error::NotOscillating { mode, lambda };
         let quadratic = curvature.quadratic(quantity).ok_or_else(silent)?;

@@ -220,8 +220,7 @@ impl<'a> Responses<'a> {
             flutter: Vec::new(),
         };
         let flutter = responses.wanted.iter().filter_map(|response| {
-            let onsets = responses.nominal_flutter(*response)?;
-            Some((*response, onsets.into_iter().map(|(mode, _)| mode).collect()))
+            Some((*response, responses.nominal_flutter(*response)?.into_iter().map(|(mode, _)| mode).collect()))
         });
         responses.flutter = flutter.collect();
         Ok(responses)

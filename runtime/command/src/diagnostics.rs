@@ -92,10 +92,8 @@ fn bytes(source: &str, mistake: &Mistake) -> Range<usize> {
 fn byte(source: &str, (line, column): (usize, usize)) -> usize {
     let mut lines = source.split_inclusive('\n');
     let before: usize = lines.clone().take(line.saturating_sub(1)).map(str::len).sum();
-    let line = lines.nth(line.saturating_sub(1)).unwrap_or("");
-    let text = line.trim_end_matches(['\n', '\r']);
-    let inside = text.char_indices().nth(column.saturating_sub(1));
-    before + inside.map_or(text.len(), |(at, _)| at)
+    let text = lines.nth(line.saturating_sub(1)).unwrap_or("").trim_end_matches(['\n', '\r']);
+    before + text.char_indices().nth(column.saturating_sub(1)).map_or(text.len(), |(at, _)| at)
 }
 
 #[cfg(test)]

@@ -12,8 +12,7 @@ const NAMED: usize = 5;
 /// Advice on the file that may be meant: for a folder the declarations in it, otherwise the file with the nearest name.
 pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     if why == ErrorKind::IsADirectory {
-        let files = declarations(path);
-        let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+        let names: Vec<String> = declarations(path).iter().map(|file| file.display().to_string()).collect();
         return Some(match &names[..] {
             [] => "name a file: this is a folder".to_owned(),
             names => format!("name a file in it: `{}`", names.join("`, `")),

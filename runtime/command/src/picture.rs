@@ -78,8 +78,7 @@ impl Picture {
                 let help = "give `--output` and `--figure` files of their own";
                 return Err(Failure::usage(message, help));
             }
-            let writable = Target::of(path).check();
-            writable.map_err(|source| Failure::write(path, source))?;
+            Target::of(path).check().map_err(|source| Failure::write(path, source))?;
         }
         Ok(())
     }

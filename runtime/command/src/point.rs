@@ -100,8 +100,7 @@ impl Question {
     /// The equilibria of a search.
     pub(crate) fn equilibria(&self) -> Result<Equilibria, Failure> {
         let bar = progress::bar("starts", None);
-        let study = progress::watched(self.study.clone(), &bar);
-        Ok(study.equilibria(&self.search()?)?)
+        Ok(progress::watched(self.study.clone(), &bar).equilibria(&self.search()?)?)
     }
 
     /// The same question of the equilibrium with this number.

@@ -46,8 +46,7 @@ pub(crate) struct Range {
 
 impl Sweep {
     pub(crate) fn range(&self, question: &Question) -> Result<Range, Failure> {
-        let range = self.range_alone(question)?;
-        range.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))
+        self.range_alone(question)?.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))
     }
 
     /// The range, if there is one, of an answer along it alone: a value of its input would have no effect.
@@ -110,8 +109,7 @@ impl Points {
             return Err(Failure::usage(message, help));
         }
         let step = (range.high - range.low) / (count - 1) as f64;
-        let inner = (0..count - 1).map(|k| range.low + k as f64 * step);
-        Ok(inner.chain([range.high]).collect())
+        Ok((0..count - 1).map(|k| range.low + k as f64 * step).chain([range.high]).collect())
     }
 }
 

@@ -159,8 +159,7 @@ impl Allocation {
         let mut uses = vec![0; kernel.instructions.len()];
         let mut constants: Vec<f64> = Vec::new();
         let mut known = HashMap::new();
-        let operations = kernel.instructions.iter();
-        let operands = operations.flat_map(|instruction| instruction.operation.operands());
+        let operands = kernel.instructions.iter().flat_map(|instruction| instruction.operation.operands());
         let results = kernel.results.iter().flat_map(|array| &array.values);
         for operand in operands.chain(results.copied()) {
             match operand {

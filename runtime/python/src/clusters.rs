@@ -91,8 +91,7 @@ attributes! {
         };
         /// Standard deviations of the mean frequencies to first order, rad/s, shape (k,).
         mean_frequency_sigmas: Array1<'py> = {
-            let mean = self.0.iter().map(|x| x.mean.as_ref()?.frequency.as_ref());
-            optional(py, mean.map(|x| Some(x?.sigma)))
+            optional(py, self.0.iter().map(|x| x.mean.as_ref()?.frequency.as_ref()).map(|x| Some(x?.sigma)))
         };
         /// Numbers of samples behind the members of each, shape (k,).
         samples: Array1<'py, i64> = self.counts(py, |spread| spread.samples);

@@ -122,8 +122,7 @@ kernels! { self, py;
         let found = py.detach(|| self.kernels().linear_partials(&q, &u, &b));
         let lists = [&found.by_coordinate, &found.by_input, &found.by_design];
         let every = lists.into_iter().flatten();
-        let every = every.flat_map(|x| [&x.mass, &x.damping, &x.stiffness]);
-        self.finite(py, &q, every.map(|x| x.as_flattened()))?;
+        self.finite(py, &q, every.flat_map(|x| [&x.mass, &x.damping, &x.stiffness]).map(|x| x.as_flattened()))?;
         let of = |matrix: fn(&Linear) -> &Matrix| {
             let by = |list: &[Linear]| {
                 let all: Vec<&Matrix> = list.iter().map(matrix).collect();

@@ -42,8 +42,7 @@ impl Part {
     /// Adds samples of the same run; those of another one, and samples that are here already, are refused.
     fn merge(slf: &Bound<'_, Self>, other: &Bound<'_, Self>) -> PyResult<()> {
         let other = other.borrow().0.clone();
-        let merged = slf.borrow_mut().0.merge(other);
-        merged.map_err(|error| raise(slf.py(), error))
+        slf.borrow_mut().0.merge(other).map_err(|error| raise(slf.py(), error))
     }
 
     /// Statistics of the samples that are done.

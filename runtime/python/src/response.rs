@@ -87,10 +87,7 @@ impl Study {
         let variables = match variables {
             None => (0..description.design.len()).collect(),
             Some(names) => {
-                let index_of = |name: &String| {
-                    let handle = List::Design.find(py, description, name)?;
-                    Ok(handle.0)
-                };
+                let index_of = |name: &String| Ok(List::Design.find(py, description, name)?.0);
                 names.iter().map(index_of).collect::<PyResult<_>>()?
             }
         };
@@ -143,8 +140,7 @@ impl Response {
         let columns = self.variables.len();
         let (designs, single) = match x.extract::<PyArrayLike2<'_, f64, AllowTypeChange>>() {
             Ok(array) => {
-                let array = array.as_array();
-                let all = array.rows().into_iter().map(|row| row.to_vec()).collect();
+                let all = array.as_array().rows().into_iter().map(|row| row.to_vec()).collect();
                 (all, false)
             }
             Err(_) => (vec![numbers(x, "x")?], true),
@@ -178,10 +174,8 @@ impl Response {
     /// The response at a design, or at each of several, SI.
     fn __call__<'py>(&self, py: Python<'py>, x: &hints::ArrayLike<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (designs, single) = self.designs(x)?;
-        let values = self.evaluate(py, &designs, |responses, room, design| {
-            let realisation = responses.at(room, design)?;
-            Ok(or_nan(realisation.values[0]))
-        })?;
+        let values =
+            self.evaluate(py, &designs, |responses, room, design| Ok(or_nan(responses.at(room, design)?.values[0])))?;
         if single {
             return Ok(values[0].into_pyobject(py)?.into_any());
         }
@@ -209,8 +203,7 @@ impl Response {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, ())> {
         let variables = [("variables", self.names(py))].into_py_dict(py)?;
         let response = self.study.bind(py).getattr("response")?;
-        let partial = py.import("functools")?.getattr("partial")?;
-        Ok((partial.call((response, &self.text), Some(&variables))?, ()))
+        Ok((py.import("functools")?.getattr("partial")?.call((response, &self.text), Some(&variables))?, ()))
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {

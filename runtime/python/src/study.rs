@@ -151,8 +151,7 @@ attributes! {
         design: Array1<'py> = vector(py, self.inner.design_values().iter().copied());
         /// Standard deviations of the design variables, and after them of the inputs that have a tolerance, SI.
         sigmas: PyResult<Array1<'py>> = {
-            let tolerances = self.ask(py, |study| study.tolerances())?;
-            Ok(vector(py, tolerances.sigmas().iter().copied()))
+            Ok(vector(py, self.ask(py, |study| study.tolerances())?.sigmas().iter().copied()))
         };
     }
 }

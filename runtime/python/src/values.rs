@@ -36,8 +36,7 @@ pub(crate) fn not_finite(py: Python<'_>, name: &str, value: f64) -> PyErr {
 
 /// The index of a mode, from 0.
 pub(crate) fn mode_number(py: Python<'_>, mode: i64) -> PyResult<usize> {
-    let number = usize::try_from(mode);
-    number.map_err(|_| invalid(py, format!("mode {mode}: modes are counted from 0")))
+    usize::try_from(mode).map_err(|_| invalid(py, format!("mode {mode}: modes are counted from 0")))
 }
 
 /// A response or a requirement.
@@ -183,10 +182,9 @@ fn named<'a>(all: impl Iterator<Item = (&'a Text, &'a Unit)>) -> Vec<Quantity> {
 
 /// The exception for a name missing from this list; another list may have it.
 fn unknown(py: Python<'_>, of: &Description, list: List, name: &str) -> PyErr {
-    let other = [List::Coordinates, List::Inputs, List::Design].into_iter().find(|other| {
-        let quantities = other.quantities(of);
-        quantities.iter().any(|one| one.name == *name)
-    });
+    let other = [List::Coordinates, List::Inputs, List::Design]
+        .into_iter()
+        .find(|other| other.quantities(of).iter().any(|one| one.name == *name));
     let quantities = list.quantities(of);
     if let Some(other) = other {
         let (mechanism, kind, other) = (&of.name, list.kind(), other.kind());

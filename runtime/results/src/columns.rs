@@ -113,8 +113,7 @@ impl<'a, R> Columns<'a, R> {
 
     /// The data and the text; the text is empty if no column belongs in it.
     pub fn finish(self) -> (Table, Grid) {
-        let heads = self.text.iter().map(|(heading, _)| heading.clone());
-        let mut grid = Grid::new(heads.collect());
+        let mut grid = Grid::new(self.text.iter().map(|(heading, _)| heading.clone()).collect());
         for row in 0..self.shown.len() {
             grid.row(self.text.iter().map(|(_, cells)| cells[row].clone()).collect());
         }

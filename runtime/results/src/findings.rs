@@ -173,8 +173,7 @@ impl Findings {
 
     /// Adds what another result says in its text, without its data.
     pub fn quote(&mut self, other: Self) {
-        let said = other.parts.into_iter();
-        self.parts.extend(said.filter(|part| !matches!(part, Part::Data(_))));
+        self.parts.extend(other.parts.into_iter().filter(|part| !matches!(part, Part::Data(_))));
     }
 
     /// The sentences.

@@ -84,8 +84,7 @@ impl<M: CurvatureKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Peaks, Error> {
-        let peaks = self.peaks_of(&[vibration], input, low, high)?;
-        Ok(peaks.into_iter().next().expect("one for each vibration"))
+        Ok(self.peaks_of(&[vibration], input, low, high)?.into_iter().next().expect("one for each vibration"))
     }
 
     /// The peaks of several amplitudes along an input, from the same states.
@@ -144,8 +143,7 @@ impl<M: SummaryKernels> Study<M> {
     /// As [`Study::sweep`]; [`Error::NoExcitation`]. A point that fails carries its own error.
     pub fn bode(&self, input: Input<M>, values: &[impl Into<Value> + Copy]) -> Result<Bode, Error> {
         let values = self.settings.values_si(input.any(), values)?;
-        let table = Table::<dyn SummaryKernels>::plain(&self.settings, &self.mechanism);
-        table.bode((input.any(), &values), None)
+        Table::<dyn SummaryKernels>::plain(&self.settings, &self.mechanism).bode((input.any(), &values), None)
     }
 
     /// [`Study::bode`] with bands of these amplitudes under tolerances; `checked` designs are solved anew at each value

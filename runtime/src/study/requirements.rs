@@ -69,8 +69,7 @@ impl<M: CurvatureKernels> Study<M> {
     /// As [`Study::modes`], [`Study::tolerances`], [`Requirements::new`] and [`Requirements::reliability`].
     pub fn reliability(&self, wanted: &[Requirement]) -> Result<Reliability, Error> {
         let toleranced = TolerancedMachine::of(&self.settings, &self.mechanism)?;
-        let requirements = toleranced.requirements(wanted)?.watched(self.settings.watch());
-        requirements.reliability(&FormSettings::default())
+        toleranced.requirements(wanted)?.watched(self.settings.watch()).reliability(&FormSettings::default())
     }
 
     /// Finds the cheapest tolerances that meet the requirements, checked with the study's number of samples

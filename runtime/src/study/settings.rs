@@ -274,8 +274,7 @@ impl Settings {
 
     /// The inputs that have a tolerance.
     pub(super) fn deviating_inputs(&self) -> Vec<Input> {
-        let varied = self.input_variations.iter().enumerate().filter(|(_, x)| !x.is_none());
-        varied.map(|(i, _)| Input::new(i)).collect()
+        self.input_variations.iter().enumerate().filter(|(_, x)| !x.is_none()).map(|(i, _)| Input::new(i)).collect()
     }
 
     /// Bounds of the unknowns that are held or have declared steady values: these values.
@@ -363,8 +362,7 @@ impl Settings {
         if Structure::of(&self.description).open() || !named.contains(&true) {
             return Ok(start);
         }
-        let assembly = self.assembly(mechanism)?;
-        Ok(Cow::Owned(assembly.coordinates.into()))
+        Ok(Cow::Owned(self.assembly(mechanism)?.coordinates.into()))
     }
 
     /// Solves the equilibrium, and returns its general modes if they were needed to judge its stability. The result is

@@ -43,8 +43,7 @@ pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
     let document: Document<'_> = serde_json::from_str(text).map_err(refused)?;
     let part = serde_json::from_str(document.part.get()).map_err(refused)?;
     if checksum(document.part.get()) != document.checksum {
-        let changed = "the part has changed since it was written: its checksum is another";
-        return Err(Error::Content(changed.to_owned()));
+        return Err(Error::Content("the part has changed since it was written: its checksum is another".to_owned()));
     }
     Ok(part)
 }

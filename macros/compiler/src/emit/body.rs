@@ -244,7 +244,6 @@ impl<'a> Body<'a> {
         }
         let text = self.text(operand).text;
         let is_word = text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
-        let name = text.strip_suffix('_').filter(|_| is_word)?;
-        Some(name.to_owned())
+        Some(text.strip_suffix('_').filter(|_| is_word)?.to_owned())
     }
 }

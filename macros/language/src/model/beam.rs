@@ -58,8 +58,7 @@ impl Beam {
 
     /// The rule of its quadrature, on the length as a fraction.
     pub fn quadrature(&self) -> Gauss {
-        let rule = self.sections.iter().map(|(fraction, weight, _)| (fraction, weight));
-        let (points, weights) = rule.unzip();
+        let (points, weights) = self.sections.iter().map(|(fraction, weight, _)| (fraction, weight)).unzip();
         Gauss { points, weights }
     }
 }

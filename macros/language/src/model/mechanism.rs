@@ -105,8 +105,7 @@ impl Mechanism {
         self.beams.iter().find_map(|beam| {
             let station = beam.stations.iter().find(|station| station.body == body);
             let root = (beam.body == body).then_some((beam, 0.0, &beam.root));
-            let station = station.map(|station| (beam, station.place, &station.section));
-            station.or(root)
+            station.map(|station| (beam, station.place, &station.section)).or(root)
         })
     }
 
@@ -223,8 +222,7 @@ impl Curve {
     /// The number before the declared unit, to nine digits: these survive rounding.
     pub fn in_unit(&self, argument: f64) -> String {
         let number = argument / self.unit.scale;
-        let rounded = format!("{number:.8e}").parse::<f64>();
-        rounded.unwrap_or(number).to_string()
+        format!("{number:.8e}").parse::<f64>().unwrap_or(number).to_string()
     }
 
     /// Whether the curve covers an SI argument.

@@ -35,8 +35,7 @@ impl Mechanism {
             mistake((span, span), item.message, Some(Exchanged::HELP.to_owned()))
         });
         let told = |lints: &[&str]| !is_allowed(&self.attributes, lints);
-        let unused = unused.filter(|_| told(&UNUSED));
-        unused.chain(exchanged.filter(|_| told(&DEPRECATED))).collect()
+        unused.filter(|_| told(&UNUSED)).chain(exchanged.filter(|_| told(&DEPRECATED))).collect()
     }
 }
 

@@ -183,8 +183,7 @@ const DIVIDE: &[Rule] = &[
     rule("a / a = 1", "a is not zero", |g, a, b| (a == b).then(|| g.constant(1.0))),
     rule("a / c = (1 / c) a for a constant c", "1 / c is finite", |g, a, b| {
         let reciprocal = combined(Operator::Divide, Evaluation::ONE, g.number(b)?);
-        let is_normal = reciprocal.value.is_normal();
-        is_normal.then(|| times(g, reciprocal, a))
+        reciprocal.value.is_normal().then(|| times(g, reciprocal, a))
     }),
     rule("(-a) / b = -(a / b)", "", |g, a, b| match (negated(g, a), negated(g, b)) {
         (Some(a), Some(b)) => Some(g.div(a, b)),

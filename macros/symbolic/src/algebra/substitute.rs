@@ -38,8 +38,7 @@ pub fn substitute(graph: &mut Graph, roots: &[ExprId], replacements: &[(SymbolId
         let new = image.get(id).filter(|new| new.index() >= known);
         if let (Some(new), Some(slopes)) = (new, graph.given_slopes(id)) {
             let replaced = |id: ExprId| image.get(id).unwrap_or(id);
-            let slopes = slopes.iter().map(|(by, slope)| (replaced(*by), replaced(*slope)));
-            graph.set_slopes(new, slopes.collect());
+            graph.set_slopes(new, slopes.iter().map(|(by, slope)| (replaced(*by), replaced(*slope))).collect());
         }
     }
     roots.iter().map(|&root| image.get(root).unwrap_or(root)).collect()

@@ -98,8 +98,7 @@ impl Matrix3 {
     /// `self v`.
     pub fn apply(self, g: &mut Graph, v: Vector3) -> Vector3 {
         let terms: [Vector3; 3] = std::array::from_fn(|j| self.0[j].scale(g, v.0[j]));
-        let sum = terms[0].add(g, terms[1]);
-        sum.add(g, terms[2])
+        terms[0].add(g, terms[1]).add(g, terms[2])
     }
 
     /// `self other`.
@@ -206,8 +205,7 @@ impl Matrix3 {
             let kept = identity.0[j].scale(g, cosine);
             let factor = g.mul(versine, axis.0[j]);
             let along = axis.scale(g, factor);
-            let sum = kept.add(g, turned);
-            sum.add(g, along)
+            kept.add(g, turned).add(g, along)
         }))
     }
 }

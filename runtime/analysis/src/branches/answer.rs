@@ -201,8 +201,7 @@ fn point_columns<'a>(
     for (k, info) in d.outputs.iter().enumerate() {
         table.measured(&info.name, &info.unit, &|(_, x)| x.outputs.get(k).copied()).digits(number);
     }
-    let stability = table.words("stability", &|(_, item)| Some(item.equilibrium.stability_word()));
-    stability.shown().headed("state");
+    table.words("stability", &|(_, item)| Some(item.equilibrium.stability_word())).shown().headed("state");
     table
 }
 
@@ -256,10 +255,7 @@ fn stretches(one: &Branch, branches: &[Branch], moving: &Moving<'_>) -> Grid {
     let (d, input) = (&one.description, one.input);
     let rows = Stretch::all(branches);
     let mut table = Columns::new("stretches", &rows);
-    table.cells("branch", &|row| {
-        let number = row.number.map(|number| number.to_string());
-        number.unwrap_or_default()
-    });
+    table.cells("branch", &|row| row.number.map(|number| number.to_string()).unwrap_or_default());
     for (k, end) in ["from", "to"].into_iter().enumerate() {
         let heading = format!("{end} {}", heading_of(d, input));
         table.cells(&heading, &|row| value_of(d, input, row.ends[k].value));

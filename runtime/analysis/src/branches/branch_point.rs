@@ -228,10 +228,7 @@ impl Curve<'_> {
         (borders, reduced): (&Borders, &Reduced),
         [crossed, v]: [&CurvePosition; 2],
     ) -> Result<Option<bool>, ContinuationFailure> {
-        let parts = |direction| {
-            let normals = borders.normals.each_ref();
-            normals.map(|normal| normal.dot(direction))
-        };
+        let parts = |direction| borders.normals.each_ref().map(|normal| normal.dot(direction));
         let (along, across) = (parts(crossed), parts(v));
         let linear = self.linear(&frame.place(at))?;
         // Whether stiffness falls where the input rises, as a sign.
@@ -239,8 +236,7 @@ impl Curve<'_> {
             // With `mu = -w^T g`: the slope of `w^T Khat v` along the branch.
             let slope = -product(&reduced.hessian, along, across);
             let direction = frame.stretched(v).q;
-            let side = form(&frame.weights(&reduced.w), &linear.mass, &direction);
-            -slope * side.signum() * crossed.p.signum()
+            -slope * form(&frame.weights(&reduced.w), &linear.mass, &direction).signum() * crossed.p.signum()
         } else {
             let up = PROBE * crossed.p.signum();
             let growing = |share| self.growing(&frame.place(&at.plus(share, crossed)));
@@ -311,6 +307,5 @@ fn critical([x, y]: &[CurvePosition; 2]) -> Option<CurvePosition> {
 }
 
 fn unit(x: &[f64]) -> Option<Vector> {
-    let direction = CurvePosition { q: x.into(), p: 0.0 };
-    direction.unit().map(|normalised| normalised.q)
+    CurvePosition { q: x.into(), p: 0.0 }.unit().map(|normalised| normalised.q)
 }

@@ -75,8 +75,7 @@ impl Curve<'_> {
         outside: &Corrected,
         bound: f64,
     ) -> Result<Corrected, ContinuationFailure> {
-        let target = at.frame.local(&CurvePosition { p: bound, ..at.place.clone() });
-        let share = target.p / outside.local.p;
+        let share = at.frame.local(&CurvePosition { p: bound, ..at.place.clone() }).p / outside.local.p;
         // A step that turns back between the points would land on the wrong side of the turn.
         if at.tangent.p * outside.local.p <= 0.0 || !(0.0..=1.0).contains(&share) {
             return Err(ContinuationFailure::Missed(NotFound::TurnsBack));

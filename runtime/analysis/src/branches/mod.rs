@@ -160,9 +160,7 @@ impl Branch {
     /// The stretches that are stable or neutral.
     #[must_use]
     pub fn stable(&self) -> Vec<&[BranchPoint]> {
-        let stretches = self.stretches().into_iter();
-        let stable = stretches.filter(|(stability, _)| stability.holds());
-        stable.map(|(_, run)| run).collect()
+        self.stretches().into_iter().filter(|(stability, _)| stability.holds()).map(|(_, run)| run).collect()
     }
 
     fn is_special(&self, point: &BranchPoint) -> bool {

@@ -158,8 +158,7 @@ fn normalised(linear: &Linear, structure: Structure, v: &[f64], w: &[f64]) -> Op
     let chained = both.abs() <= CHAINED * size;
     let both = if chained { size } else { both };
     let w = w.map(|value| value / both);
-    let finite = v.iter().chain(&w).all(|value| value.is_finite());
-    finite.then_some((v, w))
+    v.iter().chain(&w).all(|value| value.is_finite()).then_some((v, w))
 }
 
 /// Makes `zero` modes of an equilibrium critical, whatever sign rounding gives them.

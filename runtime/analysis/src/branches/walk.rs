@@ -118,8 +118,7 @@ impl Curve<'_> {
                 walk.points.push(self.special_point(&special, &located.direction));
                 walk.special.push(special.clone());
                 if let Some(junction) = located.junction {
-                    let frame = at.frame.at(junction.frame.origin.clone());
-                    let home_again = frame.local(home).norm() <= SAME;
+                    let home_again = at.frame.at(junction.frame.origin.clone()).local(home).norm() <= SAME;
                     walk.junctions.push((junction, located.ends_arm));
                     if steps > 2 && home_again && !located.ends_arm {
                         walk.end = BranchEnd::Closed;

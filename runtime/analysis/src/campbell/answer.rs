@@ -104,8 +104,7 @@ impl<'a> Row<'a> {
 impl CampbellMode {
     /// The standard deviation of one of its spreads, which a member of a cluster does not have.
     fn sigma(&self, spread: Option<&Spread>) -> Option<f64> {
-        let separate = spread.filter(|_| !self.clustered);
-        separate.map(|x| x.sigma)
+        spread.filter(|_| !self.clustered).map(|x| x.sigma)
     }
 }
 
@@ -228,8 +227,7 @@ impl Campbell {
         if self.family == Family::General && motions.iter().any(damped) {
             table.cells("least damping ratio", &|row| or_dash(row.least_damped().map(|(.., x)| x.mean), rough));
             table.cells("sigma", &|row| {
-                let separate = row.least_damped().filter(|(_, mode, _)| !mode.clustered);
-                or_dash(separate.map(|(.., x)| spread_of(x)), rough)
+                or_dash(row.least_damped().filter(|(_, mode, _)| !mode.clustered).map(|(.., x)| spread_of(x)), rough)
             });
             table.cells(&at, &|row| formatted(row.least_damped().map(|pair| pair.0)));
         }
@@ -249,8 +247,7 @@ impl Campbell {
         varied(&mut table, &self.description, self.input, given, &|x| x.value);
         for label in self.labels() {
             let frequency = |campbell_point: &CampbellPoint| {
-                let mode = campbell_point.modes.as_ref().ok()?.iter().find(|mode| mode.label == label)?;
-                mode.behaviour.frequency()
+                campbell_point.modes.as_ref().ok()?.iter().find(|mode| mode.label == label)?.behaviour.frequency()
             };
             if self.points.iter().any(|point| frequency(point).is_some()) {
                 let name = format!("{}{}", frequency_symbol(&self.description.frequency), label + 1);
@@ -259,10 +256,7 @@ impl Campbell {
         }
         let failed = self.points.iter().filter(|point| point.modes.is_err()).count();
         if failed > 0 {
-            table.cells("error", &|row| {
-                let error = row.modes.as_ref().err();
-                error.map_or_else(|| "-".to_owned(), ToString::to_string)
-            });
+            table.cells("error", &|row| row.modes.as_ref().err().map_or_else(|| "-".to_owned(), ToString::to_string));
         }
         said.text(table.finish().1);
         if failed > 0 {

@@ -199,10 +199,8 @@ impl Answer for DirectionalDerivatives {
         let rows: Vec<_> = self.eigenvalues.iter().enumerate().collect();
         let mut table = Columns::new("directional derivatives", &rows);
         table.words("modes", &|_| Some(listed(&self.modes)));
-        let re = table.number("Re derivative", unit, &|(_, x)| Some(x.re));
-        re.digits(rough);
-        let im = table.number("Im derivative", unit, &|(_, x)| Some(x.im));
-        im.digits(rough);
+        table.number("Re derivative", unit, &|(_, x)| Some(x.re)).digits(rough);
+        table.number("Im derivative", unit, &|(_, x)| Some(x.im)).digits(rough);
         let frequency =
             table.number("derivative of frequency", "rad/s", &|(k, _)| self.frequencies.as_ref()?.get(*k).copied());
         frequency.digits(rough);

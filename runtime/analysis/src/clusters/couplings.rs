@@ -58,8 +58,7 @@ impl ModalCouplings {
     /// Trace of a matrix divided by its size.
     fn trace(&self, matrix: &Matrix<Complex>) -> Complex {
         let count = self.modes.len();
-        let diagonal = (0..count).map(|i| matrix[i][i]);
-        diagonal.sum::<Complex>() / count.max(1) as f64
+        (0..count).map(|i| matrix[i][i]).sum::<Complex>() / count.max(1) as f64
     }
 
     /// Element (`i`, `j`) of the matrix of each design variable.

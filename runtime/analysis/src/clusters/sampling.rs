@@ -288,8 +288,7 @@ where
 /// Operations of one sample: the matrix, and its eigenvalues.
 pub(super) fn operations(couplings: &ModalCouplings, tolerances: &Tolerances) -> f64 {
     let m = couplings.eigenvalues.len() as f64;
-    let varied = tolerances.sigmas().iter().filter(|sigma| **sigma > 0.0);
-    let (fill, solve) = (varied.count() as f64 * m * m, m * m * m);
+    let (fill, solve) = (tolerances.sigmas().iter().filter(|sigma| **sigma > 0.0).count() as f64 * m * m, m * m * m);
     match couplings.family {
         Family::Undamped if m < MANY as f64 => 2.0 * fill + 20.0 * solve,
         Family::Undamped => 2.0 * fill + 1.5 * solve + 60.0 * m * m,

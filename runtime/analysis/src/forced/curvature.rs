@@ -307,8 +307,7 @@ pub(super) fn frequency_along(
     along: &Along<'_>,
 ) -> f64 {
     let mut gradient = Gradient::zeros(mechanism.sizes());
-    let weights = Weights::of_frequency(mechanism.sizes(), vibration);
-    weights.gradient_into(mechanism, at, gradient_results(&mut gradient));
+    Weights::of_frequency(mechanism.sizes(), vibration).gradient_into(mechanism, at, gradient_results(&mut gradient));
     let Direction { coordinates, inputs, design } = &along.direction;
     dot(&gradient.coordinates, coordinates) + dot(&gradient.inputs, inputs) + dot(&gradient.design, design)
 }

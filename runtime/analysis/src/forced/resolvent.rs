@@ -153,8 +153,7 @@ impl<'a> Resolvent<'a> {
         add(&mut amplitudes, &times(&self.rest.at(&changes), &force));
         let (first, turn) = *self.members.first()?;
         let frequency = turn * forces.frequency(first);
-        let finite = amplitudes.iter().map(|y| y.is_finite().then_some(*y));
-        Some((frequency, finite.collect()))
+        Some((frequency, amplitudes.iter().map(|y| y.is_finite().then_some(*y)).collect()))
     }
 }
 
@@ -233,8 +232,7 @@ fn near_null_space(matrix: &Matrix<Complex>) -> Option<(Vec<Vector<Complex>>, Ve
     let mut left = right.clone();
     for _ in 0..STEPS {
         let adjoint = right.iter().map(|vector| {
-            let image = factors.solve_transposed(&vector.map(|value: Complex| value.conj()));
-            image.map(|value: Complex| value.conj())
+            factors.solve_transposed(&vector.map(|value: Complex| value.conj())).map(|value: Complex| value.conj())
         });
         left = orthonormal(adjoint.collect())?;
         right = orthonormal(left.iter().map(|vector| factors.solve(vector)).collect())?;

@@ -55,16 +55,14 @@ impl ForcedSensitivities {
     #[must_use]
     pub fn modulus(&self, harmonic: usize, output: Output, measure: Measure) -> Option<Slopes<f64>> {
         let y = self.value(harmonic, output, measure)?;
-        let slopes = self.complex(harmonic, output, measure)?;
-        Some(slopes.map(|dy| Extent::Amplitude.slope(&[y], &[dy])))
+        Some(self.complex(harmonic, output, measure)?.map(|dy| Extent::Amplitude.slope(&[y], &[dy])))
     }
 
     /// Derivatives of the phase, rad; `None` also where the modulus is zero.
     #[must_use]
     pub fn phase(&self, harmonic: usize, output: Output, measure: Measure) -> Option<Slopes<f64>> {
         let y = self.value(harmonic, output, measure)?;
-        let slopes = self.complex(harmonic, output, measure)?;
-        Some(slopes.map(|dy| (dy / y).im))
+        Some(self.complex(harmonic, output, measure)?.map(|dy| (dy / y).im))
     }
 
     /// The complex amplitude, unless it is zero.
@@ -111,8 +109,7 @@ pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensi
         };
         let outputs = adjoints.iter().map(of_output).collect();
         let mut row = Matrix::zeros(1, re.column_count());
-        let of_frequency = Weights::of_frequency(mechanism.sizes(), vibration);
-        of_frequency.gradient_into(mechanism, at, results(at, &mut row[0]));
+        Weights::of_frequency(mechanism.sizes(), vibration).gradient_into(mechanism, at, results(at, &mut row[0]));
         add_shift(&mut row, &shift);
         let harmonic_sensitivity = HarmonicSensitivity { outputs, frequency: slopes(at, |j| row[0][j]) };
         if !harmonic_sensitivity.finite() {

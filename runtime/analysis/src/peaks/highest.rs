@@ -58,8 +58,7 @@ pub(crate) fn highest(
             (top.point.value, top.place_by_design())
         }
     };
-    let smooth = slopes.iter().all(|slope| slope.is_finite());
-    Ok((value, smooth.then_some(slopes)))
+    Ok((value, slopes.iter().all(|slope| slope.is_finite()).then_some(slopes)))
 }
 
 fn lower(a: &Curve, b: &Curve) -> core::cmp::Ordering {

@@ -22,10 +22,7 @@ impl Solid {
             Shape::Cylinder { axis, radius, length } | Shape::Tube { axis, outer: radius, length, .. } => {
                 across(*axis, direction) * radius + along(*axis) * length / 2.0
             }
-            Shape::Box { edges, size } => {
-                let edges = edges.iter().zip(size);
-                edges.map(|(edge, size)| along(*edge) * size / 2.0).sum()
-            }
+            Shape::Box { edges, size } => edges.iter().zip(size).map(|(edge, size)| along(*edge) * size / 2.0).sum(),
             Shape::Sphere { radius } => *radius,
             Shape::Ellipsoid { axes, semi_axes } => {
                 axes.iter().zip(semi_axes).map(|(axis, length)| (along(*axis) * length).powi(2)).sum::<f64>().sqrt()

@@ -52,8 +52,7 @@ impl Scene {
             return gravity.map(|component| -component / size + 0.0);
         }
         let on_ground = |joint: &&Joint| joint.driven && joint.from.body.is_none();
-        let driven = self.joints.iter().find(on_ground);
-        let axis = driven.and_then(|joint| joint.from.axis).unwrap_or([0.0, 0.0, 1.0]);
+        let axis = self.joints.iter().find(on_ground).and_then(|joint| joint.from.axis).unwrap_or([0.0, 0.0, 1.0]);
         let largest = axis.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()));
         let sign = if largest.is_some_and(|largest| largest < 0.0) { -1.0 } else { 1.0 };
         axis.map(|component| sign * component + 0.0)

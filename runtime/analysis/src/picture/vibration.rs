@@ -144,10 +144,11 @@ impl Motion<'_> {
 /// The largest displacement of the visible parts of bodies and beams; `displaced` gives the
 /// displacements of a place on a body, or on a section after all bodies, at two phases a quarter of a period apart.
 fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2]) -> f64 {
-    let solids = scene.bodies.iter().enumerate().flat_map(|(body, parts)| {
-        let tips = parts.solids.iter().flat_map(|solid| solid.tips());
-        tips.map(move |tip| (body, tip))
-    });
+    let solids = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .flat_map(|(body, parts)| parts.solids.iter().flat_map(|solid| solid.tips()).map(move |tip| (body, tip)));
     let seats = scene.joints.iter().flat_map(|joint| [joint.from, joint.to]);
     let seats = seats.map(|seat| (seat.body, seat.place));
     let points = scene.points.iter().map(|point| (point.body, point.place));

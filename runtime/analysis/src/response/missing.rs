@@ -41,8 +41,7 @@ impl Responses<'_> {
             Response::Mode { mode, quantity } => {
                 let eigenmode = self.modes().modes.get(mode)?;
                 let lambda = eigenmode.lambda;
-                let still = quantity.of(eigenmode).is_none();
-                still.then_some(Error::NotOscillating { mode, lambda })
+                quantity.of(eigenmode).is_none().then_some(Error::NotOscillating { mode, lambda })
             }
             Response::Output(output) => {
                 let kernels: &dyn Kernels = mechanism;

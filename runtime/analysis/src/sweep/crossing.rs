@@ -104,8 +104,7 @@ pub(crate) fn first_crossing(
         label == mode || others.is_some_and(|others| !others.contains(&label))
     };
     let along = along(mechanism, values, start, following, range);
-    let crossings = meetings(&along, condition, wanted)?;
-    Ok(crossings.into_iter().find(wanted))
+    Ok(meetings(&along, condition, wanted)?.into_iter().find(wanted))
 }
 
 /// Finds the crossings in a range until one of them is `enough`.

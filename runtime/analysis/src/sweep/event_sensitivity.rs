@@ -53,8 +53,7 @@ pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Res
         Some(input) if input == crossing.input.index() => other,
         _ => 0.0,
     };
-    let by_design = slopes.by_design.iter().enumerate();
-    let slopes = by_design.map(|(design, value)| -(value - moved(design)) / rate).collect();
+    let slopes = slopes.by_design.iter().enumerate().map(|(design, value)| -(value - moved(design)) / rate).collect();
     finite(slopes, &crossing.equilibrium)
 }
 
@@ -96,8 +95,7 @@ pub fn critical_sensitivity(mechanism: &dyn DirectionalKernels, critical: &Criti
         SpecialKind::Degenerate => Err(Error::ClusteredMode { mode: 0 }),
         SpecialKind::Fold => {
             let push = dot(&critical.w, &force_input);
-            let slopes = forces_design.iter().map(|force| -dot(&critical.w, force) / push);
-            finite(slopes.collect(), at)
+            finite(forces_design.iter().map(|force| -dot(&critical.w, force) / push).collect(), at)
         }
         SpecialKind::Pitchfork { .. } | SpecialKind::Transcritical => {
             Crossed::new(mechanism, critical, &force_input)?.shifts(critical, &forces_design)

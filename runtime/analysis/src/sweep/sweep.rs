@@ -65,8 +65,7 @@ pub fn sweep_each(
         unreached -= 1;
         last = station.point.value;
         let general = station.point.modes.iter();
-        let general = general.filter(|modes| modes.family == Family::General);
-        states.extend(general.map(|modes| growing(last, modes)));
+        states.extend(general.filter(|modes| modes.family == Family::General).map(|modes| growing(last, modes)));
         each(station.point)
     });
     let until = |events: Events| match unreached {

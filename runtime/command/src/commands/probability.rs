@@ -81,8 +81,7 @@ impl Probability {
             study.modes().ok().map(|modes| judge::affordable(&modes, 100.0).max(SEARCHES))
         };
         let count = samples(self.samples.or(file.samples).or(usual), file)?;
-        let study = study.samples(count);
-        let outcome = study.probability(&wanted);
+        let outcome = study.samples(count).probability(&wanted);
         drop(bar);
         let probabilities = outcome?;
         let mut answer = self.output.answer();

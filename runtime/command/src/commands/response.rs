@@ -138,8 +138,7 @@ impl Response {
             return Err(Failure::usage(message, help));
         }
         let bar = progress::bar("states", None);
-        let study = progress::watched(study.clone(), &bar);
-        let peaks = study.peaks_of(wanted, along.input, along.low, along.high)?;
+        let peaks = progress::watched(study.clone(), &bar).peaks_of(wanted, along.input, along.low, along.high)?;
         drop(bar);
         let mut answer = self.output.answer();
         answer.add(&peaks)?;

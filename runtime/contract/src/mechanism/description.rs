@@ -91,8 +91,7 @@ impl Description {
     #[cfg(feature = "std")]
     #[doc(hidden)]
     pub fn unknown_name(&self, index: usize) -> Text {
-        let coordinate = self.coordinates.get(index);
-        coordinate.map_or(Text::Static("?"), |info| info.name.clone())
+        self.coordinates.get(index).map_or(Text::Static("?"), |info| info.name.clone())
     }
 }
 

@@ -6,8 +6,7 @@ use crate::figure::Point;
 pub(super) fn clip(curve: &[Point], x: [f64; 2], y: [f64; 2]) -> Vec<Vec<Point>> {
     let turned = |piece: Vec<Point>| -> Vec<Point> { piece.into_iter().map(|[x, y]| [y, x]).collect() };
     let within = within(curve, y);
-    let turned_parts = within.into_iter().map(turned);
-    turned_parts.flat_map(|part| self::within(&part, x)).map(turned).collect()
+    within.into_iter().map(turned).flat_map(|part| self::within(&part, x)).map(turned).collect()
 }
 
 /// The part of a band within a range, with its edges cut at the ends of the range.

@@ -35,8 +35,7 @@ impl Figure {
         let layout = Layout::of(self);
         let (width, height) = (px(WIDTH) as u32, layout.height as u32);
         let mut pixels = vec![0; 3 * width as usize * height as usize];
-        let backend = BitMapBackend::with_buffer(&mut pixels, (width, height));
-        let area = backend.into_drawing_area();
+        let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
         let drawn = draw(self, &layout, &area);
         drop(area);
         drawn.map_err(Error::Drawing)?;

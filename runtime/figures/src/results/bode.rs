@@ -313,8 +313,7 @@ impl<'a> Course<'a> {
         let in_unit = |value: f64| in_unit(value, &self.unit);
         let median = spreads.iter().map(|(value, spread)| {
             let all = &(*spread)?.quantiles;
-            let quantile = all.iter().find(|x| x.probability == 0.5)?;
-            Some([*value, in_unit(quantile.value)])
+            Some([*value, in_unit(all.iter().find(|x| x.probability == 0.5)?.value)])
         });
         let median = Curve::new("median", Colour::Black, median).stroke(Stroke::Dashed);
         panel.curve(median);

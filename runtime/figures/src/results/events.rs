@@ -46,8 +46,7 @@ pub(crate) fn draw(
             continue;
         };
         let value = in_unit(event.value, &unit);
-        let sigma = event.sigma().map(|sigma| in_unit(sigma, &unit));
-        let half = campbell.sigma_level * sigma.unwrap_or(0.0);
+        let half = campbell.sigma_level * event.sigma().map(|sigma| in_unit(sigma, &unit)).unwrap_or(0.0);
         let bar = ErrorBar::level([value, height], half);
         let (words, shape) = look(&event.event);
         match groups.iter_mut().find(|group| group.0 == words) {

@@ -123,8 +123,7 @@ impl<'a> Spreads<'a> {
         let value = |inputs: &[f64]| Some(in_unit(*inputs.get(self.input.index())?, &unit));
         let nominal = |inputs: &[f64]| self.nominal(series, inputs);
         let points = series.first_order.iter().map(|item| -> Option<Point> {
-            let spread = item.modes.get(self.mode)?.frequency()?;
-            Some([value(&item.inputs)?, scale * spread.sigma])
+            Some([value(&item.inputs)?, scale * item.modes.get(self.mode)?.frequency()?.sigma])
         });
         let curve = Curve::new(format!("first order, {}", series.label), Colour::Series(k), points);
         upper.curve(curve.stroke(Stroke::of(k)));
@@ -150,7 +149,6 @@ impl<'a> Spreads<'a> {
     /// The nominal frequency at these input values.
     fn nominal(&self, series: &Series<'_>, inputs: &[f64]) -> Option<f64> {
         let same = |first_order: &&FirstOrder| first_order.inputs.iter().eq(inputs.iter());
-        let matching = series.first_order.iter().find(same)?;
-        matching.modes.get(self.mode)?.behaviour.frequency()
+        series.first_order.iter().find(same)?.modes.get(self.mode)?.behaviour.frequency()
     }
 }

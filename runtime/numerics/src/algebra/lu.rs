@@ -53,12 +53,12 @@ impl<T: Field> Lu<T> {
     pub fn of(matrix: Matrix<T>) -> Option<Self> {
         let n = matrix.row_count();
         let mut lu = Self { factors: matrix, order: (0..n).collect(), odd: false };
-        let regular = for_size(
+        for_size(
             n,
             #[inline(always)]
             |n| lu.factor(n),
-        );
-        regular.then_some(lu)
+        )
+        .then_some(lu)
     }
 
     /// Factors, in place, the matrix of size `n`; see [`for_size`]. Returns whether it is regular.

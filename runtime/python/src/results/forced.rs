@@ -200,10 +200,8 @@ impl ForcedResponse {
         let vibration = vibration.measure(self::measure(py, measure)?);
         let unit = Response::Vibration(vibration).unit(&self.0.description);
         let limit = number(limit, &unit, output)?;
-        let below = |harmonic: &Harmonic| {
-            let sum = harmonic.unknown_phases(wanted, vibration.measure)?;
-            Ok(sum.probability_below(limit))
-        };
+        let below =
+            |harmonic: &Harmonic| Ok(harmonic.unknown_phases(wanted, vibration.measure)?.probability_below(limit));
         let all: Result<Vec<f64>, _> = self.0.harmonics.iter().map(below).collect();
         Ok(vector(py, all.map_err(|error| raise(py, error))?))
     }

@@ -35,10 +35,10 @@ impl MonteCarlo {
     }
 
     fn kept(&self, py: Python<'_>) -> PyResult<&[Sample]> {
-        self.0.all.as_deref().ok_or_else(|| {
-            let message = "the samples were not kept: set keep_samples=True in the study";
-            invalid(py, message.to_owned())
-        })
+        self.0
+            .all
+            .as_deref()
+            .ok_or_else(|| invalid(py, "the samples were not kept: set keep_samples=True in the study".to_owned()))
     }
 
     fn of_samples<'py>(&self, py: Python<'py>, of: impl Fn(&Sample) -> &[Option<f64>]) -> PyResult<Array2<'py>> {

@@ -221,8 +221,7 @@ fn along(along: &Along, style: &Style) -> Vec<Line> {
     let bad = campbell.critical.iter().chain(&campbell.flutter_onsets);
     let bad: Vec<Line> = bad.map(|event| (Some(false), happening(campbell, event, style))).collect();
     let (d, input) = (&campbell.description, campbell.input);
-    let searched = campbell.searched.iter();
-    let unresolved = searched.flat_map(|x| x.sentences(d, input));
+    let unresolved = campbell.searched.iter().flat_map(|x| x.sentences(d, input));
     let unresolved = unresolved.map(|sentence| (None, format!("{sentence}.")));
     let met = campbell.crossings.iter().map(|event| (None, happening(campbell, event, style)));
     let mut lines: Vec<Line> = bad.into_iter().chain(unresolved).chain(met).collect();

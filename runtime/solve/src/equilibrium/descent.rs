@@ -177,11 +177,9 @@ pub(super) fn grows_without_bound(point: &OperatingPoint<'_>, q: &[f64]) -> bool
             let step = share * q[i].abs().clamp(SMALL_MOTION * large, large);
             aside[i] += step.copysign(step * residual[i]);
         }
-        let there = point.evaluate(&aside);
-        there.map(|(_, stiffness)| size(&stiffness))
+        point.evaluate(&aside).map(|(_, stiffness)| size(&stiffness))
     });
-    let most = beside.into_iter().flatten().reduce(f64::max);
-    most.is_some_and(|beside| beside < VANISHES * size(&stiffness))
+    beside.into_iter().flatten().reduce(f64::max).is_some_and(|beside| beside < VANISHES * size(&stiffness))
 }
 
 /// The modes at a state where the potential is not convex.

@@ -48,8 +48,7 @@ fn newton(
 ) -> Result<(), SearchState> {
     let (u, b) = (point.inputs, point.design);
     let evaluate = |q: &[f64], residual: &mut [f64], stiffness: &mut [f64]| {
-        let mechanism = point.mechanism;
-        mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
+        point.mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
     };
     let most = progress.iterations + MAX_ITERATIONS;
     let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));

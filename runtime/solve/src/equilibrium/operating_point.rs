@@ -190,8 +190,7 @@ impl<'a> OperatingPoint<'a> {
         const NONE: &FreeDirections = &FreeDirections::none();
         let claimed = self.place.is_none() && self.free() > 0;
         let stiffness = claimed.then(|| self.linear(q).ok())??.stiffness;
-        let resisted = FreeDirections::of(&stiffness, self.free()).is_empty();
-        resisted.then(|| Self { place: Some(NONE), ..self.clone() })
+        FreeDirections::of(&stiffness, self.free()).is_empty().then(|| Self { place: Some(NONE), ..self.clone() })
     }
 
     /// Number of coordinates and speeds, which come first, before the reactions.
@@ -237,15 +236,13 @@ impl<'a> OperatingPoint<'a> {
     pub fn evaluate(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
         let n = self.size();
         let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
-        let finite = self.evaluate_into(q, &mut residual, &mut stiffness);
-        finite.then_some((residual, stiffness))
+        self.evaluate_into(q, &mut residual, &mut stiffness).then_some((residual, stiffness))
     }
 
     /// Like [`Self::evaluate`], overwriting a residual and a stiffness of this size; false if either is not finite.
     pub(crate) fn evaluate_into(&self, q: &[f64], residual: &mut Vector, stiffness: &mut Matrix) -> bool {
         let entries = stiffness.as_flattened_mut();
-        let kernels = self.mechanism;
-        kernels.residual_and_stiffness_into(q, self.inputs, self.design, residual, entries);
+        self.mechanism.residual_and_stiffness_into(q, self.inputs, self.design, residual, entries);
         let finite = for_size(
             q.len(),
             #[inline(always)]
@@ -312,8 +309,7 @@ impl<'a> OperatingPoint<'a> {
 
     /// Like [`Self::evaluate`], but with every constraint, and without fixing the gauge.
     pub(crate) fn evaluate_plain(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
-        let kernels = self.mechanism;
-        let evaluated = kernels.residual_and_stiffness(q, self.inputs, self.design);
+        let evaluated = self.mechanism.residual_and_stiffness(q, self.inputs, self.design);
         (all_finite(&evaluated.0) && all_finite_matrix(&evaluated.1)).then_some(evaluated)
     }
 

@@ -34,12 +34,8 @@ pub fn refine(mut bracket: Bracket, mut function: impl FnMut(f64) -> Option<(f64
         let middle = bracket.low + 0.5 * width;
         let inside = |trial: &f64| trial.is_finite() && (trial - bracket.low) * (trial - bracket.high) < 0.0;
         let slow = round % 16 == 15 || (round % 4 == 3 && newton.is_none());
-        let trial = if slow {
-            middle
-        } else {
-            let quick = newton.take().filter(inside);
-            quick.or(Some(secant).filter(inside)).unwrap_or(middle)
-        };
+        let trial =
+            if slow { middle } else { newton.take().filter(inside).or(Some(secant).filter(inside)).unwrap_or(middle) };
         if trial == bracket.low || trial == bracket.high {
             break;
         }

@@ -88,8 +88,7 @@ pub(super) fn units(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Fai
 fn fastest(linear: &Linear, structure: Structure, mass: &[f64], q: &[f64]) -> f64 {
     let elastic = (0..structure.coordinates).map(|i| {
         let row = &linear.stiffness[i];
-        let reactions = structure.constraint_rows().map(|j| (row[j] * q[j]).abs());
-        (reactions.fold(row[i].abs(), f64::max) / mass[i]).sqrt()
+        (structure.constraint_rows().map(|j| (row[j] * q[j]).abs()).fold(row[i].abs(), f64::max) / mass[i]).sqrt()
     });
     let damped = structure.speed_range().map(|i| linear.stiffness[i][i].abs() / mass[i]);
     elastic.chain(damped).fold(0.0, f64::max)

@@ -188,8 +188,7 @@ fn by_eigenvalues(
         return Verdict::without_modes(Stability::Undecided, floor);
     }
     let count = |wanted: fn(Behaviour) -> bool| {
-        let behaviours = spectrum.modes.iter().map(|mode| mode.behaviour);
-        behaviours.filter(|&behaviour| wanted(behaviour)).count()
+        spectrum.modes.iter().map(|mode| mode.behaviour).filter(|&behaviour| wanted(behaviour)).count()
     };
     let divergent = count(|behaviour| matches!(behaviour, Behaviour::Divergent(_)));
     let growing = count(|behaviour| matches!(behaviour, Behaviour::Flutter(_)));

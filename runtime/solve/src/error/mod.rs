@@ -576,8 +576,7 @@ fn six_digits(value: f64) -> f64 {
 
 /// A value in SI with its declared unit.
 fn valued(value: f64, unit: &Unit) -> String {
-    let number = six_digits(unit.from_si(value)).to_string();
-    [number.as_str(), &unit.symbol].join(" ").trim_end().to_owned()
+    [six_digits(unit.from_si(value)).to_string().as_str(), &unit.symbol].join(" ").trim_end().to_owned()
 }
 
 #[cfg(test)]

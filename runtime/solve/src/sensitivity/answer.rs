@@ -73,8 +73,7 @@ impl Sensitivities {
         let mut shown: Vec<Derived> = moving.clone().map(|(r, mode)| (r, first(mode), mode)).map(derived).collect();
         if self.family == Family::General {
             let oscillating = moving.filter(|(_, mode)| first(mode) == Quantity::Frequency);
-            let damping = oscillating.map(|(r, mode)| (r, Quantity::DampingRatio, mode));
-            shown.extend(damping.map(derived));
+            shown.extend(oscillating.map(|(r, mode)| (r, Quantity::DampingRatio, mode)).map(derived));
         }
         shown
     }

@@ -35,10 +35,7 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
         }
         let input = scale.broken(&n, &by_input, &at.inputs);
         let input = input.map(|(i, j)| (i, &description.inputs[j].name));
-        let design = || {
-            let broken = scale.broken(&n, &by_design, &at.design);
-            broken.map(|(i, j)| (i, &description.design[j].name))
-        };
+        let design = || scale.broken(&n, &by_design, &at.design).map(|(i, j)| (i, &description.design[j].name));
         if let Some((constraint, variable)) = input.or_else(design) {
             return Err(Error::ClosesHereOnly {
                 constraint: description.unknown_name(constraint),

@@ -42,8 +42,7 @@ impl Discrete {
         // About one of the values, so that a common offset costs no digits.
         let about = self.values[self.values.len() / 2];
         let shift = self.sum(|value| value - about);
-        let variance = self.sum(|value| (value - about - shift).powi(2));
-        (about + shift, variance.sqrt())
+        (about + shift, self.sum(|value| (value - about - shift).powi(2)).sqrt())
     }
 
     pub(super) fn sum(&self, of: impl Fn(f64) -> f64) -> f64 {

@@ -24,10 +24,8 @@ impl Sobol {
     /// Binary digits of point `k`, by dimension.
     pub(super) fn digits(&self, k: u64) -> Vec<u64> {
         let gray = k ^ k >> 1;
-        let sum = |v: &Directions| {
-            let taken = v.iter().enumerate().filter(|(i, _)| gray >> i & 1 == 1);
-            taken.fold(0, |sum, (_, v)| sum ^ v)
-        };
+        let sum =
+            |v: &Directions| v.iter().enumerate().filter(|(i, _)| gray >> i & 1 == 1).fold(0, |sum, (_, v)| sum ^ v);
         self.directions.iter().map(sum).collect()
     }
 

@@ -39,8 +39,7 @@ impl Task for Continuity<'_, '_> {
                 size = greater(size, q.abs());
             }
             let allowed = V::constant(MISSED) * moved + V::constant(STILL) * size;
-            let flag = keep(V::load(&block.flags, at), missed.at_most(allowed));
-            flag.store(&mut block.flags, at);
+            keep(V::load(&block.flags, at), missed.at_most(allowed)).store(&mut block.flags, at);
         }
     }
 }

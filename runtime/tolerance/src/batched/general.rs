@@ -234,8 +234,7 @@ impl<V: Lanes, const N: usize> Pencil<V, N> {
         let mut neighbour = V::constant(f64::MAX);
         for k in 0..n {
             let (pivot, size) = (q[k][k], q[k][k].bound());
-            let pivot = Complex::choose(size.at_most(tiny), replacement, pivot);
-            let inverse = pivot.inverse();
+            let inverse = Complex::choose(size.at_most(tiny), replacement, pivot).inverse();
             q[k][k] = inverse;
             if k + 1 < n {
                 neighbour = V::choose(size.at_most(neighbour), size, neighbour);

@@ -73,8 +73,7 @@ impl Fingerprint {
     /// Refuses the fingerprint of another run.
     pub(crate) fn check(&self, other: &Self) -> Result<(), Error> {
         let value_of = |all: &Self, name: &str| {
-            let fact = all.facts().find(|(x, _)| *x == name);
-            fact.map_or("not there".to_owned(), |(_, value)| value.to_owned())
+            all.facts().find(|(x, _)| *x == name).map_or("not there".to_owned(), |(_, value)| value.to_owned())
         };
         let names = self.facts().chain(other.facts()).map(|(name, _)| name);
         for name in names {

@@ -104,8 +104,7 @@ impl PartialMonteCarlo {
         let planned = self.run.total() as usize;
         let counts = self.run.counts();
         let part = self.run.parts.pop();
-        let outcomes = part.as_ref().map_or(&[][..], Partial::outcomes);
-        let left_nominal_branch = outcomes.get(LEFT_NOMINAL_BRANCH).copied();
+        let left_nominal_branch = part.as_ref().map_or(&[][..], Partial::outcomes).get(LEFT_NOMINAL_BRANCH).copied();
         let mut modes = part.map_or_else(Vec::new, Partial::into_statistics);
         let damping_ratios = match self.family {
             Family::General => modes.split_off(modes.len() / 2),

@@ -84,8 +84,7 @@ impl<'a> SampleSolver<'a> {
         let mut plan = Plan::new(quantities.len() * count).outcomes(LEFT_NOMINAL_BRANCH + 1);
         for (k, quantity) in quantities.iter().enumerate() {
             for (r, mode) in self.modes.modes.iter().enumerate() {
-                let sensitivity = slopes.as_ref().and_then(|all| all.modes.get(r));
-                let mode_slopes = sensitivity.and_then(|x| x.of(*quantity));
+                let mode_slopes = slopes.as_ref().and_then(|all| all.modes.get(r)).and_then(|x| x.of(*quantity));
                 let by_design = mode_slopes.as_ref().map(|x| &x.by_design[..]);
                 let (reference, scale) = self.tolerances.scale(quantity.of(mode), by_design);
                 plan = plan.sketch(k * count + r, reference, scale)?;

@@ -249,8 +249,7 @@ impl Tolerances {
         let sigma = slopes.map_or(0.0, |slopes| self.sigma(slopes));
         let power = |scale: f64| f64::from_bits(scale.to_bits() & EXPONENT);
         let usable = [sigma, 1e-3 * value.abs()].map(power);
-        let usable = (usable.into_iter()).find(|scale| (1e-300..1e300).contains(scale));
-        (value, usable.unwrap_or(1.0))
+        (value, (usable.into_iter()).find(|scale| (1e-300..1e300).contains(scale)).unwrap_or(1.0))
     }
 
     /// Covariance of two quantities from their derivatives with respect to the design variables, `A Sigma B^T`; NaN in

@@ -61,14 +61,11 @@ impl Allocation {
         let sampled = |k: usize| Some(self.chances.each.get(k)?.failure());
         let mut table = Columns::new("requirements", &rows);
         table.whole("requirement", &|(k, _)| Some(k + 1)).shown();
-        let allowed = table.number("allowed to fail", "", &|(_, allowed)| Some(**allowed));
-        allowed.digits(given);
-        let beta = table.number("beta", "", &|(k, _)| self.reliability.beta_of(*k));
-        beta.digits(short);
+        table.number("allowed to fail", "", &|(_, allowed)| Some(**allowed)).digits(given);
+        table.number("beta", "", &|(k, _)| self.reliability.beta_of(*k)).digits(short);
         let column = table.number("probability of failure, sampled", "", &|(k, _)| sampled(*k));
         column.digits(|value| chance(value, 0.0)).headed("P(failed), sampled");
-        let refuted = table.flag("refuted", &|(k, _)| Some(self.refuted.contains(k)));
-        refuted.shown().headed("samples refute it");
+        table.flag("refuted", &|(k, _)| Some(self.refuted.contains(k))).shown().headed("samples refute it");
         said.columns(table);
     }
 }

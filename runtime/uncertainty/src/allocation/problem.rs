@@ -96,8 +96,7 @@ impl Problem<'_> {
     /// The start of the search, and the bounds of the choices.
     pub(super) fn start(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
         let choices = self.choices.half_widths.iter();
-        let logarithms = choices.clone().map(|choice| self.half_widths[choice.variable].ln());
-        let mut x: Vec<f64> = logarithms.collect();
+        let mut x: Vec<f64> = choices.clone().map(|choice| self.half_widths[choice.variable].ln()).collect();
         let bounds = choices.map(|choice| (choice.limits.0.ln(), choice.limits.1.ln()));
         let mut bounds: Vec<(f64, f64)> = bounds.collect();
         for nominal in &self.choices.nominals {

@@ -221,8 +221,7 @@ impl Progress {
             watch.advance(1);
             self.last_choice = x.to_vec();
             self.tried += 1;
-            let finite = x.iter().all(|x| x.is_finite());
-            self.last = finite.then(|| problem.evaluate(x).ok()).flatten();
+            self.last = x.iter().all(|x| x.is_finite()).then(|| problem.evaluate(x).ok()).flatten();
             if let Some(last) = &self.last
                 && better(last, &self.best.1)
             {

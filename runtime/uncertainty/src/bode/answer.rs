@@ -47,10 +47,7 @@ impl Answer for Bode {
         table.words("unit", &|row| Some(row.unit(d)?.to_owned())).shown();
         table.number("amplitude", "", &|row| row.scaled(d, Complex::norm)).digits(number);
         table
-            .number("phase", "deg", &|row| {
-                let amplitude = row.amplitude().filter(|y| *y != Complex::ZERO)?;
-                Some(amplitude.arg().to_degrees())
-            })
+            .number("phase", "deg", &|row| Some(row.amplitude().filter(|y| *y != Complex::ZERO)?.arg().to_degrees()))
             .digits(short);
         table.number("Re", "", &|row| row.scaled(d, |y| y.re));
         table.number("Im", "", &|row| row.scaled(d, |y| y.im));
@@ -149,8 +146,7 @@ impl Bode {
 
     /// Where the vibration exists but no machine stays there.
     fn unstable(&self, said: &mut Findings) {
-        let solved = self.points.iter().filter(|point| point.vibration.is_ok());
-        let mut unstable = solved.filter(|point| !point.stable);
+        let mut unstable = self.points.iter().filter(|point| point.vibration.is_ok()).filter(|point| !point.stable);
         if let Some(first) = unstable.next() {
             let (d, all) = (&self.description, self.points.len());
             said.note(format!(

@@ -42,8 +42,7 @@ pub(super) fn first_order(expansion: &Expansion, tolerances: &Tolerances) -> Exa
 /// variance is `sum a^2 + sum a_j B_jj g_j + sum B_jj^2 k_j / 4 + sum_jk B_jk^2 / 2`.
 pub(super) fn second_order(expansion: &Expansion, curvature: &Matrix, tolerances: &Tolerances) -> ExactMoments {
     let shifts = tolerances.shifts();
-    let factor = tolerances.factor();
-    let columns = factor.transpose();
+    let columns = tolerances.factor().transpose();
     let bent = times(curvature, shifts);
     let slopes: Vector = expansion.slopes.iter().zip(&bent).map(|(s, h)| s + h).collect();
     let a = times(&columns, &slopes);

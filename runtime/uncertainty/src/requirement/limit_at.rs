@@ -86,8 +86,7 @@ impl<'a> LimitAt<'a> {
     }
 
     fn value_of(&self, realisation: &Realisation) -> Result<f64, String> {
-        let value = realisation.values.get(self.place).copied().flatten();
-        value.ok_or_else(|| missing(realisation.outcome).to_owned())
+        realisation.values.get(self.place).copied().flatten().ok_or_else(|| missing(realisation.outcome).to_owned())
     }
 }
 

@@ -65,8 +65,7 @@ impl Sampled {
     /// Probability of an outcome.
     #[must_use]
     pub fn chance(&self, outcome: Outcome) -> Option<Chance> {
-        let outcome = self.outcomes.iter().find(|(x, _)| *x == outcome);
-        outcome.map(|(_, chance)| *chance)
+        self.outcomes.iter().find(|(x, _)| *x == outcome).map(|(_, chance)| *chance)
     }
 }
 

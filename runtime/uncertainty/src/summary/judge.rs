@@ -153,8 +153,7 @@ impl<'a> Judge<'a> {
             } else {
                 Doubt::Clustered { modes, distance: cluster.distance, defective: cluster.defective() }
             };
-            let leading = doubts.iter().take_while(|doubt| **doubt == Doubt::NoFrequency);
-            doubts.insert(leading.count(), clustered);
+            doubts.insert(doubts.iter().take_while(|doubt| **doubt == Doubt::NoFrequency).count(), clustered);
         }
         let decided = said.wrong || said.right;
         let open = !decided && cluster.is_none() && eigenmode.frequency().is_some();

@@ -118,8 +118,7 @@ impl About<'_> {
             }
             let open = |(prediction, paired): (&Prediction<'_>, &Paired)| {
                 let decisive = if prediction.doubtful { DECISIVE_IN_DOUBT } else { DECISIVE };
-                let checked = check(prediction, paired);
-                checked.is_some_and(|check| stage < decisive || !decided(&check))
+                check(prediction, paired).is_some_and(|check| stage < decisive || !decided(&check))
             };
             if !predictions.iter().zip(&pairs).any(open) {
                 break;

@@ -69,8 +69,7 @@ pub(crate) fn notes_on_planes(g: &mut Graph, context: &Context, kinematics: &Kin
 
 /// Whether a body is the root or a station of a beam that spins.
 pub(crate) fn is_on_spinning(mechanism: &Mechanism, body: BodyId) -> bool {
-    let spinning = mechanism.beams.iter().filter(|beam| spins(beam));
-    spinning.into_iter().any(|beam| has(beam, body))
+    mechanism.beams.iter().filter(|beam| spins(beam)).into_iter().any(|beam| has(beam, body))
 }
 
 fn spins(beam: &Beam) -> bool {

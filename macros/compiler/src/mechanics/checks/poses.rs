@@ -13,8 +13,7 @@ const BENT_TOO_FAR: f64 = 0.066_987_298_107_780_68;
 pub(crate) fn poses(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Vec<Pose> {
     let mut poses = Vec::new();
     for branch in &context.topology.branches {
-        let motion = kinematics.of(branch.body);
-        let turns: Vec<Vector3> = motion.steps.iter().filter_map(|step| step.turn).collect();
+        let turns: Vec<Vector3> = kinematics.of(branch.body).steps.iter().filter_map(|step| step.turn).collect();
         if let [first, second, third] = turns[..] {
             let margin = first.cross(g, second).dot(g, third);
             let joint = context.mechanism.joints[branch.joint.index()].name.to_string();

@@ -186,8 +186,7 @@ fn force_inside(
     };
     let axes = kinematics.of(body).frame.orientation.axes.transpose();
     let force = axes.apply(g, carried[body.index()].force).neg(g);
-    let beam_axes = beam.axes.each_ref().map(|axis| context.values.vector(g, axis));
-    Vector3(beam_axes.map(|axis| axis.dot(g, force)))
+    Vector3(beam.axes.each_ref().map(|axis| context.values.vector(g, axis)).map(|axis| axis.dot(g, force)))
 }
 
 /// What each force element exerts; only where an output asks for it, zeros elsewhere.

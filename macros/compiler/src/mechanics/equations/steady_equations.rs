@@ -46,8 +46,7 @@ impl Equations {
         let powers = rates.map(|rate| parts.power(g, context, &motion, &rate.values));
         let rest = at_rest(g, symbols, &motion);
         let rest_inertia = at_rest(g, symbols, &inertia);
-        let minus_applied = at_rest(g, symbols, &applied);
-        let rest_applied = minus_applied.into_iter().map(|force| g.neg(force)).collect();
+        let rest_applied = at_rest(g, symbols, &applied).into_iter().map(|force| g.neg(force)).collect();
         let outputs = at_rest(g, symbols, &outputs_in_motion);
         Self {
             kinematics,

@@ -128,8 +128,7 @@ impl BeamInertia {
             let about = [about_y, about_z].map(|x| g.mul(share, x));
             let [yy, yz, zz] = turned(g, about, twist);
             let tensor = [[inertia, zero, zero], [zero, yy, yz], [zero, yz, zz]];
-            let along_root = curved(g, values, section).turn_symmetric(g, tensor);
-            this.turning.push(Matrix3(along_root.map(Vector3)));
+            this.turning.push(Matrix3(curved(g, values, section).turn_symmetric(g, tensor).map(Vector3)));
         }
         this
     }

@@ -65,8 +65,7 @@ impl MassDistribution {
                 Self::point(g, values, mass, center).with(g, across, &[(axis, excess)])
             }
             Spread::Box { size } => {
-                let size = values.vector(g, size);
-                let second = size.0.map(|edge| quadratic(g, 1.0 / 12.0, mass, edge));
+                let second = values.vector(g, size).0.map(|edge| quadratic(g, 1.0 / 12.0, mass, edge));
                 let zero = g.zero();
                 Self::point(g, values, mass, center).with_tensor(g, second, [zero; 3])
             }

@@ -80,8 +80,7 @@ pub(crate) fn rates(g: &mut Graph, context: &Context, kinematics: &Kinematics) -
     let mut rates = vec![zero; context.mechanism.bodies.len()];
     for branch in &context.topology.branches {
         let motion = kinematics.of(branch.body);
-        let omega = kinematics.frame(branch.parent).angular_velocity;
-        let mut rate = omega.cross(g, motion.frame.offset);
+        let mut rate = kinematics.frame(branch.parent).angular_velocity.cross(g, motion.frame.offset);
         for step in &motion.steps {
             let speed = kinematics.coordinates[step.coordinate.index()].velocity;
             let leaving = step.velocity(g, zero).scale(g, speed);

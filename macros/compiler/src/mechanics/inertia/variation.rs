@@ -228,8 +228,7 @@ impl Carried {
     /// The covector's `spin` part for the load along an elementary motion.
     fn asks_of_spin(&self, g: &mut Graph, step: &Step) -> Vector3 {
         let two = g.constant(2.0);
-        let linear = self.momentum.linear.scale(g, two);
-        let pushed = linear.cross(g, step.velocity);
+        let pushed = self.momentum.linear.scale(g, two).cross(g, step.velocity);
         let spreading = spun(g, self.momentum.second, step.turn);
         let turning = self.momentum.angular.cross(g, step.turn);
         pushed.add(g, spreading).add(g, turning)

@@ -23,8 +23,7 @@ pub(crate) fn kernels(g: &mut Graph, s: &Symbols, e: &Equations, linear: &Linear
 
     let zeros = vec![g.zero(); n];
     let still: Vec<_> = s.acceleration.with(&zeros).collect();
-    let bias = substitute(g, &e.motion, &still);
-    let force: Vec<ExprId> = bias.iter().map(|&h| g.neg(h)).collect();
+    let force: Vec<ExprId> = substitute(g, &e.motion, &still).iter().map(|&h| g.neg(h)).collect();
 
     let by_input = columns(g, &e.rest, &s.u);
     let by_design = columns(g, &e.rest, &s.b);

@@ -100,8 +100,7 @@ fn sums(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Option<[Ex
         let divisor = g.add(square, tiny);
         let one = g.constant(1.0);
         let inverse = g.div(one, divisor);
-        let inward = Vector3([0, 1, 2].map(|k| accelerations[3 * index + k]));
-        let arm = inward.scale(g, inverse).neg(g);
+        let arm = Vector3([0, 1, 2].map(|k| accelerations[3 * index + k])).scale(g, inverse).neg(g);
         let reach = arm.dot(g, arm);
         let about_center = piece.second_moment(g, Some(omega));
         let polar = g.mul(about_center, inverse);

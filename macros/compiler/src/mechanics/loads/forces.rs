@@ -244,8 +244,7 @@ impl Line {
         let distance = vector.norm(g);
         g.set_name(distance, || format!("{name}_length"));
         let [start, end] = ends.map(|(frame, position)| force_context.velocity(g, frame, position, closing).0);
-        let relative = end.sub(g, start);
-        let growth = relative.dot(g, vector);
+        let growth = end.sub(g, start).dot(g, vector);
         let rate = g.div(growth, distance);
         Self { from, to, vector, distance, rate, closing }
     }

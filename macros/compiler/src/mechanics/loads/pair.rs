@@ -41,8 +41,7 @@ pub(crate) struct Pair {
 impl Pair {
     /// From the point of `from` to the place where the pair acts.
     pub(crate) fn gap(&self, g: &mut Graph) -> Vector3 {
-        let between = self.to.at.position.sub(g, self.from.at.position);
-        between.add(g, self.reach)
+        self.to.at.position.sub(g, self.from.at.position).add(g, self.reach)
     }
 
     pub(crate) fn new(g: &mut Graph, from: Side, to: Side, demands: Vec<Demand>) -> Self {

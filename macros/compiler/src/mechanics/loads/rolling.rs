@@ -38,8 +38,7 @@ pub(crate) fn rolling(
             let one = g.constant(1.0);
             let size = up.norm(g);
             let inverse = g.div(one, size);
-            let ahead = axle.cross(g, normal);
-            (up.scale(g, inverse), ahead.scale(g, inverse))
+            (up.scale(g, inverse), axle.cross(g, normal).scale(g, inverse))
         }
         None => {
             let sides = (plane.frame, wheel.frame);

@@ -17,10 +17,7 @@ pub(super) fn slip_axes(
 ) -> Option<Matrix3> {
     let tree = &force_context.tree;
     let closing = tree.common_ancestor(plane, wheel);
-    let below = |frame: Frame| {
-        let path = tree.path(frame).into_iter();
-        path.take_while(|frame| *frame != closing).collect::<Vec<_>>()
-    };
+    let below = |frame: Frame| tree.path(frame).into_iter().take_while(|frame| *frame != closing).collect::<Vec<_>>();
     let outwards = below(wheel).into_iter().rev();
     let carrier = turning(g, force_context, outwards, normal, Some(center));
     let still = match carrier {

@@ -30,8 +30,7 @@ fn strains(g: &mut Graph, context: &Context, id: BeamId, turns: &OfBeam<ExprId>)
         .zip(stretched)
         .map(|((((_, weight, section), turn), slope), stretched)| {
             let bent = bend(g, Vector3(*turn), Vector3(*slope));
-            let back = motion::curved(g, values, section).transpose();
-            let bent = back.apply(g, bent);
+            let bent = motion::curved(g, values, section).transpose().apply(g, bent);
             let twist = values.scalar(g, &section.twist);
             let [_, shear_y, shear_z] = stretched;
             let [bent_y, bent_z] = along_own_axes(g, [bent.0[1], bent.0[2]], twist);
@@ -171,8 +170,7 @@ pub(crate) fn strained(g: &mut Graph, context: &Context) -> Vec<ExprId> {
             let twist = context.values.scalar(g, &section.twist);
             let back = g.neg(twist);
             let [y, z] = along_own_axes(g, [stresses[1], stresses[2]], back);
-            let curved = motion::curved(g, context.values, section);
-            let moment = curved.apply(g, Vector3([stresses[0], y, z]));
+            let moment = motion::curved(g, context.values, section).apply(g, Vector3([stresses[0], y, z]));
             let [turn, slope] = [&turns.rotations[k], &turns.slopes[k]].map(|x| Vector3(*x));
             let powers = bend_powers(g, turn, slope, moment);
             let turning = rows.rotations[k].iter().chain(&rows.slopes[k]);

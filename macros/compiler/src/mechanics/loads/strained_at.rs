@@ -16,8 +16,7 @@ pub(crate) fn strained_at(g: &mut Graph, context: &Context, point: PointId) -> [
         let factors = polynomials(ids.len(), fraction);
         let mut terms = Vec::new();
         for (id, factor) in ids.iter().zip(factors) {
-            let unknown = unknowns.iter().position(|unknown| unknown == id);
-            let value = unknown.map(|k| context.symbols.q.values[k]);
+            let value = unknowns.iter().position(|unknown| unknown == id).map(|k| context.symbols.q.values[k]);
             terms.extend(value.map(|value| g.scale(factor, value)));
         }
         g.sum(terms)

@@ -79,8 +79,7 @@ pub(crate) fn transmitted(
     let mut along_sections = vec![g.zero(); context.sections.rows.len()];
     for (index, on) in on_stations.iter().enumerate() {
         let (id, beam) = (BeamId::new(index), &kinematics.beams[index]);
-        let load = on.turning(g, beam);
-        load.add_along(g, context.sections, id, beam, &mut along_sections);
+        on.turning(g, beam).add_along(g, context.sections, id, beam, &mut along_sections);
     }
     let all = [vec![g.zero(); topology.free.len()], along_sections].concat();
     for (id, share) in topology.free.iter().zip(context.sections.forces(g, &all)) {

@@ -188,9 +188,7 @@ impl DirectionMotion {
                 (self.section.project(g, moment), along)
             }
         };
-        let slopes = self.slopes.iter();
-        let strains = slopes.map(|(row, slope)| (*row, slope.dot(g, along)));
-        (powers, strains.collect())
+        (powers, self.slopes.iter().map(|(row, slope)| (*row, slope.dot(g, along))).collect())
     }
 }
 

@@ -139,8 +139,7 @@ impl<R: Copy> Signature<R> {
                 missing.push(format!("{} or {last}", others.join(", ")));
             }
         }
-        let required = self.required.iter().filter(|name| !given(name));
-        missing.extend(required.map(quoted));
+        missing.extend(self.required.iter().filter(|name| !given(name)).map(quoted));
         missing
     }
 }

@@ -262,8 +262,7 @@ impl Resolver<'_> {
             return Some(());
         };
         let help = "give shear coordinates of its own: `shear: 4`";
-        let at = given.get("shear")?;
-        self.diagnostics.error_with_help(at.extent, message, help);
+        self.diagnostics.error_with_help(given.get("shear")?.extent, message, help);
         None
     }
 

@@ -233,10 +233,7 @@ impl Resolver<'_> {
         let ids = self.coordinates_of(id);
         match &shake.coordinate {
             None => (ids.len() == 1).then(|| ids[0]),
-            Some(name) => ids.into_iter().find(|id| {
-                let coordinate = self.coordinates.get(id.index());
-                coordinate.is_some_and(|x| x.name == name)
-            }),
+            Some(name) => ids.into_iter().find(|id| self.coordinates.get(id.index()).is_some_and(|x| x.name == name)),
         }
     }
 

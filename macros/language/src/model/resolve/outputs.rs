@@ -65,8 +65,7 @@ impl Resolver<'_> {
         match value {
             Expr::Coordinate(id) => {
                 let angle = Some(CoordinateQuantity::Angle);
-                let coordinate = self.coordinates.get(id.index())?;
-                (coordinate.quantity == angle).then_some(Measure::Angle)
+                (self.coordinates.get(id.index())?.quantity == angle).then_some(Measure::Angle)
             }
             Expr::KineticEnergy | Expr::PotentialEnergy => Some(Measure::Energy),
             Expr::Negate(a) => self.measure(a),

@@ -226,8 +226,7 @@ fn truncated(tokens: &mut Tokens) -> Parsed<LawKind> {
 fn beta(word: &Ident, tokens: &mut Tokens) -> Parsed<LawKind> {
     const SHAPES: &str = "both shapes are given: `beta(2, 3)`";
     let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) else {
-        let diagnostic = Diagnostic::new(word, "`beta` has two shapes, none is given");
-        return Err(Box::new(diagnostic.with_help(SHAPES)));
+        return Err(Box::new(Diagnostic::new(word, "`beta` has two shapes, none is given").with_help(SHAPES)));
     };
     let shapes = list(&mut content, 0).map_err(|error| Box::new(error.with_help(SHAPES)))?;
     let count = shapes.len();

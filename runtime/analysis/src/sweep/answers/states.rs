@@ -110,7 +110,6 @@ fn crossing_columns(all: &[Crossing]) -> Option<Columns<'_, Crossing>> {
     let frequency = |crossing: &Crossing| crossing.modes.modes.get(crossing.mode)?.frequency();
     table.number("frequency", "rad/s", &frequency).digits_in(&d.frequency, number);
     table.unknowns(d, &|row| Some(&row.equilibrium.coordinates[..]));
-    let stability = table.words("stability", &|row| Some(row.equilibrium.stability_word()));
-    stability.shown().headed("state");
+    table.words("stability", &|row| Some(row.equilibrium.stability_word())).shown().headed("state");
     Some(table)
 }

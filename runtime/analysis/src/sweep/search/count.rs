@@ -42,8 +42,7 @@ impl Wanted {
     pub(super) fn kinds(&self) -> Vec<Kind> {
         let lines = (0..self.lines.len()).map(Kind::Line);
         let growth = self.growth.then_some(Kind::Growth);
-        let critical = self.critical.then_some(Kind::Critical);
-        critical.into_iter().chain(growth).chain(lines).collect()
+        self.critical.then_some(Kind::Critical).into_iter().chain(growth).chain(lines).collect()
     }
 
     /// The eigenvalues that an integer is about.

@@ -400,8 +400,7 @@ impl Division {
     fn found(&mut self, wanted: &Wanted, kind: Kind, (t, merging): (f64, bool), sides: [Rc<Spectrum>; 2]) {
         let [mut before, mut after] = sides.each_ref().map(|state| {
             let roots = wanted.roots(kind, state);
-            let counted = wanted.counted(kind, state).into_iter();
-            counted.map(|r| roots[r].value).collect::<Vec<Complex>>()
+            wanted.counted(kind, state).into_iter().map(|r| roots[r].value).collect::<Vec<Complex>>()
         });
         let rises = after.len() > before.len();
         let (more, fewer) = if rises { (&mut after, &before) } else { (&mut before, &after) };

@@ -384,8 +384,7 @@ impl Number for Both<'_> {
     }
 
     fn turns(&self, piece: usize) -> Vec<f64> {
-        let turns = self.0.map(|number| number.turns(piece));
-        turns.into_iter().flatten().collect()
+        self.0.map(|number| number.turns(piece)).into_iter().flatten().collect()
     }
 
     fn rises(&self, _: Place) -> i8 {

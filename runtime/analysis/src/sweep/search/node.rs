@@ -63,10 +63,7 @@ pub(super) fn has_stiffness(state: &Equilibrium) -> bool {
 fn undamped(modes: &[Mode], change: &Linear) -> Vec<Root> {
     let values: Vec<f64> = modes.iter().map(|mode| mode.lambda).collect();
     let shapes: Vec<Vector> = modes.iter().map(Mode::real_shape).collect();
-    let error = |r: usize| {
-        let rate = values[r].abs().sqrt();
-        modes[r].error * rate.max(modes[r].error)
-    };
+    let error = |r: usize| modes[r].error * values[r].abs().sqrt().max(modes[r].error);
     let neutral = |r: usize| modes[r].behaviour == Behaviour::Neutral;
     real_roots(&values, &shapes, change, error, neutral)
 }
@@ -180,8 +177,7 @@ fn slopes(count: usize, near: impl Fn(usize, usize) -> bool, of: impl Fn(&[usize
             cluster.extend(new);
             next += 1;
         }
-        let matrix = of(&cluster);
-        let mut elements: Vec<Complex> = matrix.as_flattened().to_vec();
+        let mut elements: Vec<Complex> = of(&cluster).as_flattened().to_vec();
         let mut values = vec![Complex::new(f64::NAN, 0.0); cluster.len()];
         match (&cluster[..], elements.iter().all(|value| value.is_finite())) {
             ([_], _) => values[0] = elements[0],

@@ -336,8 +336,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let criticals: Vec<f64> = criticals.map(|(t, _)| *t).collect();
         // Between a critical state and the next one, or the end of the step.
         let settled = |step: &mut Step<'_, '_>, t: f64| {
-            let next = criticals.iter().find(|other| **other > t);
-            let behind = step.node(0.5 * (t + next.unwrap_or(&1.0)));
+            let behind = step.node(0.5 * (t + criticals.iter().find(|other| **other > t).unwrap_or(&1.0)));
             behind.as_ref().map_or(after, |node| &node.point).equilibrium.stability.holds()
         };
         for (t, event) in findings.events {

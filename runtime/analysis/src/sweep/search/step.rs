@@ -122,8 +122,7 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// The length of the step's parameter per unit of the local tangent of a station.
     fn rate(&self, point: &CurvePoint) -> Option<f64> {
-        let tangent = self.ends[0].frame.direction(&point.direction());
-        let rate = self.length / tangent.dot(&self.normal);
+        let rate = self.length / self.ends[0].frame.direction(&point.direction()).dot(&self.normal);
         (rate > 0.0 && rate.is_finite()).then_some(rate)
     }
 
@@ -377,8 +376,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let mode = beside.modes.modes.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
         let real = |shape: &[Complex]| shape.iter().map(|x| x.re).collect::<Vector>();
         let shapes = (&*real(&mode.shape), &*real(mode.left()));
-        let special = self.curve.degenerate(&position, &from.frame, shapes, zero);
-        special.ok()
+        self.curve.degenerate(&position, &from.frame, shapes, zero).ok()
     }
 
     /// The place of a special point along the step.

@@ -44,8 +44,7 @@ impl<'a> Lu<'a> {
 
     /// Number of last pivots that do not exceed `threshold`, at least one.
     pub(super) fn nullity(&self, threshold: f64) -> usize {
-        let regular = (0..self.n).take_while(|&k| self.pivot(k) > threshold);
-        (self.n - regular.count()).max(1)
+        (self.n - (0..self.n).take_while(|&k| self.pivot(k) > threshold).count()).max(1)
     }
 
     /// Vector `k` of the `nullity` vectors that the matrix, without its last pivots, maps to zero.

@@ -34,8 +34,7 @@ pub(super) fn sort<T>(items: &mut [T], value: impl Fn(&T) -> Complex64) {
     let mut start = 0;
     while start < items.len() {
         let limit = size(&items[start]) * (1.0 + EQUAL);
-        let run = items[start..].iter().take_while(|item| size(item) <= limit);
-        let end = start + run.count().max(1);
+        let end = start + items[start..].iter().take_while(|item| size(item) <= limit).count().max(1);
         items[start..end].sort_unstable_by(|a, b| {
             let (a, b) = (value(a), value(b));
             a.im.total_cmp(&b.im).then(a.re.total_cmp(&b.re))

@@ -120,6 +120,5 @@ impl PairSolver<'_> {
 
 /// The component of `d` along the normalised vector with these products.
 fn along(pencil: &Pencil, products: &Products, d: &[Complex64]) -> Complex64 {
-    let weighed = pencil.weighed(products).iter();
-    weighed.zip(d).map(|(x, d)| x.conj() * d).sum()
+    pencil.weighed(products).iter().zip(d).map(|(x, d)| x.conj() * d).sum()
 }

@@ -175,6 +175,5 @@ pub(super) fn accepted(solver: &mut PairSolver, pair: &Pair, right: &[Complex64]
     solver.pencil.multiply(right, false, &mut solver.of_right);
     solver.pencil.multiply(left, true, &mut solver.of_left);
     // Relative to the matrices, because the terms are rounding themselves.
-    let rounding = solver.is_rounding(pair.s, right, left, 4.0);
-    rounding.then_some(ROUNDING)
+    solver.is_rounding(pair.s, right, left, 4.0).then_some(ROUNDING)
 }

@@ -168,10 +168,7 @@ impl LineSampler {
 
     /// The values of a limit state along a line; NaN where it has none.
     fn along<L: LimitState>(limit: &L, across: &[f64], direction: &[f64]) -> impl Fn(f64) -> f64 {
-        move |s| {
-            let value = limit.value(&add_scaled(across, s, direction));
-            value.unwrap_or(f64::NAN)
-        }
+        move |s| limit.value(&add_scaled(across, s, direction)).unwrap_or(f64::NAN)
     }
 
     /// Between the points of a line at first. A single line takes as many points as half of the evaluations allow.

@@ -63,8 +63,7 @@ pub(super) struct Scanned {
 impl Scanned {
     /// Where designs fail, in ascending order.
     pub(super) fn failing(&self) -> impl Iterator<Item = Stretch> {
-        let failing = self.stretches.iter().filter(|x| x.2 == Side::Fails);
-        failing.map(|(from, to, _)| (*from, *to))
+        self.stretches.iter().filter(|x| x.2 == Side::Fails).map(|(from, to, _)| (*from, *to))
     }
 
     /// Ends the present stretch where another side begins.

@@ -44,8 +44,7 @@ pub(super) fn newton_step<V: Lanes, const N: usize>(
     let rested = V::load(&batch.resting, at);
     let moving = rested.at_most(V::constant(0.0));
     let flag = V::load(&batch.flags, at);
-    let flag = keep(flag, one.at_most(V::choose(moving, regular, one)));
-    flag.store(&mut batch.flags, at);
+    keep(flag, one.at_most(V::choose(moving, regular, one))).store(&mut batch.flags, at);
     for i in 0..n {
         q[i] = V::choose(moving, q[i] - step[i], q[i]);
     }

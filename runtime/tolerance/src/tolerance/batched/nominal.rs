@@ -72,8 +72,7 @@ impl Nominal<'_> {
             }
             second.push(rows);
         }
-        let finite = second.iter().flatten().all(|row| all_finite(row));
-        finite.then_some(second)
+        second.iter().flatten().all(|row| all_finite(row)).then_some(second)
     }
 
     /// How far one standard deviation of every varied variable moves each coordinate, all in the same direction; a

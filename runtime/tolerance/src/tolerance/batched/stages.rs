@@ -55,8 +55,7 @@ pub(super) fn possible<const N: usize>(prepared: &TaylorModel<'_, N>, design: &[
             *entry = design.0[sample];
         }
         let kernels: &dyn Kernels = prepared.kernels;
-        let violation = kernels.violation(&prepared.nominal.inputs, &sample_design);
-        flags.0[sample] = f64::from(u8::from(violation.is_none()));
+        flags.0[sample] = f64::from(u8::from(kernels.violation(&prepared.nominal.inputs, &sample_design).is_none()));
     }
     flags
 }

@@ -87,16 +87,14 @@ fn influences<'a, 'o>(rows: &'a [Of<'o>], shown: Vec<usize>, d: &Description) ->
     }
     let ends: [(&str, Pick); 2] = [("at low", |x| x.at_low), ("at high", |x| x.at_high)];
     for (name, pick) in ends {
-        let value = table.number(name, "", &|row| Some(row.in_unit(pick(row.result)?)));
-        value.digits(number);
+        table.number(name, "", &|row| Some(row.in_unit(pick(row.result)?))).digits(number);
     }
     table
 }
 
 /// An index and its interval.
 fn index(table: &mut Columns<'_, Of<'_>>, name: &str, of: &dyn Fn(&VariableInfluence) -> Option<Estimate>) {
-    let value = table.number(name, "", &|row| Some(of(row.result)?.value));
-    value.digits(short);
+    table.number(name, "", &|row| Some(of(row.result)?.value)).digits(short);
     table.number(&format!("{name} from"), "", &|row| Some(of(row.result)?.lower));
     table.number(&format!("{name} to"), "", &|row| Some(of(row.result)?.upper));
     table.cells("95 %", &|row| {

@@ -53,8 +53,7 @@ fn responses<T>(table: &mut Columns<'_, Row<T>>) {
 
 /// The columns of an estimate in the unit of the response, and of its error.
 fn estimates<T>(table: &mut Columns<'_, Row<T>>, name: &str, of: &dyn Fn(&T) -> Option<Estimated>) {
-    let value = table.number(name, "", &|row| Some(row.in_unit(of(&row.result)?.value)));
-    value.digits(number);
+    table.number(name, "", &|row| Some(row.in_unit(of(&row.result)?.value))).digits(number);
     errors(table, name, of);
 }
 

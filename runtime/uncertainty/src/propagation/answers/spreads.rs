@@ -81,8 +81,7 @@ impl Propagation {
         skewness.digits(short);
         let error = table.number("error of skewness", "", &|row| row.result.spread?.skewness?.error);
         error.digits(short).headed("error");
-        let share = table.number("share", "", &|row| Some(row.result.spread?.share));
-        share.digits(percent);
+        table.number("share", "", &|row| Some(row.result.spread?.share)).digits(percent);
         table.words("method", &|_| Some(self.method.to_string()));
         table.words("doubts", &|row| joined(row.result.doubts));
         said.columns(table);

@@ -46,8 +46,7 @@ fn extremes(said: &mut Findings, rows: &[Limits<'_>], d: &Description) {
         ("greatest", |x| Some(x.greatest.as_ref()?.value)),
     ];
     for (name, pick) in picks {
-        let value = table.number(name, "", &|row| Some(row.in_unit(pick(row.result)?)));
-        value.digits(number);
+        table.number(name, "", &|row| Some(row.in_unit(pick(row.result)?))).digits(number);
     }
     table.flag("monotonic", &|row| Some(row.result.is_monotonic())).shown();
     table.words("turning", &|row| {

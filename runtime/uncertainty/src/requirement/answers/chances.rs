@@ -73,8 +73,7 @@ fn tallies(table: &mut Columns<'_, Row<'_>>) {
     table.whole("met", &|(_, x)| Some(x.met)).shown();
     table.whole("failed", &|(_, x)| Some(x.failed)).shown();
     table.whole("untold", &|(_, x)| Some(x.untold)).shown();
-    let failure = table.number("probability of failure", "", &|(_, x)| Some(x.failure()));
-    failure.digits(rough).headed("P(failed)");
+    table.number("probability of failure", "", &|(_, x)| Some(x.failure())).digits(rough).headed("P(failed)");
     table.number("95 % from", "", &|(_, x)| Some(interval(x)?.lower));
     table.number("95 % to", "", &|(_, x)| Some(interval(x)?.upper));
     table.cells("95 % interval (Clopper-Pearson)", &|(_, item)| {

@@ -82,8 +82,7 @@ impl Probabilities {
         });
         table.number("probability without response", "", &|row| Some(row.failure.untold));
         table.words("found by", &|row| Some(row.failure.by.word().to_owned())).shown();
-        let designs = table.whole("designs", &|row| usize::try_from(row.failure.designs).ok());
-        designs.shown();
+        table.whole("designs", &|row| usize::try_from(row.failure.designs).ok()).shown();
         said.columns(table);
     }
 }

@@ -136,8 +136,7 @@ fn entry_columns<'a, 'e>(rows: &'a [Entry<'e>], shown: Vec<usize>) -> Columns<'a
     table.words("unit", &|row| Some(row.info.unit.symbol.to_string()));
     table.cells("variable", &|row| heading(&row.info.name, &row.info.unit));
     table.number("design point", "", &|row| Some(converted(row.design, &row.info.unit))).digits(number);
-    let importance = table.number("importance", "", &|row| Some(row.importance));
-    importance.digits(|share| format!("{share:.3}"));
+    table.number("importance", "", &|row| Some(row.importance)).digits(|share| format!("{share:.3}"));
     let slope = table.number("beta by nominal value", "per unit", &|row| Some(row.by_nominal * row.info.unit.scale));
     slope.digits(rough).headed("beta by nominal value");
     let slope = table.number("beta by half-width", "per unit", &|row| Some(row.by_half_width * row.info.unit.scale));

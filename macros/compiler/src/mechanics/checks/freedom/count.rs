@@ -163,8 +163,7 @@ fn independent(system: &System, state: &Linearised, constraints: &[usize]) -> us
     let lead = of_positions.len();
     let columns: Vec<usize> = of_positions.chain(constraints.iter().copied()).collect();
     let row = |i: usize| columns.iter().map(|&j| state.stiffness[j][i]).collect();
-    let null = NullSpace::new((0..moving).map(row).collect(), lead, state.operations);
-    constraints.len() - null.vectors.len()
+    constraints.len() - NullSpace::new((0..moving).map(row).collect(), lead, state.operations).vectors.len()
 }
 
 /// The rank that is certain.
@@ -186,8 +185,7 @@ fn dimension(system: &System, state: &Linearised, combinations: &Combinations, r
         return dimension;
     };
     let size = |row: &[Disturbed]| {
-        let clear = row.iter().filter(|x| !x.is_rounding(state.operations));
-        clear.fold(0.0_f64, |most, x| most.max(x.value().abs()))
+        row.iter().filter(|x| !x.is_rounding(state.operations)).fold(0.0_f64, |most, x| most.max(x.value().abs()))
     };
     let sizes: Vec<f64> = generic.iter().map(|row| size(row)).collect();
     let rows = rates(system, resting, combinations);

@@ -65,8 +65,7 @@ impl<'a> System<'a> {
 
     /// The first constraint on velocities among the unknowns; they come last.
     pub(super) fn first_of_velocities(&self) -> usize {
-        let of_positions = self.context.rows.iter().filter(|row| !row.of_velocities);
-        self.context.moving().1 + of_positions.count()
+        self.context.moving().1 + self.context.rows.iter().filter(|row| !row.of_velocities).count()
     }
 
     /// Linearises at a random state; `None` if the equations are not finite there.

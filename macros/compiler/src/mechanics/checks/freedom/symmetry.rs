@@ -78,8 +78,7 @@ fn wholes(system: &System, state: &Linearised, more: usize) -> Combinations {
         }
     };
     for (j, column) in state.stiffness.iter().enumerate() {
-        let tied = (0..column.len()).filter(|&i| !column[i].is_zero());
-        tied.for_each(|i| join(i, j));
+        (0..column.len()).filter(|&i| !column[i].is_zero()).for_each(|i| join(i, j));
     }
     for carrier in carriers {
         let first = carrier.coordinates[0];

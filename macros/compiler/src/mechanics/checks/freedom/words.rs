@@ -71,10 +71,7 @@ pub(super) fn readable(system: &System, combinations: &Combinations, operations:
         all.extend(without(combinations, of_coordinates, operations));
     }
     all.extend(reduced(combinations));
-    let coordinates = |x: &Vec<f64>| {
-        let alone = x.iter().take(system.fields.free);
-        alone.filter(|x| x.abs() > NOTHING).count()
-    };
+    let coordinates = |x: &Vec<f64>| x.iter().take(system.fields.free).filter(|x| x.abs() > NOTHING).count();
     all.sort_by_key(|x| coordinates(x) > FEW);
     all
 }
@@ -220,8 +217,7 @@ fn together(context: &Context, fields: &Fields, rates: &[f64]) -> String {
 fn name<'a>(context: &'a Context, unknown: usize) -> &'a proc_macro2::Ident {
     let topology = context.topology;
     let mut ids = topology.free.iter().chain(&topology.coasting);
-    let id = ids.nth(unknown).expect("a coordinate");
-    &context.mechanism.coordinates[id.index()].name
+    &context.mechanism.coordinates[ids.nth(unknown).expect("a coordinate").index()].name
 }
 
 fn span_of(context: &Context, rates: &[f64]) -> Extent {

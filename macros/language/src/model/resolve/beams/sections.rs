@@ -161,8 +161,7 @@ impl Resolver<'_> {
         let Some(value) = given.get("stiffness") else {
             return Some((all, Vec::new()));
         };
-        let stiffnesses = [1, 2, 3, 6, 7, 8];
-        let again = stiffnesses.iter().find(|k| given.get(names[**k]).is_some());
+        let again = [1, 2, 3, 6, 7, 8].iter().find(|k| given.get(names[**k]).is_some());
         if let Some(again) = again {
             let message = format!("`stiffness` and `{}` say the same", names[*again]);
             let help = "give the matrix, or its diagonal by names";

@@ -138,8 +138,7 @@ fn lengths(n: usize, lower: &[f64], rest: &Columns<Complex64>, terms: &Columns<f
     let reduced = Columns { count: n, rows: complex(&parts).collect() };
     let length = |r: usize| {
         let of_rest = reduced.column(r).map(|x| x.norm_sqr()).sum::<f64>();
-        let of_rounding = rounding.column(r).map(|x| x * x).sum::<f64>();
-        of_rest.sqrt() + relative(n) * of_rounding.sqrt()
+        of_rest.sqrt() + relative(n) * rounding.column(r).map(|x| x * x).sum::<f64>().sqrt()
     };
     (0..n).map(length).collect()
 }
