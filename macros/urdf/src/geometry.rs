@@ -17,7 +17,7 @@ fn product(a: &Matrix, b: &Matrix) -> Matrix {
 }
 
 fn turned(a: &Matrix, v: Vector) -> Vector {
-    [0, 1, 2].map(|i: usize| (0..3).map(|k| a[i][k] * v[k]).sum())
+    [0, 1, 2].map(|i| (0..3).map(|k| a[i][k] * v[k]).sum())
 }
 
 pub(crate) fn norm(v: Vector) -> f64 {
@@ -68,7 +68,7 @@ impl Pose {
     pub(crate) fn then(&self, inner: &Pose) -> Pose {
         let offset = turned(&self.matrix(), inner.offset);
         Pose {
-            offset: [0, 1, 2].map(|i: usize| match offset[i] {
+            offset: [0, 1, 2].map(|i| match offset[i] {
                 0.0 => self.offset[i],
                 further => self.offset[i] + further,
             }),

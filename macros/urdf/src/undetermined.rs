@@ -61,8 +61,7 @@ fn stiffness(compiled: &Compilation) -> Vec<f64> {
     let n = compiled.functions.unknowns.len();
     let mut columns = vec![0.0_f64; n];
     for state in 0..4 {
-        let coordinate = |k: usize| ((1 + 7 * k + 13 * state) as f64).sin();
-        let q: Vec<f64> = (0..n).map(coordinate).collect();
+        let q: Vec<f64> = (0..n).map(|k| ((1 + 7 * k + 13 * state) as f64).sin()).collect();
         let kernel = "residual_and_stiffness";
         let values = compiled.program.evaluate(kernel, &[&q, &[], &[]]);
         let matrix = values.and_then(|values| values.into_iter().nth(1));

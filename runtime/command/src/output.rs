@@ -110,8 +110,7 @@ impl Output {
             return None;
         }
         let terminal = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
-        let columns = || env::var("COLUMNS").ok()?.parse().ok();
-        Some(terminal.or_else(columns)?.max(NARROWEST))
+        Some(terminal.or_else(|| env::var("COLUMNS").ok()?.parse().ok())?.max(NARROWEST))
     }
 
     /// Which of the results that a question can have will be shown ([`Answer::shown`]).

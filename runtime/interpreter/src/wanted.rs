@@ -201,8 +201,7 @@ fn words(text: &str) -> Vec<String> {
         open += i32::from(c == '(') - i32::from(c == ')');
         c.is_whitespace() && open == 0
     });
-    let close = |word: &str| word.split_whitespace().collect::<String>();
-    words.filter(|word| !word.is_empty()).map(close).collect()
+    words.filter(|word| !word.is_empty()).map(|word: &str| word.split_whitespace().collect::<String>()).collect()
 }
 
 /// A requirement to stay away from a multiple of an input: `2 speed by 10%`.

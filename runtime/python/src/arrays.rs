@@ -50,8 +50,7 @@ pub(crate) fn optional_rows<'py>(
     columns: usize,
     all: impl IntoIterator<Item = Option<Vec<f64>>>,
 ) -> PyResult<Array2<'py>> {
-    let filled = |row: Option<Vec<f64>>| row.unwrap_or_else(|| vec![f64::NAN; columns]);
-    rows(py, columns, all.into_iter().map(filled))
+    rows(py, columns, all.into_iter().map(|row: Option<Vec<f64>>| row.unwrap_or_else(|| vec![f64::NAN; columns])))
 }
 
 /// Derivatives of a square matrix of `size` rows, one for each variable, which comes last in the array.

@@ -28,6 +28,5 @@ names! { coordinates inputs design outputs excitations }
 pub(crate) fn harmonics(description: &Description) -> Vec<Vec<&str>> {
     let all = &description.excitations;
     let firsts = (0..all.len()).filter(|&k| all[k].with == k);
-    let members = |first| all.iter().filter(move |info| info.with == first).map(|info| &*info.name).collect();
-    firsts.map(members).collect()
+    firsts.map(|first| all.iter().filter(move |info| info.with == first).map(|info| &*info.name).collect()).collect()
 }

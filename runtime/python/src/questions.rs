@@ -333,8 +333,7 @@ impl Study {
     /// Kind of each mode, "lateral", "torsional", "axial" or "mixed"; None where no shaft moves.
     fn kinds(&self, py: Python<'_>) -> PyResult<Vec<Option<String>>> {
         let answer = self.ask(py, |study| study.whirls())?;
-        let kind = |whirl: Option<eigentol::modes::Whirl>| Some(whirl?.kind.to_string());
-        Ok(answer.into_iter().map(kind).collect())
+        Ok(answer.into_iter().map(|whirl: Option<eigentol::modes::Whirl>| Some(whirl?.kind.to_string())).collect())
     }
 
     /// First and second derivatives of one mode, counted from 0.

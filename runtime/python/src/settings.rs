@@ -124,8 +124,7 @@ pub(crate) fn unset_inputs(study: &Study<Interpreted>, settings: &Bound<'_, PyDi
         },
     };
     let names = study.description().inputs.iter().map(|info| info.name.to_string());
-    let unset = |name: &String| !named.is_some_and(|named| named.contains(name).unwrap_or(true));
-    names.filter(unset).collect()
+    names.filter(|name: &String| !named.is_some_and(|named| named.contains(name).unwrap_or(true))).collect()
 }
 
 /// The settings of a study updated with others; dictionaries are merged by name.

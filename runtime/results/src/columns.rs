@@ -142,8 +142,7 @@ impl Added<'_> {
     /// [`rough`](crate::numbers::rough), [`short`](crate::numbers::short), [`percent`](crate::numbers::percent).
     pub fn digits(self, form: fn(f64) -> String) -> Self {
         if let Some(column) = self.column {
-            let cell = |&row: &usize| column.values.shown(row, form);
-            let cells = self.shown.iter().map(cell).collect();
+            let cells = self.shown.iter().map(|&row| column.values.shown(row, form)).collect();
             self.text.push((column.heading(), cells));
         }
         self

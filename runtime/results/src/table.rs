@@ -90,15 +90,14 @@ impl Table {
 
     /// Adds a column of numbers; non-finite values become missing.
     pub fn numbers<V: Into<Option<f64>>>(&mut self, name: &str, unit: &str, values: impl IntoIterator<Item = V>) {
-        let finite = |value: V| value.into().filter(|value: &f64| value.is_finite());
+        let finite = |value: V| value.into().filter(|value| value.is_finite());
         let values = values.into_iter().map(finite).collect();
         self.add(name, unit, Values::Numbers(values));
     }
 
     /// Adds a column of whole numbers.
     pub fn whole<V: Into<Option<usize>>>(&mut self, name: &str, values: impl IntoIterator<Item = V>) {
-        let whole = |value: V| value.into().and_then(|x| i64::try_from(x).ok());
-        let values = values.into_iter().map(whole).collect();
+        let values = values.into_iter().map(|value: V| value.into().and_then(|x| i64::try_from(x).ok())).collect();
         self.add(name, "", Values::Whole(values));
     }
 

@@ -335,7 +335,6 @@ impl Settings {
 
     /// Converts values of an input to SI.
     pub(super) fn values_si(&self, input: Input, values: &[impl Into<Value> + Copy]) -> Result<Vec<f64>, Error> {
-        let si = |&value: &_| self.si(input.into(), Into::into(value));
-        values.iter().map(si).collect()
+        values.iter().map(|&value: &_| self.si(input.into(), Into::into(value))).collect()
     }
 }

@@ -43,8 +43,7 @@ impl Graph {
     pub(super) fn exchange(&mut self, mechanism: &Mechanism, cut: JointId, restored: JointId) {
         self.remove(cut);
         self.add(&mechanism.joints[restored.index()], restored);
-        let in_order = |list: &mut Vec<(JointId, usize, bool)>| list.sort();
-        self.joints.iter_mut().for_each(in_order);
+        self.joints.iter_mut().for_each(|list: &mut Vec<(JointId, usize, bool)>| list.sort());
     }
 
     /// The joints on the way between the ends of a joint.

@@ -71,7 +71,7 @@ impl<'a> Values<'a> {
 impl Values<'_> {
     /// The components of a vector.
     pub fn vector(&self, vector: &Vector) -> [f64; 3] {
-        [0, 1, 2].map(|axis: usize| self.of(&vector[axis]))
+        [0, 1, 2].map(|axis| self.of(&vector[axis]))
     }
 }
 

@@ -139,8 +139,7 @@ impl<'a> Evaluator<'a> {
             let Disturbed(lanes) = Disturbed(lanes).disturbed(rounding, seed << 32 | u64::from(id.0));
             values.push(lanes);
         }
-        let root = |&root: &ExprId| Disturbed(read(&values, root));
-        self.roots.iter().map(root).collect()
+        self.roots.iter().map(|&root: &ExprId| Disturbed(read(&values, root))).collect()
     }
 }
 

@@ -137,6 +137,5 @@ pub fn times(matrix: &[Vec<Disturbed>], vectors: &[Vec<Disturbed>]) -> Vec<Vec<D
         let present = row.iter().zip(vector).filter(|(a, b)| !a.is_zero() && !b.is_zero());
         present.fold(Disturbed::exact(0.0), |sum, (&a, &b)| sum + a * b)
     };
-    let row = |row: &Vec<Disturbed>| vectors.iter().map(|v| product(row, v)).collect();
-    matrix.iter().map(row).collect()
+    matrix.iter().map(|row| vectors.iter().map(|v| product(row, v)).collect()).collect()
 }

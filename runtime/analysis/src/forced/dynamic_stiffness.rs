@@ -203,7 +203,7 @@ fn vanishing_direction(factors: &Lu<Complex>, regular: bool, n: usize) -> Option
     let mut left = unit(&start).unwrap_or(start);
     let (mut right, mut size) = (Vector::zeros(n), 0.0);
     for _ in 0..STEPS {
-        let conjugate = left.map(|value: Complex| value.conj());
+        let conjugate = left.map(|value| value.conj());
         let image = factors.solve(&conjugate);
         if regular && norm(&image) < REGULAR {
             return None;
@@ -257,8 +257,7 @@ fn combine(a: &mut Matrix<Complex>, b: &Matrix<Complex>, f: impl Fn(Complex, Com
 }
 
 pub(super) fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
-    let row = |row: &[Complex]| row.iter().zip(x).map(|(a, x)| a * x).sum();
-    matrix.iter().map(row).collect()
+    matrix.iter().map(|row: &[Complex]| row.iter().zip(x).map(|(a, x)| a * x).sum()).collect()
 }
 
 fn scaled(x: &[Complex], scales: &[f64]) -> Vector<Complex> {

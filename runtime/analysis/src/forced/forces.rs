@@ -74,8 +74,7 @@ impl Forces {
     /// Whether what all excitations add to an output directly is finite.
     fn finite_in(&self, output: usize) -> bool {
         let parts = [&self.0.direct_cosine, &self.0.direct_sine];
-        let finite = |part: &Matrix| part.iter().all(|row| row[output].is_finite());
-        parts.into_iter().all(finite)
+        parts.into_iter().all(|part: &Matrix| part.iter().all(|row| row[output].is_finite()))
     }
 }
 

@@ -231,9 +231,9 @@ fn near_null_space(matrix: &Matrix<Complex>) -> Option<(Vec<Vector<Complex>>, Ve
         (0..MOST).map(|k| Vector::from_fn(n, |i| Complex::from(((i * (k + 1)) as f64 + 0.5).cos()))).collect();
     let mut left = right.clone();
     for _ in 0..STEPS {
-        let adjoint = right.iter().map(|vector| {
-            factors.solve_transposed(&vector.map(|value: Complex| value.conj())).map(|value: Complex| value.conj())
-        });
+        let adjoint = right
+            .iter()
+            .map(|vector| factors.solve_transposed(&vector.map(|value| value.conj())).map(|value| value.conj()));
         left = orthonormal(adjoint.collect())?;
         right = orthonormal(left.iter().map(|vector| factors.solve(vector)).collect())?;
     }

@@ -202,8 +202,7 @@ fn closes(at: &Equilibrium, forces: &Forces) -> Result<(), Error> {
             let gaps = forces.force(excitation, 1.0);
             let opened =
                 |i: usize| if structure.position_rows().contains(&i) { s * n[i] * gaps[i] } else { n[i] * gaps[i] };
-            let takes_part = |i: &usize| n[*i].abs() > TAKES_PART * largest(&n);
-            let rows = (structure.motions()..n.len()).filter(takes_part);
+            let rows = (structure.motions()..n.len()).filter(|i| n[*i].abs() > TAKES_PART * largest(&n));
             let all: Complex = rows.clone().map(opened).sum();
             let size = rows.clone().map(|i| opened(i).norm()).sum::<f64>();
             if all.norm() > ROUNDING * size {

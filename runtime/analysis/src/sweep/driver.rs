@@ -73,8 +73,7 @@ fn slopes_at(
     over: Option<Result<Sensitivities, Error>>,
 ) -> Result<Sensitivities, Error> {
     let (state, modes) = point.solved().map_err(Error::clone)?;
-    let blank = || Sensitivities::blank(state, modes, Method::Adjoint);
-    let mut slopes = over.and_then(Result::ok).unwrap_or_else(blank);
+    let mut slopes = over.and_then(Result::ok).unwrap_or_else(|| Sensitivities::blank(state, modes, Method::Adjoint));
     adjoint.sensitivities_into(state, modes, &mut slopes)?;
     Ok(slopes)
 }

@@ -168,8 +168,7 @@ impl Response {
         peaks: &[Peaks],
     ) -> Result<(), Failure> {
         self.picture.draw(|| {
-            let none = || figures::Error::Nothing("the mechanism has no output".to_owned());
-            let drawn = drawn.ok_or_else(none)?;
+            let drawn = drawn.ok_or_else(|| figures::Error::Nothing("the mechanism has no output".to_owned()))?;
             let style = self.picture.plain_style(question);
             if self.polar {
                 figures::polar(bode, drawn, peaks, &style)

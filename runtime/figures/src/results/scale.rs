@@ -14,8 +14,7 @@ pub(crate) fn factor(half_widths: impl Iterator<Item = f64>, length: f64) -> f64
         return 1.0;
     };
     let steps = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];
-    let visible = |factor: &f64| factor * typical >= VISIBLE * length;
-    let wanted = steps.into_iter().find(visible).unwrap_or(1000.0);
+    let wanted = steps.into_iter().find(|factor| factor * typical >= VISIBLE * length).unwrap_or(1000.0);
     let fits = |factor: &f64| *factor <= wanted && factor * widest <= WIDEST * length;
     steps.into_iter().rev().find(fits).unwrap_or(1.0)
 }

@@ -40,8 +40,7 @@ pub(crate) struct Track {
 impl Track {
     /// The pieces as points of a figure.
     pub(crate) fn points(&self, of: impl Fn(&TrackPoint) -> Point) -> Vec<Vec<Point>> {
-        let piece = |piece: &Vec<TrackPoint>| piece.iter().map(&of).collect();
-        self.pieces.iter().map(piece).collect()
+        self.pieces.iter().map(|piece: &Vec<TrackPoint>| piece.iter().map(&of).collect()).collect()
     }
 
     pub(crate) fn oscillates(&self) -> bool {
@@ -83,8 +82,7 @@ struct Lines {
 impl Lines {
     /// Adds a stretch of a motion, extending a piece that ends where it begins.
     fn stretch(&mut self, label: usize, motion: Motion, states: &[TrackPoint]) {
-        let known = |track: &Track| track.label == label && track.motion == motion;
-        let existing = self.tracks.iter().position(known);
+        let existing = self.tracks.iter().position(|track: &Track| track.label == label && track.motion == motion);
         let index = existing.unwrap_or_else(|| {
             self.tracks.push(Track { label, motion, pieces: Vec::new() });
             self.tracks.len() - 1

@@ -262,8 +262,7 @@ fn combine_chunks<T: Copy, const W: usize>(
 
 /// `matrix x` for a complex vector.
 pub fn times_complex(matrix: &Matrix, x: &[Complex]) -> Vector<Complex> {
-    let row = |row: &[f64]| row.iter().zip(x).fold(Complex::default(), |sum, (a, b)| sum + b * a);
-    matrix.iter().map(row).collect()
+    matrix.iter().map(|row: &[f64]| row.iter().zip(x).fold(Complex::default(), |sum, (a, b)| sum + b * a)).collect()
 }
 
 /// Bilinear form `x^T matrix y` of vectors of one length; rows and columns of the matrix beyond it do not matter.

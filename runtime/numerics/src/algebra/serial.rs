@@ -36,8 +36,7 @@ impl<T: Exact> Serialize for Matrix<T> {
         if rows == 0 && columns > 0 {
             return Rows::<T::Written>::None { rows, columns }.serialize(to);
         }
-        let row = |row: &[T]| row.iter().map(T::written).collect::<Vec<_>>();
-        to.collect_seq(self.iter().map(row))
+        to.collect_seq(self.iter().map(|row: &[T]| row.iter().map(T::written).collect::<Vec<_>>()))
     }
 }
 

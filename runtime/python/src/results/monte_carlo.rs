@@ -42,8 +42,7 @@ impl MonteCarlo {
     }
 
     fn of_samples<'py>(&self, py: Python<'py>, of: impl Fn(&Sample) -> &[Option<f64>]) -> PyResult<Array2<'py>> {
-        let row = |x| of(x).iter().copied().map(or_nan).collect();
-        rows(py, self.0.modes.len(), self.kept(py)?.iter().map(row))
+        rows(py, self.0.modes.len(), self.kept(py)?.iter().map(|x| of(x).iter().copied().map(or_nan).collect()))
     }
 }
 

@@ -106,8 +106,7 @@ fn joints(scene: &Scene) -> Table {
     table.texts("kind", all.clone().map(|x| Some(x.kind.to_string())));
     table.texts("from", all.clone().map(|x| body(scene, x.from.body)));
     table.texts("to", all.clone().map(|x| body(scene, x.to.body)));
-    let closes = |joint: &Joint| joint.closes_loop.then(|| "closes a loop".to_owned());
-    table.texts("role", all.map(closes));
+    table.texts("role", all.map(|joint: &Joint| joint.closes_loop.then(|| "closes a loop".to_owned())));
     table
 }
 

@@ -25,8 +25,7 @@ pub fn turned_towards(q: &[f64], other: &[f64], description: &Description) -> Ve
 pub fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Description) -> bool {
     let close = if singular { CLOSE_SINGULAR } else { CLOSE };
     let motions = Structure::of(description).motions();
-    let near = |i: usize| (a[i] - b[i]).abs() <= close * (description.large(i) + a[i].abs());
-    (0..motions).all(near)
+    (0..motions).all(|i| (a[i] - b[i]).abs() <= close * (description.large(i) + a[i].abs()))
 }
 
 /// Whether the mechanism is the same in two states that differ by full turns, so that no spring or screw counts the

@@ -210,8 +210,7 @@ pub fn in_order<T>(group: &[usize], all: &mut T, size: impl Fn(&T, usize) -> f64
 /// Marked modes share a cluster and have no derivative of their own.
 #[must_use]
 pub fn clusters(modes: &Modes, gap: f64) -> Vec<bool> {
-    let clustered = |i| merged(modes, i) || near_another(modes, i, gap);
-    (0..modes.modes.len()).map(clustered).collect()
+    (0..modes.modes.len()).map(|i| merged(modes, i) || near_another(modes, i, gap)).collect()
 }
 
 /// Whether the eigenvalue of mode `i` lies within `gap` of another one, relative to the larger of the two.

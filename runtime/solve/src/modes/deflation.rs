@@ -68,8 +68,7 @@ impl<'a> Deflated<'a> {
         let mass = &linear.mass;
         let inverse = inverse(&product(&left, mass, &right))?;
         let size = Vector::from_fn(mass.row_count(), |i| mass[i][i].abs().sqrt());
-        let weighted = |x: &Vector| x.iter().zip(&size).map(|(x, size)| x * size).collect();
-        let kept = others(right.iter().map(weighted));
+        let kept = others(right.iter().map(|x: &Vector| x.iter().zip(&size).map(|(x, size)| x * size).collect()));
         let mut deflated = Self { linear, right, left, inverse, kept, test: None };
         if deflated.left != deflated.right {
             deflated.test = Some(deflated.projected());

@@ -69,8 +69,7 @@ impl Equilibrium {
     /// Whether nearby designs certainly have a result too, as far as the turning of beams is concerned.
     #[doc(hidden)]
     pub fn far_from_least_pose(&self) -> bool {
-        let far = |pose: &PoseMargin<f64>| pose.least == 0.0 || pose.margin > 3.0 * pose.least;
-        self.pose.as_ref().is_none_or(far)
+        self.pose.as_ref().is_none_or(|pose: &PoseMargin<f64>| pose.least == 0.0 || pose.margin > 3.0 * pose.least)
     }
 
     /// An empty state at these inputs and design variables, to be overwritten.

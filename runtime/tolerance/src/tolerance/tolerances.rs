@@ -247,8 +247,7 @@ impl Tolerances {
     pub fn scale(&self, value: Option<f64>, slopes: Option<&[f64]>) -> (f64, f64) {
         let value = value.unwrap_or(0.0);
         let sigma = slopes.map_or(0.0, |slopes| self.sigma(slopes));
-        let power = |scale: f64| f64::from_bits(scale.to_bits() & EXPONENT);
-        let usable = [sigma, 1e-3 * value.abs()].map(power);
+        let usable = [sigma, 1e-3 * value.abs()].map(|scale| f64::from_bits(scale.to_bits() & EXPONENT));
         (value, (usable.into_iter()).find(|scale| (1e-300..1e300).contains(scale)).unwrap_or(1.0))
     }
 

@@ -137,23 +137,20 @@ fn take(
 impl Gathered<'_> {
     /// Number of samples.
     pub(super) fn total(&self) -> u64 {
-        let of = |part: &Partial| part.outcomes().iter().sum::<u64>();
-        self.0.iter().map(of).sum()
+        self.0.iter().map(|part: &Partial| part.outcomes().iter().sum::<u64>()).sum()
     }
 
     /// Covariance of two quantities, the first of them a response; `None` where no two samples have both.
     pub(super) fn covariance(&self, first: usize, second: usize) -> Result<Option<f64>, Error> {
         if first == second {
             let all = Statistics::of(&self.moments(first)?, None);
-            let variance = |all: Statistics| Some(all.sigma?.powi(2) * self.divisor(all.count));
-            return Ok(all.and_then(variance));
+            return Ok(all.and_then(|all: Statistics| Some(all.sigma?.powi(2) * self.divisor(all.count))));
         }
         let mut all = Comoments::default();
         for part in self.0 {
             all.merge(&part.comoments(first, second)?);
         }
-        let covariance = |all: Covariance| Some(all.covariance? * self.divisor(all.count));
-        Ok(Covariance::of(&all).and_then(covariance))
+        Ok(Covariance::of(&all).and_then(|all: Covariance| Some(all.covariance? * self.divisor(all.count))))
     }
 
     /// Factor that replaces the variance divisor `n - 1` by the right one for these points. A mean over random points

@@ -49,8 +49,7 @@ impl<'a> Requirements<'a> {
         if wanted.is_empty() {
             return Err(Error::setting("requirements", "at least one is needed"));
         }
-        let check = |requirement: &Requirement| requirement.check(mechanism, nominal);
-        wanted.iter().try_for_each(check)?;
+        wanted.iter().try_for_each(|requirement: &Requirement| requirement.check(mechanism, nominal))?;
         let about: Vec<Response> = wanted.iter().filter_map(Requirement::response).collect();
         Ok(Self {
             responses: Responses::new(mechanism, nominal, modes, about)?,

@@ -191,7 +191,7 @@ impl OwnBlocks {
             substitute(g, &all, &at_rest).chunks(outputs.len()).map(<[_]>::to_vec).collect::<Vec<_>>()
         });
         self.set(g, context, (id, mobility), &columns);
-        let loads = [1, 0].map(|kind: usize| {
+        let loads = [1, 0].map(|kind| {
             (forces.len()..outputs.len())
                 .map(|output| {
                     let by_row = columns[kind].iter().map(|column| column[output]);

@@ -117,7 +117,7 @@ pub(crate) fn bend_powers(g: &mut Graph, turn: Vector3, slope: Vector3, moment: 
     };
     let all = [0, 1, 2, 3, 4, 5];
     // equal entries must be one node
-    let curved = all.map(|a: usize| all.map(|b: usize| curved(b.min(a), b.max(a))));
+    let curved = all.map(|a| all.map(|b| curved(b.min(a), b.max(a))));
     for (a, &power) in powers.iter().enumerate() {
         let by_moment = moment.0.into_iter().zip(by[a].1.0);
         let by_turn = by.iter().map(|(by, _)| *by).zip(curved[a]);

@@ -91,7 +91,7 @@ impl Turned {
             if a == b { g.sub(curved, sum) } else { curved }
         };
         // equal entries must be one node
-        let curved = [0, 1, 2].map(|a| [0, 1, 2].map(|b: usize| curved(b.min(a), b.max(a))));
+        let curved = [0, 1, 2].map(|a| [0, 1, 2].map(|b| curved(b.min(a), b.max(a))));
         for (a, &power) in powers.iter().enumerate() {
             let by_section = back.slopes.0[a].neg(g);
             let by_force = force.0.into_iter().zip(self.slopes.0[a].0);

@@ -37,8 +37,7 @@ impl Context<'_> {
 
     /// The index of an equation; `None` if it always holds, whatever the mechanism does.
     pub(crate) fn row(&self, source: Source, component: usize) -> Option<usize> {
-        let is = |row: &Row| row.source == source && row.component == component;
-        self.rows.iter().position(is)
+        self.rows.iter().position(|row: &Row| row.source == source && row.component == component)
     }
 
     /// The multiplier of a constraint equation.

@@ -64,6 +64,5 @@ impl Resolver<'_> {
 
 /// Whether brackets contain brackets.
 pub(super) fn is_matrix(components: &[Value]) -> bool {
-    let is_row = |row: &Value| matches!(row.bare().kind, ValueKind::Vector(..));
-    components.iter().any(is_row)
+    components.iter().any(|row: &Value| matches!(row.bare().kind, ValueKind::Vector(..)))
 }

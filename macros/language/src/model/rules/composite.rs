@@ -110,7 +110,7 @@ impl GivenInertia {
         const NAMES: [&str; 3] = ["Jxx", "Jyy", "Jzz"];
         let central = tensor(&self.central, at);
         let about = if self.central == self.tensor { "" } else { "about its centre of mass, " };
-        let diagonal = [0, 1, 2].map(|k: usize| central[k][k]);
+        let diagonal = [0, 1, 2].map(|k| central[k][k]);
         if let Some(k) = diagonal.iter().position(|&moment| moment < 0.0) {
             let (name, value) = (NAMES[k], digits(diagonal[k], 6));
             return format!("{about}{name} = {value} kg*m^2 is negative");
@@ -150,7 +150,7 @@ impl GivenInertia {
 }
 
 fn tensor(entries: &[Expr; 6], at: &Values) -> Matrix {
-    let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k: usize| at.of(&entries[k]));
+    let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k| at.of(&entries[k]));
     [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
 }
 

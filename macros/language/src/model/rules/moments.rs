@@ -34,7 +34,7 @@ impl Moments {
         let mass = self.mass;
         Self {
             mass,
-            first: [0, 1, 2].map(|i: usize| f[i] + mass * o[i]),
+            first: [0, 1, 2].map(|i| f[i] + mass * o[i]),
             second: matrix(|i, j| second[i][j] + o[i] * f[j] + f[i] * o[j] + mass * o[i] * o[j]),
         }
     }
@@ -86,10 +86,10 @@ fn central_moments(shape: &Shape, at: &Values) -> (f64, Vector, Matrix) {
             matrix(|i, j| along * identity(i, j))
         }
         Spread::Tensor { inertia, about } => {
-            let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k: usize| at.of(&inertia[k]));
+            let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k| at.of(&inertia[k]));
             let second = second_moment(&[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
             let reference = about.map_or(center, |about| at.vector(about));
-            let arm = [0, 1, 2].map(|i: usize| center[i] - reference[i]);
+            let arm = [0, 1, 2].map(|i| center[i] - reference[i]);
             let central = matrix(|i, j| second[i][j] - mass * arm[i] * arm[j]);
             return (mass, center, central);
         }

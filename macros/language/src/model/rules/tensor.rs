@@ -20,7 +20,7 @@ pub(super) fn product(a: &Matrix, b: &Matrix) -> Matrix {
 }
 
 pub(super) fn product_with_vector(a: &Matrix, v: Vector) -> Vector {
-    [0, 1, 2].map(|i: usize| (0..3).map(|k| a[i][k] * v[k]).sum())
+    [0, 1, 2].map(|i| (0..3).map(|k| a[i][k] * v[k]).sum())
 }
 
 pub(super) fn transposed(a: &Matrix) -> Matrix {

@@ -81,8 +81,7 @@ impl SecondOrder {
 
 fn spreads(said: &mut Findings, d: &Description, rows: &[Row<'_>]) {
     let mut table = Columns::new("second-order tolerances", rows);
-    let known = |r: &usize| rows[*r].mode.is_ok();
-    table.show_rows((0..rows.len()).filter(known).collect());
+    table.show_rows((0..rows.len()).filter(|r| rows[*r].mode.is_ok()).collect());
     table.whole("mode", &|row| Some(row.number)).shown();
     moments(&mut table, "frequency", "rad/s", FREQUENCY);
     moments(&mut table, "natural frequency", "rad/s", NATURAL_FREQUENCY);

@@ -222,8 +222,7 @@ pub(crate) fn event_columns<'a>(name: &str, all: &'a [&'a EventTolerance]) -> Op
     table.number("sigma level", "", &|row| Some(row.sigma_level));
     table.words("error", &error);
     table.cells("mostly from", &|row| {
-        let shares = || spread(row).map(|x| mostly(d, &x.variance_shares));
-        error(row).or_else(shares).unwrap_or_default()
+        error(row).or_else(|| spread(row).map(|x| mostly(d, &x.variance_shares))).unwrap_or_default()
     });
     Some(table)
 }

@@ -109,10 +109,7 @@ fn columns<'a>(
         let name = format!("Im s {number_of}");
         table.number(&name, "1/s", &|row| mode(row, |mode| Some(mode.s.im)));
     }
-    table.cells("state", &|row| {
-        let stability = || state(row).map(Equilibrium::stability_word);
-        error(row).or_else(stability).unwrap_or_default()
-    });
+    table.cells("state", &|row| error(row).or_else(|| state(row).map(Equilibrium::stability_word)).unwrap_or_default());
     table.words("error", &error);
     table
 }

@@ -93,8 +93,7 @@ impl Curve {
         // a + 2 c x + 3 d x^2
         let (c, d) = (3.0 * rise - 2.0 * a - b, a + b - 2.0 * rise);
         let sum = -(c + (c * c - 3.0 * a * d).sqrt().copysign(c));
-        let inside = |share: &f64| *share > 0.0 && *share < 1.0;
-        [sum / (3.0 * d), a / sum].into_iter().filter(inside)
+        [sum / (3.0 * d), a / sum].into_iter().filter(|share| *share > 0.0 && *share < 1.0)
     }
 }
 

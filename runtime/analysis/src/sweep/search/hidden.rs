@@ -240,8 +240,7 @@ impl Followed {
 
 /// Places in both pieces, states included.
 fn grid() -> impl Iterator<Item = Place> {
-    let shares = |piece: usize| (0..=SAMPLES).map(move |k| (piece, k as f64 / SAMPLES as f64));
-    (0..2).flat_map(shares)
+    (0..2).flat_map(|piece| (0..=SAMPLES).map(move |k| (piece, k as f64 / SAMPLES as f64)))
 }
 
 /// The number of one eigenvalue.

@@ -484,12 +484,10 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let modes = self.labelled(node);
         let places = pair.map(|k| {
             let mode = &node.modes.modes[k];
-            let same = |other: &Mode| other.s == mode.s && other.shape == mode.shape;
-            modes.modes.iter().position(same).unwrap_or(k)
+            modes.modes.iter().position(|other| other.s == mode.s && other.shape == mode.shape).unwrap_or(k)
         });
         // Of two that merge, each could pass for either: the event is the first one's.
-        let label = |index: &usize| modes.modes[*index].label;
-        let mode = places.into_iter().min_by_key(label).unwrap_or(pair[0]);
+        let mode = places.into_iter().min_by_key(|index: &usize| modes.modes[*index].label).unwrap_or(pair[0]);
         let crossing = Crossing {
             input: self.events.input,
             value,

@@ -80,8 +80,7 @@ pub(super) fn rows(states: [&[Root]; 3], t: [f64; 3]) -> Vec<[Root; 3]> {
     let before = links(first, middle, t[1] - t[0]);
     let after = links(last, middle, t[1] - t[2]);
     let row = |k: usize| [first[before[k]], middle[k], last[after[k]]];
-    let moves = |row: &[Root; 3]| !row.iter().all(|root| root.neutral);
-    (0..most).map(row).filter(moves).collect()
+    (0..most).map(row).filter(|row: &[Root; 3]| !row.iter().all(|root| root.neutral)).collect()
 }
 
 /// For each of the second eigenvalues the first one that meets it best halfway.

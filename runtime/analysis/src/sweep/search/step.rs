@@ -82,8 +82,7 @@ impl States for Step<'_, '_> {
         let spectrum = self.node(t)?.spectrum.clone();
         let mut all = spectrum.roots.iter().chain(&spectrum.stiffness);
         let inner = t > 0.0 && t < 1.0;
-        let known = |root: &Root| root.slope.is_finite() || root.neutral;
-        (!inner || all.all(known)).then_some(spectrum)
+        (!inner || all.all(|root: &Root| root.slope.is_finite() || root.neutral)).then_some(spectrum)
     }
 
     fn all(&self) -> Vec<Rc<Spectrum>> {

@@ -166,8 +166,7 @@ impl<'a> Regions<'a> {
 
     fn is_new(&self, point: &DesignPoint) -> bool {
         let apart = self.search.settings.separation * point.beta.abs().max(1.0);
-        let far = |known: &DesignPoint| distance(&known.point, &point.point) > apart;
-        self.found.iter().all(far)
+        self.found.iter().all(|known: &DesignPoint| distance(&known.point, &point.point) > apart)
     }
 
     /// The point itself, or the result of a search from next to it if that is nearer to the origin.

@@ -63,8 +63,7 @@ impl Central {
     /// Whether a point is in line with a failure on the central line.
     fn explains(&self, point: &[f64]) -> bool {
         let s = dot(point, &self.direction);
-        let near = |(from, to): &Stretch| (from - IN_LINE..=to + IN_LINE).contains(&s);
-        self.failing.iter().any(near)
+        self.failing.iter().any(|(from, to): &Stretch| (from - IN_LINE..=to + IN_LINE).contains(&s))
     }
 }
 

@@ -86,8 +86,7 @@ fn unresisted(system: &System, state: &Linearised) -> Unresisted {
 
 fn transposed(rows: &[Vec<Disturbed>]) -> Vec<Vec<Disturbed>> {
     let columns = rows.first().map_or(0, Vec::len);
-    let column = |k: usize| rows.iter().map(|row| row[k]).collect();
-    (0..columns).map(column).collect()
+    (0..columns).map(|k| rows.iter().map(|row| row[k]).collect()).collect()
 }
 
 /// Rolling at rest takes no place away: at rest its equations hold everywhere. Besides the motions that leave the

@@ -115,8 +115,7 @@ pub(super) fn mistakes(
 
 /// The causes that do work along a direction.
 fn acting(system: &System, design: u64, along: &[f64], causes: &[(Cause, Vec<ExprId>)]) -> Vec<usize> {
-    let acts = |k: &usize| works(system, design, along, &causes[*k].1);
-    (0..causes.len()).filter(acts).collect()
+    (0..causes.len()).filter(|k| works(system, design, along, &causes[*k].1)).collect()
 }
 
 /// Whether a part of the equations does work along a direction.

@@ -205,8 +205,7 @@ impl<'a> System<'a> {
         let mut roots: Vec<ExprId> = self.rest[rows.clone()].to_vec();
         roots.extend(self.stiffness[..moving].iter().flat_map(|column| &column[rows.clone()]));
         let unknowns = &self.context.symbols.q.ids[..moving];
-        let random = |symbol: &SymbolId| state.value(self.context, *symbol);
-        let start = unknowns.iter().map(random).collect();
+        let start = unknowns.iter().map(|symbol| state.value(self.context, *symbol)).collect();
         self.minimum_norm_newton(state, &roots, start, 0).unwrap_or_default()
     }
 
@@ -287,11 +286,9 @@ fn shortest_step(gaps: &[f64], slopes: &[f64]) -> Option<(Vec<f64>, f64)> {
     let gaps: Vec<f64> = (0..m).map(|i| scaled(i, gaps[i])).collect();
     let step = if m <= n {
         let y = damped_solution(m, n, entry, &gaps)?;
-        let along = |k: usize| -(0..m).map(|i| entry(i, k) * y[i]).sum::<f64>();
-        (0..n).map(along).collect()
+        (0..n).map(|k| -(0..m).map(|i| entry(i, k) * y[i]).sum::<f64>()).collect()
     } else {
-        let along = |k: usize| -(0..m).map(|i| entry(i, k) * gaps[i]).sum::<f64>();
-        let right: Vec<f64> = (0..n).map(along).collect();
+        let right: Vec<f64> = (0..n).map(|k| -(0..m).map(|i| entry(i, k) * gaps[i]).sum::<f64>()).collect();
         damped_solution(n, m, |k, i| entry(i, k), &right)?
     };
     let gap = gaps.iter().fold(0.0_f64, |most, gap| most.max(gap.abs()));

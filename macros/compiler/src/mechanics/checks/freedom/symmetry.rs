@@ -40,8 +40,7 @@ fn changes(system: &System, state: &Linearised) -> Rows {
     let n = state.residual.len();
     let reactions = |i: usize| (moving..n).map(move |j| state.stiffness[j][i]);
     let change = |i: usize| state.fields.iter().map(move |field| change(field, state, i));
-    let row = |i: usize| reactions(i).chain(change(i)).collect();
-    let mut rows: Rows = (0..n).map(row).collect();
+    let mut rows: Rows = (0..n).map(|i| reactions(i).chain(change(i)).collect()).collect();
     scale(&mut rows, state.operations);
     rows.extend(missed(system, state, n - moving, 0));
     rows
@@ -57,8 +56,7 @@ pub(super) fn conserved(system: &System, design: u64, friction: Friction) -> Com
         let gaps = |j: usize| (moving..n).map(move |i| state.stiffness[j][i]);
         let slope = |j: usize| state.fields.iter().map(move |field| slope(field, state, j));
         let coasting = |j: usize| (free..moving).map(move |i| state.stiffness[j][i]);
-        let row = |j: usize| gaps(j).chain(slope(j)).chain(coasting(j)).collect();
-        let mut rows: Rows = (0..n).map(row).collect();
+        let mut rows: Rows = (0..n).map(|j| gaps(j).chain(slope(j)).chain(coasting(j)).collect()).collect();
         scale(&mut rows, state.operations);
         rows.extend(missed(system, state, n - moving, moving - free));
         rows
@@ -224,6 +222,5 @@ pub(super) fn combined(vectors: &Combinations, weights: &Combinations) -> Combin
     let length = vectors.first().map_or(0, Vec::len);
     let entry =
         |j: usize, weights: &[Disturbed]| sum(vectors.iter().zip(weights).map(|(vector, &weight)| weight * vector[j]));
-    let one = |weights: &Vec<Disturbed>| (0..length).map(|j| entry(j, weights)).collect();
-    weights.iter().map(one).collect()
+    weights.iter().map(|weights| (0..length).map(|j| entry(j, weights)).collect()).collect()
 }

@@ -105,8 +105,7 @@ pub(super) fn independent(system: &System, state: &Linearised, combinations: Vec
 
 /// The numbers of a reduced echelon form, with the rounding that it takes.
 pub(super) fn exact(values: &[f64]) -> Vec<Disturbed> {
-    let rounded = |(seed, &x): (u64, &f64)| Disturbed::rounded(x, 1e-13 * x.abs(), seed);
-    (0..).zip(values).map(rounded).collect()
+    (0..).zip(values).map(|(seed, &x): (u64, &f64)| Disturbed::rounded(x, 1e-13 * x.abs(), seed)).collect()
 }
 
 /// Names that a list may have.
