@@ -87,8 +87,7 @@ fn run_along_each<const N: usize>(
     directions: &[[&[f64]; N]],
     gradients: &mut [Gradient],
 ) {
-    let each = directions.chunks(WIDTH).zip(gradients.chunks_mut(WIDTH));
-    for (directions, gradients) in each {
+    for (directions, gradients) in directions.chunks(WIDTH).zip(gradients.chunks_mut(WIDTH)) {
         let (Some(tape), [_, _, ..]) = (tape, directions) else {
             for (direction, gradient) in directions.iter().zip(gradients) {
                 run_along(tape, arguments, direction, &mut gradient_results(gradient));

@@ -167,8 +167,7 @@ impl<'a> Body<'a> {
 
     /// Stores a value at its places in the results.
     fn store(&mut self, index: usize) {
-        let places = std::mem::take(&mut self.places[index]);
-        for target in places {
+        for target in std::mem::take(&mut self.places[index]) {
             let value = self.text(Operand::Instruction(index)).text;
             self.statements.push(Statement::Store(target, value));
         }

@@ -29,8 +29,7 @@ pub fn regrouped(graph: &mut Graph, functions: &[Function]) -> Vec<Function> {
     let roots = share_reciprocals(graph, &roots);
     let mut values = regroup(graph, &roots).into_iter();
     let mut functions = functions.to_vec();
-    let arrays = functions.iter_mut().flat_map(|function| &mut function.results);
-    for array in arrays {
+    for array in functions.iter_mut().flat_map(|function| &mut function.results) {
         array.values = values.by_ref().take(array.values.len()).collect();
     }
     functions

@@ -113,8 +113,7 @@ impl Seen {
         let of_motion = |o: usize| self.0.iter().all(|matrix| all_finite(&matrix[o]));
         let outputs = 0..self.0[0].row_count();
         let smooth: Vec<bool> = outputs.map(|o| of_motion(o) && forces.finite_in(o)).collect();
-        let rough = smooth.iter().enumerate().filter(|(_, smooth)| !**smooth);
-        for (o, _) in rough {
+        for (o, _) in smooth.iter().enumerate().filter(|(_, smooth)| !**smooth) {
             self.0.iter_mut().for_each(|matrix| matrix[o].fill(0.0));
         }
         smooth

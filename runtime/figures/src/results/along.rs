@@ -37,9 +37,8 @@ pub(crate) mod sealed {
     type ModeAt = (usize, Complex, Option<f64>, Option<Character>);
 
     pub trait Along {
-        fn description(&self) -> &Description;
-        fn input(&self) -> Input;
-        fn inputs(&self) -> &[f64];
+        /// The mechanism, the varied input and the values of all, SI.
+        fn about(&self) -> (&Description, Input, &[f64]);
         /// Values, SI, with their equilibria and with the labels, eigenvalues, frequencies and kinds of their
         /// modes.
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)>;
@@ -48,16 +47,8 @@ pub(crate) mod sealed {
     }
 
     impl Along for Sweep {
-        fn description(&self) -> &Description {
-            &self.description
-        }
-
-        fn input(&self) -> Input {
-            self.input
-        }
-
-        fn inputs(&self) -> &[f64] {
-            &self.inputs
+        fn about(&self) -> (&Description, Input, &[f64]) {
+            (&self.description, self.input, &self.inputs)
         }
 
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)> {
@@ -81,16 +72,8 @@ pub(crate) mod sealed {
     }
 
     impl Along for Campbell {
-        fn description(&self) -> &Description {
-            &self.description
-        }
-
-        fn input(&self) -> Input {
-            self.input
-        }
-
-        fn inputs(&self) -> &[f64] {
-            &self.inputs
+        fn about(&self) -> (&Description, Input, &[f64]) {
+            (&self.description, self.input, &self.inputs)
         }
 
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)> {
@@ -133,7 +116,7 @@ pub(crate) struct Course<'a> {
 
 impl<'a> Course<'a> {
     pub(crate) fn of<R: Along + ?Sized>(result: &'a R) -> Self {
-        let (description, input) = (result.description(), result.input());
+        let (description, input, inputs) = result.about();
         let to_unit = |value: f64| match description.inputs.get(input.index()) {
             Some(info) => in_unit(value, &info.unit),
             None => value,
@@ -154,7 +137,7 @@ impl<'a> Course<'a> {
         Self {
             description,
             input,
-            inputs: result.inputs(),
+            inputs,
             stations,
             equilibria,
             critical: critical.iter().map(|(value, _)| to_unit(*value)).collect(),

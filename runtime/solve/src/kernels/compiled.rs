@@ -17,8 +17,8 @@ use super::{
 };
 use crate::algebra::Vector;
 use crate::mechanism::{
-    Array, Description, ForcingOf, GradientOf, Mechanism, OutputMotionOf, PartialsOf, PictureInfo, PoseMargin, Shared,
-    Square, Violation, few_partials,
+    Array, Description, ForcingOf, GradientOf, Mechanism, PartialsOf, PictureInfo, PoseMargin, Shared, Square,
+    Violation, few_partials,
 };
 use crate::scalar::{Batch, Dual};
 use crate::{Real, mechanism};
@@ -80,20 +80,13 @@ fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut [&mut [f64]])
     to[2].copy_from_slice(from.design.as_ref());
 }
 
-/// Derivatives of the outputs by unknowns, inputs and design variables.
-type OutputPartials<M> = (
-    <M as Mechanism>::Outputs<<M as Mechanism>::Coordinates<f64>>,
-    <M as Mechanism>::Outputs<<M as Mechanism>::Inputs<f64>>,
-    <M as Mechanism>::Outputs<<M as Mechanism>::Design<f64>>,
-);
-
-fn copy_output_partials<M: Mechanism>(from: &OutputPartials<M>, to: &mut [&mut [f64]]) {
-    copy_rows(&from.0, to[0]);
-    copy_rows(&from.1, to[1]);
-    copy_rows(&from.2, to[2]);
-}
-
-fn copy_output_motion<M: Mechanism>(from: &OutputMotionOf<M, f64>, to: &mut [&mut [f64]]) {
+/// Copies three matrices: derivatives of the outputs by unknowns, inputs and design variables, or by motion.
+fn copy_three<A, B, C, R: Array<f64>, S: Array<f64>, T: Array<f64>>(from: &(A, B, C), to: &mut [&mut [f64]])
+where
+    A: Array<R>,
+    B: Array<S>,
+    C: Array<T>,
+{
     copy_rows(&from.0, to[0]);
     copy_rows(&from.1, to[1]);
     copy_rows(&from.2, to[2]);
@@ -227,11 +220,11 @@ impl<M: Mechanism> Kernels for M {
             }
             Kernel::Outputs => copy_array(&Mechanism::outputs(self, q, u, b), results[0]),
             Kernel::OutputPartials => {
-                copy_output_partials::<M>(&Mechanism::output_partials(self, q, u, b), results);
+                copy_three(&Mechanism::output_partials(self, q, u, b), results);
             }
             Kernel::Forcing => copy_forcing::<M>(&Mechanism::forcing(self, q, u, b), results),
             Kernel::OutputMotion => {
-                copy_output_motion::<M>(&Mechanism::output_motion(self, q, u, b), results);
+                copy_three(&Mechanism::output_motion(self, q, u, b), results);
             }
             Kernel::ForcedGradient => {
                 copy_gradient::<M>(&forced_gradient(self, arguments), results);
@@ -419,7 +412,7 @@ impl<M: Mechanism> CurvatureKernels for M {
             }
             Curvature::OutputPartials => {
                 let partials = Mechanism::output_partials_along(self, q, u, b, dq, du, db);
-                copy_output_partials::<M>(&partials, results);
+                copy_three(&partials, results);
             }
             Curvature::Forcing => {
                 let change = Mechanism::forcing_along(self, q, u, b, dq, du, db);
@@ -427,7 +420,7 @@ impl<M: Mechanism> CurvatureKernels for M {
             }
             Curvature::OutputMotion => {
                 let change = Mechanism::output_motion_along(self, q, u, b, dq, du, db);
-                copy_output_motion::<M>(&change, results);
+                copy_three(&change, results);
             }
             Curvature::ForcedGradient => {
                 let moved: Vec<Vec<Dual<f64>>> = arguments

@@ -516,8 +516,7 @@ fn product_without_rounding(matrix: &Matrix, right: &[Vector], left: &[Vector]) 
     let mut coupled = product(left, matrix, right);
     let sizes = |all: &[Vector]| -> Vec<Vector> { all.iter().map(|x| x.map(f64::abs)).collect() };
     let terms = product(&sizes(left), &matrix.map(f64::abs), &sizes(right));
-    let both = coupled.as_flattened_mut().iter_mut().zip(terms.as_flattened());
-    for (entry, terms) in both {
+    for (entry, terms) in coupled.as_flattened_mut().iter_mut().zip(terms.as_flattened()) {
         if entry.abs() <= UNDAMPED * terms {
             *entry = 0.0;
         }

@@ -75,8 +75,7 @@ impl Fingerprint {
         let value_of = |all: &Self, name: &str| {
             all.facts().find(|(x, _)| *x == name).map_or("not there".to_owned(), |(_, value)| value.to_owned())
         };
-        let names = self.facts().chain(other.facts()).map(|(name, _)| name);
-        for name in names {
+        for name in self.facts().chain(other.facts()).map(|(name, _)| name) {
             let (own, other) = (value_of(self, name), value_of(other, name));
             if own != other {
                 return Err(Error::OtherRun { what: name.to_owned(), own, other });

@@ -27,8 +27,7 @@ pub(crate) fn requirements(g: &mut Graph, mechanism: &Mechanism, values: &Values
         let name = &body.name;
         for part in &body.parts {
             let Reduced { mass, positive, .. } = part.shape.reduced();
-            let all = std::iter::once(("mass", mass.clone())).chain(positive);
-            for (quantity, value) in all {
+            for (quantity, value) in std::iter::once(("mass", mass.clone())).chain(positive) {
                 list.push(Requirement {
                     quantity: format!("{quantity} of {name}"),
                     requirement: "positive",

@@ -194,8 +194,7 @@ fn exerted_by_forces(g: &mut Graph, context: &Context, kinematics: &Kinematics) 
     let mechanism = context.mechanism;
     let mut all = vec![[g.zero(); 6]; mechanism.forces.len()];
     let force_context = ForceContext::new(context, kinematics);
-    let leaves = mechanism.outputs.iter().flat_map(|output| output.value.leaves());
-    for leaf in leaves {
+    for leaf in mechanism.outputs.iter().flat_map(|output| output.value.leaves()) {
         if let Expr::Exerted(id, _) = leaf {
             let force = &mechanism.forces[id.index()];
             all[id.index()] = exerted(g, &force_context, force);

@@ -127,8 +127,7 @@ impl Runs {
         };
         for k in 0..this.before.len() {
             if this.before[k].is_some() {
-                let lists = [&mut this.position, &mut this.velocity, &mut this.acceleration];
-                for list in lists {
+                for list in [&mut this.position, &mut this.velocity, &mut this.acceleration] {
                     let symbol = g.symbol_info(list.ids[k]).clone();
                     (list.ids[k], list.values[k]) = g.symbol(format!("{}_in_all", symbol.name), symbol.stage);
                 }

@@ -10,8 +10,7 @@ const DERIVED: [&str; 6] = ["Clone", "Copy", "Debug", "Default", "PartialEq", "E
 
 /// Rejects traits that would be derived twice, which would be a conflict in the generated code.
 pub(crate) fn check(ast: &Ast, diagnostics: &mut Diagnostics) {
-    let derives = ast.attributes.iter().filter(|attribute| attribute.path().is_ident("derive"));
-    for derive in derives {
+    for derive in ast.attributes.iter().filter(|attribute| attribute.path().is_ident("derive")) {
         let list = derive.parse_args_with(Punctuated::<syn::Path, syn::Token![,]>::parse_terminated);
         for path in list.into_iter().flatten() {
             let Some(last) = path.segments.last() else {

@@ -14,7 +14,7 @@ use crate::branches::{
 use crate::equilibrium::{Held, OperatingPoint, Policy, equilibrium_into};
 use crate::error::NotFound;
 use crate::kernels::DirectionalKernels;
-use crate::modes::{CLUSTER_GAP, Family, Mode, match_with_assurance, merged, near_another, position};
+use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
 use crate::sweep::condition::{Change, Condition, Crossing, Line};
 use crate::sweep::points::{CriticalState, SweepPoint};
 use crate::sweep::range::Range;

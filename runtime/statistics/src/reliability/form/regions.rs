@@ -125,8 +125,7 @@ impl<'a> Regions<'a> {
                 (0..point.len()).filter(|&k| point[k].abs() > REFLECTED * norm(&point)).collect();
             large.sort_by(|&a, &b| point[b].abs().total_cmp(&point[a].abs()));
             large.truncate(REFLECTIONS);
-            let pairs = (0..large.len()).flat_map(|i| (0..=i).map(move |j| (i, j)));
-            for (i, j) in pairs {
+            for (i, j) in (0..large.len()).flat_map(|i| (0..=i).map(move |j| (i, j))) {
                 let mut start = point.clone();
                 start[large[i]] = -point[large[i]];
                 start[large[j]] = -point[large[j]];

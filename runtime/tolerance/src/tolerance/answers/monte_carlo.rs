@@ -170,8 +170,7 @@ impl MonteCarlo {
         let mut table = Grid::new(head);
         let frequencies = self.modes.iter().map(|mode| ("frequency", mode));
         let dampings = self.damping_ratios.iter().map(|damping_ratio| ("damping ratio", damping_ratio));
-        let both = frequencies.enumerate().chain(dampings.enumerate());
-        for (r, (name, statistics)) in both {
+        for (r, (name, statistics)) in frequencies.enumerate().chain(dampings.enumerate()) {
             let Some((statistics, skewness)) = statistics.as_ref().and_then(|x| Some((x, x.skewness?))) else {
                 continue;
             };
