@@ -194,14 +194,14 @@ fn arguments(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Words, of which one may hold a pair in brackets: `major(shake, lift)`.
-fn words(text: &str) -> Vec<String> {
+/// Without white space inside brackets: a pair in them, as in `major(shake, lift)`, is one word.
+fn joined(text: &str) -> String {
     let mut open = 0;
-    let words = text.split(|c: char| {
-        open += i32::from(c == '(') - i32::from(c == ')');
-        c.is_whitespace() && open == 0
-    });
-    words.filter(|word| !word.is_empty()).map(|word: &str| word.split_whitespace().collect::<String>()).collect()
+    let keeps = |c: &char| {
+        open += i32::from(*c == '(') - i32::from(*c == ')');
+        open == 0 || !c.is_whitespace()
+    };
+    text.chars().filter(keeps).collect()
 }
 
 /// A requirement to stay away from a multiple of an input: `2 speed by 10%`.
@@ -227,8 +227,8 @@ fn away(study: &Study<Interpreted>, response: Response, text: &str) -> Result<Re
 /// # Errors
 /// [`WantedError`].
 pub fn response(study: &Study<Interpreted>, text: &str) -> Result<Response> {
-    let words = words(text);
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let joined = joined(text);
+    let words: Vec<&str> = joined.split_whitespace().collect();
     let mode = |word: &str| match word.parse::<usize>() {
         Ok(0) => wrong("there is no mode 0", "modes are counted from 1: `frequency 1`"),
         Ok(number) => Ok(number - 1),
@@ -291,8 +291,8 @@ fn quantity(name: &str) -> Option<Quantity> {
 /// # Errors
 /// [`WantedError`].
 pub fn vibration(study: &Study<Interpreted>, text: &str) -> Result<Vibration> {
-    let words = words(text);
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let joined = joined(text);
+    let words: Vec<&str> = joined.split_whitespace().collect();
     match clauses(study, text, words.strip_prefix(&["vibration"]).unwrap_or(&words))? {
         (vibration, None) => Ok(vibration),
         (_, Some(_)) => no(text, "a vibration at one operating point"),
@@ -509,14 +509,13 @@ const ROUNDING: f64 = 1e-9;
 /// What all excitations do together, as root of the mean square if that is how its limit is stated.
 fn rms_of_all(response: Response, limit: &str) -> (Response, &str) {
     let as_rms = |vibration: Vibration| vibration.extent(Extent::Rms);
-    let response = match (response, limit.strip_suffix(" rms")) {
-        (Response::Vibration(own), Some(_)) if is_of_all(own) => Response::Vibration(as_rms(own)),
-        (Response::Peak { vibration, range, quantity }, Some(_)) if is_of_all(vibration) => {
-            Response::Peak { vibration: as_rms(vibration), range, quantity }
+    match (response, limit.strip_suffix(" rms")) {
+        (Response::Vibration(own), Some(limit)) if is_of_all(own) => (Response::Vibration(as_rms(own)), limit),
+        (Response::Peak { vibration, range, quantity }, Some(limit)) if is_of_all(vibration) => {
+            (Response::Peak { vibration: as_rms(vibration), range, quantity }, limit)
         }
-        _ => return (response, limit),
-    };
-    (response, limit.trim_end_matches(" rms"))
+        _ => (response, limit),
+    }
 }
 
 fn is_of_all(vibration: Vibration) -> bool {

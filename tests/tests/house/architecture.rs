@@ -27,7 +27,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ("runtime/statistics", &[], 140),
     ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 147),
     ("runtime/results", &["eigentol-contract"], 21),
-    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 338),
+    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 337),
     (
         "runtime/tolerance",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-solve", "eigentol-statistics"],
@@ -43,7 +43,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        454,
+        453,
     ),
     (
         "runtime/uncertainty",
@@ -74,7 +74,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 366),
-    ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 386),
+    ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 385),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
     ("macros/urdf", &["eigentol-compiler"], 46),

@@ -97,13 +97,11 @@ impl Vibration {
         Some(self.extent.value(&parts?)).filter(|value| value.is_finite())
     }
 
-    /// The harmonics that it contains, in ascending order.
+    /// The harmonics that it contains.
     #[doc(hidden)]
     #[must_use]
     pub fn harmonics(&self, d: &Description) -> Vec<usize> {
-        let mut all: Vec<usize> = self.parts(d).into_iter().flatten().map(|part| part.harmonic).collect();
-        all.dedup();
-        all
+        self.parts(d).into_iter().flatten().map(|part| part.harmonic).collect()
     }
 
     /// The complex amplitudes of its parts.

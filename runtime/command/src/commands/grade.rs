@@ -331,9 +331,7 @@ impl Answer for Grades {
         if let Some(grade) = standard.filter(|all| all.len() > 1).and_then(|all| all.into_iter().reduce(f64::min)) {
             said.note(format!("All limits: G{grade}."));
         }
-        said.note(
-            "With tolerances: in a design whose amplitude is greater by as many standard deviations as the tolerances span.",
-        );
+        said.note("With tolerances: for an amplitude that is greater by its band.");
         said.note("Limits are from 0 to peak. A grade is the eccentricity of all that turns times the service speed (ISO 21940-11).");
         said
     }

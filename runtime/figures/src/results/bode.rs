@@ -297,7 +297,11 @@ impl<'a> Course<'a> {
             all.get(index?)?.as_ref()
         };
         let unit = input_unit(&self.result.description, self.result.input);
-        self.result.course().into_iter().map(|point| (in_unit(point.value, &unit), spread(point))).collect()
+        // A point between the values may have none.
+        (self.result.course().into_iter())
+            .filter(|point| point.bands.is_some() || self.result.points.contains(point))
+            .map(|point| (in_unit(point.value, &unit), spread(point)))
+            .collect()
     }
 
     /// The probabilities at the ends of the bands.

@@ -12,6 +12,7 @@ use core::f64::consts::LN_2;
 use core::fmt;
 
 use eigentol_results::numbers::rough;
+use eigentol_results::relevance::EVERYTHING;
 
 use crate::algebra::Vector;
 use crate::eigenproblem::ApproximatePair;
@@ -77,16 +78,10 @@ impl Behaviour {
         let last = of.resolved_modes.and_then(|count| frequencies.get(count.max(1) - 1));
         let shows = |mode: &Self| mode.grows() || last.is_none_or(|last| mode.speed() <= BESIDE * last);
         let shown: Vec<usize> = (0..all.len()).filter(|k| shows(&all[*k])).collect();
-        let said = match all.len() - shown.len() {
-            0 => None,
-            1 => Some(
-                "One mode is left out that the coordinates of beams hardly resolve: CSV and JSON have it.".to_owned(),
-            ),
-            more => Some(format!(
-                "{more} modes are left out that the coordinates of beams hardly resolve: CSV and JSON have them."
-            )),
-        };
-        (shown, said)
+        let left = all.len() - shown.len();
+        let modes = if left == 1 { "mode is" } else { "modes are" };
+        let said = format!("{left} {modes} left out that the coordinates of beams hardly resolve: {EVERYTHING}.");
+        (shown, (left > 0).then_some(said))
     }
 
     /// Its name in tables: `oscillating`.

@@ -34,12 +34,6 @@ impl Tally {
         self.met + self.failed + self.untold
     }
 
-    /// Fraction of the samples that met it.
-    #[must_use]
-    pub fn yield_of(&self) -> f64 {
-        self.met as f64 / self.samples() as f64
-    }
-
     /// Fraction of the samples that failed.
     #[must_use]
     pub fn failure(&self) -> f64 {
