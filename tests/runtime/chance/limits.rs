@@ -158,6 +158,21 @@ fn agrees<M: Mechanism>(study: &Study<M>, wanted: &[Requirement]) {
     }
 }
 
+/// A design without stiffness fails at both ends of a band and counts once.
+#[test]
+fn what_is_lost_fails_a_band_once() {
+    let (k, by_k) = (100.0, 30.0);
+    let study = Study::new(Mass).sigma_level(1.0).tolerance(Mass::k, by_k).tolerance(Mass::m, 1e-3);
+    let middle = f64::sqrt(k / 2.0);
+    let (low, high) = (0.3 * middle, 1.5 * middle);
+    let exact = upper((k - 0.09 * k) / by_k) + upper((2.25 * k - k) / by_k);
+    let wanted = Requirement::Within { response: mode(0, Quantity::Frequency), low, high };
+    let answer = study.probability(&[wanted]).unwrap();
+    let own = &answer.each[0];
+    assert!((own.interval.lower..=1.01 * own.interval.upper).contains(&exact), "{exact}: {answer}");
+    assert!((own.value / exact - 1.0).abs() < 0.2, "{exact}: {answer}");
+}
+
 /// `w < a` where `k < a^2 m`: a difference of normal numbers. Of a band both ends count, however rare.
 #[test]
 fn a_band_fails_at_either_end() {

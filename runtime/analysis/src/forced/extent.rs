@@ -47,7 +47,7 @@ pub(super) fn each<T: Copy + Default, R: Copy + Default>(all: &[Slopes<T>], f: i
 }
 
 /// The value of an extent and its derivatives from those of its parts, which are not numbers where it has none: at a circle
-/// that a variable turns into an ellipse.
+/// or a straight line that a variable turns into an ellipse.
 impl Extent {
     /// The sign of the modulus of each part; `None` where squares are summed.
     fn sign(self, part: usize, y: &[Complex]) -> Option<f64> {
@@ -81,7 +81,17 @@ impl Extent {
             _ => f64::NAN,
         };
         let sum = self.sum(y, modulus, |k| 0.5 * (y[k].conj() * dy[k]).re);
-        if self == Self::Rms { sum / self.value(y) } else { sum }
+        match self {
+            Self::Rms => sum / self.value(y),
+            Self::Minor(_) if self.value(y) <= STILL * size(y) => {
+                if sum.abs() <= STILL * size(dy) {
+                    0.0
+                } else {
+                    f64::NAN
+                }
+            }
+            _ => sum,
+        }
     }
 
     pub(crate) fn curvature(self, y: &[Complex], [a, b]: [&[Complex]; 2], ab: &[Complex]) -> f64 {
@@ -94,6 +104,8 @@ impl Extent {
         let sum = self.sum(y, modulus, |k| 0.5 * product(k));
         match self {
             Self::Rms => (sum - self.slope(y, a) * self.slope(y, b)) / self.value(y),
+            // Where first derivatives exist, on a straight line that stays one.
+            Self::Minor(_) if self.value(y) <= STILL * size(y) => 0.0 * (self.slope(y, a) + self.slope(y, b)),
             _ => sum,
         }
     }
@@ -122,6 +134,9 @@ impl Extent {
 
 /// Whether one of these is nothing but rounding of the others.
 fn still(y: &[Complex], k: usize) -> bool {
-    let all: f64 = y.iter().map(|y| y.norm()).sum();
-    y[k].norm() <= if y.len() > 1 { STILL * all } else { 0.0 }
+    y[k].norm() <= if y.len() > 1 { STILL * size(y) } else { 0.0 }
+}
+
+fn size(y: &[Complex]) -> f64 {
+    y.iter().map(|y| y.norm()).sum()
 }

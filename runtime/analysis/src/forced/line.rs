@@ -53,11 +53,6 @@ impl Line {
             .fold((0, 0.0), |most, own| if own.1 > most.1 { own } else { most });
         k.min(self.tones.len() - 1)
     }
-
-    /// Its frequency.
-    pub(crate) fn frequency(&self) -> [f64; 2] {
-        self.tones[self.loudest()].frequency
-    }
 }
 
 /// Total derivatives of a number by every variable, and the derivatives of these along one input.

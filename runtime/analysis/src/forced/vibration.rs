@@ -36,11 +36,14 @@ impl Vibration {
     /// Every output under every harmonic, as a displacement.
     #[must_use]
     pub fn all(of: &Description) -> Vec<Self> {
-        let firsts = of.excitations.iter().enumerate().filter(|(k, info)| info.with == *k);
-        let each = |(k, _)| {
-            (0..of.outputs.len()).map(Output::<Any>::new).map(move |output| Self::new(output, Excitation::new(k)))
-        };
-        firsts.flat_map(each).collect()
+        let each =
+            |k| (0..of.outputs.len()).map(Output::<Any>::new).map(move |output| Self::new(output, Excitation::new(k)));
+        Self::firsts(of).flat_map(each).collect()
+    }
+
+    /// The first excitation of each harmonic.
+    pub(crate) fn firsts(of: &Description) -> impl Iterator<Item = usize> + '_ {
+        of.excitations.iter().enumerate().filter(|(k, info)| info.with == *k).map(|(k, _)| k)
     }
 
     /// The output as a velocity or an acceleration.
@@ -68,10 +71,7 @@ impl Vibration {
                 };
                 vec![circle(0.5), circle(-0.5)]
             }
-            Extent::Sum | Extent::Rms => {
-                let firsts = of.excitations.iter().enumerate().filter(|(k, info)| info.with == *k);
-                (0..firsts.count()).map(one).collect()
-            }
+            Extent::Sum | Extent::Rms => (0..Self::firsts(of).count()).map(one).collect(),
         })
     }
 

@@ -185,10 +185,13 @@ impl Peaks {
             let unknown = |moving: &Moving| moving.by_design.is_empty() && !d.design.is_empty();
             if unknown(&peak.height) || peak.amplification.as_ref().is_some_and(unknown) {
                 let value = value_of(d, input, peak.place.value);
-                said.note(format!(
+                let none = unknown(&peak.place).then(|| {
+                    format!("The peak at {value} has no derivatives: a variable turns a circle into an ellipse.")
+                });
+                said.note(none.unwrap_or_else(|| format!(
                     "The peak at {value} is so narrow that rounding decides how its height or amplification changes with \
                      the design: no derivatives of them, and no spread."
-                ));
+                )));
             }
             for (side, word) in [(&peak.half_power[0], "before"), (&peak.half_power[1], "after")] {
                 if let Some(reason) = missing(side) {

@@ -124,7 +124,7 @@ pub struct Moving {
     /// Its value, SI.
     pub value: f64,
     /// Its total derivatives by the design variables, per SI unit; empty if the peak is so narrow that rounding decides
-    /// them.
+    /// them, or has none, as a circle that a variable makes an ellipse.
     pub by_design: Vector,
     /// Its spread to first order, if tolerances were given and the derivatives are known.
     pub spread: Option<Spread>,
@@ -143,6 +143,9 @@ impl Moving {
     }
 
     fn new(value: f64, by_design: Vector, tolerances: Option<&Tolerances>) -> Self {
+        if !by_design.iter().all(|slope| slope.is_finite()) {
+            return Self { value, by_design: Vector::default(), spread: None };
+        }
         let spread = tolerances.map(|tolerance| Spread::new(value, by_design.clone(), tolerance));
         Self { value, by_design, spread }
     }
@@ -307,10 +310,9 @@ impl Search<'_> {
         let stable = at.stability.holds();
         let line = top.heard().line;
         let place = top.place_by_design();
-        let by_design = top.frequency_by_design(&place);
+        let (frequency, by_design) = top.frequency(line.loudest(), &place);
         let before = self.half_power(&top, (0..k).rev())?;
         let after = self.half_power(&top, k..self.scan.states.len())?;
-        let [frequency, _] = line.frequency();
         let moving = |value, by_design| Moving::new(value, by_design, self.tolerances);
         let doubt = top.doubt(&at.design);
         let height = moving(top.heard().height(), top.height_by_design(&top.top_by_design()));
@@ -375,9 +377,8 @@ impl Search<'_> {
         let slope = zero.heard().square().slope;
         let (at_peak, at_half) = (top.top_by_design(), zero.square_by_design());
         let by_design: Vector = at_peak.iter().zip(&at_half).map(|(peak, half)| (0.5 * peak - half) / slope).collect();
-        let [frequency, _] = zero.heard().line.frequency();
         Ok(Half {
-            frequency: (frequency, zero.frequency_by_design(&by_design)),
+            frequency: zero.frequency(top.heard().line.loudest(), &by_design),
             place: Moving::new(zero.point.value, by_design, self.tolerances),
         })
     }

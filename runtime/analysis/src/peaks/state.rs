@@ -113,9 +113,12 @@ impl<'a> Along<'a> {
 
     /// The error for a vibration whose amplitude is infinite next to a state.
     pub(super) fn resonance(&self, which: usize, state: &ResponsePoint) -> Error {
-        let with = self.wanted[which].vibration.excitation.index();
-        let [frequency, _] = state.lines[which].frequency();
-        resonance(&state.equilibrium, with, frequency)
+        let (line, vibration) = (&state.lines[which], &self.wanted[which].vibration);
+        let tone = line.loudest();
+        let several = line.tones.len() > 1;
+        let own = several.then(|| Vibration::firsts(&state.equilibrium.description).nth(tone));
+        let with = own.flatten().unwrap_or(vibration.excitation.index());
+        resonance(&state.equilibrium, with, line.tones[tone].frequency[0])
     }
 
     fn equilibrium(&self, value: f64, from: &[f64], needed: Needed) -> Result<(Equilibrium, Modes), Error> {
@@ -216,12 +219,11 @@ impl Curve {
         self.bend_by_design().map(|value| -value / bend)
     }
 
-    /// How the frequency moves with the design at a place that moves so.
-    pub(super) fn frequency_by_design(&self, place: &Vector) -> Vector {
-        let line = self.heard().line;
-        let [_, slope] = line.frequency();
-        let here = self.curving.frequencies[line.loudest()].slopes.by_design.iter().zip(place);
-        here.map(|(dw, du)| dw + slope * du).collect()
+    /// The frequency of a tone, and how it moves with the design at a place that moves so.
+    pub(super) fn frequency(&self, tone: usize, place: &Vector) -> (f64, Vector) {
+        let [w, slope] = self.heard().line.tones[tone].frequency;
+        let here = self.curving.frequencies[tone].slopes.by_design.iter().zip(place);
+        (w, here.map(|(dw, du)| dw + slope * du).collect())
     }
 }
 

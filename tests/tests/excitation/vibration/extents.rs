@@ -311,6 +311,54 @@ fn a_circle_has_the_derivatives_that_exist() {
     }
 }
 
+/// What moves on a straight line has no shorter axis; one that a variable would make has no derivative.
+#[test]
+fn a_straight_line_has_the_derivatives_that_exist() {
+    let straight = MACHINE.replace("stiffness: ky", "stiffness: kx").replace("output up = y;", "output up = 2 * x;");
+    let still = Study::new(Interpreted::from_text(&straight).expect("a declaration")).input(Input::new(0), 300.0);
+    let slopes = named(&still, "minor(side, up) under u").slopes(&still.forced_sensitivities().expect("derivatives"));
+    assert!(slopes.expect("smooth").iter().all(|slope| slope == 0.0));
+    let bent = straight
+        .replace("design push", "design share = 0; design push")
+        .replace("output up = 2 * x;", "output up = 2 * x + share * y;");
+    let bent = Study::new(Interpreted::from_text(&bent).expect("a declaration")).input(Input::new(0), 300.0);
+    let own = named(&bent, "minor(side, up) under u");
+    assert_eq!(own.slopes(&bent.forced_sensitivities().expect("derivatives")), None);
+    let value = own.of(&bent.forced_response().expect("a response")).expect("an axis");
+    assert!(value < 1e-12 * named(&bent, "side under u").of(&bent.forced_response().expect("a response")).unwrap());
+}
+
+/// Peaks of a circle are where they are, and state no derivatives that they do not have.
+#[test]
+fn a_peak_of_a_circle_has_no_derivatives() {
+    let split = study(300.0).design(DesignVariable::new(2), 1.9e6);
+    let found = split.peaks(named(&split, "major(side, up) under u"), Input::new(0), 100.0, 700.0).expect("peaks");
+    let [peak] = &found.peaks[..] else { panic!("one peak: {found}") };
+    // As of one output: both axes are its amplitude.
+    let alone = split.peaks(named(&split, "side under u"), Input::new(0), 100.0, 700.0).expect("peaks");
+    close(peak.place.value, alone.peaks[0].place.value, 0.0, 1e-8, "place");
+    close(peak.height.value, alone.peaks[0].height.value, 0.0, 1e-10, "height");
+    for moving in [&peak.place, &peak.frequency, &peak.height] {
+        assert!(moving.by_design.is_empty() && moving.spread.is_none(), "{found}");
+    }
+    let text = found.to_string();
+    assert!(text.contains("a circle into an ellipse") && !text.contains("NaN"), "{text}");
+}
+
+/// Beside a peak of one tone another may be louder: the width is that of the peak's own.
+#[test]
+fn the_width_of_a_peak_is_of_one_tone() {
+    for design in designs() {
+        let study = at(study(300.0), &design);
+        let found = study.peaks(named(&study, "side under all"), Input::new(0), 100.0, 700.0).expect("peaks");
+        for peak in &found.peaks {
+            let [Some(before), Some(after)] = peak.half_power.each_ref().map(|half| half.place()) else { continue };
+            let factor = peak.place.value / (after.value - before.value);
+            close(peak.amplification.as_ref().expect("a factor").value, factor, 0.0, 1e-9, "amplification");
+        }
+    }
+}
+
 #[test]
 fn handles_of_another_mechanism_are_refused() {
     let study = study(300.0);
