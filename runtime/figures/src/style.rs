@@ -142,8 +142,7 @@ impl Style {
     /// The name of a mode, or `mode 1` if it has none.
     #[must_use]
     pub fn mode(&self, label: usize) -> String {
-        let name = self.names.get(&label);
-        name.cloned().unwrap_or_else(|| format!("mode {}", label + 1))
+        self.names.get(&label).cloned().unwrap_or_else(|| format!("mode {}", label + 1))
     }
 
     /// The name of a mode with its kind or whirl sense.

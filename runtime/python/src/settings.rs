@@ -63,18 +63,14 @@ const SETTINGS: [(&str, &str, Set); 20] = [
         if state.0.coordinates.len() == count {
             return Ok(study.at(&state.0));
         }
-        let message = "`at`: this equilibrium belongs to another mechanism";
-        Err(invalid(given.py(), message.to_owned()))
+        Err(invalid(given.py(), "`at`: this equilibrium belongs to another mechanism".to_owned()))
     }),
     ("family", "Family", |study, given| {
         let words = [("undamped", Family::Undamped), ("general", Family::General)];
         Ok(study.family(chosen(given, "family", &words)?))
     }),
     ("samples", "int", |study, given| match whole(given, "samples")? {
-        0 => {
-            let message = "`samples`: at least one is needed";
-            Err(invalid(given.py(), message.to_owned()))
-        }
+        0 => Err(invalid(given.py(), "`samples`: at least one is needed".to_owned())),
         samples => Ok(study.samples(samples)),
     }),
     ("seed", "int", |study, given| Ok(study.seed(whole(given, "seed")?))),

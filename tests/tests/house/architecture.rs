@@ -43,7 +43,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        453,
+        454,
     ),
     (
         "runtime/uncertainty",

@@ -223,8 +223,7 @@ impl Weights {
     /// Of a call, without output; what does not depend on `motion` is multiplied by `fixed`.
     pub(super) fn of(sizes: Sizes, vibration: &Vibration, motion: &Motion, (call, fixed): (Call, f64)) -> Self {
         let mut weights = Self::zeros(sizes);
-        let shares = vibration.harmonic.shares.iter();
-        let members = shares.filter(|share| share.turn() == call.turn);
+        let members = vibration.harmonic.shares.iter().filter(|share| share.turn() == call.turn);
         members.for_each(|share| weights.share[share.excitation] = fixed);
         if call.first {
             weights.motion = motion.each_ref().map(|x| x.map(|value| call.part.of(value)));

@@ -241,8 +241,7 @@ impl ModeSensitivity {
     pub fn finite(&self) -> bool {
         if self.undamped && self.value != Complex::ZERO {
             let rate = root_rate(self.value);
-            let slopes = self.lambda.iter();
-            return slopes.map(|dlambda| unless_finite(rate * dlambda)).sum::<f64>() == 0.0;
+            return self.lambda.iter().map(|dlambda| unless_finite(rate * dlambda)).sum::<f64>() == 0.0;
         }
         // For a general mode, `s` is checked through `lambda`: derivatives of `lambda` are computed from those of `s`.
         self.lambda_is_finite()

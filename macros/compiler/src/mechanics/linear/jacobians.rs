@@ -32,8 +32,7 @@ impl Jacobians {
         let inward: Vec<usize> = context.outward_order().into_iter().map(|order| usize::MAX - order).collect();
         let [by_velocity, by_position] = [by_velocity, by_position].map(|matrix| folded(g, context, &matrix, &inward));
         let mut in_unknowns = |columns: Columns| -> Columns {
-            let n = columns.len();
-            context.in_unknowns(g, &columns.concat()).chunks(n.max(1)).map(<[_]>::to_vec).collect()
+            context.in_unknowns(g, &columns.concat()).chunks(columns.len().max(1)).map(<[_]>::to_vec).collect()
         };
         let [mass, damping, stiffness] = [mass, damping, stiffness].map(&mut in_unknowns);
         Self { mass, damping: added(g, &damping, &by_velocity), stiffness: added(g, &stiffness, &by_position) }

@@ -36,8 +36,7 @@ struct Central {
 
 impl Central {
     fn distance(&self) -> f64 {
-        let all = self.failing.iter().map(|x| nearest(x).abs());
-        all.fold(f64::INFINITY, f64::min)
+        self.failing.iter().map(|x| nearest(x).abs()).fold(f64::INFINITY, f64::min)
     }
 
     /// The direction towards failure, and where this begins: nearest to the origin of all places where anything changes.
@@ -50,8 +49,7 @@ impl Central {
 
     /// The failure nearest to the origin.
     fn nearest(&self) -> Option<Vec<f64>> {
-        let all = self.failing.iter().map(nearest);
-        let s = all.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        let s = self.failing.iter().map(nearest).min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
         Some(scaled(s, &self.direction))
     }
 
@@ -117,8 +115,7 @@ impl<L: LimitState> Explorer<'_, L> {
         let mut points = self.failures(self.farthest(&known));
         for _ in 0..MOST {
             let central = known.iter().map(Central::distance);
-            let all = central.chain(points.iter().map(|point| norm(point)));
-            let least = all.fold(f64::INFINITY, f64::min);
+            let least = central.chain(points.iter().map(|point| norm(point))).fold(f64::INFINITY, f64::min);
             points.retain(|point| {
                 norm(point).powi(2) <= least * least + 2.0 * LESS && !known.iter().any(|x| x.explains(point))
             });
@@ -191,8 +188,7 @@ impl<L: LimitState> Explorer<'_, L> {
                     (across.iter().enumerate()).map(|(j, x)| if j == k { x + shift } else { *x }).collect();
                 let around = (distance - AROUND, distance + AROUND);
                 let places = self.line(&across, &direction, around);
-                let changes = places.iter().map(|x| nearest(x) - distance);
-                changes.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+                places.iter().map(|x| nearest(x) - distance).min_by(|a, b| a.abs().total_cmp(&b.abs()))
             });
             normal[k] -= (ahead.unwrap_or(0.0) - back.unwrap_or(0.0)) / (2.0 * SHIFT);
         }
