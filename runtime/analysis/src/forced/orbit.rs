@@ -1,9 +1,6 @@
 //! The ellipse on which two vibrating outputs move.
 
-use super::measure::Measure;
 use super::response::Harmonic;
-use super::sensitivities::ForcedSensitivities;
-use crate::sensitivity::Slopes;
 use crate::{Complex, Output};
 
 /// Relative difference of forward and backward part below which an orbit counts as a straight line, and share of either
@@ -73,21 +70,5 @@ impl Harmonic {
     pub fn orbit(&self, x: Output, y: Output) -> Option<Orbit> {
         let amplitude = |output: Output| self.outputs.get(output.index()).copied().flatten();
         Some(Orbit::of(amplitude(x)?, amplitude(y)?))
-    }
-}
-
-impl ForcedSensitivities {
-    /// Total derivatives of `|f|^2` and `|b|^2`, the squares of the forward and of the backward part of the orbit of two
-    /// outputs, SI, which are smooth for circles and straight lines too; `None` if an output has no derivatives.
-    #[must_use]
-    pub fn orbit_squares(&self, harmonic: usize, x: Output, y: Output) -> Option<[Slopes<f64>; 2]> {
-        let orbit = self.response.harmonics.get(harmonic)?.orbit(x, y)?;
-        let of = |output| self.complex(harmonic, output, Measure::Displacement);
-        let both = of(x)?.zip(&of(y)?);
-        let slope = |part: Complex, complex: Complex| 2.0 * (part.conj() * complex).re;
-        Some([
-            both.map(|(dx, dy)| slope(orbit.forward, Orbit::of(dx, dy).forward)),
-            both.map(|(dx, dy)| slope(orbit.backward, Orbit::of(dx, dy).backward)),
-        ])
     }
 }

@@ -1,8 +1,9 @@
 //! Derivatives of what each excitation contributes, and of orbits, against differences.
 
-use eigentol::forced::Measure;
+use eigentol::forced::{Extent, Measure};
+use eigentol::response::Vibration;
 use eigentol::sensitivity::Slopes;
-use eigentol::{Complex, DesignVariable, Input, Output, Study};
+use eigentol::{Complex, DesignVariable, Excitation, Input, Output, Study};
 use eigentol_interpreter::Interpreted;
 use eigentol_tests::corpus::declarations;
 
@@ -93,18 +94,17 @@ fn orbits_have_the_derivatives_of_differences() {
     let study = fan();
     let [x, y] = ["height", "across"].map(|x| study.find_output(x).expect("an output").any());
     let found = study.forced_sensitivities().expect("a vibration");
-    let harmonics = found.harmonics.len();
-    let squares = |study: &Study<Interpreted>| {
+    let axes: Vec<Vibration> = (found.response.description.excitations.iter().enumerate())
+        .filter(|(k, info)| info.with == *k)
+        .flat_map(|(k, _)| [Extent::Major(y), Extent::Minor(y)].map(|x| (k, x)))
+        .map(|(k, extent)| Vibration::new(x, Excitation::new(k)).extent(extent))
+        .collect();
+    let values = |study: &Study<Interpreted>| {
         let response = study.forced_response().expect("a vibration");
         let orbits = response.harmonics.iter().map(|harmonic| harmonic.orbit(x, y));
-        let both = orbits.flat_map(|orbit| {
-            let own = orbit.expect("outputs");
-            [own.forward, own.backward].map(|part| Complex::from(part.norm_sqr()))
-        });
-        both.collect()
+        orbits.flat_map(|orbit| orbit.expect("outputs").semi_axes().map(Complex::from)).collect()
     };
-    let slopes = (0..harmonics).flat_map(|k| found.orbit_squares(k, x, y).expect("smooth"));
-    let slopes: Vec<_> = slopes.map(|slope| slope.map(Complex::from)).collect();
-    compare(&study, squares, &slopes);
-    assert!(found.orbit_squares(harmonics, x, y).is_none());
+    let slopes: Vec<_> = axes.iter().map(|x| x.slopes(&found).expect("smooth").map(Complex::from)).collect();
+    compare(&study, values, &slopes);
+    assert_eq!(Vibration::new(x, Excitation::new(99)).extent(Extent::Major(y)).slopes(&found), None);
 }
