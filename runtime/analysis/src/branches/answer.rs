@@ -8,7 +8,7 @@ use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Grid, Subject, Table, displayed};
 
 use super::{Branch, BranchEnd, BranchPoint, Branches, SpecialPoint};
-use crate::along::{Moving, critical_vectors, heading_of, place, value_of, varied};
+use crate::along::{Moving, critical_vectors, happening, heading_of, value_of, varied};
 use crate::{Role, Stability};
 
 /// A row for each equilibrium of a branch, with the branch number, counted from 1.
@@ -102,10 +102,8 @@ impl Answer for SpecialPoint {
 
     fn findings(&self) -> Findings {
         let d = &self.equilibrium.description;
-        let title = title_along(d, &self.equilibrium.inputs, self.input);
-        let location = place(d, self.input, self.value);
-        let mut said = Findings::titled(format!("{title}: {} at {location}", self.kind));
-        said.quote(self.equilibrium.findings());
+        let what = format_args!("{} at", self.kind);
+        let mut said = happening(&self.equilibrium, self.input, self.value, what);
         critical_vectors(&mut said, d, &self.v, &self.w);
         let mut table = Columns::new("special points", slice::from_ref(self));
         table.words("kind", &|row| Some(row.kind.to_string()));

@@ -1,11 +1,10 @@
 use std::slice;
 
 use eigentol_results::numbers::number;
-use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
 
 use super::events::{meeting, meetings};
-use crate::along::{critical_vectors, name_of, place, together, varied};
+use crate::along::{critical_vectors, happening, name_of, together, varied};
 use crate::sweep::{CriticalState, Crossing};
 
 /// `critical states`: one row.
@@ -19,10 +18,8 @@ impl Answer for CriticalState {
 
     fn findings(&self) -> Findings {
         let d = &self.equilibrium.description;
-        let title = title_along(d, &self.equilibrium.inputs, self.input);
-        let location = place(d, self.input, self.value);
-        let mut said = Findings::titled(format!("{title}: critical at {location}, {}", self.kind));
-        said.quote(self.equilibrium.findings());
+        let what = format_args!("critical ({}) at", self.kind);
+        let mut said = happening(&self.equilibrium, self.input, self.value, what);
         critical_vectors(&mut said, d, &self.v, &self.w);
         if let Some(table) = critical_columns(slice::from_ref(self)) {
             said.data(table.finish().0);
@@ -54,11 +51,8 @@ impl Answer for Crossing {
     }
 
     fn findings(&self) -> Findings {
-        let d = &self.equilibrium.description;
-        let title = title_along(d, &self.equilibrium.inputs, self.input);
-        let (what, location) = (self.what_happens(), place(d, self.input, self.value));
-        let mut said = Findings::titled(format!("{title}: {what} at {location}"));
-        said.quote(self.equilibrium.findings());
+        let what = format_args!("{} at", self.what_happens());
+        let mut said = happening(&self.equilibrium, self.input, self.value, what);
         said.quote(self.modes.findings());
         if let Some(table) = crossing_columns(slice::from_ref(self)) {
             said.data(table.finish().0);
