@@ -6,6 +6,7 @@ use proc_macro2::TokenStream;
 
 use crate::algebra::{Function, regrouped};
 use crate::base::diagnostics::Diagnostics;
+use crate::base::names::written;
 use crate::emit::{emit, lines};
 use crate::mechanics::{Functions, KernelName, Limits, derive};
 use crate::model::mechanism::Mechanism;
@@ -55,7 +56,7 @@ pub fn check(declaration: TokenStream, limits: Limits) -> Result<Compilation, Di
 
 fn derived(declaration: TokenStream, limits: Limits, more: usize) -> Result<Compilation, Diagnostics> {
     let (ast, mut mechanism, mut topology) = accepted(declaration, more)?;
-    let functions = derive(&mut mechanism, &mut topology, limits)?;
+    let functions = derive(&mut mechanism, &mut topology, limits).map_err(|mistakes| explained(&ast, mistakes))?;
     Ok(Compilation { ast, mechanism, topology, functions, program: Program::default() })
 }
 
@@ -68,19 +69,25 @@ fn accepted(declaration: TokenStream, more: usize) -> Result<(Ast, Mechanism, To
     let resolution = resolve_what_is_right(&ast, more);
     mistakes.append(resolution.mistakes);
     if !resolution.is_connected {
-        return Err(mistakes);
+        return Err(explained(&ast, mistakes));
     }
     let mut mechanism = resolution.mechanism;
     match build(&mechanism) {
         Ok(topology) => {
             mechanism.forget_forces_of(&topology.cut);
-            mistakes.into_result((ast, mechanism, topology))
+            mistakes.into_result(()).map_err(|mistakes| explained(&ast, mistakes))?;
+            Ok((ast, mechanism, topology))
         }
         Err(more) => {
             mistakes.append(more);
-            Err(mistakes)
+            Err(explained(&ast, mistakes))
         }
     }
+}
+
+fn explained(ast: &Ast, mut mistakes: Diagnostics) -> Diagnostics {
+    ast.uses.explain(&mut mistakes);
+    mistakes
 }
 
 /// The stages before the equations as text, by name and in order. For snapshots and for tracing a surprising result, as the
@@ -88,7 +95,7 @@ fn accepted(declaration: TokenStream, more: usize) -> Result<(Ast, Mechanism, To
 pub fn early_stages(declaration: TokenStream) -> Result<[(&'static str, String); 3], Diagnostics> {
     let (ast, mechanism, topology) = accepted(declaration, 0)?;
     let topology = topology.describe(&mechanism);
-    Ok([("ast", print(&ast)), ("mechanism", format!("{mechanism:#?}")), ("topology", topology)])
+    Ok([("ast", print(&ast)), ("mechanism", written(&format!("{mechanism:#?}")).into_owned()), ("topology", topology)])
 }
 
 /// Kernels whose residuals a solver compares with each other, so all of them must return exactly the same number.

@@ -6,6 +6,7 @@ use std::path::Path;
 use proc_macro2::{LexError, Span, TokenStream};
 
 use crate::base::diagnostics::Diagnostics;
+use crate::base::names::written;
 use crate::syntax::nesting::{NAME_PARTS, TOO_LARGE, brackets};
 
 /// One mistake in a declaration.
@@ -125,7 +126,7 @@ impl From<Diagnostics> for Mistakes {
     fn from(diagnostics: Diagnostics) -> Self {
         let mistakes = diagnostics.iter().map(|one| {
             let ends = (one.span.first, one.span.last);
-            mistake(ends, one.message.clone(), one.help.clone())
+            mistake(ends, one.message.clone(), one.help_and_use())
         });
         Self(mistakes.collect())
     }
@@ -138,7 +139,7 @@ pub(crate) fn mistake((first, last): (Span, Span), message: String, help: Option
         column: start.column + 1,
         end_line: end.line,
         end_column: end.column + 1,
-        message,
+        message: written(&message).into_owned(),
         help,
     }
 }

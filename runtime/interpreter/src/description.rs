@@ -5,11 +5,12 @@ use eigentol::{
     Text, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
+use eigentol_compiler::base::names::written;
 use eigentol_compiler::mechanics;
 use eigentol_compiler::model::mechanism;
 
-fn text(text: impl Into<String>) -> Text {
-    Text::from(text.into())
+pub(crate) fn text(text: impl Into<String>) -> Text {
+    Text::from(written(&text.into()).into_owned())
 }
 
 fn unit(unit: &mechanism::Unit) -> Unit {

@@ -11,7 +11,7 @@ use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{Compilation, compile_refined, compile_text, tokens};
 
-use crate::description::description;
+use crate::description::{description, text};
 use crate::mistakes::{Mistakes, ReadError, RefineError};
 use crate::picture::picture;
 use crate::tape::Tape;
@@ -122,7 +122,7 @@ impl Interpreted {
     pub fn new(compilation: &Compilation) -> Self {
         let functions = &compilation.functions;
         let requirements = functions.requirements.iter().map(|requirement| {
-            let quantity = Text::from(requirement.quantity.clone());
+            let quantity = text(requirement.quantity.as_str());
             (quantity, Text::Static(requirement.requirement))
         });
         let poses = functions.poses.iter();
@@ -130,7 +130,7 @@ impl Interpreted {
             picture: Shared::Counted(Arc::new(picture(&functions.picture))),
             tapes: Tapes::new(&compilation.program),
             requirements: requirements.collect(),
-            poses: poses.map(|pose| (Text::from(pose.joint.clone()), pose.least)).collect(),
+            poses: poses.map(|pose| (text(pose.joint.as_str()), pose.least)).collect(),
         };
         Self { shared: Arc::new(tables), description: Shared::Counted(Arc::new(description(compilation))) }
     }

@@ -7,21 +7,23 @@ use eigentol::{
 use eigentol_compiler::mechanics::{self, Picture};
 use eigentol_compiler::model::mechanism::Frame;
 
+use crate::description::text;
+
 pub(crate) fn picture(picture: &Picture) -> PictureInfo {
     PictureInfo {
         bodies: list(&picture.bodies, |body| BodyInfo {
-            name: text(&body.name),
+            name: text(body.name.as_str()),
             solids: list(&body.solids, |&(solid, hole)| SolidInfo { kind: kind(solid), hole }),
         }),
         beams: list(&picture.beams, |beam| BeamInfo {
-            name: text(&beam.name),
+            name: text(beam.name.as_str()),
             sections: beam.sections,
             round: beam.round,
         }),
         joints: list(&picture.joints, |joint| {
             let [from, to] = joint.sides.map(body);
             JointInfo {
-                name: text(&joint.name),
+                name: text(joint.name.as_str()),
                 kind: Text::Static(joint.kind),
                 from,
                 to,
@@ -31,7 +33,7 @@ pub(crate) fn picture(picture: &Picture) -> PictureInfo {
         }),
         points: list(&picture.points, |(name, frame)| PointInfo { name: text(name), body: body(*frame) }),
         links: list(&picture.links, |link| LinkInfo {
-            name: text(&link.name),
+            name: text(link.name.as_str()),
             kind: Text::Static(link.kind),
             ends: link.ends.map(|point| point.0),
         }),
@@ -40,9 +42,9 @@ pub(crate) fn picture(picture: &Picture) -> PictureInfo {
             WheelInfo { name: text(name), center, on }
         }),
         elements: list(&picture.elements, |element| ElementInfo {
-            name: text(&element.name),
-            kind: text(&element.kind),
-            law: text(&element.law),
+            name: text(element.name.as_str()),
+            kind: text(element.kind.as_str()),
+            law: text(element.law.as_str()),
         }),
         numbers: picture.numbers.clone().into(),
         computed: picture.computed.clone().into(),
@@ -51,10 +53,6 @@ pub(crate) fn picture(picture: &Picture) -> PictureInfo {
 
 fn list<A, B>(from: &[A], each: impl Fn(&A) -> B) -> List<B> {
     from.iter().map(each).collect::<Vec<_>>().into()
-}
-
-fn text(text: &str) -> Text {
-    Text::from(text.to_owned())
 }
 
 fn body(frame: Frame) -> Option<u32> {

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use eigentol_compiler::Compilation;
+use eigentol_compiler::base::names::{flattened, written};
 use eigentol_compiler::mechanics::Role;
 use eigentol_compiler::model::mechanism::Unit;
 use proc_macro2::Ident;
@@ -75,6 +76,8 @@ impl Constants<'_> {
             let line = line.trim().replace("*/", "* /");
             let _ = writeln!(text, "/// {line}");
         }
-        let _ = writeln!(text, "/// `{name}`, {unit}.\npub const {prefix}_{list}_{name}: usize = {k};");
+        let name = name.to_string();
+        let (name, flat) = (written(&name), flattened(&name));
+        let _ = writeln!(text, "/// `{name}`, {unit}.\npub const {prefix}_{list}_{flat}: usize = {k};");
     }
 }

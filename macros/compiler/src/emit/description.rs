@@ -1,9 +1,10 @@
-//! Names, units and nominal values for the runtime, and handles for the user's code.
+//! Names, units and nominal values for the runtime.
 
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::{quote, quote_spanned};
+use quote::quote;
 
 use super::tolerance;
+use crate::base::names::{flattened, written};
 use crate::mechanics::{self, Damping, Functions, Role, Unknown, resolved_modes};
 use crate::model::exchanged::Exchanged;
 use crate::model::mechanism::{Mechanism, Unit};
@@ -14,6 +15,7 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
     let name = mechanism.name.to_string();
     let coordinates = functions.unknowns.iter().map(|unknown| {
         let Unknown { name, unit, role } = unknown;
+        let name = text(name);
         let role = match role {
             Role::Position(_) => quote!(Position),
             Role::Speed(_) => quote!(Speed),
@@ -29,12 +31,12 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
         }
     });
     let inputs = mechanism.inputs.iter().map(|input| {
-        let (name, unit) = (input.name.to_string(), unit(&input.unit));
+        let (name, unit) = (text(&input.name), unit(&input.unit));
         let tolerance = tolerance::info(&input.tolerance);
         quote! { ::eigentol::InputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit, tolerance: #tolerance } }
     });
     let design = mechanism.design.iter().map(|variable| {
-        let (name, unit) = (variable.name.to_string(), unit(&variable.unit));
+        let (name, unit) = (text(&variable.name), unit(&variable.unit));
         let nominal = variable.nominal;
         let tolerance = tolerance::info(&variable.tolerance);
         quote! {
@@ -42,11 +44,12 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
         }
     });
     let outputs = mechanism.outputs.iter().map(|output| {
-        let (name, unit) = (output.name.to_string(), unit(&output.unit));
+        let (name, unit) = (text(&output.name), unit(&output.unit));
         quote! { ::eigentol::OutputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit } }
     });
     let excitations = functions.excitations.iter().map(|excitation| {
         let mechanics::Excitation { name, kind, with, order } = excitation;
+        let (name, order) = (text(name), text(order));
         quote! {
             ::eigentol::ExcitationInfo {
                 name: ::eigentol::Shared::Static(#name),
@@ -97,66 +100,9 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
     }
 }
 
-/// One constant per name of the declaration, spelled as declared and with its span, so that editors can complete it and
-/// jump to it.
-pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> TokenStream {
-    let visibility = &mechanism.visibility;
-    let handle = |name: &Ident, kind: &str, index: usize, doc: String| {
-        let kind = Ident::new(kind, Span::call_site());
-        quote_spanned! { name.span() =>
-            #[doc = #doc]
-            #visibility const #name: ::eigentol::#kind<Self> = ::eigentol::#kind::new(#index);
-        }
-    };
-    let mut handles = TokenStream::new();
-    for (index, unknown) in functions.unknowns.iter().enumerate() {
-        let (id, kind) = match unknown.role {
-            Role::Position(id) => (id, "Free coordinate"),
-            Role::Speed(id) => (id, "Speed of a coasting coordinate"),
-            Role::PositionReaction | Role::VelocityReaction => continue,
-        };
-        let name = &mechanism.coordinates[id.index()].name;
-        let doc = format!("{kind}, {}.", unknown.unit);
-        handles.extend(handle(name, "Coordinate", index, doc));
-    }
-    for (index, input) in mechanism.inputs.iter().enumerate() {
-        let unit = shown(&input.unit);
-        let tolerance = tolerance::doc(&input.tolerance, unit, input.unit.scale);
-        let doc = with_docs(&input.docs, format!("Input, declared in {unit}{tolerance}."));
-        handles.extend(handle(&input.name, "Input", index, doc));
-    }
-    for (index, variable) in mechanism.design.iter().enumerate() {
-        let (unit, scale) = (shown(&variable.unit), variable.unit.scale);
-        let nominal = variable.nominal / scale;
-        let tolerance = tolerance::doc(&variable.tolerance, unit, scale);
-        let text = format!("Design variable, nominally {nominal} {unit}{tolerance}.");
-        let doc = with_docs(&variable.docs, text);
-        handles.extend(handle(&variable.name, "DesignVariable", index, doc));
-    }
-    for (index, output) in mechanism.outputs.iter().enumerate() {
-        let doc = with_docs(&output.docs, format!("Output, {}.", shown(&output.unit)));
-        handles.extend(handle(&output.name, "Output", index, doc));
-    }
-    let excitations = mechanism.excitations.iter().zip(&functions.excitations);
-    for (index, (excitation, facts)) in excitations.enumerate() {
-        let doc = match facts.order.as_str() {
-            "" => format!("Excitation: {}.", facts.kind),
-            order => format!("Excitation: {}, order {order}.", facts.kind),
-        };
-        handles.extend(handle(&excitation.name, "Excitation", index, doc));
-    }
-    handles
-}
-
-fn with_docs(docs: &[String], facts: String) -> String {
-    match docs {
-        [] => facts,
-        docs => format!("{}\n\n{facts}", docs.join("\n").trim()),
-    }
-}
-
-fn shown(unit: &Unit) -> &str {
-    if unit.symbol.is_empty() { "1" } else { &unit.symbol }
+/// A name, or a text with names, as people write them.
+fn text(of: impl ToString) -> String {
+    written(&of.to_string()).into_owned()
 }
 
 fn unit(unit: &Unit) -> TokenStream {
@@ -173,11 +119,13 @@ pub(super) fn warnings(mechanism: &Mechanism) -> TokenStream {
     if names.is_empty() && exchanged.is_empty() {
         return TokenStream::new();
     }
-    let hide = |name: &Ident| Ident::new(&name.to_string(), Span::call_site());
+    let plain = |name: &Ident, span| Ident::new(&flattened(&name.to_string()), span);
+    let hide = |name: &Ident| plain(name, Span::call_site());
     let hidden = names.iter().map(|name| hide(name));
-    let beams: Vec<_> = exchanged.iter().map(|x| &x.beam).collect();
+    let names = names.iter().map(|name| plain(name, name.span()));
+    let beams: Vec<_> = exchanged.iter().map(|x| plain(&x.beam, x.beam.span())).collect();
     let constants = beams.iter().map(|name| hide(name));
-    let notes = exchanged.iter().map(|x| format!("{}; {}", x.message, Exchanged::HELP));
+    let notes = exchanged.iter().map(|x| text(format!("{}; {}", x.message, Exchanged::HELP)));
     let levels = ["allow", "warn", "deny", "forbid"];
     let is_level = |a: &&syn::Attribute| levels.iter().any(|level| a.path().is_ident(level));
     let levels = mechanism.attributes.iter().filter(is_level);

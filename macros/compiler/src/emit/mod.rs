@@ -36,6 +36,7 @@ mod curves;
 mod description;
 mod expression;
 mod form;
+mod handles;
 mod held_values;
 mod lines;
 mod names;
@@ -54,6 +55,7 @@ use std::fmt::{Debug, Write};
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::base::names::written;
 use crate::mechanics::{Functions, KernelName};
 use crate::model::mechanism::Mechanism;
 use crate::program::Program;
@@ -76,11 +78,11 @@ pub fn emit<E: Debug>(
         };
         let _ = writeln!(methods, "{method}");
     }
-    let methods = lexer(&methods).expect("the emitter writes well-formed tokens");
+    let methods = lexer(&written(&methods)).expect("the emitter writes well-formed tokens");
     let curves = lexer(&curves::constants(program)).expect("the emitter writes well-formed tokens");
 
     let Mechanism { name, visibility, attributes, .. } = mechanism;
-    let handles = description::handles(mechanism, functions);
+    let [handles, grouped] = handles::handles(mechanism, functions);
     let description = description::description(mechanism, functions, program);
     let warnings = description::warnings(mechanism);
     let picture = picture::info(&functions.picture);
@@ -107,6 +109,7 @@ pub fn emit<E: Debug>(
             #[allow(dead_code, non_snake_case)]
             fn #name() {}
             #curves
+            #grouped
 
             #[allow(unused_variables, unused_parens, non_snake_case, clippy::all, clippy::pedantic)]
             impl ::eigentol::Mechanism for #name {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::algebra::Operator;
+use crate::base::names::flattened;
 use crate::program::{Instruction, Operand, Operation};
 
 /// Longest name that is built from the names of two operands.
@@ -29,7 +30,7 @@ impl Names {
 
     /// The local variable for the wanted name, in lower case and with a number appended if the name is already taken.
     pub(super) fn unique(&mut self, wanted: &str) -> String {
-        let base = wanted.to_lowercase();
+        let base = flattened(&wanted.to_lowercase());
         let count = self.taken.entry(base.clone()).or_insert(0);
         *count += 1;
         if *count == 1 {

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
+use crate::base::names::written;
 use crate::mechanics::Picture;
 use crate::model::mechanism::Frame;
 
@@ -79,6 +80,7 @@ fn list(entries: impl Iterator<Item = TokenStream>) -> TokenStream {
 }
 
 fn text(text: &str) -> TokenStream {
+    let text = written(text);
     quote! { ::eigentol::Shared::Static(#text) }
 }
 

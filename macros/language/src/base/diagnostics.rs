@@ -1,10 +1,12 @@
 //! User errors are collected, so that one run reports every independent mistake.
 
 use std::cell::Cell;
+use std::collections::BTreeSet;
 use std::fmt;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 
+use super::names::{LINK, written};
 use super::span::Extent;
 
 /// One mistake: the problem, its place, and how to fix it.
@@ -16,12 +18,14 @@ pub struct Diagnostic {
     pub message: String,
     /// How to fix it.
     pub help: Option<String>,
+    /// The instance of a part in which it is, and where that is used.
+    pub within: Option<(String, Extent)>,
 }
 
 impl Diagnostic {
     /// A mistake at `span`.
     pub fn new(span: impl Into<Extent>, message: impl Into<String>) -> Self {
-        Self { span: span.into(), message: message.into(), help: None }
+        Self { span: span.into(), message: message.into(), help: None, within: None }
     }
 
     /// Adds advice on how to fix the mistake.
@@ -37,6 +41,31 @@ impl Diagnostic {
             None => self.message.clone(),
         }
     }
+
+    /// The help, and where the instance is used.
+    #[cfg(feature = "locations")]
+    pub fn help_and_use(&self) -> Option<String> {
+        let used = self.within.as_ref().map(|(name, at)| {
+            let start = at.first.start();
+            format!("this is in `{name}`, used at {}:{}", start.line, start.column + 1)
+        });
+        let all: Vec<String> = self.help.clone().into_iter().chain(used).collect();
+        (!all.is_empty()).then(|| all.join("\n"))
+    }
+}
+
+/// What tells one place from another.
+pub fn place(span: Span) -> String {
+    format!("{span:?}")
+}
+
+/// A text in which names have lost the instances before them.
+fn without_instances(text: &str) -> String {
+    let word = |word: &str| {
+        let mut words = word.rsplit(LINK);
+        words.find(|word| !word.starts_with(|c: char| c.is_ascii_digit())).unwrap_or_default().to_owned()
+    };
+    text.split('`').map(word).collect::<Vec<_>>().join("`")
 }
 
 /// A collector of mistakes. Dropping a collector whose mistakes were never read is a bug in the compiler, which would
@@ -44,6 +73,7 @@ impl Diagnostic {
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
+    seen: BTreeSet<(String, String)>,
     looked_at: Cell<bool>,
 }
 
@@ -63,10 +93,24 @@ impl Diagnostics {
         self.push(Diagnostic::new(span, message).with_help(help));
     }
 
-    /// Records a mistake, with its help if there is any.
-    pub fn push(&mut self, diagnostic: Diagnostic) {
+    /// Records a mistake, with its help if there is any, unless another instance of the same item has it already.
+    pub fn push(&mut self, mut diagnostic: Diagnostic) {
         self.looked_at.set(false);
+        let place = place(diagnostic.span.first);
+        // Only some compilers tell places apart.
+        if place.contains("bytes") && !self.seen.insert((place, without_instances(&diagnostic.message))) {
+            return;
+        }
+        diagnostic.message = written(&diagnostic.message).into_owned();
+        diagnostic.help = diagnostic.help.map(|help| written(&help).into_owned());
         self.list.push(diagnostic);
+    }
+
+    /// Says in which instance of a part each mistake is: `within` gives its name and where it is used.
+    pub fn explain(&mut self, within: impl Fn(Span) -> Option<(String, Extent)>) {
+        for diagnostic in &mut self.list {
+            diagnostic.within = within(diagnostic.span.first);
+        }
     }
 
     /// Moves all mistakes of another collector into this one.
@@ -97,14 +141,19 @@ impl Diagnostics {
 
     /// One `compile_error!` per mistake, at the offending tokens.
     pub fn into_compile_errors(self) -> TokenStream {
-        self.iter()
-            .map(|diagnostic| {
-                // syn marks the range from the first to the last of the tokens it is given.
-                let ends = [diagnostic.span.first, diagnostic.span.last].map(|span| Ident::new("end", span));
-                let [first, last] = ends;
-                syn::Error::new_spanned(quote::quote!(#first #last), diagnostic.text()).to_compile_error()
-            })
-            .collect()
+        // syn marks the range from the first to the last of the tokens it is given.
+        let error = |at: Extent, text: String| {
+            let [first, last] = [at.first, at.last].map(|span| Ident::new("end", span));
+            syn::Error::new_spanned(quote::quote!(#first #last), text)
+        };
+        let errors = self.iter().map(|diagnostic| {
+            let mut all = error(diagnostic.span, diagnostic.text());
+            if let Some((name, at)) = &diagnostic.within {
+                all.combine(error(*at, format!("in `{name}`, used here")));
+            }
+            all.to_compile_error()
+        });
+        errors.collect()
     }
 }
 
@@ -140,7 +189,14 @@ impl fmt::Display for Diagnostics {
                 let start = diagnostic.span.first.start();
                 write!(f, "{}:{}: ", start.line, start.column + 1)?;
             }
-            write!(f, "error: {}", diagnostic.text())?;
+            write!(f, "error: {}", diagnostic.message)?;
+            #[cfg(feature = "locations")]
+            let help = diagnostic.help_and_use();
+            #[cfg(not(feature = "locations"))]
+            let help = diagnostic.help.as_ref();
+            if let Some(help) = help {
+                write!(f, "\nhelp: {help}")?;
+            }
         }
         Ok(())
     }

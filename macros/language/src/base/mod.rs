@@ -4,6 +4,7 @@ pub mod diagnostics;
 pub mod dimension;
 pub mod ids;
 pub mod legendre;
+pub mod names;
 pub mod nearest;
 pub mod span;
 pub mod units;

@@ -14,6 +14,11 @@ pub struct Extent {
 }
 
 impl Extent {
+    /// One span for the run, as far as the compiler can join its ends.
+    pub fn joined(self) -> Span {
+        self.first.join(self.last).unwrap_or(self.first)
+    }
+
     /// From the start of one run to the end of another.
     pub fn to(self, end: impl Into<Extent>) -> Self {
         Self { first: self.first, last: end.into().last }

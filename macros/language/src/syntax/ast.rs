@@ -1,6 +1,6 @@
 //! The syntax tree of a declaration: items in the user's order, every leaf with its position.
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, TokenStream};
 
 use crate::base::span::Extent;
 
@@ -17,6 +17,29 @@ pub struct Ast {
     pub items: Vec<Item>,
     /// Items with a syntax error, in order.
     pub unread: Vec<Unread>,
+    /// Where the parts among the items come from.
+    pub uses: Uses,
+}
+
+/// The instances of parts in a declaration. Any two are equal, as positions are.
+#[derive(Clone, Debug, Default)]
+pub struct Uses(pub Vec<Use>);
+
+impl PartialEq for Uses {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// An instance of a part.
+#[derive(Clone, Debug)]
+pub struct Use {
+    /// Its name.
+    pub name: Ident,
+    /// The name of the part.
+    pub part: String,
+    /// The items of the part as written.
+    pub tokens: TokenStream,
 }
 
 /// Keywords of items without a name.
@@ -79,8 +102,8 @@ pub enum ItemKind {
     Input(Input),
     /// `design NAME = VALUE [TOLERANCE];`
     Design(Design),
-    /// `let NAME = VALUE;`
-    Let(Named),
+    /// `let NAME = VALUE;` or `let NAME: UNIT = VALUE;`
+    Let(Stated),
     /// `curve NAME: ARGUMENTS -> VALUES;`
     Curve(Curve),
     /// `gravity ...;`
@@ -106,7 +129,7 @@ pub enum ItemKind {
     /// `steady UNKNOWN = VALUE;`
     Steady(Named),
     /// `output NAME = VALUE;` or `output NAME: UNIT = VALUE;`
-    Output(Output),
+    Output(Stated),
 }
 
 impl ItemKind {
@@ -256,7 +279,7 @@ pub enum LawKind {
     Beta(Box<[Value; 2]>),
 }
 
-/// A name for a value: a `let` or a steady value.
+/// A steady value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
     /// Name.
@@ -265,9 +288,9 @@ pub struct Named {
     pub value: Value,
 }
 
-/// An output.
+/// A name for a value: a `let` or an output.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Output {
+pub struct Stated {
     /// Name.
     pub name: Ident,
     /// Unit in which it is stated.

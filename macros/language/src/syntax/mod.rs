@@ -4,4 +4,6 @@ pub mod ast;
 pub(crate) mod nesting;
 pub mod parse;
 pub mod print;
+mod scope;
 mod tokens;
+mod uses;

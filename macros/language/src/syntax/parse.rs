@@ -5,7 +5,9 @@ mod body;
 mod item;
 mod joint;
 mod names;
+mod parts;
 mod placement;
+mod repeat;
 mod tolerance;
 mod unit;
 mod value;
@@ -15,14 +17,16 @@ pub(crate) use self::words::GRADE;
 #[cfg(test)]
 pub(crate) use self::words::INSIDE;
 
-use proc_macro2::{Delimiter, Ident, TokenStream};
+use proc_macro2::{Delimiter, Ident, Span, TokenStream};
 use syn::buffer::TokenBuffer;
 use syn::parse::Parser as _;
 
 use self::words::{COMMENT, DECIMAL_POINT, KEYWORDS};
-use super::ast::{Ast, Item, ItemKind, Unread};
+use super::ast::{Ast, Item, ItemKind, Unread, Use, Uses};
+use super::scope::{Content, Parts, Scope};
 use super::tokens::{Parsed, Tokens};
-use crate::base::diagnostics::Diagnostics;
+use crate::base::diagnostics::{Diagnostic, Diagnostics};
+use crate::base::names::joined;
 use crate::base::span::Extent;
 
 /// Reads a declaration without syntax errors.
@@ -37,7 +41,8 @@ pub fn parse(tokens: TokenStream) -> Result<Ast, Diagnostics> {
 /// Reads as much of a declaration as possible; `None` if there is no mechanism.
 pub fn parse_what_can_be_read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Option<Ast> {
     let buffer = TokenBuffer::new2(tokens);
-    let mut tokens = Tokens::top(buffer.begin());
+    let nothing = Scope::default();
+    let mut tokens = Tokens::top(buffer.begin(), &nothing);
     match declaration(&mut tokens, diagnostics) {
         Ok(ast) => Some(ast),
         Err(diagnostic) => {
@@ -50,8 +55,15 @@ pub fn parse_what_can_be_read(tokens: TokenStream, diagnostics: &mut Diagnostics
 const ALONE: &str = "a file of its own has the declaration alone, without `use` and without `mechanism! { }` around it";
 
 fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast> {
+    let start = *tokens;
     let mut head = TokenStream::new();
     while !tokens.is_empty() && !tokens.peek_word("mechanism") {
+        if parts::peek(tokens) {
+            // What stands before it belongs to it.
+            head = TokenStream::new();
+            parts::block(tokens);
+            continue;
+        }
         match tokens.cursor.token_tree() {
             // An item where the declaration should start: nothing after it is worth reporting.
             Some((proc_macro2::TokenTree::Ident(ident), _)) if ident != "pub" => break,
@@ -87,9 +99,12 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
             Ident::new("mechanism", keyword)
         }
     };
-    let Some((_, mut content, _)) = tokens.group(Delimiter::Brace) else {
+    let Some((_, content, end)) = tokens.group(Delimiter::Brace) else {
         return tokens.expected("`{`");
     };
+    while parts::peek(tokens) {
+        parts::block(tokens);
+    }
     if !tokens.is_empty() {
         let error = tokens.expected::<()>("nothing after the mechanism");
         diagnostics.extend(
@@ -98,8 +113,15 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
             }),
         );
     }
-    let (items, unread) = items(&mut content, diagnostics);
-    Ok(Ast { attributes, visibility, name, items, unread })
+    let mut parts = Parts::default();
+    parts::find(start, &mut parts, diagnostics);
+    parts::find(content, &mut parts, diagnostics);
+    let names = parts::names(content);
+    let scope = Scope { names: Some(&names), parts: Some(&parts), ..Scope::default() };
+    let mut read = Read { items: Vec::new(), unread: Vec::new(), uses: Vec::new(), diagnostics };
+    items((content.cursor, end), scope, &mut read);
+    let Read { items, unread, uses, .. } = read;
+    Ok(Ast { attributes, visibility, name, items, unread, uses: Uses(uses) })
 }
 
 fn attributes_and_visibility(
@@ -108,25 +130,92 @@ fn attributes_and_visibility(
     Ok((input.call(syn::Attribute::parse_outer)?, input.parse()?))
 }
 
-fn items(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> (Vec<Item>, Vec<Unread>) {
-    let (mut items, mut unread) = (Vec::new(), Vec::new());
+/// What has been read of a declaration.
+struct Read<'a> {
+    items: Vec<Item>,
+    unread: Vec<Unread>,
+    uses: Vec<Use>,
+    diagnostics: &'a mut Diagnostics,
+}
+
+/// Most items of a declaration, with those of all loops and instances.
+const MOST: usize = 200_000;
+
+impl Read<'_> {
+    /// Adds an item, unless loops and instances have made too many.
+    fn add(&mut self, docs: Vec<String>, kind: ItemKind) -> Parsed<()> {
+        if self.items.len() == MOST {
+            let extent = kind.name().map_or_else(|| Span::call_site().into(), Extent::from);
+            return Err(Box::new(Diagnostic::new(extent, format!("this is the {}th item", MOST + 1))));
+        }
+        self.items.push(Item { docs, kind });
+        Ok(())
+    }
+}
+
+/// Reads the items of a mechanism or of a part.
+fn items(content: Content<'_>, mut scope: Scope<'_>, read: &mut Read<'_>) {
+    parts::numbers(Tokens::content(content, &Scope::default()), &mut scope);
+    several(&mut Tokens::content(content, &scope), read);
+}
+
+/// Reads items to the end of their group.
+fn several(tokens: &mut Tokens<'_>, read: &mut Read<'_>) {
     while !tokens.is_empty() {
         // A stray semicolon is harmless.
         if tokens.sign(';').is_some() {
             continue;
         }
-        let docs = docs(tokens, diagnostics);
+        let docs = docs(tokens, read.diagnostics);
         let start = *tokens;
-        match item(tokens, diagnostics) {
-            Ok(kind) => items.push(Item { docs, kind }),
-            Err(diagnostic) => {
-                diagnostics.push(*diagnostic);
-                skip_item(tokens);
-                unread.push(what_is_known(start));
+        if let Err(diagnostic) = one(tokens, &docs, read) {
+            read.diagnostics.push(*diagnostic);
+            *tokens = start;
+            if ["for", "part"].iter().any(|word| tokens.peek_word(word)) {
+                parts::block(tokens);
+                continue;
             }
+            skip_item(tokens);
+            read.unread.push(what_is_known(start));
         }
     }
-    (items, unread)
+}
+
+/// Reads an item, or all that a loop, a use or an array stands for.
+fn one(tokens: &mut Tokens<'_>, docs: &[String], read: &mut Read<'_>) -> Parsed<()> {
+    if tokens.peek_word("for") {
+        let scopes = repeat::rounds(tokens)?;
+        let Some((_, content, _)) = tokens.group(Delimiter::Brace) else { return tokens.expected("`{`") };
+        for scope in &scopes {
+            several(&mut content.within(scope), read);
+        }
+        return Ok(());
+    }
+    if parts::peek(tokens) {
+        // It has been read before.
+        parts::block(tokens);
+        return Ok(());
+    }
+    if parts::port(tokens)? {
+        return Ok(());
+    }
+    let elements = match repeat::elements(tokens)? {
+        None => vec![None],
+        Some(range) => range.map(Some).collect(),
+    };
+    let start = *tokens;
+    for element in elements {
+        *tokens = start;
+        tokens.element = element;
+        if tokens.peek_word("use") {
+            parts::use_part(tokens, read)?;
+        } else {
+            let kind = item(tokens, read.diagnostics)?;
+            read.add(docs.to_vec(), parts::given(kind, tokens.scope))?;
+        }
+        tokens.element = None;
+    }
+    Ok(())
 }
 
 fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<ItemKind> {
@@ -179,28 +268,39 @@ fn docs(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Vec<String> {
     docs
 }
 
-/// The keyword of an item and the names it declares: its own, and the named coordinates of a joint.
+/// The keyword of an item and the names it declares.
 fn what_is_known(mut tokens: Tokens) -> Unread {
     let mut item = Unread { keyword: tokens.ident(), names: Vec::new() };
-    if item.is_nameless() {
-        return item;
+    if let Some(keyword) = item.keyword.as_ref().filter(|_| !item.is_nameless()) {
+        let path = |path: Vec<(Ident, String)>| {
+            if let ([(name, _)], "") = (&path[..], tokens.scope.instance.as_str()) {
+                return Some(name.clone());
+            }
+            let whole = path.iter().fold(tokens.scope.instance.clone(), |whole, (_, name)| joined(&whole, name));
+            Some(Ident::new(&whole, path.first()?.0.span()))
+        };
+        item.names = names_of_item(keyword, tokens).into_iter().filter_map(path).collect();
     }
-    while let Some(name) = tokens.ident() {
-        item.names.push(name);
-        if tokens.sign('-').is_none() {
-            break;
-        }
+    item
+}
+
+/// The names that an item declares, after its keyword: its own, and the named coordinates of a joint.
+fn names_of_item(keyword: &Ident, mut tokens: Tokens) -> Vec<Vec<(Ident, String)>> {
+    let mut paths = vec![names::path(&mut tokens)];
+    // What a person may write in place of an underscore.
+    while tokens.sign('-').is_some() {
+        paths.push(names::path(&mut tokens));
     }
-    let is_joint = item.keyword.as_ref().is_some_and(|word| word == "joint");
-    if is_joint && tokens.sign(':').is_some() && tokens.ident().is_some() {
+    if keyword == "joint" && tokens.sign(':').is_some() && tokens.ident().is_some() {
         let mut arguments = tokens.group(Delimiter::Parenthesis);
         while let Some((_, content, _)) = arguments.as_mut().filter(|group| !group.1.is_empty()) {
-            let coordinate = content.peek_ident().filter(|_| content.peek_named());
-            item.names.extend(coordinate);
+            if names::peek_labelled(content) {
+                paths.push(names::path(content));
+            }
             content.skip();
         }
     }
-    item
+    paths
 }
 
 /// Skips the rest of a wrong item: past the next semicolon, or up to the clear start of the next item.
@@ -233,8 +333,11 @@ fn starts_item(tokens: &Tokens) -> bool {
     if word == "kernels" {
         return ahead.peek_word("only");
     }
+    if word == "for" || parts::peek(tokens) {
+        return true;
+    }
     KEYWORDS.contains(&word.to_string().as_str())
-        && ahead.ident().is_some()
+        && !names::path(&mut ahead).is_empty()
         && (ahead.peek_sign(':') || ahead.peek_sign('='))
 }
 

@@ -7,8 +7,9 @@ use quote::ToTokens as _;
 
 use super::ast::{
     Argument, Ast, Body, Deviation, Deviations, Item, ItemKind, Joint, JointArgument, JointClause, LawKind, Limits,
-    Measure, NamedCall, Operator, Placement, Tolerance, Unit, UnitFactor, Value, ValueKind,
+    Measure, NamedCall, Operator, Placement, Stated, Tolerance, Unit, UnitFactor, Value, ValueKind,
 };
+use crate::base::names::written;
 
 /// The canonical text of a declaration.
 pub fn print(ast: &Ast) -> String {
@@ -32,7 +33,7 @@ pub fn print(ast: &Ast) -> String {
         line(&mut text, "    ", &format!("{};", item(kind)));
     }
     text.push_str("}\n");
-    text
+    written(&text).into_owned()
 }
 
 fn line(text: &mut String, indent: &str, content: &str) {
@@ -70,15 +71,12 @@ fn item(kind: &ItemKind) -> String {
         ItemKind::Design(design) => {
             format!("design {} = {}{}", design.name, value(&design.nominal), tolerance(design.tolerance.as_ref()))
         }
-        ItemKind::Let(named) => format!("let {} = {}", named.name, value(&named.value)),
+        ItemKind::Let(of) => format!("let {}", stated(of)),
         ItemKind::Curve(curve) => {
             format!("curve {}: {} -> {}", curve.name, value(&curve.arguments), value(&curve.values))
         }
         ItemKind::Steady(named) => format!("steady {} = {}", named.name, value(&named.value)),
-        ItemKind::Output(output) => {
-            let unit = output.unit.as_ref().map_or_else(String::new, |x| format!(": {}", unit(x)));
-            format!("output {}{unit} = {}", output.name, value(&output.value))
-        }
+        ItemKind::Output(of) => format!("output {}", stated(of)),
         ItemKind::Gravity(gravity) => match &gravity.along {
             Some(along) => format!("gravity {} along {}", value(&gravity.value), value(along)),
             None => format!("gravity {}", value(&gravity.value)),
@@ -109,6 +107,11 @@ fn item(kind: &ItemKind) -> String {
         ItemKind::Point(point) => format!("point {}: {}{}", point.name, point.frame, placed(point.placement.as_ref())),
         ItemKind::Joint(item) => joint(item),
     }
+}
+
+fn stated(Stated { name, unit: of, value: is }: &Stated) -> String {
+    let of = of.as_ref().map_or_else(String::new, |of| format!(": {}", unit(of)));
+    format!("{name}{of} = {}", value(is))
 }
 
 /// A tolerance, preceded by a space.

@@ -5,6 +5,7 @@ use proc_macro2::{Delimiter, Ident, Literal, Span};
 use quote::ToTokens as _;
 use syn::buffer::Cursor;
 
+use super::scope::Scope;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
@@ -21,12 +22,29 @@ pub(super) struct Tokens<'a> {
     end: Option<Span>,
     /// Words that may follow a number here and are therefore not units.
     pub(super) no_units: &'static [&'static str],
+    /// The place in an array of what is declared: the index in place of a range.
+    pub(super) element: Option<u32>,
+    /// What names mean here.
+    pub(super) scope: &'a Scope<'a>,
 }
 
 impl<'a> Tokens<'a> {
     /// The whole input of the macro.
-    pub(super) fn top(cursor: Cursor<'a>) -> Self {
-        Self { cursor, last: cursor.span(), end: None, no_units: &[] }
+    pub(super) fn top(cursor: Cursor<'a>, scope: &'a Scope<'a>) -> Self {
+        Self { cursor, last: cursor.span(), end: None, no_units: &[], element: None, scope }
+    }
+
+    /// The same tokens in another scope.
+    pub(super) fn within<'b>(self, scope: &'b Scope<'b>) -> Tokens<'b>
+    where
+        'a: 'b,
+    {
+        Tokens { scope, ..self }
+    }
+
+    /// The content of a part, in another scope.
+    pub(super) fn content((cursor, end): (Cursor<'a>, Span), scope: &'a Scope<'a>) -> Self {
+        Self { end: Some(end), ..Self::top(cursor, scope) }
     }
 
     /// Whether nothing is left.
@@ -90,6 +108,12 @@ impl<'a> Tokens<'a> {
         copy.sign('-').is_some() && copy.sign('>').is_some()
     }
 
+    /// Whether `..` is next.
+    pub(super) fn peek_range(&self) -> bool {
+        let mut copy = *self;
+        copy.sign('.').is_some() && copy.sign('.').is_some()
+    }
+
     /// Whether a name and a colon are next.
     pub(super) fn peek_named(&self) -> bool {
         let mut ahead = *self;
@@ -148,7 +172,7 @@ impl<'a> Tokens<'a> {
         let (content, span, rest) = self.cursor.group(delimiter)?;
         self.cursor = rest;
         self.last = span.close();
-        let content = Tokens { cursor: content, last: span.open(), end: Some(span.close()), no_units: &[] };
+        let content = Tokens { last: span.open(), ..Tokens::content((content, span.close()), self.scope) };
         Some((span.open(), content, span.close()))
     }
 

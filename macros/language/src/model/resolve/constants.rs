@@ -1,16 +1,17 @@
-//! Named constants, in an order in which each uses only earlier ones.
+//! Stated constants, in an order in which each uses only earlier ones.
 
 use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
 
+use super::expected::Expected;
 use super::resolver::Resolver;
 use super::scope::Meaning;
 use super::typed::{Quantity, Typed, ValueContext};
 use crate::base::ids::ConstantId;
 use crate::model::expression::Expr;
 use crate::model::mechanism::Constant;
-use crate::syntax::ast::{ItemKind, Named};
+use crate::syntax::ast::{ItemKind, Stated};
 
 /// Progress in resolving a `let`.
 #[derive(Clone, Copy, PartialEq)]
@@ -23,7 +24,7 @@ enum State {
 
 impl Resolver<'_> {
     pub(super) fn named_constants(&mut self) {
-        let named: Vec<&Named> = self
+        let named: Vec<&Stated> = self
             .ast
             .items
             .iter()
@@ -74,7 +75,7 @@ impl Resolver<'_> {
     }
 
     /// Reports constants that depend on themselves.
-    fn report_cycle(&mut self, cycle: &[usize], named: &[&Named], known: &[bool]) {
+    fn report_cycle(&mut self, cycle: &[usize], named: &[&Stated], known: &[bool]) {
         if cycle.iter().any(|&index| known[index]) {
             return;
         }
@@ -89,7 +90,7 @@ impl Resolver<'_> {
     }
 
     /// The lets that a value uses, each once.
-    fn used_lets(&self, named: &Named) -> Vec<usize> {
+    fn used_lets(&self, named: &Stated) -> Vec<usize> {
         let lets = named.value.names().into_iter().filter_map(|name| match self.scope.find(&name.to_string()) {
             Some(Meaning::Let(index)) => Some(index),
             _ => None,
@@ -97,10 +98,16 @@ impl Resolver<'_> {
         lets.collect::<BTreeSet<_>>().into_iter().collect()
     }
 
-    fn constant(&mut self, named: &Named) -> Option<Typed> {
-        let Named { name, value } = named;
+    fn constant(&mut self, named: &Stated) -> Option<Typed> {
+        let Stated { name, unit, value } = named;
         let what = format!("`{name}`");
-        match self.value(value, ValueContext::Parameter)? {
+        let typed = self.value(value, ValueContext::Parameter)?;
+        if let Some(unit) = unit {
+            let (dimension, unit) = self.declared_unit(unit);
+            let (Typed::Scalar(_, quantity) | Typed::Vector(_, quantity) | Typed::Matrix(_, quantity)) = typed;
+            self.expect(quantity, Expected::in_unit(dimension?, &unit.symbol), &what, value)?;
+        }
+        match typed {
             Typed::Scalar(expr, quantity) => {
                 self.require_finite(std::slice::from_ref(&expr), &what, value.extent);
                 Some(Typed::Scalar(self.shared(name.clone(), expr), promoted(quantity)))

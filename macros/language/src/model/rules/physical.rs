@@ -79,7 +79,7 @@ pub(crate) fn check(
     let (met, violated) = at_nominal(requirements, constants, design, &unknown);
     for violation in violated {
         let message = format!("{} {}", violation.what, violation.problem);
-        diagnostics.push(Diagnostic { span: violation.extent, message, help: violation.help });
+        diagnostics.push(Diagnostic { help: violation.help, ..Diagnostic::new(violation.extent, message) });
     }
     for index in 0..design.len() {
         check_tolerance(&met, constants, design, index, &unknown, diagnostics);

@@ -4,7 +4,7 @@ use proc_macro2::Delimiter;
 
 use super::super::ast::{Argument, Body, ItemKind, NamedCall, Term, Unit, UnitFactor, Value, ValueKind};
 use super::super::tokens::{Parsed, Tokens};
-use super::names::{colon, declared_name};
+use super::names::{colon, declared_name, reference};
 use super::placement::placement;
 use super::value::value;
 use super::words::DECIMAL_POINT;
@@ -126,7 +126,7 @@ pub(super) fn argument(tokens: &mut Tokens) -> Parsed<Argument> {
         _ => value(tokens)?,
     };
     let of = match tokens.word("of") {
-        Some(_) => Some(tokens.name("a driven or coasting coordinate")?),
+        Some(_) => Some(reference(tokens, "a driven or coasting coordinate")?),
         None => None,
     };
     Ok(Argument { name, value, of })

@@ -3,14 +3,14 @@
 use proc_macro2::Ident;
 
 use super::super::ast::{
-    Argument, Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Material, Named, NamedCall, Output,
-    Point, Unbalance,
+    Argument, Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Material, Named, NamedCall, Point,
+    Stated, Unbalance,
 };
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
 use super::body::{argument, body, named_call};
 use super::joint::joint;
-use super::names::{colon, declared_name};
+use super::names::{colon, declared_name, reference};
 use super::placement::placement;
 use super::tolerance::{nominal, tolerance};
 use super::unit;
@@ -30,7 +30,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let read: fn(&mut Tokens) -> Parsed<ItemKind> = match keyword.to_string().as_str() {
         "input" => input,
         "design" => design,
-        "let" => |tokens| named(tokens).map(ItemKind::Let),
+        "let" => |tokens| stated(tokens).map(ItemKind::Let),
         "curve" => curve,
         "gravity" => return gravity(tokens),
         "kernels" => return kernels_only(tokens),
@@ -43,7 +43,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "material" => return material(tokens),
         "constraint" => constraint,
         "steady" => |tokens| named(tokens).map(ItemKind::Steady),
-        "output" => output,
+        "output" => |tokens| stated(tokens).map(ItemKind::Output),
         unknown => {
             let message = format!("unknown item `{unknown}`");
             let diagnostic = Diagnostic::new(&keyword, message).with_help(instead_of(unknown));
@@ -100,14 +100,14 @@ fn named(tokens: &mut Tokens) -> Parsed<Named> {
     Ok(Named { name, value })
 }
 
-fn output(tokens: &mut Tokens) -> Parsed<ItemKind> {
+fn stated(tokens: &mut Tokens) -> Parsed<Stated> {
     let name = declared_name(tokens)?;
     let unit = match tokens.sign(':') {
         Some(_) => Some(unit::declared(tokens)?),
         None => None,
     };
     equals(tokens, &name)?;
-    Ok(ItemKind::Output(Output { name, unit, value: value(tokens)? }))
+    Ok(Stated { name, unit, value: value(tokens)? })
 }
 
 const CURVE: &str = "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`";
@@ -172,7 +172,7 @@ fn unbalance(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let name = declared_name(tokens)?;
     colon(tokens).map_err(help)?;
     tokens.expect_word("on").map_err(help)?;
-    let on = tokens.name("a body").map_err(help)?;
+    let on = reference(tokens, "a body").map_err(help)?;
     let (mut arguments, mut at) = (Vec::new(), None);
     while tokens.sign(',').is_some() {
         if at.is_none() && tokens.word("at").is_some() {
@@ -223,7 +223,7 @@ fn constraint(tokens: &mut Tokens) -> Parsed<ItemKind> {
 fn point(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let name = declared_name(tokens)?;
     colon(tokens)?;
-    let frame = tokens.name("a body or `ground`")?;
+    let frame = reference(tokens, "a body or `ground`")?;
     let placement = placement(tokens)?;
     Ok(ItemKind::Point(Point { name, frame, placement }))
 }

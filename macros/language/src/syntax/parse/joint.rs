@@ -5,7 +5,7 @@ use proc_macro2::Delimiter;
 use super::super::ast::{Coast, Drive, ItemKind, Joint, JointArgument, JointClause, Shake};
 use super::super::tokens::{Parsed, Tokens};
 use super::body::named_call;
-use super::names::{colon, declared_name};
+use super::names::{colon, declared_name, path, peek_labelled, reference};
 use super::placement::{place, placement};
 use super::value::value;
 use super::words::DECIMAL_POINT;
@@ -20,13 +20,13 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
         None => None,
     };
     tokens.expect_word("from")?;
-    let from = tokens.name("a body or `ground`")?;
+    let from = reference(tokens, "a body or `ground`")?;
     let from_station = match tokens.word("at") {
         Some(_) => Some(place(tokens)?),
         None => None,
     };
     tokens.expect_word("to")?;
-    let to = tokens.name("a body or `ground`")?;
+    let to = reference(tokens, "a body or `ground`")?;
     let mut clauses = Vec::new();
     loop {
         let decimal = tokens.peek_decimal_comma();
@@ -47,13 +47,15 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
 fn arguments(tokens: &mut Tokens) -> Parsed<Vec<JointArgument>> {
     let mut arguments = Vec::new();
     while !tokens.is_empty() {
-        let name = if tokens.peek_named() {
-            let name = declared_name(tokens)?;
-            colon(tokens)?;
-            Some(name)
-        } else {
-            None
+        let name = match peek_labelled(tokens) {
+            // The lead of a screw is no coordinate.
+            true if tokens.peek_word("lead") => tokens.ident(),
+            true => Some(declared_name(tokens)?),
+            false => None,
         };
+        if name.is_some() {
+            colon(tokens)?;
+        }
         let value = value(tokens)?;
         arguments.push(JointArgument { name, value });
         if !tokens.is_empty() {
@@ -71,14 +73,14 @@ const COASTS: &str =
 fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
     if let Some(placement) = placement(tokens)? {
         let on = match tokens.word("on") {
-            Some(_) => Some(tokens.name("a body or `ground`")?),
+            Some(_) => Some(reference(tokens, "a body or `ground`")?),
             None => None,
         };
         return Ok(Some(JointClause::Placement { placement, on }));
     }
     let mut ahead = *tokens;
-    let is_named = ahead.ident().is_some() && ["driven", "coasting", "shaken"].iter().any(|word| ahead.peek_word(word));
-    let coordinate = if is_named { Some(tokens.name("a coordinate")?) } else { None };
+    let is_named = !path(&mut ahead).is_empty() && ["driven", "coasting", "shaken"].iter().any(|word| ahead.peek_word(word));
+    let coordinate = if is_named { Some(reference(tokens, "a coordinate")?) } else { None };
     if let Some(keyword) = tokens.word("coasting") {
         let known = |tokens: &Tokens| CLAUSES.iter().any(|word| tokens.peek_word(word));
         let mut ahead = *tokens;

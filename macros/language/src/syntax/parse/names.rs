@@ -1,13 +1,17 @@
-//! Names that an item declares.
+//! Names that an item declares, and names that refer to something.
 
-use proc_macro2::Ident;
+use proc_macro2::{Delimiter, Ident};
+use syn::ext::IdentExt as _;
 
+use super::super::scope::Meaning;
 use super::super::tokens::{Parsed, Tokens};
+use super::repeat::index;
 use super::words::KEYWORDS;
 use crate::base::diagnostics::Diagnostic;
+use crate::base::names::{LINK, joined};
 use crate::base::span::Extent;
 
-/// Reads the name of an item.
+/// Reads the name of an item: `hub`, `link[i + 1]`, or `blade[1].arm` in a declaration without parts.
 pub(super) fn declared_name(tokens: &mut Tokens) -> Parsed<Ident> {
     if let Some(keyword) = tokens.peek_ident()
         && KEYWORDS.iter().any(|word| keyword == word)
@@ -16,6 +20,10 @@ pub(super) fn declared_name(tokens: &mut Tokens) -> Parsed<Ident> {
         return Err(Box::new(Diagnostic::new(&keyword, message)));
     }
     let name = tokens.name("a name")?;
+    if name.to_string().contains(LINK) {
+        let message = format!("a name cannot contain U+{:04X}", u32::from(LINK));
+        return Err(Box::new(Diagnostic::new(&name, message)));
+    }
     let mut ahead = *tokens;
     if ahead.sign('-').is_some()
         && let Some(rest) = ahead.ident()
@@ -25,7 +33,83 @@ pub(super) fn declared_name(tokens: &mut Tokens) -> Parsed<Ident> {
             Diagnostic::new(Extent::from(&name).to(&rest), message).with_help(format!("write `{name}_{rest}`"));
         return Err(Box::new(diagnostic));
     }
-    Ok(name)
+    let mut path = tokens.scope.whole(&name.to_string());
+    loop {
+        if let Some(place) = element(tokens)? {
+            path = joined(&path, &place.to_string());
+        } else if tokens.sign('.').is_some() {
+            let Some(name) = tokens.ident() else { return tokens.expected("a name") };
+            path = joined(&path, &name.unraw().to_string());
+        } else {
+            return Ok(Ident::new(&path, Extent::from(&name).to(tokens.last).joined()));
+        }
+    }
+}
+
+/// Reads `[i]`, or the range of an array, of which one element is meant.
+fn element(tokens: &mut Tokens) -> Parsed<Option<u32>> {
+    let element = tokens.element;
+    let Some((_, mut content, _)) = tokens.group(Delimiter::Bracket) else {
+        return Ok(None);
+    };
+    match element {
+        Some(element) => {
+            tokens.element = None;
+            Ok(Some(element))
+        }
+        None => index(&mut content).map(Some),
+    }
+}
+
+/// Reads a name that refers to something: `hub`, `link[i - 1]`, `blade[1].tip`.
+pub(super) fn reference(tokens: &mut Tokens, what: &str) -> Parsed<Ident> {
+    let first = tokens.name(what)?;
+    let (scope, text) = (tokens.scope, first.to_string());
+    let mut meaning = scope.find(&text);
+    let mut path = match scope.ports.iter().find(|(port, _)| *port == text) {
+        Some((_, frame)) => frame.to_string(),
+        None if meaning.is_some() => scope.whole(&text),
+        None if scope.hides(&text) => {
+            let message = format!("a part sees only its own names, and `{text}` is declared outside it");
+            let help = format!("make it a parameter or a port of the part, and write `{text}: {text}` where it is used");
+            return Err(Box::new(Diagnostic::new(&first, message).with_help(help)));
+        }
+        None => text,
+    };
+    loop {
+        if let Some((_, mut content, _)) = tokens.group(Delimiter::Bracket) {
+            path = joined(&path, &index(&mut content)?.to_string());
+            continue;
+        }
+        let Some(of) = meaning.filter(|meaning| !matches!(meaning, Meaning::Item(_))) else { break };
+        if tokens.sign('.').is_none() {
+            break;
+        }
+        let Some(name) = tokens.ident() else { return tokens.expected("a name") };
+        let name = name.unraw().to_string();
+        path = joined(&path, &name);
+        meaning = scope.inside(of, &name);
+    }
+    Ok(Ident::new(&path, Extent::from(&first).to(tokens.last).joined()))
+}
+
+/// Skips a name and returns its words without the indices.
+pub(super) fn path(tokens: &mut Tokens) -> Vec<(Ident, String)> {
+    let mut path = Vec::new();
+    while let Some(name) = tokens.ident() {
+        path.push((name.clone(), name.unraw().to_string()));
+        while tokens.group(Delimiter::Bracket).is_some() {}
+        if tokens.sign('.').is_none() {
+            break;
+        }
+    }
+    path
+}
+
+/// Whether a name, which may have an index, and a colon are next.
+pub(super) fn peek_labelled(tokens: &Tokens) -> bool {
+    let mut ahead = *tokens;
+    !path(&mut ahead).is_empty() && ahead.peek_sign(':')
 }
 
 /// Reads a colon.

@@ -6,6 +6,8 @@ use syn::ext::IdentExt as _;
 use super::super::ast::{Binary, Operator, Value, ValueKind};
 use super::super::nesting::{self, DEEPEST};
 use super::super::tokens::{Parsed, Tokens};
+use super::names::reference;
+use super::repeat::terms;
 use super::unit::{self, missing_sign};
 use super::words::{GRADE, KEYWORDS};
 use crate::base::diagnostics::Diagnostic;
@@ -95,7 +97,9 @@ fn power(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
 
 fn component(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     let mut value = primary(tokens, depth)?;
-    while let Some(point) = tokens.sign('.') {
+    while !tokens.peek_range()
+        && let Some(point) = tokens.sign('.')
+    {
         match (&value.kind, tokens.peek_ident()) {
             (ValueKind::Number(_, None), _) => return digits_missing(point),
             (ValueKind::Number(_, Some(unit)), Some(name)) => return missing_sign(unit, &name),
@@ -155,13 +159,40 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
             error
         };
     }
-    let name = tokens.name("a value")?;
+    let name = reference(tokens, "a value")?;
+    let extent = Extent::from(start).to(tokens.last);
     if let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) {
-        let arguments = nested(&mut content, depth, start.into(), list)?;
         let extent = Extent::from(start).to(tokens.last);
+        if name == "sum" && content.peek_word("for") {
+            return total(nested(&mut content, depth, start.into(), |tokens, depth| {
+                terms(tokens, |tokens| sum(tokens, depth))
+            })?, extent);
+        }
+        let arguments = nested(&mut content, depth, start.into(), list)?;
         return built(ValueKind::Call(name, arguments), extent);
     }
-    built(ValueKind::Name(name), start.into())
+    match tokens.scope.counter(&name.to_string()) {
+        Some(counter) => built(ValueKind::Number(counter.into(), None), extent),
+        None => built(ValueKind::Name(name), extent),
+    }
+}
+
+/// Terms in parentheses, joined from the left; zero if there are none.
+fn total(terms: Vec<Value>, extent: Extent) -> Parsed<Value> {
+    let mut total = None;
+    for term in terms {
+        // A term may be a sum itself.
+        let term = built(ValueKind::Parenthesised(Box::new(term)), extent)?;
+        total = Some(match total {
+            None => term,
+            Some(before) => binary(Operator::Add, extent, before, term)?,
+        });
+    }
+    let total = match total {
+        Some(total) => total,
+        None => built(ValueKind::Number(0.0, None), extent)?,
+    };
+    built(ValueKind::Parenthesised(Box::new(total)), extent)
 }
 
 /// Reads the unit after a number, and returns the number with it.

@@ -1,0 +1,48 @@
+//! Names of what is in instances and arrays: `blade[1].mass` is one identifier, in which [`LINK`] stands for a point and,
+//! before a number, for brackets. No text that people read shows it.
+
+use std::borrow::Cow;
+
+/// The letter that joins the words of a name. Nobody writes it, and Rust takes it for a letter.
+pub const LINK: char = 'ˑ';
+
+/// `blade[1]` and `mass`: `blade[1].mass`. Without an instance, the name itself.
+pub fn joined(instance: &str, name: &str) -> String {
+    if instance.is_empty() { name.to_owned() } else { format!("{instance}{LINK}{name}") }
+}
+
+/// A text with all names in it as people write them.
+pub fn written(text: &str) -> Cow<'_, str> {
+    if !text.contains(LINK) {
+        return Cow::Borrowed(text);
+    }
+    let mut words = text.split(LINK);
+    let mut written = words.next().unwrap_or_default().to_owned();
+    for word in words {
+        let digits = word.len() - word.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        match word.split_at(digits) {
+            ("", name) => written.extend([".", name]),
+            (index, rest) => written.extend(["[", index, "]", rest]),
+        }
+    }
+    Cow::Owned(written)
+}
+
+/// A text in which names are one word for other languages: `blade_1_mass`.
+pub fn flattened(text: &str) -> String {
+    text.replace(LINK, "_")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_written_with_points_and_brackets() {
+        let name = joined(&joined(&joined("rotor", "blade"), "12"), "mass");
+        assert_eq!(written(&name), "rotor.blade[12].mass");
+        assert_eq!(written(&format!("`{name}` is a body")), "`rotor.blade[12].mass` is a body");
+        assert_eq!(joined("", "mass"), "mass");
+        assert_eq!(flattened(&name), "rotor_blade_12_mass");
+    }
+}

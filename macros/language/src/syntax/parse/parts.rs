@@ -1,0 +1,340 @@
+//! Parts: found before anything else is read, and read once for each instance, under its name.
+
+use std::iter;
+
+use proc_macro2::{Delimiter, Ident};
+
+use super::super::ast::{Body, ItemKind, Joint, JointClause, NamedCall, Placement, Stated, Term, Use, Value};
+use super::super::print;
+use super::super::scope::{Meaning, Names, Part, Parts, Scope};
+use super::super::tokens::{Parsed, Tokens};
+use super::names::{colon, declared_name, path, reference};
+use super::placement::placement;
+use super::repeat::whole;
+use super::unit;
+use super::value::value;
+use super::{Read, items, names_of_item, skip_item};
+use crate::base::diagnostics::{Diagnostic, Diagnostics, listed};
+use crate::base::names::{LINK, joined};
+use crate::base::nearest::nearest;
+
+const USE: &str = "write `use left: Bearing(stiffness: k) with seat: ground, journal: shaft at 0.2 length;`";
+const PART: &str = "write `part Bearing(stiffness: N/m) { port seat; port journal; ... }`";
+
+/// Shows every item, also in loops, by its keyword and what follows.
+fn each_item<'a>(mut tokens: Tokens<'a>, see: &mut dyn FnMut(&Ident, Tokens<'a>)) {
+    while !tokens.is_empty() {
+        let start = tokens;
+        if tokens.sign('#').is_some() {
+            tokens.group(Delimiter::Bracket);
+            continue;
+        }
+        let Some(keyword) = tokens.ident() else {
+            tokens.skip();
+            continue;
+        };
+        see(&keyword, tokens);
+        if keyword == "for" || keyword == "part" {
+            if let Some(content) = block(&mut tokens).filter(|_| keyword == "for") {
+                each_item(content, see);
+            }
+        } else {
+            tokens = start;
+            skip_item(&mut tokens);
+        }
+    }
+}
+
+/// Whether a part is next; the word may also be a name.
+pub(super) fn peek(tokens: &Tokens<'_>) -> bool {
+    let mut ahead = *tokens;
+    ahead.word("part").is_some() && ahead.ident().is_some() && {
+        ahead.group(Delimiter::Parenthesis);
+        ahead.group(Delimiter::Brace).is_some()
+    }
+}
+
+/// Words that start items of a mechanism but not of a part, and why.
+const WHOLE: [&str; 3] = ["gravity", "kernels", "every"];
+
+/// Skips a port, and refuses what cannot stand in a part or only there.
+pub(super) fn port(tokens: &mut Tokens<'_>) -> Parsed<bool> {
+    let mut ahead = *tokens;
+    let keyword = ahead.ident();
+    let is_part = !tokens.scope.part.is_empty();
+    if let Some(keyword) = keyword.filter(|keyword| is_part && WHOLE.iter().any(|word| keyword == word)) {
+        let message = format!("`{keyword}` is for the whole mechanism, and cannot stand in a part");
+        return Err(Box::new(Diagnostic::new(&keyword, message)));
+    }
+    if !tokens.peek_word("port") || ahead.ident().is_none() || ahead.peek_sign(':') {
+        return Ok(false);
+    }
+    if !is_part {
+        let message = "only a part has ports";
+        return Err(Box::new(Diagnostic::new(tokens.span(), message).with_help(PART)));
+    }
+    if ahead.sign(';').is_none() {
+        return ahead.expected("`;`");
+    }
+    *tokens = ahead;
+    Ok(true)
+}
+
+/// An item as the instance has it: a design variable that the use gives is a constant.
+pub(super) fn given(kind: ItemKind, scope: &Scope<'_>) -> ItemKind {
+    let ItemKind::Design(design) = &kind else { return kind };
+    let name = design.name.to_string();
+    let of = |given: &str| name.strip_prefix(given).is_some_and(|rest| rest.is_empty() || rest.starts_with(LINK));
+    match scope.given.iter().find(|(given, _)| of(given)) {
+        Some((_, value)) => {
+            ItemKind::Let(Stated { name: design.name.clone(), unit: None, value: value.clone() })
+        }
+        None => kind,
+    }
+}
+
+/// Skips to the end of the next braces, which it returns; not past a semicolon.
+pub(super) fn block<'a>(tokens: &mut Tokens<'a>) -> Option<Tokens<'a>> {
+    while !tokens.is_empty() && tokens.sign(';').is_none() {
+        if let Some((_, content, _)) = tokens.group(Delimiter::Brace) {
+            return Some(content);
+        }
+        tokens.skip();
+    }
+    None
+}
+
+/// The names that items declare.
+pub(super) fn names(tokens: Tokens<'_>) -> Names {
+    let mut names = Names::default();
+    each_item(tokens, &mut |keyword, mut tokens| {
+        if keyword == "for" || keyword == "part" {
+            return;
+        }
+        let word = keyword.to_string();
+        if word == "use" {
+            let path = path(&mut tokens);
+            if let Some(part) = tokens.sign(':').and_then(|_| tokens.ident()) {
+                names.declare(&path, Meaning::Instance(part.to_string()));
+            }
+            return;
+        }
+        for path in names_of_item(keyword, tokens) {
+            names.declare(&path, Meaning::Item(word.clone()));
+        }
+    });
+    names
+}
+
+/// Finds the parts among items.
+pub(super) fn find<'a>(tokens: Tokens<'a>, parts: &mut Parts<'a>, diagnostics: &mut Diagnostics) {
+    each_item(tokens, &mut |keyword, mut tokens| {
+        if keyword != "part" {
+            return;
+        }
+        match part(&mut tokens) {
+            Ok(part) => {
+                let name = part.name.clone();
+                if parts.0.insert(name.to_string(), part).is_some() {
+                    diagnostics.error(&name, format!("the part `{name}` is declared twice"));
+                }
+            }
+            Err(error) => diagnostics.push(*error),
+        }
+    });
+}
+
+fn part<'a>(tokens: &mut Tokens<'a>) -> Parsed<Part<'a>> {
+    let help = |error: Box<Diagnostic>| Box::new(error.with_help(PART));
+    let name = tokens.name("the part's name").map_err(help)?;
+    let mut parameters = Vec::new();
+    if let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) {
+        while !content.is_empty() {
+            let name = content.name("a parameter").map_err(help)?;
+            colon(&mut content).map_err(help)?;
+            parameters.push((name, unit::declared(&mut content)?));
+            if !content.is_empty() {
+                content.expect_sign(',', "`,`")?;
+            }
+        }
+    }
+    let Some((_, content, end)) = tokens.group(Delimiter::Brace) else {
+        return tokens.expected("`{`").map_err(help);
+    };
+    let mut names = names(content);
+    for (parameter, _) in &parameters {
+        names.declare(&[(parameter.clone(), parameter.to_string())], Meaning::Item("parameter".to_owned()));
+    }
+    let tokens = content.cursor.token_stream();
+    Ok(Part { name, parameters, names, content: (content.cursor, end), tokens })
+}
+
+/// The constants among items that are whole numbers, by their whole names.
+pub(super) fn numbers(tokens: Tokens<'_>, scope: &mut Scope<'_>) {
+    each_item(tokens, &mut |keyword, tokens| {
+        if keyword == "let" {
+            let read = |tokens: &mut Tokens<'_>| {
+                let name = declared_name(tokens).ok()?;
+                tokens.sign('=')?;
+                Some((name.to_string(), whole(&value(tokens).ok()?, tokens.scope)?))
+            };
+            let number = read(&mut tokens.within(scope));
+            scope.numbers.extend(number);
+        }
+    });
+}
+
+/// Reads `use NAME: PART(NAME: VALUE, ...) with PORT: FRAME ..., ...;` and the items of the part.
+pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<()> {
+    let help = |error: Box<Diagnostic>| Box::new(error.with_help(USE));
+    let around = tokens.scope;
+    tokens.expect_word("use")?;
+    let instance = declared_name(tokens)?;
+    colon(tokens).map_err(help)?;
+    let word = tokens.name("a part").map_err(help)?;
+    let (name, part) = known_part(around, &word)?;
+    let arguments = arguments(tokens, part).map_err(help)?;
+    let mut scope = Scope {
+        instance: instance.to_string(),
+        names: Some(&part.names),
+        parts: around.parts,
+        part: name,
+        user: Some(around),
+        ..Scope::default()
+    };
+    let mut added = Vec::new();
+    for (name, unit) in &part.parameters {
+        let Some((given, value)) = arguments.iter().find(|(given, _)| given == name) else {
+            let message = format!("`{instance}` lacks its `{name}`");
+            let help = format!("`{word}` has the parameter `{name}: {}`", print::unit(unit));
+            return Err(Box::new(Diagnostic::new(&instance, message).with_help(help)));
+        };
+        let name = Ident::new(&scope.whole(&name.to_string()), given.span());
+        scope.numbers.extend(whole(value, around).map(|number| (name.to_string(), number)));
+        added.push(ItemKind::Let(Stated { name, unit: Some(unit.clone()), value: value.clone() }));
+    }
+    added.extend(ports(tokens, part, &instance, &mut scope).map_err(help)?);
+    if tokens.sign(';').is_none() {
+        return tokens.expected("`;`").map_err(help);
+    }
+    scope.given = arguments.into_iter().map(|(name, value)| (scope.whole(&name.to_string()), value)).collect();
+    read.uses.push(Use { name: instance, part: name.to_owned(), tokens: part.tokens.clone() });
+    for item in added {
+        read.add(Vec::new(), item)?;
+    }
+    items(part.content, scope, read);
+    Ok(())
+}
+
+/// The part of a name, which must not be one that is being read.
+fn known_part<'a>(around: &'a Scope<'a>, word: &Ident) -> Parsed<(&'a str, &'a Part<'a>)> {
+    let name = word.to_string();
+    let parts = around.parts.map(|parts| &parts.0);
+    let Some((name, part)) = parts.and_then(|parts| parts.get_key_value(&name)) else {
+        let error = Diagnostic::new(word, format!("unknown part `{word}`"));
+        let near = nearest(&name, parts.into_iter().flatten().map(|(known, _)| known.as_str()));
+        return Err(Box::new(match near {
+            Some(near) => error.with_help(format!("did you mean `{near}`?")),
+            None => error.with_help(PART),
+        }));
+    };
+    let chain = iter::successors(Some(around), |scope| scope.user).map(|scope| scope.part);
+    let mut circle: Vec<&str> = chain.take_while(|part| !part.is_empty()).collect();
+    if circle.contains(&name.as_str()) {
+        circle.reverse();
+        circle.push(name);
+        let message = format!("a part cannot contain itself: `{}`", circle.join("` uses `"));
+        return Err(Box::new(Diagnostic::new(word, message)));
+    }
+    Ok((name, part))
+}
+
+/// Reads `(NAME: VALUE, ...)`: parameters, and design variables that the use gives.
+fn arguments(tokens: &mut Tokens<'_>, part: &Part<'_>) -> Parsed<Vec<(Ident, Value)>> {
+    let mut arguments: Vec<(Ident, Value)> = Vec::new();
+    let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) else {
+        return Ok(arguments);
+    };
+    while !content.is_empty() {
+        let name = content.name("an argument")?;
+        colon(&mut content)?;
+        let text = name.to_string();
+        let given = |keyword: &str| keyword == "parameter" || keyword == "design";
+        if !part.names.0.get(&text).is_some_and(|of| matches!(of, Meaning::Item(keyword) if given(keyword))) {
+            let known = part.names.0.iter().filter(|(_, of)| matches!(of, Meaning::Item(keyword) if given(keyword)));
+            let known: Vec<String> = known.map(|(name, _)| format!("`{name}`")).collect();
+            let message = format!("`{}` has no parameter and no design variable `{name}`", part.name);
+            let help = match &known[..] {
+                [] => "it has none at all".to_owned(),
+                known => format!("it has {}", listed(known)),
+            };
+            return Err(Box::new(Diagnostic::new(&name, message).with_help(help)));
+        }
+        if arguments.iter().any(|(other, _)| *other == name) {
+            return Err(Box::new(Diagnostic::new(&name, format!("`{name}` is given twice"))));
+        }
+        arguments.push((name, value(&mut content)?));
+        if !content.is_empty() {
+            content.expect_sign(',', "`,` or an operator")?;
+        }
+    }
+    Ok(arguments)
+}
+
+/// Reads `with PORT: FRAME PLACEMENT, ...`, enters each port, and returns the massless body that a placed one needs.
+fn ports<'a>(
+    tokens: &mut Tokens<'_>,
+    part: &Part<'_>,
+    instance: &Ident,
+    scope: &mut Scope<'a>,
+) -> Parsed<Vec<ItemKind>> {
+    let is_port = |of: &Meaning| matches!(of, Meaning::Item(keyword) if keyword == "port");
+    let known: Vec<String> = part.names.0.iter().filter(|(_, of)| is_port(of)).map(|(name, _)| name.clone()).collect();
+    let (mut items, mut seen) = (Vec::new(), Vec::new());
+    if tokens.word("with").is_some() {
+        loop {
+            let port = tokens.name("a port")?;
+            colon(tokens)?;
+            let name = port.to_string();
+            if !known.contains(&name) || seen.contains(&name) {
+                let twice = if seen.contains(&name) { "is placed twice" } else { "is no port" };
+                let all: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
+                let message = format!("`{name}` {twice}; the ports of `{}` are {}", part.name, listed(&all));
+                return Err(Box::new(Diagnostic::new(&port, message)));
+            }
+            let frame = reference(tokens, "a body or `ground`")?;
+            match placement(tokens)? {
+                None => scope.ports.push((name.clone(), frame)),
+                Some(placement) => items.extend(placed(&scope.whole(&name), &port, frame, placement)),
+            }
+            seen.push(name);
+            if tokens.sign(',').is_none() {
+                break;
+            }
+        }
+    }
+    match known.iter().find(|name| !seen.contains(name)) {
+        None => Ok(items),
+        Some(port) => {
+            let message = format!("`{instance}` lacks a place for its port `{port}`");
+            Err(Box::new(Diagnostic::new(instance, message).with_help(format!("write `with {port}: FRAME`"))))
+        }
+    }
+}
+
+/// A massless body, fixed at a place of a frame.
+fn placed(name: &str, port: &Ident, frame: Ident, placement: Placement) -> [ItemKind; 2] {
+    let word = |text: &str| Ident::new(text, port.span());
+    let shape = NamedCall { word: word("massless"), arguments: None };
+    let terms = vec![Term { hole: false, shape, placement: None }];
+    let joint = Joint {
+        name: word(&joined(name, "place")),
+        kind: word("fixed"),
+        arguments: None,
+        from: frame,
+        from_station: None,
+        to: word(name),
+        clauses: vec![JointClause::Placement { placement, on: None }],
+    };
+    [ItemKind::Body(Body { name: word(name), terms, spinning: None }), ItemKind::Joint(joint)]
+}

@@ -1,0 +1,139 @@
+//! What is written once and stands for several: arrays, loops and sums over them. Indices are whole numbers that are known
+//! where the declaration is read.
+
+use std::ops::Range;
+
+use proc_macro2::Delimiter;
+
+use super::super::ast::{Operator, Value, ValueKind};
+use super::super::scope::Scope;
+use super::super::tokens::{Parsed, Tokens};
+use super::value::value;
+use crate::base::diagnostics::Diagnostic;
+use crate::base::span::Extent;
+
+/// Most elements of an array and most rounds of a loop.
+const LONGEST: u32 = 10_000;
+
+const INDEX: &str = "an index is made of whole numbers, counters of loops, and constants such as `let N = 5;`";
+
+/// Reads an index to the end of a group.
+pub(super) fn index(tokens: &mut Tokens) -> Parsed<u32> {
+    let index = bound(tokens)?;
+    if !tokens.is_empty() {
+        let error = tokens.expected("`]` or an operator");
+        return error.map_err(|error| Box::new(error.with_help(INDEX)));
+    }
+    Ok(index)
+}
+
+/// Reads a whole number that is not negative.
+fn bound(tokens: &mut Tokens) -> Parsed<u32> {
+    let value = value(tokens)?;
+    let mistake = |message: String| Err(Box::new(Diagnostic::new(value.extent, message).with_help(INDEX)));
+    match whole(&value, tokens.scope) {
+        None => mistake("this is not a whole number that is known here".to_owned()),
+        Some(number) => match u32::try_from(number) {
+            Ok(number) => Ok(number),
+            Err(_) => mistake(format!("an index counts from 0, and this is {number}")),
+        },
+    }
+}
+
+/// Reads `A..B`, which does not contain `B`.
+fn range(tokens: &mut Tokens) -> Parsed<Range<u32>> {
+    let start = tokens.span();
+    let first = bound(tokens)?;
+    for _ in 0..2 {
+        tokens.expect_sign('.', "a range such as `0..4`")?;
+    }
+    let end = bound(tokens)?;
+    let extent = Extent::from(start).to(tokens.last);
+    match end.checked_sub(first) {
+        Some(0..=LONGEST) => Ok(first..end),
+        Some(length) => {
+            let message = format!("this range has {length} numbers; {LONGEST} are the most");
+            Err(Box::new(Diagnostic::new(extent, message)))
+        }
+        None => Err(Box::new(Diagnostic::new(extent, "this range ends before it starts"))),
+    }
+}
+
+/// The value of whole numbers, as exact as they are.
+pub(super) fn whole(value: &Value, scope: &Scope<'_>) -> Option<i64> {
+    match &value.kind {
+        ValueKind::Number(number, None) if number.fract() == 0.0 && number.abs() < 1e15 => Some(*number as i64),
+        ValueKind::Name(name) => scope.number(&name.to_string()),
+        ValueKind::Negate(of) => whole(of, scope)?.checked_neg(),
+        ValueKind::Parenthesised(inner) => whole(inner, scope),
+        ValueKind::Binary(binary) => {
+            let (a, b) = (whole(&binary.left, scope)?, whole(&binary.right, scope)?);
+            match binary.operator {
+                Operator::Add => a.checked_add(b),
+                Operator::Subtract => a.checked_sub(b),
+                Operator::Multiply => a.checked_mul(b),
+                Operator::Divide => a.checked_div(b).filter(|_| a % b == 0),
+                Operator::Power => a.checked_pow(u32::try_from(b).ok()?),
+            }
+        }
+        _ => None,
+    }
+}
+
+/// The range of an item that declares an array, `body link[0..4]: ...`.
+pub(super) fn elements(tokens: &Tokens) -> Parsed<Option<Range<u32>>> {
+    let mut ahead = *tokens;
+    ahead.ident();
+    if ahead.ident().is_none() {
+        return Ok(None);
+    }
+    let Some((_, mut content, _)) = ahead.group(Delimiter::Bracket) else {
+        return Ok(None);
+    };
+    let mut inside = content;
+    while !inside.is_empty() && !inside.peek_range() {
+        inside.skip();
+    }
+    if inside.is_empty() {
+        return Ok(None);
+    }
+    let range = range(&mut content)?;
+    if !content.is_empty() {
+        return content.expected("`]`");
+    }
+    Ok(Some(range))
+}
+
+/// Reads `for i in A..B`, and returns the scope of each round.
+pub(super) fn rounds<'a>(tokens: &mut Tokens<'a>) -> Parsed<Vec<Scope<'a>>> {
+    tokens.expect_word("for")?;
+    let counter = tokens.name("a counter such as `i`")?;
+    let name = counter.to_string();
+    if tokens.scope.find(&name).is_some() || tokens.scope.counter(&name).is_some() {
+        let message = format!("`{name}` is declared already");
+        return Err(Box::new(Diagnostic::new(&counter, message).with_help("give the counter a name of its own")));
+    }
+    tokens.expect_word("in")?;
+    let range = range(tokens)?;
+    let scope = |k| {
+        let mut scope = tokens.scope.clone();
+        scope.counters.push((name.clone(), k));
+        scope
+    };
+    Ok(range.map(scope).collect())
+}
+
+/// Reads the terms of `sum(for i in 0..4: ...)` to the end of the parentheses.
+pub(super) fn terms<'a>(
+    tokens: &mut Tokens<'a>,
+    read: impl Fn(&mut Tokens<'_>) -> Parsed<Value>,
+) -> Parsed<Vec<Value>> {
+    let scopes = rounds(tokens)?;
+    tokens.expect_sign(':', "`:` and the terms")?;
+    let term = |scope: &Scope<'_>| {
+        let mut content = tokens.within(scope);
+        let term = read(&mut content)?;
+        if content.is_empty() { Ok(term) } else { content.expected("`)` or an operator") }
+    };
+    scopes.iter().map(term).collect()
+}

@@ -1,0 +1,122 @@
+//! What names mean where an item is read: those declared beside it, the counters of loops, the ports and arguments of a
+//! part.
+
+use std::collections::BTreeMap;
+use std::iter;
+
+use proc_macro2::{Ident, Span, TokenStream};
+use syn::buffer::Cursor;
+
+use super::ast::{Unit, Value};
+use crate::base::names::joined;
+
+/// The names that the items of a mechanism or of a part declare, each without its index.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Names(pub(super) BTreeMap<String, Meaning>);
+
+/// What a name stands for, as far as the parser must know.
+#[derive(Clone, Debug)]
+pub(super) enum Meaning {
+    /// What an item that starts with this word declares.
+    Item(String),
+    /// An instance of a part.
+    Instance(String),
+    /// Something whose parts are declared one by one: `body left.arm: ...`.
+    Group(Names),
+}
+
+impl Names {
+    /// Enters what an item declares.
+    pub(super) fn declare(&mut self, path: &[(Ident, String)], meaning: Meaning) {
+        match path {
+            [] => {}
+            [(_, name)] => {
+                self.0.insert(name.clone(), meaning);
+            }
+            [(_, name), rest @ ..] => {
+                let group = self.0.entry(name.clone()).or_insert_with(|| Meaning::Group(Self::default()));
+                if let Meaning::Group(names) = group {
+                    names.declare(rest, meaning);
+                }
+            }
+        }
+    }
+}
+
+/// What stands in braces, and the closing one.
+pub(super) type Content<'a> = (Cursor<'a>, Span);
+
+/// A part as declared.
+pub(super) struct Part<'a> {
+    pub(super) name: Ident,
+    /// The parameters with their units.
+    pub(super) parameters: Vec<(Ident, Unit)>,
+    pub(super) names: Names,
+    pub(super) content: Content<'a>,
+    /// The same, to find the part in which a mistake is.
+    pub(super) tokens: TokenStream,
+}
+
+/// All parts of a declaration by name.
+#[derive(Default)]
+pub(super) struct Parts<'a>(pub(super) BTreeMap<String, Part<'a>>);
+
+/// What names mean in one place.
+#[derive(Clone, Default)]
+pub(super) struct Scope<'a> {
+    /// The instance to which the items belong; empty for the mechanism.
+    pub(super) instance: String,
+    /// What is declared beside them.
+    pub(super) names: Option<&'a Names>,
+    /// The counters of the loops around them.
+    pub(super) counters: Vec<(String, u32)>,
+    /// Constants that are whole numbers, by their whole names.
+    pub(super) numbers: Vec<(String, i64)>,
+    /// Ports, and what the instance has in their place.
+    pub(super) ports: Vec<(String, Ident)>,
+    /// Design variables, and what the instance has in their place.
+    pub(super) given: Vec<(String, Value)>,
+    pub(super) parts: Option<&'a Parts<'a>>,
+    /// The part whose items are read; empty for the mechanism.
+    pub(super) part: &'a str,
+    /// The scope in which the instance is used.
+    pub(super) user: Option<&'a Scope<'a>>,
+}
+
+impl<'a> Scope<'a> {
+    /// The meaning of a name that is declared here.
+    pub(super) fn find(&self, name: &str) -> Option<&'a Meaning> {
+        self.names?.0.get(name)
+    }
+
+    /// The meaning of a name inside another.
+    pub(super) fn inside(&self, of: &'a Meaning, name: &str) -> Option<&'a Meaning> {
+        match of {
+            Meaning::Item(_) => None,
+            Meaning::Instance(part) => self.parts?.0.get(part)?.names.0.get(name),
+            Meaning::Group(names) => names.0.get(name),
+        }
+    }
+
+    /// The counter of a loop.
+    pub(super) fn counter(&self, name: &str) -> Option<u32> {
+        self.counters.iter().rev().find(|(counter, _)| counter == name).map(|(_, value)| *value)
+    }
+
+    /// The whole number that a name stands for.
+    pub(super) fn number(&self, name: &str) -> Option<i64> {
+        self.numbers.iter().find(|(number, _)| number == name).map(|(_, value)| *value)
+    }
+
+    /// The name of the instance before a name that is declared in it.
+    pub(super) fn whole(&self, name: &str) -> String {
+        joined(&self.instance, name)
+    }
+
+    /// Whether what uses the part declares a name, which the part cannot see; a material it can.
+    pub(super) fn hides(&self, name: &str) -> bool {
+        let users = iter::successors(self.user, |scope| scope.user);
+        let meanings = users.filter_map(|scope| scope.find(name));
+        meanings.into_iter().any(|of| !matches!(of, Meaning::Item(keyword) if keyword == "material"))
+    }
+}

@@ -1,0 +1,40 @@
+//! Mistakes in parts: in which instance they are.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Span, TokenStream, TokenTree};
+
+use super::ast::{Use, Uses};
+use crate::base::diagnostics::{Diagnostics, place};
+use crate::base::names::written;
+use crate::base::span::Extent;
+
+impl Uses {
+    /// Says of each mistake in a part in which instance it is; of several, the first.
+    pub fn explain(&self, mistakes: &mut Diagnostics) {
+        let mut known = BTreeSet::new();
+        let uses = self.0.iter().filter(|of| known.insert(of.part.as_str()));
+        let parts: Vec<(&Use, BTreeSet<String>)> = uses
+            .map(|of| {
+                let mut places = BTreeSet::new();
+                enter(of.tokens.clone(), &mut places);
+                (of, places)
+            })
+            .collect();
+        mistakes.explain(|span: Span| {
+            let place = place(span);
+            let (of, _) = parts.iter().find(|(_, places)| places.contains(&place))?;
+            Some((written(&of.name.to_string()).into_owned(), Extent::from(&of.name)))
+        });
+    }
+}
+
+/// The places of all tokens.
+fn enter(tokens: TokenStream, places: &mut BTreeSet<String>) {
+    for token in tokens {
+        places.insert(place(token.span()));
+        if let TokenTree::Group(group) = token {
+            enter(group.stream(), places);
+        }
+    }
+}
