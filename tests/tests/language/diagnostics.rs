@@ -2,7 +2,7 @@
 //! in, must match the compiler's output exactly, each at its columns.
 //!
 //! A case in `tests/diagnostics/*.txt` starts with `=== title`. Under a line, `//^^^ message` marks the columns of the
-//! carets, and `// help: text` belongs to the mark above it. A case without the word `mechanism` is placed inside an
+//! carets, and `// help: text` and `// in INSTANCE, used at LINE:COLUMN` belong to the mark above it. A case without the word `mechanism` is placed inside an
 //! otherwise correct mechanism: a bar on a hinge `theta`.
 //!
 //! `UPDATE_DIAGNOSTICS=1 cargo test -p eigentol-tests --test language diagnostics::` redraws all cases; review the diff.
@@ -33,7 +33,7 @@ fn diagnose(source: &str) -> Vec<Diagnostic> {
 fn undrawn(case: &str) -> String {
     let is_drawing = |line: &&str| {
         let line = line.trim_start();
-        line.starts_with("//^") || line.starts_with("// help: ")
+        ["//^", "// help: ", "// in `"].iter().any(|start| line.starts_with(start))
     };
     let lines: Vec<&str> = case.lines().filter(|line| !is_drawing(line)).collect();
     lines.join("\n")
@@ -75,6 +75,10 @@ fn draw(diagnostic: &Diagnostic, line: &str) -> (usize, String) {
     let mut text = format!("{before}//{carets} {}\n", diagnostic.message);
     if let Some(help) = &diagnostic.help {
         text.push_str(&format!("{before}// help: {help}\n"));
+    }
+    if let Some((name, at)) = &diagnostic.within {
+        let used = at.first.start();
+        text.push_str(&format!("{before}// in `{name}`, used at {}:{}\n", used.line, used.column + 1));
     }
     (start.column, text)
 }

@@ -5,5 +5,6 @@ mod diagnostics;
 mod hostile_names;
 mod links;
 mod models;
+mod parts;
 mod units_of_measure;
 mod urdf;

@@ -65,7 +65,6 @@ pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> [TokenStr
     handles.emit(mechanism)
 }
 
-
 impl Handles {
     fn add(&mut self, name: &Ident, kind: &str, index: usize, doc: String) {
         let handle = Handle::One { kind: Ident::new(kind, Span::call_site()), index, doc };
@@ -159,7 +158,7 @@ impl Types<'_> {
             self.items.extend(quote! {
                 /// Handles of an instance.
                 #[derive(Clone, Copy, Debug)]
-                #[allow(dead_code, non_snake_case)]
+                #[allow(dead_code, non_snake_case, unreachable_pub)]
                 pub struct #name { #(#[doc = #docs] pub #fields: #kinds,)* }
             });
         }

@@ -201,6 +201,10 @@ fn one(tokens: &mut Tokens<'_>, docs: &[String], read: &mut Read<'_>) -> Parsed<
     }
     let elements = match repeat::elements(tokens)? {
         None => vec![None],
+        Some(range) if range.is_empty() => {
+            skip_item(tokens);
+            return Ok(());
+        }
         Some(range) => range.map(Some).collect(),
     };
     let start = *tokens;
@@ -211,7 +215,7 @@ fn one(tokens: &mut Tokens<'_>, docs: &[String], read: &mut Read<'_>) -> Parsed<
             parts::use_part(tokens, read)?;
         } else {
             let kind = item(tokens, read.diagnostics)?;
-            read.add(docs.to_vec(), parts::given(kind, tokens.scope))?;
+            read.add(docs.to_vec(), parts::given(kind, tokens.scope)?)?;
         }
         tokens.element = None;
     }

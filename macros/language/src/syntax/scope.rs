@@ -1,14 +1,16 @@
 //! What names mean where an item is read: those declared beside it, the counters of loops, the ports and arguments of a
 //! part.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::iter;
+use std::rc::Rc;
 
 use proc_macro2::{Ident, Span, TokenStream};
 use syn::buffer::Cursor;
 
 use super::ast::{Unit, Value};
-use crate::base::names::joined;
+use crate::base::names::{LINK, joined};
 
 /// The names that the items of a mechanism or of a part declare, each without its index.
 #[derive(Clone, Debug, Default)]
@@ -31,7 +33,7 @@ impl Names {
         match path {
             [] => {}
             [(_, name)] => {
-                self.0.insert(name.clone(), meaning);
+                self.0.entry(name.clone()).or_insert(meaning);
             }
             [(_, name), rest @ ..] => {
                 let group = self.0.entry(name.clone()).or_insert_with(|| Meaning::Group(Self::default()));
@@ -57,6 +59,16 @@ pub(super) struct Part<'a> {
     pub(super) tokens: TokenStream,
 }
 
+/// A port, and what the instance has in its place.
+#[derive(Clone)]
+pub(super) struct Port {
+    pub(super) name: String,
+    pub(super) frame: Ident,
+    pub(super) point: Ident,
+    /// Whether an item refers to the frame.
+    pub(super) framed: Rc<Cell<bool>>,
+}
+
 /// All parts of a declaration by name.
 #[derive(Default)]
 pub(super) struct Parts<'a>(pub(super) BTreeMap<String, Part<'a>>);
@@ -72,8 +84,7 @@ pub(super) struct Scope<'a> {
     pub(super) counters: Vec<(String, u32)>,
     /// Constants that are whole numbers, by their whole names.
     pub(super) numbers: Vec<(String, i64)>,
-    /// Ports, and what the instance has in their place.
-    pub(super) ports: Vec<(String, Ident)>,
+    pub(super) ports: Vec<Port>,
     /// Design variables, and what the instance has in their place.
     pub(super) given: Vec<(String, Value)>,
     pub(super) parts: Option<&'a Parts<'a>>,
@@ -96,6 +107,25 @@ impl<'a> Scope<'a> {
             Meaning::Instance(part) => self.parts?.0.get(part)?.names.0.get(name),
             Meaning::Group(names) => names.0.get(name),
         }
+    }
+
+    /// The meaning of a whole name.
+    fn find_whole(&self, whole: &str) -> Option<&'a Meaning> {
+        let own = whole.strip_prefix(&self.instance).unwrap_or(whole);
+        let is_index = |word: &str| word.starts_with(|c: char| c.is_ascii_digit());
+        let mut words = own.split(LINK).filter(|word| !word.is_empty() && !is_index(word));
+        let first = words.next().and_then(|name| self.find(name));
+        words.fold(first, |of, name| self.inside(of?, name))
+    }
+
+    /// Whether a whole name is that of a point.
+    pub(super) fn is_point(&self, whole: &str) -> bool {
+        matches!(self.find_whole(whole), Some(Meaning::Item(keyword)) if keyword == "point")
+    }
+
+    /// Whether a whole name is that of an instance of a part.
+    pub(super) fn is_instance(&self, whole: &str) -> bool {
+        matches!(self.find_whole(whole), Some(Meaning::Instance(_)))
     }
 
     /// The counter of a loop.

@@ -7,6 +7,7 @@ use super::joints::kinds::Kind;
 use super::resolver::Resolver;
 use super::scope::Meaning;
 use crate::base::ids::{CoordinateId, JointId, PointId};
+use crate::base::names::LINK;
 use crate::model::mechanism::{CoordinateQuantity, Frame};
 
 impl Resolver<'_> {
@@ -15,6 +16,12 @@ impl Resolver<'_> {
         let text = name.to_string();
         if text == "ground" {
             return Some(Frame::Ground);
+        }
+        // The port of a part is the point at the origin of a frame.
+        if text.contains(LINK)
+            && let Some(port) = self.declared_point(name).filter(|point| point.placement.is_none())
+        {
+            return self.frame(&port.frame);
         }
         match self.scope.find_or_unclear(&text) {
             Some(Meaning::Body(id)) => Some(Frame::Body(id)),

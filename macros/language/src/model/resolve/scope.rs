@@ -7,6 +7,7 @@ use proc_macro2::Ident;
 use super::coordinates::Declared;
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId};
+use crate::base::names::joined;
 use crate::base::nearest::nearest;
 use crate::syntax::ast::{Ast, ItemKind};
 
@@ -186,6 +187,11 @@ impl Scope {
     /// The nearest declared name of the right kind.
     pub(super) fn nearest(&self, name: &str, kind: impl Fn(Meaning) -> bool) -> Option<&str> {
         let candidates = self.order.iter().filter(|(_, meaning)| kind(*meaning));
+        // An array without its index, or an instance.
+        let inside = candidates.clone().find(|(candidate, _)| candidate.starts_with(&joined(name, "")));
+        if let Some((inside, _)) = inside {
+            return Some(inside);
+        }
         nearest(name, candidates.map(|(candidate, _)| candidate.as_str()))
     }
 }

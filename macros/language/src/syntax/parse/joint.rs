@@ -79,7 +79,8 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
         return Ok(Some(JointClause::Placement { placement, on }));
     }
     let mut ahead = *tokens;
-    let is_named = !path(&mut ahead).is_empty() && ["driven", "coasting", "shaken"].iter().any(|word| ahead.peek_word(word));
+    let is_named =
+        !path(&mut ahead).is_empty() && ["driven", "coasting", "shaken"].iter().any(|word| ahead.peek_word(word));
     let coordinate = if is_named { Some(reference(tokens, "a coordinate")?) } else { None };
     if let Some(keyword) = tokens.word("coasting") {
         let known = |tokens: &Tokens| CLAUSES.iter().any(|word| tokens.peek_word(word));

@@ -3,7 +3,7 @@
 use proc_macro2::{Delimiter, Ident};
 use syn::ext::IdentExt as _;
 
-use super::super::scope::Meaning;
+use super::super::scope::{Meaning, Port};
 use super::super::tokens::{Parsed, Tokens};
 use super::repeat::index;
 use super::words::KEYWORDS;
@@ -61,20 +61,36 @@ fn element(tokens: &mut Tokens) -> Parsed<Option<u32>> {
     }
 }
 
-/// Reads a name that refers to something: `hub`, `link[i - 1]`, `blade[1].tip`.
+/// Reads the name of a body, a coordinate or a drive: `hub`, `link[i - 1]`, `blade[1].arm`.
 pub(super) fn reference(tokens: &mut Tokens, what: &str) -> Parsed<Ident> {
+    meant(tokens, what, |port| {
+        port.framed.set(true);
+        &port.frame
+    })
+}
+
+/// Reads a name among values: of a port, its point is meant.
+pub(super) fn name_of_value(tokens: &mut Tokens) -> Parsed<Ident> {
+    meant(tokens, "a value", |port| &port.point)
+}
+
+fn meant(tokens: &mut Tokens, what: &str, of_port: fn(&Port) -> &Ident) -> Parsed<Ident> {
     let first = tokens.name(what)?;
     let (scope, text) = (tokens.scope, first.to_string());
     let mut meaning = scope.find(&text);
-    let mut path = match scope.ports.iter().find(|(port, _)| *port == text) {
-        Some((_, frame)) => frame.to_string(),
-        None if meaning.is_some() => scope.whole(&text),
-        None if scope.hides(&text) => {
+    if let Some(port) = scope.ports.iter().find(|port| port.name == text) {
+        // A mistake in it is one of where the part is used.
+        return Ok(of_port(port).clone());
+    }
+    let mut path = match text {
+        text if meaning.is_some() => scope.whole(&text),
+        text if scope.hides(&text) => {
             let message = format!("a part sees only its own names, and `{text}` is declared outside it");
-            let help = format!("make it a parameter or a port of the part, and write `{text}: {text}` where it is used");
+            let help =
+                format!("make it a parameter or a port of the part, and write `{text}: {text}` where it is used");
             return Err(Box::new(Diagnostic::new(&first, message).with_help(help)));
         }
-        None => text,
+        text => text,
     };
     loop {
         if let Some((_, mut content, _)) = tokens.group(Delimiter::Bracket) {

@@ -1,12 +1,13 @@
 //! Parts: found before anything else is read, and read once for each instance, under its name.
 
 use std::iter;
+use std::rc::Rc;
 
 use proc_macro2::{Delimiter, Ident};
 
-use super::super::ast::{Body, ItemKind, Joint, JointClause, NamedCall, Placement, Stated, Term, Use, Value};
+use super::super::ast::{Body, ItemKind, Joint, JointClause, NamedCall, Placement, Point, Stated, Term, Use, Value};
 use super::super::print;
-use super::super::scope::{Meaning, Names, Part, Parts, Scope};
+use super::super::scope::{Meaning, Names, Part, Parts, Port, Scope};
 use super::super::tokens::{Parsed, Tokens};
 use super::names::{colon, declared_name, path, reference};
 use super::placement::placement;
@@ -15,7 +16,7 @@ use super::unit;
 use super::value::value;
 use super::{Read, items, names_of_item, skip_item};
 use crate::base::diagnostics::{Diagnostic, Diagnostics, listed};
-use crate::base::names::{LINK, joined};
+use crate::base::names::LINK;
 use crate::base::nearest::nearest;
 
 const USE: &str = "write `use left: Bearing(stiffness: k) with seat: ground, journal: shaft at 0.2 length;`";
@@ -48,10 +49,8 @@ fn each_item<'a>(mut tokens: Tokens<'a>, see: &mut dyn FnMut(&Ident, Tokens<'a>)
 /// Whether a part is next; the word may also be a name.
 pub(super) fn peek(tokens: &Tokens<'_>) -> bool {
     let mut ahead = *tokens;
-    ahead.word("part").is_some() && ahead.ident().is_some() && {
-        ahead.group(Delimiter::Parenthesis);
-        ahead.group(Delimiter::Brace).is_some()
-    }
+    let is_part = ahead.word("part").is_some() && ahead.ident().is_some();
+    is_part && [Delimiter::Parenthesis, Delimiter::Brace].into_iter().any(|sign| ahead.group(sign).is_some())
 }
 
 /// Words that start items of a mechanism but not of a part, and why.
@@ -81,16 +80,22 @@ pub(super) fn port(tokens: &mut Tokens<'_>) -> Parsed<bool> {
 }
 
 /// An item as the instance has it: a design variable that the use gives is a constant.
-pub(super) fn given(kind: ItemKind, scope: &Scope<'_>) -> ItemKind {
-    let ItemKind::Design(design) = &kind else { return kind };
+pub(super) fn given(kind: ItemKind, scope: &Scope<'_>) -> Parsed<ItemKind> {
+    if let Some(name) = kind.name().filter(|name| scope.is_instance(&name.to_string())) {
+        return declared_twice(name);
+    }
+    let ItemKind::Design(design) = &kind else { return Ok(kind) };
     let name = design.name.to_string();
     let of = |given: &str| name.strip_prefix(given).is_some_and(|rest| rest.is_empty() || rest.starts_with(LINK));
-    match scope.given.iter().find(|(given, _)| of(given)) {
-        Some((_, value)) => {
-            ItemKind::Let(Stated { name: design.name.clone(), unit: None, value: value.clone() })
-        }
+    Ok(match scope.given.iter().find(|(given, _)| of(given)) {
+        Some((_, value)) => ItemKind::Let(Stated { name: design.name.clone(), unit: None, value: value.clone() }),
         None => kind,
-    }
+    })
+}
+
+fn declared_twice<T>(name: &Ident) -> Parsed<T> {
+    let message = format!("`{name}` is declared twice: as an instance of a part, and as something else");
+    Err(Box::new(Diagnostic::new(name, message)))
 }
 
 /// Skips to the end of the next braces, which it returns; not past a semicolon.
@@ -186,10 +191,16 @@ pub(super) fn numbers(tokens: Tokens<'_>, scope: &mut Scope<'_>) {
 
 /// Reads `use NAME: PART(NAME: VALUE, ...) with PORT: FRAME ..., ...;` and the items of the part.
 pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<()> {
-    let help = |error: Box<Diagnostic>| Box::new(error.with_help(USE));
+    let help = |error: Box<Diagnostic>| match error.help {
+        Some(_) => error,
+        None => Box::new(error.with_help(USE)),
+    };
     let around = tokens.scope;
     tokens.expect_word("use")?;
     let instance = declared_name(tokens)?;
+    if !around.is_instance(&instance.to_string()) {
+        return declared_twice(&instance);
+    }
     colon(tokens).map_err(help)?;
     let word = tokens.name("a part").map_err(help)?;
     let (name, part) = known_part(around, &word)?;
@@ -213,7 +224,8 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
         scope.numbers.extend(whole(value, around).map(|number| (name.to_string(), number)));
         added.push(ItemKind::Let(Stated { name, unit: Some(unit.clone()), value: value.clone() }));
     }
-    added.extend(ports(tokens, part, &instance, &mut scope).map_err(help)?);
+    let (points, bodies) = ports(tokens, part, &instance, &mut scope).map_err(help)?;
+    added.extend(points);
     if tokens.sign(';').is_none() {
         return tokens.expected("`;`").map_err(help);
     }
@@ -222,7 +234,11 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
     for item in added {
         read.add(Vec::new(), item)?;
     }
+    let ports = scope.ports.clone();
     items(part.content, scope, read);
+    for item in bodies.into_iter().filter(|(port, _)| ports[*port].framed.get()).flat_map(|(_, items)| items) {
+        read.add(Vec::new(), item)?;
+    }
     Ok(())
 }
 
@@ -281,16 +297,17 @@ fn arguments(tokens: &mut Tokens<'_>, part: &Part<'_>) -> Parsed<Vec<(Ident, Val
     Ok(arguments)
 }
 
-/// Reads `with PORT: FRAME PLACEMENT, ...`, enters each port, and returns the massless body that a placed one needs.
-fn ports<'a>(
+/// Reads `with PORT: FRAME PLACEMENT, ...`, enters each port, and returns their points, and the bodies of those that are
+/// placed, for joints.
+fn ports(
     tokens: &mut Tokens<'_>,
     part: &Part<'_>,
     instance: &Ident,
-    scope: &mut Scope<'a>,
-) -> Parsed<Vec<ItemKind>> {
+    scope: &mut Scope<'_>,
+) -> Parsed<(Vec<ItemKind>, Vec<(usize, [ItemKind; 2])>)> {
     let is_port = |of: &Meaning| matches!(of, Meaning::Item(keyword) if keyword == "port");
     let known: Vec<String> = part.names.0.iter().filter(|(_, of)| is_port(of)).map(|(name, _)| name.clone()).collect();
-    let (mut items, mut seen) = (Vec::new(), Vec::new());
+    let (mut points, mut bodies, mut seen) = (Vec::new(), Vec::new(), Vec::new());
     if tokens.word("with").is_some() {
         loop {
             let port = tokens.name("a port")?;
@@ -303,10 +320,24 @@ fn ports<'a>(
                 return Err(Box::new(Diagnostic::new(&port, message)));
             }
             let frame = reference(tokens, "a body or `ground`")?;
-            match placement(tokens)? {
-                None => scope.ports.push((name.clone(), frame)),
-                Some(placement) => items.extend(placed(&scope.whole(&name), &port, frame, placement)),
+            let placement = placement(tokens)?;
+            let word = |text: &str| Ident::new(text, port.span());
+            let own = scope.whole(&name);
+            let (frame, point) = match &placement {
+                None if tokens.scope.is_point(&frame.to_string()) => (frame.clone(), frame),
+                None => (frame, word(&own)),
+                Some(placement) => {
+                    let body = word(&format!("{own}_frame"));
+                    bodies.push((scope.ports.len(), fixed(body.clone(), frame.clone(), placement.clone())));
+                    let point = Point { name: word(&own), frame, placement: Some(placement.clone()) };
+                    points.push(ItemKind::Point(point));
+                    (body, word(&own))
+                }
+            };
+            if placement.is_none() && point == own {
+                points.push(ItemKind::Point(Point { name: point.clone(), frame: frame.clone(), placement: None }));
             }
+            scope.ports.push(Port { name: name.clone(), frame, point, framed: Rc::default() });
             seen.push(name);
             if tokens.sign(',').is_none() {
                 break;
@@ -314,7 +345,7 @@ fn ports<'a>(
         }
     }
     match known.iter().find(|name| !seen.contains(name)) {
-        None => Ok(items),
+        None => Ok((points, bodies)),
         Some(port) => {
             let message = format!("`{instance}` lacks a place for its port `{port}`");
             Err(Box::new(Diagnostic::new(instance, message).with_help(format!("write `with {port}: FRAME`"))))
@@ -323,18 +354,18 @@ fn ports<'a>(
 }
 
 /// A massless body, fixed at a place of a frame.
-fn placed(name: &str, port: &Ident, frame: Ident, placement: Placement) -> [ItemKind; 2] {
-    let word = |text: &str| Ident::new(text, port.span());
+fn fixed(name: Ident, from: Ident, placement: Placement) -> [ItemKind; 2] {
+    let word = |text: &str| Ident::new(text, name.span());
     let shape = NamedCall { word: word("massless"), arguments: None };
     let terms = vec![Term { hole: false, shape, placement: None }];
     let joint = Joint {
-        name: word(&joined(name, "place")),
+        name: word(&format!("{name}_joint")),
         kind: word("fixed"),
         arguments: None,
-        from: frame,
+        from,
         from_station: None,
-        to: word(name),
+        to: name.clone(),
         clauses: vec![JointClause::Placement { placement, on: None }],
     };
-    [ItemKind::Body(Body { name: word(name), terms, spinning: None }), ItemKind::Joint(joint)]
+    [ItemKind::Body(Body { name, terms, spinning: None }), ItemKind::Joint(joint)]
 }

@@ -6,7 +6,7 @@ use syn::ext::IdentExt as _;
 use super::super::ast::{Binary, Operator, Value, ValueKind};
 use super::super::nesting::{self, DEEPEST};
 use super::super::tokens::{Parsed, Tokens};
-use super::names::reference;
+use super::names::name_of_value;
 use super::repeat::terms;
 use super::unit::{self, missing_sign};
 use super::words::{GRADE, KEYWORDS};
@@ -159,14 +159,15 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
             error
         };
     }
-    let name = reference(tokens, "a value")?;
+    let name = name_of_value(tokens)?;
     let extent = Extent::from(start).to(tokens.last);
     if let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) {
         let extent = Extent::from(start).to(tokens.last);
         if name == "sum" && content.peek_word("for") {
-            return total(nested(&mut content, depth, start.into(), |tokens, depth| {
-                terms(tokens, |tokens| sum(tokens, depth))
-            })?, extent);
+            return total(
+                nested(&mut content, depth, start.into(), |tokens, depth| terms(tokens, |tokens| sum(tokens, depth)))?,
+                extent,
+            );
         }
         let arguments = nested(&mut content, depth, start.into(), list)?;
         return built(ValueKind::Call(name, arguments), extent);

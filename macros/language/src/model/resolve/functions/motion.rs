@@ -14,7 +14,7 @@ use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
 /// Force laws whose stored energy is unknown.
 const WITHOUT_ENERGY: [&str; 3] = ["tension", "generalized", "bushing"];
 
-impl Resolver<'_> {
+impl<'a> Resolver<'a> {
     pub(super) fn of_motion(
         &mut self,
         name: &str,
@@ -120,7 +120,7 @@ impl Resolver<'_> {
     }
 
     /// The declaration of a point.
-    fn declared_point(&self, name: &Ident) -> Option<&ast::Point> {
+    pub(in crate::model::resolve) fn declared_point(&self, name: &Ident) -> Option<&'a ast::Point> {
         self.ast.items.iter().find_map(|item| match &item.kind {
             ItemKind::Point(point) if point.name == *name => Some(point),
             _ => None,
