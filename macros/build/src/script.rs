@@ -63,7 +63,7 @@ fn unspeakable(source: Source) -> Error {
     Error::Name { path: source.path, line: start.line, column: start.column + 1, name: name.to_string() }
 }
 
-fn rerun_if_changed(path: &Path) {
+pub(crate) fn rerun_if_changed(path: &Path) {
     println!("cargo::rerun-if-changed={}", path.display());
 }
 

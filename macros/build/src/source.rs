@@ -5,9 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use eigentol_compiler::mechanics::Limits;
-use eigentol_compiler::{Compilation, compile_text};
+use eigentol_compiler::{Compilation, compile_text, with_included};
 
 use crate::error::Error;
+use crate::script::rerun_if_changed;
 
 /// A declaration and the destination of its code.
 pub(crate) struct Source {
@@ -30,8 +31,12 @@ impl Source {
             Ok(text) => text,
             Err(source) => return Err(Error::Read { path, source }),
         };
-        match compile_text(&text, Limits::default()) {
-            Ok(compilation) => Ok(Self { path, compilation, directory }),
+        let read = with_included(&text, &path);
+        match read.and_then(|(text, files)| Ok((compile_text(&text, Limits::default())?, files))) {
+            Ok((compilation, files)) => {
+                files.iter().for_each(|file| rerun_if_changed(file));
+                Ok(Self { path, compilation, directory })
+            }
             Err(mistakes) => Err(Error::Mistakes { path, mistakes }),
         }
     }

@@ -20,6 +20,7 @@ mod pipeline;
 mod tests;
 pub mod topology;
 
+pub use eigentol_language::include;
 #[cfg(feature = "locations")]
 pub use eigentol_language::mistakes::{Mistake, Mistakes, tokens};
 pub use eigentol_language::{base, model, syntax};
@@ -27,10 +28,30 @@ pub use eigentol_symbolic::{algebra, base::census, program};
 pub use pipeline::{Compilation, check, compile, compile_refined, early_stages};
 
 use std::fmt::Debug;
+#[cfg(feature = "locations")]
+use std::path::Path;
+use std::path::PathBuf;
 
 use base::diagnostics::Diagnostics;
+use eigentol_language::include::Files;
 use mechanics::Limits;
 use proc_macro2::TokenStream;
+use quote::quote;
+
+/// A text that includes the files it names, which may be in this folder.
+///
+/// # Errors
+/// Files that cannot be read, are elsewhere or include themselves.
+#[cfg(feature = "locations")]
+pub fn with_included(text: &str, file: &Path) -> Result<(String, Vec<PathBuf>), Mistakes> {
+    let folder = match file.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let mut files = Files::of(folder);
+    let text = files.text(text)?;
+    Ok((text, files.into_paths()))
+}
 
 /// Expands a declaration to Rust items, or to one `compile_error!` per mistake at the offending tokens.
 pub fn expand(declaration: TokenStream) -> TokenStream {
@@ -40,10 +61,22 @@ pub fn expand(declaration: TokenStream) -> TokenStream {
 /// [`expand`] with a custom lexer for the generated text, which is well-formed and long. Inside a macro, rustc's own
 /// lexer is the fastest: `proc_macro2` lexes everything twice there, to reject tokens that would upset rustc.
 pub fn expand_with<E: Debug>(declaration: TokenStream, lexer: impl Fn(&str) -> Result<TokenStream, E>) -> TokenStream {
-    match compile(declaration, Limits::default()) {
-        Ok(compilation) => compilation.emit_with(lexer),
-        Err(mistakes) => mistakes.into_compile_errors(),
+    let folder = std::env::var_os("CARGO_MANIFEST_DIR").map_or_else(PathBuf::new, PathBuf::from);
+    let mut files = Files::of(&folder);
+    let mut mistakes = Diagnostics::new();
+    match files.tokens(declaration, &|text| lexer(text).ok(), &mut Vec::new()) {
+        Ok(tokens) => match compile(tokens, Limits::default()) {
+            Ok(compilation) => {
+                let paths = files.into_paths().into_iter().map(|path| path.display().to_string());
+                let items = compilation.emit_with(lexer);
+                // rustc builds again when one of them changes.
+                return quote! { #items #(const _: &[u8] = ::core::include_bytes!(#paths);)* };
+            }
+            Err(more) => mistakes.append(more),
+        },
+        Err(mistake) => mistakes.push(mistake),
     }
+    mistakes.into_compile_errors()
 }
 
 /// The kernels of a declaration, ready to be evaluated without a Rust compiler.
@@ -57,7 +90,7 @@ pub fn program(declaration: TokenStream) -> Result<program::Program, Diagnostics
 /// Every mistake that could be found.
 #[cfg(feature = "locations")]
 pub fn compile_text(text: &str, limits: Limits) -> Result<Compilation, Mistakes> {
-    Ok(compile(tokens(text)?, limits)?)
+    compile(tokens(text)?, limits).map_err(|mistakes| Mistakes::of(&mistakes, text))
 }
 
 /// [`check`] of a declaration in a text of its own.
@@ -66,7 +99,7 @@ pub fn compile_text(text: &str, limits: Limits) -> Result<Compilation, Mistakes>
 /// As [`compile_text`].
 #[cfg(feature = "locations")]
 pub fn check_text(text: &str, limits: Limits) -> Result<Compilation, Mistakes> {
-    Ok(check(tokens(text)?, limits)?)
+    check(tokens(text)?, limits).map_err(|mistakes| Mistakes::of(&mistakes, text))
 }
 
 /// [`early_stages`] of a declaration in a text of its own.
@@ -75,7 +108,7 @@ pub fn check_text(text: &str, limits: Limits) -> Result<Compilation, Mistakes> {
 /// As [`compile_text`].
 #[cfg(feature = "locations")]
 pub fn early_stages_of_text(text: &str) -> Result<[(&'static str, String); 3], Mistakes> {
-    Ok(early_stages(tokens(text)?)?)
+    early_stages(tokens(text)?).map_err(|mistakes| Mistakes::of(&mistakes, text))
 }
 
 /// The generated items, formatted for reading.

@@ -5,6 +5,7 @@
 //! to others.
 
 pub mod base;
+pub mod include;
 #[cfg(feature = "locations")]
 pub mod mistakes;
 pub mod model;

@@ -1,12 +1,13 @@
 //! Mistakes in a text, with their positions.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use proc_macro2::{LexError, Span, TokenStream};
 
 use crate::base::diagnostics::Diagnostics;
 use crate::base::names::written;
+use crate::include::{file_of, starts};
 use crate::syntax::nesting::{NAME_PARTS, TOO_LARGE, brackets};
 
 /// One mistake in a declaration.
@@ -25,10 +26,15 @@ pub struct Mistake {
     pub message: String,
     /// How to fix it.
     pub help: Option<String>,
+    /// The file that it is in, if the declaration includes that file.
+    pub file: Option<PathBuf>,
 }
 
 impl fmt::Display for Mistake {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{}:", file.display())?;
+        }
         write!(f, "{}:{}: {}", self.line, self.column, self.message)?;
         match &self.help {
             Some(help) => write!(f, "\nhelp: {help}"),
@@ -47,9 +53,39 @@ impl Mistakes {
         self.0.iter()
     }
 
+    /// The mistakes in a text, each in the file that it is in, if the text [includes](crate::include::Files::text) others.
+    pub fn of(diagnostics: &Diagnostics, text: &str) -> Self {
+        let files = starts(text);
+        let line = |line| match file_of(&files, line) {
+            Some((file, line)) => format!("{file}:{line}"),
+            None => line.to_string(),
+        };
+        let mistakes = diagnostics.iter().map(|one| {
+            let ends = (one.span.first, one.span.last);
+            let mut mistake = mistake(ends, one.message.clone(), one.help_and_use(line));
+            if let Some((file, line)) = file_of(&files, mistake.line) {
+                mistake.end_line -= mistake.line - line;
+                mistake.line = line;
+                mistake.file = Some(file.into());
+            }
+            mistake
+        });
+        Self(mistakes.collect())
+    }
+
+    /// The same in an included file.
+    pub(crate) fn with_file(mut self, file: &Path) -> Self {
+        self.0.iter_mut().for_each(|mistake| mistake.file = Some(file.to_owned()));
+        self
+    }
+
     /// `file:line:column: message`, for each mistake.
     pub fn of_file(&self, path: &Path) -> String {
-        let lines: Vec<String> = self.iter().map(|mistake| format!("{}:{mistake}", path.display())).collect();
+        let line = |mistake: &Mistake| {
+            let path = mistake.file.as_deref().unwrap_or(path);
+            format!("{}:{}", path.display(), Mistake { file: None, ..mistake.clone() })
+        };
+        let lines: Vec<String> = self.iter().map(line).collect();
         lines.join("\n")
     }
 }
@@ -91,6 +127,7 @@ pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
             end_column: column + 2,
             message,
             help: Some(help),
+            file: None,
         }])
     };
     let (too_deep, unpaired) = brackets(readable);
@@ -124,11 +161,7 @@ const SIGNS: [(&str, &str); 8] =
 
 impl From<Diagnostics> for Mistakes {
     fn from(diagnostics: Diagnostics) -> Self {
-        let mistakes = diagnostics.iter().map(|one| {
-            let ends = (one.span.first, one.span.last);
-            mistake(ends, one.message.clone(), one.help_and_use())
-        });
-        Self(mistakes.collect())
+        Self::of(&diagnostics, "")
     }
 }
 
@@ -141,5 +174,6 @@ pub(crate) fn mistake((first, last): (Span, Span), message: String, help: Option
         end_column: end.column + 1,
         message: written(&message).into_owned(),
         help,
+        file: None,
     }
 }

@@ -1,7 +1,5 @@
 //! What the results along an input have in common: the varied input, the unknowns that move, critical vectors.
 
-use core::fmt::Display;
-
 use eigentol_results::numbers::{as_written, counted, heading, in_unit, number, rough, with_unit};
 use eigentol_results::relevance::{largest, names, of_its_kind, unless_rounding};
 use eigentol_results::title::{title, title_along};
@@ -37,11 +35,10 @@ pub fn place(d: &Description, input: Input, value: f64) -> String {
     format!("{} = {value_text}", name_of(d, input))
 }
 
-/// The state where something happens, and that it happens there.
-pub(crate) fn happening(at: &Equilibrium, input: Input, value: f64, what: impl Display) -> Findings {
+/// The state where something happens; `what` says so with the place.
+pub(crate) fn happening(at: &Equilibrium, input: Input, value: f64, what: impl FnOnce(String) -> String) -> Findings {
     let d = &at.description;
-    let mut said =
-        Findings::titled(format!("{}: {what} {}", title_along(d, &at.inputs, input), place(d, input, value)));
+    let mut said = Findings::titled(format!("{}: {}", title_along(d, &at.inputs, input), what(place(d, input, value))));
     said.quote(at.findings());
     said
 }

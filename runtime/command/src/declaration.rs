@@ -5,7 +5,7 @@ use std::io::{self, Read as _};
 use std::path::Path;
 
 use eigentol_compiler::mechanics::Limits;
-use eigentol_compiler::{Compilation, Mistakes, check_text, compile_text, early_stages_of_text};
+use eigentol_compiler::{Compilation, Mistakes, check_text, compile_text, early_stages_of_text, with_included};
 
 use crate::failure::Failure;
 use crate::mistake::Mistake;
@@ -28,8 +28,14 @@ impl Declaration {
             return Ok(Self { name, text });
         }
         let text = fs::read_to_string(path).map_err(failure)?;
-        let name = path.display().to_string();
-        Ok(Self { name, text })
+        let mut declaration = Self { name: path.display().to_string(), text };
+        match with_included(&declaration.text, path) {
+            Ok((text, _)) => {
+                declaration.text = text;
+                Ok(declaration)
+            }
+            Err(mistakes) => Err(declaration.mistaken(&mistakes)),
+        }
     }
 
     /// The declaration up to its equations, without kernels.

@@ -1,6 +1,7 @@
 //! Messages in the style of rustc.
 
 use std::fmt::Display;
+use std::fs;
 use std::io::{IsTerminal as _, Write as _, stderr};
 use std::ops::Range;
 
@@ -68,6 +69,9 @@ fn title(message: &str, help: Option<&str>, renderer: &Renderer) -> String {
 
 /// Draws a mistake below its source line.
 fn drawn(level: Level<'_>, name: &str, source: &str, mistake: &Mistake, renderer: &Renderer) -> String {
+    let file =
+        mistake.file.as_ref().and_then(|file| Some((file.display().to_string(), fs::read_to_string(file).ok()?)));
+    let (name, source) = file.as_ref().map_or((name, source), |(name, source)| (name, source));
     let annotation = AnnotationKind::Primary.span(bytes(source, mistake));
     let snippet = Snippet::source(source).path(name).annotation(annotation);
     let title = level.primary_title(&*mistake.message);

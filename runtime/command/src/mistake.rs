@@ -1,5 +1,7 @@
 //! A mistake in a file of any language, in the form that is drawn.
 
+use std::path::PathBuf;
+
 /// What is wrong, where, and how to fix it. Lines and characters count from 1.
 #[derive(Clone, Debug)]
 pub(crate) struct Mistake {
@@ -8,6 +10,8 @@ pub(crate) struct Mistake {
     pub(crate) end: (usize, usize),
     pub(crate) message: String,
     pub(crate) help: Option<String>,
+    /// The included file that it is in.
+    pub(crate) file: Option<PathBuf>,
 }
 
 impl From<&eigentol_interpreter::Mistake> for Mistake {
@@ -17,6 +21,7 @@ impl From<&eigentol_interpreter::Mistake> for Mistake {
             end: (mistake.end_line, mistake.end_column),
             message: mistake.message.clone(),
             help: mistake.help.clone(),
+            file: mistake.file.clone(),
         }
     }
 }
@@ -29,6 +34,7 @@ impl From<&eigentol_urdf::Mistake> for Mistake {
             end: (line, column + 1),
             message: mistake.reason.to_string(),
             help: Some(mistake.reason.help()),
+            file: None,
         }
     }
 }

@@ -8,7 +8,7 @@ use eigentol::equilibrium::{Equilibria, Search};
 use eigentol::judge;
 use eigentol::{Coordinate, CoordinateInfo, DesignVariable, Input, Matrix, Parameter, Role, Study, Unit};
 use eigentol_compiler::Compilation;
-use eigentol_interpreter::{Interpreted, UnitError, design_tolerance, tolerance, value, with_unit_of};
+use eigentol_interpreter::{Interpreted, UnitError, design_tolerance, meant, tolerance, value, with_unit_of};
 
 use crate::advice;
 use crate::declaration::Declaration;
@@ -209,16 +209,23 @@ impl Point {
             ("hold", &file.hold, &self.hold),
         ] {
             for (name, value) in given {
-                study = set(study, option, (name, &value.to_string()))?;
+                let value = value.to_string();
+                for name in meant(name, study.description()) {
+                    study = set(study, option, (&name, &value))?;
+                }
             }
             for (name, value) in options {
-                study = set(study, option, (name, value))?;
+                for name in meant(name, study.description()) {
+                    study = set(study, option, (&name, value))?;
+                }
             }
         }
         let given = file.tolerance.iter();
         let options = self.tol.iter().map(|(name, text)| (name, text));
         for (name, text) in given.chain(options) {
-            study = tolerate(study, &compilation, name, text)?;
+            for name in meant(name, study.description()) {
+                study = tolerate(study, &compilation, &name, text)?;
+            }
         }
         if let Some(Correlation::Pairs(pairs)) = &file.correlation {
             study = correlate(study, pairs)?;
@@ -232,9 +239,9 @@ impl Point {
         let question = Question {
             between: between.collect::<Result<_, _>>()?,
             starts: self.starts,
+            set: self.set.iter().flat_map(|(name, _)| meant(name, study.description())).collect(),
             study,
             text: declaration.text,
-            set: self.set.iter().map(|(name, _)| name.clone()).collect(),
             file,
         };
         match self.equilibrium.or(question.file.equilibrium) {
@@ -329,9 +336,15 @@ fn correlate(study: Study<Interpreted>, pairs: &[(String, String, f64)]) -> Resu
         }
     };
     for (first, second, correlation) in pairs {
-        let (i, j) = (index_of(first)?, index_of(second)?);
-        matrix[i][j] = *correlation;
-        matrix[j][i] = *correlation;
+        for first in meant(first, study.description()) {
+            // One of several instances is not correlated with itself.
+            let others = meant(second, study.description()).into_iter();
+            for second in &others.filter(|other| *other != first || !second.contains("..")).collect::<Vec<_>>() {
+                let (i, j) = (index_of(&first)?, index_of(second)?);
+                matrix[i][j] = *correlation;
+                matrix[j][i] = *correlation;
+            }
+        }
     }
     Ok(study.correlation(matrix))
 }

@@ -9,7 +9,7 @@ use eigentol::kernels::{Kernel, MotionKernel};
 use eigentol::{Description, PictureInfo, Shared, Text};
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
-use eigentol_compiler::{Compilation, compile_refined, compile_text, tokens};
+use eigentol_compiler::{Compilation, compile_refined, compile_text, tokens, with_included};
 
 use crate::description::{description, text};
 use crate::mistakes::{Mistakes, ReadError, RefineError};
@@ -86,7 +86,8 @@ impl Interpreted {
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let text = fs::read_to_string(path).map_err(|source| ReadError::File { path: path.to_owned(), source })?;
-        Self::from_text(&text).map_err(|mistakes| ReadError::Mistakes { path: path.to_owned(), mistakes })
+        let read = with_included(&text, path).and_then(|(text, _)| Self::from_text(&text));
+        read.map_err(|mistakes| ReadError::Mistakes { path: path.to_owned(), mistakes })
     }
 
     /// Reads the mechanism declared by a text, with this many `more` coordinates of each component of its beams: bending,

@@ -4,7 +4,7 @@ use eigentol::kernels::Kernels;
 use eigentol::modes::Family;
 use eigentol::tolerance::Distribution;
 use eigentol::{Coordinate, DesignVariable, Input, Matrix, Parameter, Policy, Study, Unit};
-use eigentol_interpreter::{Interpreted, tolerance, tolerate};
+use eigentol_interpreter::{Interpreted, meant, tolerance, tolerate};
 use numpy::{AllowTypeChange, PyArrayLike2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -174,7 +174,9 @@ fn each(
             let message = format!("`{setting}`: names are texts");
             return Err(PyTypeError::new_err(message));
         };
-        study = set(study, &name, &value)?;
+        for name in meant(&name, study.description()) {
+            study = set(study, &name, &value)?;
+        }
     }
     Ok(study)
 }

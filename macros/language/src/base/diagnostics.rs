@@ -42,12 +42,12 @@ impl Diagnostic {
         }
     }
 
-    /// The help, and where the instance is used.
+    /// The help, and where the instance is used: `line` writes the line of a text.
     #[cfg(feature = "locations")]
-    pub fn help_and_use(&self) -> Option<String> {
+    pub fn help_and_use(&self, line: impl Fn(usize) -> String) -> Option<String> {
         let used = self.within.as_ref().map(|(name, at)| {
             let start = at.first.start();
-            format!("this is in `{name}`, used at {}:{}", start.line, start.column + 1)
+            format!("this is in `{name}`, used at {}:{}", line(start.line), start.column + 1)
         });
         let all: Vec<String> = self.help.clone().into_iter().chain(used).collect();
         (!all.is_empty()).then(|| all.join("\n"))
@@ -191,7 +191,7 @@ impl fmt::Display for Diagnostics {
             }
             write!(f, "error: {}", diagnostic.message)?;
             #[cfg(feature = "locations")]
-            let help = diagnostic.help_and_use();
+            let help = diagnostic.help_and_use(|line| line.to_string());
             #[cfg(not(feature = "locations"))]
             let help = diagnostic.help.as_ref();
             if let Some(help) = help {

@@ -215,7 +215,7 @@ fn one(tokens: &mut Tokens<'_>, docs: &[String], read: &mut Read<'_>) -> Parsed<
             parts::use_part(tokens, read)?;
         } else {
             let kind = item(tokens, read.diagnostics)?;
-            read.add(docs.to_vec(), parts::given(kind, tokens.scope)?)?;
+            read.add(docs.to_vec(), parts::given(kind, tokens.scope))?;
         }
         tokens.element = None;
     }

@@ -109,23 +109,14 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The meaning of a whole name.
-    fn find_whole(&self, whole: &str) -> Option<&'a Meaning> {
+    /// Whether a whole name is that of a point.
+    pub(super) fn is_point(&self, whole: &str) -> bool {
         let own = whole.strip_prefix(&self.instance).unwrap_or(whole);
         let is_index = |word: &str| word.starts_with(|c: char| c.is_ascii_digit());
         let mut words = own.split(LINK).filter(|word| !word.is_empty() && !is_index(word));
         let first = words.next().and_then(|name| self.find(name));
-        words.fold(first, |of, name| self.inside(of?, name))
-    }
-
-    /// Whether a whole name is that of a point.
-    pub(super) fn is_point(&self, whole: &str) -> bool {
-        matches!(self.find_whole(whole), Some(Meaning::Item(keyword)) if keyword == "point")
-    }
-
-    /// Whether a whole name is that of an instance of a part.
-    pub(super) fn is_instance(&self, whole: &str) -> bool {
-        matches!(self.find_whole(whole), Some(Meaning::Instance(_)))
+        let meaning = words.fold(first, |of, name| self.inside(of?, name));
+        matches!(meaning, Some(Meaning::Item(keyword)) if keyword == "point")
     }
 
     /// The counter of a loop.

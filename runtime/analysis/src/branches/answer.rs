@@ -102,7 +102,7 @@ impl Answer for SpecialPoint {
 
     fn findings(&self) -> Findings {
         let d = &self.equilibrium.description;
-        let what = format_args!("{} at", self.kind);
+        let what = |place| format!("{} at {place}", self.kind);
         let mut said = happening(&self.equilibrium, self.input, self.value, what);
         critical_vectors(&mut said, d, &self.v, &self.w);
         let mut table = Columns::new("special points", slice::from_ref(self));

@@ -26,8 +26,8 @@ pub(crate) struct Expand {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Stage {
-    /// The declaration as it was read
-    Ast,
+    /// The declaration without parts, arrays and loops; it may be read again
+    Flat,
     /// Names resolved, values in SI
     Mechanism,
     /// What hangs on what
@@ -47,7 +47,7 @@ impl Expand {
         self.place.check()?;
         let declaration = Declaration::read(&self.file)?;
         let mut text = match self.stage {
-            Stage::Ast => declaration.early_stage("ast")?,
+            Stage::Flat => declaration.early_stage("flat")?,
             Stage::Mechanism => declaration.early_stage("mechanism")?,
             Stage::Topology => declaration.early_stage("topology")?,
             Stage::Functions => declaration.checked()?.functions.to_string(),

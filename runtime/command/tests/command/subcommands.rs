@@ -369,7 +369,7 @@ fn allocation_for_values_of_an_input() {
 #[test]
 fn expansions_at_every_stage() {
     for (stage, part) in [
-        ("ast", "mechanism RotatingPendulum"),
+        ("flat", "mechanism RotatingPendulum"),
         ("mechanism", "theta"),
         ("topology", "shaft"),
         ("functions", "residual"),

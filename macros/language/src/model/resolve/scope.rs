@@ -7,7 +7,7 @@ use proc_macro2::Ident;
 use super::coordinates::Declared;
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, ConstraintId, CoordinateId, DesignId, ForceId, InputId, JointId, PointId};
-use crate::base::names::joined;
+use crate::base::names::{LINK, joined};
 use crate::base::nearest::nearest;
 use crate::syntax::ast::{Ast, ItemKind};
 
@@ -165,9 +165,23 @@ impl Scope {
             *first = Meaning::Unclear;
             diagnostics.error_with_help(name, message, "all kinds of names share one namespace");
             self.is_ambiguous = true;
+        } else if let Some(other) = self.part_or_whole_of(&text) {
+            let message = format!("`{text}` is declared, and so is `{other}`");
+            diagnostics.error_with_help(name, message, "an array or an instance needs a name of its own");
+            self.is_ambiguous = true;
+            self.enter(text, Meaning::Unclear);
         } else {
             self.enter(text, meaning);
         }
+    }
+
+    /// A declared name of what contains this, or of what this contains.
+    fn part_or_whole_of(&self, name: &str) -> Option<&str> {
+        let starts = name.match_indices(LINK).map(|(end, _)| &name[..end]);
+        let whole = starts.into_iter().find_map(|start| self.by_name.get_key_value(start));
+        let inside = joined(name, "");
+        let part = self.by_name.range(inside.clone()..).next().filter(|(other, _)| other.starts_with(&inside));
+        whole.or(part).map(|(other, _)| other.as_str())
     }
 
     fn enter(&mut self, name: String, meaning: Meaning) {

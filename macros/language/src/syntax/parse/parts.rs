@@ -80,22 +80,14 @@ pub(super) fn port(tokens: &mut Tokens<'_>) -> Parsed<bool> {
 }
 
 /// An item as the instance has it: a design variable that the use gives is a constant.
-pub(super) fn given(kind: ItemKind, scope: &Scope<'_>) -> Parsed<ItemKind> {
-    if let Some(name) = kind.name().filter(|name| scope.is_instance(&name.to_string())) {
-        return declared_twice(name);
-    }
-    let ItemKind::Design(design) = &kind else { return Ok(kind) };
+pub(super) fn given(kind: ItemKind, scope: &Scope<'_>) -> ItemKind {
+    let ItemKind::Design(design) = &kind else { return kind };
     let name = design.name.to_string();
     let of = |given: &str| name.strip_prefix(given).is_some_and(|rest| rest.is_empty() || rest.starts_with(LINK));
-    Ok(match scope.given.iter().find(|(given, _)| of(given)) {
+    match scope.given.iter().find(|(given, _)| of(given)) {
         Some((_, value)) => ItemKind::Let(Stated { name: design.name.clone(), unit: None, value: value.clone() }),
         None => kind,
-    })
-}
-
-fn declared_twice<T>(name: &Ident) -> Parsed<T> {
-    let message = format!("`{name}` is declared twice: as an instance of a part, and as something else");
-    Err(Box::new(Diagnostic::new(name, message)))
+    }
 }
 
 /// Skips to the end of the next braces, which it returns; not past a semicolon.
@@ -198,9 +190,6 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
     let around = tokens.scope;
     tokens.expect_word("use")?;
     let instance = declared_name(tokens)?;
-    if !around.is_instance(&instance.to_string()) {
-        return declared_twice(&instance);
-    }
     colon(tokens).map_err(help)?;
     let word = tokens.name("a part").map_err(help)?;
     let (name, part) = known_part(around, &word)?;

@@ -24,7 +24,7 @@ pub(super) const KEYWORDS: [&str; 14] = [
 const ALSO_NAMES: [&str; 2] = ["unbalance", "material"];
 
 /// Names of items in other tools and languages.
-const SYNONYMS: [(&str, &str); 27] = [
+const SYNONYMS: [(&str, &str); 26] = [
     ("imbalance", "unbalance"),
     ("eccentricity", "unbalance"),
     ("table", "curve"),
@@ -39,7 +39,6 @@ const SYNONYMS: [(&str, &str); 27] = [
     ("const", "let"),
     ("constant", "let"),
     ("link", "body"),
-    ("part", "body"),
     ("marker", "point"),
     ("frame", "point"),
     ("site", "point"),

@@ -18,7 +18,7 @@ impl Answer for CriticalState {
 
     fn findings(&self) -> Findings {
         let d = &self.equilibrium.description;
-        let what = format_args!("critical ({}) at", self.kind);
+        let what = |place| format!("critical at {place}, {}", self.kind);
         let mut said = happening(&self.equilibrium, self.input, self.value, what);
         critical_vectors(&mut said, d, &self.v, &self.w);
         if let Some(table) = critical_columns(slice::from_ref(self)) {
@@ -51,7 +51,7 @@ impl Answer for Crossing {
     }
 
     fn findings(&self) -> Findings {
-        let what = format_args!("{} at", self.what_happens());
+        let what = |place| format!("{} at {place}", self.what_happens());
         let mut said = happening(&self.equilibrium, self.input, self.value, what);
         said.quote(self.modes.findings());
         if let Some(table) = crossing_columns(slice::from_ref(self)) {

@@ -1,0 +1,210 @@
+//! `include "bearing.part";` before or after a mechanism: the parts that another file declares.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use proc_macro2::{Group, Literal, Span, TokenStream, TokenTree};
+
+use crate::base::diagnostics::Diagnostic;
+
+/// Where the files of a declaration may be, and those that have been read.
+#[derive(Debug)]
+pub struct Files {
+    root: PathBuf,
+    read: Vec<PathBuf>,
+}
+
+/// A file that a declaration includes.
+struct Included {
+    path: PathBuf,
+    text: String,
+}
+
+impl Files {
+    /// Files in a folder and those in it.
+    pub fn of(root: &Path) -> Self {
+        Self { root: root.to_owned(), read: Vec::new() }
+    }
+
+    /// The files that were included.
+    pub fn into_paths(self) -> Vec<PathBuf> {
+        self.read
+    }
+
+    /// Reads a file once; `chain` are the files from the first one to that which includes it.
+    fn include(&mut self, name: &Literal, chain: &[PathBuf]) -> Result<Option<Included>, Diagnostic> {
+        let mistake = |message: String| Err(Diagnostic::new(name.span(), message));
+        let syn::Lit::Str(written) = syn::Lit::new(name.clone()) else {
+            let error = Diagnostic::new(name.span(), "expected the name of a file");
+            return Err(error.with_help("write `include \"bearing.part\";`"));
+        };
+        let written = written.value();
+        let folder = chain.last().and_then(|file| file.parent()).unwrap_or(&self.root);
+        let (path, root) = match (folder.join(&written).canonicalize(), self.root.canonicalize()) {
+            (Ok(path), Ok(root)) => (path, root),
+            (Err(error), _) | (_, Err(error)) => return mistake(format!("`{written}` cannot be read: {error}")),
+        };
+        let Ok(inside) = path.strip_prefix(&root) else {
+            let message = format!("`{written}` is outside the folder of the declaration");
+            return Err(Diagnostic::new(name.span(), message).with_help("it includes only what is in that folder"));
+        };
+        let path = self.root.join(inside);
+        if let Some(start) = chain.iter().position(|file| *file == path) {
+            let circle: Vec<String> =
+                chain[start..].iter().chain([&path]).map(|file| file.display().to_string()).collect();
+            return mistake(format!("files cannot include each other: `{}`", circle.join("` includes `")));
+        }
+        if self.read.contains(&path) {
+            return Ok(None);
+        }
+        match fs::read_to_string(&path) {
+            Ok(text) => {
+                self.read.push(path.clone());
+                Ok(Some(Included { path, text }))
+            }
+            Err(error) => mistake(format!("`{written}` cannot be read: {error}")),
+        }
+    }
+
+    /// The tokens of a macro, followed by those of the files that they include, which get the place of the `include`.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is outside the folder or includes itself.
+    pub fn tokens(
+        &mut self,
+        tokens: TokenStream,
+        lexer: &dyn Fn(&str) -> Option<TokenStream>,
+        chain: &mut Vec<PathBuf>,
+    ) -> Result<TokenStream, Diagnostic> {
+        let (mut own, statements) = split(tokens);
+        for statement in statements {
+            let Some(file) = self.include(&statement.name, chain)? else { continue };
+            let Some(inner) = lexer(&file.text) else {
+                let message =
+                    format!("{} cannot be split into words: `eigentol check` says where", file.path.display());
+                return Err(Diagnostic::new(statement.name.span(), message));
+            };
+            chain.push(file.path);
+            own.extend(self.tokens(placed(inner, statement.name.span()), lexer, chain)?);
+            chain.pop();
+        }
+        Ok(own)
+    }
+}
+
+/// An `include` with its name.
+struct Statement {
+    name: Literal,
+    #[cfg_attr(not(feature = "locations"), allow(dead_code))]
+    ends: [Span; 2],
+}
+
+/// The tokens without the statements that include files, and these.
+fn split(tokens: TokenStream) -> (TokenStream, Vec<Statement>) {
+    let all: Vec<TokenTree> = tokens.into_iter().collect();
+    let (mut own, mut statements) = (TokenStream::new(), Vec::new());
+    let mut rest = &all[..];
+    while let [first, after @ ..] = rest {
+        rest = match rest {
+            [TokenTree::Ident(word), TokenTree::Literal(name), TokenTree::Punct(end), after @ ..]
+                if word == "include" && end.as_char() == ';' =>
+            {
+                statements.push(Statement { name: name.clone(), ends: [word.span(), end.span()] });
+                after
+            }
+            _ => {
+                own.extend([first.clone()]);
+                after
+            }
+        };
+    }
+    (own, statements)
+}
+
+/// Tokens at another place.
+fn placed(tokens: TokenStream, at: Span) -> TokenStream {
+    let place = |mut token: TokenTree| {
+        if let TokenTree::Group(group) = &token {
+            token = Group::new(group.delimiter(), placed(group.stream(), at)).into();
+        }
+        token.set_span(at);
+        token
+    };
+    tokens.into_iter().map(place).collect()
+}
+
+/// Text before the name of an included file, on a line of its own before its content.
+#[cfg(feature = "locations")]
+const START: &str = "// included: ";
+
+#[cfg(feature = "locations")]
+mod texts {
+    use super::*;
+    use crate::base::diagnostics::Diagnostics;
+    use crate::mistakes::{Mistakes, tokens};
+
+    impl Files {
+        /// A declaration with the content of the files that it includes after it, as a text that needs no files.
+        ///
+        /// # Errors
+        /// As [`Files::tokens`].
+        pub fn text(&mut self, text: &str) -> Result<String, Mistakes> {
+            let mut whole = String::new();
+            self.append(text, &mut Vec::new(), &mut whole)?;
+            Ok(whole)
+        }
+
+        fn append(&mut self, text: &str, chain: &mut Vec<PathBuf>, whole: &mut String) -> Result<(), Mistakes> {
+            let of_file = |mistakes: Mistakes| match chain.last() {
+                Some(file) => mistakes.with_file(file),
+                None => mistakes,
+            };
+            let statements = split(tokens(text).map_err(of_file)?).1;
+            let mut lines: Vec<Vec<char>> = text.split('\n').map(|line| line.chars().collect()).collect();
+            for Statement { ends: [first, last], .. } in &statements {
+                let (start, end) = (first.start(), last.end());
+                for line in start.line..=end.line {
+                    let chars = &mut lines[line - 1];
+                    let from = if line == start.line { start.column } else { 0 };
+                    let to = if line == end.line { end.column } else { chars.len() };
+                    chars[from..to].fill(' ');
+                }
+            }
+            let lines: Vec<String> = lines.into_iter().map(String::from_iter).collect();
+            whole.push_str(&lines.join("\n"));
+            for statement in statements {
+                let file = self.include(&statement.name, chain).map_err(|mistake| {
+                    let mut all = Diagnostics::new();
+                    all.push(mistake);
+                    let of_file = |mistakes: Mistakes| match chain.last() {
+                        Some(file) => mistakes.with_file(file),
+                        None => mistakes,
+                    };
+                    of_file(all.into())
+                })?;
+                if let Some(Included { path, text }) = file {
+                    whole.push_str(&format!("\n{START}{}\n", path.display()));
+                    chain.push(path);
+                    self.append(&text, chain, whole)?;
+                    chain.pop();
+                }
+            }
+            Ok(())
+        }
+    }
+
+    /// The included files in a text, each with the line before it.
+    pub(crate) fn starts(text: &str) -> Vec<(usize, &str)> {
+        let lines = text.lines().enumerate();
+        lines.filter_map(|(k, line)| Some((k + 1, line.strip_prefix(START)?))).collect()
+    }
+
+    /// The included file that a line of a text is of, and its line there.
+    pub(crate) fn file_of<'t>(files: &[(usize, &'t str)], line: usize) -> Option<(&'t str, usize)> {
+        let (start, file) = files.iter().rev().find(|(start, _)| *start < line)?;
+        Some((file, line - start))
+    }
+}
+
+#[cfg(feature = "locations")]
+pub(crate) use texts::{file_of, starts};
