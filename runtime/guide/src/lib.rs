@@ -5,6 +5,7 @@
 //! | [From the pendulum to your own rotor](first_steps) | ten minutes with the command, then the same in Rust |
 //! | [A flexible rotor](flexible_rotor) | two disks on a shaft that bends: from the declaration to the balance grade |
 //! | [How to declare what](declare) | a glossary from the terms of other tools and of drawings to ours |
+//! | [Parts, arrays and loops](parts) | machines that repeat themselves: bearings, blades, chains, files |
 //! | [Reading a tolerance result](tolerances) | every column, and when not to trust first order |
 //! | [Distributions and requirements](requirements) | how parts scatter, the probability of a good product, the cheapest tolerances |
 //! | [Closed loops](loops) | linkages, and which assembly is found |
@@ -28,6 +29,9 @@ pub mod flexible_rotor {}
 
 #[doc = include_str!("declare.md")]
 pub mod declare {}
+
+#[doc = include_str!("parts.md")]
+pub mod parts {}
 
 #[doc = include_str!("tolerances.md")]
 pub mod tolerances {}
