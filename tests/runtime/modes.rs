@@ -24,6 +24,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     length: 1.0,
     frequency: eigentol::Unit::si("rad/s"),
     resolved_modes: None,
+    correlations: eigentol::Shared::Static(&[]),
     damping: DampingKind::Zero,
     kernels: Shared::Static(&[]),
 });

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process;
 
 use crate::error::Error;
-use crate::source::{Source, write};
+use crate::source::{Source, rerun_if_changed, write};
 
 /// Compiles the declaration in a file to `OUT_DIR/name.rs`, where `name` is the file's name without its extension.
 ///
@@ -61,10 +61,6 @@ fn unspeakable(source: Source) -> Error {
     let name = source.compilation.mechanism.name;
     let start = name.span().start();
     Error::Name { path: source.path, line: start.line, column: start.column + 1, name: name.to_string() }
-}
-
-pub(crate) fn rerun_if_changed(path: &Path) {
-    println!("cargo::rerun-if-changed={}", path.display());
 }
 
 fn or_end(result: Result<PathBuf, Error>) {

@@ -8,7 +8,6 @@ use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::{Compilation, compile_text, with_included};
 
 use crate::error::Error;
-use crate::script::rerun_if_changed;
 
 /// A declaration and the destination of its code.
 pub(crate) struct Source {
@@ -46,6 +45,10 @@ impl Source {
         let name = self.path.file_stem().unwrap_or_default();
         self.directory.join(name).with_extension(extension)
     }
+}
+
+pub(crate) fn rerun_if_changed(path: &Path) {
+    println!("cargo::rerun-if-changed={}", path.display());
 }
 
 /// Writes a file and creates its folders, unless it already has this content: unchanged files need no rebuild.

@@ -44,10 +44,7 @@ use quote::quote;
 /// Files that cannot be read, are elsewhere or include themselves.
 #[cfg(feature = "locations")]
 pub fn with_included(text: &str, file: &Path) -> Result<(String, Vec<PathBuf>), Mistakes> {
-    let folder = match file.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
+    let folder = file.parent().unwrap_or(Path::new(""));
     let mut files = Files::of(folder);
     let text = files.text(text)?;
     Ok((text, files.into_paths()))

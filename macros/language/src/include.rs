@@ -39,8 +39,10 @@ impl Files {
             return Err(error.with_help("write `include \"bearing.part\";`"));
         };
         let written = written.value();
+        // A folder without a name is this one.
+        let here = Path::new(".");
         let folder = chain.last().and_then(|file| file.parent()).unwrap_or(&self.root);
-        let (path, root) = match (folder.join(&written).canonicalize(), self.root.canonicalize()) {
+        let (path, root) = match (here.join(folder).join(&written).canonicalize(), here.join(&self.root).canonicalize()) {
             (Ok(path), Ok(root)) => (path, root),
             (Err(error), _) | (_, Err(error)) => return mistake(format!("`{written}` cannot be read: {error}")),
         };
@@ -133,15 +135,11 @@ fn placed(tokens: TokenStream, at: Span) -> TokenStream {
     tokens.into_iter().map(place).collect()
 }
 
-/// Text before the name of an included file, on a line of its own before its content.
-#[cfg(feature = "locations")]
-const START: &str = "// included: ";
-
 #[cfg(feature = "locations")]
 mod texts {
     use super::*;
     use crate::base::diagnostics::Diagnostics;
-    use crate::mistakes::{Mistakes, tokens};
+    use crate::mistakes::{Mistakes, START, tokens};
 
     impl Files {
         /// A declaration with the content of the files that it includes after it, as a text that needs no files.
@@ -192,19 +190,4 @@ mod texts {
             Ok(())
         }
     }
-
-    /// The included files in a text, each with the line before it.
-    pub(crate) fn starts(text: &str) -> Vec<(usize, &str)> {
-        let lines = text.lines().enumerate();
-        lines.filter_map(|(k, line)| Some((k + 1, line.strip_prefix(START)?))).collect()
-    }
-
-    /// The included file that a line of a text is of, and its line there.
-    pub(crate) fn file_of<'t>(files: &[(usize, &'t str)], line: usize) -> Option<(&'t str, usize)> {
-        let (start, file) = files.iter().rev().find(|(start, _)| *start < line)?;
-        Some((file, line - start))
-    }
 }
-
-#[cfg(feature = "locations")]
-pub(crate) use texts::{file_of, starts};

@@ -7,7 +7,6 @@ use proc_macro2::{LexError, Span, TokenStream};
 
 use crate::base::diagnostics::Diagnostics;
 use crate::base::names::written;
-use crate::include::{file_of, starts};
 use crate::syntax::nesting::{NAME_PARTS, TOO_LARGE, brackets};
 
 /// One mistake in a declaration.
@@ -53,7 +52,7 @@ impl Mistakes {
         self.0.iter()
     }
 
-    /// The mistakes in a text, each in the file that it is in, if the text [includes](crate::include::Files::text) others.
+    /// The mistakes in a text, each in the file that it is in, if the text includes others.
     pub fn of(diagnostics: &Diagnostics, text: &str) -> Self {
         let files = starts(text);
         let line = |line| match file_of(&files, line) {
@@ -163,6 +162,21 @@ impl From<Diagnostics> for Mistakes {
     fn from(diagnostics: Diagnostics) -> Self {
         Self::of(&diagnostics, "")
     }
+}
+
+/// Text before the name of an included file, on a line of its own before its content.
+pub(crate) const START: &str = "// included: ";
+
+/// The included files in a text, each with the line before it.
+fn starts(text: &str) -> Vec<(usize, &str)> {
+    let lines = text.lines().enumerate();
+    lines.filter_map(|(k, line)| Some((k + 1, line.strip_prefix(START)?))).collect()
+}
+
+/// The included file that a line of a text is of, and its line there.
+fn file_of<'t>(files: &[(usize, &'t str)], line: usize) -> Option<(&'t str, usize)> {
+    let (start, file) = files.iter().rev().find(|(start, _)| *start < line)?;
+    Some((file, line - start))
 }
 
 pub(crate) fn mistake((first, last): (Span, Span), message: String, help: Option<String>) -> Mistake {

@@ -324,7 +324,8 @@ fn correlate(study: Study<Interpreted>, pairs: &[(String, String, f64)]) -> Resu
     }
     let (design, inputs) = (study.design_values().len(), study.deviating_inputs());
     let count = design + inputs.len();
-    let mut matrix = Matrix::from_fn(count, count, |i, j| if i == j { 1.0 } else { 0.0 });
+    let independent = || Matrix::from_fn(count, count, |i, j| if i == j { 1.0 } else { 0.0 });
+    let mut matrix = study.correlation_matrix().unwrap_or_else(independent);
     let index_of = |name: &str| match parameter(&study, name)?.0 {
         Parameter::Design(variable) => Ok(variable.index()),
         Parameter::Input(input) => {

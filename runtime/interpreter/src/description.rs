@@ -1,8 +1,8 @@
 //! Converts the compiler's description of a mechanism to the runtime's types.
 
 use eigentol::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, Law, OutputInfo, Role,
-    Text, ToleranceInfo, Unit,
+    CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, Law,
+    OutputInfo, Role, Text, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::base::names::written;
@@ -36,6 +36,10 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
             mechanism::Law::OneOf(values) => Law::OneOf(values.clone().into()),
         },
     }
+}
+
+fn correlation(of: &mechanism::Correlation) -> CorrelationInfo {
+    CorrelationInfo { variables: of.variables.map(|id| id.index()), correlation: of.correlation }
 }
 
 /// Names, units, nominal values and properties of a compiled declaration, for those who need no kernels.
@@ -107,6 +111,7 @@ pub fn description(compilation: &Compilation) -> Description {
         excitations: excitations.into(),
         symmetric_stiffness: functions.properties.symmetric_stiffness,
         free_directions: functions.free.count,
+        correlations: mechanism.correlations.iter().map(correlation).collect::<Vec<_>>().into(),
         held: functions.held.clone().into(),
         length: mechanism.length,
         frequency: unit(&mechanism.frequency_unit()),

@@ -1,6 +1,7 @@
 //! Names in settings: one, or those of several instances at once.
 
 use eigentol::Description;
+use eigentol_compiler::base::names::fits;
 
 /// The names of inputs, design variables and coordinates that a pattern means: `blade[..].mass`, `blade[2..4].mass`. Without
 /// a range, or if there are none, it is the name itself.
@@ -32,29 +33,4 @@ pub fn meant(pattern: &str, of: &Description) -> Vec<String> {
         names.push(pattern.to_owned());
     }
     names
-}
-
-/// Whether a name has the indices that a pattern has, or others in its ranges.
-fn fits(pattern: &str, name: &str) -> bool {
-    match (pattern.split_once('['), name.split_once('[')) {
-        (None, None) => pattern == name,
-        (Some((own, pattern)), Some((other, name))) if own == other => {
-            let (Some((range, pattern)), Some((index, name))) = (pattern.split_once(']'), name.split_once(']')) else {
-                return false;
-            };
-            contains(range.trim(), index) && fits(pattern, name)
-        }
-        _ => false,
-    }
-}
-
-/// Whether a range or an index contains an index.
-fn contains(range: &str, index: &str) -> bool {
-    let Some((from, to)) = range.split_once("..") else { return range == index };
-    let Ok(index) = index.parse::<u32>() else { return false };
-    let bound = |text: &str, otherwise: u32| match text.trim() {
-        "" => Some(otherwise),
-        text => text.parse().ok(),
-    };
-    bound(from, 0).is_some_and(|from| from <= index) && bound(to, u32::MAX).is_some_and(|to| index < to)
 }

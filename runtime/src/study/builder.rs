@@ -241,12 +241,18 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the correlation matrix of the design variables followed by the inputs that have a tolerance (uncorrelated
-    /// by default).
+    /// Sets the correlation matrix of the design variables followed by the inputs that have a tolerance. By default only
+    /// those are correlated that the declaration says are.
     #[must_use]
     pub fn correlation(mut self, matrix: impl Into<Matrix>) -> Self {
         self.settings.set_correlation(matrix.into());
         self
+    }
+
+    /// The correlation matrix as set, or else as declared; `None` if all are independent.
+    #[must_use]
+    pub fn correlation_matrix(&self) -> Option<Matrix> {
+        self.settings.correlation()
     }
 
     /// Chooses which equilibrium to look for.

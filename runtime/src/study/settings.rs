@@ -14,7 +14,7 @@ use crate::kernels::Kernels;
 use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::tolerance::{Distribution, Sampling, Tolerances};
-use crate::{Coordinate, Description, Equilibrium, Error, Input, Mode, Modes, Shared, Unit, Watch};
+use crate::{Coordinate, CorrelationInfo, Description, Equilibrium, Error, Input, Mode, Modes, Shared, Unit, Watch};
 use crate::{Matrix, Vector};
 use eigentol_solve::constraints::Structure;
 use eigentol_solve::free::{Held, declared};
@@ -260,7 +260,7 @@ impl Settings {
         let inputs = self.input_variations.iter().zip(&self.inputs);
         let inputs = inputs.filter(|(x, _)| !x.is_none());
         let all = self.design_variations.iter().zip(&self.design).chain(inputs);
-        let (level, correlation) = (self.sigma_level, self.correlation.clone());
+        let (level, correlation) = (self.sigma_level, self.correlation());
         let normal = (all.clone()).map(|(x, value)| x.normal_half_width(*value));
         if normal.clone().all(|half_width| half_width.is_some()) {
             let half_widths: Vector = normal.flatten().collect();
@@ -270,6 +270,21 @@ impl Settings {
         let values: Vec<Distribution> = values.collect::<Result<_, _>>()?;
         let nominal: Vector = all.map(|(_, value)| *value).collect();
         Tolerances::distributed(&nominal, values, level, correlation)
+    }
+
+    /// The correlation matrix as set, or else as declared.
+    pub(super) fn correlation(&self) -> Option<Matrix> {
+        let declared = &self.description.correlations;
+        let of_declared = || {
+            let count = self.design.len() + self.deviating_inputs().len();
+            let mut matrix = Matrix::from_fn(count, count, |i, j| if i == j { 1.0 } else { 0.0 });
+            for CorrelationInfo { variables: [i, j], correlation } in declared.iter() {
+                matrix[*i][*j] = *correlation;
+                matrix[*j][*i] = *correlation;
+            }
+            matrix
+        };
+        self.correlation.clone().or_else(|| (!declared.is_empty()).then(of_declared))
     }
 
     /// The inputs that have a tolerance.

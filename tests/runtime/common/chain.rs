@@ -52,6 +52,7 @@ macro_rules! chain {
                     length: 1.0,
                     frequency: eigentol::Unit::si("rad/s"),
                     resolved_modes: None,
+                    correlations: eigentol::Shared::Static(&[]),
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),
                 }

@@ -31,6 +31,7 @@ impl Model for Plate {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -75,6 +76,7 @@ impl Model for Spring {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -108,6 +110,7 @@ impl Model for Follower {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -150,6 +153,7 @@ impl Model for Pair {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -190,6 +194,7 @@ impl Model for Triple {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -233,6 +238,7 @@ impl Model for Slipping {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -270,6 +276,7 @@ impl Model for Supercritical {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -306,6 +313,7 @@ impl Model for Overdamped {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

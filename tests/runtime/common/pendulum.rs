@@ -57,6 +57,7 @@ impl Mechanism for Pendulum {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };

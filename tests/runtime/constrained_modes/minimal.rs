@@ -179,6 +179,7 @@ mod contradictory {
             length: 1.0,
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
+            correlations: eigentol::Shared::Static(&[]),
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };
@@ -238,6 +239,7 @@ pub(crate) mod held {
             length: 1.0,
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
+            correlations: eigentol::Shared::Static(&[]),
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

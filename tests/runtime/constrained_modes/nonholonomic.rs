@@ -347,6 +347,7 @@ impl Model for Rated {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -395,6 +396,7 @@ fn a_free_mass_drifts() {
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     });

@@ -48,6 +48,7 @@ impl Sizes {
             length: 1.0,
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
+            correlations: eigentol::Shared::Static(&[]),
             damping: DampingKind::General,
             kernels: Shared::Static(&[]),
         };

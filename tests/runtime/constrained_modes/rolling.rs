@@ -36,6 +36,7 @@ const fn described(
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     }

@@ -88,6 +88,7 @@ pub(crate) const fn described(
         length: 1.0,
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
+        correlations: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     }

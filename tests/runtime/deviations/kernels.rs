@@ -437,6 +437,7 @@ mod declared {
             length: 1.0,
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
+            correlations: eigentol::Shared::Static(&[]),
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

@@ -36,6 +36,7 @@ macro_rules! described {
             length: 1.0,
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
+            correlations: eigentol::Shared::Static(&[]),
             damping: eigentol::DampingKind::General,
             kernels: Shared::Static(&[]),
         }

@@ -115,7 +115,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
 /// The rooms of other crates that have several, in order: each may import the earlier ones.
 const CRATE_ROOMS: [(&str, &[&str]); 8] = [
     ("macros/symbolic", &["base", "algebra", "program"]),
-    ("macros/language", &["base", "syntax", "mistakes", "model"]),
+    ("macros/language", &["base", "syntax", "mistakes", "include", "model"]),
     ("runtime/contract", &["scalar", "mechanism"]),
     ("runtime/numerics", &["algebra", "linear", "rounding", "eigenproblem"]),
     (

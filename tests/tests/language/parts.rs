@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use eigentol::{Coordinate, DesignVariable, Output, Study, mechanism};
+use eigentol::{Coordinate, DesignVariable, Matrix, Output, Study, mechanism};
 use eigentol_compiler::base::names::flattened;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::syntax::parse::parse;
@@ -202,4 +202,33 @@ fn the_macro_and_the_interpreter_agree() {
     assert_eq!(study.find_design("a[1].m").expect("a design variable").index(), 1);
     let error = study.find_design("a[2].m").expect_err("no such instance").to_string();
     assert!(error.contains("a[2].m") && error.contains("a[1].m"), "{error}");
+}
+
+#[test]
+fn batches_are_correlated() {
+    let text = |items: &str| {
+        format!(
+            "part A {{ design m = 1 kg +/- 3%; port on; body b: rod(mass: m, length: 1 m, along: -z); \
+             joint j: revolute(y) from on to b; }}
+             mechanism M {{ design k = 2 N*m/rad +/- 1%; gravity 9.81 m/s^2 along -z; use a[0..3]: A with on: ground; \
+             force f: spring(on: a[0].j, stiffness: k); output sum = a[0].m + a[1].m + a[2].m; {items} }}"
+        )
+    };
+    let study = |items: &str| Study::new(Interpreted::from_text(&text(items)).expect("a declaration"));
+    let correlation = |items: &str| {
+        let matrix = study(items).correlation_matrix();
+        matrix.map(|matrix| [matrix[1][2], matrix[1][3], matrix[2][3], matrix[0][1]])
+    };
+    assert_eq!(correlation(""), None);
+    assert_eq!(correlation("correlated 0.8: a[..].m;"), Some([0.8, 0.8, 0.8, 0.0]));
+    assert_eq!(correlation("correlated -0.25: a[1..].m; correlated 0.5: k, a[0].m;"), Some([0.0, 0.0, -0.25, 0.5]));
+    // The variance of a sum of three with sigma s and correlation r: `3 s^2 (1 + 2 r)`.
+    let sigma = study("correlated 0.8: a[..].m;").output_tolerances().expect("a spread").spreads[0]
+        .as_ref()
+        .expect("smooth")
+        .sigma;
+    assert!((sigma - 0.01 * (3.0_f64 * 2.6).sqrt()).abs() < 1e-14, "{sigma}");
+    // A matrix that is set takes its place.
+    let set = study("correlated 0.8: a[..].m;").correlation(Matrix::from_fn(1, 1, |_, _| 1.0));
+    assert!(set.tolerances().is_err());
 }

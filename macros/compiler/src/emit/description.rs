@@ -62,6 +62,10 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
     let symmetric = functions.properties.symmetric_stiffness;
     let free_directions = functions.free.count;
     let held = &functions.held;
+    let correlations = mechanism.correlations.iter().map(|of| {
+        let ([first, second], correlation) = (of.variables.map(|id| id.index()), of.correlation);
+        quote! { ::eigentol::CorrelationInfo { variables: [#first, #second], correlation: #correlation } }
+    });
     let length = mechanism.length;
     let frequency = unit(&mechanism.frequency_unit());
     let resolved_modes = match resolved_modes(mechanism, functions) {
@@ -90,6 +94,7 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
             excitations: ::eigentol::Shared::Static(&[#(#excitations),*]),
             symmetric_stiffness: #symmetric,
             free_directions: #free_directions,
+            correlations: ::eigentol::Shared::Static(&[#(#correlations),*]),
             held: ::eigentol::Shared::Static(&[#(#held),*]),
             length: #length,
             frequency: #frequency,

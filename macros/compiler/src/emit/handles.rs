@@ -82,7 +82,12 @@ impl Handles {
                 Handle::Several(_) => (&mut grouped, "Handles of an instance or an array."),
             };
             let name = Ident::new(name, *span);
-            let (kind, value) = types.emit(handle);
+            let (kind, value) = match handle {
+                Handle::One { kind, index, .. } => {
+                    (quote! { ::eigentol::#kind<Self> }, quote! { ::eigentol::#kind::new(#index) })
+                }
+                Handle::Several(_) => types.emit(handle),
+            };
             list.extend(quote_spanned! { *span => #[doc = #doc] #visibility const #name: #kind = #value; });
         }
         let items = types.items;

@@ -33,6 +33,31 @@ pub fn flattened(text: &str) -> String {
     text.replace(LINK, "_")
 }
 
+/// Whether a written name has the indices that a pattern has, or others in its ranges: `blade[..].mass`, `link[2..4]`.
+pub fn fits(pattern: &str, name: &str) -> bool {
+    match (pattern.split_once('['), name.split_once('[')) {
+        (None, None) => pattern == name,
+        (Some((own, pattern)), Some((other, name))) if own == other => {
+            let (Some((range, pattern)), Some((index, name))) = (pattern.split_once(']'), name.split_once(']')) else {
+                return false;
+            };
+            contains(range.trim(), index) && fits(pattern, name)
+        }
+        _ => false,
+    }
+}
+
+/// Whether a range or an index contains an index.
+fn contains(range: &str, index: &str) -> bool {
+    let Some((from, to)) = range.split_once("..") else { return range == index };
+    let Ok(index) = index.parse::<u32>() else { return false };
+    let bound = |text: &str, otherwise: u32| match text.trim() {
+        "" => Some(otherwise),
+        text => text.parse().ok(),
+    };
+    bound(from, 0).is_some_and(|from| from <= index) && bound(to, u32::MAX).is_some_and(|to| index < to)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -19,7 +19,7 @@ pub use super::shape::Shape;
 pub use super::tolerance::{Law, Tolerance};
 pub use super::unit::Unit;
 use crate::base::dimension::Dimension;
-use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId, PointId};
+use crate::base::ids::{BeamId, BodyId, CoordinateId, DesignId, JointId, PointId};
 use eigentol_symbolic::base::spline::{Piece, Spline};
 
 /// A declared mechanism. Every `Ident` keeps the span of its declaration.
@@ -35,6 +35,8 @@ pub struct Mechanism {
     pub inputs: Vec<Input>,
     /// Design variables.
     pub design: Vec<DesignVariable>,
+    /// Correlations of them.
+    pub correlations: Vec<Correlation>,
     /// Named constants, each using only earlier ones.
     pub constants: Vec<Constant>,
     /// Curves through points.
@@ -67,6 +69,15 @@ pub struct Mechanism {
     pub steady: Vec<Steady>,
     /// Outputs.
     pub outputs: Vec<Output>,
+}
+
+/// The correlation of two design variables.
+#[derive(Clone, Debug)]
+pub struct Correlation {
+    /// The variables.
+    pub variables: [DesignId; 2],
+    /// The linear correlation, between -1 and 1.
+    pub correlation: f64,
 }
 
 impl Mechanism {

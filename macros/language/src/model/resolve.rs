@@ -9,6 +9,7 @@ mod bodies;
 mod constants;
 mod constraints;
 mod coordinates;
+mod correlated;
 mod curves;
 mod directions;
 mod every;
@@ -86,6 +87,7 @@ pub fn resolve_what_is_right(ast: &Ast, more: usize) -> Resolution {
     let is_used = |name: &syn::Ident| resolver.used.contains(&name.to_string());
     items.inputs.iter_mut().for_each(|input| input.is_used = is_used(&input.name));
     items.design.iter_mut().for_each(|variable| variable.is_used = is_used(&variable.name));
+    let correlations = resolver.correlations(&items.design);
     let length = resolver.typical_length();
     let mechanism = Mechanism {
         name: ast.name.clone(),
@@ -93,6 +95,7 @@ pub fn resolve_what_is_right(ast: &Ast, more: usize) -> Resolution {
         attributes: ast.attributes.clone(),
         inputs: items.inputs,
         design: items.design,
+        correlations,
         constants: resolver.constants,
         curves: resolver.curves.into_iter().flatten().collect(),
         curve_arguments: resolver.curve_arguments,

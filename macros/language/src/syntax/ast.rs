@@ -43,7 +43,7 @@ pub struct Use {
 }
 
 /// Keywords of items without a name.
-const NAMELESS: [&str; 4] = ["gravity", "kernels", "every", "steady"];
+const NAMELESS: [&str; 5] = ["gravity", "kernels", "every", "correlated", "steady"];
 
 /// The known parts of an item that could not be read.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +57,8 @@ pub struct Unread {
 impl Unread {
     /// Whether it may be a body, a joint or a constraint; false only if its keyword says otherwise.
     pub fn may_connect(&self) -> bool {
-        const OTHERS: [&str; 13] = [
+        const OTHERS: [&str; 14] = [
+            "correlated",
             "input",
             "design",
             "let",
@@ -126,6 +127,8 @@ pub enum ItemKind {
     Material(Material),
     /// `constraint NAME: KIND(...);`
     Constraint(Constraint),
+    /// `correlated NUMBER: NAME, NAME, ...;`
+    Correlated(Correlated),
     /// `steady UNKNOWN = VALUE;`
     Steady(Named),
     /// `output NAME = VALUE;` or `output NAME: UNIT = VALUE;`
@@ -141,7 +144,11 @@ impl ItemKind {
             ItemKind::Let(named) => Some(&named.name),
             ItemKind::Output(output) => Some(&output.name),
             ItemKind::Curve(curve) => Some(&curve.name),
-            ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) | ItemKind::Steady(_) => None,
+            ItemKind::Gravity(_)
+            | ItemKind::KernelsOnly(_)
+            | ItemKind::Every(_)
+            | ItemKind::Correlated(_)
+            | ItemKind::Steady(_) => None,
             ItemKind::Body(body) => Some(&body.name),
             ItemKind::Joint(joint) => Some(&joint.name),
             ItemKind::Point(point) => Some(&point.name),
@@ -505,6 +512,17 @@ pub struct Material {
     pub name: Ident,
     /// `material` with its properties as named arguments.
     pub call: NamedCall,
+}
+
+/// Design variables of one batch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Correlated {
+    /// The linear correlation of any two.
+    pub correlation: f64,
+    /// Names as written, whose indices may be ranges, and where they stand.
+    pub names: Vec<(String, Extent)>,
+    /// The item's keyword.
+    pub keyword: Extent,
 }
 
 /// A force on every free coordinate of one kind.

@@ -2,6 +2,7 @@
 //! semicolon, and the names of the item are kept.
 
 mod body;
+mod index;
 mod item;
 mod joint;
 mod names;
@@ -102,7 +103,14 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
     let Some((_, content, end)) = tokens.group(Delimiter::Brace) else {
         return tokens.expected("`{`");
     };
-    while parts::peek(tokens) {
+    loop {
+        let mut ahead = *tokens;
+        while ahead.sign('#').is_some() {
+            ahead.group(Delimiter::Bracket);
+        }
+        if !parts::peek(&ahead) {
+            break;
+        }
         parts::block(tokens);
     }
     if !tokens.is_empty() {

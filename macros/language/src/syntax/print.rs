@@ -81,6 +81,10 @@ fn item(kind: &ItemKind) -> String {
             Some(along) => format!("gravity {} along {}", value(&gravity.value), value(along)),
             None => format!("gravity {}", value(&gravity.value)),
         },
+        ItemKind::Correlated(of) => {
+            let names: Vec<&str> = of.names.iter().map(|(name, _)| name.as_str()).collect();
+            format!("correlated {}: {}", of.correlation, names.join(", "))
+        }
         ItemKind::KernelsOnly(_) => "kernels only".to_string(),
         ItemKind::Body(item) => body(item),
         ItemKind::Force(force) => format!("force {}: {}", force.name, call(&force.law)),

@@ -46,6 +46,9 @@ pub struct Description {
     pub resolved_modes: Option<usize>,
     /// The kind of `Chat`.
     pub damping: DampingKind,
+    /// Design variables that the declaration correlates.
+    #[cfg_attr(feature = "serde", serde(default = "none"))]
+    pub correlations: List<CorrelationInfo>,
     /// The generated functions and their costs.
     pub kernels: List<KernelInfo>,
 }
@@ -96,7 +99,7 @@ impl Description {
 }
 
 #[cfg(feature = "serde")]
-const fn none() -> List<usize> {
+const fn none<T>() -> List<T> {
     List::Static(&[])
 }
 
@@ -269,6 +272,16 @@ pub struct ExcitationInfo {
     pub with: usize,
     /// The frequency in terms of the speeds of running coordinates, as in `1 spin`; empty for a frequency of its own.
     pub order: Text,
+}
+
+/// Two design variables that the declaration correlates.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CorrelationInfo {
+    /// Their indices.
+    pub variables: [usize; 2],
+    /// The linear correlation, between -1 and 1.
+    pub correlation: f64,
 }
 
 /// The cost of one generated function.

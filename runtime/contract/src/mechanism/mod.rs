@@ -12,7 +12,8 @@ mod tolerance;
 
 pub use array::Array;
 pub use description::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, OutputInfo, Role, Unit,
+    CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo,
+    OutputInfo, Role, Unit,
 };
 pub use handles::{Any, Coordinate, DesignVariable, Excitation, Input, Output};
 pub use picture::{

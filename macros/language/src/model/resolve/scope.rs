@@ -1,6 +1,6 @@
 //! The single namespace that contains all names of a declaration.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
@@ -69,6 +69,8 @@ impl Meaning {
 pub(super) struct Scope {
     order: Vec<(String, Meaning)>,
     by_name: BTreeMap<String, usize>,
+    /// Names that something has and an array or an instance too.
+    clashes: BTreeSet<String>,
     /// Whether the name of some item could not be read.
     is_incomplete: bool,
     /// Whether some name means more than one thing.
@@ -103,7 +105,11 @@ impl Scope {
                 ItemKind::Material(_) => Meaning::Material,
                 ItemKind::Constraint(_) => Meaning::Constraint(ConstraintId::new(next(6))),
                 ItemKind::Output(_) => Meaning::Output,
-                ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) | ItemKind::Steady(_) => continue,
+                ItemKind::Gravity(_)
+                | ItemKind::KernelsOnly(_)
+                | ItemKind::Every(_)
+                | ItemKind::Correlated(_)
+                | ItemKind::Steady(_) => continue,
             };
             if let Some(name) = item.kind.name() {
                 scope.declare(name, meaning, diagnostics);
@@ -165,9 +171,12 @@ impl Scope {
             *first = Meaning::Unclear;
             diagnostics.error_with_help(name, message, "all kinds of names share one namespace");
             self.is_ambiguous = true;
-        } else if let Some(other) = self.part_or_whole_of(&text) {
-            let message = format!("`{text}` is declared, and so is `{other}`");
-            diagnostics.error_with_help(name, message, "an array or an instance needs a name of its own");
+        } else if let Some(other) = self.part_or_whole_of(&text).map(str::to_owned) {
+            let shorter = if other.len() < text.len() { &other } else { &text };
+            if self.clashes.insert(shorter.clone()) {
+                let message = format!("`{text}` is declared, and so is `{other}`");
+                diagnostics.error_with_help(name, message, "an array or an instance needs a name of its own");
+            }
             self.is_ambiguous = true;
             self.enter(text, Meaning::Unclear);
         } else {

@@ -3,14 +3,14 @@
 use proc_macro2::Ident;
 
 use super::super::ast::{
-    Argument, Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Material, Named, NamedCall, Point,
-    Stated, Unbalance,
+    Argument, Constraint, Correlated, Curve, Design, Every, Force, Gravity, Input, ItemKind, Material, Named,
+    NamedCall, Point, Stated, Unbalance,
 };
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
 use super::body::{argument, body, named_call};
 use super::joint::joint;
-use super::names::{colon, declared_name, reference};
+use super::names::{colon, declared_name, pattern, reference};
 use super::placement::placement;
 use super::tolerance::{nominal, tolerance};
 use super::unit;
@@ -41,6 +41,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "every" => every,
         "unbalance" => return unbalance(tokens),
         "material" => return material(tokens),
+        "correlated" => return correlated(tokens),
         "constraint" => constraint,
         "steady" => |tokens| named(tokens).map(ItemKind::Steady),
         "output" => |tokens| stated(tokens).map(ItemKind::Output),
@@ -205,6 +206,28 @@ fn material(tokens: &mut Tokens) -> Parsed<ItemKind> {
         }
     }
     Ok(ItemKind::Material(Material { name, call: NamedCall { word, arguments: Some(arguments) } }))
+}
+
+const CORRELATED: &str = "write `correlated 0.8: left.k, right.k;` or `correlated 0.8: blade[..].mass;`";
+
+fn correlated(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let help = |error: Box<Diagnostic>| Box::new(error.with_help(CORRELATED));
+    let keyword = tokens.expect_word("correlated")?;
+    let start = tokens.span();
+    let sign = if tokens.sign('-').is_some() { -1.0 } else { 1.0 };
+    let number = tokens.literal().and_then(|literal| literal.to_string().parse::<f64>().ok());
+    let Some(correlation) = number.map(|number| sign * number).filter(|number| number.abs() < 1.0) else {
+        let message = "a correlation is a number between -1 and 1";
+        return Err(help(Box::new(Diagnostic::new(Extent::from(start).to(tokens.last), message))));
+    };
+    colon(tokens).map_err(help)?;
+    let mut names = Vec::new();
+    loop {
+        names.push(pattern(tokens).map_err(help)?);
+        if tokens.sign(',').is_none() {
+            return Ok(ItemKind::Correlated(Correlated { correlation, names, keyword }));
+        }
+    }
 }
 
 fn kernels_only(tokens: &mut Tokens) -> Parsed<ItemKind> {

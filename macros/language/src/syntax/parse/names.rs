@@ -5,10 +5,10 @@ use syn::ext::IdentExt as _;
 
 use super::super::scope::{Meaning, Port};
 use super::super::tokens::{Parsed, Tokens};
-use super::repeat::index;
+use super::index::{bound, index};
 use super::words::KEYWORDS;
 use crate::base::diagnostics::Diagnostic;
-use crate::base::names::{LINK, joined};
+use crate::base::names::{LINK, joined, written};
 use crate::base::span::Extent;
 
 /// Reads the name of an item: `hub`, `link[i + 1]`, or `blade[1].arm` in a declaration without parts.
@@ -107,6 +107,37 @@ fn meant(tokens: &mut Tokens, what: &str, of_port: fn(&Port) -> &Ident) -> Parse
         meaning = scope.inside(of, &name);
     }
     Ok(Ident::new(&path, Extent::from(&first).to(tokens.last).joined()))
+}
+
+/// Reads a name whose indices may be ranges, as written: `blade[..].mass`.
+pub(super) fn pattern(tokens: &mut Tokens) -> Parsed<(String, Extent)> {
+    let first = tokens.name("a name")?;
+    let mut text = written(&tokens.scope.whole(&first.to_string())).into_owned();
+    loop {
+        if let Some((_, mut content, _)) = tokens.group(Delimiter::Bracket) {
+            let bound = |tokens: &mut Tokens| match tokens.is_empty() || tokens.peek_range() {
+                true => Ok(String::new()),
+                false => Ok::<_, Box<Diagnostic>>(bound(tokens)?.to_string()),
+            };
+            text.push('[');
+            text += &bound(&mut content)?;
+            if content.peek_range() {
+                content.sign('.');
+                content.sign('.');
+                text += "..";
+                text += &bound(&mut content)?;
+            }
+            if !content.is_empty() {
+                return content.expected("`]` or `..`");
+            }
+            text.push(']');
+        } else if tokens.sign('.').is_some() {
+            let Some(name) = tokens.ident() else { return tokens.expected("a name") };
+            text.extend([".", &name.unraw().to_string()]);
+        } else {
+            return Ok((text, Extent::from(&first).to(tokens.last)));
+        }
+    }
 }
 
 /// Skips a name and returns its words without the indices.

@@ -9,9 +9,9 @@ use super::super::ast::{Body, ItemKind, Joint, JointClause, NamedCall, Placement
 use super::super::print;
 use super::super::scope::{Meaning, Names, Part, Parts, Port, Scope};
 use super::super::tokens::{Parsed, Tokens};
+use super::index::whole;
 use super::names::{colon, declared_name, path, reference};
 use super::placement::placement;
-use super::repeat::whole;
 use super::unit;
 use super::value::value;
 use super::{Read, items, names_of_item, skip_item};
@@ -173,7 +173,8 @@ pub(super) fn numbers(tokens: Tokens<'_>, scope: &mut Scope<'_>) {
             let read = |tokens: &mut Tokens<'_>| {
                 let name = declared_name(tokens).ok()?;
                 tokens.sign('=')?;
-                Some((name.to_string(), whole(&value(tokens).ok()?, tokens.scope)?))
+                let number = whole(tokens).ok()?;
+                tokens.peek_sign(';').then(|| (name.to_string(), number))
             };
             let number = read(&mut tokens.within(scope));
             scope.numbers.extend(number);
@@ -204,13 +205,13 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
     };
     let mut added = Vec::new();
     for (name, unit) in &part.parameters {
-        let Some((given, value)) = arguments.iter().find(|(given, _)| given == name) else {
+        let Some(Given { name: given, value, number }) = arguments.iter().find(|given| given.name == *name) else {
             let message = format!("`{instance}` lacks its `{name}`");
             let help = format!("`{word}` has the parameter `{name}: {}`", print::unit(unit));
             return Err(Box::new(Diagnostic::new(&instance, message).with_help(help)));
         };
         let name = Ident::new(&scope.whole(&name.to_string()), given.span());
-        scope.numbers.extend(whole(value, around).map(|number| (name.to_string(), number)));
+        scope.numbers.extend(number.map(|number| (name.to_string(), number)));
         added.push(ItemKind::Let(Stated { name, unit: Some(unit.clone()), value: value.clone() }));
     }
     let (points, bodies) = ports(tokens, part, &instance, &mut scope).map_err(help)?;
@@ -218,7 +219,7 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
     if tokens.sign(';').is_none() {
         return tokens.expected("`;`").map_err(help);
     }
-    scope.given = arguments.into_iter().map(|(name, value)| (scope.whole(&name.to_string()), value)).collect();
+    scope.given = arguments.into_iter().map(|given| (scope.whole(&given.name.to_string()), given.value)).collect();
     read.uses.push(Use { name: instance, part: name.to_owned(), tokens: part.tokens.clone() });
     for item in added {
         read.add(Vec::new(), item)?;
@@ -254,9 +255,17 @@ fn known_part<'a>(around: &'a Scope<'a>, word: &Ident) -> Parsed<(&'a str, &'a P
     Ok((name, part))
 }
 
+/// An argument of a part.
+struct Given {
+    name: Ident,
+    value: Value,
+    /// Its value if it is a whole number.
+    number: Option<i64>,
+}
+
 /// Reads `(NAME: VALUE, ...)`: parameters, and design variables that the use gives.
-fn arguments(tokens: &mut Tokens<'_>, part: &Part<'_>) -> Parsed<Vec<(Ident, Value)>> {
-    let mut arguments: Vec<(Ident, Value)> = Vec::new();
+fn arguments(tokens: &mut Tokens<'_>, part: &Part<'_>) -> Parsed<Vec<Given>> {
+    let mut arguments: Vec<Given> = Vec::new();
     let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) else {
         return Ok(arguments);
     };
@@ -275,10 +284,13 @@ fn arguments(tokens: &mut Tokens<'_>, part: &Part<'_>) -> Parsed<Vec<(Ident, Val
             };
             return Err(Box::new(Diagnostic::new(&name, message).with_help(help)));
         }
-        if arguments.iter().any(|(other, _)| *other == name) {
+        if arguments.iter().any(|other| other.name == name) {
             return Err(Box::new(Diagnostic::new(&name, format!("`{name}` is given twice"))));
         }
-        arguments.push((name, value(&mut content)?));
+        let ends = |tokens: &Tokens<'_>| tokens.is_empty() || tokens.peek_sign(',');
+        let mut ahead = content;
+        let number = whole(&mut ahead).ok().filter(|_| ends(&ahead));
+        arguments.push(Given { name, value: value(&mut content)?, number });
         if !content.is_empty() {
             content.expect_sign(',', "`,` or an operator")?;
         }

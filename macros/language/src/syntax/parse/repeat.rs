@@ -1,44 +1,18 @@
-//! What is written once and stands for several: arrays, loops and sums over them. Indices are whole numbers that are known
-//! where the declaration is read.
+//! What is written once and stands for several: arrays, loops and sums over them.
 
 use std::ops::Range;
 
 use proc_macro2::Delimiter;
 
-use super::super::ast::{Operator, Value, ValueKind};
+use super::super::ast::Value;
 use super::super::scope::Scope;
 use super::super::tokens::{Parsed, Tokens};
-use super::value::value;
+use super::index::bound;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
 /// Most elements of an array and most rounds of a loop.
 const LONGEST: u32 = 10_000;
-
-const INDEX: &str = "an index is made of whole numbers, counters of loops, and constants such as `let N = 5;`";
-
-/// Reads an index to the end of a group.
-pub(super) fn index(tokens: &mut Tokens) -> Parsed<u32> {
-    let index = bound(tokens)?;
-    if !tokens.is_empty() {
-        let error = tokens.expected("`]` or an operator");
-        return error.map_err(|error| Box::new(error.with_help(INDEX)));
-    }
-    Ok(index)
-}
-
-/// Reads a whole number that is not negative.
-fn bound(tokens: &mut Tokens) -> Parsed<u32> {
-    let value = value(tokens)?;
-    let mistake = |message: String| Err(Box::new(Diagnostic::new(value.extent, message).with_help(INDEX)));
-    match whole(&value, tokens.scope) {
-        None => mistake("this is not a whole number that is known here".to_owned()),
-        Some(number) => match u32::try_from(number) {
-            Ok(number) => Ok(number),
-            Err(_) => mistake(format!("an index counts from 0, and this is {number}")),
-        },
-    }
-}
 
 /// Reads `A..B`, which does not contain `B`.
 fn range(tokens: &mut Tokens) -> Parsed<Range<u32>> {
@@ -56,27 +30,6 @@ fn range(tokens: &mut Tokens) -> Parsed<Range<u32>> {
             Err(Box::new(Diagnostic::new(extent, message)))
         }
         None => Err(Box::new(Diagnostic::new(extent, "this range ends before it starts"))),
-    }
-}
-
-/// The value of whole numbers, as exact as they are.
-pub(super) fn whole(value: &Value, scope: &Scope<'_>) -> Option<i64> {
-    match &value.kind {
-        ValueKind::Number(number, None) if number.fract() == 0.0 && number.abs() < 1e15 => Some(*number as i64),
-        ValueKind::Name(name) => scope.number(&name.to_string()),
-        ValueKind::Negate(of) => whole(of, scope)?.checked_neg(),
-        ValueKind::Parenthesised(inner) => whole(inner, scope),
-        ValueKind::Binary(binary) => {
-            let (a, b) = (whole(&binary.left, scope)?, whole(&binary.right, scope)?);
-            match binary.operator {
-                Operator::Add => a.checked_add(b),
-                Operator::Subtract => a.checked_sub(b),
-                Operator::Multiply => a.checked_mul(b),
-                Operator::Divide => a.checked_div(b).filter(|_| a % b == 0),
-                Operator::Power => a.checked_pow(u32::try_from(b).ok()?),
-            }
-        }
-        _ => None,
     }
 }
 

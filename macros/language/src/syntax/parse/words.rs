@@ -20,8 +20,8 @@ pub(super) const KEYWORDS: [&str; 14] = [
     "output",
 ];
 
-/// Words that start an item but may also be names.
-const ALSO_NAMES: [&str; 2] = ["unbalance", "material"];
+/// Other words that start an item.
+const ALSO_NAMES: [&str; 6] = ["unbalance", "material", "correlated", "part", "use", "for"];
 
 /// Names of items in other tools and languages.
 const SYNONYMS: [(&str, &str); 26] = [

@@ -19,6 +19,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     length: 1.0,
     frequency: eigentol_contract::Unit::si("rad/s"),
     resolved_modes: None,
+    correlations: Shared::Static(&[]),
     damping: DampingKind::General,
     kernels: Shared::Static(&[]),
 });
