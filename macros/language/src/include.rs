@@ -7,11 +7,31 @@ use proc_macro2::{Group, Literal, Span, TokenStream, TokenTree};
 
 use crate::base::diagnostics::Diagnostic;
 
+/// Parts that come with eigentol: found by these names where the folder has no such file.
+const LIBRARY: [(&str, &str); 9] = [
+    ("belt.part", include_str!("../parts/belt.part")),
+    ("blade.part", include_str!("../parts/blade.part")),
+    ("flexible_coupling.part", include_str!("../parts/flexible_coupling.part")),
+    ("gear_pair.part", include_str!("../parts/gear_pair.part")),
+    ("journal_bearing.part", include_str!("../parts/journal_bearing.part")),
+    ("leaf_spring.part", include_str!("../parts/leaf_spring.part")),
+    ("mount.part", include_str!("../parts/mount.part")),
+    ("rolling_bearing.part", include_str!("../parts/rolling_bearing.part")),
+    ("universal_joint.part", include_str!("../parts/universal_joint.part")),
+];
+
+/// The name and the text of a part of the library.
+pub fn library(name: &str) -> Option<(&'static str, &'static str)> {
+    LIBRARY.iter().find(|(known, _)| *known == name).copied()
+}
+
 /// Where the files of a declaration may be, and those that have been read.
 #[derive(Debug)]
 pub struct Files {
     root: PathBuf,
     read: Vec<PathBuf>,
+    /// Names of the parts of the library that have been read.
+    known: Vec<&'static str>,
 }
 
 /// A file that a declaration includes.
@@ -23,7 +43,7 @@ struct Included {
 impl Files {
     /// Files in a folder and those in it.
     pub fn of(root: &Path) -> Self {
-        Self { root: root.to_owned(), read: Vec::new() }
+        Self { root: root.to_owned(), read: Vec::new(), known: Vec::new() }
     }
 
     /// The files that were included.
@@ -42,7 +62,15 @@ impl Files {
         // A folder without a name is this one.
         let here = Path::new(".");
         let folder = chain.last().and_then(|file| file.parent()).unwrap_or(&self.root);
-        let (path, root) = match (here.join(folder).join(&written).canonicalize(), here.join(&self.root).canonicalize()) {
+        if let Some((name, text)) = library(&written).filter(|_| !here.join(folder).join(&written).exists()) {
+            if self.known.contains(&name) {
+                return Ok(None);
+            }
+            self.known.push(name);
+            return Ok(Some(Included { path: name.into(), text: text.to_owned() }));
+        }
+        let (path, root) = match (here.join(folder).join(&written).canonicalize(), here.join(&self.root).canonicalize())
+        {
             (Ok(path), Ok(root)) => (path, root),
             (Err(error), _) | (_, Err(error)) => return mistake(format!("`{written}` cannot be read: {error}")),
         };

@@ -4,8 +4,10 @@ use std::fmt::Display;
 use std::fs;
 use std::io::{IsTerminal as _, Write as _, stderr};
 use std::ops::Range;
+use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use eigentol_compiler::include::library;
 
 use crate::color::Color;
 use crate::declaration::Declaration;
@@ -69,8 +71,12 @@ fn title(message: &str, help: Option<&str>, renderer: &Renderer) -> String {
 
 /// Draws a mistake below its source line.
 fn drawn(level: Level<'_>, name: &str, source: &str, mistake: &Mistake, renderer: &Renderer) -> String {
-    let file =
-        mistake.file.as_ref().and_then(|file| Some((file.display().to_string(), fs::read_to_string(file).ok()?)));
+    let included = |file: &PathBuf| {
+        let name = file.display().to_string();
+        let text = fs::read_to_string(file).ok().or_else(|| Some(library(&name)?.1.to_owned()));
+        Some((name, text?))
+    };
+    let file = mistake.file.as_ref().and_then(included);
     let (name, source) = file.as_ref().map_or((name, source), |(name, source)| (name, source));
     let annotation = AnnotationKind::Primary.span(bytes(source, mistake));
     let snippet = Snippet::source(source).path(name).annotation(annotation);

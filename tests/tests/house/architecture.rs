@@ -43,7 +43,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        454,
+        453,
     ),
     (
         "runtime/uncertainty",
@@ -73,8 +73,8 @@ const CRATES: [(&str, &[&str], usize); 21] = [
         57,
     ),
     ("macros/symbolic", &[], 69),
-    ("macros/language", &["eigentol-symbolic"], 366),
-    ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 385),
+    ("macros/language", &["eigentol-symbolic"], 406),
+    ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 390),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
     ("macros/urdf", &["eigentol-compiler"], 46),
@@ -94,7 +94,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        120,
+        121,
     ),
     (
         "runtime/python",

@@ -109,14 +109,14 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// Whether a whole name is that of a point.
-    pub(super) fn is_point(&self, whole: &str) -> bool {
+    /// Whether a whole name is that of something that is no frame: a point, a coordinate.
+    pub(super) fn is_no_frame(&self, whole: &str) -> bool {
         let own = whole.strip_prefix(&self.instance).unwrap_or(whole);
         let is_index = |word: &str| word.starts_with(|c: char| c.is_ascii_digit());
         let mut words = own.split(LINK).filter(|word| !word.is_empty() && !is_index(word));
         let first = words.next().and_then(|name| self.find(name));
         let meaning = words.fold(first, |of, name| self.inside(of?, name));
-        matches!(meaning, Some(Meaning::Item(keyword)) if keyword == "point")
+        matches!(meaning, Some(Meaning::Item(keyword)) if keyword != "body")
     }
 
     /// The counter of a loop.

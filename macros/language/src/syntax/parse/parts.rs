@@ -320,12 +320,15 @@ fn ports(
                 let message = format!("`{name}` {twice}; the ports of `{}` are {}", part.name, listed(&all));
                 return Err(Box::new(Diagnostic::new(&port, message)));
             }
+            let passed_on =
+                tokens.peek_ident().and_then(|given| tokens.scope.ports.iter().find(|port| given == port.name));
             let frame = reference(tokens, "a body or `ground`")?;
             let placement = placement(tokens)?;
             let word = |text: &str| Ident::new(text, port.span());
             let own = scope.whole(&name);
             let (frame, point) = match &placement {
-                None if tokens.scope.is_point(&frame.to_string()) => (frame.clone(), frame),
+                None if passed_on.is_some() => (frame, passed_on.map_or_else(|| word(&own), |port| port.point.clone())),
+                None if tokens.scope.is_no_frame(&frame.to_string()) => (frame.clone(), frame),
                 None => (frame, word(&own)),
                 Some(placement) => {
                     let body = word(&format!("{own}_frame"));

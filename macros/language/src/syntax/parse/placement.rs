@@ -1,8 +1,9 @@
 //! Placements: `at VECTOR rotated(DIRECTION, ANGLE) ...`.
 
-use proc_macro2::Delimiter;
+use proc_macro2::{Delimiter, Ident};
 
 use super::super::ast::{Placement, Value, ValueKind};
+use super::super::scope::Meaning;
 use super::super::tokens::{Parsed, Tokens};
 use super::value::value;
 use crate::base::span::Extent;
@@ -34,8 +35,18 @@ pub(super) fn place(tokens: &mut Tokens) -> Parsed<Value> {
             let end = tokens.expect_word("length")?;
             Ok(Value::new(ValueKind::Fraction(fraction), start.to(end)))
         }
+        // The end of a beam, although something may have its name.
+        _ if tokens.peek_ident().is_some_and(|word| is_end(&word, tokens)) => {
+            let word = tokens.name("a place")?;
+            Ok(Value::new(ValueKind::Name(word), start))
+        }
         _ => value(tokens),
     }
+}
+
+fn is_end(word: &Ident, tokens: &Tokens) -> bool {
+    let is_value = |of: &Meaning| matches!(of, Meaning::Item(keyword) if keyword == "let" || keyword == "design");
+    (word == "tip" || word == "root") && !tokens.scope.find(&word.to_string()).is_some_and(is_value)
 }
 
 fn fraction(tokens: &mut Tokens) -> Option<f64> {
