@@ -3,6 +3,7 @@
 mod declarations;
 mod diagnostics;
 mod hostile_names;
+mod library;
 mod links;
 mod models;
 mod parts;

@@ -34,7 +34,7 @@ fn the_force_inside_a_bent_beam_is_the_weight_of_its_outer_part() {
         state.coordinates[place.expect("a coordinate")]
     };
     // Of the first part, the first coordinate is the rotation of its end; the second part turns relative to that.
-    let (inner, outer) = (turn("arm_1_bend_y_0"), turn("arm_2_bend_y_0"));
+    let (inner, outer) = (turn("arm_1.bend_y[0]"), turn("arm_2.bend_y[0]"));
     assert!(inner > 0.2, "{inner}");
     let pod = 0.4 * 9.81;
     for ([x, z], angle, weight) in

@@ -209,7 +209,7 @@ fn forces_along_a_beam_do_the_work_of_force_times_velocity() {
             let place = names.iter().position(|x| x == name);
             state.q[place.unwrap_or_else(|| panic!("{name} is not in {names:?}"))]
         };
-        let bends = [0, 1, 2].map(|j| value(&format!("blade_bend_y_{j}")));
+        let bends = [0, 1, 2].map(|j| value(&format!("blade.bend_y[{j}]")));
         let mut expected = 0.0;
         for (k, (place, weight, _)) in sections.iter().enumerate() {
             let (vx, vz) = (velocities[2 * k], velocities[2 * k + 1]);

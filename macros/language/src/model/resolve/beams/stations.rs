@@ -7,6 +7,7 @@ use super::super::placements::unplaced;
 use super::super::resolver::Resolver;
 use super::declared::Declared;
 use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId};
+use crate::base::names::joined;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Beam, Body, Coordinate, CoordinateQuantity, Frame, Joint, Motion, Point, Station};
 use crate::model::simplify;
@@ -191,7 +192,8 @@ impl Resolver<'_> {
             let mut ids = Vec::new();
             for k in 0..count {
                 ids.push(CoordinateId::new(self.declared_coordinates.len()));
-                let name = self.unused(&format!("{}_{word}_{k}", piece.name), whole);
+                let name = joined(&joined(&piece.name.to_string(), word), &k.to_string());
+                let name = Ident::new(&name, whole.span());
                 self.declared_coordinates.push(Coordinate {
                     name,
                     joint,
