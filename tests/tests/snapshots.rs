@@ -1,5 +1,6 @@
 //! Every stage of the corpus as text, with operation counts: the diff shows the effect of a change, and its cost.
 
+use eigentol_compiler::base::names::written;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{Compilation, compile, early_stages, expand, expand_pretty};
@@ -58,7 +59,9 @@ fn stages() {
         let [ast, _, topology] =
             early_stages(declaration.parse().expect("tokens")).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let functions = ("functions", compilation.functions.to_string());
-        for (stage, text) in [ast, topology, functions, ("program", compilation.program.to_string())] {
+        for (stage, text) in
+            [ast, topology, functions, ("program", written(&compilation.program.to_string()).into_owned())]
+        {
             assert_snapshot!(format!("{machine}__{stage}"), text);
         }
     }

@@ -95,7 +95,11 @@ fn explained(ast: &Ast, mut mistakes: Diagnostics) -> Diagnostics {
 pub fn early_stages(declaration: TokenStream) -> Result<[(&'static str, String); 3], Diagnostics> {
     let (ast, mechanism, topology) = accepted(declaration, 0)?;
     let topology = topology.describe(&mechanism);
-    Ok([("flat", print(&ast)), ("mechanism", written(&format!("{mechanism:#?}")).into_owned()), ("topology", topology)])
+    Ok([
+        ("flat", print(&ast)),
+        ("mechanism", written(&format!("{mechanism:#?}")).into_owned()),
+        ("topology", written(&topology).into_owned()),
+    ])
 }
 
 /// Kernels whose residuals a solver compares with each other, so all of them must return exactly the same number.

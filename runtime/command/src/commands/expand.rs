@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use eigentol_compiler::Compilation;
+use eigentol_compiler::base::names::written;
 
 use crate::declaration::Declaration;
 use crate::destination::Destination;
@@ -46,7 +47,7 @@ impl Expand {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.place.check()?;
         let declaration = Declaration::read(&self.file)?;
-        let mut text = match self.stage {
+        let text = match self.stage {
             Stage::Flat => declaration.early_stage("flat")?,
             Stage::Mechanism => declaration.early_stage("mechanism")?,
             Stage::Topology => declaration.early_stage("topology")?,
@@ -55,6 +56,7 @@ impl Expand {
             Stage::Rust => declaration.compiled()?.emit_text(),
             Stage::Operations => operations(&declaration.compiled()?),
         };
+        let mut text = written(&text).into_owned();
         if !text.ends_with('\n') {
             text.push('\n');
         }

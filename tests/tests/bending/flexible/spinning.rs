@@ -1,6 +1,7 @@
 //! Beams whose material spins, and forces all along a beam: momentum, energy and power.
 
 use eigentol::{Complex, Input, Study};
+use eigentol_compiler::base::names::written;
 use eigentol_interpreter::Interpreted;
 use eigentol_oracle::energy;
 use eigentol_oracle::model::Model;
@@ -204,7 +205,7 @@ fn forces_along_a_beam_do_the_work_of_force_times_velocity() {
         let velocities = central(1e-3).into_iter().zip(central(2e-3));
         let velocities: Vec<f64> = velocities.map(|(fine, coarse)| (4.0 * fine - coarse) / 3.0).collect();
         let names: Vec<String> =
-            free.compiled.functions.unknowns.iter().map(|unknown| unknown.name.to_string()).collect();
+            free.compiled.functions.unknowns.iter().map(|unknown| written(&unknown.name).into_owned()).collect();
         let value = |name: &str| {
             let place = names.iter().position(|x| x == name);
             state.q[place.unwrap_or_else(|| panic!("{name} is not in {names:?}"))]
