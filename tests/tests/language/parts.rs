@@ -1,8 +1,10 @@
 //! Parts, arrays and loops give what is written out by hand: the same items in the same order, and so the same bits.
 
 use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
 
-use eigentol::{Coordinate, DesignVariable, Matrix, Output, Study, mechanism};
+use eigentol::{Coordinate, DesignVariable, Input, Matrix, Output, Study, mechanism};
 use eigentol_compiler::base::names::flattened;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::syntax::parse::parse;
@@ -231,4 +233,103 @@ fn batches_are_correlated() {
     // A matrix that is set takes its place.
     let set = study("correlated 0.8: a[..].m;").correlation(Matrix::from_fn(1, 1, |_, _| 1.0));
     assert!(set.tolerances().is_err());
+}
+
+/// A declaration of the examples.
+fn example(name: &str) -> Study<Interpreted> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples").join(name);
+    Study::new(Interpreted::from_file(path).unwrap_or_else(|error| panic!("{error}")))
+}
+
+#[test]
+fn the_examples_have_the_frequencies_of_closed_forms() {
+    let lowest = |study: &Study<Interpreted>| study.modes().expect("modes").frequencies();
+    // A hanging chain: zeros of J0(2 w sqrt(L / g)), a little lower in links of which each is a rod.
+    let chain = lowest(&example("chain.mechanism"));
+    for (mode, zero) in [2.404_825_557_7, 5.520_078_110_3].into_iter().enumerate() {
+        let expected = 0.5 * zero * (9.81_f64 / 0.96).sqrt();
+        assert!((chain[mode].expect("oscillates") / expected - 1.0).abs() < 2e-3, "{mode}");
+    }
+    // The five motions in which the blades do not lift the hub have the frequency of a blade alone.
+    let rotor = example("bladed_rotor.mechanism");
+    let rotor = rotor.clone().input(Input::new(0), 600.0 * std::f64::consts::TAU / 60.0);
+    let alone = (3947.841_760_4 * (1.0 + 1.5 * 0.05 / 0.6) + 3.0 * 400.0 / (2.0 * 0.36_f64)).sqrt();
+    let equal = lowest(&rotor).into_iter().flatten().filter(|w| (w / alone - 1.0).abs() < 1e-9);
+    assert_eq!(equal.count(), 5);
+    // Three inertias, a spring and two meshes: the determinant changes its sign at each frequency.
+    let gears = example("gearbox.mechanism");
+    let damping = gears.find_design("motor.torsion_damping").expect("a design variable");
+    let found = lowest(&gears.design(damping, 0.0));
+    let base = 0.5 * 20.0_f64.to_radians().cos();
+    let (fast, slow) = ([20.0, 60.0].map(|z| z * 2e-3 * base), [18.0, 90.0].map(|z| z * 3e-3 * base));
+    let mesh = 20e9 * 0.02;
+    let determinant = |w: f64| {
+        let square = w * w;
+        let a = 20e3 + mesh * fast[0] * fast[0] - 2e-3 * square;
+        let b = mesh * (fast[1] * fast[1] + slow[0] * slow[0]) - 16e-3 * square;
+        let c = mesh * slow[1] * slow[1] - 0.8 * square;
+        let (ab, bc) = (mesh * fast[0] * fast[1], mesh * slow[0] * slow[1]);
+        a * (b * c - bc * bc) - ab * ab * c
+    };
+    assert_eq!(found.len(), 3);
+    for frequency in found.into_iter().flatten() {
+        assert!(determinant(frequency * (1.0 - 1e-9)) * determinant(frequency * (1.0 + 1e-9)) < 0.0, "{frequency}");
+    }
+}
+
+/// The words that start items are highlighted in editors.
+#[test]
+fn editors_know_the_words_of_items() {
+    let grammar = include_str!("../../../macros/language/editor/mechanism.tmLanguage.json");
+    let grammar: serde_json::Value = serde_json::from_str(grammar).expect("JSON");
+    let all = grammar["repository"].to_string();
+    let known = |word: &str| {
+        ["(", "|"].iter().any(|before| [")", "|"].iter().any(|after| all.contains(&format!("{before}{word}{after}"))))
+    };
+    let mistakes = compile_text("mechanism M { qqqqqq a: b; }", Limits::default()).expect_err("an unknown item");
+    let help = mistakes.iter().find_map(|mistake| mistake.help.clone()).expect("a list of words");
+    let words: Vec<&str> = help.trim_start_matches("an item starts with one of ").split(", ").collect();
+    assert!(words.len() > 15, "{help}");
+    words.iter().for_each(|word| assert!(known(word), "{word}"));
+}
+
+mechanism! {
+    include "tests/language/pendulum.part";
+    mechanism Included { gravity 9.81 m/s^2 along -z; use a[0..2]: Pendulum(length: 0.5 m) with root: ground; }
+}
+
+#[test]
+fn a_macro_includes_files_of_its_crate() {
+    let study = Study::new(Included).design(Included::a[1].mass, 3.0);
+    let found = study.modes().expect("modes").frequencies();
+    found.into_iter().flatten().for_each(|found| assert!((found - (1.5_f64 * 9.81 / 0.5).sqrt()).abs() < 1e-10));
+}
+
+/// What a text says of its files: the chain of a circle, what is outside, what does not exist, and mistakes in them.
+#[test]
+fn files_are_told_by_their_names() {
+    let folder = std::env::temp_dir().join(format!("eigentol_parts_{}", std::process::id()));
+    fs::create_dir_all(folder.join("inner")).expect("a folder");
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("a file");
+    let main = folder.join("main.mechanism");
+    let says = |text: &str| {
+        fs::write(&main, text).expect("a file");
+        Interpreted::from_file(&main).expect_err("a mistake").to_string()
+    };
+    let machine = "mechanism M { use a: A; use b: A; }";
+    write("inner/a.part", "\ninclude \"b.part\";\npart A { body x: massless; joint j: revolute(z) from grund to x; }");
+    write("inner/b.part", "part B { }");
+    let text = says(&format!("include \"inner/a.part\";\n{machine}"));
+    assert!(text.contains("a.part:3:") && text.contains("unknown body `grund`"), "{text}");
+    assert!(text.contains("this is in `a`, used at 2:19") && text.matches("unknown body").count() == 1, "{text}");
+    write("inner/b.part", "include \"a.part\"; part B { }");
+    let text = says(&format!("include \"inner/a.part\"; {machine}"));
+    assert!(text.contains("a.part` includes `") && text.contains("b.part:1:9"), "{text}");
+    let text = says(&format!("include \"../outside.part\"; {machine}"));
+    assert!(text.contains("main.mechanism:1:9: `../outside.part` cannot be read"), "{text}");
+    let text = says("include \"/etc/passwd\"; mechanism M { }");
+    assert!(text.contains("outside the folder") || text.contains("cannot be read"), "{text}");
+    let text = says("include 3; mechanism M { }");
+    assert!(text.contains("1:9: expected the name of a file"), "{text}");
+    fs::remove_dir_all(&folder).expect("removed");
 }
