@@ -61,7 +61,8 @@ impl Twins {
                 design k[0..{springs}] = {spring} N*m/rad;
                 for i in 0..{springs} {{ force hold[i]: spring(on: swing, stiffness: (i + 1) * k[i]); }}
                 point tip: arm at [length, 0, 0];
-                output far = position(tip).y + sum(for i in 0..{springs}: i * swing * 1 m);\n"
+                output far = position(tip).y + sum(for i in 0..{springs}: i * swing * 1 m);
+                output high = position(root).x;\n"
         );
         for (k, (part, given, place, gives_mass)) in inner.iter().enumerate() {
             let mut arguments: Vec<String> =
@@ -107,6 +108,7 @@ impl Twins {
             let sum = if springs == 0 { "(0)".to_owned() } else { format!("({})", terms.join(" + ")) };
             let _ = writeln!(text, "point {tip}: {arm} at [{length}, 0, 0];");
             let _ = writeln!(text, "output {} = position({tip}).y + {sum};", n("far"));
+            let _ = writeln!(text, "output {} = position({}).x;", n("high"), n("root"));
             for (k, (part, given, place, gives_mass)) in inner.iter().enumerate() {
                 let given: Vec<String> = given.iter().map(|value| format!("{value} + {length}")).collect();
                 let of_mass = gives_mass.then_some(m.as_str());
@@ -233,6 +235,20 @@ fn batches_are_correlated() {
     // A matrix that is set takes its place.
     let set = study("correlated 0.8: a[..].m;").correlation(Matrix::from_fn(1, 1, |_, _| 1.0));
     assert!(set.tolerances().is_err());
+}
+
+/// One argument takes the place of a whole array of design variables, but not of another whose name it starts.
+#[test]
+fn an_argument_stands_for_an_array() {
+    let text = "part A { design k[0..2] = 1 N*m/rad; design kk = 5 N*m/rad; port on;
+                    body b: rod(mass: 3 kg, length: 1 m, along: -z); joint j: revolute(y) from on to b;
+                    for i in 0..2 { force f[i]: spring(on: j, stiffness: k[i] + kk); } }
+                mechanism M { design k = 8 N*m/rad; use a: A(k: k) with on: ground; }";
+    let study = Study::new(Interpreted::from_text(text).expect("a declaration"));
+    let names: Vec<&str> = study.description().design.iter().map(|x| &*x.name).collect();
+    assert_eq!(names, ["k", "a.kk"]);
+    let found = study.modes().expect("modes").frequencies()[0].expect("oscillates");
+    assert!((found - 26.0_f64.sqrt()).abs() < 1e-12, "{found}");
 }
 
 /// A declaration of the examples.

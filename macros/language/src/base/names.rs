@@ -70,4 +70,20 @@ mod tests {
         assert_eq!(joined("", "mass"), "mass");
         assert_eq!(flattened(&name), "rotor_blade_12_mass");
     }
+
+    #[test]
+    fn patterns_fit_the_indices_in_their_ranges() {
+        for (pattern, fitting) in [
+            ("b[..].m", [true, true, true, false]),
+            ("b[1..].m", [false, true, true, false]),
+            ("b[0..2].m", [true, true, false, false]),
+            ("b[..1].m", [true, false, false, false]),
+            ("b[2].m", [false, false, true, false]),
+            ("b[..].c", [false; 4]),
+            ("b.m", [false; 4]),
+        ] {
+            let names = ["b[0].m", "b[1].m", "b[2].m", "b[0].m[1]"];
+            assert_eq!(names.map(|name| fits(pattern, name)), fitting, "{pattern}");
+        }
+    }
 }
