@@ -14,6 +14,13 @@ use eigentol::{Study, mechanism};
 use super::RPM;
 
 mechanism! {
+    part Mount(stiffness: N/m, damping: N*s/m) {
+        port floor;
+        port foot;
+        force rubber: bushing(from: floor, to: foot,
+            stiffness: [stiffness, stiffness, stiffness], damping: [damping, damping, damping]);
+    }
+
     /// A wheel overhung on a frame that stands on four mounts; typical data.
     pub mechanism Fan {
         /// Speed of the wheel.
@@ -39,24 +46,17 @@ mechanism! {
         joint spin: revolute(x) from frame to wheel at [overhang, 0, 200 mm], driven at speed;
 
         point bearing: frame at [250, 0, 200] mm;
-        point a: frame at [300, 200, -150] mm;
-        point b: frame at [300, -200, -150] mm;
-        point c: frame at [-300, 200, -150] mm;
-        point d: frame at [-300, -200, -150] mm;
-        point floor_a: ground at [300, 200, -150] mm;
-        point floor_b: ground at [300, -200, -150] mm;
-        point floor_c: ground at [-300, 200, -150] mm;
-        point floor_d: ground at [-300, -200, -150] mm;
-        force mount_a: bushing(from: floor_a, to: a, stiffness: [mount, mount, mount], damping: [mount_damping, mount_damping, mount_damping]);
-        force mount_b: bushing(from: floor_b, to: b, stiffness: [mount, mount, mount], damping: [mount_damping, mount_damping, mount_damping]);
-        force mount_c: bushing(from: floor_c, to: c, stiffness: [mount, mount, mount], damping: [mount_damping, mount_damping, mount_damping]);
-        force mount_d: bushing(from: floor_d, to: d, stiffness: [mount, mount, mount], damping: [mount_damping, mount_damping, mount_damping]);
+        for i in 0..2 { for j in 0..2 {
+            use corner[2 * i + j]: Mount(stiffness: mount, damping: mount_damping) with
+                floor: ground at [300 * (1 - 2 * i), 200 * (1 - 2 * j), -150] mm,
+                foot: frame at [300 * (1 - 2 * i), 200 * (1 - 2 * j), -150] mm;
+        } }
 
         unbalance residual: on wheel, eccentricity: grade / rated, angle: angle;
 
         output across = position(bearing).y;
         output up = position(bearing).z;
-        output on_floor = reaction_force(mount_a).z;
+        output on_floor = reaction_force(corner[0].rubber).z;
     }
 }
 
