@@ -96,11 +96,13 @@ fn indices(name: &str) -> impl Iterator<Item = (&str, u32, &str)> {
     })
 }
 
+/// Which index of a name runs, and from where to where.
+type Running = (usize, u32, u32);
+
 /// Rows of which several say the same of members of an array, as one: `blade[0..3].mass, each`.
 fn folded(rows: &[Vec<String>]) -> Vec<Vec<String>> {
     let (head, body) = rows.split_at(rows.len().min(1));
-    // The rows so far, and which index of which range they stand for.
-    let mut all: Vec<(&Vec<String>, Option<(usize, u32, u32)>)> = Vec::new();
+    let mut all: Vec<(&Vec<String>, Option<Running>)> = Vec::new();
     let mut known: BTreeMap<(usize, &str, &str, &[String]), usize> = BTreeMap::new();
     for row in body {
         let name = row.first().map_or("", String::as_str);
@@ -126,7 +128,7 @@ fn folded(rows: &[Vec<String>]) -> Vec<Vec<String>> {
         }
         all.push((row, None));
     }
-    let named = |(row, range): (&Vec<String>, Option<(usize, u32, u32)>)| {
+    let named = |(row, range): (&Vec<String>, Option<Running>)| {
         let mut row = row.clone();
         if let Some((k, start, end)) = range
             && let Some((before, _, after)) = row.first().and_then(|name| indices(name).nth(k))

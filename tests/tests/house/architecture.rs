@@ -26,7 +26,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ("runtime/contract", &[], 54),
     ("runtime/statistics", &[], 140),
     ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 147),
-    ("runtime/results", &["eigentol-contract"], 21),
+    ("runtime/results", &["eigentol-contract"], 23),
     ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 337),
     (
         "runtime/tolerance",

@@ -21,13 +21,15 @@ struct Twins {
     number: usize,
 }
 
+type Written = dyn Fn(&str, &[String], Option<&str>, &str, &str) -> String;
+
 /// A part: its text with names of its own, and a function that writes its items under another name.
 struct Part {
     name: String,
     /// Parameters whose values its user gives.
     parameters: Vec<String>,
-    /// `(design variables, items)` of an instance with this name, hung on this body at this place.
-    written: Box<dyn Fn(&str, &[String], Option<&str>, &str, &str) -> String>,
+    /// The items of an instance with this name, these parameters and perhaps this mass, hung on this body at this place.
+    written: Box<Written>,
 }
 
 impl Twins {
@@ -269,7 +271,7 @@ fn the_examples_have_the_frequencies_of_closed_forms() {
     // The five motions in which the blades do not lift the hub have the frequency of a blade alone.
     let rotor = example("bladed_rotor.mechanism");
     let rotor = rotor.clone().input(Input::new(0), 600.0 * std::f64::consts::TAU / 60.0);
-    let alone = (3947.841_760_4 * (1.0 + 1.5 * 0.05 / 0.6) + 3.0 * 400.0 / (2.0 * 0.36_f64)).sqrt();
+    let alone = (3_947.841_760_4 * (1.0 + 1.5 * 0.05 / 0.6) + 3.0 * 400.0 / (2.0 * 0.36_f64)).sqrt();
     let equal = lowest(&rotor).into_iter().flatten().filter(|w| (w / alone - 1.0).abs() < 1e-9);
     assert_eq!(equal.count(), 5);
     // Three inertias, a spring and two meshes: the determinant changes its sign at each frequency.

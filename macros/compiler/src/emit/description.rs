@@ -129,7 +129,7 @@ pub(super) fn warnings(mechanism: &Mechanism) -> TokenStream {
     let hidden = names.iter().map(|name| hide(name));
     let names = names.iter().map(|name| plain(name, name.span()));
     let beams: Vec<_> = exchanged.iter().map(|x| plain(&x.beam, x.beam.span())).collect();
-    let constants = beams.iter().map(|name| hide(name));
+    let constants = beams.iter().map(hide);
     let notes = exchanged.iter().map(|x| text(format!("{}; {}", x.message, Exchanged::HELP)));
     let levels = ["allow", "warn", "deny", "forbid"];
     let is_level = |a: &&syn::Attribute| levels.iter().any(|level| a.path().is_ident(level));

@@ -214,7 +214,7 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
         scope.numbers.extend(number.map(|number| (name.to_string(), number)));
         added.push(ItemKind::Let(Stated { name, unit: Some(unit.clone()), value: value.clone() }));
     }
-    let (points, bodies) = ports(tokens, part, &instance, &mut scope).map_err(help)?;
+    let Ports { points, bodies } = ports(tokens, part, &instance, &mut scope).map_err(help)?;
     added.extend(points);
     if tokens.sign(';').is_none() {
         return tokens.expected("`;`").map_err(help);
@@ -298,14 +298,15 @@ fn arguments(tokens: &mut Tokens<'_>, part: &Part<'_>) -> Parsed<Vec<Given>> {
     Ok(arguments)
 }
 
-/// Reads `with PORT: FRAME PLACEMENT, ...`, enters each port, and returns their points, and the bodies of those that are
-/// placed, for joints.
-fn ports(
-    tokens: &mut Tokens<'_>,
-    part: &Part<'_>,
-    instance: &Ident,
-    scope: &mut Scope<'_>,
-) -> Parsed<(Vec<ItemKind>, Vec<(usize, [ItemKind; 2])>)> {
+/// What the ports of an instance add to it: their points, and for a joint the bodies of those that are placed, by their
+/// numbers.
+struct Ports {
+    points: Vec<ItemKind>,
+    bodies: Vec<(usize, [ItemKind; 2])>,
+}
+
+/// Reads `with PORT: FRAME PLACEMENT, ...`, and enters each port.
+fn ports(tokens: &mut Tokens<'_>, part: &Part<'_>, instance: &Ident, scope: &mut Scope<'_>) -> Parsed<Ports> {
     let is_port = |of: &Meaning| matches!(of, Meaning::Item(keyword) if keyword == "port");
     let known: Vec<String> = part.names.0.iter().filter(|(_, of)| is_port(of)).map(|(name, _)| name.clone()).collect();
     let (mut points, mut bodies, mut seen) = (Vec::new(), Vec::new(), Vec::new());
@@ -349,7 +350,7 @@ fn ports(
         }
     }
     match known.iter().find(|name| !seen.contains(name)) {
-        None => Ok((points, bodies)),
+        None => Ok(Ports { points, bodies }),
         Some(port) => {
             let message = format!("`{instance}` lacks a place for its port `{port}`");
             Err(Box::new(Diagnostic::new(instance, message).with_help(format!("write `with {port}: FRAME`"))))
