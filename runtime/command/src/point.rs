@@ -26,7 +26,7 @@ pub(crate) struct Point {
     /// Study file in TOML; the command line overrides it
     #[arg(long, value_name = "FILE")]
     study: Option<PathBuf>,
-    /// Value of an input or a design variable: `speed=3000rpm`
+    /// Value of an input or a design variable: `speed=3000rpm`; of several: `blade[..].mass=2kg`
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     set: Vec<(String, String)>,
     /// Tolerance of a design variable or an input: `l=3%`, `l="+0.2 -0.1 mm uniform"`, `l="one of [9, 10] mm"`

@@ -21,5 +21,5 @@ def test_settings_name_instances_or_several_at_once():
     study = eigentol.Study(machine, design={"a[..].mass": "3 kg", "a[1].mass": "4 kg"})
     expected = sorted((1.5 * 9.81 + 3 * 5 / mass) ** 0.5 for mass in (3.0, 4.0, 3.0))
     assert list(study.modes().frequencies) == pytest.approx(expected, rel=1e-12)
-    with pytest.raises(ValueError, match=r"a\[7\]"):
+    with pytest.raises(eigentol.UnknownName, match=r"a\[7\]"):
         eigentol.Study(machine, design={"a[7].mass": "3 kg"}).modes()

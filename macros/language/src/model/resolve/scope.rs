@@ -200,7 +200,9 @@ impl Scope {
 
     /// The meaning of a name. An undeclared name may be one that could not be read.
     pub(super) fn find_or_unclear(&self, name: &str) -> Option<Meaning> {
-        self.find(name).or(self.is_incomplete.then_some(Meaning::Unclear))
+        let mut wholes = name.match_indices(LINK).filter_map(|(end, _)| self.find(&name[..end]));
+        let is_unclear = self.is_incomplete || wholes.any(|whole| whole == Meaning::Unclear);
+        self.find(name).or(is_unclear.then_some(Meaning::Unclear))
     }
 
     pub(super) fn find(&self, name: &str) -> Option<Meaning> {
