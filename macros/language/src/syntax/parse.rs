@@ -18,7 +18,7 @@ pub(crate) use self::words::GRADE;
 #[cfg(test)]
 pub(crate) use self::words::INSIDE;
 
-use proc_macro2::{Delimiter, Ident, Span, TokenStream};
+use proc_macro2::{Delimiter, Ident, TokenStream};
 use syn::buffer::TokenBuffer;
 use syn::parse::Parser as _;
 
@@ -26,7 +26,7 @@ use self::words::{COMMENT, DECIMAL_POINT, KEYWORDS};
 use super::ast::{Ast, Item, ItemKind, Unread, Use, Uses};
 use super::scope::{Content, Parts, Scope};
 use super::tokens::{Parsed, Tokens};
-use crate::base::diagnostics::{Diagnostic, Diagnostics};
+use crate::base::diagnostics::Diagnostics;
 use crate::base::names::joined;
 use crate::base::span::Extent;
 
@@ -146,18 +146,9 @@ struct Read<'a> {
     diagnostics: &'a mut Diagnostics,
 }
 
-/// Most items of a declaration, with those of all loops and instances.
-const MOST: usize = 200_000;
-
 impl Read<'_> {
-    /// Adds an item, unless loops and instances have made too many.
-    fn add(&mut self, docs: Vec<String>, kind: ItemKind) -> Parsed<()> {
-        if self.items.len() == MOST {
-            let extent = kind.name().map_or_else(|| Span::call_site().into(), Extent::from);
-            return Err(Box::new(Diagnostic::new(extent, format!("this is the {}th item", MOST + 1))));
-        }
+    fn add(&mut self, docs: Vec<String>, kind: ItemKind) {
         self.items.push(Item { docs, kind });
-        Ok(())
     }
 }
 
@@ -223,7 +214,8 @@ fn one(tokens: &mut Tokens<'_>, docs: &[String], read: &mut Read<'_>) -> Parsed<
             parts::use_part(tokens, read)?;
         } else {
             let kind = item(tokens, read.diagnostics)?;
-            read.add(docs.to_vec(), parts::given(kind, tokens.scope))?;
+            tokens.scope.spend(1, start.span())?;
+            read.add(docs.to_vec(), parts::given(kind, tokens.scope));
         }
         tokens.element = None;
     }

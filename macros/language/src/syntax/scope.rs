@@ -10,7 +10,10 @@ use proc_macro2::{Ident, Span, TokenStream};
 use syn::buffer::Cursor;
 
 use super::ast::{Unit, Value};
+use super::tokens::Parsed;
+use crate::base::diagnostics::Diagnostic;
 use crate::base::names::{LINK, joined};
+use crate::base::span::Extent;
 
 /// The names that the items of a mechanism or of a part declare, each without its index.
 #[derive(Clone, Debug, Default)]
@@ -90,11 +93,34 @@ pub(super) struct Scope<'a> {
     pub(super) parts: Option<&'a Parts<'a>>,
     /// The part whose items are read; empty for the mechanism.
     pub(super) part: &'a str,
+    /// Items, instances and rounds of loops so far, in all of the declaration.
+    pub(super) work: Rc<Cell<u32>>,
     /// The scope in which the instance is used.
     pub(super) user: Option<&'a Scope<'a>>,
 }
 
+/// Most items, instances and rounds of a declaration.
+const MOST: u32 = 200_000;
+
 impl<'a> Scope<'a> {
+    /// The scope of an instance of a part.
+    pub(super) fn of_instance(instance: String, part: &'a str, names: &'a Names, user: &'a Scope<'a>) -> Self {
+        let (parts, work) = (user.parts, Rc::clone(&user.work));
+        Self { instance, names: Some(names), parts, part, work, user: Some(user), ..Self::default() }
+    }
+
+    /// Counts work, and refuses what would not end.
+    pub(super) fn spend(&self, count: usize, at: impl Into<Extent>) -> Parsed<()> {
+        let count = u32::try_from(count).unwrap_or(MOST);
+        let sum = self.work.get().saturating_add(count);
+        if sum > MOST {
+            let message = format!("more than {MOST} items, instances and rounds of loops");
+            return Err(Box::new(Diagnostic::new(at, message)));
+        }
+        self.work.set(sum);
+        Ok(())
+    }
+
     /// The meaning of a name that is declared here.
     pub(super) fn find(&self, name: &str) -> Option<&'a Meaning> {
         self.names?.0.get(name)

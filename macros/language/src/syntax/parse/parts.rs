@@ -195,14 +195,8 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
     let word = tokens.name("a part").map_err(help)?;
     let (name, part) = known_part(around, &word)?;
     let arguments = arguments(tokens, part).map_err(help)?;
-    let mut scope = Scope {
-        instance: instance.to_string(),
-        names: Some(&part.names),
-        parts: around.parts,
-        part: name,
-        user: Some(around),
-        ..Scope::default()
-    };
+    around.spend(1, &instance)?;
+    let mut scope = Scope::of_instance(instance.to_string(), name, &part.names, around);
     let mut added = Vec::new();
     for (name, unit) in &part.parameters {
         let Some(Given { name: given, value, number }) = arguments.iter().find(|given| given.name == *name) else {
@@ -222,12 +216,12 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
     scope.given = arguments.into_iter().map(|given| (scope.whole(&given.name.to_string()), given.value)).collect();
     read.uses.push(Use { name: instance, part: name.to_owned(), tokens: part.tokens.clone() });
     for item in added {
-        read.add(Vec::new(), item)?;
+        read.add(Vec::new(), item);
     }
     let ports = scope.ports.clone();
     items(part.content, scope, read);
     for item in bodies.into_iter().filter(|(port, _)| ports[*port].framed.get()).flat_map(|(_, items)| items) {
-        read.add(Vec::new(), item)?;
+        read.add(Vec::new(), item);
     }
     Ok(())
 }

@@ -68,6 +68,7 @@ pub(super) fn rounds<'a>(tokens: &mut Tokens<'a>) -> Parsed<Vec<Scope<'a>>> {
     }
     tokens.expect_word("in")?;
     let range = range(tokens)?;
+    tokens.scope.spend(range.len(), &counter)?;
     let scope = |k| {
         let mut scope = tokens.scope.clone();
         scope.counters.push((name.clone(), k));
