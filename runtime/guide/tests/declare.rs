@@ -6,7 +6,8 @@ use eigentol_interpreter::Interpreted;
 const CHAPTER: &str = include_str!("../src/declare.md");
 
 /// Numbers and bodies that the snippets refer to.
-const BEGIN: &str = "mechanism Part {
+const BEGIN: &str = "part Bearing(stiffness: N/m) { port seat; let half = stiffness / 2; }
+mechanism Part {
     kernels only;
     design l = 1 m; design l0 = 1 m; design length = 3 m; design r = 0.1 m; design e = 10 mm;
     design k = 1 kN/m; design c = 1 N*s/m; design kxy = 1 kN/m; design r1 = 0.1 m; design r2 = 0.2 m;
@@ -62,6 +63,7 @@ fn declaration(snippet: &str) -> String {
         "revolute" | "prismatic" | "cylindrical" | "spherical" | "universal" | "screw" | "planar" => {
             format!("{others} joint own: {snippet} from ground to rotor;")
         }
+        "use" => format!("{all} {snippet}"),
         "constraint" if snippet.contains("willis") => format!("{GEARS} {snippet}"),
         "constraint" if snippet.contains("cam:") => format!("{CAM} {snippet}"),
         "constraint" if !snippet.contains("coupling") => format!("{all} {snippet}"),
