@@ -10,7 +10,6 @@ use proc_macro2::{Ident, Span, TokenStream};
 use syn::buffer::Cursor;
 
 use super::ast::{Unit, Value};
-use super::tokens::Parsed;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::names::{LINK, joined};
 use crate::base::span::Extent;
@@ -110,7 +109,7 @@ impl<'a> Scope<'a> {
     }
 
     /// Counts work, and refuses what would not end.
-    pub(super) fn spend(&self, count: usize, at: impl Into<Extent>) -> Parsed<()> {
+    pub(super) fn spend(&self, count: usize, at: impl Into<Extent>) -> Result<(), Box<Diagnostic>> {
         let count = u32::try_from(count).unwrap_or(MOST);
         let sum = self.work.get().saturating_add(count);
         if sum > MOST {
