@@ -253,6 +253,24 @@ fn an_argument_stands_for_an_array() {
     assert!((found - 26.0_f64.sqrt()).abs() < 1e-12, "{found}");
 }
 
+/// A chain of parts, each in the next: as deep as may be, and far deeper than any stack.
+#[test]
+fn parts_stand_in_parts_to_a_depth() {
+    let text = |depth: usize| {
+        let mut text = "part P0 { port on; body b: rod(mass: 1 kg, length: 1 m, along: -z); \
+                        joint j: revolute(y) from on to b; }\n"
+            .to_owned();
+        for k in 1..depth {
+            let _ = writeln!(text, "part P{k} {{ port on; use inner: P{} with on: on; }}", k - 1);
+        }
+        format!("{text} mechanism M {{ gravity 9.81 m/s^2 along -z; use outer: P{} with on: ground; }}", depth - 1)
+    };
+    let deep = Study::new(Interpreted::from_text(&text(32)).expect("a declaration"));
+    assert_eq!(deep.description().coordinates[0].name.matches("inner").count(), 31);
+    let error = Interpreted::from_text(&text(20_000)).expect_err("too deep").to_string();
+    assert!(error.contains("more than 32 deep"), "{error}");
+}
+
 /// A declaration of the examples.
 fn example(name: &str) -> Study<Interpreted> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples").join(name);

@@ -22,6 +22,9 @@ use crate::base::nearest::nearest;
 const USE: &str = "write `use left: Bearing(stiffness: k) with seat: ground, journal: shaft at 0.2 length;`";
 const PART: &str = "write `part Bearing(stiffness: N/m) { port seat; port journal; ... }`";
 
+/// Deepest that parts may stand in each other: small enough for the stack of a debug build.
+const DEEPEST: usize = 32;
+
 /// Shows every item, also in loops, by its keyword and what follows.
 fn each_item<'a>(mut tokens: Tokens<'a>, see: &mut dyn FnMut(&Ident, Tokens<'a>)) {
     while !tokens.is_empty() {
@@ -244,6 +247,10 @@ fn known_part<'a>(around: &'a Scope<'a>, word: &Ident) -> Parsed<(&'a str, &'a P
         circle.reverse();
         circle.push(name);
         let message = format!("a part cannot contain itself: `{}`", circle.join("` uses `"));
+        return Err(Box::new(Diagnostic::new(word, message)));
+    }
+    if circle.len() == DEEPEST {
+        let message = format!("parts stand in parts more than {DEEPEST} deep here");
         return Err(Box::new(Diagnostic::new(word, message)));
     }
     Ok((name, part))
