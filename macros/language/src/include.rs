@@ -125,7 +125,7 @@ impl Files {
 /// An `include` with its name.
 struct Statement {
     name: Literal,
-    #[cfg_attr(not(feature = "locations"), allow(dead_code))]
+    #[cfg(feature = "locations")]
     ends: [Span; 2],
 }
 
@@ -139,7 +139,11 @@ fn split(tokens: TokenStream) -> (TokenStream, Vec<Statement>) {
             [TokenTree::Ident(word), TokenTree::Literal(name), TokenTree::Punct(end), after @ ..]
                 if word == "include" && end.as_char() == ';' =>
             {
-                statements.push(Statement { name: name.clone(), ends: [word.span(), end.span()] });
+                statements.push(Statement {
+                    name: name.clone(),
+                    #[cfg(feature = "locations")]
+                    ends: [word.span(), end.span()],
+                });
                 after
             }
             _ => {

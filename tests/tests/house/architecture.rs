@@ -73,7 +73,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
         57,
     ),
     ("macros/symbolic", &[], 69),
-    ("macros/language", &["eigentol-symbolic"], 408),
+    ("macros/language", &["eigentol-symbolic"], 409),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 390),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),

@@ -369,3 +369,15 @@ fn files_are_told_by_their_names() {
     assert!(text.contains("1:9: expected the name of a file"), "{text}");
     fs::remove_dir_all(&folder).expect("removed");
 }
+
+/// The parts of a beam that a load splits have coordinates under names that nothing else has, so that handles differ.
+#[test]
+fn parts_of_a_beam_leave_names_to_others() {
+    let text = "mechanism S { design arm_1 = 2 kg;
+        body arm: beam(length: 1 m, along: x, up: z, mass_per_length: 1 kg/m, stiffness_y: 40 N*m^2, bending_y: 2);
+        joint clamp: fixed from ground to arm; body w: sphere(mass: arm_1, radius: 1 cm);
+        joint weld: fixed from arm at 0.5 length to w; }";
+    let study = Study::new(Interpreted::from_text(text).expect("a declaration"));
+    let names: Vec<&str> = study.description().coordinates.iter().map(|x| &*x.name).collect();
+    assert_eq!(names, ["arm_1_.bend_y[0]", "arm_1_.bend_y[1]", "arm_2.bend_y[0]", "arm_2.bend_y[1]"]);
+}

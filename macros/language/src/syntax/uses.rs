@@ -23,8 +23,10 @@ impl Uses {
             .collect();
         mistakes.explain(|span: Span| {
             let place = place(span);
-            let (of, _) = parts.iter().find(|(_, places)| places.contains(&place))?;
-            Some((written(&of.name.to_string()).into_owned(), Extent::from(&of.name)))
+            let mut found = parts.iter().filter(|(_, places)| places.contains(&place));
+            let (of, _) = found.next()?;
+            // All parts of an included file have one place in a macro.
+            found.next().is_none().then(|| (written(&of.name.to_string()).into_owned(), Extent::from(&of.name)))
         });
     }
 }

@@ -7,7 +7,7 @@ use super::scope::Meaning;
 use crate::base::ids::DesignId;
 use crate::base::names::{fits, written};
 use crate::model::mechanism::{Correlation, DesignVariable};
-use crate::syntax::ast::ItemKind;
+use crate::syntax::ast::{ItemKind, Unread};
 
 impl Resolver<'_> {
     pub(super) fn correlations(&mut self, design: &[DesignVariable]) -> Vec<Correlation> {
@@ -15,11 +15,16 @@ impl Resolver<'_> {
         let names: Vec<String> = design.iter().map(|one| written(&one.name.to_string()).into_owned()).collect();
         for item in &self.ast.items {
             let ItemKind::Correlated(of) = &item.kind else { continue };
-            let mut meant: Vec<usize> = Vec::new();
+            let (mut meant, mut all_known) = (Vec::new(), true);
             for (pattern, extent) in &of.names {
                 let before = meant.len();
                 meant.extend((0..names.len()).filter(|k| fits(pattern, &names[*k])));
-                if meant.len() == before && self.ast.unread.is_empty() {
+                if meant.len() > before {
+                    continue;
+                }
+                all_known = false;
+                // It may be one that could not be read.
+                if self.ast.unread.iter().all(Unread::is_nameless) {
                     let is_design = |meaning| matches!(meaning, Meaning::Design(_));
                     let near = self.scope.nearest(pattern, is_design).map(|near| format!("did you mean `{near}`?"));
                     self.report(*extent, format!("unknown design variable `{pattern}`"), near);
@@ -27,7 +32,7 @@ impl Resolver<'_> {
             }
             meant.sort_unstable();
             meant.dedup();
-            if meant.len() == 1 {
+            if all_known && meant.len() == 1 {
                 self.diagnostics.error(of.keyword, "a correlation is one of two design variables or more");
             }
             for (k, &first) in meant.iter().enumerate() {

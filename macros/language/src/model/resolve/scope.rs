@@ -162,6 +162,10 @@ impl Scope {
         if let Some(reason) = reserved(&text) {
             diagnostics.error(name, format!("`{text}` cannot be declared: it is {reason}"));
             self.is_ambiguous = true;
+            if text.contains(LINK) {
+                // Its part means it by this word.
+                self.enter(text, Meaning::Unclear);
+            }
         } else if let Some(&first) = self.by_name.get(&text) {
             let first = &mut self.order[first].1;
             let message = match *first {
@@ -223,9 +227,9 @@ impl Scope {
 
 /// Names that are already in use by the language.
 fn reserved(name: &str) -> Option<&'static str> {
-    match name {
+    name.split(LINK).find_map(|word| match word {
         "ground" => Some("the inertial frame"),
         "pi" => Some("the constant 3.14159..."),
         _ => None,
-    }
+    })
 }

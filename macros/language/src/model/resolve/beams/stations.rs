@@ -132,7 +132,7 @@ impl Resolver<'_> {
             for (number, end) in ends.iter().enumerate() {
                 let name = match ends.len() {
                     1 => name.to_string(),
-                    _ => format!("{name}_{}", number + 1),
+                    _ => self.unused(&format!("{name}_{}", number + 1), name).to_string(),
                 };
                 let within = beam_stations.iter().filter(|(fraction, _)| start.0 < *fraction && *fraction <= end.0);
                 let piece = Piece { name, root: start, end: end.0, stations: within.copied().collect() };
