@@ -32,9 +32,9 @@ pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> [TokenStr
             Role::Speed(id) => (id, "Speed of a coasting coordinate"),
             Role::PositionReaction | Role::VelocityReaction => continue,
         };
-        let name = &mechanism.coordinates[id.index()].name;
+        let name = Ident::new(&unknown.name, mechanism.coordinates[id.index()].name.span());
         let doc = format!("{kind}, {}.", unknown.unit);
-        handles.add(name, "Coordinate", index, doc);
+        handles.add(&name, "Coordinate", index, doc);
     }
     for (index, input) in mechanism.inputs.iter().enumerate() {
         let unit = shown(&input.unit);

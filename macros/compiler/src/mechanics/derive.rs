@@ -1,6 +1,6 @@
 //! Derives all functions of a mechanism, step by step.
 
-use crate::algebra::Graph;
+use crate::algebra::{Function, Graph};
 use crate::base::diagnostics::{Diagnostics, listed};
 use crate::base::ids::CoordinateId;
 use crate::model::mechanism::{Mechanism, Motion};
@@ -8,7 +8,7 @@ use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Unsteady, free_directions, notes_on_beams, notes_on_planes, poses, properties, require_determinate_motion,
+    Unsteady, free_directions, multiblade, notes_on_beams, notes_on_planes, poses, properties, require_determinate_motion,
     require_harmonic, require_steady_state, requirements,
 };
 use super::equations::{Equations, excited};
@@ -17,7 +17,7 @@ use super::kernels::{Excitations, forced, held_values, kernels, picture, pose_ma
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
 use super::motion::{in_common_frame, in_common_frame_at_zero};
-use super::setup::{Context, Excited, Runs, Sections, Symbols, Values};
+use super::setup::{Context, Excited, Multiblade, Runs, Sections, Symbols, Values};
 
 /// Derives every function of a mechanism. Fails if no steady state exists, if no coordinate affects a constraint, and,
 /// unless only the kernels are wanted, if a motion moves no mass or nothing balances a load: errors that only the
@@ -58,17 +58,29 @@ pub fn derive(mechanism: &mut Mechanism, topology: &mut Topology, limits: Limits
 }
 
 fn derived(mechanism: &Mechanism, topology: &Topology, limits: Limits) -> Result<Functions, Unsteady> {
-    in_context(&mut Graph::new(), mechanism, topology, |g, context| functions(g, context, limits))
+    let derived = |equal: bool| {
+        in_context(&mut Graph::new(), mechanism, topology, equal, |g, context| functions(g, context, limits, equal))
+    };
+    match derived(false) {
+        Err(Unsteady::Mistakes(_)) if !mechanism.rings.is_empty() => derived(true),
+        other => other,
+    }
 }
 
-/// Passes the symbols, values and coordinates in which the equations of a mechanism are derived to `work`.
+/// Passes the symbols, values and coordinates in which the equations of a mechanism are derived to `work`. If blades are
+/// `equal`, the mean of its design variables belongs to each.
 fn in_context<R>(
     g: &mut Graph,
     mechanism: &Mechanism,
     topology: &Topology,
+    equal: bool,
     work: impl FnOnce(&mut Graph, &Context) -> R,
 ) -> R {
-    let symbols = Symbols::new(g, mechanism, topology);
+    let mut symbols = Symbols::new(g, mechanism, topology);
+    if equal {
+        symbols.share_design(g, mechanism);
+    }
+    let separate = Multiblade::default();
     let values = Values::new(g, mechanism, &symbols);
     let runs = Runs::new(g, mechanism, topology, &values, &symbols);
     let sections = Sections::new(g, mechanism, topology);
@@ -81,6 +93,7 @@ fn in_context<R>(
         runs: &runs,
         sections: &sections,
         rows: &[],
+        multiblade: &separate,
         excited: &at_peace,
     };
     let rows = constraint_rows(g, &unconstrained);
@@ -96,6 +109,7 @@ fn in_context<R>(
         runs: &runs,
         sections: &sections,
         rows: &rows,
+        multiblade: &separate,
         excited: &at_peace,
     };
     work(g, &context)
@@ -105,20 +119,24 @@ fn in_context<R>(
 /// that are not zero; `None` if the walks do not apply.
 #[cfg(test)]
 pub(crate) fn compared_at_rest(mechanism: &Mechanism, topology: &Topology) -> Option<[usize; 3]> {
-    in_context(&mut Graph::new(), mechanism, topology, |g, context| {
+    in_context(&mut Graph::new(), mechanism, topology, false, |g, context| {
         let at_zero = in_common_frame_at_zero(g, context);
         let equations = Equations::new(g, context, at_zero);
         super::linear::compared(g, context, &equations)
     })
 }
 
-fn functions(g: &mut Graph, context: &Context, limits: Limits) -> Result<Functions, Unsteady> {
+fn functions(g: &mut Graph, context: &Context, limits: Limits, equal: bool) -> Result<Functions, Unsteady> {
     let (mechanism, symbols) = (context.mechanism, context.symbols);
     let running = in_common_frame(g, context, &symbols.running.values);
-    require_steady_state(g, context, &running)?;
+    let of_blades = if equal { multiblade(g, context, &running)? } else { None };
+    let [at_angle, still] = of_blades.unwrap_or_default();
+    let at_angle = &Context { multiblade: &at_angle, ..*context };
+    let context = &Context { multiblade: &still, ..*context };
+    require_steady_state(g, at_angle, &running)?;
     let at_zero = in_common_frame_at_zero(g, context);
-    let responses = excited(g, context, &at_zero);
-    let turning = require_harmonic(g, context, &running, &responses)?;
+    let responses = excited(g, at_angle, &at_zero);
+    let turning = require_harmonic(g, at_angle, &running, &responses)?;
     let equations = Equations::new(g, context, at_zero);
     let at_zero = &equations.kinematics;
     let jacobians = Jacobians::new(g, context, &equations);
@@ -130,13 +148,14 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits) -> Result<Functio
     let excitations = Excitations::new(g, context, &responses, &turning);
     let mut functions = kernels(g, symbols, &equations, &linear, limits);
     functions.extend(forced(g, context, &equations, &excitations));
-    functions.extend(whirl(g, context, at_zero));
     let (function, picture) = picture(g, context, at_zero);
-    functions.push(function);
+    let of_positions = whirl(g, context, at_zero).into_iter().chain([function]);
+    functions.extend(of_positions.map(|function| in_unknowns(g, context, function)));
     let requirements = requirements(g, mechanism, context.values);
     functions.push(violation(&requirements, symbols));
     let poses = poses(g, context, at_zero);
-    functions.push(pose_margin(&poses, symbols));
+    let margin = pose_margin(&poses, symbols);
+    functions.push(in_unknowns(g, context, margin));
     functions.extend(held_values(g, context));
     let unknowns = unknowns(context);
     let held = held(mechanism, &unknowns);
@@ -153,6 +172,14 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits) -> Result<Functio
         held,
         excitations: excitations.facts,
     })
+}
+
+/// A function of the coordinates as one of the unknowns.
+fn in_unknowns(g: &mut Graph, context: &Context, mut function: Function) -> Function {
+    for result in &mut function.results {
+        result.values = context.multiblade.in_unknowns(g, &result.values);
+    }
+    function
 }
 
 /// The positions of the unknowns with a steady value.
@@ -181,7 +208,11 @@ fn unknowns(context: &Context) -> Vec<Unknown> {
             role: role(id),
         }
     };
-    let free = topology.free.iter().map(|&id| of(id, "", Role::Position));
+    let free = topology.free.iter().enumerate().map(|(k, &id)| {
+        let unknown = of(id, "", Role::Position);
+        let name = context.multiblade.name(k).map_or(unknown.name, str::to_owned);
+        Unknown { name, ..unknown }
+    });
     let coasting = topology.coasting.iter().map(|&id| of(id, "/s", Role::Speed));
     let reactions = context.rows.iter().map(|row| Unknown {
         name: row.label.clone(),

@@ -37,6 +37,8 @@ pub struct Mechanism {
     pub design: Vec<DesignVariable>,
     /// Correlations of them.
     pub correlations: Vec<Correlation>,
+    /// Equal instances around axes.
+    pub rings: Vec<Ring>,
     /// Named constants, each using only earlier ones.
     pub constants: Vec<Constant>,
     /// Curves through points.
@@ -78,6 +80,21 @@ pub struct Correlation {
     pub variables: [DesignId; 2],
     /// The linear correlation, between -1 and 1.
     pub correlation: f64,
+}
+
+/// Equal instances around an axis.
+#[derive(Clone, Debug)]
+pub struct Ring {
+    /// Their name without index.
+    pub name: Ident,
+    /// How many they are.
+    pub members: usize,
+    /// The axis, in the frame that carries them.
+    pub about: Vector,
+    /// What the instances have in common, by its name in an instance: coordinates, one of each instance.
+    pub coordinates: Vec<(String, Vec<CoordinateId>)>,
+    /// Design variables of the instances, one of each.
+    pub design: Vec<Vec<DesignId>>,
 }
 
 impl Mechanism {

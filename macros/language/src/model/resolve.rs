@@ -32,6 +32,7 @@ mod placements;
 mod point_arguments;
 mod references;
 mod resolver;
+mod rings;
 mod scope;
 mod steady;
 mod tension;
@@ -88,6 +89,7 @@ pub fn resolve_what_is_right(ast: &Ast, more: usize) -> Resolution {
     items.inputs.iter_mut().for_each(|input| input.is_used = is_used(&input.name));
     items.design.iter_mut().for_each(|variable| variable.is_used = is_used(&variable.name));
     let correlations = resolver.correlations(&items.design);
+    let rings = resolver.rings(&items.design);
     let length = resolver.typical_length();
     let mechanism = Mechanism {
         name: ast.name.clone(),
@@ -96,6 +98,7 @@ pub fn resolve_what_is_right(ast: &Ast, more: usize) -> Resolution {
         inputs: items.inputs,
         design: items.design,
         correlations,
+        rings,
         constants: resolver.constants,
         curves: resolver.curves.into_iter().flatten().collect(),
         curve_arguments: resolver.curve_arguments,

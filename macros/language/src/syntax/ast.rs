@@ -1,5 +1,7 @@
 //! The syntax tree of a declaration: items in the user's order, every leaf with its position.
 
+use std::ops::Range;
+
 use proc_macro2::{Ident, TokenStream};
 
 use crate::base::span::Extent;
@@ -43,7 +45,7 @@ pub struct Use {
 }
 
 /// Keywords of items without a name.
-const NAMELESS: [&str; 5] = ["gravity", "kernels", "every", "correlated", "steady"];
+const NAMELESS: [&str; 6] = ["gravity", "kernels", "every", "correlated", "cyclic", "steady"];
 
 /// The known parts of an item that could not be read.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,6 +131,8 @@ pub enum ItemKind {
     Constraint(Constraint),
     /// `correlated NUMBER: NAME, NAME, ...;`
     Correlated(Correlated),
+    /// `cyclic NAME[RANGE] about DIRECTION;`
+    Cyclic(Cyclic),
     /// `steady UNKNOWN = VALUE;`
     Steady(Named),
     /// `output NAME = VALUE;` or `output NAME: UNIT = VALUE;`
@@ -148,6 +152,7 @@ impl ItemKind {
             | ItemKind::KernelsOnly(_)
             | ItemKind::Every(_)
             | ItemKind::Correlated(_)
+            | ItemKind::Cyclic(_)
             | ItemKind::Steady(_) => None,
             ItemKind::Body(body) => Some(&body.name),
             ItemKind::Joint(joint) => Some(&joint.name),
@@ -523,6 +528,17 @@ pub struct Correlated {
     pub names: Vec<(String, Extent)>,
     /// The item's keyword.
     pub keyword: Extent,
+}
+
+/// Equal instances around an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cyclic {
+    /// Their name without index.
+    pub name: Ident,
+    /// Their indices, in the sense of a positive rotation.
+    pub members: Range<u32>,
+    /// The axis, in the frame that carries them.
+    pub about: Value,
 }
 
 /// A force on every free coordinate of one kind.

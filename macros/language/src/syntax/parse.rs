@@ -2,6 +2,7 @@
 //! semicolon, and the names of the item are kept.
 
 mod body;
+mod cyclic;
 mod index;
 mod item;
 mod joint;
@@ -170,7 +171,7 @@ fn several(tokens: &mut Tokens<'_>, read: &mut Read<'_>) {
         if let Err(diagnostic) = one(tokens, &docs, read) {
             read.diagnostics.push(*diagnostic);
             *tokens = start;
-            if ["for", "part"].iter().any(|word| tokens.peek_word(word)) {
+            if parts::BLOCKS.iter().any(|word| tokens.peek_word(word)) {
                 parts::block(tokens);
                 continue;
             }
@@ -189,6 +190,9 @@ fn one(tokens: &mut Tokens<'_>, docs: &[String], read: &mut Read<'_>) -> Parsed<
             several(&mut content.within(scope), read);
         }
         return Ok(());
+    }
+    if cyclic::peek(tokens) {
+        return cyclic::cyclic(tokens, read);
     }
     if parts::peek(tokens) {
         // It has been read before.

@@ -85,6 +85,9 @@ fn item(kind: &ItemKind) -> String {
             let names: Vec<&str> = of.names.iter().map(|(name, _)| name.as_str()).collect();
             format!("correlated {}: {}", of.correlation, names.join(", "))
         }
+        ItemKind::Cyclic(of) => {
+            format!("cyclic {}[{}..{}] about {}", of.name, of.members.start, of.members.end, value(&of.about))
+        }
         ItemKind::KernelsOnly(_) => "kernels only".to_string(),
         ItemKind::Body(item) => body(item),
         ItemKind::Force(force) => format!("force {}: {}", force.name, call(&force.law)),

@@ -71,6 +71,14 @@ pub(super) struct Port {
     pub(super) framed: Rc<Cell<bool>>,
 }
 
+/// One instance of a ring: its whole name without and with its index, and its rotation.
+#[derive(Clone)]
+pub(super) struct Turned {
+    pub(super) ring: String,
+    pub(super) instance: String,
+    pub(super) rotation: (Value, Value),
+}
+
 /// All parts of a declaration by name.
 #[derive(Default)]
 pub(super) struct Parts<'a>(pub(super) BTreeMap<String, Part<'a>>);
@@ -94,6 +102,8 @@ pub(super) struct Scope<'a> {
     pub(super) part: &'a str,
     /// Items, instances and rounds of loops so far, in all of the declaration.
     pub(super) work: Rc<Cell<u32>>,
+    /// How the instances of a ring are turned about its axis.
+    pub(super) turned: Option<Turned>,
     /// The scope in which the instance is used.
     pub(super) user: Option<&'a Scope<'a>>,
 }

@@ -7,6 +7,7 @@
 //! remainder of a cancelling sum would pass for a number.
 
 mod beams;
+mod blades;
 mod determinacy;
 mod freedom;
 mod harmonic;
@@ -16,6 +17,7 @@ mod requirements;
 mod steady_state;
 
 pub(super) use beams::{notes_on_beams, notes_on_planes};
+pub(super) use blades::multiblade;
 pub(super) use determinacy::require_determinate_motion;
 pub(super) use freedom::free_directions;
 pub(super) use harmonic::{Turning, require_harmonic};

@@ -5,7 +5,7 @@ use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, CoordinateId, ForceId};
 use crate::mechanics::equations::{Residual, outputs};
 use crate::mechanics::motion::Kinematics;
-use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, vanish};
+use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, columns, vanish};
 use crate::model::mechanism::Motion;
 
 const INERTIA: &str = "the inertia of";
@@ -34,6 +34,7 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context, kinematics:
     let mut standing = Vec::new();
     let running = &context.symbols.running.values;
     let residual = Residual::new(g, context, running, kinematics, ForceSelection::ALL).total(g, context);
+    let residual = decisive(g, context, residual);
     let outputs = outputs(g, context, running, kinematics);
     let outputs = at_rest(g, context.symbols, &outputs);
     let coordinates: Vec<_> = context.topology.running().collect();
@@ -107,6 +108,20 @@ struct Causes {
     slip: bool,
 }
 
+/// What must not change: the equations of motion, and where blades need not do the same, the equations at rest and their
+/// first derivatives.
+fn decisive(g: &mut Graph, context: &Context, residual: Vec<ExprId>) -> Vec<ExprId> {
+    if context.multiblade.is_empty() {
+        return residual;
+    }
+    let symbols = context.symbols;
+    let mut roots = residual.clone();
+    for list in [&symbols.q, &symbols.velocity, &symbols.acceleration] {
+        roots.extend(columns(g, &residual, list).concat());
+    }
+    at_rest(g, symbols, &roots)
+}
+
 fn depends(g: &mut Graph, context: &Context, roots: &[ExprId], symbol: SymbolId) -> bool {
     let change = by_symbol(g, roots, symbol);
     vanish(g, context, &change).into_iter().any(|zero| !zero)
@@ -131,6 +146,7 @@ fn causes(g: &mut Graph, context: &Context, kinematics: &Kinematics, symbol: Sym
     }
     candidates.retain(|(selection, _)| {
         let part = Residual::new(g, context, running, kinematics, *selection).total(g, context);
+        let part = decisive(g, context, part);
         depends(g, context, &part, symbol)
     });
     let mut causes: Vec<String> = candidates.into_iter().map(|(_, cause)| cause).collect();

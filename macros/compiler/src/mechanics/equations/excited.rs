@@ -8,14 +8,14 @@
 use std::rc::Rc;
 
 use crate::algebra::{ExprId, Graph, Stage, Vector3, substitute};
-use crate::base::ids::{BodyId, CoordinateId, DesignId};
+use crate::base::ids::{BodyId, DesignId};
 use crate::mechanics::inertia::{Direction, deviation};
-use crate::mechanics::motion::{Kinematics, in_common_frame};
+use crate::mechanics::motion::{Kinematics, in_common_frame, turning};
 use crate::mechanics::setup::{
     Context, CoordinateMotion, Excited, ForceSelection, SymbolList, Symbols, Values, at_rest, by_symbol, vanish,
 };
 use crate::model::expression::{Expr, Vector};
-use crate::model::mechanism::{Excitation, ExcitationLaw, Force, ForceLaw, Frame, Mechanism};
+use crate::model::mechanism::{Excitation, ExcitationLaw, Force, ForceLaw, Mechanism};
 
 use super::outputs::outputs;
 use super::residual::Residual;
@@ -110,7 +110,7 @@ fn additions(g: &mut Graph, context: &Context, kinematics: &Kinematics, paramete
 /// body's frame: along x for an axis along z, y for x, z for y, and for any other axis along the part across it of the
 /// one that belongs to the nearest of these. The second is a quarter of a turn ahead. `None` if nothing turns the body.
 fn across(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId) -> Option<[Vector3; 2]> {
-    let axis = axis(g, context, kinematics, body)?;
+    let (_, axis) = turning(g, context, kinematics, body)?;
     let unit: [Vector3; 3] = crate::algebra::Matrix3::identity(g).0;
     let size = |k: usize| context.nominal(g, axis.0[k]).abs();
     let nearest = (1..3).fold(0, |best, k| if size(k) > size(best) { k } else { best });
@@ -126,31 +126,6 @@ fn across(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyI
         Vector3(across.0.map(|component| g.div(component, length)))
     };
     Some([first, axis.cross(g, first)])
-}
-
-/// The axis of the nearest running coordinate that turns a body, in the body's frame.
-fn axis(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId) -> Option<Vector3> {
-    let runs = |id: CoordinateId| context.mechanism.coordinates[id.index()].motion.runs();
-    let mut carrier = body;
-    loop {
-        let motion = kinematics.of(carrier);
-        let step = motion.steps.iter().rev().find(|step| step.turn.is_some() && runs(step.coordinate));
-        if let Some(step) = step {
-            if carrier == body {
-                return Some(step.own_axis);
-            }
-            let axis = kinematics.of(body).frame.orientation.axes.transpose().apply(g, step.turn?);
-            let zeros = vec![g.zero(); context.symbols.q.ids.len()];
-            let straight: Vec<_> = context.symbols.q.with(&zeros).collect();
-            let axis = substitute(g, &axis.0, &straight);
-            return Some(Vector3([axis[0], axis[1], axis[2]]));
-        }
-        let branch = context.topology.branches.iter().find(|branch| branch.body == carrier)?;
-        let Frame::Body(parent) = branch.parent else {
-            return None;
-        };
-        carrier = parent;
-    }
 }
 
 /// The mechanism with the loads of its excitations as forces, each times its parameter.

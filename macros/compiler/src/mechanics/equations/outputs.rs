@@ -24,7 +24,9 @@ pub(crate) fn outputs(g: &mut Graph, context: &Context, running: &[ExprId], kine
         potential: potential(g, context, kinematics),
     };
     let outputs = &context.mechanism.outputs;
-    outputs.iter().map(|output| context.values.scalar_at(g, &output.value, &state)).collect()
+    let outputs: Vec<ExprId> =
+        outputs.iter().map(|output| context.values.scalar_at(g, &output.value, &state)).collect();
+    context.multiblade.in_unknowns(g, &outputs)
 }
 
 /// Everything that an output can use. Unused quantities cost nothing: code is generated only for nodes that a result

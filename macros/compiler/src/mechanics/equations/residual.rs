@@ -51,6 +51,7 @@ impl Residual {
         if self.beams.is_empty() {
             return weighted_sum(g, rates, total);
         }
+        let rates = &context.multiblade.rates(g, rates);
         let inertial = context.runs.forces(g, &self.inertial);
         let along_sections = context.sections.rates(g, rates);
         let mut terms = vec![weighted_sum(g, rates, &inertial[..rates.len()])];
@@ -62,7 +63,8 @@ impl Residual {
         let sum = g.sum(terms);
         let power = context.in_unknowns(g, &[sum])[0];
         let applied = weighted_sum(g, rates, &self.applied);
-        g.add(power, applied)
+        let power = g.add(power, applied);
+        context.multiblade.in_unknowns(g, &[power])[0]
     }
 
     /// The sum of both parts.
@@ -72,6 +74,8 @@ impl Residual {
         let inertial = context.in_unknowns(g, &inertial);
         let sums: Vec<ExprId> =
             inertial.into_iter().zip(&self.applied).map(|(inertial, &applied)| g.add(inertial, applied)).collect();
+        let sums = context.multiblade.forces(g, &sums);
+        let sums = context.multiblade.in_unknowns(g, &sums);
         let topology = context.topology;
         let coordinates = topology.free.iter().chain(&topology.coasting);
         for (&value, id) in sums.iter().zip(coordinates) {

@@ -38,7 +38,7 @@ impl Equations {
         let running = vec![zero; symbols.running.ids.len()];
         let parts = Residual::new(g, context, &running, &kinematics, ForceSelection::ALL);
         let motion = parts.total(g, context);
-        let variation = variation(g, context, &running);
+        let variation = if context.multiblade.is_empty() { variation(g, context, &running) } else { None };
         let inertia = Residual::new(g, context, &running, &kinematics, ForceSelection::INERTIA).total(g, context);
         let applied = Residual::new(g, context, &running, &kinematics, ForceSelection::APPLIED).total(g, context);
         let outputs_in_motion = outputs(g, context, &running, &kinematics);

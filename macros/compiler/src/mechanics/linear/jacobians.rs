@@ -21,6 +21,12 @@ impl Jacobians {
     /// Inertia and weight are differentiated by the absolute angles, forces and constraints by the unknowns.
     pub(crate) fn new(g: &mut Graph, context: &Context, e: &Equations) -> Self {
         let s = context.symbols;
+        if !context.multiblade.is_empty() {
+            let by_rates = [&s.acceleration, &s.velocity].map(|list| columns(g, &e.motion, list));
+            let [mass, damping] =
+                by_rates.map(|columns| columns.iter().map(|column| at_rest(g, s, column)).collect());
+            return Self { mass, damping, stiffness: columns(g, &e.rest, &s.q) };
+        }
         let [mass, damping, stiffness] = Inertial::new(g, context, e).matrices(g);
 
         let applied = &e.parts.applied;

@@ -10,6 +10,7 @@ mod step_axis;
 mod strain;
 mod tree;
 mod turned;
+mod turning;
 mod unbent;
 mod wrench;
 
@@ -22,5 +23,6 @@ pub(super) use recursions::{for_inertia, for_inertia_at_rest, in_common_frame, i
 pub(super) use step_axis::StepAxis;
 pub(super) use strain::{headings, strains, turned};
 pub(super) use tree::Tree;
+pub(super) use turning::turning;
 pub(super) use unbent::{curved, offset, unbent};
 pub(super) use wrench::Wrench;

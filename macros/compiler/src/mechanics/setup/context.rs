@@ -6,6 +6,7 @@ use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
 
 use super::excited::Excited;
+use super::multiblade::Multiblade;
 use super::rows::{Row, Source};
 use super::runs::Runs;
 use super::sections::Sections;
@@ -24,6 +25,8 @@ pub(crate) struct Context<'a> {
     pub(crate) sections: &'a Sections,
     /// The equations of constraints.
     pub(crate) rows: &'a [Row],
+    /// The coordinates of blades that the unknowns stand for.
+    pub(crate) multiblade: &'a Multiblade,
     /// What excitations add.
     pub(crate) excited: &'a Excited,
 }

@@ -98,6 +98,9 @@ impl RandomState {
             return 1.5 + signed(self.design);
         }
         let signed = signed(self.motion);
+        if position(&symbols.q.ids).is_some_and(|k| context.multiblade.is_lateral(k)) {
+            return 0.0;
+        }
         if let Some(id) = position(&symbols.q.ids).and_then(|k| context.topology.free.get(k)) {
             let coordinate = &context.mechanism.coordinates[id.index()];
             return match coordinate.quantity {

@@ -112,6 +112,17 @@ impl Symbols {
         }
     }
 
+    /// Gives every blade of a ring the mean of its design variables.
+    pub(crate) fn share_design(&mut self, g: &mut Graph, mechanism: &Mechanism) {
+        for ids in mechanism.rings.iter().flat_map(|ring| &ring.design) {
+            let sum = g.sum(ids.iter().map(|id| self.b.values[id.index()]).collect::<Vec<_>>());
+            let mean = g.scale(1.0 / ids.len() as f64, sum);
+            for id in ids {
+                self.b.values[id.index()] = mean;
+            }
+        }
+    }
+
     /// Adds the reactions of constraints to the unknowns.
     pub(crate) fn with_reactions(mut self, g: &mut Graph, reactions: &[String]) -> Self {
         let mut extend = |list: &mut SymbolList, stage: Stage, prefix: &str| {

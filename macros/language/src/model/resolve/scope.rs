@@ -109,6 +109,7 @@ impl Scope {
                 | ItemKind::KernelsOnly(_)
                 | ItemKind::Every(_)
                 | ItemKind::Correlated(_)
+                | ItemKind::Cyclic(_)
                 | ItemKind::Steady(_) => continue,
             };
             if let Some(name) = item.kind.name() {

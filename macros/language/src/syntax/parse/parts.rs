@@ -9,6 +9,7 @@ use super::super::ast::{Body, ItemKind, Joint, JointClause, NamedCall, Placement
 use super::super::print;
 use super::super::scope::{Meaning, Names, Part, Parts, Port, Scope};
 use super::super::tokens::{Parsed, Tokens};
+use super::cyclic;
 use super::index::whole;
 use super::names::{colon, declared_name, path, reference};
 use super::placement::placement;
@@ -25,6 +26,9 @@ const PART: &str = "write `part Bearing(stiffness: N/m) { port seat; port journa
 /// Deepest that parts may stand in each other: small enough for the stack of a debug build.
 const DEEPEST: usize = 32;
 
+/// Words before braces with items.
+pub(super) const BLOCKS: [&str; 3] = ["for", "part", "cyclic"];
+
 /// Shows every item, also in loops, by its keyword and what follows.
 fn each_item<'a>(mut tokens: Tokens<'a>, see: &mut dyn FnMut(&Ident, Tokens<'a>)) {
     while !tokens.is_empty() {
@@ -38,8 +42,8 @@ fn each_item<'a>(mut tokens: Tokens<'a>, see: &mut dyn FnMut(&Ident, Tokens<'a>)
             continue;
         };
         see(&keyword, tokens);
-        if keyword == "for" || keyword == "part" {
-            if let Some(content) = block(&mut tokens).filter(|_| keyword == "for") {
+        if BLOCKS.iter().any(|word| keyword == word) {
+            if let Some(content) = block(&mut tokens).filter(|_| keyword != "part") {
                 each_item(content, see);
             }
         } else {
@@ -108,7 +112,7 @@ pub(super) fn block<'a>(tokens: &mut Tokens<'a>) -> Option<Tokens<'a>> {
 pub(super) fn names(tokens: Tokens<'_>) -> Names {
     let mut names = Names::default();
     each_item(tokens, &mut |keyword, mut tokens| {
-        if keyword == "for" || keyword == "part" {
+        if BLOCKS.iter().any(|word| keyword == word) {
             return;
         }
         let word = keyword.to_string();
@@ -193,7 +197,10 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
     };
     let around = tokens.scope;
     tokens.expect_word("use")?;
-    let instance = declared_name(tokens)?;
+    let mut instance = declared_name(tokens)?;
+    if let Some(turned) = &around.turned {
+        instance = cyclic::member(turned, &instance)?;
+    }
     colon(tokens).map_err(help)?;
     let word = tokens.name("a part").map_err(help)?;
     let (name, part) = known_part(around, &word)?;
@@ -325,7 +332,20 @@ fn ports(tokens: &mut Tokens<'_>, part: &Part<'_>, instance: &Ident, scope: &mut
             let passed_on =
                 tokens.peek_ident().and_then(|given| tokens.scope.ports.iter().find(|port| given == port.name));
             let frame = reference(tokens, "a body or `ground`")?;
-            let placement = placement(tokens)?;
+            let mut placement = placement(tokens)?;
+            let mut frame = frame;
+            if let Some(turned) = &tokens.scope.turned {
+                let around = Placement { offset: None, rotations: vec![turned.rotation.clone()], keyword: port.span().into() };
+                let carrier = Ident::new(&format!("{}_around", scope.whole(&name)), port.span());
+                match placement {
+                    None => placement = Some(around),
+                    Some(_) => {
+                        let carried = fixed(carrier.clone(), frame, around);
+                        points.extend(carried);
+                        frame = carrier;
+                    }
+                }
+            }
             let word = |text: &str| Ident::new(text, port.span());
             let own = scope.whole(&name);
             let (frame, point) = match &placement {

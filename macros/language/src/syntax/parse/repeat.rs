@@ -15,7 +15,7 @@ use crate::base::span::Extent;
 const LONGEST: u32 = 10_000;
 
 /// Reads `A..B`, which does not contain `B`.
-fn range(tokens: &mut Tokens) -> Parsed<Range<u32>> {
+pub(super) fn range(tokens: &mut Tokens) -> Parsed<Range<u32>> {
     let start = tokens.span();
     let first = bound(tokens)?;
     for _ in 0..2 {

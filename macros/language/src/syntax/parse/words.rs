@@ -21,7 +21,7 @@ pub(super) const KEYWORDS: [&str; 14] = [
 ];
 
 /// Other words that start an item.
-const ALSO_NAMES: [&str; 6] = ["unbalance", "material", "correlated", "part", "use", "for"];
+const ALSO_NAMES: [&str; 7] = ["unbalance", "material", "correlated", "cyclic", "part", "use", "for"];
 
 /// Names of items in other tools and languages.
 const SYNONYMS: [(&str, &str); 26] = [

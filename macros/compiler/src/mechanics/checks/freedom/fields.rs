@@ -67,7 +67,8 @@ impl Fields {
                 Some((index, *step, branch.body))
             });
             let path: Vec<_> = before.iter().copied().chain(free_steps).take(RIGID + 1).collect();
-            if path.len() > before.len() && path.len() <= RIGID {
+            let of_blades = path.iter().any(|(k, ..)| context.multiblade.name(*k).is_some());
+            if path.len() > before.len() && path.len() <= RIGID && !of_blades {
                 carriers.push(Carrier::new(g, context, kinematics, branch.body, &path));
             }
             paths[branch.body.index()] = path;
