@@ -80,7 +80,7 @@ pub use eigentol_contract::{
     Any, Array, BeamInfo, BodyInfo, Coordinate, CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo,
     DesignVariable, Dual, ElementInfo, Excitation, ExcitationInfo, Forcing, ForcingOf, Gradient, GradientOf, Input,
     InputInfo, JointInfo, KernelInfo, Law, Linear, LinearPartials, LinkInfo, List, Mechanism, Output, OutputInfo,
-    OutputMotionOf, PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts, Role, Shared,
+    OutputMotionOf, PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts, RingInfo, Role, Shared,
     SolidInfo, SolidKind, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
 };
 pub use eigentol_macros::mechanism;

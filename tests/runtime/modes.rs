@@ -25,6 +25,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     frequency: eigentol::Unit::si("rad/s"),
     resolved_modes: None,
     correlations: eigentol::Shared::Static(&[]),
+    rings: eigentol::Shared::Static(&[]),
     damping: DampingKind::Zero,
     kernels: Shared::Static(&[]),
 });

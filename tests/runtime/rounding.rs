@@ -131,6 +131,7 @@ impl Model for Chain {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -413,6 +414,7 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     }));

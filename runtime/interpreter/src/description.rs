@@ -2,7 +2,7 @@
 
 use eigentol::{
     CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, Law,
-    OutputInfo, Role, Text, ToleranceInfo, Unit,
+    OutputInfo, RingInfo, Role, Text, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::base::names::written;
@@ -40,6 +40,16 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
 
 fn correlation(of: &mechanism::Correlation) -> CorrelationInfo {
     CorrelationInfo { variables: of.variables.map(|id| id.index()), correlation: of.correlation }
+}
+
+fn ring(of: &mechanics::RingPlaces) -> RingInfo {
+    RingInfo {
+        name: text(of.name.as_str()),
+        members: of.members,
+        coordinates: of.coordinates.clone().into(),
+        patterns: of.patterns,
+        design: of.design.clone().into(),
+    }
 }
 
 /// Names, units, nominal values and properties of a compiled declaration, for those who need no kernels.
@@ -113,6 +123,7 @@ pub fn description(compilation: &Compilation) -> Description {
         free_directions: functions.free.count,
         correlations: mechanism.correlations.iter().map(correlation).collect::<Vec<_>>().into(),
         held: functions.held.clone().into(),
+        rings: functions.rings.iter().map(ring).collect::<Vec<_>>().into(),
         length: mechanism.length,
         frequency: unit(&mechanism.frequency_unit()),
         resolved_modes: mechanics::resolved_modes(mechanism, functions),

@@ -52,6 +52,7 @@ impl Model for Twins {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

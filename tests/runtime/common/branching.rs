@@ -36,6 +36,7 @@ macro_rules! law {
                     frequency: eigentol::Unit::si("rad/s"),
                     resolved_modes: None,
                     correlations: eigentol::Shared::Static(&[]),
+                    rings: eigentol::Shared::Static(&[]),
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),
                 }

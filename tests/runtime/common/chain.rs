@@ -53,6 +53,7 @@ macro_rules! chain {
                     frequency: eigentol::Unit::si("rad/s"),
                     resolved_modes: None,
                     correlations: eigentol::Shared::Static(&[]),
+                    rings: eigentol::Shared::Static(&[]),
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),
                 }

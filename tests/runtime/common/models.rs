@@ -32,6 +32,7 @@ impl Model for Plate {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -77,6 +78,7 @@ impl Model for Spring {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -111,6 +113,7 @@ impl Model for Follower {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -154,6 +157,7 @@ impl Model for Pair {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -195,6 +199,7 @@ impl Model for Triple {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -239,6 +244,7 @@ impl Model for Slipping {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -277,6 +283,7 @@ impl Model for Supercritical {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -314,6 +321,7 @@ impl Model for Overdamped {
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

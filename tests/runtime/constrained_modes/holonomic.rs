@@ -31,6 +31,7 @@ const fn described(
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping,
         kernels: Shared::Static(&[]),
     }

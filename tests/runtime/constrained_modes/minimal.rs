@@ -180,6 +180,7 @@ mod contradictory {
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
+            rings: eigentol::Shared::Static(&[]),
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };
@@ -240,6 +241,7 @@ pub(crate) mod held {
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
+            rings: eigentol::Shared::Static(&[]),
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

@@ -49,6 +49,7 @@ impl Sizes {
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
+            rings: eigentol::Shared::Static(&[]),
             damping: DampingKind::General,
             kernels: Shared::Static(&[]),
         };

@@ -89,6 +89,7 @@ pub(crate) const fn described(
         frequency: eigentol::Unit::si("rad/s"),
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
+        rings: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     }

@@ -438,6 +438,7 @@ mod declared {
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
+            rings: eigentol::Shared::Static(&[]),
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

@@ -37,6 +37,7 @@ macro_rules! described {
             frequency: eigentol::Unit::si("rad/s"),
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
+            rings: eigentol::Shared::Static(&[]),
             damping: eigentol::DampingKind::General,
             kernels: Shared::Static(&[]),
         }

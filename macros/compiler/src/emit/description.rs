@@ -66,6 +66,19 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
         let ([first, second], correlation) = (of.variables.map(|id| id.index()), of.correlation);
         quote! { ::eigentol::CorrelationInfo { variables: [#first, #second], correlation: #correlation } }
     });
+    let rings = functions.rings.iter().map(|ring| {
+        let mechanics::RingPlaces { name, members, coordinates, patterns, design } = ring;
+        let name = text(name);
+        quote! {
+            ::eigentol::RingInfo {
+                name: ::eigentol::Shared::Static(#name),
+                members: #members,
+                coordinates: ::eigentol::Shared::Static(&[#(#coordinates),*]),
+                patterns: #patterns,
+                design: ::eigentol::Shared::Static(&[#(#design),*]),
+            }
+        }
+    });
     let length = mechanism.length;
     let frequency = unit(&mechanism.frequency_unit());
     let resolved_modes = match resolved_modes(mechanism, functions) {
@@ -96,6 +109,7 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
             free_directions: #free_directions,
             correlations: ::eigentol::Shared::Static(&[#(#correlations),*]),
             held: ::eigentol::Shared::Static(&[#(#held),*]),
+            rings: ::eigentol::Shared::Static(&[#(#rings),*]),
             length: #length,
             frequency: #frequency,
             resolved_modes: #resolved_modes,

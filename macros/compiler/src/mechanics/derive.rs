@@ -1,18 +1,18 @@
 //! Derives all functions of a mechanism, step by step.
 
-use crate::algebra::{Function, Graph};
+use crate::algebra::{ExprId, Function, Graph};
 use crate::base::diagnostics::{Diagnostics, listed};
 use crate::base::ids::CoordinateId;
-use crate::model::mechanism::{Mechanism, Motion};
+use crate::model::mechanism::{Mechanism, Motion, Ring};
 use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Unsteady, free_directions, multiblade, notes_on_beams, notes_on_planes, poses, properties, require_determinate_motion,
-    require_harmonic, require_steady_state, requirements,
+    Unsteady, free_directions, drives, multiblade, notes_on_beams, notes_on_planes, poses, properties, require_determinate_motion,
+    require_harmonic, require_steady_state, require_symmetry, requirements,
 };
 use super::equations::{Equations, excited};
-use super::functions::{Functions, Limits, Role, Unknown};
+use super::functions::{Functions, Limits, RingPlaces, Role, Unknown};
 use super::kernels::{Excitations, forced, held_values, kernels, picture, pose_margin, violation, whirl};
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
@@ -129,8 +129,8 @@ pub(crate) fn compared_at_rest(mechanism: &Mechanism, topology: &Topology) -> Op
 fn functions(g: &mut Graph, context: &Context, limits: Limits, equal: bool) -> Result<Functions, Unsteady> {
     let (mechanism, symbols) = (context.mechanism, context.symbols);
     let running = in_common_frame(g, context, &symbols.running.values);
-    let of_blades = if equal { multiblade(g, context, &running)? } else { None };
-    let [at_angle, still] = of_blades.unwrap_or_default();
+    let drives = drives(g, context, &running);
+    let [at_angle, still] = if equal { multiblade(g, context, &drives)? } else { Default::default() };
     let at_angle = &Context { multiblade: &at_angle, ..*context };
     let context = &Context { multiblade: &still, ..*context };
     require_steady_state(g, at_angle, &running)?;
@@ -141,6 +141,7 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, equal: bool) -> R
     let at_zero = &equations.kinematics;
     let jacobians = Jacobians::new(g, context, &equations);
     let undetermined = require_determinate_motion(g, context, &jacobians)?;
+    require_symmetry(g, context, &equations, &jacobians)?;
     let mut free = free_directions(g, context, &equations, &jacobians)?;
     free.notes.extend(notes_on_planes(g, context, &running));
     let properties = properties(g, context, &jacobians);
@@ -156,9 +157,11 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, equal: bool) -> R
     let poses = poses(g, context, at_zero);
     let margin = pose_margin(&poses, symbols);
     functions.push(in_unknowns(g, context, margin));
-    functions.extend(held_values(g, context));
+    let speeds: Vec<ExprId> = drives.iter().map(|drive| drive.map_or_else(|| g.zero(), |(_, [_, speed])| speed)).collect();
+    functions.extend(held_values(g, context, &speeds));
     let unknowns = unknowns(context);
     let held = held(mechanism, &unknowns);
+    let rings = rings(context);
     Ok(Functions {
         unknowns,
         graph: std::mem::take(g),
@@ -170,6 +173,7 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, equal: bool) -> R
         undetermined,
         free,
         held,
+        rings,
         excitations: excitations.facts,
     })
 }
@@ -191,6 +195,25 @@ fn held(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<usize> {
     };
     let steady = mechanism.steady.iter();
     steady.map(|steady| index_of(steady.coordinate)).collect()
+}
+
+/// Where the rings are among the unknowns and the design variables.
+fn rings(context: &Context) -> Vec<RingPlaces> {
+    let places = |ring: &Ring| {
+        let free = &context.topology.free;
+        let coordinates = ring.coordinates.iter().filter_map(|(_, ids)| {
+            ids.iter().map(|id| free.iter().position(|own| own == id)).collect::<Option<Vec<usize>>>()
+        });
+        let coordinates: Vec<usize> = coordinates.flatten().collect();
+        RingPlaces {
+            name: ring.name.to_string(),
+            members: ring.members,
+            patterns: coordinates.iter().any(|k| context.multiblade.name(*k).is_some()),
+            coordinates,
+            design: ring.design.iter().flatten().map(|id| id.index()).collect(),
+        }
+    };
+    context.mechanism.rings.iter().map(places).collect()
 }
 
 /// The meaning of each entry of `q`.

@@ -29,8 +29,26 @@ pub struct Functions {
     pub free: FreeDirections,
     /// Positions of the unknowns whose values select a steady motion, in the order of the kernel `held_values`.
     pub held: Vec<usize>,
+    /// Rings of equal instances.
+    pub rings: Vec<RingPlaces>,
     /// The excitations in the order of the mechanism.
     pub excitations: Vec<Excitation>,
+}
+
+/// Where a ring of equal instances is among the unknowns and the design variables: one thing of all instances after the
+/// other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RingPlaces {
+    /// Declared name.
+    pub name: String,
+    /// How many instances there are.
+    pub members: usize,
+    /// Unknowns: the coordinates of the instances, or their patterns.
+    pub coordinates: Vec<usize>,
+    /// Whether the unknowns are patterns of all instances, seen from where the drive stands.
+    pub patterns: bool,
+    /// Design variables.
+    pub design: Vec<usize>,
 }
 
 /// What the derivation found out about an excitation.

@@ -49,6 +49,9 @@ pub struct Description {
     /// Design variables that the declaration correlates.
     #[cfg_attr(feature = "serde", serde(default = "none"))]
     pub correlations: List<CorrelationInfo>,
+    /// Equal instances around axes.
+    #[cfg_attr(feature = "serde", serde(default = "none"))]
+    pub rings: List<RingInfo>,
     /// The generated functions and their costs.
     pub kernels: List<KernelInfo>,
 }
@@ -282,6 +285,25 @@ pub struct CorrelationInfo {
     pub variables: [usize; 2],
     /// The linear correlation, between -1 and 1.
     pub correlation: f64,
+}
+
+/// Equal instances around an axis.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RingInfo {
+    /// Declared name, without index.
+    pub name: Text,
+    /// How many instances there are.
+    pub members: usize,
+    /// Positions of its unknowns: of one coordinate after the other, those of all instances, or its patterns
+    /// (`patterns`).
+    pub coordinates: List<usize>,
+    /// Whether the unknowns are multiblade coordinates, seen from what does not turn. With instance `i` of `N` at
+    /// `psi_i`, its coordinate is `a_0 + sum_n (c_n cos n psi_i + s_n sin n psi_i) + d (-1)^i`; the unknowns are `a_0`,
+    /// `c_1`, `s_1`, `c_2`, .., and for even `N` `d`.
+    pub patterns: bool,
+    /// Positions of the design variables of the instances: of one after the other, those of all instances.
+    pub design: List<usize>,
 }
 
 /// The cost of one generated function.

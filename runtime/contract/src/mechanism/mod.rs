@@ -13,7 +13,7 @@ mod tolerance;
 pub use array::Array;
 pub use description::{
     CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo,
-    OutputInfo, Role, Unit,
+    OutputInfo, RingInfo, Role, Unit,
 };
 pub use handles::{Any, Coordinate, DesignVariable, Excitation, Input, Output};
 pub use picture::{
@@ -430,8 +430,8 @@ pub trait Mechanism: Clone + Sync + Sized {
         None
     }
 
-    /// The values that select one of a family of steady motions: of the unknowns at the positions
-    /// [`Description::held`], in `values`.
+    /// The values that select one of a family of steady motions, of the unknowns at the positions [`Description::held`],
+    /// followed by the speeds at which the rings turn about their axes, [`Description::rings`], in `values`.
     fn held_values<T: Real>(&self, _u: &Self::Inputs<T>, _b: &Self::Design<T>, _values: &mut [T]) {}
 
     /// The declared outputs.

@@ -41,7 +41,8 @@ pub(super) fn derivatives(
     (u, b): (&[f64], &[f64]),
     (du, db): (&[f64], &[f64]),
 ) -> Derivatives {
-    let count = mechanism.description().held.len();
+    let description = mechanism.description();
+    let count = description.held.len();
     let size = u.len() + b.len();
     let mut derivatives = Derivatives {
         values: Vector::zeros(count),
@@ -50,11 +51,11 @@ pub(super) fn derivatives(
     };
     let moving = u.iter().chain(b).zip(du.iter().chain(db));
     let mut numbers: Vec<Second> = moving.map(|(&value, &slope)| Dual::fixed(Dual { value, slope })).collect();
-    let mut values = vec![Second::fixed(Dual::fixed(0.0)); count];
+    let mut values = vec![Second::fixed(Dual::fixed(0.0)); count + description.rings.len()];
     let mut evaluate = |numbers: &[Second]| {
         let (u, b) = numbers.split_at(u.len());
         mechanism.held_values_into(u, b, &mut values);
-        values.clone()
+        values[..count].to_vec()
     };
     for (slot, value) in derivatives.values.iter_mut().zip(evaluate(&numbers)) {
         *slot = value.value.value;

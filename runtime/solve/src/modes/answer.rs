@@ -8,6 +8,7 @@ use eigentol_results::relevance::{COLUMNS, EVERYTHING, largest, names, relevant,
 use eigentol_results::title::title;
 use eigentol_results::{Answer, Findings, Subject, displayed};
 
+use super::whirl::blades;
 use super::{Behaviour, Family};
 use crate::{Complex, CoordinateInfo, Description, Mode, Modes, Role};
 
@@ -57,6 +58,14 @@ impl Modes {
         table.words("whirl", &|mode| Some(whirl(mode)?.sense()?.to_string()));
         table.number("whirl ratio", "", &|mode| whirl(mode)?.ratio);
         table.cells("kind", &|mode| whirl(mode).map_or_else(|| "-".to_owned(), |whirl| whirl.to_string()));
+        if self.description.rings.is_empty() {
+            return;
+        }
+        blades(table, &whirl);
+        if self.description.rings.iter().any(|ring| ring.patterns) {
+            let of_blade = |mode: &Mode| Some(whirl(mode)?.blades?.of_blade);
+            table.frequencies("f in blade", &self.description, number, &of_blade);
+        }
     }
 }
 

@@ -7,6 +7,7 @@ use eigentol_results::columns::Columns;
 use eigentol_results::numbers::rough;
 use eigentol_results::{Answer, Findings, Subject, displayed};
 
+use super::blades::{BladePattern, pattern, speeds};
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Mode, Modes};
 
@@ -35,6 +36,8 @@ pub enum Kind {
     Axial,
     /// None of these alone.
     Mixed,
+    /// The blades of a ring move, and little else.
+    Blades,
 }
 
 /// The kind of a mode, with its sense of whirl if it has one.
@@ -77,6 +80,9 @@ pub struct Whirl {
     pub with_spin: f64,
     /// Spin of the bodies that move, root mean square, rad/s.
     pub spin: f64,
+    /// What the blades of a ring do, if there is one and they move.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub blades: Option<BladePattern>,
 }
 
 impl Whirl {
@@ -102,7 +108,22 @@ impl Whirl {
             ratio: circles.then(|| (moment / all / lateral).clamp(-1.0, 1.0)),
             with_spin: with_spin.clamp(0.0, 1.0),
             spin: (all / moving).sqrt(),
+            blades: None,
         })
+    }
+
+    /// With what blades do. A mode of which they have most of the energy is theirs.
+    fn with_blades(of_shafts: Option<Self>, blades: Option<BladePattern>) -> Option<Self> {
+        let Some(pattern) = blades else { return of_shafts };
+        let theirs = pattern.of_blades >= 0.5;
+        match of_shafts {
+            Some(of_shafts) if !theirs => Some(Self { blades, ..of_shafts }),
+            _ => {
+                let kind = if theirs { Kind::Blades } else { Kind::Mixed };
+                // Any force on blades may excite them, whatever the shaft does.
+                Some(Self { kind, ratio: None, with_spin: 1.0, spin: of_shafts.map_or(0.0, |whirl| whirl.spin), blades })
+            }
+        }
     }
 
     /// The direction; ratios within 1e-6 of zero are planar. `None` where there is no ratio.
@@ -140,6 +161,7 @@ impl fmt::Display for Kind {
             Self::Torsional => "torsional",
             Self::Axial => "axial",
             Self::Mixed => "mixed",
+            Self::Blades => "blades",
         })
     }
 }
@@ -167,7 +189,10 @@ impl fmt::Display for Character {
 
 impl fmt::Display for Whirl {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.character().fmt(f)
+        match self.blades.filter(|_| self.kind == Kind::Blades) {
+            Some(pattern) => pattern.fmt(f),
+            None => self.character().fmt(f),
+        }
     }
 }
 
@@ -212,21 +237,39 @@ impl Answer for Whirls {
         table.words("kind", &|row| Some(row.1?.kind.to_string())).shown();
         table.words("sense", &|row| Some(row.1?.sense()?.to_string())).shown();
         table.number("ratio", "", &|row| row.1?.ratio).digits(rough);
+        blades(&mut table, &|row| row.1);
         let mut said = Findings::titled("Kind and whirl of each mode".to_owned());
         said.columns(table);
         said
     }
 }
 
+/// Columns of what blades do; of the text only those of modes with blades.
+pub(super) fn blades<R>(table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> Option<Whirl>) {
+    let pattern = |row: &R| of(row)?.blades;
+    table.whole("nodal diameters", &|row| Some(pattern(row)?.nodal_diameters));
+    table.words("travel", &|row| Some(pattern(row)?.travel?.to_string()));
+    table.number("share of pattern", "", &|row| Some(pattern(row)?.share));
+    table.number("share of blades", "", &|row| Some(pattern(row)?.of_blades));
+    table.number("frequency in blade", "rad/s", &|row| Some(pattern(row)?.of_blade));
+}
+
 displayed!(Whirls);
 
 /// The kind and whirl of each mode.
 pub fn whirls(mechanism: &dyn Kernels, at: &Equilibrium, modes: &Modes) -> Whirls {
+    let description = mechanism.description();
+    let rings = (!description.rings.is_empty()).then(|| {
+        let mass = mechanism.linear(&at.coordinates, &at.inputs, &at.design).mass;
+        (speeds(mechanism, &description, at), mass)
+    });
     let whirl = |mode: &Mode| {
-        mode.frequency()?;
+        let frequency = mode.frequency()?;
         let real = mode.shape.map(|value| value.re);
         let imaginary = mode.shape.map(|value| value.im);
-        Whirl::new(mechanism.whirl(&at.coordinates, &at.inputs, &at.design, &real, &imaginary))
+        let of_shafts = Whirl::new(mechanism.whirl(&at.coordinates, &at.inputs, &at.design, &real, &imaginary));
+        let Some((speeds, mass)) = &rings else { return of_shafts };
+        Whirl::with_blades(of_shafts, pattern(&description, speeds, mass, (&mode.shape, frequency)))
     };
     Whirls(modes.modes.iter().map(whirl).collect())
 }

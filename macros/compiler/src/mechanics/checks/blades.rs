@@ -1,28 +1,50 @@
 //! Rings of blades that a drive turns on a support which is not symmetric about its axis.
 
-use crate::algebra::Graph;
+use crate::algebra::{ExprId, Graph, SymbolId, substitute};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, CoordinateId};
 use crate::base::names::{LINK, written};
+use crate::mechanics::equations::Equations;
+use crate::mechanics::linear::Jacobians;
 use crate::mechanics::motion::{Kinematics, turning};
-use crate::mechanics::setup::{Context, Multiblade};
+use crate::mechanics::setup::{Context, Multiblade, vanish};
 use crate::model::mechanism::{Frame, Motion, Ring};
 
-/// The unknowns of all rings that a drive turns, at any angle of the drives and where these are zero; `None` if there is
-/// no such ring.
-pub(crate) fn multiblade(
+/// The drive of a ring, its angle and its speed in the sense of the ring.
+pub(crate) type Drive = Option<(CoordinateId, [ExprId; 2])>;
+
+/// The drive about the axis of each ring, and its speed in the sense of the ring.
+pub(crate) fn drives(
     g: &mut Graph,
     context: &Context,
     kinematics: &Kinematics,
-) -> Result<Option<[Multiblade; 2]>, Diagnostics> {
+) -> Vec<Drive> {
+    let rings = context.mechanism.rings.iter();
+    rings
+        .map(|ring| {
+            let hub = hub(context, ring)?;
+            let (drive, sign) = driven(g, context, kinematics, ring, hub)?;
+            let Motion::Driven(speed) = &context.mechanism.coordinates[drive.index()].motion else { return None };
+            let speed = context.values.scalar(g, speed);
+            let running = context.topology.running().position(|id| id == drive)?;
+            let angle = context.symbols.running.values[running];
+            Some((drive, [angle, speed].map(|value| g.scale(sign, value))))
+        })
+        .collect()
+}
+
+/// The unknowns of all rings that a drive turns, at any angle of the drives and where these are zero; empty if there is no
+/// such ring.
+pub(crate) fn multiblade(
+    g: &mut Graph,
+    context: &Context,
+    drives: &[Drive],
+) -> Result<[Multiblade; 2], Diagnostics> {
     let mut mistakes = Diagnostics::new();
     let [mut turned, mut still] = [Multiblade::default(), Multiblade::default()];
-    for ring in &context.mechanism.rings {
-        let Some((drive, sign)) = hub(context, ring).and_then(|hub| driven(g, context, kinematics, ring, hub)) else {
-            continue;
-        };
+    for (ring, drive) in context.mechanism.rings.iter().zip(drives) {
+        let Some((drive, [angle, speed])) = *drive else { continue };
         let coordinate = &context.mechanism.coordinates[drive.index()];
-        let Motion::Driven(speed) = &coordinate.motion else { continue };
         if ring.members == 2 {
             let message = format!(
                 "two blades on a support that is not symmetric: the coefficients are periodic in `{}` (Floquet), whatever the coordinates",
@@ -33,16 +55,12 @@ pub(crate) fn multiblade(
             continue;
         }
         unequal(context, ring, &mut mistakes);
-        let speed = context.values.scalar(g, speed);
-        let speed = g.scale(sign, speed);
-        let running = context.topology.running().position(|id| id == drive);
-        let symbol = running.map_or_else(|| g.zero(), |k| context.symbols.running.values[k]);
-        let [angle, zero] = [g.scale(sign, symbol), g.zero()];
+        let zero = g.zero();
         let of = (context.topology, context.symbols);
         turned.add(g, of, ring, [angle, speed]);
         still.add(g, of, ring, [zero, speed]);
     }
-    mistakes.into_result((!turned.is_empty()).then_some([turned, still]))
+    mistakes.into_result([turned, still])
 }
 
 /// The body that carries a ring.
@@ -96,4 +114,64 @@ fn unequal(context: &Context, ring: &Ring, mistakes: &mut Diagnostics) {
             mistakes.error_with_help(&ring.name, message, "give them the same value; each may keep a tolerance of its own");
         }
     }
+}
+
+/// Refuses instances that are not equal around their axis: where all stand alike, each must feel what the first does, and
+/// each pair what a pair at the same distance does.
+pub(crate) fn require_symmetry(
+    g: &mut Graph,
+    context: &Context,
+    equations: &Equations,
+    jacobians: &Jacobians,
+) -> Result<(), Diagnostics> {
+    let mut mistakes = Diagnostics::new();
+    let (symbols, free) = (context.symbols, &context.topology.free);
+    if !context.multiblade.is_empty() {
+        return Ok(());
+    }
+    for ring in &context.mechanism.rings {
+        let place = |id: &CoordinateId| free.iter().position(|own| own == id);
+        let slots: Vec<Vec<usize>> =
+            ring.coordinates.iter().filter_map(|(_, ids)| ids.iter().map(place).collect()).collect();
+        let zero = g.zero();
+        let mut alike: Vec<(SymbolId, ExprId)> = free.iter().zip(&symbols.q.ids).map(|(_, id)| (*id, zero)).collect();
+        for slots in &slots {
+            slots.iter().for_each(|&k| alike[k].1 = symbols.q.values[slots[0]]);
+        }
+        for ids in &ring.design {
+            let first = symbols.b.values[ids[0].index()];
+            alike.extend(ids.iter().map(|id| (symbols.b.ids[id.index()], first)));
+        }
+        let n = ring.members;
+        let mut differences: Vec<(usize, usize, ExprId)> = Vec::new();
+        for (c, of) in slots.iter().enumerate() {
+            for k in 1..n {
+                let rows = [of[0], of[k]];
+                differences.push((c, k, g.sub(equations.rest[rows[1]], equations.rest[rows[0]])));
+                for (other, matrix) in slots.iter().flat_map(|other| {
+                    [&jacobians.mass, &jacobians.damping, &jacobians.stiffness].map(|matrix| (other, matrix))
+                }) {
+                    for step in 0..n {
+                        let entries = [matrix[other[step]][rows[0]], matrix[other[(k + step) % n]][rows[1]]];
+                        differences.push((c, k, g.sub(entries[1], entries[0])));
+                    }
+                }
+            }
+        }
+        let roots: Vec<ExprId> = differences.iter().map(|(.., root)| *root).collect();
+        let roots = substitute(g, &roots, &alike);
+        let equal = vanish(g, context, &roots);
+        let Some(different) = equal.iter().position(|equal| !equal) else { continue };
+        let (c, k, _) = differences[different];
+        let name = |k: usize| {
+            let id = ring.coordinates.iter().filter(|(_, ids)| ids.iter().all(|id| place(id).is_some())).nth(c);
+            let name = id.map(|(_, ids)| context.mechanism.coordinates[ids[k].index()].name.to_string());
+            written(&name.unwrap_or_default()).into_owned()
+        };
+        let message =
+            format!("`{}` is not equal around its axis: `{}` feels other forces than `{}`", ring.name, name(k), name(0));
+        let help = "what acts on one must act on each, turned about the axis; without `cyclic`, all may be different";
+        mistakes.error_with_help(&ring.name, message, help);
+    }
+    mistakes.into_result(())
 }

@@ -29,7 +29,7 @@ use crate::algebra::{Array, Direction, ExprId, Function, Graph, Matrix3, Vector3
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::motion::{BeamMotion, FrameMotion, Kinematics};
 use crate::mechanics::setup::{Context, MassDistribution, SymbolList, Values, at_rest};
-use crate::model::mechanism::Body;
+use crate::model::mechanism::{Body, Frame};
 
 use super::parameters::parameter;
 
@@ -56,17 +56,36 @@ const SUMS: [&str; 7] = ["moment", "lateral", "torsional", "axial", "eccentric",
 /// Added to a divisor that is zero where nothing spins, and then divides zero.
 const TINY: f64 = 1e-300;
 
+/// Whether each body moves with coordinates of blades that are not unknowns: these are seen from the ground, and so no
+/// motion of the body.
+fn on_blades(context: &Context) -> Vec<bool> {
+    let mut all = vec![false; context.mechanism.bodies.len()];
+    for branch in &context.topology.branches {
+        let carried = matches!(branch.parent, Frame::Body(parent) if all[parent.index()]);
+        let free = &context.topology.free;
+        let steps = context.mechanism.joints[branch.joint.index()].steps.iter();
+        let mut unknowns = steps.filter_map(|step| free.iter().position(|id| *id == step.coordinate));
+        all[branch.body.index()] = carried || unknowns.any(|k| context.multiblade.name(k).is_some());
+    }
+    all
+}
+
 /// The sums; `None` if no massive body turns in the state of rest.
 fn sums(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Option<[ExprId; 7]> {
     let zero = g.zero();
     let tiny = g.constant(TINY);
     let symbols = context.symbols;
+    let on_blade = on_blades(context);
     let bodies = context.mechanism.bodies.iter().zip(&kinematics.bodies);
     let mut pieces: Vec<Piece> = bodies
-        .filter(|(body, _)| !body.parts.is_empty())
-        .map(|(body, motion)| Piece::of_body(g, context.values, body, &motion.frame))
+        .zip(&on_blade)
+        .filter(|((body, _), on_blade)| !body.parts.is_empty() && !**on_blade)
+        .map(|((body, motion), _)| Piece::of_body(g, context.values, body, &motion.frame))
         .collect();
     for (k, motion) in kinematics.beams.iter().enumerate() {
+        if on_blade[context.mechanism.beams[k].body.index()] {
+            continue;
+        }
         pieces.extend(slices(g, context, k, motion));
     }
     let vectors: Vec<ExprId> = (pieces.iter()).flat_map(|piece| piece.motion).flat_map(|vector| vector.0).collect();

@@ -61,6 +61,8 @@ fn product(tokens: &mut Tokens, depth: u32) -> Parsed<i64> {
         } else if tokens.sign('/').is_some() {
             let divisor = factor(tokens, depth)?;
             product.checked_div(divisor).filter(|quotient| quotient * divisor == product)
+        } else if tokens.sign('%').is_some() {
+            product.checked_rem_euclid(factor(tokens, depth)?)
         } else {
             return Ok(product);
         };

@@ -20,6 +20,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     frequency: eigentol_contract::Unit::si("rad/s"),
     resolved_modes: None,
     correlations: Shared::Static(&[]),
+    rings: Shared::Static(&[]),
     damping: DampingKind::General,
     kernels: Shared::Static(&[]),
 });
