@@ -132,6 +132,7 @@ impl Model for Chain {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -415,6 +416,7 @@ fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     }));

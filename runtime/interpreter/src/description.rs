@@ -62,7 +62,7 @@ pub fn description(compilation: &Compilation) -> Description {
             name: text(unknown.name.as_str()),
             unit: Unit { symbol: text(unknown.unit.as_str()), scale: 1.0 },
             role: match unknown.role {
-                mechanics::Role::Position(_) => Role::Position,
+                mechanics::Role::Position(_) | mechanics::Role::Harmonic(_) => Role::Position,
                 mechanics::Role::Speed(_) => Role::Speed,
                 mechanics::Role::PositionReaction => Role::PositionReaction,
                 mechanics::Role::VelocityReaction => Role::VelocityReaction,
@@ -124,6 +124,7 @@ pub fn description(compilation: &Compilation) -> Description {
         correlations: mechanism.correlations.iter().map(correlation).collect::<Vec<_>>().into(),
         held: functions.held.clone().into(),
         rings: functions.rings.iter().map(ring).collect::<Vec<_>>().into(),
+        harmonics: functions.harmonics.clone().into(),
         length: mechanism.length,
         frequency: unit(&mechanism.frequency_unit()),
         resolved_modes: mechanics::resolved_modes(mechanism, functions),

@@ -158,6 +158,7 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
         | Error::NonsymmetricStiffness { .. }
         | Error::NoUndampedModes
         | Error::ModesNotFound { .. }
+        | Error::PeriodicCoefficients { .. }
         | Error::EigenvalueRange { .. } => Kind::NoModes,
         Error::NoExcitation { .. } | Error::NoFrequency { .. } | Error::Resonance { .. } => Kind::NoVibration,
         Error::CriticalState

@@ -33,6 +33,7 @@ impl Model for Plate {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -79,6 +80,7 @@ impl Model for Spring {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -114,6 +116,7 @@ impl Model for Follower {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -158,6 +161,7 @@ impl Model for Pair {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -200,6 +204,7 @@ impl Model for Triple {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),
     };
@@ -245,6 +250,7 @@ impl Model for Slipping {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -284,6 +290,7 @@ impl Model for Supercritical {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::Gyroscopic,
         kernels: Shared::Static(&[]),
     };
@@ -322,6 +329,7 @@ impl Model for Overdamped {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };

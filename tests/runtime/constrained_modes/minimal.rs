@@ -181,6 +181,7 @@ mod contradictory {
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
             rings: eigentol::Shared::Static(&[]),
+            harmonics: eigentol::Shared::Static(&[]),
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };
@@ -242,6 +243,7 @@ pub(crate) mod held {
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
             rings: eigentol::Shared::Static(&[]),
+            harmonics: eigentol::Shared::Static(&[]),
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),
         };

@@ -349,6 +349,7 @@ impl Model for Rated {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     };
@@ -399,6 +400,7 @@ fn a_free_mass_drifts() {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),
     });

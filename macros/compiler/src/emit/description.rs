@@ -17,7 +17,7 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
         let Unknown { name, unit, role } = unknown;
         let name = text(name);
         let role = match role {
-            Role::Position(_) => quote!(Position),
+            Role::Position(_) | Role::Harmonic(_) => quote!(Position),
             Role::Speed(_) => quote!(Speed),
             Role::PositionReaction => quote!(PositionReaction),
             Role::VelocityReaction => quote!(VelocityReaction),
@@ -79,6 +79,7 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
             }
         }
     });
+    let harmonics = &functions.harmonics;
     let length = mechanism.length;
     let frequency = unit(&mechanism.frequency_unit());
     let resolved_modes = match resolved_modes(mechanism, functions) {
@@ -110,6 +111,7 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
             correlations: ::eigentol::Shared::Static(&[#(#correlations),*]),
             held: ::eigentol::Shared::Static(&[#(#held),*]),
             rings: ::eigentol::Shared::Static(&[#(#rings),*]),
+            harmonics: ::eigentol::Shared::Static(&[#(#harmonics),*]),
             length: #length,
             frequency: #frequency,
             resolved_modes: #resolved_modes,

@@ -30,7 +30,7 @@ pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> [TokenStr
         let (id, kind) = match unknown.role {
             Role::Position(id) => (id, "Free coordinate"),
             Role::Speed(id) => (id, "Speed of a coasting coordinate"),
-            Role::PositionReaction | Role::VelocityReaction => continue,
+            Role::Harmonic(_) | Role::PositionReaction | Role::VelocityReaction => continue,
         };
         let name = Ident::new(&unknown.name, mechanism.coordinates[id.index()].name.span());
         let doc = format!("{kind}, {}.", unknown.unit);

@@ -3,21 +3,21 @@
 use crate::algebra::{ExprId, Function, Graph};
 use crate::base::diagnostics::{Diagnostics, listed};
 use crate::base::ids::CoordinateId;
+use crate::base::names::joined;
 use crate::model::mechanism::{Mechanism, Motion, Ring};
 use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Unsteady, free_directions, drives, multiblade, notes_on_beams, notes_on_planes, poses, properties, require_determinate_motion,
-    require_harmonic, require_steady_state, require_symmetry, requirements,
+    Drive, Unsteady, drives, free_directions, multiblade, notes_on_beams, notes_on_planes, poses, properties, remaining_orders, require_determinate_motion, require_harmonic, require_steady_state, require_symmetry, requirements,
 };
 use super::equations::{Equations, excited};
-use super::functions::{Functions, Limits, RingPlaces, Role, Unknown};
+use super::functions::{FreeDirections, Functions, Limits, RingPlaces, Role, Unknown};
 use super::kernels::{Excitations, forced, held_values, kernels, picture, pose_margin, violation, whirl};
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
-use super::motion::{in_common_frame, in_common_frame_at_zero};
-use super::setup::{Context, Excited, Multiblade, Runs, Sections, Symbols, Values};
+use super::motion::{Kinematics, in_common_frame, in_common_frame_at_zero};
+use super::setup::{Context, Excited, Harmonics, Multiblade, Runs, Sections, Symbols, Values};
 
 /// Derives every function of a mechanism. Fails if no steady state exists, if no coordinate affects a constraint, and,
 /// unless only the kernels are wanted, if a motion moves no mass or nothing balances a load: errors that only the
@@ -27,7 +27,7 @@ pub fn derive(mechanism: &mut Mechanism, topology: &mut Topology, limits: Limits
     let mut functions = loop {
         match derived(mechanism, topology, limits) {
             Ok(functions) => break functions,
-            Err(Unsteady::Mistakes(mistakes)) => return Err(mistakes),
+            Err(Unsteady::Mistakes(mistakes) | Unsteady::Turning(mistakes)) => return Err(mistakes),
             Err(Unsteady::Standing(more)) => {
                 let mut refused = Diagnostics::new();
                 for id in more {
@@ -57,12 +57,29 @@ pub fn derive(mechanism: &mut Mechanism, topology: &mut Topology, limits: Limits
     Ok(functions)
 }
 
+/// What the unknowns of equal blades are.
+#[derive(Clone, Copy, PartialEq)]
+enum Blades {
+    /// The coordinates of each.
+    Apart,
+    /// Multiblade coordinates.
+    Together,
+    /// Multiblade coordinates and their harmonics.
+    Periodic,
+}
+
 fn derived(mechanism: &Mechanism, topology: &Topology, limits: Limits) -> Result<Functions, Unsteady> {
-    let derived = |equal: bool| {
-        in_context(&mut Graph::new(), mechanism, topology, equal, |g, context| functions(g, context, limits, equal))
+    let derived = |blades: Blades| {
+        let equal = blades != Blades::Apart;
+        in_context(&mut Graph::new(), mechanism, topology, equal, |g, context| functions(g, context, limits, blades))
     };
-    match derived(false) {
-        Err(Unsteady::Mistakes(_)) if !mechanism.rings.is_empty() => derived(true),
+    let apart = derived(Blades::Apart);
+    let (Err(Unsteady::Turning(_)), false) = (&apart, mechanism.rings.is_empty()) else { return apart };
+    match derived(Blades::Together) {
+        Err(Unsteady::Turning(mistakes)) => match derived(Blades::Periodic) {
+            Err(Unsteady::Turning(_)) => Err(Unsteady::Turning(mistakes)),
+            other => other,
+        },
         other => other,
     }
 }
@@ -80,7 +97,7 @@ fn in_context<R>(
     if equal {
         symbols.share_design(g, mechanism);
     }
-    let separate = Multiblade::default();
+    let (separate, steady) = (Multiblade::default(), Harmonics::default());
     let values = Values::new(g, mechanism, &symbols);
     let runs = Runs::new(g, mechanism, topology, &values, &symbols);
     let sections = Sections::new(g, mechanism, topology);
@@ -94,6 +111,7 @@ fn in_context<R>(
         sections: &sections,
         rows: &[],
         multiblade: &separate,
+        harmonics: &steady,
         excited: &at_peace,
     };
     let rows = constraint_rows(g, &unconstrained);
@@ -110,6 +128,7 @@ fn in_context<R>(
         sections: &sections,
         rows: &rows,
         multiblade: &separate,
+        harmonics: &steady,
         excited: &at_peace,
     };
     work(g, &context)
@@ -121,28 +140,50 @@ fn in_context<R>(
 pub(crate) fn compared_at_rest(mechanism: &Mechanism, topology: &Topology) -> Option<[usize; 3]> {
     in_context(&mut Graph::new(), mechanism, topology, false, |g, context| {
         let at_zero = in_common_frame_at_zero(g, context);
-        let equations = Equations::new(g, context, at_zero);
+        let running = vec![g.zero(); context.symbols.running.ids.len()];
+        let equations = Equations::new(g, context, (&running, at_zero), context);
         super::linear::compared(g, context, &equations)
     })
 }
 
-fn functions(g: &mut Graph, context: &Context, limits: Limits, equal: bool) -> Result<Functions, Unsteady> {
+fn functions(g: &mut Graph, context: &Context, limits: Limits, blades: Blades) -> Result<Functions, Unsteady> {
     let (mechanism, symbols) = (context.mechanism, context.symbols);
     let running = in_common_frame(g, context, &symbols.running.values);
     let drives = drives(g, context, &running);
-    let [at_angle, still] = if equal { multiblade(g, context, &drives)? } else { Default::default() };
-    let at_angle = &Context { multiblade: &at_angle, ..*context };
-    let context = &Context { multiblade: &still, ..*context };
-    require_steady_state(g, at_angle, &running)?;
+    let mut of_blades = match blades {
+        Blades::Apart => Default::default(),
+        Blades::Together | Blades::Periodic => multiblade(g, context, &drives)?,
+    };
+    of_blades.iter_mut().for_each(|coordinates| coordinates.bent = blades == Blades::Periodic);
+    let [at_angle, still] = &of_blades;
+    let at_angle = &Context { multiblade: at_angle, ..*context };
+    let harmonics = match blades {
+        Blades::Apart | Blades::Together => {
+            require_steady_state(g, at_angle, &running)?;
+            (symbols.clone(), Harmonics::default())
+        }
+        Blades::Periodic => harmonics(g, at_angle, &running, &drives)?,
+    };
+    let (symbols, harmonics) = (&harmonics.0, &harmonics.1);
+    let context = &Context { multiblade: still, symbols, harmonics, ..*context };
     let at_zero = in_common_frame_at_zero(g, context);
     let responses = excited(g, at_angle, &at_zero);
     let turning = require_harmonic(g, at_angle, &running, &responses)?;
-    let equations = Equations::new(g, context, at_zero);
-    let at_zero = &equations.kinematics;
+    let responses = responses.into_iter().map(|response| response.along_means(g, context)).collect::<Vec<_>>();
+    let zeros = vec![g.zero(); symbols.running.ids.len()];
+    let equations = if harmonics.is_empty() {
+        Equations::new(g, context, (&zeros, &at_zero), context)
+    } else {
+        Equations::new(g, at_angle, (&symbols.running.values, &running), context)
+    };
+    let at_zero = &at_zero;
     let jacobians = Jacobians::new(g, context, &equations);
     let undetermined = require_determinate_motion(g, context, &jacobians)?;
     require_symmetry(g, context, &equations, &jacobians)?;
-    let mut free = free_directions(g, context, &equations, &jacobians)?;
+    let mut free = match harmonics.is_empty() {
+        true => free_directions(g, context, (&equations, at_zero), &jacobians)?,
+        false => FreeDirections { notes: vec![periodic(harmonics)], ..FreeDirections::default() },
+    };
     free.notes.extend(notes_on_planes(g, context, &running));
     let properties = properties(g, context, &jacobians);
     let linear = Linear::new(g, &jacobians, properties, context);
@@ -174,8 +215,36 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, equal: bool) -> R
         free,
         held,
         rings,
+        harmonics: harmonics.orders.clone(),
         excitations: excitations.facts,
     })
+}
+
+/// The unknowns where equal blades leave a periodic part in the equations.
+fn harmonics(
+    g: &mut Graph,
+    context: &Context,
+    running: &Kinematics,
+    drives: &[Drive],
+) -> Result<(Symbols, Harmonics), Unsteady> {
+    let Some((orders, place)) = remaining_orders(g, context, running, drives) else {
+        return Err(Unsteady::Turning(Diagnostics::new()));
+    };
+    let symbols = context.symbols;
+    let unknowns = symbols.clone().with_harmonics(g, &orders);
+    let id = context.topology.running().nth(place);
+    let speed = id.map_or_else(|| g.zero(), |id| running.coordinates[id.index()].velocity);
+    let angles: Vec<_> = symbols.running.ids.iter().enumerate().map(|(k, &id)| (id, k == place)).collect();
+    let harmonics = Harmonics::new(g, orders, (symbols, &unknowns), (&angles, speed));
+    Ok((unknowns, harmonics))
+}
+
+fn periodic(harmonics: &Harmonics) -> String {
+    let orders: Vec<String> = harmonics.orders.iter().map(ToString::to_string).collect();
+    format!(
+        "the coefficients keep a part that is periodic, of order {}: steady motion and modes have harmonics (Hill's method with these)",
+        listed(&orders)
+    )
 }
 
 /// A function of the coordinates as one of the unknowns.
@@ -236,11 +305,22 @@ fn unknowns(context: &Context) -> Vec<Unknown> {
         let name = context.multiblade.name(k).map_or(unknown.name, str::to_owned);
         Unknown { name, ..unknown }
     });
+    let free: Vec<_> = free.collect();
     let coasting = topology.coasting.iter().map(|&id| of(id, "/s", Role::Speed));
+    let coasting: Vec<_> = coasting.collect();
+    let harmonics = (free.len()..context.symbols.q.ids.len() - coasting.len() - context.rows.len()).filter_map(|k| {
+        let (coordinate, order, sine) = Harmonics::of_unknown(&context.harmonics.orders, free.len(), k)?;
+        let of = &free[coordinate];
+        let name = joined(&of.name, if sine { "sine" } else { "cosine" });
+        let name = joined(&name, &order.to_string());
+        let id = topology.free[coordinate];
+        Some(Unknown { name, unit: of.unit.clone(), role: Role::Harmonic(id) })
+    });
+    let harmonics: Vec<_> = harmonics.collect();
     let reactions = context.rows.iter().map(|row| Unknown {
         name: row.label.clone(),
         unit: row.unit.clone(),
         role: if row.of_velocities { Role::VelocityReaction } else { Role::PositionReaction },
     });
-    free.chain(coasting).chain(reactions).collect()
+    free.into_iter().chain(harmonics).chain(coasting).chain(reactions).collect()
 }

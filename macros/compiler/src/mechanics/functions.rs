@@ -31,6 +31,9 @@ pub struct Functions {
     pub held: Vec<usize>,
     /// Rings of equal instances.
     pub rings: Vec<RingPlaces>,
+    /// Multiples of the speed of the rings with which the unknowns vibrate in steady motion; the unknowns are the means of
+    /// all coordinates, then for each of these the cosines and the sines.
+    pub harmonics: Vec<usize>,
     /// The excitations in the order of the mechanism.
     pub excitations: Vec<Excitation>,
 }
@@ -91,6 +94,8 @@ pub struct Unknown {
 pub enum Role {
     /// A free coordinate.
     Position(CoordinateId),
+    /// The amplitude of a harmonic of a free coordinate.
+    Harmonic(CoordinateId),
     /// The speed of a coasting coordinate.
     Speed(CoordinateId),
     /// The reaction of a constraint on positions.

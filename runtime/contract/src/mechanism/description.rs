@@ -52,6 +52,10 @@ pub struct Description {
     /// Equal instances around axes.
     #[cfg_attr(feature = "serde", serde(default = "none"))]
     pub rings: List<RingInfo>,
+    /// Multiples of the speed of the rings with which the mechanism vibrates in steady motion. The unknowns are then the
+    /// means of all coordinates, followed, for each of these multiples, by the amplitudes of the cosines and of the sines.
+    #[cfg_attr(feature = "serde", serde(default = "none"))]
+    pub harmonics: List<usize>,
     /// The generated functions and their costs.
     pub kernels: List<KernelInfo>,
 }

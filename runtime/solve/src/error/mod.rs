@@ -231,6 +231,17 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         residual: f64,
     },
+    /// The coefficients are periodic in the angle of a drive, and more than a small part of the vibration is in harmonics.
+    #[error(
+        "the coefficients are periodic in the angle of the drive, and harmonics have {:.0} % of the energy of a mode: more than \
+         a few of them describe. That takes the theory of Floquet, which is not supported",
+        100.0 * .share
+    )]
+    PeriodicCoefficients {
+        /// Largest share of harmonics in a mode.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
+        share: f64,
+    },
     /// The square of an eigenvalue exceeds the range of a double.
     #[error(
         "the eigenvalue of mode {} is {size:.3e} 1/s, and its square exceeds the range of a double: a mass is far too \

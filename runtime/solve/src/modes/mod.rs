@@ -18,6 +18,7 @@ mod kinetic;
 mod mode;
 mod normalisation;
 mod pencil;
+mod principal;
 mod undamped;
 mod whirl;
 
@@ -252,6 +253,10 @@ pub enum ModesFailure {
     /// Undamped modes were requested, but speeds or constraints on velocities rule them out.
     NotHolonomic,
     Pencil(EigenproblemError),
+    /// Harmonics of the coefficients have this share in a mode.
+    Periodic {
+        share: f64,
+    },
     /// The square of this eigenvalue exceeds the range of a double.
     Range {
         mode: usize,
@@ -266,6 +271,7 @@ impl ModesFailure {
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
             Self::NotHolonomic => Error::NoUndampedModes,
             Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
+            Self::Periodic { share } => Error::PeriodicCoefficients { share },
             Self::Pencil(EigenproblemError::SingularMass(row)) => {
                 Error::SingularMass { coordinate: description.unknown_name(row) }
             }
@@ -470,6 +476,7 @@ fn solve_general(
             label: modes.len(),
         });
     }
+    principal::keep_principal(linear, description, modes)?;
     sort_by_frequency(modes);
     Ok(())
 }

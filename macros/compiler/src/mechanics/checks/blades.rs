@@ -1,13 +1,15 @@
 //! Rings of blades that a drive turns on a support which is not symmetric about its axis.
 
+use std::f64::consts::TAU;
+
 use crate::algebra::{ExprId, Graph, SymbolId, substitute};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, CoordinateId};
 use crate::base::names::{LINK, written};
-use crate::mechanics::equations::Equations;
+use crate::mechanics::equations::{Equations, Residual, outputs};
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::motion::{Kinematics, turning};
-use crate::mechanics::setup::{Context, Multiblade, vanish};
+use crate::mechanics::setup::{Context, ForceSelection, Multiblade, at_rest, by_symbol, vanish};
 use crate::model::mechanism::{Frame, Motion, Ring};
 
 /// The drive of a ring, its angle and its speed in the sense of the ring.
@@ -174,4 +176,44 @@ pub(crate) fn require_symmetry(
         mistakes.error_with_help(&ring.name, message, help);
     }
     mistakes.into_result(())
+}
+
+/// The harmonics that remain where a ring stands across a force: `None` if the equations do more than that when the drive
+/// turns on by one blade, counted from the next.
+pub(crate) fn remaining_orders(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    drives: &[Drive],
+) -> Option<(Vec<usize>, usize)> {
+    let (symbols, topology) = (context.symbols, context.topology);
+    let mut rings = context.mechanism.rings.iter().zip(drives).filter_map(|(ring, drive)| Some((ring.members, (*drive)?.0)));
+    let (blades, drive) = rings.next()?;
+    let simple = topology.coasting.is_empty() && context.rows.is_empty();
+    if !simple || rings.any(|other| other != (blades, drive)) {
+        return None;
+    }
+    let running = &symbols.running;
+    let place = topology.running().position(|id| id == drive)?;
+    let residual = Residual::new(g, context, &running.values, kinematics, ForceSelection::ALL).total(g, context);
+    let outputs = outputs(g, context, &running.values, kinematics);
+    let roots = [residual, at_rest(g, symbols, &outputs)].concat();
+    let step = g.constant(TAU / blades as f64);
+    let next = g.add(running.values[place], step);
+    let mut replaced = vec![(running.ids[place], next)];
+    for k in context.multiblade.alternating() {
+        for list in [&symbols.q, &symbols.velocity, &symbols.acceleration] {
+            replaced.push((list.ids[k], g.neg(list.values[k])));
+        }
+    }
+    let mut turned = substitute(g, &roots, &replaced);
+    for k in context.multiblade.alternating() {
+        turned[k] = g.neg(turned[k]);
+    }
+    let mut rest: Vec<ExprId> = roots.iter().zip(&turned).map(|(&one, &other)| g.sub(one, other)).collect();
+    for (_, &symbol) in running.ids.iter().enumerate().filter(|(k, _)| *k != place) {
+        rest.extend(by_symbol(g, &roots, symbol));
+    }
+    let orders = if blades.is_multiple_of(2) { vec![blades / 2, blades] } else { vec![blades] };
+    vanish(g, context, &rest).into_iter().all(|zero| zero).then_some((orders, place))
 }

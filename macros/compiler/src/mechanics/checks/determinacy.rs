@@ -55,7 +55,8 @@ pub(crate) fn require_determinate_motion(
     }
     let unknowns = jacobians.stiffness.len();
     let first = if kernels_only { 0 } else { free };
-    let zeros = vanish(g, context, &jacobians.stiffness[first..].concat());
+    let last = moving + context.rows.len();
+    let zeros = vanish(g, context, &jacobians.stiffness[first..last].concat());
     for (k, column) in (first..).zip(zeros.chunks_exact(unknowns.max(1))) {
         let idle = column.iter().all(|zero| *zero);
         if !idle || without_inertia == Some(k) {

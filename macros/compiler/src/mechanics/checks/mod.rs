@@ -17,7 +17,7 @@ mod requirements;
 mod steady_state;
 
 pub(super) use beams::{notes_on_beams, notes_on_planes};
-pub(super) use blades::{drives, multiblade, require_symmetry};
+pub(super) use blades::{Drive, drives, multiblade, remaining_orders, require_symmetry};
 pub(super) use determinacy::require_determinate_motion;
 pub(super) use freedom::free_directions;
 pub(super) use harmonic::{Turning, require_harmonic};

@@ -20,6 +20,8 @@ pub(crate) enum Unsteady {
     /// These coasting coordinates can only stand still, because the slip at a contact depends on them: they are free.
     Standing(Vec<CoordinateId>),
     Mistakes(Diagnostics),
+    /// The equations or the outputs depend on a running coordinate.
+    Turning(Diagnostics),
 }
 
 impl From<Diagnostics> for Unsteady {
@@ -94,7 +96,7 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context, kinematics:
         }
     }
     match diagnostics.into_result(()) {
-        Err(mistakes) => Err(Unsteady::Mistakes(mistakes)),
+        Err(mistakes) => Err(Unsteady::Turning(mistakes)),
         Ok(()) if standing.is_empty() => Ok(()),
         Ok(()) => Err(Unsteady::Standing(standing)),
     }

@@ -26,6 +26,20 @@ pub(crate) struct Response {
     pub(crate) by: Vec<Vec<ExprId>>,
 }
 
+impl Response {
+    /// Of unknowns with harmonics, along which forces that do not depend on the angle of a drive do not act.
+    pub(crate) fn along_means(self, g: &mut Graph, context: &Context) -> Self {
+        let outputs = context.mechanism.outputs.len();
+        let padded = |change: Vec<ExprId>| {
+            let (residual, outputs) = change.split_at(change.len() - outputs);
+            let mut change = context.harmonics.constant(g, residual);
+            change.extend(outputs);
+            change
+        };
+        Self { by: self.by.into_iter().map(padded).collect() }
+    }
+}
+
 /// The responses to all excitations, with the running coordinates as symbols.
 pub(crate) fn excited(g: &mut Graph, context: &Context, at_zero: &Kinematics) -> Vec<Response> {
     let mechanism = context.mechanism;

@@ -3,7 +3,7 @@
 use crate::algebra::{ExprId, Graph};
 use crate::mechanics::inertia::{Variation, variation};
 use crate::mechanics::motion::Kinematics;
-use crate::mechanics::setup::{Context, ForceSelection, at_rest};
+use crate::mechanics::setup::{Context, ForceSelection, at_rest, weighted_sum};
 
 use super::outputs::outputs;
 use super::residual::Residual;
@@ -25,31 +25,40 @@ pub(crate) struct Equations {
     pub(crate) rest_applied: Vec<ExprId>,
     /// Outputs along any motion.
     pub(crate) outputs_in_motion: Vec<ExprId>,
-    /// The motion of every frame with the running coordinates at zero.
-    pub(crate) kinematics: Kinematics,
     /// Outputs at rest.
     pub(crate) outputs: Vec<ExprId>,
 }
 
 impl Equations {
-    pub(crate) fn new(g: &mut Graph, context: &Context, kinematics: Kinematics) -> Self {
-        let zero = g.zero();
-        let symbols = context.symbols;
-        let running = vec![zero; symbols.running.ids.len()];
-        let parts = Residual::new(g, context, &running, &kinematics, ForceSelection::ALL);
+    /// From the motion of every frame with the running coordinates at `running`: zero, or if `unknowns` have harmonics,
+    /// their symbols.
+    pub(crate) fn new(
+        g: &mut Graph,
+        context: &Context,
+        (running, kinematics): (&[ExprId], &Kinematics),
+        unknowns: &Context,
+    ) -> Self {
+        let (symbols, harmonics) = (unknowns.symbols, unknowns.harmonics);
+        let parts = Residual::new(g, context, running, kinematics, ForceSelection::ALL);
         let motion = parts.total(g, context);
-        let variation = if context.multiblade.is_empty() { variation(g, context, &running) } else { None };
-        let inertia = Residual::new(g, context, &running, &kinematics, ForceSelection::INERTIA).total(g, context);
-        let applied = Residual::new(g, context, &running, &kinematics, ForceSelection::APPLIED).total(g, context);
-        let outputs_in_motion = outputs(g, context, &running, &kinematics);
+        let variation = if context.multiblade.is_empty() { variation(g, context, running) } else { None };
+        let [inertia, applied] = [ForceSelection::INERTIA, ForceSelection::APPLIED].map(|selection| {
+            let total = Residual::new(g, context, running, kinematics, selection).total(g, context);
+            harmonics.forces(g, &total)
+        });
+        let outputs_in_motion = outputs(g, context, running, kinematics);
+        let outputs_in_motion = harmonics.mean(g, &outputs_in_motion);
         let rates = [&symbols.phi, &symbols.pencil.left, &symbols.w];
-        let powers = rates.map(|rate| parts.power(g, context, &motion, &rate.values));
+        let motion = harmonics.forces(g, &motion);
+        let powers = rates.map(|rate| match harmonics.is_empty() {
+            true => parts.power(g, context, &motion, &rate.values),
+            false => weighted_sum(g, &rate.values, &motion),
+        });
         let rest = at_rest(g, symbols, &motion);
         let rest_inertia = at_rest(g, symbols, &inertia);
         let rest_applied = at_rest(g, symbols, &applied).into_iter().map(|force| g.neg(force)).collect();
         let outputs = at_rest(g, symbols, &outputs_in_motion);
         Self {
-            kinematics,
             motion,
             parts,
             variation,

@@ -6,6 +6,7 @@ use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
 
 use super::excited::Excited;
+use super::harmonics::Harmonics;
 use super::multiblade::Multiblade;
 use super::rows::{Row, Source};
 use super::runs::Runs;
@@ -27,6 +28,8 @@ pub(crate) struct Context<'a> {
     pub(crate) rows: &'a [Row],
     /// The coordinates of blades that the unknowns stand for.
     pub(crate) multiblade: &'a Multiblade,
+    /// The harmonics of steady motion.
+    pub(crate) harmonics: &'a Harmonics,
     /// What excitations add.
     pub(crate) excited: &'a Excited,
 }
@@ -65,7 +68,11 @@ impl Context<'_> {
             self.topology.branches.iter().position(|branch| branch.joint == joint).unwrap_or(0)
         };
         let reactions = self.rows.iter().map(|_| usize::MAX);
-        self.topology.free.iter().chain(&self.topology.coasting).map(branch_index).chain(reactions).collect()
+        let mut order: Vec<usize> =
+            self.topology.free.iter().chain(&self.topology.coasting).map(branch_index).chain(reactions).collect();
+        let coordinates = order.clone();
+        order.extend(coordinates.iter().cycle().take(self.symbols.q.ids.len() - coordinates.len()));
+        order
     }
 
     /// Replaces each absolute angle by its sum of joint angles, and each section's rotation by its sum of coordinates.

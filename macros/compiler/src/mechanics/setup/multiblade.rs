@@ -31,6 +31,8 @@ pub(crate) struct Multiblade {
     rings: Vec<Turning>,
     /// By unknown: its name and whether the blades differ in it, where it is not the coordinate of a joint.
     unknowns: Vec<Option<(String, bool)>>,
+    /// Whether blades differ in steady motion.
+    pub(crate) bent: bool,
     /// What replaces the coordinates, their rates and the vectors along them.
     replaced: Vec<(SymbolId, ExprId)>,
 }
@@ -176,9 +178,15 @@ impl Multiblade {
 
     /// Whether blades differ in an unknown.
     pub(crate) fn is_lateral(&self, unknown: usize) -> bool {
-        matches!(self.unknowns.get(unknown), Some(Some((_, true))))
+        !self.bent && matches!(self.unknowns.get(unknown), Some(Some((_, true))))
     }
 
+
+    /// Unknowns that change their sign when blades are counted from the next.
+    pub(crate) fn alternating(&self) -> impl Iterator<Item = usize> + '_ {
+        let rings = self.rings.iter().filter(|ring| ring.pattern.len().is_multiple_of(2));
+        rings.flat_map(|ring| ring.slots.iter().filter_map(|slots| slots.last().copied()))
+    }
 
     /// Expressions of the coordinates in terms of the unknowns.
     pub(crate) fn in_unknowns(&self, g: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {

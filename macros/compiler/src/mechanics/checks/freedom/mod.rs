@@ -23,6 +23,7 @@ use crate::base::diagnostics::{Diagnostics, listed};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::FreeDirections;
 use crate::mechanics::linear::Jacobians;
+use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, columns};
 
 use count::{Proof, at_random, count};
@@ -42,11 +43,11 @@ const DESIGNS: u64 = 3;
 pub(crate) fn free_directions(
     g: &mut Graph,
     context: &Context,
-    equations: &Equations,
+    (equations, kinematics): (&Equations, &Kinematics),
     jacobians: &Jacobians,
 ) -> Result<FreeDirections, Diagnostics> {
     let units = Units::new(g, context, jacobians);
-    let fields = Fields::new(g, context, &equations.kinematics, units);
+    let fields = Fields::new(g, context, kinematics, units);
     let system = System::new(g, context, equations, jacobians, &fields);
     // Without anything that a design could change, one says all.
     let alike = context.symbols.b.ids.is_empty() && context.symbols.u.ids.is_empty();
@@ -92,7 +93,7 @@ pub(crate) fn free_directions(
         return Ok(free);
     }
     let of_inputs = columns(g, &equations.rest, &context.symbols.u);
-    let causes = causes(g, context, &equations.kinematics);
+    let causes = causes(g, context, kinematics);
     let system = System::new(g, context, equations, jacobians, &fields);
     let (chosen, loaded): (Vec<_>, Vec<_>) =
         loaded.into_iter().partition(|along| of_inputs.iter().any(|part| works(&system, NOMINAL, along, part)));
