@@ -2,7 +2,7 @@
 
 mod along;
 mod balanced;
-mod common;
+pub(crate) mod common;
 mod families;
 mod followed;
 mod members;

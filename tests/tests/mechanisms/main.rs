@@ -1,5 +1,6 @@
 //! Kinds of machines: joints, loops, wheels, robots, free directions, and their pictures.
 
+mod blades;
 mod free_directions;
 mod free_machines;
 mod loops;

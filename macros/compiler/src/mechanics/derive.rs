@@ -9,7 +9,7 @@ use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Drive, Unsteady, drives, free_directions, multiblade, notes_on_beams, notes_on_planes, poses, properties, remaining_orders, require_determinate_motion, require_harmonic, require_steady_state, require_symmetry, requirements,
+    Drive, Unsteady, drives, free_directions, is_steady, multiblade, notes_on_beams, notes_on_planes, poses, properties, remaining_orders, require_determinate_motion, require_harmonic, require_steady_state, require_symmetry, requirements,
 };
 use super::equations::{Equations, excited};
 use super::functions::{FreeDirections, Functions, Limits, RingPlaces, Role, Unknown};
@@ -27,7 +27,8 @@ pub fn derive(mechanism: &mut Mechanism, topology: &mut Topology, limits: Limits
     let mut functions = loop {
         match derived(mechanism, topology, limits) {
             Ok(functions) => break functions,
-            Err(Unsteady::Mistakes(mistakes) | Unsteady::Turning(mistakes)) => return Err(mistakes),
+            Err(Unsteady::Mistakes(mistakes)) => return Err(mistakes),
+            Err(Unsteady::Turning) => unreachable!("the last attempt says what is wrong"),
             Err(Unsteady::Standing(more)) => {
                 let mut refused = Diagnostics::new();
                 for id in more {
@@ -66,22 +67,25 @@ enum Blades {
     Together,
     /// Multiblade coordinates and their harmonics.
     Periodic,
+    /// The coordinates of each, and what is wrong with them.
+    Refused,
 }
 
 fn derived(mechanism: &Mechanism, topology: &Topology, limits: Limits) -> Result<Functions, Unsteady> {
     let derived = |blades: Blades| {
-        let equal = blades != Blades::Apart;
+        let equal = matches!(blades, Blades::Together | Blades::Periodic);
         in_context(&mut Graph::new(), mechanism, topology, equal, |g, context| functions(g, context, limits, blades))
     };
-    let apart = derived(Blades::Apart);
-    let (Err(Unsteady::Turning(_)), false) = (&apart, mechanism.rings.is_empty()) else { return apart };
-    match derived(Blades::Together) {
-        Err(Unsteady::Turning(mistakes)) => match derived(Blades::Periodic) {
-            Err(Unsteady::Turning(_)) => Err(Unsteady::Turning(mistakes)),
-            other => other,
-        },
-        other => other,
+    if mechanism.rings.is_empty() {
+        return derived(Blades::Refused);
     }
+    for blades in [Blades::Apart, Blades::Together, Blades::Periodic] {
+        match derived(blades) {
+            Err(Unsteady::Turning) => {}
+            other => return other,
+        }
+    }
+    derived(Blades::Refused)
 }
 
 /// Passes the symbols, values and coordinates in which the equations of a mechanism are derived to `work`. If blades are
@@ -151,17 +155,21 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, blades: Blades) -
     let running = in_common_frame(g, context, &symbols.running.values);
     let drives = drives(g, context, &running);
     let mut of_blades = match blades {
-        Blades::Apart => Default::default(),
+        Blades::Apart | Blades::Refused => Default::default(),
         Blades::Together | Blades::Periodic => multiblade(g, context, &drives)?,
     };
     of_blades.iter_mut().for_each(|coordinates| coordinates.bent = blades == Blades::Periodic);
     let [at_angle, still] = &of_blades;
     let at_angle = &Context { multiblade: at_angle, ..*context };
     let harmonics = match blades {
-        Blades::Apart | Blades::Together => {
+        Blades::Refused => {
             require_steady_state(g, at_angle, &running)?;
             (symbols.clone(), Harmonics::default())
         }
+        Blades::Apart | Blades::Together if is_steady(g, at_angle, &running) => {
+            (symbols.clone(), Harmonics::default())
+        }
+        Blades::Apart | Blades::Together => return Err(Unsteady::Turning),
         Blades::Periodic => harmonics(g, at_angle, &running, &drives)?,
     };
     let (symbols, harmonics) = (&harmonics.0, &harmonics.1);
@@ -228,7 +236,7 @@ fn harmonics(
     drives: &[Drive],
 ) -> Result<(Symbols, Harmonics), Unsteady> {
     let Some((orders, place)) = remaining_orders(g, context, running, drives) else {
-        return Err(Unsteady::Turning(Diagnostics::new()));
+        return Err(Unsteady::Turning);
     };
     let symbols = context.symbols;
     let unknowns = symbols.clone().with_harmonics(g, &orders);

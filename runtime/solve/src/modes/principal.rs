@@ -11,32 +11,33 @@ const LARGEST: f64 = 0.1;
 
 /// Keeps the modes that are mostly in the means, and adds the error that the harmonics left out make.
 ///
-/// With a periodic part of relative size `e`, the harmonics have a share of `e^2` in a mode. They move its eigenvalue by as
-/// much; those left out, by `e^4` of the distance to the next eigenvalue of the same family. Their share to the power of 3/2
-/// is greater.
-pub(super) fn keep_principal(linear: &Linear, description: &Description, modes: &mut Vec<Mode>) -> Result<(), ModesFailure> {
+/// With a periodic part of relative size `e`, the harmonics have shares of `e^2` in the modes. They move the eigenvalues by as
+/// much; those left out move them by `e^4` of their distance, which is at most that of the furthest eigenvalue.
+pub(super) fn keep_principal(
+    linear: &Linear,
+    description: &Description,
+    modes: &mut Vec<Mode>,
+) -> Result<(), ModesFailure> {
     if description.harmonics.is_empty() {
         return Ok(());
     }
     let blocks = 1 + 2 * description.harmonics.len();
     let n = linear.mass.row_count() / blocks;
-    let furthest = modes.iter().map(|mode| mode.s.norm()).fold(0.0, f64::max);
-    let mut count = 0;
-    let mut largest: f64 = 0.0;
-    modes.retain_mut(|mode| {
+    let share = |mode: &Mode| {
         let energy = |k: usize| energy(&linear.mass, k * n, &mode.shape[k * n..(k + 1) * n]);
         let harmonics: f64 = (1..blocks).map(energy).sum();
-        let share = harmonics / (energy(0) + harmonics);
-        if share >= 0.5 {
-            return false;
-        }
-        count += if mode.s.im > 0.0 { 2 } else { 1 };
-        largest = largest.max(share);
-        mode.error += share.powf(1.5) * furthest;
-        true
-    });
+        harmonics / (energy(0) + harmonics)
+    };
+    let furthest = modes.iter().map(|mode| mode.s.norm()).fold(0.0, f64::max);
+    modes.retain(|mode| share(mode) < 0.5);
+    let shares: Vec<f64> = modes.iter().map(share).collect();
+    let largest = shares.iter().copied().fold(0.0, f64::max);
+    let count: usize = modes.iter().map(|mode| if mode.s.im > 0.0 { 2 } else { 1 }).sum();
     if count != 2 * n || largest > LARGEST {
         return Err(ModesFailure::Periodic { share: largest });
+    }
+    for (mode, share) in modes.iter_mut().zip(shares) {
+        mode.error += share * largest * furthest;
     }
     Ok(())
 }

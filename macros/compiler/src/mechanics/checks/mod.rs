@@ -24,4 +24,4 @@ pub(super) use harmonic::{Turning, require_harmonic};
 pub(super) use poses::poses;
 pub(super) use properties::properties;
 pub(super) use requirements::requirements;
-pub(super) use steady_state::{Unsteady, require_steady_state};
+pub(super) use steady_state::{Unsteady, is_steady, require_steady_state};

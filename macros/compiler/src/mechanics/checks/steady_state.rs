@@ -20,14 +20,28 @@ pub(crate) enum Unsteady {
     /// These coasting coordinates can only stand still, because the slip at a contact depends on them: they are free.
     Standing(Vec<CoordinateId>),
     Mistakes(Diagnostics),
-    /// The equations or the outputs depend on a running coordinate.
-    Turning(Diagnostics),
+    /// The equations or the outputs depend on a running coordinate, which other unknowns may change.
+    Turning,
 }
 
 impl From<Diagnostics> for Unsteady {
     fn from(mistakes: Diagnostics) -> Self {
         Self::Mistakes(mistakes)
     }
+}
+
+/// Whether neither equations nor outputs depend on a running coordinate.
+pub(crate) fn is_steady(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> bool {
+    let running = &context.symbols.running;
+    let residual = Residual::new(g, context, &running.values, kinematics, ForceSelection::ALL).total(g, context);
+    let mut all = decisive(g, context, residual);
+    let outputs = outputs(g, context, &running.values, kinematics);
+    all.extend(at_rest(g, context.symbols, &outputs));
+    let coordinates: Vec<_> = context.topology.running().collect();
+    let mut pairs = running.ids.iter().zip(coordinates);
+    pairs.all(|(&symbol, id)| {
+        g.is(kinematics.coordinates[id.index()].velocity, 0.0) || !depends(g, context, &all, symbol)
+    })
 }
 
 /// Rejects a mechanism whose equations or outputs depend on a running coordinate, naming the cause.
@@ -96,7 +110,7 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context, kinematics:
         }
     }
     match diagnostics.into_result(()) {
-        Err(mistakes) => Err(Unsteady::Turning(mistakes)),
+        Err(mistakes) => Err(Unsteady::Mistakes(mistakes)),
         Ok(()) if standing.is_empty() => Ok(()),
         Ok(()) => Err(Unsteady::Standing(standing)),
     }

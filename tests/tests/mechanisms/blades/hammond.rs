@@ -1,0 +1,147 @@
+//! Ground resonance of four blades (C. E. Hammond, 1974), with values in eighty digits.
+
+use super::*;
+use crate::free_machines::common::truth;
+use eigentol::modes::{Kind, Travel};
+
+const UNITS: [(&str, &str); 11] = [
+    ("mx", "kg"),
+    ("my", "kg"),
+    ("kx", "N/m"),
+    ("ky", "N/m"),
+    ("cx", "N*s/m"),
+    ("cy", "N*s/m"),
+    ("m", "kg"),
+    ("S", "kg*m"),
+    ("I", "kg*m^2"),
+    ("e", "m"),
+    ("cl", "N*m*s/rad"),
+];
+
+/// Blades with a stiffness of their own at the hinge, zero.
+pub(super) const BLADE: &str = "
+    part Blade(m: kg, S: kg*m, I: kg*m^2, e: m, cl: N*m*s/rad) {
+        design kl = 0 N*m/rad +/- 10 N*m/rad;
+        let J: kg*m^2 = I - S^2 / m;
+        port root;
+        body arm: rigid(mass: m, inertia: [0 kg*m^2, J, J], center: [S / m, 0 m, 0 m]);
+        joint lag: revolute(z) from root to arm at [e, 0 m, 0 m];
+        force hinge: spring(on: lag, stiffness: kl);
+        force damp: damper(on: lag, damping: cl);
+    }";
+
+/// The rotor; `frame` moves along x alone.
+fn rotor(truth: &Value, frame: &str) -> String {
+    format!(
+        "{BLADE}
+        mechanism Hammond {{
+            input omega: rad/s;
+            {}
+            body frame: {frame};
+            body mast: point(mass: my);
+            body hub: massless;
+            joint x: prismatic(x) from ground to frame;
+            joint y: prismatic(y) from frame to mast;
+            joint spin: revolute(z) from mast to hub, driven at omega;
+            force sx: spring(on: x, stiffness: kx);
+            force sy: spring(on: y, stiffness: ky);
+            force dx: damper(on: x, damping: cx);
+            force dy: damper(on: y, damping: cy);
+            cyclic blade[0..4] about z {{
+                use blade: Blade(m: m, S: S, I: I, e: e, cl: cl) with root: hub;
+            }}
+        }}",
+        declared(&truth["parameters"], &UNITS)
+    )
+}
+
+fn check(name: &str, frame: &str, shared: &[(&str, &[&str])]) {
+    let truth = truth(name);
+    let text = rotor(&truth, frame);
+    for case in truth["cases"].as_array().expect("cases") {
+        let study = at(&text, number(&case["omega"]));
+        let expected = list(&case["eigenvalues"]);
+        let places = same_exponents(&study, &expected, 1e-10);
+        // Collective and differential lag coincide.
+        let alone = |r: usize| expected.iter().filter(|s| (*s - expected[r]).norm() < 1e-6).count() == 1;
+        let own = UNITS.iter().map(|(name, _)| (*name, vec![*name])).filter(|(name, _)| {
+            !shared.iter().any(|(_, of)| of.contains(name))
+        });
+        let together = shared.iter().map(|(name, of)| (*name, of.to_vec()));
+        for (variable, of) in own.chain(together).chain([("omega", vec!["omega"])]) {
+            let sum = |order: &str, r: usize| -> Complex { of.iter().map(|one| complex(&case[order][*one][r])).sum() };
+            let found = derivatives(&study, variable);
+            for r in (0..expected.len()).filter(|r| alone(*r)) {
+                let first = found[places[r]].expect("a derivative");
+                let scale = 1e-6 * (0..expected.len()).map(|r| sum("first", r).norm()).fold(0.0, f64::max);
+                close(first, sum("first", r), 1e-9, scale, &format!("{name} {variable} {r}"));
+                if of.len() > 1 || variable == "omega" {
+                    continue;
+                }
+                let curvature = study.mode_curvature(places[r]).expect("second derivatives");
+                let k = design(&study, variable);
+                let second = curvature.eigenvalue.expect("of s").by_design[k][k];
+                let scale = 1e-3 * (0..expected.len()).map(|r| sum("second", r).norm()).fold(0.0, f64::max);
+                close(second, sum("second", r), 1e-7, scale, &format!("{name} {variable} {r}, second"));
+            }
+        }
+        // One blade has a quarter of the effect of all.
+        for blade in 0..4 {
+            let found = derivatives(&study, &format!("blade[{blade}].kl"));
+            for r in (0..expected.len()).filter(|r| alone(*r)) {
+                let all = complex(&case["first"]["kl"][r]);
+                close(found[places[r]].expect("a derivative") * 4.0, all, 1e-9, 1e-12, &format!("{name} one blade {r}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn on_a_support_that_is_not_symmetric() {
+    check("B1_hammond_anisotropic", "point(mass: mx - my)", &[]);
+}
+
+#[test]
+fn on_a_symmetric_support_seen_from_the_ground() {
+    check("B2_hammond_isotropic", "massless", &[("my", &["mx", "my"])]);
+}
+
+#[test]
+fn one_blade_by_hill() {
+    let truth = truth("B1_hammond_anisotropic");
+    let study = at(&rotor(&truth, "point(mass: mx - my)"), number(&truth["cases"][0]["omega"]));
+    let one = &truth["cases"][0]["one_blade_kl"];
+    let places = numbers(&one["modes"]);
+    let found = derivatives(&study, "blade[1].kl");
+    for (place, expected) in places.iter().zip(list(&one["derivatives"])) {
+        let found = found[*place as usize - 1].expect("a derivative");
+        close(found, expected, 1e-9, 1e-14, "one blade");
+    }
+}
+
+#[test]
+fn modes_have_the_names_of_rotor_dynamics() {
+    let truth = truth("B1_hammond_anisotropic");
+    let speed = number(&truth["cases"][0]["omega"]);
+    let study = at(&rotor(&truth, "point(mass: mx - my)"), speed);
+    let whirls = study.whirls().expect("kinds");
+    let modes = study.modes().expect("modes");
+    let names: Vec<String> = whirls.iter().map(|whirl| whirl.expect("a kind").to_string()).collect();
+    assert_eq!(names[4..], ["regressive", "progressive"]);
+    let mut together = [names[0].as_str(), &names[1]];
+    together.sort_unstable();
+    assert_eq!(together, ["collective", "differential"]);
+    for (whirl, mode) in whirls.iter().zip(&modes.modes).skip(4) {
+        let whirl = whirl.expect("a kind");
+        assert_eq!(whirl.kind, Kind::Blades);
+        let pattern = whirl.blades.expect("blades");
+        let frequency = mode.frequency().expect("it oscillates");
+        // Soft blades regress where they follow the rotation slower than it.
+        let of_blade = match pattern.travel.expect("a direction") {
+            Travel::Progressive => frequency - speed,
+            Travel::Regressive => speed - frequency,
+        };
+        assert!((pattern.of_blade - of_blade).abs() < 1e-9 * speed);
+        assert!(pattern.share > 0.9 && pattern.nodal_diameters == 1, "{pattern:?}");
+    }
+}
