@@ -159,6 +159,7 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
         | Error::NoUndampedModes
         | Error::ModesNotFound { .. }
         | Error::PeriodicCoefficients { .. }
+        | Error::UnequalBlades { .. }
         | Error::EigenvalueRange { .. } => Kind::NoModes,
         Error::NoExcitation { .. } | Error::NoFrequency { .. } | Error::Resonance { .. } => Kind::NoVibration,
         Error::CriticalState

@@ -245,9 +245,22 @@ impl Settings {
 
     fn ready(&self) -> Result<(), Error> {
         match &self.fault {
-            None => Ok(()),
+            None => self.equal_blades(),
             Some(fault) => Err(fault.clone()),
         }
+    }
+
+    /// Refuses different values of blades whose unknowns are those of all.
+    fn equal_blades(&self) -> Result<(), Error> {
+        for ring in self.description.rings.iter().filter(|ring| ring.patterns) {
+            for of in ring.design.chunks_exact(ring.members) {
+                if let Some(other) = of.iter().find(|k| self.design[**k] != self.design[of[0]]) {
+                    let variables = [of[0], *other].map(|k| self.description.design[k].name.clone());
+                    return Err(Error::UnequalBlades { variables });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The tolerances of the design variables, followed by those of the inputs that have one.

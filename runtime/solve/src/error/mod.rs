@@ -242,6 +242,16 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         share: f64,
     },
+    /// Blades on a support that is not symmetric about their axis have different values.
+    #[error(
+        "`{}` and `{}` differ: unequal blades on a support that is not symmetric make the coefficients periodic. That takes the \
+         theory of Floquet, which is not supported. Give them one value; each may keep a tolerance of its own",
+        .variables[0], .variables[1]
+    )]
+    UnequalBlades {
+        /// Names of design variables.
+        variables: [Text; 2],
+    },
     /// The square of an eigenvalue exceeds the range of a double.
     #[error(
         "the eigenvalue of mode {} is {size:.3e} 1/s, and its square exceeds the range of a double: a mass is far too \

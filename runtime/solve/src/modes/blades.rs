@@ -144,8 +144,9 @@ fn around(values: &[Complex], diameters: usize) -> [f64; 2] {
     if diameters == 0 || 2 * diameters == n { [wave(1.0), 0.0] } else { [wave(1.0), wave(-1.0)] }
 }
 
-/// The speeds at which the rings turn, rad/s.
-pub(crate) fn speeds(mechanism: &dyn Kernels, description: &Description, at: &Equilibrium) -> Vec<f64> {
+/// The speeds at which the rings turn about their axes, rad/s.
+pub fn ring_speeds(mechanism: &dyn Kernels, at: &Equilibrium) -> Vec<f64> {
+    let description = mechanism.description();
     let number = |value: &f64| Dual::fixed(Dual::fixed(*value));
     let (u, b): (Vec<_>, Vec<_>) = (at.inputs.iter().map(number).collect(), at.design.iter().map(number).collect());
     let held = description.held.len();

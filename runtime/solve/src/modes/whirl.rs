@@ -7,7 +7,7 @@ use eigentol_results::columns::Columns;
 use eigentol_results::numbers::rough;
 use eigentol_results::{Answer, Findings, Subject, displayed};
 
-use super::blades::{BladePattern, pattern, speeds};
+use super::blades::{BladePattern, pattern, ring_speeds};
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Mode, Modes};
 
@@ -261,7 +261,7 @@ pub fn whirls(mechanism: &dyn Kernels, at: &Equilibrium, modes: &Modes) -> Whirl
     let description = mechanism.description();
     let rings = (!description.rings.is_empty()).then(|| {
         let mass = mechanism.linear(&at.coordinates, &at.inputs, &at.design).mass;
-        (speeds(mechanism, &description, at), mass)
+        (ring_speeds(mechanism, at), mass)
     });
     let whirl = |mode: &Mode| {
         let frequency = mode.frequency()?;

@@ -37,6 +37,11 @@ pub enum Doubt {
         /// Positions of all modes that are equal, including this one.
         modes: Vec<usize>,
     },
+    /// Blades with tolerances of their own mix it with other modes: from a blade, they are seen at one frequency.
+    Blades {
+        /// Positions of the others.
+        modes: Vec<usize>,
+    },
     /// The critical state of the mode is near, where its stiffness vanishes and the equilibrium changes branch: the
     /// distance is zero within rounding of it, negative beyond it. A positive distance is not reported if samples found
     /// first order right.

@@ -18,6 +18,7 @@
 //! at all. Both are counted ([`Check::count`], [`Sampled`]) and excluded from mean and standard deviation.
 
 mod answer;
+mod blades;
 mod chances;
 mod judge;
 mod paired;
@@ -150,7 +151,14 @@ pub fn summary_watched(
     let about = About { mechanism, at, modes, tolerances, watch };
     let groups: Vec<&[usize]> = (summary.clusters.iter()).map(|cluster| &cluster.modes[..]).collect();
     let sampled = about.sample(&predictions, &groups, budget)?;
-    let trust = numbered().map(|(mode, x)| judge.verdict(mode, x, &predictions, &sampled)).collect();
+    let mut trust: Vec<Trust> =
+        numbered().map(|(mode, x)| judge.verdict(mode, x, &predictions, &sampled)).collect();
+    for (trust, modes) in trust.iter_mut().zip(blades::mixed(mechanism, at, modes, &slopes, tolerances)) {
+        if !modes.is_empty() {
+            trust.doubts.retain(|doubt| !matches!(doubt, Doubt::EqualInEveryDesign { .. }));
+            trust.doubts.push(Doubt::Blades { modes });
+        }
+    }
     (summary.trust, summary.sampling) = (trust, sampled.sampling);
     Ok(summary)
 }

@@ -78,6 +78,12 @@ impl fmt::Display for Doubt {
                 "no tolerance splits {}: they are equal in every design, each with the sigma of their mean below.",
                 named(modes)
             ),
+            Self::Blades { modes } => write!(
+                f,
+                "a blade vibrates in it as in {}, and each blade with a tolerance of its own mixes them: their spread is that of \
+                 single blades, not of their mean, which first order and samples take.",
+                named(modes)
+            ),
             Self::Unrepresentative { quantity } => write!(
                 f,
                 "sigma of the {} is due to values too rare to be among the samples: nothing confirms it.",
