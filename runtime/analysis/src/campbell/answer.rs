@@ -7,7 +7,7 @@ use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
 
 use super::{Campbell, CampbellMode, CampbellPoint};
 use crate::along::{not_reached, varied};
-use crate::modes::{Character, Family, Sense, Whirl, undamped};
+use crate::modes::{Character, Family, Sense, undamped};
 use crate::sweep::{EventTolerance, event_columns, unresolved};
 use crate::tolerance::{Spread, spread_of};
 use crate::{Description, Error, Input};
@@ -161,19 +161,19 @@ impl Motion<'_> {
 
     /// Its kinds and the senses in which it whirls, in order; planar only if it never circles.
     fn kinds(&self) -> String {
-        let all = self.points.iter().filter_map(|(_, mode)| mode.whirl);
-        let mut said: Vec<Character> = Vec::new();
-        for next in all.map(Whirl::character) {
+        let mut said: Vec<(Character, String)> = Vec::new();
+        for next in self.points.iter().filter_map(|(_, mode)| mode.whirl) {
+            let (character, word) = (next.character(), next.to_string());
             match said.last_mut() {
-                Some(last) if last.kind == next.kind && next.sense == Some(Sense::Planar) => {}
-                Some(last) if last.kind == next.kind && last.sense == Some(Sense::Planar) => {
-                    *last = next;
+                Some((last, _)) if last.kind == character.kind && character.sense == Some(Sense::Planar) => {}
+                Some(last) if last.0.kind == character.kind && last.0.sense == Some(Sense::Planar) => {
+                    *last = (character, word);
                 }
-                Some(last) if *last == next => {}
-                _ => said.push(next),
+                Some((_, last)) if *last == word => {}
+                _ => said.push((character, word)),
             }
         }
-        let words: Vec<String> = said.iter().map(Character::to_string).collect();
+        let words: Vec<String> = said.into_iter().map(|(_, word)| word).collect();
         if words.is_empty() { "-".to_owned() } else { words.join(", then ") }
     }
 

@@ -29,7 +29,9 @@ impl Answer for Modes {
         let mut table = Columns::new("modes", &self.modes);
         let behaviours: Vec<Behaviour> = self.modes.iter().map(|mode| mode.behaviour).collect();
         let (resolved, left_out) = Behaviour::resolved(&behaviours, &self.description);
-        table.show_rows(resolved);
+        table.show_rows(resolved.into_iter().filter(|k| !self.is_second(*k)).collect());
+        table.whole("mode", &|mode| Some(mode.label + 1));
+        table.cells("mode", &|mode| self.numbers(mode));
         eigenvalues(&mut table, self.family, &self.description);
         self.kinds(&mut table);
         shapes.columns(&mut table);
@@ -45,6 +47,28 @@ impl Answer for Modes {
 }
 
 impl Modes {
+    /// Whether a mode is the second of a pair with the same nodal diameters, which the text shows as one.
+    fn is_second(&self, mode: usize) -> bool {
+        /// Relative difference of equal eigenvalues.
+        const EQUAL: f64 = 1e-9;
+        let pattern = |mode: usize| self.whirls.get(mode).copied().flatten()?.blades;
+        let Some(before) = mode.checked_sub(1) else { return false };
+        let (Some(one), Some(other)) = (pattern(before), pattern(mode)) else { return false };
+        let alike = one.ring == other.ring && one.nodal_diameters == other.nodal_diameters;
+        let difference = (self.modes[mode].s - self.modes[before].s).norm();
+        alike && one.is_of_pair() && difference <= EQUAL * self.modes[mode].s.norm() && !self.is_second(before)
+    }
+
+    /// The number of a mode, or those of a pair.
+    fn numbers(&self, mode: &Mode) -> String {
+        let label = mode.label + 1;
+        let place = self.modes.iter().position(|other| std::ptr::eq(other, mode));
+        match place {
+            Some(place) if self.is_second(place + 1) => format!("{label}, {}", self.modes[place + 1].label + 1),
+            _ => label.to_string(),
+        }
+    }
+
     /// Adds what the modes do to bodies that spin, if that is known.
     fn kinds<'a>(&'a self, table: &mut Columns<'a, Mode>) {
         if self.whirls.is_empty() {
@@ -71,7 +95,6 @@ impl Modes {
 
 /// Adds the columns of eigenvalues and what they mean.
 fn eigenvalues(table: &mut Columns<'_, Mode>, family: Family, d: &Description) {
-    table.whole("mode", &|mode| Some(mode.label + 1)).shown();
     let frequency = table.number("frequency", "rad/s", &Mode::frequency);
     frequency.shown().headed("omega [rad/s]");
     match &*d.frequency.symbol {

@@ -97,7 +97,13 @@ impl BladePattern {
         })
     }
 
-    /// Its kind, without the number of the ring.
+    /// Whether equal blades have it twice, with two places of its diameters.
+    #[must_use]
+    pub fn is_of_pair(&self) -> bool {
+        self.nodal_diameters > 0 && !self.is_differential()
+    }
+
+    /// Whether each blade moves against the next.
     #[must_use]
     pub fn is_differential(&self) -> bool {
         2 * self.nodal_diameters == self.blades
