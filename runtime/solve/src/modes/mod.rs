@@ -11,6 +11,7 @@ mod answer;
 mod assurance;
 mod blades;
 mod constrained;
+mod cyclic;
 mod deflation;
 #[cfg(test)]
 mod deflation_tests;
@@ -413,7 +414,10 @@ fn solve_general(
     let structure = Structure::of(description);
     let accelerates = accelerates(linear, structure, free);
     let open = structure.open() && !accelerates;
-    let roots = if open && free > 0 {
+    let cyclic = if open && free == 0 { cyclic::roots(linear, description, structure) } else { None };
+    let roots = if let Some(roots) = cyclic {
+        roots
+    } else if open && free > 0 {
         deflation::roots(linear, free, |rest| roots_near(Eigenproblem::Quadratic(rest), &[]))
             .map(|roots| constrained::measured(linear, structure, &roots))
     } else if open {

@@ -1,0 +1,137 @@
+//! Modes of equal instances around an axis: the patterns of a ring do not couple where hub and support are symmetric, so the
+//! eigenproblem falls into one for each number of nodal diameters.
+//!
+//! With the orthogonal patterns `T` of each ring (collective, cosines and sines, differential), `T^T M T`, `T^T C T` and
+//! `T^T K T` have blocks. They are found by what is left of each entry beside the rounding of its terms, so that what stands
+//! on the axis joins the patterns that move it, and unequal instances leave one block, which is no use.
+
+use std::f64::consts::TAU;
+
+use eigentol_contract::RingInfo;
+
+use super::constrained;
+use crate::algebra::{Matrix, Vector};
+use crate::constraints::Structure;
+use crate::eigenproblem::{Eigenproblem, EigenproblemError, Root, roots_near};
+use crate::kernels::Linear;
+use crate::{Complex, Description};
+
+/// Fewest unknowns of rings for which blocks are sought.
+const FEWEST: usize = 12;
+/// What is left of an entry by rounding, relative to the sum of its terms.
+const ROUNDING: f64 = 1e-13;
+
+/// The roots, block by block; `None` if there are no blocks.
+pub(super) fn roots(
+    linear: &Linear,
+    description: &Description,
+    structure: Structure,
+) -> Option<Result<Vec<Root>, EigenproblemError>> {
+    let rings = || description.rings.iter().filter(|ring| !ring.patterns);
+    if rings().map(|ring| ring.coordinates.len()).sum::<usize>() < FEWEST {
+        return None;
+    }
+    let n = linear.mass.row_count();
+    let patterns: Vec<(&RingInfo, Matrix)> = rings().map(|ring| (ring, patterns(ring.members))).collect();
+    let turned = [&linear.mass, &linear.damping, &linear.stiffness].map(|matrix| turned(matrix, &patterns));
+    let blocks = blocks(n, &turned);
+    if blocks.len() < 2 {
+        return None;
+    }
+    let mut all: Vec<Root> = Vec::new();
+    for block in &blocks {
+        let part = |k: usize| Matrix::from_fn(block.len(), block.len(), |i, j| turned[k].0[block[i]][block[j]]);
+        let part = Linear { mass: part(0), damping: part(1), stiffness: part(2) };
+        let roots = match roots_near(Eigenproblem::Quadratic(&part), &[]) {
+            Ok(roots) => roots,
+            Err(error) => return Some(Err(error)),
+        };
+        for mut root in roots {
+            for vector in [&mut root.right, &mut root.left] {
+                *vector = expanded(n, block, vector, &patterns);
+            }
+            all.push(root);
+        }
+    }
+    all.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+    Some(Ok(constrained::measured(linear, structure, &all)))
+}
+
+/// The orthogonal patterns of `n` instances: row `i` belongs to an instance.
+fn patterns(n: usize) -> Matrix {
+    let size = (n as f64).recip().sqrt();
+    Matrix::from_fn(n, n, |i, j| {
+        let angle = TAU * ((j.div_ceil(2) * i) % n) as f64 / n as f64;
+        match j {
+            0 => size,
+            _ if 2 * j.div_ceil(2) == n => size * if i % 2 == 0 { 1.0 } else { -1.0 },
+            _ if j % 2 == 1 => 2.0_f64.sqrt() * size * angle.cos(),
+            _ => 2.0_f64.sqrt() * size * angle.sin(),
+        }
+    })
+}
+
+/// `T^T A T`, and the sums of the sizes of the terms of each entry.
+fn turned(matrix: &Matrix, patterns: &[(&RingInfo, Matrix)]) -> (Matrix, Matrix) {
+    let n = matrix.row_count();
+    let mut values = Matrix::from_fn(n, n, |i, j| matrix[i][j]);
+    let mut sizes = Matrix::from_fn(n, n, |i, j| matrix[i][j].abs());
+    for (ring, pattern) in patterns {
+        let half = |all: &mut Matrix, slots: &[usize], size: fn(f64) -> f64| {
+            for line in 0..n {
+                let row: Vec<f64> = slots.iter().map(|&k| all[line][k]).collect();
+                for (j, &k) in slots.iter().enumerate() {
+                    all[line][k] = row.iter().enumerate().map(|(i, value)| value * size(pattern[i][j])).sum();
+                }
+            }
+        };
+        let other = |all: &mut Matrix, slots: &[usize], size: fn(f64) -> f64| {
+            for line in 0..n {
+                let column: Vec<f64> = slots.iter().map(|&k| all[k][line]).collect();
+                for (j, &k) in slots.iter().enumerate() {
+                    all[k][line] = column.iter().enumerate().map(|(i, value)| value * size(pattern[i][j])).sum();
+                }
+            }
+        };
+        for slots in ring.coordinates.chunks_exact(ring.members) {
+            for (all, size) in [(&mut values, (|x| x) as fn(f64) -> f64), (&mut sizes, f64::abs)] {
+                half(all, slots, size);
+                other(all, slots, size);
+            }
+        }
+    }
+    (values, sizes)
+}
+
+/// Unknowns that couple, with each other and with no others.
+fn blocks(n: usize, turned: &[(Matrix, Matrix); 3]) -> Vec<Vec<usize>> {
+    let mut of: Vec<usize> = (0..n).collect();
+    for i in 0..n {
+        for j in 0..n {
+            let couples = |(value, size): &(Matrix, Matrix)| value[i][j].abs() > ROUNDING * size[i][j];
+            if of[i] != of[j] && turned.iter().any(couples) {
+                let (keep, drop) = (of[i].min(of[j]), of[i].max(of[j]));
+                of.iter_mut().filter(|own| **own == drop).for_each(|own| *own = keep);
+            }
+        }
+    }
+    let blocks = (0..n).map(|k| (0..n).filter(|i| of[*i] == k).collect::<Vec<usize>>());
+    blocks.filter(|block| !block.is_empty()).collect()
+}
+
+/// A vector of a block in the coordinates of the instances.
+fn expanded(n: usize, block: &[usize], of_block: &[Complex], patterns: &[(&RingInfo, Matrix)]) -> Vector<Complex> {
+    let mut all = Vector::zeros(n);
+    for (&k, value) in block.iter().zip(of_block) {
+        all[k] = *value;
+    }
+    for (ring, pattern) in patterns {
+        for slots in ring.coordinates.chunks_exact(ring.members) {
+            let values: Vec<Complex> = slots.iter().map(|&k| all[k]).collect();
+            for (i, &k) in slots.iter().enumerate() {
+                all[k] = values.iter().enumerate().map(|(j, value)| value * pattern[i][j]).sum();
+            }
+        }
+    }
+    all
+}
