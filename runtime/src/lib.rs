@@ -53,6 +53,7 @@
 //! | ... to second order? | [`mode_curvature`](Study::mode_curvature), [`output_curvature`](Study::output_curvature) | [`second_order::mode_curvature`], [`second_order::output_curvature`] |
 //! | How do equal frequencies split? | [`directional_derivatives`](Study::directional_derivatives) | [`clusters::directional_derivatives`] |
 //! | How far do tolerances spread them? | [`first_order`](Study::first_order), [`second_order`](Study::second_order), [`output_tolerances`](Study::output_tolerances) | [`tolerance::first_order`], [`second_order::second_order`], [`tolerance::output_tolerances`] |
+//! | How much higher does the worst blade of a rotor vibrate? | [`mistuning`](Study::mistuning) | [`mistuning::mistuning`] |
 //! | Which of these sigmas can be trusted, and which modes mix? | [`summary`](Study::summary), [`clusters`](Study::clusters) | [`summary::summary`], [`clusters::clusters`] |
 //! | And without linearisation? | [`monte_carlo`](Study::monte_carlo) | [`tolerance::monte_carlo`] |
 //! | How far do they spread several responses jointly, by any method? | [`propagate`](Study::propagate), [`sample_responses`](Study::sample_responses) | [`propagation::propagate`], [`propagation::sampled`] |
@@ -91,7 +92,7 @@ mod study;
 #[cfg(feature = "analysis")]
 #[doc(inline)]
 pub use eigentol_analysis::{
-    branches, campbell, campbell::Campbell, clusters, convergence, convergence::Convergence, forced, motion, peaks,
+    branches, campbell, campbell::Campbell, clusters, convergence, convergence::Convergence, forced, mistuning, motion, peaks,
     picture, response, second_order, shapes, sweep,
 };
 #[cfg(feature = "std")]

@@ -9,6 +9,7 @@ pub mod campbell;
 pub mod clusters;
 pub mod convergence;
 pub mod forced;
+pub mod mistuning;
 pub mod motion;
 pub mod peaks;
 pub mod picture;

@@ -9,7 +9,7 @@ use eigentol::Error;
 
 use crate::color::Color;
 use crate::commands::{
-    allocate, branches, campbell, check, completions, converge, equilibria, expand, grade, import, merge, modes, new,
+    allocate, branches, campbell, check, completions, converge, equilibria, expand, grade, import, merge, mistuning, modes, new,
     probability, report, response, sample, schema, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
@@ -85,6 +85,7 @@ enum Command {
     Probability(probability::Probability),
     Response(response::Response),
     Grade(grade::Grade),
+    Mistuning(mistuning::Mistuning),
     Campbell(campbell::Campbell),
     Sweep(sweep::Follow),
     Branches(branches::Branches),
@@ -142,6 +143,7 @@ impl Command {
             Self::Probability(probability) => probability.run(),
             Self::Response(response) => response.run(),
             Self::Grade(grade) => grade.run(),
+            Self::Mistuning(mistuning) => mistuning.run(),
             Self::Campbell(campbell) => campbell.run(),
             Self::Sweep(sweep) => sweep.run(),
             Self::Branches(branches) => branches.run(),

@@ -5,6 +5,7 @@ use super::deviating::Toleranced;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::convergence::{self, Convergence, Solved};
 use crate::forced;
+use crate::mistuning::{self, EngineOrder, Mistuning};
 use crate::kernels::{CurvatureKernels, DirectionalKernels, Kernels, PictureKernels, SummaryKernels};
 use crate::peaks::Peaks;
 use crate::picture::{self, ModePictures, Scene, VibrationPictures};
@@ -183,6 +184,17 @@ impl<M: DirectionalKernels> Study<M> {
     pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity, Error> {
         let (state, modes) = self.solved()?;
         shapes::shape_sensitivity(&self.mechanism, state, modes, mode)
+    }
+
+    /// How much higher the vibration of the worst blade is than that of equal ones, with its distribution within the
+    /// tolerances ([`mistuning`](crate::mistuning::mistuning)).
+    ///
+    /// # Errors
+    /// As [`Study::sensitivities`] and [`Study::tolerances`]; [`Error::Setting`] if there are no such blades.
+    pub fn mistuning(&self, asked: EngineOrder) -> Result<Mistuning, Error> {
+        let toleranced = Toleranced::<dyn DirectionalKernels>::of(&self.settings, &self.mechanism)?;
+        let (state, _) = toleranced.solved();
+        mistuning::mistuning(toleranced.kernels(), state, toleranced.tolerances, asked, self.settings.watch())
     }
 
     /// Finds the clusters of modes that mix within the tolerances, and their spread

@@ -13,6 +13,7 @@ pub(crate) mod import;
 #[cfg(feature = "man")]
 pub(crate) mod man;
 pub(crate) mod merge;
+pub(crate) mod mistuning;
 pub(crate) mod modes;
 pub(crate) mod new;
 pub(crate) mod probability;

@@ -102,3 +102,136 @@ fn blades_that_are_not_equal_are_refused() {
     let mistake = mistake.map(drop).expect_err("refused").to_string();
     assert!(mistake.contains("`flap[1]` feels other forces than `flap[0]`"), "{mistake}");
 }
+
+/// Amplitude of the worst blade over a fine grid, from the matrices written by hand.
+fn worst(parameters: [f64; 4], stiffness: &[f64], order: usize) -> (f64, usize) {
+    let [kc, inertia, damping, _] = parameters;
+    let n = stiffness.len();
+    let at = |w: f64| {
+        let matrix = nalgebra::DMatrix::from_fn(n, n, |i, j| {
+            let next = (i + 1) % n == j || (j + 1) % n == i;
+            match (i == j, next) {
+                (true, _) => Complex::new(stiffness[i] + 2.0 * kc - inertia * w * w, damping * w),
+                (_, true) => Complex::new(-kc, 0.0),
+                _ => Complex::new(0.0, 0.0),
+            }
+        });
+        let phase = |k: usize| Complex::cis(std::f64::consts::TAU * (order * k) as f64 / n as f64);
+        let force = nalgebra::DVector::from_fn(n, |k, _| phase(k));
+        let response = matrix.lu().solve(&force).expect("damped");
+        let worst = (0..n).max_by(|a, b| response[*a].norm().total_cmp(&response[*b].norm())).expect("a blade");
+        (response[worst].norm(), worst)
+    };
+    let grid = (0..60_000).map(|k| at(245.0 + 12.0 * f64::from(k) / 60_000.0));
+    grid.max_by(|a, b| a.0.total_cmp(&b.0)).expect("a frequency")
+}
+
+#[test]
+fn mistuning_amplifies_the_worst_blade() {
+    let parameters = [2.0, 0.004, 0.002, 250.0];
+    let [kc, inertia, damping, k] = parameters;
+    let text = format!(
+        "part Blade() {{
+            design k = {k:?} N*m/rad +/- 3%;
+            port root;
+            body arm: rigid(mass: 1 kg, inertia: [0.002, 0.002, {inertia:?}] kg*m^2);
+            joint flap: revolute(z) from root to arm;
+            force hinge: spring(on: flap, stiffness: k);
+            force damp: damper(on: flap, damping: {damping:?} N*m*s/rad);
+        }}
+        mechanism Disc {{
+            design kc = {kc:?} N*m/rad;
+            body disk: massless;
+            joint seat: fixed from ground to disk;
+            cyclic blade[0..6] about z {{ use blade: Blade() with root: disk; }}
+            for i in 0..6 {{
+                force tie[i]: potential(energy: kc * (blade[i].flap - blade[(i + 1) % 6].flap)^2 / 2);
+            }}
+        }}"
+    );
+    let deviations = [0.011, -0.004, 0.0, 0.007, -0.013, 0.002];
+    let built = |deviations: &[f64]| {
+        let mut study = study(&text);
+        for (blade, deviation) in deviations.iter().enumerate() {
+            let place = design(&study, &format!("blade[{blade}].k"));
+            study = study.design(eigentol::DesignVariable::new(place), k * (1.0 + deviation));
+        }
+        study
+    };
+    let asked = |study: &Study<Interpreted>| {
+        let order = eigentol::mistuning::EngineOrder::of(study.description(), Some("blade"), Some("flap"), 2);
+        eigentol::mistuning::EngineOrder { samples: 300, ..order.expect("blades") }
+    };
+    let brute = |deviations: &[f64]| {
+        let stiffness: Vec<f64> = deviations.iter().map(|deviation| k * (1.0 + deviation)).collect();
+        let mean = stiffness.iter().sum::<f64>() / 6.0;
+        let (tuned, _) = worst(parameters, &[mean; 6], 2);
+        let (amplitude, blade) = worst(parameters, &stiffness, 2);
+        (amplitude / tuned, blade)
+    };
+    let study = built(&deviations);
+    let found = study.mistuning(asked(&study)).expect("damped blades");
+    let (factor, blade) = brute(&deviations);
+    assert!((found.factor / factor - 1.0).abs() < 1e-5, "{} {factor}", found.factor);
+    assert_eq!((found.built.blade, found.built.others), (blade, 0));
+    let by_design = found.by_design.as_ref().expect("one worst blade");
+    for blade in 0..6 {
+        let moved = |step: f64| {
+            let mut deviations = deviations;
+            deviations[blade] += step;
+            let study = built(&deviations);
+            study.mistuning(eigentol::mistuning::EngineOrder { samples: 0, ..asked(&study) }).expect("blades").factor
+        };
+        let difference = (moved(1e-6) - moved(-1e-6)) / (2e-6 * k);
+        let exact = by_design[design(&study, &format!("blade[{blade}].k"))];
+        assert!((exact - difference).abs() < 1e-5 * difference.abs().max(1e-2), "{blade}: {exact} {difference}");
+    }
+    // Samples of the model are those of the whole, and none is above Whitehead's factor by more than its tuned mean.
+    assert!(found.verified.0 > 0 && found.verified.1 < 1e-6, "{:?}", found.verified);
+    assert_eq!(found.worst.iter().sum::<usize>(), 300);
+    assert!(found.quantile(1.0) < Some(1.05 * found.whitehead()), "{found}");
+    let tuned = built(&[0.0; 6]);
+    let tuned = tuned.mistuning(asked(&tuned)).expect("blades");
+    assert!((tuned.factor - 1.0).abs() < 1e-9 && tuned.by_design.is_none() && tuned.built.others == 5, "{tuned}");
+    assert!(tuned.quantile(0.5) > Some(1.05), "{tuned}");
+}
+
+#[test]
+fn modes_from_blocks_are_those_of_the_whole() {
+    let text = "part Blade() {
+            port root;
+            body cuff: massless;
+            body arm: rod(mass: 2 kg, length: 0.7 m, along: x);
+            joint flap: revolute(-y) from root to cuff at [0.2 m, 0, 0];
+            joint lag: revolute(z) from cuff to arm;
+            force a: spring(on: flap, stiffness: 2000 N*m/rad);
+            force b: spring(on: lag, stiffness: 900 N*m/rad);
+            force c: damper(on: flap, damping: 3 N*m*s/rad);
+        }
+        mechanism Rotor {
+            input omega: rad/s;
+            body mast: massless;
+            body hub: disk(mass: 8 kg, radius: 0.2 m, axis: z);
+            joint spin: revolute(z) from ground to mast, driven at omega;
+            joint heave: prismatic(z) from mast to hub;
+            joint twist: revolute(z) from hub to rim;
+            body rim: disk(mass: 3 kg, radius: 0.3 m, axis: z);
+            force d: spring(on: heave, stiffness: 9e5 N/m);
+            force e: spring(on: twist, stiffness: 9e4 N*m/rad);
+            cyclic blade[0..7] about z { use blade: Blade() with root: rim; }
+        }";
+    let study = at(text, 40.0);
+    let modes = study.modes().expect("modes");
+    let mut without = study.description().clone();
+    without.rings = Vec::new().into();
+    let linear = &study.equilibrium().expect("steady motion").linear;
+    let whole = eigentol::modes::modes_of(linear, modes.family, &without.into()).expect("modes");
+    assert_eq!(modes.modes.len(), whole.modes.len());
+    for (one, other) in modes.modes.iter().zip(&whole.modes) {
+        assert!((one.s - other.s).norm() < 1e-9 * other.s.norm(), "{} {}", one.s, other.s);
+        assert!(one.residual < 1e-10, "{:.1e}", one.residual);
+    }
+    let pure = study.whirls().expect("kinds");
+    let patterns = pure.iter().flatten().filter_map(|whirl| whirl.blades);
+    assert!(patterns.into_iter().all(|pattern| pattern.share > 1.0 - 1e-9));
+}
