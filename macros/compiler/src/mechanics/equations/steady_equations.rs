@@ -1,6 +1,6 @@
 //! The equations of steady motion and of small motions about it.
 
-use crate::algebra::{ExprId, Graph};
+use crate::algebra::{ExprId, Graph, SymbolId};
 use crate::mechanics::inertia::{Variation, variation};
 use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, ForceSelection, at_rest, weighted_sum};
@@ -15,6 +15,10 @@ pub(crate) struct Equations {
     pub(crate) parts: Residual,
     /// Derivatives of the inertial part by walks over the bodies, if these are applicable.
     pub(crate) variation: Option<Variation>,
+    /// What makes blades do the same, as they do in steady motion in multiblade coordinates.
+    pub(crate) alike: Vec<(SymbolId, ExprId)>,
+    /// Whether the unknowns are the coordinates, along which these derivatives are.
+    pub(crate) by_coordinates: bool,
     /// `phi^T g`, `left^T g` and `w^T g` with the symbols of the adjoint kernels.
     pub(crate) powers: [ExprId; 3],
     /// `g(0, 0, q; u, b)`.
@@ -41,7 +45,7 @@ impl Equations {
         let (symbols, harmonics) = (unknowns.symbols, unknowns.harmonics);
         let parts = Residual::new(g, context, running, kinematics, ForceSelection::ALL);
         let motion = parts.total(g, context);
-        let variation = if context.multiblade.is_empty() { variation(g, context, running) } else { None };
+        let variation = if harmonics.is_empty() { variation(g, context, running) } else { None };
         let [inertia, applied] = [ForceSelection::INERTIA, ForceSelection::APPLIED].map(|selection| {
             let total = Residual::new(g, context, running, kinematics, selection).total(g, context);
             harmonics.forces(g, &total)
@@ -62,6 +66,8 @@ impl Equations {
             motion,
             parts,
             variation,
+            alike: unknowns.multiblade.alike(g),
+            by_coordinates: context.multiblade.is_empty(),
             powers,
             rest,
             rest_inertia,

@@ -14,14 +14,16 @@ pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> Expr
     let acceleration: Vec<ExprId> = s.phi.values.iter().map(|&phi| g.mul(minus_lambda, phi)).collect();
     let rates = s.acceleration.with(&acceleration).chain(s.q.with(&s.phi.values)).collect();
     let functional = derivatives_along(g, &power, &Direction::new("_mode", rates));
-    at_rest(g, s, &functional)[0]
+    let functional = at_rest(g, s, &functional);
+    substitute(g, &functional, &e.alike)[0]
 }
 
 /// `left^T (Mhat acceleration + Chat velocity + Khat position)` without forming any matrix: the derivative of
 /// `left^T g` along (`qddot`, `qdot`, `q`), taken at rest. `Chat` contains products of a velocity and the drives, so
 /// the velocities are set to zero only after differentiating.
 pub(crate) fn pencil_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
-    at_rest_along_motion(g, s, e.powers[1], "_pencil")
+    let functional = at_rest_along_motion(g, s, e.powers[1], "_pencil");
+    substitute(g, &[functional], &e.alike)[0]
 }
 
 /// The derivative of a scalar along the acceleration, velocity and position of the pencil, taken at rest.

@@ -18,10 +18,11 @@ pub(crate) struct Jacobians {
 }
 
 impl Jacobians {
-    /// Inertia and weight are differentiated by the absolute angles, forces and constraints by the unknowns.
+    /// Inertia and weight are differentiated by the absolute angles, forces and constraints by the coordinates. In
+    /// multiblade coordinates, the matrices hold where all blades do the same, as they do in steady motion.
     pub(crate) fn new(g: &mut Graph, context: &Context, e: &Equations) -> Self {
         let s = context.symbols;
-        if !context.multiblade.is_empty() {
+        if !context.harmonics.is_empty() {
             let by_rates = [&s.acceleration, &s.velocity].map(|list| columns(g, &e.motion, list));
             let [mass, damping] =
                 by_rates.map(|columns| columns.iter().map(|column| at_rest(g, s, column)).collect());
@@ -41,6 +42,8 @@ impl Jacobians {
             context.in_unknowns(g, &columns.concat()).chunks(columns.len().max(1)).map(<[_]>::to_vec).collect()
         };
         let [mass, damping, stiffness] = [mass, damping, stiffness].map(&mut in_unknowns);
-        Self { mass, damping: added(g, &damping, &by_velocity), stiffness: added(g, &stiffness, &by_position) }
+        let matrices = [mass, added(g, &damping, &by_velocity), added(g, &stiffness, &by_position)];
+        let [mass, damping, stiffness] = context.multiblade.matrices(g, matrices);
+        Self { mass, damping, stiffness }
     }
 }

@@ -88,7 +88,8 @@ impl Linear {
         if 3 * n * n > limit {
             return None;
         }
-        if let Some(known) = &e.variation {
+        let variation = e.variation.as_ref().filter(|_| e.by_coordinates);
+        if let Some(known) = variation {
             let inertial = [&known.by_velocity, &known.by_position].map(|matrix| matrix.concat());
             if operations(g, &inertial.concat()) > limit {
                 return None;
@@ -113,7 +114,7 @@ impl Linear {
             Some((operations(g, &roots), roots))
         };
         let differentiated = all(g, &e.motion, None);
-        let composed = e.variation.as_ref().and_then(|known| all(g, &e.parts.applied, Some(known)));
+        let composed = variation.and_then(|known| all(g, &e.parts.applied, Some(known)));
         let (fewest, motion) = match (differentiated, composed) {
             (Some((operations, _)), Some((fewer, composed))) if fewer < operations => {
                 taken(|| "linearise: along a motion by variation".into());

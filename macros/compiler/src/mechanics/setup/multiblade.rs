@@ -35,6 +35,10 @@ pub(crate) struct Multiblade {
     pub(crate) bent: bool,
     /// What replaces the coordinates, their rates and the vectors along them.
     replaced: Vec<(SymbolId, ExprId)>,
+    /// The coordinates where all blades do the same.
+    alike: Vec<(SymbolId, ExprId)>,
+    /// The unknowns in which they differ.
+    lateral: Vec<SymbolId>,
 }
 
 /// One ring and the drive that turns it.
@@ -44,6 +48,7 @@ struct Turning {
     slots: Vec<Vec<usize>>,
     /// By blade, then by pattern.
     pattern: Vec<Vec<ExprId>>,
+    speed: ExprId,
 }
 
 /// What a blade's place contributes to one of its coordinates.
@@ -83,6 +88,16 @@ fn of_turn(part: usize, n: usize) -> [f64; 2] {
 }
 
 impl Pattern {
+    /// Of a pattern at place `k`: its number of waves, the place of the pattern that the rotation carries into it, and the
+    /// sign of that.
+    fn carried(self, k: usize) -> Option<(f64, usize, f64)> {
+        match self {
+            Self::Cosine(n) => Some((f64::from(n), k + 1, 1.0)),
+            Self::Sine(n) => Some((f64::from(n), k - 1, -1.0)),
+            Self::Collective | Self::Differential => None,
+        }
+    }
+
     /// `ring` in the plural, the coordinate and the pattern, `blades.lag.cosine`.
     fn name(self, ring: &Ring, coordinate: &str) -> String {
         let mut name = format!("{}s", ring.name);
@@ -133,7 +148,7 @@ impl Multiblade {
         let n = ring.members;
         let patterns = patterns(n);
         let pattern = (0..n).map(|i| patterns.iter().map(|pattern| pattern.of_blade(g, psi, (i, n))).collect());
-        let mut turning = Turning { slots: Vec::new(), pattern: pattern.collect() };
+        let mut turning = Turning { slots: Vec::new(), pattern: pattern.collect(), speed };
         for (name, ids) in &ring.coordinates {
             let slots: Option<Vec<usize>> =
                 ids.iter().map(|id| topology.free.iter().position(|free| free == id)).collect();
@@ -153,6 +168,9 @@ impl Multiblade {
                 let values = values(list);
                 self.replace(g, &turning, list, &slots, &values);
             }
+            let collective = symbols.q.values[slots[0]];
+            self.alike.extend(slots.iter().map(|&k| (symbols.q.ids[k], collective)));
+            self.lateral.extend(slots[1..].iter().map(|&k| symbols.q.ids[k]));
             turning.slots.push(slots);
         }
         self.rings.push(turning);
@@ -164,6 +182,12 @@ impl Multiblade {
             let sum = g.sum(terms);
             self.replaced.push((list.ids[slot], sum));
         }
+    }
+
+    /// What makes blades do the same; nothing where they do not.
+    pub(crate) fn alike(&self, g: &mut Graph) -> Vec<(SymbolId, ExprId)> {
+        let zero = g.zero();
+        if self.bent { Vec::new() } else { self.lateral.iter().map(|&symbol| (symbol, zero)).collect() }
     }
 
     /// Whether the unknowns are the coordinates.
@@ -203,6 +227,48 @@ impl Multiblade {
         self.turned(g, along, |pattern, i, h| pattern[h][i])
     }
 
+    /// Mass, damping and stiffness by columns along the unknowns from those along the coordinates, where all blades do the
+    /// same: with `P = T^T M T`, `Q = T^T C T`, `R = T^T K T`, each pair adds `2 n W P` to the damping, `n W Q - n^2 W^2 P`
+    /// to the stiffness.
+    pub(crate) fn matrices(&self, g: &mut Graph, matrices: [Vec<Vec<ExprId>>; 3]) -> [Vec<Vec<ExprId>>; 3] {
+        if self.is_empty() {
+            return matrices;
+        }
+        let [mass, damping, stiffness] = matrices.map(|columns| {
+            let columns: Vec<Vec<ExprId>> = columns
+                .iter()
+                .map(|column| {
+                    let column = substitute(g, column, &self.alike);
+                    self.forces(g, &column)
+                })
+                .collect();
+            let rows: Vec<Vec<ExprId>> =
+                transposed(&columns).into_iter().map(|row| self.forces(g, &row)).collect();
+            transposed(&rows)
+        });
+        let (mut all_damping, mut all_stiffness) = (damping.clone(), stiffness);
+        for ring in &self.rings {
+            for slots in &ring.slots {
+                for (k, pattern) in patterns(slots.len()).into_iter().enumerate() {
+                    let Some((harmonic, other, sign)) = pattern.carried(k) else { continue };
+                    let (own, other) = (slots[k], slots[other]);
+                    let turn = g.scale(-sign * harmonic, ring.speed);
+                    let twice = g.scale(2.0, turn);
+                    let square = g.mul(turn, turn);
+                    for i in 0..mass.len() {
+                        let coriolis = g.mul(twice, mass[other][i]);
+                        all_damping[own][i] = g.add(all_damping[own][i], coriolis);
+                        let carried = g.mul(turn, damping[other][i]);
+                        let centripetal = g.mul(square, mass[own][i]);
+                        let sum = g.add(all_stiffness[own][i], carried);
+                        all_stiffness[own][i] = g.sub(sum, centripetal);
+                    }
+                }
+            }
+        }
+        [mass, all_damping, all_stiffness]
+    }
+
     fn turned(
         &self,
         g: &mut Graph,
@@ -224,6 +290,10 @@ impl Multiblade {
     }
 }
 
+fn transposed(columns: &[Vec<ExprId>]) -> Vec<Vec<ExprId>> {
+    (0..columns.len()).map(|i| columns.iter().map(|column| column[i]).collect()).collect()
+}
+
 /// `a`, `v` and `w` from the unknowns and their rates.
 fn rates(
     g: &mut Graph,
@@ -233,11 +303,7 @@ fn rates(
 ) -> [Vec<ExprId>; 3] {
     let given = velocity.clone();
     for (k, pattern) in patterns.iter().enumerate() {
-        let (harmonic, other, sign) = match pattern {
-            Pattern::Cosine(n) => (f64::from(*n), k + 1, 1.0),
-            Pattern::Sine(n) => (f64::from(*n), k - 1, -1.0),
-            Pattern::Collective | Pattern::Differential => continue,
-        };
+        let Some((harmonic, other, sign)) = pattern.carried(k) else { continue };
         let turn = g.scale(sign * harmonic, speed);
         let carried = g.mul(turn, a[other]);
         velocity[k] = g.add(velocity[k], carried);

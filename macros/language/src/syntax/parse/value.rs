@@ -159,6 +159,10 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
             error
         };
     }
+    if let Some(axis) = hidden_axis(tokens) {
+        let components = [0, 1, 2].map(|k| Value::new(ValueKind::Number(f64::from(u8::from(k == axis)), None), tokens.last));
+        return built(ValueKind::Vector(components.into(), None), Extent::from(start).to(tokens.last));
+    }
     let name = name_of_value(tokens)?;
     let extent = Extent::from(start).to(tokens.last);
     if let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) {
@@ -268,4 +272,16 @@ fn nested<'a, T>(
 
 fn too_large<T>(at: Extent) -> Parsed<T> {
     Err(Box::new(nesting::too_large(at)))
+}
+
+/// Reads `x`, `y` or `z` in a part whose user calls something else so: there it is an axis.
+fn hidden_axis(tokens: &mut Tokens) -> Option<usize> {
+    let word = tokens.peek_ident()?.to_string();
+    let axis = ["x", "y", "z"].iter().position(|axis| word == *axis)?;
+    let scope = tokens.scope;
+    let own = scope.find(&word).is_some() || scope.ports.iter().any(|port| port.name == word);
+    (!own && scope.hides(&word)).then(|| {
+        tokens.skip();
+        axis
+    })
 }
