@@ -81,8 +81,8 @@ pub use eigentol_contract::{
     Any, Array, BeamInfo, BodyInfo, Coordinate, CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo,
     DesignVariable, Dual, ElementInfo, Excitation, ExcitationInfo, Forcing, ForcingOf, Gradient, GradientOf, Input,
     InputInfo, JointInfo, KernelInfo, Law, Linear, LinearPartials, LinkInfo, List, Mechanism, Output, OutputInfo,
-    OutputMotionOf, PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts, RingInfo, Role, Shared,
-    SolidInfo, SolidKind, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
+    OutputMotionOf, PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts, RingInfo,
+    Role, Shared, SolidInfo, SolidKind, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
 };
 pub use eigentol_macros::mechanism;
 
@@ -92,8 +92,8 @@ mod study;
 #[cfg(feature = "analysis")]
 #[doc(inline)]
 pub use eigentol_analysis::{
-    branches, campbell, campbell::Campbell, clusters, convergence, convergence::Convergence, forced, mistuning, motion, peaks,
-    picture, response, second_order, shapes, sweep,
+    branches, campbell, campbell::Campbell, clusters, convergence, convergence::Convergence, forced, mistuning, motion,
+    peaks, picture, response, second_order, shapes, sweep,
 };
 #[cfg(feature = "std")]
 #[doc(inline)]

@@ -9,8 +9,8 @@ use eigentol::Error;
 
 use crate::color::Color;
 use crate::commands::{
-    allocate, branches, campbell, check, completions, converge, equilibria, expand, grade, import, merge, mistuning, modes, new,
-    probability, report, response, sample, schema, sensitivities, sweep, tolerance,
+    allocate, branches, campbell, check, completions, converge, equilibria, expand, grade, import, merge, mistuning,
+    modes, new, probability, report, response, sample, schema, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;

@@ -262,7 +262,7 @@ impl Check<'_> {
             for (k, other) in roles.iter().enumerate() {
                 let own = match other {
                     Role::Position(_) if by_speed => &damping,
-                    Role::Position(_) | Role::Speed(_) => &stiffness,
+                    Role::Position(_) | Role::Harmonic(_) | Role::Speed(_) => &stiffness,
                     _ => continue,
                 };
                 exerted.push(stiffness[k * n + row]);

@@ -39,7 +39,12 @@ fn same_exponents(study: &Study<Interpreted>, expected: &[Complex], tolerance: f
         .map(|s| {
             let distance = |k: &usize| (modes.modes[*k].s - s).norm();
             let nearest = free.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("a mode");
-            assert!(distance(&nearest) <= tolerance * s.norm(), "{s} is {:.1e} from {}", distance(&nearest), modes.modes[nearest].s);
+            assert!(
+                distance(&nearest) <= tolerance * s.norm(),
+                "{s} is {:.1e} from {}",
+                distance(&nearest),
+                modes.modes[nearest].s
+            );
             free.retain(|k| *k != nearest);
             nearest
         })
@@ -69,5 +74,8 @@ fn declared(parameters: &Value, units: &[(&str, &str)]) -> String {
 
 #[track_caller]
 fn close(found: Complex, expected: Complex, tolerance: f64, scale: f64, what: &str) {
-    assert!((found - expected).norm() <= tolerance * scale.max(expected.norm()), "{what}: {found} instead of {expected}");
+    assert!(
+        (found - expected).norm() <= tolerance * scale.max(expected.norm()),
+        "{what}: {found} instead of {expected}"
+    );
 }

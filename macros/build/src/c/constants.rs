@@ -23,9 +23,9 @@ pub(super) fn constants(compilation: &Compilation, names: &Names) -> String {
     }
     for (k, unknown) in unknowns.iter().enumerate() {
         // Reactions have labels, not names.
-        if let Role::Position(id) | Role::Speed(id) = unknown.role {
-            let name = &mechanism.coordinates[id.index()].name;
-            list.place("COORDINATE", name, &[], &one(&unknown.unit), k);
+        if let Role::Position(id) | Role::Harmonic(id) | Role::Speed(id) = unknown.role {
+            let name = Ident::new(&unknown.name, mechanism.coordinates[id.index()].name.span());
+            list.place("COORDINATE", &name, &[], &one(&unknown.unit), k);
         }
     }
     for (k, input) in mechanism.inputs.iter().enumerate() {

@@ -9,7 +9,9 @@ use crate::topology::Topology;
 use crate::topology::build::build;
 
 use super::checks::{
-    Drive, Unsteady, drives, free_directions, is_steady, multiblade, notes_on_beams, notes_on_planes, poses, properties, remaining_orders, require_determinate_motion, require_harmonic, require_steady_state, require_symmetry, requirements,
+    Drive, Unsteady, drives, free_directions, is_steady, multiblade, notes_on_beams, notes_on_planes, poses,
+    properties, remaining_orders, require_determinate_motion, require_harmonic, require_steady_state, require_symmetry,
+    requirements,
 };
 use super::equations::{Equations, excited};
 use super::functions::{FreeDirections, Functions, Limits, RingPlaces, Role, Unknown};
@@ -145,7 +147,7 @@ pub(crate) fn compared_at_rest(mechanism: &Mechanism, topology: &Topology) -> Op
     in_context(&mut Graph::new(), mechanism, topology, false, |g, context| {
         let at_zero = in_common_frame_at_zero(g, context);
         let running = vec![g.zero(); context.symbols.running.ids.len()];
-        let equations = Equations::new(g, context, (&running, at_zero), context);
+        let equations = Equations::new(g, context, (&running, &at_zero), context);
         super::linear::compared(g, context, &equations)
     })
 }
@@ -166,9 +168,7 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, blades: Blades) -
             require_steady_state(g, at_angle, &running)?;
             (symbols.clone(), Harmonics::default())
         }
-        Blades::Apart | Blades::Together if is_steady(g, at_angle, &running) => {
-            (symbols.clone(), Harmonics::default())
-        }
+        Blades::Apart | Blades::Together if is_steady(g, at_angle, &running) => (symbols.clone(), Harmonics::default()),
         Blades::Apart | Blades::Together => return Err(Unsteady::Turning),
         Blades::Periodic => harmonics(g, at_angle, &running, &drives)?,
     };
@@ -206,7 +206,8 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, blades: Blades) -
     let poses = poses(g, context, at_zero);
     let margin = pose_margin(&poses, symbols);
     functions.push(in_unknowns(g, context, margin));
-    let speeds: Vec<ExprId> = drives.iter().map(|drive| drive.map_or_else(|| g.zero(), |(_, [_, speed])| speed)).collect();
+    let speeds: Vec<ExprId> =
+        drives.iter().map(|drive| drive.map_or_else(|| g.zero(), |(_, [_, speed])| speed)).collect();
     functions.extend(held_values(g, context, &speeds));
     let unknowns = unknowns(context);
     let held = held(mechanism, &unknowns);

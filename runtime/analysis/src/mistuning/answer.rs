@@ -24,7 +24,8 @@ impl Answer for Mistuning {
         let mut said = Findings::titled(format!("{title}: engine order {} on `{}`", self.order, self.ring));
         let name = |blade: usize| format!("{}[{blade}]", self.ring);
         let factors = [("as they are", Some(self.factor))].into_iter().chain(
-            [("median", 0.5), ("90 %", 0.9), ("99 %", 0.99), ("highest", 1.0)].map(|(name, share)| (name, self.quantile(share))),
+            [("median", 0.5), ("90 %", 0.9), ("99 %", 0.99), ("highest", 1.0)]
+                .map(|(name, share)| (name, self.quantile(share))),
         );
         let factors: Vec<_> = factors.filter(|(_, factor)| factor.is_some()).collect();
         let mut table = Columns::new("mistuning", &factors);
@@ -39,7 +40,10 @@ impl Answer for Mistuning {
             0 => format!("the worst is `{}`: {}", name(built.blade), peak(built)),
             _ => format!("several are equal: {}", peak(built)),
         };
-        said.note(format!("Highest amplitude, per unit of the force on each blade, of equal blades: {}. As they are, {worst}.", peak(tuned)));
+        said.note(format!(
+            "Highest amplitude, per unit of the force on each blade, of equal blades: {}. As they are, {worst}.",
+            peak(tuned)
+        ));
         said.note(format!("Whitehead's greatest factor of {} blades: {}.", self.blades, number(self.whitehead())));
         if !self.sampled.is_empty() {
             self.of_samples(&mut said, &name);

@@ -256,14 +256,10 @@ struct Model {
 }
 
 impl Model {
-    fn new(
-        mechanism: &dyn DirectionalKernels,
-        at: &Equilibrium,
-        frequency: f64,
-        blades: usize,
-    ) -> Result<Self, Error> {
+    fn new(mechanism: &dyn DirectionalKernels, at: &Equilibrium, frequency: f64, blades: usize) -> Result<Self, Error> {
         let n = at.linear.mass.row_count();
-        let basis = if n <= MODES { identity(n) } else { nearest(&at.linear, frequency, MODES.max(2 * blades).min(n))? };
+        let basis =
+            if n <= MODES { identity(n) } else { nearest(&at.linear, frequency, MODES.max(2 * blades).min(n))? };
         let reduced = |linear: &Linear| Linear {
             mass: projected(&basis, &linear.mass),
             damping: projected(&basis, &linear.damping),
@@ -306,7 +302,8 @@ fn nearest(linear: &Linear, frequency: f64, count: usize) -> Result<Matrix, Erro
     let n = linear.mass.row_count();
     let stiffness = Matrix::from_fn(n, n, |i, j| 0.5 * (linear.stiffness[i][j] + linear.stiffness[j][i]));
     let mut pairs = Pairs::default();
-    symmetric::solve_into(&stiffness, &linear.mass, &mut pairs).map_err(|_| Error::ModesNotFound { mode: 0, residual: 1.0 })?;
+    symmetric::solve_into(&stiffness, &linear.mass, &mut pairs)
+        .map_err(|_| Error::ModesNotFound { mode: 0, residual: 1.0 })?;
     let mut order: Vec<usize> = (0..n).collect();
     let distance = |r: &usize| (pairs.lambda[*r].max(0.0).sqrt() / frequency).ln().abs();
     order.sort_by(|a, b| distance(a).total_cmp(&distance(b)));

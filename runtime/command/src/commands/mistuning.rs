@@ -42,7 +42,12 @@ impl Mistuning {
         let asked = EngineOrder {
             samples: samples(self.samples, &question.file)?,
             seed: self.seed.or(question.file.seed).unwrap_or(0),
-            ..EngineOrder::of(question.study.description(), self.ring.as_deref(), self.coordinate.as_deref(), self.order)?
+            ..EngineOrder::of(
+                question.study.description(),
+                self.ring.as_deref(),
+                self.coordinate.as_deref(),
+                self.order,
+            )?
         };
         let bar = progress::bar("samples", Some(asked.samples as u64));
         let study = progress::watched(question.study.clone(), &bar);

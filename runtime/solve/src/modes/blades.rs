@@ -58,14 +58,21 @@ struct Waves {
 
 impl BladePattern {
     /// Of a ring that turns at `speed`, in a vibration at `frequency` with this shape, rad/s.
-    fn new((place, ring): (usize, &RingInfo), speed: f64, frequency: f64, of_blades: f64, of: &[Weighted]) -> Option<Self> {
+    fn new(
+        (place, ring): (usize, &RingInfo),
+        speed: f64,
+        frequency: f64,
+        of_blades: f64,
+        of: &[Weighted],
+    ) -> Option<Self> {
         let blades = ring.members;
         let mut waves: Vec<Waves> = (0..=blades / 2)
             .map(|diameters| Waves { diameters, squares: [0.0; 2], frequencies: [frequency; 2] })
             .collect();
         for values in of {
             for wave in &mut waves {
-                let [with, against] = if ring.patterns { patterns(values, wave.diameters) } else { around(values, wave.diameters) };
+                let [with, against] =
+                    if ring.patterns { patterns(values, wave.diameters) } else { around(values, wave.diameters) };
                 wave.squares[0] += with;
                 wave.squares[1] += against;
             }

@@ -16,8 +16,8 @@ use crate::eigenproblem::{Eigenproblem, EigenproblemError, Root, roots_near};
 use crate::kernels::Linear;
 use crate::{Complex, Description};
 
-/// Fewest unknowns of rings for which blocks are sought.
-const FEWEST: usize = 12;
+/// Fewest unknowns of rings that can have blocks.
+const FEWEST: usize = 3;
 /// What is left of an entry by rounding, relative to the sum of its terms.
 const ROUNDING: f64 = 1e-13;
 

@@ -27,8 +27,8 @@ mod whirl;
 pub use assurance::{
     EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another, position,
 };
-pub use blades::{BladePattern, Travel, ring_speeds};
 pub use assurance::{assurance, clusters, match_modes};
+pub use blades::{BladePattern, Travel, ring_speeds};
 #[doc(hidden)]
 pub use constrained::free_pairs;
 pub(crate) use deflation::deflated;

@@ -121,7 +121,13 @@ impl Whirl {
             _ => {
                 let kind = if theirs { Kind::Blades } else { Kind::Mixed };
                 // Any force on blades may excite them, whatever the shaft does.
-                Some(Self { kind, ratio: None, with_spin: 1.0, spin: of_shafts.map_or(0.0, |whirl| whirl.spin), blades })
+                Some(Self {
+                    kind,
+                    ratio: None,
+                    with_spin: 1.0,
+                    spin: of_shafts.map_or(0.0, |whirl| whirl.spin),
+                    blades,
+                })
             }
         }
     }

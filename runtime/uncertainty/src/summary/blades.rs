@@ -5,10 +5,10 @@
 //! `s_j = s_k + i h W`: then its harmonics couple them, as modes that do not reach the hub, or all where the hub hardly
 //! moves. The spread of each is that of single blades there, not of their mean.
 
+use crate::kernels::Kernels;
 use crate::modes::ring_speeds;
 use crate::sensitivity::Sensitivities;
 use crate::tolerance::Tolerances;
-use crate::kernels::Kernels;
 use crate::{Complex, Equilibrium, Modes};
 
 /// Modes whose distance is less than so many standard deviations of what moves a blade are mixed.

@@ -151,8 +151,7 @@ pub fn summary_watched(
     let about = About { mechanism, at, modes, tolerances, watch };
     let groups: Vec<&[usize]> = (summary.clusters.iter()).map(|cluster| &cluster.modes[..]).collect();
     let sampled = about.sample(&predictions, &groups, budget)?;
-    let mut trust: Vec<Trust> =
-        numbered().map(|(mode, x)| judge.verdict(mode, x, &predictions, &sampled)).collect();
+    let mut trust: Vec<Trust> = numbered().map(|(mode, x)| judge.verdict(mode, x, &predictions, &sampled)).collect();
     for (trust, modes) in trust.iter_mut().zip(blades::mixed(mechanism, at, modes, &slopes, tolerances)) {
         if !modes.is_empty() {
             trust.doubts.retain(|doubt| !matches!(doubt, Doubt::EqualInEveryDesign { .. }));

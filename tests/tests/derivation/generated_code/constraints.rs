@@ -64,7 +64,7 @@ fn compare(name: &str, declaration: &str) -> [usize; 2] {
             match role(row) {
                 Role::PositionReaction => compared[0] += 1,
                 Role::VelocityReaction => compared[1] += 1,
-                Role::Position(_) | Role::Speed(_) => continue,
+                Role::Position(_) | Role::Harmonic(_) | Role::Speed(_) => continue,
             }
             let moves = |&j: &usize| matches!(role(j), Role::Position(_) | Role::Speed(_));
             let motions = (0..n).filter(moves);

@@ -15,7 +15,10 @@ use std::f64::consts::TAU;
 fn rotor(values: &[f64], blades: usize, is_driven: bool) -> String {
     let [mx, my, kx, ky, cx, cy, tilt] = values[..7] else { panic!("seven values") };
     let (drive, ring) = match is_driven {
-        true => (", driven at omega", "cyclic blade[0..N] about z { use blade: Blade(m: m, S: S, I: I, e: e, cl: cl) with root: hub; }"),
+        true => (
+            ", driven at omega",
+            "cyclic blade[0..N] about z { use blade: Blade(m: m, S: S, I: I, e: e, cl: cl) with root: hub; }",
+        ),
         false => (
             "",
             "for i in 0..N {
@@ -129,7 +132,8 @@ fn exponents_are_those_of_an_integration_over_a_turn() {
         assert_eq!(found.len(), expected.len(), "{modes}");
         for multiplier in expected {
             let distance = |of: &Complex| (of - multiplier).norm();
-            let nearest = (0..found.len()).min_by(|a, b| distance(&found[*a]).total_cmp(&distance(&found[*b]))).expect("one");
+            let nearest =
+                (0..found.len()).min_by(|a, b| distance(&found[*a]).total_cmp(&distance(&found[*b]))).expect("one");
             let nearest = found.swap_remove(nearest);
             assert!(distance(&nearest) < 1e-6, "{blades} blades at {omega}: {nearest} instead of {multiplier}");
         }

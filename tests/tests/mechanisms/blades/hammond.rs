@@ -64,9 +64,10 @@ fn check(name: &str, frame: &str, shared: &[(&str, &[&str])]) {
         let places = same_exponents(&study, &expected, 1e-10);
         // Collective and differential lag coincide.
         let alone = |r: usize| expected.iter().filter(|s| (*s - expected[r]).norm() < 1e-6).count() == 1;
-        let own = UNITS.iter().map(|(name, _)| (*name, vec![*name])).filter(|(name, _)| {
-            !shared.iter().any(|(_, of)| of.contains(name))
-        });
+        let own = UNITS
+            .iter()
+            .map(|(name, _)| (*name, vec![*name]))
+            .filter(|(name, _)| !shared.iter().any(|(_, of)| of.contains(name)));
         let together = shared.iter().map(|(name, of)| (*name, of.to_vec()));
         for (variable, of) in own.chain(together).chain([("omega", vec!["omega"])]) {
             let sum = |order: &str, r: usize| -> Complex { of.iter().map(|one| complex(&case[order][*one][r])).sum() };
@@ -90,7 +91,13 @@ fn check(name: &str, frame: &str, shared: &[(&str, &[&str])]) {
             let found = derivatives(&study, &format!("blade[{blade}].kl"));
             for r in (0..expected.len()).filter(|r| alone(*r)) {
                 let all = complex(&case["first"]["kl"][r]);
-                close(found[places[r]].expect("a derivative") * 4.0, all, 1e-9, 1e-12, &format!("{name} one blade {r}"));
+                close(
+                    found[places[r]].expect("a derivative") * 4.0,
+                    all,
+                    1e-9,
+                    1e-12,
+                    &format!("{name} one blade {r}"),
+                );
             }
         }
     }

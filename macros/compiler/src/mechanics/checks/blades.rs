@@ -16,11 +16,7 @@ use crate::model::mechanism::{Frame, Motion, Ring};
 pub(crate) type Drive = Option<(CoordinateId, [ExprId; 2])>;
 
 /// The drive about the axis of each ring, and its speed in the sense of the ring.
-pub(crate) fn drives(
-    g: &mut Graph,
-    context: &Context,
-    kinematics: &Kinematics,
-) -> Vec<Drive> {
+pub(crate) fn drives(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> Vec<Drive> {
     let rings = context.mechanism.rings.iter();
     rings
         .map(|ring| {
@@ -37,11 +33,7 @@ pub(crate) fn drives(
 
 /// The unknowns of all rings that a drive turns, at any angle of the drives and where these are zero; empty if there is no
 /// such ring.
-pub(crate) fn multiblade(
-    g: &mut Graph,
-    context: &Context,
-    drives: &[Drive],
-) -> Result<[Multiblade; 2], Diagnostics> {
+pub(crate) fn multiblade(g: &mut Graph, context: &Context, drives: &[Drive]) -> Result<[Multiblade; 2], Diagnostics> {
     let mut mistakes = Diagnostics::new();
     let [mut turned, mut still] = [Multiblade::default(), Multiblade::default()];
     for (ring, drive) in context.mechanism.rings.iter().zip(drives) {
@@ -52,7 +44,8 @@ pub(crate) fn multiblade(
                 "two blades on a support that is not symmetric: the coefficients are periodic in `{}` (Floquet), whatever the coordinates",
                 coordinate.name
             );
-            let help = "three or more equal blades may stand on this support, and two on one that is symmetric about the axis";
+            let help =
+                "three or more equal blades may stand on this support, and two on one that is symmetric about the axis";
             mistakes.error_with_help(&ring.name, message, help);
             continue;
         }
@@ -113,7 +106,11 @@ fn unequal(context: &Context, ring: &Ring, mistakes: &mut Diagnostics) {
                 name(0),
                 name(other)
             );
-            mistakes.error_with_help(&ring.name, message, "give them the same value; each may keep a tolerance of its own");
+            mistakes.error_with_help(
+                &ring.name,
+                message,
+                "give them the same value; each may keep a tolerance of its own",
+            );
         }
     }
 }
@@ -170,8 +167,12 @@ pub(crate) fn require_symmetry(
             let name = id.map(|(_, ids)| context.mechanism.coordinates[ids[k].index()].name.to_string());
             written(&name.unwrap_or_default()).into_owned()
         };
-        let message =
-            format!("`{}` is not equal around its axis: `{}` feels other forces than `{}`", ring.name, name(k), name(0));
+        let message = format!(
+            "`{}` is not equal around its axis: `{}` feels other forces than `{}`",
+            ring.name,
+            name(k),
+            name(0)
+        );
         let help = "what acts on one must act on each, turned about the axis; without `cyclic`, all may be different";
         mistakes.error_with_help(&ring.name, message, help);
     }
@@ -187,7 +188,8 @@ pub(crate) fn remaining_orders(
     drives: &[Drive],
 ) -> Option<(Vec<usize>, usize)> {
     let (symbols, topology) = (context.symbols, context.topology);
-    let mut rings = context.mechanism.rings.iter().zip(drives).filter_map(|(ring, drive)| Some((ring.members, (*drive)?.0)));
+    let mut rings =
+        context.mechanism.rings.iter().zip(drives).filter_map(|(ring, drive)| Some((ring.members, (*drive)?.0)));
     let (blades, drive) = rings.next()?;
     let simple = topology.coasting.is_empty() && context.rows.is_empty();
     if !simple || rings.any(|other| other != (blades, drive)) {

@@ -2,7 +2,7 @@
 
 use crate::algebra::{Evaluator, ExprId, Graph};
 use crate::mechanics::setup::{
-    Context, Excited, ForceSelection, Runs, Sections, Symbols, Values, columns, probe, vanish,
+    Context, Excited, ForceSelection, Harmonics, Multiblade, Runs, Sections, Symbols, Values, columns, probe, vanish,
 };
 use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
@@ -25,6 +25,8 @@ pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usi
         runs: &runs,
         sections: &Sections::default(),
         rows: &[],
+        multiblade: &Multiblade::default(),
+        harmonics: &Harmonics::default(),
         excited: &Excited::default(),
     };
     let running = vec![g.zero(); symbols.running.ids.len()];

@@ -24,8 +24,7 @@ impl Jacobians {
         let s = context.symbols;
         if !context.harmonics.is_empty() {
             let by_rates = [&s.acceleration, &s.velocity].map(|list| columns(g, &e.motion, list));
-            let [mass, damping] =
-                by_rates.map(|columns| columns.iter().map(|column| at_rest(g, s, column)).collect());
+            let [mass, damping] = by_rates.map(|columns| columns.iter().map(|column| at_rest(g, s, column)).collect());
             return Self { mass, damping, stiffness: columns(g, &e.rest, &s.q) };
         }
         let [mass, damping, stiffness] = Inertial::new(g, context, e).matrices(g);

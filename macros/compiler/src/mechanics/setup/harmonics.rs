@@ -41,7 +41,8 @@ impl Harmonics {
         let period = std::f64::consts::TAU / orders[0] as f64;
         let sampled = (0..count).map(|k| {
             let theta = period * k as f64 / count as f64;
-            let factors: Vec<[f64; 2]> = orders.iter().map(|&h| [(h as f64 * theta).cos(), (h as f64 * theta).sin()]).collect();
+            let factors: Vec<[f64; 2]> =
+                orders.iter().map(|&h| [(h as f64 * theta).cos(), (h as f64 * theta).sin()]).collect();
             let value = g.constant(theta);
             let zero = g.zero();
             let mut replaced: Vec<_> =

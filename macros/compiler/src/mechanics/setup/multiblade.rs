@@ -159,8 +159,9 @@ impl Multiblade {
             }
             let values = |list: &SymbolList| -> Vec<ExprId> { slots.iter().map(|&k| list.values[k]).collect() };
             let motion = [&symbols.q, &symbols.velocity, &symbols.acceleration].map(values);
-            for (list, rates) in
-                [&symbols.q, &symbols.velocity, &symbols.acceleration].into_iter().zip(rates(g, &patterns, motion, speed))
+            for (list, rates) in [&symbols.q, &symbols.velocity, &symbols.acceleration]
+                .into_iter()
+                .zip(rates(g, &patterns, motion, speed))
             {
                 self.replace(g, &turning, list, &slots, &rates);
             }
@@ -205,7 +206,6 @@ impl Multiblade {
         !self.bent && matches!(self.unknowns.get(unknown), Some(Some((_, true))))
     }
 
-
     /// Unknowns that change their sign when blades are counted from the next.
     pub(crate) fn alternating(&self) -> impl Iterator<Item = usize> + '_ {
         let rings = self.rings.iter().filter(|ring| ring.pattern.len().is_multiple_of(2));
@@ -242,8 +242,7 @@ impl Multiblade {
                     self.forces(g, &column)
                 })
                 .collect();
-            let rows: Vec<Vec<ExprId>> =
-                transposed(&columns).into_iter().map(|row| self.forces(g, &row)).collect();
+            let rows: Vec<Vec<ExprId>> = transposed(&columns).into_iter().map(|row| self.forces(g, &row)).collect();
             transposed(&rows)
         });
         let (mut all_damping, mut all_stiffness) = (damping.clone(), stiffness);

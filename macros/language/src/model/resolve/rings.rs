@@ -25,10 +25,15 @@ impl Resolver<'_> {
         if coordinates.is_empty() && self.ast.unread.iter().all(Unread::is_nameless) {
             let first = joined(&of.name.to_string(), &of.members.start.to_string());
             let message = format!("`{}` has no coordinate", written(&first));
-            self.report(of.name.span(), message, Some("what stands around an axis moves: it is an instance or a joint of an array".to_owned()));
+            self.report(
+                of.name.span(),
+                message,
+                Some("what stands around an axis moves: it is an instance or a joint of an array".to_owned()),
+            );
         }
         let design = design.into_values().map(|ids| ids.into_iter().map(DesignId::new).collect());
-        let coordinates = coordinates.into_iter().map(|(name, ids)| (name, ids.into_iter().map(CoordinateId::new).collect()));
+        let coordinates =
+            coordinates.into_iter().map(|(name, ids)| (name, ids.into_iter().map(CoordinateId::new).collect()));
         Some(Ring {
             name: of.name.clone(),
             members: of.members.len(),
@@ -46,8 +51,9 @@ impl Resolver<'_> {
             for (k, prefix) in prefixes.iter().enumerate() {
                 let rest = name.strip_prefix(prefix).filter(|rest| rest.is_empty() || rest.starts_with(LINK));
                 if let Some(rest) = rest {
-                    found.entry(rest.trim_start_matches(LINK).to_owned()).or_insert_with(|| vec![None; prefixes.len()])[k] =
-                        Some(id);
+                    found
+                        .entry(rest.trim_start_matches(LINK).to_owned())
+                        .or_insert_with(|| vec![None; prefixes.len()])[k] = Some(id);
                 }
             }
         }
@@ -57,7 +63,8 @@ impl Resolver<'_> {
                 let has = ids.iter().position(Option::is_some).unwrap_or_default();
                 let [lacking, has] = [lacking, has].map(|k| written(&prefixes[k]).into_owned());
                 let name = written(name);
-                let message = format!("`{lacking}` lacks the `{name}` that `{has}` has, so they are not equal around an axis");
+                let message =
+                    format!("`{lacking}` lacks the `{name}` that `{has}` has, so they are not equal around an axis");
                 self.report(of.name.span(), message, None);
                 return None;
             }

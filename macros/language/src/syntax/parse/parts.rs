@@ -335,7 +335,8 @@ fn ports(tokens: &mut Tokens<'_>, part: &Part<'_>, instance: &Ident, scope: &mut
             let mut placement = placement(tokens)?;
             let mut frame = frame;
             if let Some(turned) = &tokens.scope.turned {
-                let around = Placement { offset: None, rotations: vec![turned.rotation.clone()], keyword: port.span().into() };
+                let around =
+                    Placement { offset: None, rotations: vec![turned.rotation.clone()], keyword: port.span().into() };
                 let carrier = Ident::new(&format!("{}_around", scope.whole(&name)), port.span());
                 match placement {
                     None => placement = Some(around),

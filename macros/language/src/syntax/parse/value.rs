@@ -160,7 +160,8 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
         };
     }
     if let Some(axis) = hidden_axis(tokens) {
-        let components = [0, 1, 2].map(|k| Value::new(ValueKind::Number(f64::from(u8::from(k == axis)), None), tokens.last));
+        let components =
+            [0, 1, 2].map(|k| Value::new(ValueKind::Number(f64::from(u8::from(k == axis)), None), tokens.last));
         return built(ValueKind::Vector(components.into(), None), Extent::from(start).to(tokens.last));
     }
     let name = name_of_value(tokens)?;
