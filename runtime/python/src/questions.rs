@@ -292,6 +292,25 @@ impl Study {
         }
     }
 
+    /// How much higher the worst blade of a ring vibrates than equal blades would under a force of an engine order, along a
+    /// coordinate of the blades such as "flap", and the distribution within the tolerances. The first ring and the first
+    /// coordinate are the defaults.
+    #[pyo3(signature = (order, ring=None, coordinate=None, samples=1000, seed=0))]
+    fn mistuning(
+        &self,
+        py: Python<'_>,
+        order: usize,
+        ring: Option<&str>,
+        coordinate: Option<&str>,
+        samples: usize,
+        seed: u64,
+    ) -> PyResult<Answer> {
+        use eigentol::mistuning::EngineOrder;
+        let asked = self.ask(py, |study| EngineOrder::of(study.description(), ring, coordinate, order))?;
+        let asked = EngineOrder { samples, seed, ..asked };
+        self.ask_stoppably(py, |study| study.mistuning(asked)).map(Answer::new)
+    }
+
     /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
     /// is done, take the samples in parts (`samples_between`).
     fn monte_carlo(&self, py: Python<'_>) -> PyResult<MonteCarlo> {
@@ -330,10 +349,18 @@ impl Study {
         Ok(optional(py, answer.into_iter().map(|whirl| whirl.and_then(|whirl| whirl.ratio))))
     }
 
-    /// Kind of each mode, "lateral", "torsional", "axial" or "mixed"; None where no shaft moves.
+    /// Kind of each mode, "lateral", "torsional", "axial", "mixed", or "blades"; None where neither shafts nor blades of a
+    /// ring move.
     fn kinds(&self, py: Python<'_>) -> PyResult<Vec<Option<String>>> {
         let answer = self.ask(py, |study| study.whirls())?;
         Ok(answer.into_iter().map(|whirl: Option<eigentol::modes::Whirl>| Some(whirl?.kind.to_string())).collect())
+    }
+
+    /// What the blades of a ring do in each mode: "collective", "differential", "regressive", "2 diameters"; None where
+    /// there is no ring or its blades do not move.
+    fn patterns(&self, py: Python<'_>) -> PyResult<Vec<Option<String>>> {
+        let answer = self.ask(py, |study| study.whirls())?;
+        Ok(answer.into_iter().map(|whirl: Option<eigentol::modes::Whirl>| Some(whirl?.blades?.to_string())).collect())
     }
 
     /// First and second derivatives of one mode, counted from 0.

@@ -290,7 +290,8 @@ fn the_examples_have_the_frequencies_of_closed_forms() {
     let rotor = example("bladed_rotor.mechanism");
     let rotor = rotor.clone().input(Input::new(0), 600.0 * std::f64::consts::TAU / 60.0);
     let alone = (3_947.841_760_4 * (1.0 + 1.5 * 0.05 / 0.6) + 3.0 * 400.0 / (2.0 * 0.36_f64)).sqrt();
-    let equal = lowest(&rotor).into_iter().flatten().filter(|w| (w / alone - 1.0).abs() < 1e-9);
+    // The damping of the air moves them by half of its square.
+    let equal = lowest(&rotor).into_iter().flatten().filter(|w| (w / alone - 1.0).abs() < 1e-6);
     assert_eq!(equal.count(), 5);
     // Three inertias, a spring and two meshes: the determinant changes its sign at each frequency.
     let gears = example("gearbox.mechanism");

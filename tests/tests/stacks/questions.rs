@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::equilibrium::Search;
 use eigentol::kernels::{BatchKernels, CurvatureKernels, PictureKernels};
+use eigentol::mistuning::EngineOrder;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
 use eigentol::sensitivity::Quantity;
@@ -103,6 +104,11 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels +
             answered(s.output_curvature(Output::new(0)));
         }),
         ("second_order", |s, _| answered(s.second_order())),
+        // Most machines have no blades.
+        ("mistuning", |s, _| {
+            let asked = EngineOrder { ring: 0, coordinate: 0, order: 1, samples: 1, seed: 0 };
+            drop(black_box(s.mistuning(asked)));
+        }),
         ("clusters", |s, _| answered(s.clusters())),
         ("monte_carlo", |s, _| answered(s.monte_carlo())),
         ("samples_between", |s, _| answered(s.samples_between(0..1))),

@@ -191,7 +191,7 @@ fn one(tokens: &mut Tokens<'_>, docs: &[String], read: &mut Read<'_>) -> Parsed<
         }
         return Ok(());
     }
-    if cyclic::peek(tokens) {
+    if tokens.peek_word("cyclic") {
         return cyclic::cyclic(tokens, read);
     }
     if parts::peek(tokens) {

@@ -16,7 +16,7 @@ pub use peak::BladePeak;
 
 use eigentol_contract::RingInfo;
 
-use self::peak::{Driven, highest};
+use self::peak::{Driven, highest, undamped};
 use crate::algebra::{Lu, Matrix, Vector};
 use crate::eigenproblem::{Pairs, symmetric};
 use crate::equilibrium::{Policy, equilibrium};
@@ -27,6 +27,7 @@ use crate::{Complex, Description, Equilibrium, Error, Shared, Text, Watch};
 
 /// What is asked: which blades, which of their coordinates the order excites, and the order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EngineOrder {
     /// The ring, counted from 0.
     pub ring: usize,
@@ -241,11 +242,6 @@ fn slopes(
         of.iter().for_each(|&k| tuned[k] = mean);
     }
     Ok(relative[1].iter().zip(&tuned).map(|(built, tuned)| factor * (built - tuned)).collect())
-}
-
-/// That blades without damping have no highest response.
-fn undamped() -> Error {
-    Error::setting("engine order", "nothing damps the vibration of the blades, so it has no highest amplitude")
 }
 
 /// Matrices that are linear in the design, in the modes nearest to a frequency.

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::undamped;
 use crate::algebra::{Lu, Matrix, Vector};
 use crate::eigenproblem::{Eigenproblem, roots_near};
 use crate::kernels::Linear;
@@ -129,4 +128,9 @@ fn refine(driven: &Driven, peak: &BladePeak, width: f64) -> Option<BladePeak> {
         }
     }
     Some(best)
+}
+
+/// That blades without damping have no highest response.
+pub(super) fn undamped() -> Error {
+    Error::setting("engine order", "nothing damps the vibration of the blades, so it has no highest amplitude")
 }

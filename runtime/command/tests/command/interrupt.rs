@@ -226,6 +226,7 @@ fn every_subcommand_ends_soon() {
             unbalance u: on disk, amount: 20 g*mm;
             output shake = side; }",
     );
+    let rotor_of_blades = fs::canonicalize(examples().join("bladed_rotor.mechanism")).unwrap();
     let pendulum = format!("{PENDULUM} --start theta=60deg");
     let mut all = vec![
         ask("equilibria", &format!("{short} --starts 1e9")),
@@ -237,6 +238,7 @@ fn every_subcommand_ends_soon() {
         ask("converge", &long),
         ask("campbell", &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv")),
         ask("sweep", &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv")),
+        ask("mistuning", &format!("{} --set omega=600rpm --order 2 --samples 2000000000", rotor_of_blades.display())),
         ask("branches", &format!("{short} --sweep omega=0..60rad/s")),
         ask("sample", &format!("{pendulum} --samples 2000000000")),
         ask("report", &format!("{pendulum} --set omega=5rad/s --samples 2000000000 -o {report}")),

@@ -152,3 +152,101 @@ fn modes_have_the_names_of_rotor_dynamics() {
         assert!(pattern.share > 0.9 && pattern.nodal_diameters == 1, "{pattern:?}");
     }
 }
+
+/// A force along x and an unbalance of the hub, against the multiblade equations written by hand.
+#[test]
+fn forced_vibrations_are_those_of_the_equations_by_hand() {
+    let truth = truth("B1_hammond_anisotropic");
+    let of = |name: &str| number(&truth["parameters"][name]);
+    let (speed, w) = (31.4, 17.0);
+    let text = rotor(&truth, "point(mass: mx - my)");
+    let end = text.rfind('}').expect("the end");
+    let text = format!(
+        "{} point axis: hub at [0, 0, 0] m;
+        force shaker: harmonic(on: x, force: 100 N, frequency: {w:?} rad/s);
+        unbalance residual: on hub, amount: 0.3 kg*m;
+        output ox = x; output oy = y; output lag = (blade[0].lag + blade[1].lag + blade[2].lag + blade[3].lag) / 4; }}",
+        &text[..end]
+    );
+    let study = at(&text, speed);
+    let response = study.forced_response().expect("a response");
+    let [m, s, inertia, e, cl] = ["m", "S", "I", "e", "cl"].map(of);
+    // x, y, cosine, sine
+    let matrix = |w: f64| {
+        let i = Complex::new(0.0, 1.0);
+        let (z, n) = (i * w, 4.0);
+        let blade = (z * z - speed * speed) * inertia + z * cl + speed * speed * e * s;
+        let carried = z * (2.0 * speed * inertia) + cl * speed;
+        let half = n / 2.0;
+        nalgebra::DMatrix::from_row_slice(
+            4,
+            4,
+            &[
+                z * z * (of("mx") + n * m) + z * of("cx") + of("kx"),
+                Complex::new(0.0, 0.0),
+                Complex::new(0.0, 0.0),
+                -z * z * half * s,
+                Complex::new(0.0, 0.0),
+                z * z * (of("my") + n * m) + z * of("cy") + of("ky"),
+                z * z * half * s,
+                Complex::new(0.0, 0.0),
+                Complex::new(0.0, 0.0),
+                z * z * half * s,
+                blade * half,
+                carried * half,
+                -z * z * half * s,
+                Complex::new(0.0, 0.0),
+                -carried * half,
+                blade * half,
+            ],
+        )
+    };
+    let turning = 0.3 * speed * speed;
+    let forces = [
+        (w, [Complex::new(100.0, 0.0), Complex::new(0.0, 0.0)]),
+        (speed, [Complex::new(turning, 0.0), Complex::new(0.0, -turning)]),
+    ];
+    for (frequency, [fx, fy]) in forces {
+        let zero = Complex::new(0.0, 0.0);
+        let right = nalgebra::DVector::from_vec(vec![fx, fy, zero, zero]);
+        let expected = matrix(frequency).lu().solve(&right).expect("damped");
+        let mut harmonics = response.harmonics.iter();
+        let harmonic = harmonics.find(|harmonic| (harmonic.frequency - frequency).abs() < 1e-9).expect("the frequency");
+        for (k, found) in [harmonic.outputs[0], harmonic.outputs[1]].into_iter().enumerate() {
+            let found = found.expect("an amplitude");
+            close(found, expected[k], 1e-10, 1e-8, &format!("{frequency} {k}"));
+        }
+        assert!(harmonic.outputs[2].expect("an amplitude").norm() < 1e-12);
+    }
+}
+
+#[test]
+fn blades_of_their_own_are_told() {
+    let truth = truth("B1_hammond_anisotropic");
+    let study = at(&rotor(&truth, "point(mass: mx - my)"), 31.4);
+    let summary = study.summary().expect("a summary");
+    let mixed = |mode: usize| {
+        let doubts = summary.trust[mode].doubts.iter();
+        doubts.into_iter().any(|doubt| matches!(doubt, eigentol::tolerance::Doubt::Blades { .. }))
+    };
+    // Collective and differential lag do not reach the hub: a blade is alone in both.
+    assert_eq!([0, 1, 2, 3, 4, 5].map(mixed), [true, true, false, false, false, false], "{summary}");
+    let place = design(&study, "blade[1].kl");
+    let error = study.design(eigentol::DesignVariable::new(place), 5.0).modes().map(drop).expect_err("unequal");
+    assert!(error.to_string().contains("`blade[0].kl` and `blade[1].kl` differ"), "{error}");
+}
+
+#[test]
+fn a_hub_that_turns_the_other_way_is_the_mirror_image() {
+    let truth = truth("B1_hammond_anisotropic");
+    let text = rotor(&truth, "point(mass: mx - my)");
+    let speed = number(&truth["cases"][0]["omega"]);
+    let expected = list(&truth["cases"][0]["eigenvalues"]);
+    same_exponents(&at(&text, -speed), &expected, 1e-10);
+    let other = text.replace("revolute(z) from mast to hub", "revolute(-z) from mast to hub");
+    same_exponents(&at(&other, speed), &expected, 1e-10);
+    let from_hub = text.replace("revolute(z) from mast to hub", "revolute(z) from hub to mast");
+    same_exponents(&at(&from_hub, speed), &expected, 1e-10);
+    let ring = text.replace("about z", "about -z");
+    same_exponents(&at(&ring, speed), &expected, 1e-10);
+}

@@ -49,7 +49,8 @@ impl Resolver<'_> {
         let mut found: BTreeMap<String, Vec<Option<usize>>> = BTreeMap::new();
         for (id, name) in names.into_iter().enumerate() {
             for (k, prefix) in prefixes.iter().enumerate() {
-                let rest = name.strip_prefix(prefix).filter(|rest| rest.is_empty() || rest.starts_with(LINK));
+                let rest =
+                    name.strip_prefix(prefix).filter(|rest| rest.chars().next().is_none_or(|first| first == LINK));
                 if let Some(rest) = rest {
                     found
                         .entry(rest.trim_start_matches(LINK).to_owned())

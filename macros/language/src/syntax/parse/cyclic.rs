@@ -9,15 +9,9 @@ use super::repeat::range;
 use super::value::value;
 use super::{Read, parts};
 use crate::base::diagnostics::Diagnostic;
-use crate::base::names::{joined, written};
+use crate::base::names::joined;
 
 const CYCLIC: &str = "write `cyclic blade[0..4] about z { use blade: Blade(..) with root: hub; }`";
-
-/// Whether a ring is next; the word may also be a name.
-pub(super) fn peek(tokens: &Tokens<'_>) -> bool {
-    let mut ahead = *tokens;
-    ahead.word("cyclic").is_some() && ahead.ident().is_some()
-}
 
 /// Reads `cyclic blade[0..N] about z { use blade: ...; }`, or `cyclic blade[0..N] about z;` of instances that are declared
 /// by themselves.
@@ -71,14 +65,4 @@ pub(super) fn cyclic(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<()>
     }
     read.add(Vec::new(), ItemKind::Cyclic(Cyclic { name: whole, members, about }));
     Ok(())
-}
-
-/// The name of an instance of a ring with its index.
-pub(super) fn member(turned: &Turned, name: &Ident) -> Parsed<Ident> {
-    if *name == turned.ring {
-        return Ok(Ident::new(&turned.instance, name.span()));
-    }
-    let message = format!("`{}` is not the name of the ring", written(&name.to_string()));
-    let help = format!("write `use {}: ...`", written(&turned.ring));
-    Err(Box::new(Diagnostic::new(name, message).with_help(help)))
 }

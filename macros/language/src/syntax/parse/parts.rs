@@ -7,9 +7,8 @@ use proc_macro2::{Delimiter, Ident};
 
 use super::super::ast::{Body, ItemKind, Joint, JointClause, NamedCall, Placement, Point, Stated, Term, Use, Value};
 use super::super::print;
-use super::super::scope::{Meaning, Names, Part, Parts, Port, Scope};
+use super::super::scope::{Meaning, Names, Part, Parts, Port, Scope, Turned};
 use super::super::tokens::{Parsed, Tokens};
-use super::cyclic;
 use super::index::whole;
 use super::names::{colon, declared_name, path, reference};
 use super::placement::placement;
@@ -17,7 +16,7 @@ use super::unit;
 use super::value::value;
 use super::{Read, items, names_of_item, skip_item};
 use crate::base::diagnostics::{Diagnostic, Diagnostics, listed};
-use crate::base::names::LINK;
+use crate::base::names::{LINK, written};
 use crate::base::nearest::nearest;
 
 const USE: &str = "write `use left: Bearing(stiffness: k) with seat: ground, journal: shaft at 0.2 length;`";
@@ -199,7 +198,7 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
     tokens.expect_word("use")?;
     let mut instance = declared_name(tokens)?;
     if let Some(turned) = &around.turned {
-        instance = cyclic::member(turned, &instance)?;
+        instance = member(turned, &instance)?;
     }
     colon(tokens).map_err(help)?;
     let word = tokens.name("a part").map_err(help)?;
@@ -234,6 +233,16 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
         read.add(Vec::new(), item);
     }
     Ok(())
+}
+
+/// The name of an instance of a ring with its index.
+fn member(turned: &Turned, name: &Ident) -> Parsed<Ident> {
+    if *name == turned.ring {
+        return Ok(Ident::new(&turned.instance, name.span()));
+    }
+    let message = format!("`{}` is not the name of the ring", written(&name.to_string()));
+    let help = format!("write `use {}: ...`", written(&turned.ring));
+    Err(Box::new(Diagnostic::new(name, message).with_help(help)))
 }
 
 /// The part of a name, which must not be one that is being read.
