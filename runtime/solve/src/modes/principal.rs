@@ -56,8 +56,8 @@ pub(super) fn keep_principal(
     let square = periodic_part(linear, n).powi(2);
     for &k in &kept {
         modes[k].error += SAFETY * shares[k] * square * furthest;
-        // What is not a number is not small.
-        if count < 2 * n || !(modes[k].error <= SMALL * modes[k].s.norm()) {
+        let share = modes[k].error / modes[k].s.norm();
+        if count < 2 * n || share.is_nan() || share > SMALL {
             return Err(ModesFailure::Periodic { share: shares[k] });
         }
     }

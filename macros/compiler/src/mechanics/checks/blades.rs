@@ -66,7 +66,7 @@ fn hub(context: &Context, ring: &Ring) -> Option<BodyId> {
     let own = |body: BodyId| {
         let name = context.mechanism.bodies[body.index()].name.to_string();
         let words: Vec<&str> = name.split(LINK).collect();
-        (1..words.len()).any(|k| words[..k].join(&LINK.to_string()) == ring.name.to_string())
+        (1..words.len()).any(|k| ring.name == words[..k].join(&LINK.to_string()))
     };
     let mut frame = first.parent;
     while let Frame::Body(body) = frame

@@ -10,6 +10,7 @@ use crate::model::mechanism::Motion;
 
 const INERTIA: &str = "the inertia of";
 const UNBALANCE: &str = "; an eccentric centre or a skew axis of a symmetric body is an `unbalance`; what has unequal moments of inertia across the axis makes the equations of vibration periodic (theory of Floquet), which is not supported";
+const BLADES: &str = "; three or more equal blades declared with `cyclic` may stand on a support that is not symmetric";
 const SPINNING: &str =
     "; a round beam that turns about its axis is held by what does not turn, and is `spinning at` its speed";
 const BEYOND: &str = "; joints that should not turn come before one that coasts";
@@ -85,13 +86,16 @@ pub(crate) fn require_steady_state(g: &mut Graph, context: &Context, kinematics:
                         "let gravity act along the axis of the {drive}, for example `gravity 9.81 m/s^2 along -z;`, or hold the axis upright"
                     ),
                     causes => {
-                        let inertia = causes.iter().any(|cause| cause.starts_with(INERTIA));
+                        let bodies = causes.iter().filter(|cause| cause.starts_with(INERTIA)).count();
+                        let inertia = bodies > 0;
+                        let equal = bodies > 2 && context.mechanism.rings.is_empty();
+                        let of_blades = if equal { BLADES } else { "" };
                         let coasts = coordinate.motion == Motion::Coasting;
                         let beyond = if coasts { BEYOND } else { "" };
                         let of_bodies = if inertia { UNBALANCE } else { "" };
                         let has_beams = inertia && !context.mechanism.beams.is_empty();
                         let of_beams = if has_beams { SPINNING } else { "" };
-                        format!("make what it names symmetric about the axis of the {drive}, or attach it to what moves with it{beyond}{of_bodies}{of_beams}")
+                        format!("make what it names symmetric about the axis of the {drive}, or attach it to what moves with it{beyond}{of_bodies}{of_blades}{of_beams}")
                     }
                 },
             );

@@ -16,6 +16,9 @@ use crate::algebra::{ExprId, Graph, SymbolId, substitute};
 
 use super::symbols::Symbols;
 
+/// An angle of the drive: what replaces the coordinates and their rates there, and the factors of the unknowns.
+type Angle = (Vec<(SymbolId, ExprId)>, Vec<f64>);
+
 /// The unknowns, and the equations at angles of one period.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Harmonics {
@@ -23,8 +26,8 @@ pub(crate) struct Harmonics {
     pub(crate) orders: Vec<usize>,
     /// Number of coordinates.
     coordinates: usize,
-    /// By angle: what replaces the coordinates and their rates, and the factors of the unknowns.
-    angles: Vec<(Vec<(SymbolId, ExprId)>, Vec<f64>)>,
+    /// Equally spaced over one period.
+    angles: Vec<Angle>,
 }
 
 impl Harmonics {

@@ -75,7 +75,7 @@ fn patterns(n: usize) -> Vec<Pattern> {
 /// The cosine and the sine of a whole part of a turn, exactly zero and one where they are.
 fn of_turn(part: usize, n: usize) -> [f64; 2] {
     let quarter = |part: usize| match 4 * (part % n) {
-        x if x == 0 => Some([1.0, 0.0]),
+        0 => Some([1.0, 0.0]),
         x if x == n => Some([0.0, 1.0]),
         x if x == 2 * n => Some([-1.0, 0.0]),
         x if x == 3 * n => Some([0.0, -1.0]),

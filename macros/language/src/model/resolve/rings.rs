@@ -11,8 +11,12 @@ use crate::syntax::ast::{Cyclic, ItemKind, Unread};
 
 impl Resolver<'_> {
     pub(super) fn rings(&mut self, design: &[DesignVariable]) -> Vec<Ring> {
-        let cyclic = |kind| if let &ItemKind::Cyclic(ref of) = kind { Some(of) } else { None };
-        let declared: Vec<&Cyclic> = self.ast.items.iter().filter_map(|item| cyclic(&item.kind)).collect();
+        let items = self.ast.items.iter();
+        let declared = items.filter_map(|item| match &item.kind {
+            ItemKind::Cyclic(of) => Some(of),
+            _ => None,
+        });
+        let declared: Vec<&Cyclic> = declared.collect();
         declared.into_iter().filter_map(|of| self.ring(of, design)).collect()
     }
 
