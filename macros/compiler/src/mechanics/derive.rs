@@ -30,7 +30,7 @@ pub fn derive(mechanism: &mut Mechanism, topology: &mut Topology, limits: Limits
         match derived(mechanism, topology, limits) {
             Ok(functions) => break functions,
             Err(Unsteady::Mistakes(mistakes)) => return Err(mistakes),
-            Err(Unsteady::Turning) => unreachable!("the last attempt says what is wrong"),
+            Err(Unsteady::Turning(_)) => unreachable!("the last attempt says what is wrong"),
             Err(Unsteady::Standing(more)) => {
                 let mut refused = Diagnostics::new();
                 for id in more {
@@ -74,35 +74,32 @@ enum Blades {
 }
 
 fn derived(mechanism: &Mechanism, topology: &Topology, limits: Limits) -> Result<Functions, Unsteady> {
-    let derived = |blades: Blades| {
-        let equal = matches!(blades, Blades::Together | Blades::Periodic);
+    let derived = |blades: Blades, equal: &[bool]| {
         in_context(&mut Graph::new(), mechanism, topology, equal, |g, context| functions(g, context, limits, blades))
     };
-    if mechanism.rings.is_empty() {
-        return derived(Blades::Refused);
-    }
-    for blades in [Blades::Apart, Blades::Together, Blades::Periodic] {
-        match derived(blades) {
-            Err(Unsteady::Turning) => {}
-            other => return other,
+    if !mechanism.rings.is_empty() {
+        let mut turned = Vec::new();
+        for blades in [Blades::Apart, Blades::Together, Blades::Periodic] {
+            match derived(blades, &turned) {
+                Err(Unsteady::Turning(rings)) => turned = rings,
+                other => return other,
+            }
         }
     }
-    derived(Blades::Refused)
+    derived(Blades::Refused, &[])
 }
 
-/// Passes the symbols, values and coordinates in which the equations of a mechanism are derived to `work`. If blades are
-/// `equal`, the mean of its design variables belongs to each.
+/// Passes the symbols, values and coordinates in which the equations of a mechanism are derived to `work`. Blades of the
+/// rings that are `equal` have the mean of their design variables.
 fn in_context<R>(
     g: &mut Graph,
     mechanism: &Mechanism,
     topology: &Topology,
-    equal: bool,
+    equal: &[bool],
     work: impl FnOnce(&mut Graph, &Context) -> R,
 ) -> R {
     let mut symbols = Symbols::new(g, mechanism, topology);
-    if equal {
-        symbols.share_design(g, mechanism);
-    }
+    symbols.share_design(g, mechanism, equal);
     let (separate, steady) = (Multiblade::default(), Harmonics::default());
     let values = Values::new(g, mechanism, &symbols);
     let runs = Runs::new(g, mechanism, topology, &values, &symbols);
@@ -144,7 +141,7 @@ fn in_context<R>(
 /// that are not zero; `None` if the walks do not apply.
 #[cfg(test)]
 pub(crate) fn compared_at_rest(mechanism: &Mechanism, topology: &Topology) -> Option<[usize; 3]> {
-    in_context(&mut Graph::new(), mechanism, topology, false, |g, context| {
+    in_context(&mut Graph::new(), mechanism, topology, &[], |g, context| {
         let at_zero = in_common_frame_at_zero(g, context);
         let running = vec![g.zero(); context.symbols.running.ids.len()];
         let equations = Equations::new(g, context, (&running, &at_zero), context);
@@ -169,7 +166,9 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, blades: Blades) -
             (symbols.clone(), Harmonics::default())
         }
         Blades::Apart | Blades::Together if is_steady(g, at_angle, &running) => (symbols.clone(), Harmonics::default()),
-        Blades::Apart | Blades::Together => return Err(Unsteady::Turning),
+        Blades::Apart | Blades::Together => {
+            return Err(Unsteady::Turning(drives.iter().map(Option::is_some).collect()));
+        }
         Blades::Periodic => harmonics(g, at_angle, &running, &drives)?,
     };
     let (symbols, harmonics) = (&harmonics.0, &harmonics.1);
@@ -237,7 +236,7 @@ fn harmonics(
     drives: &[Drive],
 ) -> Result<(Symbols, Harmonics), Unsteady> {
     let Some((orders, place)) = remaining_orders(g, context, running, drives) else {
-        return Err(Unsteady::Turning);
+        return Err(Unsteady::Turning(Vec::new()));
     };
     let symbols = context.symbols;
     let unknowns = symbols.clone().with_harmonics(g, &orders);

@@ -250,3 +250,27 @@ fn a_hub_that_turns_the_other_way_is_the_mirror_image() {
     let ring = text.replace("about z", "about -z");
     same_exponents(&at(&ring, speed), &expected, 1e-10);
 }
+
+/// A ring that no drive turns keeps the coordinates and the variables of each of its instances.
+#[test]
+fn a_ring_beside_the_rotor_is_its_own() {
+    let truth = truth("B1_hammond_anisotropic");
+    let text = rotor(&truth, "point(mass: mx - my)");
+    let end = text.rfind('}').expect("the end");
+    let text = format!(
+        "part Reed {{ design k = 2 N*m/rad; port root; body arm: rod(mass: 1 kg, length: 1 m, along: y);
+            joint swing: revolute(z) from root to arm; force spring: spring(on: swing, stiffness: k); }}
+        {} cyclic reed[0..3] about z {{ use reed: Reed() with root: ground; }} }}",
+        &text[..end]
+    );
+    let study = at(&text, 31.4);
+    let place = design(&study, "reed[1].k");
+    let study = study.design(eigentol::DesignVariable::new(place), 8.0);
+    let mut expected = list(&truth["cases"][0]["eigenvalues"]);
+    let reed = |k: f64| Complex::new(0.0, (3.0 * k).sqrt());
+    expected.extend([reed(2.0), reed(2.0), reed(8.0)]);
+    let places = same_exponents(&study, &expected, 1e-10);
+    let slopes = derivatives(&study, "reed[1].k");
+    let slope = slopes[places[8]].expect("a derivative");
+    close(slope, Complex::new(0.0, 3.0 / (2.0 * 24.0_f64.sqrt())), 1e-10, 0.0, "its own");
+}

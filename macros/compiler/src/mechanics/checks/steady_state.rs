@@ -21,8 +21,9 @@ pub(crate) enum Unsteady {
     /// These coasting coordinates can only stand still, because the slip at a contact depends on them: they are free.
     Standing(Vec<CoordinateId>),
     Mistakes(Diagnostics),
-    /// The equations or the outputs depend on a running coordinate, which other unknowns may change.
-    Turning,
+    /// The equations or the outputs depend on a running coordinate, which other unknowns may change: those of the rings
+    /// that a drive turns.
+    Turning(Vec<bool>),
 }
 
 impl From<Diagnostics> for Unsteady {

@@ -112,9 +112,10 @@ impl Symbols {
         }
     }
 
-    /// Gives every blade of a ring the mean of its design variables.
-    pub(crate) fn share_design(&mut self, g: &mut Graph, mechanism: &Mechanism) {
-        for ids in mechanism.rings.iter().flat_map(|ring| &ring.design) {
+    /// Gives the blades of `equal` rings the mean of their design variables.
+    pub(crate) fn share_design(&mut self, g: &mut Graph, mechanism: &Mechanism, equal: &[bool]) {
+        let rings = mechanism.rings.iter().zip(equal).filter(|(_, equal)| **equal);
+        for ids in rings.flat_map(|(ring, _)| &ring.design) {
             let sum = g.sum(ids.iter().map(|id| self.b.values[id.index()]).collect::<Vec<_>>());
             let mean = g.scale(1.0 / ids.len() as f64, sum);
             for id in ids {
