@@ -1111,6 +1111,18 @@ class Study:
         the highest value of the input in operation, SI or texts with units, how far the peaks keep away from these, and
         what their amplification factors ask for (API 617).
         """
+    def mistuning(
+        self,
+        order: int,
+        ring: str | None = None,
+        coordinate: str | None = None,
+        samples: int = 1000,
+        seed: int = 0,
+    ) -> Answer:
+        """How much higher the worst blade of a ring vibrates than equal blades would under a force of an engine order, along a
+        coordinate of the blades such as "flap", and the distribution within the tolerances. The first ring and the first
+        coordinate are the defaults.
+        """
     def monte_carlo(self) -> MonteCarlo:
         """Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what
         is done, take the samples in parts (`samples_between`).
@@ -1129,7 +1141,13 @@ class Study:
         does not apply.
         """
     def kinds(self) -> list[str | None]:
-        """Kind of each mode, "lateral", "torsional", "axial" or "mixed"; None where no shaft moves."""
+        """Kind of each mode, "lateral", "torsional", "axial", "mixed", or "blades"; None where neither shafts nor blades of a
+        ring move.
+        """
+    def patterns(self) -> list[str | None]:
+        """What the blades of a ring do in each mode: "collective", "differential", "regressive", "2 diameters"; None where
+        there is no ring or its blades do not move.
+        """
     def mode_curvature(self, mode: int) -> Answer:
         """First and second derivatives of one mode, counted from 0."""
     def output_curvature(self, output: str) -> Answer:

@@ -1,6 +1,7 @@
 //! Rotors of equal blades on supports that are not symmetric: reference values of Hammond's rotor and of a turbine with
 //! gravity across its axis, and exponents by integration over a turn.
 
+mod compiled;
 mod disc;
 mod floquet;
 mod hammond;
