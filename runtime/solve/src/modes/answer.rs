@@ -39,6 +39,7 @@ impl Answer for Modes {
         said.columns(table);
         shapes.rest(&mut said);
         said.note_if_any(left_out);
+        said.note_if_any(self.of_harmonics());
         if self.damping_ignored {
             said.note("Damping and gyroscopic forces (Chat) are not zero here and are ignored: undamped modes.");
         }
@@ -57,6 +58,19 @@ impl Modes {
         let alike = one.ring == other.ring && one.nodal_diameters == other.nodal_diameters;
         let difference = (self.modes[mode].s - self.modes[before].s).norm();
         alike && one.is_of_pair() && difference <= EQUAL * self.modes[mode].s.norm() && !self.is_second(before)
+    }
+
+    /// What is said of coefficients that stay periodic.
+    fn of_harmonics(&self) -> Option<String> {
+        let orders: Vec<String> = self.description.harmonics.iter().map(ToString::to_string).collect();
+        let error = largest(self.modes.iter().map(|mode| mode.error));
+        (!orders.is_empty()).then(|| {
+            format!(
+                "The coefficients stay periodic, of order {}: these are exponents of Hill's method with that, within {} 1/s.",
+                orders.join(" and "),
+                rough(error)
+            )
+        })
     }
 
     /// The number of a mode, or those of a pair.

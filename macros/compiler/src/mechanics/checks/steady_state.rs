@@ -1,11 +1,11 @@
 //! A steady state exists only if the equations do not depend on the running coordinates, whether driven or coasting.
 
-use crate::algebra::{ExprId, Graph, SymbolId};
+use crate::algebra::{Direction, ExprId, Graph, SymbolId, derivatives_along};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, CoordinateId, ForceId};
 use crate::mechanics::equations::{Residual, outputs};
 use crate::mechanics::motion::Kinematics;
-use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, columns, vanish};
+use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, vanish};
 use crate::model::mechanism::Motion;
 
 const INERTIA: &str = "the inertia of";
@@ -135,12 +135,15 @@ fn decisive(g: &mut Graph, context: &Context, residual: Vec<ExprId>) -> Vec<Expr
     if context.multiblade.is_empty() {
         return residual;
     }
-    let symbols = context.symbols;
-    let mut roots = residual.clone();
-    for list in [&symbols.q, &symbols.velocity, &symbols.acceleration] {
-        roots.extend(columns(g, &residual, list).concat());
-    }
-    at_rest(g, symbols, &roots)
+    let (symbols, pencil) = (context.symbols, &context.symbols.pencil);
+    let along = symbols
+        .acceleration
+        .with(&pencil.acceleration.values)
+        .chain(symbols.velocity.with(&pencil.velocity.values))
+        .chain(symbols.q.with(&pencil.position.values));
+    // Along any motion at once.
+    let change = derivatives_along(g, &residual, &Direction::new("_turning", along.collect()));
+    at_rest(g, symbols, &[residual, change].concat())
 }
 
 fn depends(g: &mut Graph, context: &Context, roots: &[ExprId], symbol: SymbolId) -> bool {
