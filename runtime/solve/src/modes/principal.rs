@@ -7,7 +7,7 @@ use crate::kernels::Linear;
 use crate::{Complex, Description, Mode};
 
 /// What the estimate of the error is multiplied with.
-const SAFETY: f64 = 4.0;
+const SAFETY: f64 = 10.0;
 /// Largest error of an eigenvalue, relative to it, with which the periodic part is small.
 const SMALL: f64 = 0.01;
 /// Relative distance within which exponents are of one family.
@@ -16,8 +16,8 @@ const SAME: f64 = 1e-6;
 /// Keeps one exponent of each family, that with the most in the means, and adds the error that the harmonics left out make.
 ///
 /// With a periodic part of relative size `e`, the harmonics have shares of `e^2` in the modes. They move the eigenvalues by as
-/// much. Those left out act on these harmonics in the same way, and move the eigenvalue by `e^2` times their share of the
-/// distance to the next exponent, which is at most that of the furthest. Where exponents of two families meet, they mix with
+/// much. Those left out act on these harmonics in the same way, and move the eigenvalue by `e^2` times their share, or `e^4`, of
+/// the distance to the next exponent, which is at most that of the furthest. Where exponents of two families meet, they mix with
 /// any shares.
 pub(super) fn keep_principal(
     linear: &Linear,
@@ -55,7 +55,7 @@ pub(super) fn keep_principal(
     }
     let square = periodic_part(linear, n).powi(2);
     for &k in &kept {
-        modes[k].error += SAFETY * shares[k] * square * furthest;
+        modes[k].error += SAFETY * shares[k].max(square) * square * furthest;
         let share = modes[k].error / modes[k].s.norm();
         if count < 2 * n || share.is_nan() || share > SMALL {
             return Err(ModesFailure::Periodic { share: shares[k] });

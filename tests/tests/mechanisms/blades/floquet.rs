@@ -139,3 +139,140 @@ fn exponents_are_those_of_an_integration_over_a_turn() {
         }
     }
 }
+
+/// A rotor with gravity across its axis.
+fn turbine(blades: usize, gravity: f64, is_driven: bool) -> String {
+    let (drive, ring) = match is_driven {
+        true => (", driven at omega", "cyclic blade[0..N] about z { use blade: Blade() with root: hub; }"),
+        false => ("", "for i in 0..N { use blade[i]: Blade() with root: hub rotated(z, i * (360 deg) / N); }"),
+    };
+    let free = if is_driven { "" } else { "kernels only;" };
+    format!(
+        "part Blade() {{
+            port root;
+            body arm: rigid(mass: 6000 kg, inertia: [0, 386000, 386000] kg*m^2, center: [12, 0, 0] m);
+            joint lag: revolute(z) from root to arm at [1.5, 0, 0] m;
+            force hinge: spring(on: lag, stiffness: 2.6e7 N*m/rad);
+            force damp: damper(on: lag, damping: 4e5 N*m*s/rad);
+        }}
+        mechanism Turbine {{
+            {free}
+            input omega: rad/s;
+            let N = {blades};
+            gravity {gravity:?} m/s^2 along -y;
+            body frame: massless;
+            body nacelle: point(mass: 90000 kg);
+            body hub: massless;
+            joint x: prismatic(x) from ground to frame;
+            joint y: prismatic(y) from frame to nacelle;
+            joint spin: revolute(z) from nacelle to hub{drive};
+            force sx: spring(on: x, stiffness: 2.1e6 N/m);
+            force sy: spring(on: y, stiffness: 2e7 N/m);
+            force dx: damper(on: x, damping: 2e4 N*s/m);
+            force dy: damper(on: y, damping: 4e4 N*s/m);
+            {ring}
+        }}"
+    )
+}
+
+/// The equations of a rotor whose hub turns at a speed: state `(q, dq/dt)` of everything else.
+struct Turning<'a> {
+    kernels: &'a dyn MotionKernels,
+    spin: usize,
+    others: Vec<usize>,
+    omega: f64,
+}
+
+impl Turning<'_> {
+    /// The rate of a state at an angle, and of its change by the first state.
+    fn rate(&self, psi: f64, x: &DVector<f64>, change: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let (m, n) = (self.others.len(), self.others.len() + 1);
+        let (mut q, mut v, mut a) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        (q[self.spin], v[self.spin]) = (psi, self.omega);
+        for (k, &i) in self.others.iter().enumerate() {
+            (q[i], v[i]) = (x[k], x[m + k]);
+        }
+        let (mass, force) = self.kernels.motion(&v, &q, &[self.omega], &[]);
+        let mass = DMatrix::from_fn(m, m, |i, j| mass[self.others[i]][self.others[j]]);
+        let inverse = mass.try_inverse().expect("masses");
+        let acceleration = &inverse * DVector::from_fn(m, |k, _| force[self.others[k]]);
+        for (k, &i) in self.others.iter().enumerate() {
+            a[i] = acceleration[k];
+        }
+        let linear = self.kernels.motion_linear(&a, &v, &q, &[self.omega], &[]);
+        let part = |stiffness: bool| {
+            let of = if stiffness { &linear.stiffness } else { &linear.damping };
+            DMatrix::from_fn(m, m, |i, j| of[self.others[i]][self.others[j]])
+        };
+        let mut slope = DMatrix::zeros(2 * m, 2 * m);
+        slope.view_mut((0, m), (m, m)).fill_with_identity();
+        slope.view_mut((m, 0), (m, m)).copy_from(&(-&inverse * part(true)));
+        slope.view_mut((m, m), (m, m)).copy_from(&(-&inverse * part(false)));
+        let rate = DVector::from_fn(2 * m, |k, _| if k < m { x[m + k] } else { acceleration[k - m] });
+        (rate, slope * change)
+    }
+
+    /// The state after one turn, and its derivative by the first.
+    fn turn(&self, x: &DVector<f64>, steps: u32) -> (DVector<f64>, DMatrix<f64>) {
+        let (mut x, mut change) = (x.clone(), DMatrix::identity(x.len(), x.len()));
+        let h = TAU / self.omega / f64::from(steps);
+        for k in 0..steps {
+            let at = |part: f64| self.omega * h * (f64::from(k) + part);
+            let (a, da) = self.rate(at(0.0), &x, &change);
+            let (b, db) = self.rate(at(0.5), &(&x + &a * (h / 2.0)), &(&change + &da * (h / 2.0)));
+            let (c, dc) = self.rate(at(0.5), &(&x + &b * (h / 2.0)), &(&change + &db * (h / 2.0)));
+            let (d, dd) = self.rate(at(1.0), &(&x + &c * h), &(&change + &dc * h));
+            x += (a + (b + c) * 2.0 + d) * (h / 6.0);
+            change += (da + (db + dc) * 2.0 + dd) * (h / 6.0);
+        }
+        (x, change)
+    }
+}
+
+#[test]
+fn gravity_across_the_axis_against_integration_about_the_periodic_motion() {
+    for (blades, gravity, omega) in [(4, 9.81, 1.8), (3, 30.0, 1.5), (5, 20.0, 2.0)] {
+        let what = format!("{blades} blades, {gravity} m/s^2, {omega} rad/s");
+        let free = machine(&turbine(blades, gravity, false));
+        let description = eigentol::Kernels::description(&free);
+        let n = description.coordinates.len();
+        let spin = description.coordinates.iter().position(|of| &*of.name == "spin").expect("the drive");
+        let others = (0..n).filter(|k| *k != spin).collect();
+        let turning = Turning { kernels: &free, spin, others, omega };
+        let mut start = DVector::zeros(2 * n - 2);
+        let mut monodromy = DMatrix::zeros(0, 0);
+        for _ in 0..4 {
+            let (end, change) = turning.turn(&start, 3000);
+            let identity = DMatrix::identity(2 * n - 2, 2 * n - 2);
+            start += (identity - &change).lu().solve(&(end - &start)).expect("a periodic motion");
+            monodromy = change;
+        }
+        let study = at(&turbine(blades, gravity, true), omega);
+        let modes = study.modes().expect("modes");
+        let period = TAU / omega;
+        let mut found: Vec<(Complex, f64)> = Vec::new();
+        for mode in &modes.modes {
+            let value = (mode.s * period).exp();
+            let error = value.norm() * mode.error * period;
+            found.push((value, error));
+            if mode.s.im > 0.0 {
+                found.push((value.conj(), error));
+            }
+        }
+        let expected = monodromy.complex_eigenvalues();
+        assert_eq!(found.len(), expected.len(), "{what}");
+        for multiplier in expected.iter().map(|value| Complex::new(value.re, value.im)) {
+            let distance = |of: &(Complex, f64)| (of.0 - multiplier).norm();
+            let nearest = (0..found.len()).min_by(|a, b| distance(&found[*a]).total_cmp(&distance(&found[*b])));
+            let nearest = found.swap_remove(nearest.expect("one"));
+            let gap = distance(&nearest);
+            assert!(
+                gap <= nearest.1 + 3e-8,
+                "{what}: {} instead of {multiplier}, {gap:.1e} of {:.1e}",
+                nearest.0,
+                nearest.1
+            );
+            assert!(gap < 2e-4, "{what}: {gap:.1e}");
+        }
+    }
+}
