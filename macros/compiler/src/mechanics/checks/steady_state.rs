@@ -2,7 +2,10 @@
 
 use crate::algebra::{Direction, ExprId, Graph, SymbolId, derivatives_along};
 use crate::base::diagnostics::Diagnostics;
+use proc_macro2::Ident;
+
 use crate::base::ids::{BodyId, CoordinateId, ForceId};
+use crate::base::names::LINK;
 use crate::mechanics::equations::{Residual, outputs};
 use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, vanish};
@@ -155,25 +158,35 @@ fn depends(g: &mut Graph, context: &Context, roots: &[ExprId], symbol: SymbolId)
 fn causes(g: &mut Graph, context: &Context, kinematics: &Kinematics, symbol: SymbolId) -> Causes {
     let running = &context.symbols.running.values;
     let none = ForceSelection { inertia: Selection::None, forces: Selection::None, gravity: false, constraints: false };
-    let mut candidates = vec![(ForceSelection { gravity: true, ..none }, GRAVITY.to_owned())];
+    // Equal blades change with it by themselves, and not together.
+    let of_ring = |name: &Ident| {
+        let name = name.to_string();
+        let mut rings = context.mechanism.rings.iter().map(|ring| format!("{}{LINK}", ring.name));
+        rings.any(|ring| name.starts_with(&ring))
+    };
+    let mut candidates = vec![(ForceSelection { gravity: true, ..none }, GRAVITY.to_owned(), false)];
     for (index, force) in context.mechanism.forces.iter().enumerate() {
         candidates.push((
             ForceSelection { forces: Selection::One(ForceId::new(index)), ..none },
             format!("the force `{}` changes with it", force.name),
+            of_ring(&force.name),
         ));
     }
     for (index, body) in context.mechanism.bodies.iter().enumerate() {
         candidates.push((
             ForceSelection { inertia: Selection::One(BodyId::new(index)), ..none },
             format!("{INERTIA} `{}` changes with it", body.name),
+            of_ring(&body.name),
         ));
     }
-    candidates.retain(|(selection, _)| {
+    candidates.retain(|(selection, ..)| {
         let part = Residual::new(g, context, running, kinematics, *selection).total(g, context);
         let part = decisive(g, context, part);
         depends(g, context, &part, symbol)
     });
-    let mut causes: Vec<String> = candidates.into_iter().map(|(_, cause)| cause).collect();
+    let others = candidates.iter().any(|(.., of_ring)| !of_ring);
+    candidates.retain(|(.., of_ring)| !(others && *of_ring));
+    let mut causes: Vec<String> = candidates.into_iter().map(|(_, cause, _)| cause).collect();
     let (mut rows, mut slip) = (0, causes.is_empty());
     let constraints = ForceSelection { constraints: true, ..none };
     let values = Residual::new(g, context, running, kinematics, constraints).total(g, context);
