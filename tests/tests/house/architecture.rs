@@ -27,7 +27,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ("runtime/statistics", &[], 140),
     ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 147),
     ("runtime/results", &["eigentol-contract"], 23),
-    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 352),
+    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 354),
     (
         "runtime/tolerance",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-solve", "eigentol-statistics"],
@@ -74,7 +74,7 @@ const CRATES: [(&str, &[&str], usize); 21] = [
     ),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 416),
-    ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 419),
+    ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 420),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
     ("macros/urdf", &["eigentol-compiler"], 46),

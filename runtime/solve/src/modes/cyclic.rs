@@ -12,14 +12,57 @@ use eigentol_contract::RingInfo;
 use super::constrained;
 use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
-use crate::eigenproblem::{Eigenproblem, EigenproblemError, Root, roots_near};
+use crate::eigenproblem::{Eigenproblem, EigenproblemError, Pairs, Root, roots_near, symmetric};
 use crate::kernels::Linear;
 use crate::{Complex, Description};
 
 /// Fewest unknowns of rings that can have blocks.
 const FEWEST: usize = 3;
+/// Relative difference of equal eigenvalues.
+const EQUAL: f64 = 1e-12;
 /// What is left of an entry by rounding, relative to the sum of its terms.
 const ROUNDING: f64 = 1e-13;
+
+/// The patterns of all rings, the three matrices in them with the sizes of their terms, and the blocks.
+struct Cyclic<'a> {
+    patterns: Vec<(&'a RingInfo, Matrix)>,
+    turned: [(Matrix, Matrix); 3],
+    blocks: Vec<Vec<usize>>,
+}
+
+impl<'a> Cyclic<'a> {
+    /// `None` if there are no blocks.
+    fn new(linear: &Linear, description: &'a Description) -> Option<Self> {
+        let rings = || description.rings.iter().filter(|ring| !ring.patterns);
+        if rings().map(|ring| ring.coordinates.len()).sum::<usize>() < FEWEST {
+            return None;
+        }
+        let patterns: Vec<_> = rings().map(|ring| (ring, patterns(ring.members))).collect();
+        let turned = [&linear.mass, &linear.damping, &linear.stiffness].map(|matrix| turned(matrix, &patterns));
+        let blocks = blocks(linear.mass.row_count(), &turned);
+        (blocks.len() > 1).then_some(Self { patterns, turned, blocks })
+    }
+
+    /// Mass, damping and stiffness of a block.
+    fn part(&self, block: &[usize]) -> Linear {
+        let part = |k: usize| Matrix::from_fn(block.len(), block.len(), |i, j| self.turned[k].0[block[i]][block[j]]);
+        Linear { mass: part(0), damping: part(1), stiffness: part(2) }
+    }
+}
+
+/// In ascending order; what differs by rounding stays in the order of the patterns, pairs together.
+fn ascending<T>(mut all: Vec<T>, size: impl Fn(&T) -> f64) -> Vec<T> {
+    let mut places: Vec<usize> = (0..all.len()).collect();
+    places.sort_by(|a, b| size(&all[*a]).total_cmp(&size(&all[*b])));
+    for run in places.chunk_by_mut(|a, b| size(&all[*b]) <= size(&all[*a]) * (1.0 + EQUAL)) {
+        run.sort_unstable();
+    }
+    let mut rank = vec![0; all.len()];
+    places.into_iter().enumerate().for_each(|(place, k)| rank[k] = place);
+    let mut rank = rank.into_iter();
+    all.sort_by_cached_key(|_| rank.next());
+    all
+}
 
 /// The roots, block by block; `None` if there are no blocks.
 pub(super) fn roots(
@@ -27,34 +70,49 @@ pub(super) fn roots(
     description: &Description,
     structure: Structure,
 ) -> Option<Result<Vec<Root>, EigenproblemError>> {
-    let rings = || description.rings.iter().filter(|ring| !ring.patterns);
-    if rings().map(|ring| ring.coordinates.len()).sum::<usize>() < FEWEST {
-        return None;
-    }
-    let n = linear.mass.row_count();
-    let patterns: Vec<(&RingInfo, Matrix)> = rings().map(|ring| (ring, patterns(ring.members))).collect();
-    let turned = [&linear.mass, &linear.damping, &linear.stiffness].map(|matrix| turned(matrix, &patterns));
-    let blocks = blocks(n, &turned);
-    if blocks.len() < 2 {
-        return None;
-    }
+    let cyclic = Cyclic::new(linear, description)?;
     let mut all: Vec<Root> = Vec::new();
-    for block in &blocks {
-        let part = |k: usize| Matrix::from_fn(block.len(), block.len(), |i, j| turned[k].0[block[i]][block[j]]);
-        let part = Linear { mass: part(0), damping: part(1), stiffness: part(2) };
-        let roots = match roots_near(Eigenproblem::Quadratic(&part), &[]) {
+    for block in &cyclic.blocks {
+        let roots = match roots_near(Eigenproblem::Quadratic(&cyclic.part(block)), &[]) {
             Ok(roots) => roots,
             Err(error) => return Some(Err(error)),
         };
         for mut root in roots {
             for vector in [&mut root.right, &mut root.left] {
-                *vector = expanded(n, block, vector, &patterns);
+                *vector = expanded(linear.mass.row_count(), block, vector, &cyclic.patterns);
             }
             all.push(root);
         }
     }
-    all.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+    let all = ascending(all, |root| root.s.norm());
     Some(Ok(constrained::measured(linear, structure, &all)))
+}
+
+/// The undamped modes, block by block; `None` if there are no blocks.
+pub(super) fn pairs(linear: &Linear, description: &Description) -> Option<Result<Pairs, EigenproblemError>> {
+    let cyclic = Cyclic::new(linear, description)?;
+    let n = linear.mass.row_count();
+    let mut all: Vec<(f64, f64, f64, Vector)> = Vec::new();
+    for block in &cyclic.blocks {
+        let part = cyclic.part(block);
+        let pairs = match symmetric::solve(&part.stiffness, &part.mass) {
+            Ok(pairs) => pairs,
+            Err(error) => return Some(Err(error)),
+        };
+        for r in 0..pairs.lambda.len() {
+            let shape: Vec<Complex> = pairs.shapes[r].iter().copied().map(Complex::from).collect();
+            let mut shape = expanded(n, block, &shape, &cyclic.patterns).map(|value| value.re);
+            symmetric::fix_sign(&mut shape);
+            all.push((pairs.lambda[r], pairs.errors[r], pairs.residuals[r], shape));
+        }
+    }
+    let all = ascending(all, |pair| pair.0);
+    Some(Ok(Pairs {
+        lambda: all.iter().map(|pair| pair.0).collect(),
+        errors: all.iter().map(|pair| pair.1).collect(),
+        residuals: all.iter().map(|pair| pair.2).collect(),
+        shapes: Matrix::from_fn(n, n, |r, i| all[r].3[i]),
+    }))
 }
 
 /// The orthogonal patterns of `n` instances: row `i` belongs to an instance.

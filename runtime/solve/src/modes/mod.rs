@@ -371,8 +371,15 @@ fn solve_undamped(
             return Err(ModesFailure::Asymmetric(asymmetry));
         }
     }
-    let mut pairs = Pairs::default();
-    constrained::free_pairs_into(linear, description, &mut pairs).map_err(ModesFailure::Pencil)?;
+    let alone = Structure::of(description).open() && description.free_directions == 0;
+    let pairs = match if alone { cyclic::pairs(linear, description) } else { None } {
+        Some(pairs) => pairs,
+        None => {
+            let mut pairs = Pairs::default();
+            constrained::free_pairs_into(linear, description, &mut pairs).map(|()| pairs)
+        }
+    };
+    let pairs = pairs.map_err(ModesFailure::Pencil)?;
     let count = pairs.lambda.len();
     modes.reserve_exact(count.saturating_sub(modes.len()));
     modes.resize_with(count, Mode::blank);

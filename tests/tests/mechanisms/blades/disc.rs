@@ -57,6 +57,14 @@ fn a_tuned_disc_has_nodal_diameters() {
     let pairs = ["1 diameter", "2 diameters", "3 diameters"].into_iter().flat_map(|name| [name; 2]);
     let names_expected: Vec<&str> = ["collective"].into_iter().chain(pairs).chain(["differential"]).collect();
     assert_eq!(names, names_expected);
+    // Without ties all frequencies are equal, and modes are told apart by their patterns all the same.
+    let ties = design(&study, "kc");
+    let study = study.design(eigentol::DesignVariable::new(ties), 0.0);
+    let names: Vec<String> =
+        study.whirls().expect("kinds").iter().map(|whirl| whirl.expect("a kind").to_string()).collect();
+    assert_eq!(names, names_expected);
+    let modes = study.modes().expect("modes").with_whirls(study.whirls().expect("kinds"));
+    assert!(modes.to_string().contains("2, 3"), "{modes}");
 }
 
 #[test]
