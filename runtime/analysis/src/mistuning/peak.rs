@@ -41,7 +41,7 @@ impl Driven {
     /// With the unknowns of a basis, one row for each, of the coordinates.
     pub(super) fn in_basis(linear: Linear, basis: &Matrix, slots: &[usize], order: usize) -> Self {
         let (m, blades) = (basis.row_count(), slots.len());
-        let phase = |k: usize| Complex::cis(TAU * ((order * k) % blades) as f64 / blades as f64);
+        let phase = |k: usize| Complex::cis(TAU * ((order % blades * k) % blades) as f64 / blades as f64);
         let force = Vector::from_fn(m, |r| slots.iter().enumerate().map(|(k, &slot)| phase(k) * basis[r][slot]).sum());
         let seen = Matrix::from_fn(blades, m, |k, r| basis[r][slots[k]]);
         Self { linear, force, seen }

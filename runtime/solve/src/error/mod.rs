@@ -231,16 +231,16 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         residual: f64,
     },
-    /// The coefficients are periodic in the angle of a drive, and more than a small part of the vibration is in harmonics.
+    /// The coefficients are periodic in the angle of a drive, and not by a small part.
     #[error(
-        "the coefficients are periodic in the angle of the drive, and harmonics have {:.0} % of the energy of a mode: more than \
-         a few of them describe. That takes the theory of Floquet, which is not supported",
-        100.0 * .share
+        "the coefficients are periodic in the angle of the drive, and not by a small part: harmonics that are left out move an \
+         eigenvalue by about {:.1} %. That takes the theory of Floquet, which is not supported",
+        100.0 * .error
     )]
     PeriodicCoefficients {
-        /// Largest share of harmonics in a mode.
+        /// Estimated relative error of an eigenvalue.
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
-        share: f64,
+        error: f64,
     },
     /// Blades on a support that is not symmetric about their axis have different values.
     #[error(

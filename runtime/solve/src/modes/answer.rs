@@ -57,7 +57,11 @@ impl Modes {
         let (Some(one), Some(other)) = (pattern(before), pattern(mode)) else { return false };
         let alike = one.ring == other.ring && one.nodal_diameters == other.nodal_diameters;
         let difference = (self.modes[mode].s - self.modes[before].s).norm();
-        alike && one.is_of_pair() && difference <= EQUAL * self.modes[mode].s.norm() && !self.is_second(before)
+        alike
+            && one.is_of_pair()
+            && other.is_of_pair()
+            && difference <= EQUAL * self.modes[mode].s.norm()
+            && !self.is_second(before)
     }
 
     /// What is said of coefficients that stay periodic.

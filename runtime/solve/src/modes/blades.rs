@@ -104,10 +104,12 @@ impl BladePattern {
         })
     }
 
-    /// Whether equal blades have it twice, with two places of its diameters.
+    /// Whether equal blades have it twice, with two places of its diameters, and it is hardly mixed with others.
     #[must_use]
     pub fn is_of_pair(&self) -> bool {
-        self.nodal_diameters > 0 && !self.is_differential()
+        /// Least share of a pattern of its own.
+        const PURE: f64 = 0.99;
+        self.nodal_diameters > 0 && !self.is_differential() && self.share >= PURE
     }
 
     /// Whether each blade moves against the next.

@@ -132,33 +132,21 @@ fn patterns(n: usize) -> Matrix {
 /// `T^T A T`, and the sums of the sizes of the terms of each entry.
 fn turned(matrix: &Matrix, patterns: &[(&RingInfo, Matrix)]) -> (Matrix, Matrix) {
     let n = matrix.row_count();
-    let mut values = Matrix::from_fn(n, n, |i, j| matrix[i][j]);
-    let mut sizes = Matrix::from_fn(n, n, |i, j| matrix[i][j].abs());
-    for (ring, pattern) in patterns {
-        let half = |all: &mut Matrix, slots: &[usize], size: fn(f64) -> f64| {
-            for line in 0..n {
-                let row: Vec<f64> = slots.iter().map(|&k| all[line][k]).collect();
-                for (j, &k) in slots.iter().enumerate() {
-                    all[line][k] = row.iter().enumerate().map(|(i, value)| value * size(pattern[i][j])).sum();
+    let rows = |mut all: Matrix, size: fn(f64) -> f64| {
+        for (ring, pattern) in patterns {
+            for slots in ring.coordinates.chunks_exact(ring.members) {
+                for line in 0..n {
+                    let row: Vec<f64> = slots.iter().map(|&k| all[line][k]).collect();
+                    for (j, &k) in slots.iter().enumerate() {
+                        all[line][k] = row.iter().enumerate().map(|(i, value)| value * size(pattern[i][j])).sum();
+                    }
                 }
-            }
-        };
-        let other = |all: &mut Matrix, slots: &[usize], size: fn(f64) -> f64| {
-            for line in 0..n {
-                let column: Vec<f64> = slots.iter().map(|&k| all[k][line]).collect();
-                for (j, &k) in slots.iter().enumerate() {
-                    all[k][line] = column.iter().enumerate().map(|(i, value)| value * size(pattern[i][j])).sum();
-                }
-            }
-        };
-        for slots in ring.coordinates.chunks_exact(ring.members) {
-            for (all, size) in [(&mut values, (|x| x) as fn(f64) -> f64), (&mut sizes, f64::abs)] {
-                half(all, slots, size);
-                other(all, slots, size);
             }
         }
-    }
-    (values, sizes)
+        all.transpose()
+    };
+    let both = |size: fn(f64) -> f64| rows(rows(Matrix::from_fn(n, n, |i, j| size(matrix[i][j])), size), size);
+    (both(|value| value), both(f64::abs))
 }
 
 /// Unknowns that couple, with each other and with no others.

@@ -254,9 +254,9 @@ pub enum ModesFailure {
     /// Undamped modes were requested, but speeds or constraints on velocities rule them out.
     NotHolonomic,
     Pencil(EigenproblemError),
-    /// Harmonics of the coefficients have this share in a mode.
+    /// Harmonics that are left out move an eigenvalue by about this part of it.
     Periodic {
-        share: f64,
+        error: f64,
     },
     /// The square of this eigenvalue exceeds the range of a double.
     Range {
@@ -272,7 +272,7 @@ impl ModesFailure {
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
             Self::NotHolonomic => Error::NoUndampedModes,
             Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
-            Self::Periodic { share } => Error::PeriodicCoefficients { share },
+            Self::Periodic { error } => Error::PeriodicCoefficients { error },
             Self::Pencil(EigenproblemError::SingularMass(row)) => {
                 Error::SingularMass { coordinate: description.unknown_name(row) }
             }

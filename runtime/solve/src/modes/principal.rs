@@ -56,9 +56,9 @@ pub(super) fn keep_principal(
     let square = periodic_part(linear, n).powi(2);
     for &k in &kept {
         modes[k].error += SAFETY * shares[k].max(square) * square * furthest;
-        let share = modes[k].error / modes[k].s.norm();
-        if count < 2 * n || share.is_nan() || share > SMALL {
-            return Err(ModesFailure::Periodic { share: shares[k] });
+        let error = modes[k].error / modes[k].s.norm();
+        if count < 2 * n || error.is_nan() || error > SMALL {
+            return Err(ModesFailure::Periodic { error });
         }
     }
     let mut place = 0..;

@@ -243,3 +243,37 @@ fn modes_from_blocks_are_those_of_the_whole() {
     let patterns = pure.iter().flatten().filter_map(|whirl| whirl.blades);
     assert!(patterns.into_iter().all(|pattern| pattern.share > 1.0 - 1e-9));
 }
+
+/// Loops inside the blades are held by forces of their own, which say nothing about whether blades are equal.
+#[test]
+fn blades_may_hold_loops() {
+    let study = study(
+        "part Blade() {
+            port root;
+            body arm: rod(mass: 1 kg, length: 1 m, along: x);
+            body link: massless;
+            joint flap: revolute(z) from root to arm;
+            joint pin: revolute(z) from root to link at [0, 0.2, 0] m;
+            point a: arm at [0.3, 0, 0] m;
+            point b: link at [0.3, 0, 0] m;
+            body weight: point(mass: 0.5 kg);
+            joint seat: fixed from link to weight at [0.3, 0, 0] m;
+            constraint rod: distance(from: a, to: b, length: 0.2 m);
+            force spring: spring(on: flap, stiffness: 10 N*m/rad);
+        }
+        mechanism Disc {
+            body disk: massless;
+            joint seat: fixed from ground to disk;
+            cyclic blade[0..4] about z { use blade: Blade() with root: disk; }
+        }",
+    );
+    // A parallelogram: both turn by one angle.
+    let expected = (10.0_f64 / (1.0 / 3.0 + 0.5 * 0.09)).sqrt();
+    let modes = study.modes().expect("modes").with_whirls(study.whirls().expect("kinds"));
+    assert_eq!(modes.modes.len(), 4);
+    for frequency in modes.frequencies() {
+        assert!((frequency.expect("it oscillates") - expected).abs() < 1e-12 * expected);
+    }
+    // Alone, a blade is in all patterns, and no pair is one row.
+    assert!(!modes.to_string().contains("1, 2"), "{modes}");
+}

@@ -133,10 +133,12 @@ pub(crate) fn require_symmetry(
         let slots: Vec<Vec<usize>> =
             ring.coordinates.iter().filter_map(|(_, ids)| ids.iter().map(place).collect()).collect();
         let zero = g.zero();
-        let mut alike: Vec<(SymbolId, ExprId)> = free.iter().zip(&symbols.q.ids).map(|(_, id)| (*id, zero)).collect();
+        let mut alike: Vec<(SymbolId, ExprId)> = symbols.q.ids[..free.len()].iter().map(|id| (*id, zero)).collect();
         for slots in &slots {
             slots.iter().for_each(|&k| alike[k].1 = symbols.q.values[slots[0]]);
         }
+        // What loops in each instance hold with is not compared.
+        alike.extend(symbols.q.ids[context.moving().1..].iter().map(|id| (*id, zero)));
         for ids in &ring.design {
             let first = symbols.b.values[ids[0].index()];
             alike.extend(ids.iter().map(|id| (symbols.b.ids[id.index()], first)));
@@ -213,8 +215,8 @@ pub(crate) fn remaining_orders(
         turned[k] = g.neg(turned[k]);
     }
     let mut rest: Vec<ExprId> = roots.iter().zip(&turned).map(|(&one, &other)| g.sub(one, other)).collect();
-    for (_, &symbol) in running.ids.iter().enumerate().filter(|(k, _)| *k != place) {
-        rest.extend(by_symbol(g, &roots, symbol));
+    for (_, symbol) in running.ids.iter().enumerate().filter(|(k, _)| *k != place) {
+        rest.extend(by_symbol(g, &roots, *symbol));
     }
     let orders = if blades.is_multiple_of(2) { vec![blades / 2, blades] } else { vec![blades] };
     vanish(g, context, &rest).into_iter().all(|zero| zero).then_some((orders, place))
