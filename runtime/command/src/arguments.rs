@@ -10,7 +10,7 @@ use eigentol::Error;
 use crate::color::Color;
 use crate::commands::{
     allocate, branches, campbell, check, completions, converge, equilibria, expand, grade, import, merge, mistuning,
-    modes, new, probability, report, response, sample, schema, sensitivities, sweep, tolerance,
+    modes, new, probability, report, response, sample, schema, sensitivities, serve, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -93,6 +93,7 @@ enum Command {
     Merge(merge::Merge),
     Allocate(allocate::Allocate),
     Report(report::Report),
+    Serve(serve::Serve),
     Expand(expand::Expand),
     New(new::New),
     Import(import::Import),
@@ -151,6 +152,7 @@ impl Command {
             Self::Merge(merge) => merge.run(),
             Self::Allocate(allocate) => allocate.run(),
             Self::Report(report) => report.run(),
+            Self::Serve(serve) => serve.run(),
             Self::Expand(expand) => expand.run(),
             Self::New(new) => new.run(),
             Self::Import(import) => import.run(),

@@ -19,19 +19,26 @@ const MOST: usize = 50;
 
 /// Writes a failure to standard error.
 pub(crate) fn say(failure: &Failure, color: Color) {
-    let renderer = renderer(color);
+    write(&told(failure, &renderer(color)));
+}
+
+/// A failure without colours, for another place than standard error.
+pub(crate) fn plain(failure: &Failure) -> String {
+    told(failure, &Renderer::plain())
+}
+
+fn told(failure: &Failure, renderer: &Renderer) -> String {
     let mut text = String::new();
     if let Failure::Declaration { name, text: source, mistakes } = failure {
         for mistake in mistakes.iter().take(MOST) {
-            text += &drawn(Level::ERROR, name, source, mistake, &renderer);
+            text += &drawn(Level::ERROR, name, source, mistake, renderer);
             text += "\n\n";
         }
         if mistakes.len() > MOST {
             text += &format!("These are the first {MOST} mistakes.\n\n");
         }
     }
-    text += &title(&failure.to_string(), failure.help().as_deref(), &renderer);
-    write(&text);
+    text + &title(&failure.to_string(), failure.help().as_deref(), renderer)
 }
 
 /// Writes a warning about a declaration to standard error.

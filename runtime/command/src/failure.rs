@@ -41,6 +41,8 @@ pub(crate) enum Failure {
     #[error("{}", advice::message(.0))]
     Analysis(#[from] Error),
     #[error("{0}")]
+    Serve(#[from] eigentol_live::Error),
+    #[error("{0}")]
     Refine(#[from] RefineError),
     #[error("{0}")]
     Report(eigentol_report::Error),
@@ -76,6 +78,7 @@ impl Failure {
             Self::Exists { .. }
             | Self::Table(_)
             | Self::Report(_)
+            | Self::Serve(_)
             | Self::Signal(_)
             | Self::Part { .. }
             | Self::Read { .. }

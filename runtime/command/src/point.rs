@@ -1,14 +1,16 @@
 //! The operating point and tolerances of a command, from the declaration, then the study file, then the command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::Args;
 use eigentol::equilibrium::{Equilibria, Search};
 use eigentol::judge;
-use eigentol::{Coordinate, CoordinateInfo, DesignVariable, Input, Matrix, Parameter, Role, Study, Unit};
+use eigentol::{Coordinate, Matrix, Parameter, Study, Unit};
 use eigentol_compiler::Compilation;
-use eigentol_interpreter::{Interpreted, UnitError, design_tolerance, meant, tolerance, value, with_unit_of};
+use eigentol_interpreter::{
+    Interpreted, Setting, UnitError, coordinate, meant, parameter, read, value, with_setting, with_unit_of,
+};
 
 use crate::advice;
 use crate::declaration::Declaration;
@@ -184,55 +186,81 @@ impl Point {
         }
     }
 
-    /// Reads the files and applies all settings.
-    pub(crate) fn question(&self) -> Result<Question, Failure> {
+    /// The study file, and the file of the declaration.
+    pub(crate) fn files(&self) -> Result<(StudyFile, PathBuf), Failure> {
         let file = match &self.study {
             Some(path) => StudyFile::read(path)?,
             None => StudyFile::default(),
         };
-        let Some(path) = self.file.as_ref().or(file.mechanism.as_ref()) else {
-            let help = "name the file with the declaration, or a study file that does";
-            return Err(Failure::usage("no mechanism is given", help));
-        };
-        let declaration = Declaration::read(path)?;
-        let compilation = declaration.compiled()?;
-        let machine = self.stated(Interpreted::new(&compilation), &file)?;
-        advice::remember(&machine, &compilation);
+        match self.file.as_ref().or(file.mechanism.as_ref()).cloned() {
+            Some(path) => Ok((file, path)),
+            None => {
+                let help = "name the file with the declaration, or a study file that does";
+                Err(Failure::usage("no mechanism is given", help))
+            }
+        }
+    }
+
+    /// The study of a declaration with all settings but the number of an equilibrium.
+    pub(crate) fn study(&self, compilation: &Compilation, file: &StudyFile) -> Result<Study<Interpreted>, Failure> {
+        let machine = self.stated(Interpreted::new(compilation), file)?;
+        advice::remember(&machine, compilation);
         let mut study = Study::new(machine);
         if let Some(level) = self.sigma_level.or(file.sigma_level) {
             study = study.sigma_level(positive_level(level)?);
         }
-        for (option, given, options) in [
-            ("set", &file.set, &self.set),
-            ("start", &file.start, &self.start),
-            ("guess", &file.guess, &self.guess),
-            ("hold", &file.hold, &self.hold),
+        for (setting, given, options) in [
+            (Setting::Set, &file.set, &self.set),
+            (Setting::Start, &file.start, &self.start),
+            (Setting::Guess, &file.guess, &self.guess),
+            (Setting::Hold, &file.hold, &self.hold),
+            (Setting::Tolerance, &file.tolerance, &self.tol),
         ] {
-            for (name, value) in given {
-                let value = value.to_string();
-                for name in meant(name, study.description()) {
-                    study = set(study, option, (&name, &value))?;
-                }
-            }
-            for (name, value) in options {
-                for name in meant(name, study.description()) {
-                    study = set(study, option, (&name, value))?;
-                }
-            }
-        }
-        let given = file.tolerance.iter();
-        let options = self.tol.iter().map(|(name, text)| (name, text));
-        for (name, text) in given.chain(options) {
-            for name in meant(name, study.description()) {
-                study = tolerate(study, &compilation, &name, text)?;
+            let given = given.iter().map(|(name, text)| (name.clone(), text.to_string()));
+            for (name, text) in given.chain(options.iter().cloned()) {
+                study = with_setting(study, &compilation.ast, setting, &name, &text)?;
             }
         }
         if let Some(Correlation::Pairs(pairs)) = &file.correlation {
             study = correlate(study, pairs)?;
         }
-        if self.stay || file.stay {
-            study = study.stay();
+        Ok(if self.stay || file.stay { study.stay() } else { study })
+    }
+
+    /// All settings as in a study file about the declaration in this file.
+    pub(crate) fn settings(&self, file: &StudyFile, path: &Path) -> toml::Table {
+        let mut all = file.all.clone();
+        // Beside the file that the page writes, wherever that is put.
+        let name = path.file_name().unwrap_or(path.as_os_str());
+        all.insert("mechanism".to_owned(), name.display().to_string().into());
+        let options = [("set", &self.set), ("start", &self.start), ("guess", &self.guess), ("hold", &self.hold)];
+        for (key, given) in options.into_iter().chain([("tolerance", &self.tol), ("unit", &self.unit)]) {
+            let own = given.iter().map(|(name, text)| (name.clone(), text.clone().into()));
+            match all.get_mut(key) {
+                Some(toml::Value::Table(table)) => table.extend(own),
+                _ if given.is_empty() => {}
+                _ => {
+                    all.insert(key.to_owned(), toml::Value::Table(own.collect()));
+                }
+            }
         }
+        if self.stay {
+            all.insert("stay".to_owned(), true.into());
+        }
+        if let Some(level) = self.sigma_level {
+            all.insert("sigma_level".to_owned(), level.into());
+        }
+        if let Some(unit) = &self.frequency_unit {
+            all.insert("frequency_unit".to_owned(), unit.clone().into());
+        }
+        all
+    }
+
+    /// Reads the files and applies all settings.
+    pub(crate) fn question(&self) -> Result<Question, Failure> {
+        let (file, path) = self.files()?;
+        let declaration = Declaration::read(&path)?;
+        let study = self.study(&declaration.compiled()?, &file)?;
         let given = file.between.iter();
         let options = self.between.iter().map(|(name, text)| (name, text));
         let between = given.chain(options).map(|(name, text)| bounds(&study, name, text));
@@ -260,25 +288,6 @@ fn positive_level(level: f64) -> Result<f64, Failure> {
     Err(Failure::usage(message, help))
 }
 
-/// Sets a value.
-fn set(study: Study<Interpreted>, option: &str, (name, text): (&str, &str)) -> Result<Study<Interpreted>, Failure> {
-    if option == "set" {
-        let (parameter, unit) = parameter(&study, name)?;
-        let value = read(option, name, text, &unit)?;
-        return Ok(match parameter {
-            Parameter::Input(input) => study.input(input, value),
-            Parameter::Design(variable) => study.design(variable, value),
-        });
-    }
-    let (coordinate, unit) = coordinate(&study, name)?;
-    let value = read(option, name, text, &unit)?;
-    Ok(match option {
-        "start" => study.start(coordinate, value),
-        "hold" => study.hold(coordinate, value),
-        _ => study.guess(coordinate, value),
-    })
-}
-
 /// Bounds of an unknown, SI.
 fn bounds(study: &Study<Interpreted>, name: &str, text: &str) -> Result<(Coordinate<Interpreted>, f64, f64), Failure> {
     let (coordinate, unit) = coordinate(study, name)?;
@@ -288,33 +297,6 @@ fn bounds(study: &Study<Interpreted>, name: &str, text: &str) -> Result<(Coordin
     };
     let low = read("between", name, &with_unit_of(low, high), &unit)?;
     Ok((coordinate, low, read("between", name, high, &unit)?))
-}
-
-fn read(option: &str, name: &str, text: &str, unit: &Unit) -> Result<f64, Failure> {
-    let refused = |mistakes| Failure::value(format!("{option} {name}={text}"), &mistakes);
-    value(text, unit, &format!("`{name}`")).map_err(refused)
-}
-
-/// Sets a tolerance.
-fn tolerate(
-    study: Study<Interpreted>,
-    of: &Compilation,
-    name: &str,
-    text: &str,
-) -> Result<Study<Interpreted>, Failure> {
-    let (parameter, unit) = parameter(&study, name)?;
-    let refused = |mistakes| Failure::value(format!("tolerance {name}={text}"), &mistakes);
-    let (value, parsed) = match parameter {
-        Parameter::Input(input) => {
-            let value = study.input_values()[input.index()];
-            (value, tolerance(text, &unit, value))
-        }
-        Parameter::Design(variable) => {
-            let (k, design) = (variable.index(), study.design_values());
-            (design[k], design_tolerance(of, text, k, design))
-        }
-    };
-    Ok(eigentol_interpreter::tolerate(study, parameter, parsed.map_err(refused)?, value))
 }
 
 /// Sets pairwise correlations of the design variables, followed by the inputs with tolerances.
@@ -348,63 +330,6 @@ fn correlate(study: Study<Interpreted>, pairs: &[(String, String, f64)]) -> Resu
         }
     }
     Ok(study.correlation(matrix))
-}
-
-/// The input or design variable with this name, and its unit.
-pub(crate) fn parameter(study: &Study<Interpreted>, name: &str) -> Result<(Parameter<Interpreted>, Unit), Failure> {
-    if let Ok((input, unit)) = input(study, name) {
-        return Ok((input.into(), unit));
-    }
-    let description = study.description();
-    if let Ok(variable) = study.find_design(name) {
-        return Ok((variable.into(), description.design[variable.index()].unit.clone()));
-    }
-    let inputs = description.inputs.iter().map(|info| &*info.name);
-    if study.find_coordinate(name).is_ok() {
-        let message = format!("`{name}` is a coordinate, not an input or design variable");
-        let help = "the analysis finds its value; `--start` says where the search begins";
-        return Err(Failure::usage(message, help));
-    }
-    let known = inputs.chain(description.design.iter().map(|info| &*info.name));
-    Err(unknown(&description.name, "input or design variable", name, known))
-}
-
-/// The design variable with this name, and its unit.
-pub(crate) fn design(study: &Study<Interpreted>, name: &str) -> Result<(DesignVariable<Interpreted>, Unit), Failure> {
-    let all = &study.description().design;
-    match study.find_design(name) {
-        Ok(design_variable) => Ok((design_variable, all[design_variable.index()].unit.clone())),
-        Err(_) => Err(unknown(&study.description().name, "design variable", name, all.iter().map(|info| &*info.name))),
-    }
-}
-
-/// The input with this name, and its unit.
-pub(crate) fn input(study: &Study<Interpreted>, name: &str) -> Result<(Input<Interpreted>, Unit), Failure> {
-    let all = &study.description().inputs;
-    match study.find_input(name) {
-        Ok(input) => Ok((input, all[input.index()].unit.clone())),
-        Err(_) => {
-            let known = all.iter().map(|info| &*info.name);
-            Err(unknown(&study.description().name, "input", name, known))
-        }
-    }
-}
-
-fn coordinate(study: &Study<Interpreted>, name: &str) -> Result<(Coordinate<Interpreted>, Unit), Failure> {
-    let all = &study.description().coordinates;
-    match study.find_coordinate(name) {
-        Ok(coordinate) => Ok((coordinate, all[coordinate.index()].unit.clone())),
-        Err(_) if parameter(study, name).is_ok() => {
-            let message = format!("`{name}` is not a coordinate");
-            let help = format!("give the values of inputs and design variables by `--set {name}=...`");
-            Err(Failure::usage(message, help))
-        }
-        Err(_) => {
-            let moves = |info: &&CoordinateInfo| matches!(info.role, Role::Position | Role::Speed);
-            let known = all.iter().filter(moves).map(|info| &*info.name);
-            Err(unknown(&study.description().name, "coordinate", name, known))
-        }
-    }
 }
 
 /// Reads a value from a study file.

@@ -37,7 +37,7 @@ pub(crate) struct StudyFile {
     pub(crate) equilibrium: Option<usize>,
     /// Tolerances of design variables and inputs, with their laws.
     #[serde(default)]
-    pub(crate) tolerance: BTreeMap<String, String>,
+    pub(crate) tolerance: BTreeMap<String, Written>,
     /// Correlations of pairs of names.
     pub(crate) correlation: Option<Correlation>,
     pub(crate) sigma_level: Option<f64>,
@@ -65,6 +65,9 @@ pub(crate) struct StudyFile {
     /// The tolerances and nominal values that `allocate` may choose.
     #[serde(default)]
     pub(crate) choose: Vec<Choose>,
+    /// All of them as they are written.
+    #[serde(skip)]
+    pub(crate) all: toml::Table,
 }
 
 /// Names of pairs, each with its correlation.
@@ -149,6 +152,8 @@ impl StudyFile {
             path: path.to_owned(),
             message: error.to_string().trim_end().to_owned(),
         })?;
+        // What is a study file is a table.
+        file.all = text.parse().unwrap_or_default();
         if let (Some(mechanism), Some(folder)) = (&file.mechanism, path.parent()) {
             file.mechanism = Some(folder.join(mechanism));
         }

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use eigentol::{Input, Study};
-use eigentol_interpreter::{Interpreted, multiple};
+use eigentol_interpreter::{Interpreted, orders};
 
 use crate::failure::{Failure, plural};
 use crate::point::{Question, whole};
@@ -130,26 +130,14 @@ impl Orders {
         }
     }
 
-    /// The orders, without repetitions, from the command line or else the study file. Where the range has negative
-    /// speeds, an order is a multiple of their amount: it has the line of the negative order too.
+    /// The orders, from the command line or else the study file.
     pub(crate) fn along(&self, range: Option<&Range>, question: &Question) -> Result<Vec<f64>, Failure> {
         let Some(range) = range else {
             return if self.orders.is_empty() { Ok(Vec::new()) } else { Err(unswept("--order")) };
         };
         let file = question.file.orders.as_deref().unwrap_or_default();
         let given = if self.orders.is_empty() { file } else { &self.orders };
-        let mut orders = Vec::new();
         let along = eigentol::sweep::Range::new(range.input.any(), range.low, range.high);
-        for &order in given {
-            let order = multiple(order, &along, &question.study)?;
-            for line in [order, -order] {
-                let meets = |end: f64| line * end > 0.0;
-                let new = !orders.contains(&line);
-                if new && (meets(range.low) || meets(range.high)) {
-                    orders.push(line);
-                }
-            }
-        }
-        Ok(orders)
+        Ok(orders(&question.study, &along, given)?)
     }
 }

@@ -2,12 +2,22 @@
 
 use eigentol::{Law, Parameter, Study, ToleranceInfo, Unit};
 use eigentol_compiler::model::resolve::given;
-use eigentol_compiler::{Compilation, tokens};
+use eigentol_compiler::syntax::ast::Ast;
+use eigentol_compiler::syntax::parse::parse;
+use eigentol_compiler::tokens;
 use proc_macro2::TokenStream;
 
 use crate::description;
 use crate::mechanism::Interpreted;
 use crate::mistakes::Mistakes;
+
+/// What a declaration without mistakes in its syntax says.
+///
+/// # Errors
+/// The mistakes in the text.
+pub fn declaration(text: &str) -> Result<Ast, Mistakes> {
+    Ok(parse(tokens(text)?)?)
+}
 
 /// Parses the value (SI) of a quantity in this unit: `3000rpm`, `-2.5 mm`, `pi / 3`. `what` names the quantity in
 /// messages.
@@ -62,8 +72,8 @@ pub fn tolerance(text: &str, unit: &Unit, nominal: f64) -> Result<ToleranceInfo,
 ///         joint t: revolute(y) from ground to bar; }",
 ///     Limits::default(),
 /// )?;
-/// assert!(design_tolerance(&compilation, "3%", 0, &[1.0])?.relative);
-/// let error = design_tolerance(&compilation, "3 m", 0, &[1.0]).unwrap_err().to_string();
+/// assert!(design_tolerance(&compilation.ast, "3%", 0, &[1.0])?.relative);
+/// let error = design_tolerance(&compilation.ast, "3 m", 0, &[1.0]).unwrap_err().to_string();
 /// assert!(error.contains("within the tolerance of `l`, the length of `bar` is -2 m; it must be positive"));
 /// # Ok::<(), eigentol_interpreter::Mistakes>(())
 /// ```
@@ -74,12 +84,12 @@ pub fn tolerance(text: &str, unit: &Unit, nominal: f64) -> Result<ToleranceInfo,
 /// # Panics
 /// If the declaration has no such design variable, or another number of them.
 pub fn design_tolerance(
-    of: &Compilation,
+    of: &Ast,
     text: &str,
     variable: usize,
     design: &[f64],
 ) -> Result<ToleranceInfo, Mistakes> {
-    let tolerance = given::design_tolerance(&of.ast, tokens(text)?, variable, design)?;
+    let tolerance = given::design_tolerance(of, tokens(text)?, variable, design)?;
     Ok(description::tolerance(&tolerance))
 }
 

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod declared;
 mod description;
 mod given;
 mod kernels;
@@ -9,16 +10,19 @@ mod names;
 mod picture;
 mod registers;
 mod schedule;
+mod settings;
 mod tape;
 mod units;
 mod wanted;
 
+pub use declared::{declared_tolerances, rewritten};
 pub use description::description;
-pub use given::{design_tolerance, tolerance, tolerate, value};
+pub use given::{declaration, design_tolerance, tolerance, tolerate, value};
 pub use mechanism::Interpreted;
 pub use mistakes::{Mistake, Mistakes, ReadError, RefineError, UnitError};
 pub use names::meant;
+pub use settings::{Setting, coordinate, design, parameter, read, with_setting};
 pub use wanted::{
-    FORMS, WantedError, excitation, multiple, output, range, requirement, requirements, response, vibration,
+    FORMS, WantedError, excitation, multiple, orders, output, range, requirement, requirements, response, vibration,
     with_unit_of,
 };

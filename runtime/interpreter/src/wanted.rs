@@ -437,6 +437,25 @@ pub fn multiple(order: f64, range: &Range, study: &Study<Interpreted>) -> Result
     wrong(format!("order {order} crosses no mode"), help)
 }
 
+/// Orders without repetitions. Where a range has negative speeds, an order is a multiple of their amount: it has the line of
+/// the negative order too.
+///
+/// # Errors
+/// As [`multiple`].
+pub fn orders(study: &Study<Interpreted>, range: &Range, given: &[f64]) -> Result<Vec<f64>> {
+    let mut orders = Vec::new();
+    for &order in given {
+        let order = multiple(order, range, study)?;
+        for line in [order, -order] {
+            let meets = |end: f64| line * end > 0.0;
+            if !orders.contains(&line) && (meets(range.low) || meets(range.high)) {
+                orders.push(line);
+            }
+        }
+    }
+    Ok(orders)
+}
+
 fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }

@@ -1,12 +1,15 @@
-// Brings the page to life: each piece of data is drawn where it stands.
+// Brings a page to life: each piece of data is drawn where it stands.
 
-for (const data of document.querySelectorAll("script[data-kind]")) {
-  const content = JSON.parse(data.textContent);
-  const box = data.parentElement;
-  if (data.dataset.kind === "table") addCopyButton(box, content);
-  if (data.dataset.kind === "figure") drawFigure(content, box.querySelector(".drawing"));
-  if (data.dataset.kind === "scene") showMechanism(content, box.querySelector(".drawing"));
+function enliven(root) {
+  for (const data of root.querySelectorAll("script[data-kind]")) {
+    const content = JSON.parse(data.textContent);
+    const box = data.parentElement;
+    if (data.dataset.kind === "table") addCopyButton(box, content);
+    if (data.dataset.kind === "figure") drawFigure(content, box.querySelector(".drawing"));
+    if (data.dataset.kind === "scene") box.player = showMechanism(content, box.querySelector(".drawing"));
+  }
 }
+enliven(document);
 // A link into folded details unfolds them; a printed page has them all.
 const unfold = () => {
   const target = document.getElementById(location.hash.slice(1));

@@ -6,7 +6,7 @@ const VIEWS = [["oblique", -0.9, 0.42], ["from the front", -Math.PI / 2, 0], ["f
 function showMechanism({ scene, up, motions }, parent) {
   const model = new Model(scene, up);
   const states = [{ title: "Equilibrium", about: "", frames: [model.rest] }, ...motions.map(stateOf)];
-  new Player(model, states, parent);
+  return new Player(model, states, parent);
 }
 
 function stateOf({ title, about, frames }) {
@@ -88,11 +88,24 @@ class Player {
     this.paintGallery();
   }
 
+  // Shows what another player shows, as it shows it.
+  resume({ painter, named, chosen, phase, playing }) {
+    const { azimuth, elevation, zoom, up } = painter;
+    if (up in this.model.upright) this.upwards.value = up;
+    Object.assign(this.painter, { azimuth, elevation, zoom, up: this.upwards.value });
+    this.named.checked = named.checked;
+    this.choose(Math.min(chosen, this.states.length - 1));
+    this.phase = phase;
+    if (!playing) this.setPlaying(false);
+    this.slider.value = 360 * phase;
+    this.paint();
+  }
+
   setPlaying(playing) {
     if (playing && !this.playing) {
       let last = null;
       const step = (now) => {
-        if (!this.playing) return;
+        if (!this.playing || !this.large.isConnected) return;
         this.phase = (this.phase + (now - (last ?? now)) / 1000 / SECONDS) % 1;
         last = now;
         this.slider.value = 360 * this.phase;

@@ -11,10 +11,13 @@ use eigentol::{
 
 use eigentol_figures::Style;
 
-use crate::Report;
+use crate::{Part, Report};
 use crate::answer::answer;
 use crate::forced::Forced;
 use crate::pictures::Pictures;
+
+/// Operations that judging a spread may take where an answer is to be there at once.
+const QUICK: f64 = 0.0;
 
 /// All the content of a page.
 pub(crate) struct Content {
@@ -28,9 +31,10 @@ pub(crate) struct Content {
     pub(crate) brief_style: Style,
     pub(crate) equilibrium: Result<Equilibrium, Error>,
     pub(crate) modes: Result<Modes, Error>,
-    pub(crate) pictures: Result<Pictures, Error>,
+    /// `None` where they are not part of the answer.
+    pub(crate) pictures: Option<Result<Pictures, Error>>,
     pub(crate) outputs: Result<OutputTolerances, Error>,
-    /// `None` if nothing has a tolerance.
+    /// `None` if nothing has a tolerance, or where it is not part of the answer.
     pub(crate) spread: Option<Spreads>,
     /// `None` without excitations.
     pub(crate) forced: Option<Forced>,
@@ -54,21 +58,23 @@ pub(crate) struct Setup {
 /// The effect of tolerances.
 pub(crate) struct Spreads {
     pub(crate) summary: Result<Summary, Error>,
-    pub(crate) monte_carlo: Result<MonteCarlo, Error>,
+    /// `None` without samples.
+    pub(crate) monte_carlo: Option<Result<MonteCarlo, Error>>,
 }
 
 /// Results along an input.
 pub(crate) struct Along {
     pub(crate) campbell: Result<Campbell, Error>,
-    pub(crate) branches: Result<Branches, Error>,
+    /// `None` where they are not part of the answer.
+    pub(crate) branches: Option<Result<Branches, Error>>,
 }
 
 impl Content {
-    /// Runs every analysis of the study.
+    /// Runs the analyses of the study that a part of its report needs.
     ///
     /// # Errors
     /// Errors of the caller only; any other error is kept and reported in its place.
-    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(report: &Report<M>) -> Result<Self, Error> {
+    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(report: &Report<M>, part: Part) -> Result<Self, Error> {
         let study = &report.study;
         let setup = Setup::of(study)?;
         let equilibrium = answer(study.equilibrium())?;
@@ -81,25 +87,32 @@ impl Content {
             Ok(_) => answer(study.output_tolerances())?,
             Err(error) => Err(error.clone()),
         };
+        let at_point = part != Part::Along;
         let pictures = match (&modes, &equilibrium) {
-            (Ok(_), _) => answer(Pictures::of(study))?,
-            (Err(_), Ok(_)) => answer(study.picture())?.map(Pictures::at_rest),
-            (Err(error), Err(_)) => Err(error.clone()),
+            _ if !at_point => None,
+            (Ok(_), _) => Some(answer(Pictures::of(study))?),
+            (Err(_), Ok(_)) => Some(answer(study.picture())?.map(Pictures::at_rest)),
+            (Err(error), Err(_)) => Some(Err(error.clone())),
         };
         let varies = setup.tolerances.sigmas().iter().any(|sigma| *sigma > 0.0);
         let spread = match &modes {
-            _ if !varies => None,
-            Ok(_) => Some(Spreads { summary: answer(study.summary())?, monte_carlo: answer(study.monte_carlo())? }),
-            Err(error) => Some(Spreads { summary: Err(error.clone()), monte_carlo: Err(error.clone()) }),
+            _ if !varies || !at_point => None,
+            Ok(_) if part == Part::AtPoint => {
+                Some(Spreads { summary: answer(study.summary_within(QUICK))?, monte_carlo: None })
+            }
+            Ok(_) => {
+                Some(Spreads { summary: answer(study.summary())?, monte_carlo: Some(answer(study.monte_carlo())?) })
+            }
+            Err(error) => Some(Spreads { summary: Err(error.clone()), monte_carlo: Some(Err(error.clone())) }),
         };
         let description = study.description().clone();
         let swept = match &report.along {
-            Some((input, values)) => Some((*input, values_si(study, *input, values)?)),
-            None => None,
+            Some((input, values)) if part != Part::AtPoint => Some((*input, values_si(study, *input, values)?)),
+            _ => None,
         };
         let swept = swept.as_ref().map(|(input, values)| (*input, &values[..]));
         let forced = if description.excitations.is_empty() { None } else { Some(Forced::of(study, swept, varies)?) };
-        let along = swept.map(|along| Along::of(study, along, &report.orders));
+        let along = swept.map(|along| Along::of(study, along, &report.orders, part));
         Ok(Self {
             title: (report.title.clone()).unwrap_or_else(|| description.name.to_string()),
             declaration: report.declaration.clone(),
@@ -137,6 +150,7 @@ impl Along {
         study: &Study<M>,
         (input, values): (Input<M>, &[f64]),
         orders: &[f64],
+        part: Part,
     ) -> Result<Self, Error> {
         let campbell = answer(study.campbell(input, values, orders))?;
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -144,7 +158,7 @@ impl Along {
         Ok(Self {
             campbell,
             // Without a range there are no branches: sweeping one value or none is not an error.
-            branches: study.branches(input, low, high),
+            branches: (part == Part::All).then(|| study.branches(input, low, high)),
         })
     }
 }

@@ -16,4 +16,5 @@ mod words;
 
 pub use eigentol_figures::Style;
 pub use error::Error;
-pub use report::{Report, motion};
+pub use page::frame;
+pub use report::{Part, Report, Section, motion};

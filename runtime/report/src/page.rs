@@ -43,7 +43,7 @@ pub(crate) fn html(content: &Content) -> Result<String, Error> {
     sections::all(&mut html, content)?;
     html.constant("</main>\n");
     footer(&mut html);
-    Ok(end(html))
+    Ok(end(html, ""))
 }
 
 /// A page with nothing but the mechanism in motion.
@@ -57,24 +57,43 @@ pub(crate) fn motion(title: &str, view: &View<'_>) -> Result<String, Error> {
     html.leaf("h1", &[], title);
     sections::player(&mut html, view)?;
     html.constant("</main>\n");
-    Ok(end(html))
+    Ok(end(html, ""))
+}
+
+/// An empty page in the style of a report, with a style sheet and a module of its own behind those of a report, that may ask
+/// where it comes from. The module draws what it adds to the page with `enliven(element)`.
+#[must_use]
+pub fn frame(title: &str, style: &'static str, module: &'static str) -> String {
+    let mut html = Html::default();
+    head(&mut html, title, &format!("{POLICY}; connect-src 'self'"), style);
+    html.constant("<main></main>\n");
+    end(html, module)
 }
 
 /// The head of a page, up to its body.
 fn begin(html: &mut Html, title: &str) {
+    head(html, title, POLICY, "");
+}
+
+fn head(html: &mut Html, title: &str, policy: &str, style: &'static str) {
     html.constant("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-    html.open("meta", &[("http-equiv", "Content-Security-Policy"), ("content", POLICY)]);
+    html.open("meta", &[("http-equiv", "Content-Security-Policy"), ("content", policy)]);
     html.constant("\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
     html.leaf("title", &[], title);
     html.constant("\n<style>\n");
     html.constant(include_str!("../assets/report.css"));
+    html.constant(style);
     html.constant("</style>\n</head>\n<body>\n");
 }
 
 /// The scripts that bring a page to life, and its end.
-fn end(mut html: Html) -> String {
+fn end(mut html: Html, module: &'static str) -> String {
     html.constant("<script type=\"module\">\n");
     for script in SCRIPTS {
+        html.constant(script);
+    }
+    // In a block, so that its names are its own.
+    for script in ["{\n", module, "}\n"] {
         html.constant(script);
     }
     html.constant("</script>\n</body>\n</html>\n");

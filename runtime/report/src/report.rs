@@ -6,11 +6,12 @@ use std::path::Path;
 use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol::{Input, Output, Study, Value};
 use eigentol_figures::Style;
+use serde::Serialize;
 
 use crate::content::Content;
 use crate::pictures::Pictures;
 use crate::scene::View;
-use crate::{Error, page};
+use crate::{Error, page, sections};
 
 /// A report of a study: the analyses it runs and its heading.
 ///
@@ -47,6 +48,28 @@ pub struct Report<M> {
     pub(crate) orders: Vec<f64>,
     pub(crate) orbits: Vec<[Output; 2]>,
     pub(crate) style: Style,
+}
+
+/// Which sections of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// Those of the operating point: of forced vibration only the sentences.
+    AtPoint,
+    /// Those along an input, and forced vibration.
+    Along,
+    /// All, with samples and branches.
+    All,
+}
+
+/// A section of a report, written.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Section {
+    /// Its anchor.
+    pub id: &'static str,
+    /// Its heading.
+    pub heading: &'static str,
+    /// Its content.
+    pub html: String,
 }
 
 /// The equilibrium, modes and forced vibrations of a study in motion: an HTML file, which loads nothing, with the view in 3-D
@@ -141,7 +164,16 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
     /// [`Error::Study`] if the study is set up wrongly. A refusal of an analysis is not an error: the report states it
     /// in its place.
     pub fn html(&self) -> Result<String, Error> {
-        page::html(&Content::of(self)?)
+        page::html(&Content::of(self, Part::All)?)
+    }
+
+    /// Some of the sections of the report, for a page that asks for them as its values change ([`frame`](crate::frame)). The
+    /// spread at the operating point is judged without samples, and branches are among all sections only.
+    ///
+    /// # Errors
+    /// The errors of [`Report::html`].
+    pub fn sections(&self, part: Part) -> Result<Vec<Section>, Error> {
+        sections::each(&Content::of(self, part)?, part)
     }
 
     /// Writes the report to a file.

@@ -122,7 +122,7 @@ fn stated(Stated { name, unit: of, value: is }: &Stated) -> String {
 }
 
 /// A tolerance, preceded by a space.
-fn tolerance(tolerance: Option<&Tolerance>) -> String {
+pub fn tolerance(tolerance: Option<&Tolerance>) -> String {
     let Some(tolerance) = tolerance else {
         return String::new();
     };

@@ -3,11 +3,11 @@
 use clap::Args;
 use eigentol::allocation::{Choices, Cost, HalfWidth, Nominal};
 use eigentol::{Parameter, Study, Unit};
-use eigentol_interpreter::Interpreted;
+use eigentol_interpreter::{Interpreted, design, parameter};
 
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::point::{Point, Question, design, parameter, samples, whole, written};
+use crate::point::{Point, Question, samples, whole, written};
 use crate::progress;
 use crate::requirements::{require_keys, requirements};
 use crate::study_file::Choose;

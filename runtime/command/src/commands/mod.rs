@@ -22,5 +22,6 @@ pub(crate) mod response;
 pub(crate) mod sample;
 pub(crate) mod schema;
 pub(crate) mod sensitivities;
+pub(crate) mod serve;
 pub(crate) mod sweep;
 pub(crate) mod tolerance;

@@ -27,8 +27,9 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 
 fn states(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error> {
     let all_branches = match &along.branches {
-        Ok(branches) => branches,
-        Err(error) => {
+        None => return Ok(()),
+        Some(Ok(branches)) => branches,
+        Some(Err(error)) => {
             refused(html, "branches of equilibria were not followed", error);
             return Ok(());
         }

@@ -181,7 +181,7 @@ fn tolerances(spread: &Spreads, foremost: &[usize], style: &Style) -> Vec<Line> 
         }
         Err(error) => lines.push((Some(false), sentence(&format!("no spread: {error}")))),
     }
-    if let Ok(monte_carlo) = &spread.monte_carlo {
+    if let Some(Ok(monte_carlo)) = &spread.monte_carlo {
         lines.push(stable_samples(monte_carlo));
     }
     lines

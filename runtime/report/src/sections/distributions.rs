@@ -19,8 +19,9 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         return Ok(());
     };
     let monte_carlo = match &spread.monte_carlo {
-        Ok(monte_carlo) => monte_carlo,
-        Err(error) => {
+        None => return Ok(()),
+        Some(Ok(monte_carlo)) => monte_carlo,
+        Some(Err(error)) => {
             refused(html, "there are no samples", error);
             return Ok(());
         }

@@ -37,7 +37,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     if content.setup.tolerances.correlation().is_some() {
         html.paragraph("Some of the variables are correlated.");
     }
-    if let Ok(pictures) = &content.pictures {
+    if let Some(Ok(pictures)) = &content.pictures {
         for (caption, listing) in parts::tables(&pictures.scene, d) {
             table(html, caption, &listing, &[])?;
         }

@@ -14,8 +14,8 @@ pub(crate) use modes::player;
 mod verdicts;
 mod vibration;
 
-use crate::Error;
 use crate::content::Content;
+use crate::{Error, Part, report};
 use crate::html::Html;
 use crate::words::sentence;
 
@@ -26,6 +26,8 @@ const ANSWER: &str = "brief";
 pub(crate) struct Section {
     pub(crate) id: &'static str,
     pub(crate) heading: &'static str,
+    /// The part that asks it, besides all.
+    part: Part,
     write: Write,
 }
 
@@ -33,21 +35,35 @@ type Write = fn(&mut Html, &Content) -> Result<(), Error>;
 
 /// The sections, in order. What nothing excites has none about forced vibration.
 pub(crate) fn of(content: &Content) -> Vec<Section> {
-    let all: [(_, _, Write); 9] = [
-        (ANSWER, "In short", brief::section),
-        ("mechanism", "Mechanism", mechanism::section),
-        ("equilibrium", "Equilibrium", equilibrium::section),
-        ("modes", "Modes", modes::section),
-        ("vibration", "Forced vibration", vibration::section),
-        ("verdicts", "Tolerances", verdicts::section),
-        ("shares", "Contributions", shares::section),
-        ("distributions", "Distributions", distributions::section),
-        ("along", "Along an input", along::section),
+    let all: [(_, _, _, Write); 9] = [
+        (ANSWER, "In short", Part::AtPoint, brief::section),
+        ("mechanism", "Mechanism", Part::AtPoint, mechanism::section),
+        ("equilibrium", "Equilibrium", Part::AtPoint, equilibrium::section),
+        ("modes", "Modes", Part::AtPoint, modes::section),
+        ("vibration", "Forced vibration", Part::Along, vibration::section),
+        ("verdicts", "Tolerances", Part::AtPoint, verdicts::section),
+        ("shares", "Contributions", Part::AtPoint, shares::section),
+        ("distributions", "Distributions", Part::All, distributions::section),
+        ("along", "Along an input", Part::Along, along::section),
     ];
     all.into_iter()
-        .map(|(id, heading, write)| Section { id, heading, write })
+        .map(|(id, heading, part, write)| Section { id, heading, part, write })
         .filter(|item| item.id != "vibration" || content.forced.is_some())
         .collect()
+}
+
+/// The sections of a part.
+///
+/// # Errors
+/// [`Error::Data`].
+pub(crate) fn each(content: &Content, part: Part) -> Result<Vec<report::Section>, Error> {
+    let wanted = of(content).into_iter().filter(|own| part == Part::All || own.part == part);
+    let written = wanted.map(|Section { id, heading, write, .. }| {
+        let mut html = Html::default();
+        write(&mut html, content)?;
+        Ok(report::Section { id, heading, html: html.finish() })
+    });
+    written.collect()
 }
 
 /// Writes all sections.
@@ -55,7 +71,7 @@ pub(crate) fn of(content: &Content) -> Vec<Section> {
 /// # Errors
 /// [`Error::Data`].
 pub(crate) fn all(html: &mut Html, content: &Content) -> Result<(), Error> {
-    for Section { id, heading, write } in of(content) {
+    for Section { id, heading, write, .. } in of(content) {
         let mut written = Ok(());
         // The answer is on one page; the details unfold.
         if id == ANSWER {

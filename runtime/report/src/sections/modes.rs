@@ -16,8 +16,9 @@ use crate::words::digits;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     match &content.pictures {
-        Ok(pictures) => view(html, content, pictures)?,
-        Err(error) => refused(html, "there is no picture", error),
+        None => {}
+        Some(Ok(pictures)) => view(html, content, pictures)?,
+        Some(Err(error)) => refused(html, "there is no picture", error),
     }
     let modes = match &content.modes {
         Ok(modes) => modes,
@@ -58,7 +59,7 @@ pub(super) fn shapes(html: &mut Html, content: &Content) -> Result<(), Error> {
     };
     let style = content.brief_style.clone().title("Mode shapes");
     match &content.pictures {
-        Ok(pictures) if !pictures.scene.beams.is_empty() => {
+        Some(Ok(pictures)) if !pictures.scene.beams.is_empty() => {
             let foremost = modes.foremost(super::MODES);
             let moving = pictures.modes.iter().filter_map(|picture| picture.clone().ok());
             let moving: Vec<_> = moving.filter(|picture| foremost.contains(&picture.mode)).collect();

@@ -81,7 +81,7 @@ fn orbits(html: &mut Html, content: &Content, forced_response: &ForcedResponse) 
 
 /// States which vibrations are seen in motion, and why others are not.
 fn motion(html: &mut Html, content: &Content) {
-    let Ok(pictures) = &content.pictures else {
+    let Some(Ok(pictures)) = &content.pictures else {
         return;
     };
     if pictures.vibrations.iter().any(Result::is_ok) {

@@ -113,9 +113,14 @@ impl Chrome {
 
     /// Opens a file and waits until it is drawn.
     pub(crate) fn open(&mut self, file: &Path) {
+        self.visit(&format!("file://{}", file.display()));
+    }
+
+    /// Opens an address and waits until it is drawn.
+    pub(crate) fn visit(&mut self, address: &str) {
         self.complaints.clear();
         self.requests.clear();
-        self.ask("Page.navigate", json!({ "url": format!("file://{}", file.display()) }));
+        self.ask("Page.navigate", json!({ "url": address }));
         loop {
             let done = self
                 .evaluate("document.readyState === 'complete' && document.documentElement?.dataset.drawn === 'yes'");

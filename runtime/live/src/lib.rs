@@ -1,0 +1,14 @@
+#![doc = include_str!("../README.md")]
+
+mod answer;
+mod controls;
+mod error;
+mod gate;
+mod given;
+mod machine;
+mod server;
+mod work;
+
+pub use error::Error;
+pub use machine::Subject;
+pub use server::Server;
