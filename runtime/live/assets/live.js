@@ -164,6 +164,7 @@ async function follow() {
     try {
       const { sections } = await ask("at_point");
       page.slopes = sections.slopes;
+      for (const own of page.controls.values()) own.follow(sections.values[own.name]);
       take(sections, time);
       describe();
       show(refusal, null);
@@ -295,16 +296,17 @@ class Control {
     Object.assign(this, own);
     this.key = own.kind === "start" ? "start" : "set";
     this.box = htmlElement("div", { class: "control" }, parent);
-    htmlElement("span", { class: "what" }, this.box, own.name);
-    this.slope = htmlElement("output", { class: "slope" }, this.box);
+    const line = htmlElement("div", { class: "line" }, this.box);
+    htmlElement("span", { class: "what" }, line, own.name);
+    this.slope = htmlElement("output", { class: "slope" }, line);
     const given = page.given[this.key][own.name];
     this.text = given ?? this.usual();
     this.slider = htmlElement("input", { type: "range", "aria-label": `${own.name}, slider` }, this.box);
     this.entry = htmlElement("input", { type: "text", "aria-label": `${own.name}, value with unit`, spellcheck: "false" }, this.box);
     this.entry.value = this.text;
-    this.range();
+    this.range(own.value);
     this.slider.addEventListener("input", () => this.take(`${Number(Number(this.slider.value).toPrecision(6))} ${own.unit}`.trim()));
-    this.entry.addEventListener("change", () => { this.take(this.entry.value.trim()); this.range(); });
+    this.entry.addEventListener("change", () => { this.take(this.entry.value.trim()); });
     if (own.tolerance !== null) this.spread(own);
     this.mark();
   }
@@ -313,13 +315,16 @@ class Control {
     return `${this.value} ${this.unit}`.trim();
   }
 
-  // The slider is about the value; a value beyond it moves it.
-  range() {
-    const [, digits, unit] = /^\s*([+-]?\d+\.?\d*(?:[eE][+-]?\d+)?)\s*(.*)$/.exec(this.entry.value) ?? [];
-    const readable = digits !== undefined && unit.trim() === this.unit;
-    this.slider.disabled = !readable;
-    if (!readable) return;
-    const value = Number(digits);
+  // What the text of the entry means, in the unit of the control.
+  follow(value) {
+    if (value === undefined || Number(this.slider.value) === value) return;
+    const { min, max } = this.slider;
+    if (value < Number(min) || value > Number(max)) this.range(value);
+    else if (document.activeElement !== this.slider) this.slider.value = value;
+  }
+
+  // The slider is about a value.
+  range(value) {
     const turn = { rad: Math.PI, deg: 180 }[this.unit];
     let [low, high] = value > 0 ? [0, 2 * value] : value < 0 ? [2 * value, 0] : [-1, 1];
     if (this.kind === "design" && value !== 0) [low, high] = [low === 0 ? value / 2 : 1.5 * value, low === 0 ? 1.5 * value : value / 2];
@@ -375,6 +380,12 @@ class Control {
   }
 }
 
+// A unit in the denominator.
+function per(unit) {
+  if (unit === "") return "";
+  return /[*/]/.test(unit) ? `/(${unit})` : `/${unit}`;
+}
+
 // Derivatives and shares beside the controls.
 function describe() {
   const { slopes, choice } = page;
@@ -390,7 +401,7 @@ function describe() {
   for (const own of page.controls.values()) {
     if (own.kind === "start") continue;
     const slope = slopes?.by[own.name]?.[page.mode];
-    own.slope.textContent = slope === undefined || slope === null ? "" : `${numberText(slope)} ${slopes.unit} per ${own.unit || "1"}`;
+    own.slope.textContent = slope === undefined || slope === null ? "" : `${numberText(slope)} ${slopes.unit}${per(own.unit)}`;
     const share = slopes?.shares[own.name]?.[page.mode];
     if (own.share) own.share.textContent = share > 0 ? `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} % of the band` : "";
   }

@@ -11,7 +11,7 @@ use eigentol_interpreter::{Interpreted, declaration, orders, range, rewritten};
 use eigentol_report::{Part, Report, Section};
 use serde::{Deserialize, Serialize};
 
-use crate::controls::usual_sweep;
+use crate::controls::{in_unit, usual_sweep, values};
 use crate::given::Given;
 use crate::machine::{Machine, Subject};
 
@@ -53,7 +53,12 @@ enum Ask {
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Answer {
-    Sections { sections: Vec<Section>, slopes: Option<Slopes> },
+    Sections {
+        sections: Vec<Section>,
+        slopes: Option<Slopes>,
+        /// The values of the controls by name, each in its unit.
+        values: BTreeMap<String, f64>,
+    },
     File { name: String, text: String, note: Option<String> },
 }
 
@@ -120,7 +125,8 @@ impl Question {
         }
         let sections = report.sections(part).map_err(|error| text(&error))?;
         let slopes = if part == Part::Along { None } else { slopes(&study) };
-        Ok(Answer::Sections { sections, slopes })
+        let values = values(&study).map(|(_, name, unit, value)| (name.to_owned(), in_unit(unit, value)));
+        Ok(Answer::Sections { sections, slopes, values: values.collect() })
     }
 }
 

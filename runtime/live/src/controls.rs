@@ -36,26 +36,34 @@ pub(crate) fn controls(study: &Study<Interpreted>, of: &Ast, settings: &toml::Ta
         let text = given.or_else(|| declared.get(name).map(|text| &**text)).unwrap_or_default();
         Some(text.trim_start_matches("+/-").trim().to_owned())
     };
-    let control = |name: &str, kind, unit: &Unit, value, tolerance| Control {
+    let control = |(kind, name, unit, value): (Kind, &str, &Unit, f64)| Control {
         name: name.to_owned(),
         kind,
         unit: unit.symbol.to_string(),
-        value: rounded(unit.from_si(value)),
-        tolerance,
+        value: in_unit(unit, value),
+        tolerance: if kind == Kind::Start { None } else { tolerance(name) },
     };
-    let inputs = d.inputs.iter().zip(study.input_values());
-    let inputs =
-        inputs.map(|(info, &value)| control(&info.name, Kind::Input, &info.unit, value, tolerance(&info.name)));
-    let design = d.design.iter().zip(study.design_values());
-    let design =
-        design.map(|(info, &value)| control(&info.name, Kind::Design, &info.unit, value, tolerance(&info.name)));
-    let starts = d.coordinates.iter().zip(study.start_values());
-    let starts = starts.filter(|(info, _)| matches!(info.role, Role::Position | Role::Speed));
-    let starts = starts.map(|(info, &value)| control(&info.name, Kind::Start, &info.unit, value, None));
-    inputs.chain(design).chain(starts).collect()
+    values(study).map(control).collect()
 }
 
-/// Without what the conversion of units adds.
+/// Kind, name, unit and value (SI) of inputs, design variables and starts.
+pub(crate) fn values(study: &Study<Interpreted>) -> impl Iterator<Item = (Kind, &str, &Unit, f64)> {
+    let d = study.description();
+    let inputs = d.inputs.iter().zip(study.input_values());
+    let inputs = inputs.map(|(info, &value)| (Kind::Input, &*info.name, &info.unit, value));
+    let design = d.design.iter().zip(study.design_values());
+    let design = design.map(|(info, &value)| (Kind::Design, &*info.name, &info.unit, value));
+    let starts = d.coordinates.iter().zip(study.start_values());
+    let starts = starts.filter(|(info, _)| matches!(info.role, Role::Position | Role::Speed));
+    let starts = starts.map(|(info, &value)| (Kind::Start, &*info.name, &info.unit, value));
+    inputs.chain(design).chain(starts)
+}
+
+/// A value (SI) in a unit, without what the conversion adds.
+pub(crate) fn in_unit(unit: &Unit, value: f64) -> f64 {
+    rounded(unit.from_si(value))
+}
+
 fn rounded(value: f64) -> f64 {
     format!("{value:.12e}").parse().unwrap_or(value)
 }
@@ -66,7 +74,7 @@ pub(crate) fn usual_sweep(study: &Study<Interpreted>) -> Option<String> {
     let mut all = study.description().inputs.iter().zip(study.input_values());
     let (info, value) = all.find(|(_, value)| **value != 0.0)?;
     let symbol = &info.unit.symbol;
-    Some(format!("{}=0..{} {symbol}", info.name, rounded(2.0 * info.unit.from_si(*value))))
+    Some(format!("{}=0..{} {symbol}", info.name, in_unit(&info.unit, 2.0 * value)))
 }
 
 #[cfg(test)]

@@ -21,6 +21,7 @@ const QUICK: f64 = 0.0;
 
 /// All the content of a page.
 pub(crate) struct Content {
+    pub(crate) part: Part,
     pub(crate) title: String,
     pub(crate) declaration: Option<String>,
     pub(crate) description: Description,
@@ -114,6 +115,7 @@ impl Content {
         let forced = if description.excitations.is_empty() { None } else { Some(Forced::of(study, swept, varies)?) };
         let along = swept.map(|along| Along::of(study, along, &report.orders, part));
         Ok(Self {
+            part,
             title: (report.title.clone()).unwrap_or_else(|| description.name.to_string()),
             declaration: report.declaration.clone(),
             description,

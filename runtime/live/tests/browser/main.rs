@@ -146,6 +146,8 @@ fn a_move_an_edit_and_a_mistake_are_answered() {
     // A value, in another unit than the declared one.
     page.write("speed, value with unit", "25 Hz");
     assert!(close(&page.frequencies(), &hertz(&study(&text, 1500.0))));
+    let slider = page.chrome.number("Number(document.querySelector('[aria-label=\"speed, slider\"]').value)");
+    assert!((slider - 1500.0).abs() < 20.0, "{slider}");
     page.until("document.documentElement.dataset.followed >= 1 && !document.querySelector('#along').classList.contains('old')");
     assert!(page.chrome.number("document.querySelectorAll('#along figure svg').length") >= 1.0);
 
@@ -167,7 +169,7 @@ fn a_move_an_edit_and_a_mistake_are_answered() {
     let slope = page.chrome.text(
         "[...document.querySelectorAll('.control')].find((own) => own.querySelector('.what').textContent === 'diameter').querySelector('.slope').textContent",
     );
-    let slope: f64 = slope.strip_suffix(" Hz per mm").unwrap().parse().unwrap();
+    let slope: f64 = slope.strip_suffix(" Hz/mm").unwrap().parse().unwrap();
     let first = moved.modes().unwrap().foremost(1)[0];
     let exact = moved.sensitivities().unwrap().modes[first].frequency().unwrap().by_design[diameter.index()];
     assert!((slope - 1e-3 * exact / std::f64::consts::TAU).abs() < 1e-5 * slope.abs());

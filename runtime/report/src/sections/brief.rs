@@ -31,7 +31,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             html.leaf("li", &[("class", class)], &text);
         }
     });
-    if content.along.is_none() {
+    if super::modes::stand_with_the_answer(content) {
         super::modes::shapes(html, content)?;
     }
     html.constant("<div class=\"pair\">\n");

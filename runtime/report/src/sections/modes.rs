@@ -5,7 +5,7 @@ use eigentol_figures::{deflections, mode_shapes, participation};
 use eigentol_tables::Answer as _;
 
 use super::refused;
-use crate::Error;
+use crate::{Error, Part};
 use crate::charts::chart;
 use crate::content::Content;
 use crate::html::Html;
@@ -39,14 +39,18 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         return Ok(());
     }
     let style = content.brief_style.clone();
-    // Without diagrams along an input they are on the page with the answer.
-    if content.along.is_some() {
+    if !stand_with_the_answer(content) {
         shapes(html, content)?;
     }
     if let Ok(state) = &content.equilibrium {
         chart(html, &participation(modes, state, &style.title("What moves in each mode")))?;
     }
     Ok(())
+}
+
+/// Whether the shapes are on the page with the answer: where no diagram along an input is, and nothing in motion beside them.
+pub(super) fn stand_with_the_answer(content: &Content) -> bool {
+    content.along.is_none() && content.part == Part::All
 }
 
 /// Deflection curves of beams, or shapes by coordinate; nothing where there is one component.
