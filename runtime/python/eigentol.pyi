@@ -247,6 +247,22 @@ class Mistake:
         """What to do, or None."""
 
 @final
+class Live:
+    """A page on this machine that answers while one edits: a notebook shows it, and any browser on this machine at its `address`.
+
+    It ends with `stop()`, with its `with` block, or when nothing refers to it.
+    """
+
+    @property
+    def address(self) -> str:
+        """The address of the page. It holds a token: whoever knows it on this machine sees the page."""
+    def stop(self) -> None:
+        """Ends the page."""
+    def _repr_html_(self) -> str: ...
+    def __enter__(self) -> Self: ...
+    def __exit__(self, _kind: Any, _value: Any, _trace: Any) -> None: ...
+
+@final
 class Mechanism:
     """A mechanism: names, units and kernels.
 
@@ -379,6 +395,8 @@ class Mechanism:
 
         `Mechanism.motion` gives a right-hand side that integrators call.
         """
+    def live(self, **settings: Unpack[Settings]) -> Live:
+        """`Study(mechanism, **settings).live()`."""
     @property
     def name(self) -> str:
         """Its name."""
@@ -1010,6 +1028,13 @@ class Study:
         """Derivatives of the eigenvalues in the cluster of a mode, counted from 0, along a change of inputs and design
         variables: lists, SI, or dictionaries by name; what is not named stays as it is. Equal eigenvalues split
         differently in each direction.
+        """
+    def live(self, port: int = 0) -> Live:
+        """A page on this machine that answers while one edits, beginning with this study: sliders for all values and tolerances, modes
+        in motion, sensitivities, bands, Campbell diagram and response. Saving the file of the mechanism updates it. `port` 0 is
+        any that is free.
+
+        Raises OSError when the port cannot be had.
         """
     def samples_between(self, start: int, stop: int) -> PartialMonteCarlo:
         """The samples `start` to below `stop` of `monte_carlo`, with the same seed: parts merge to the same bits as the

@@ -83,12 +83,7 @@ pub fn tolerance(text: &str, unit: &Unit, nominal: f64) -> Result<ToleranceInfo,
 ///
 /// # Panics
 /// If the declaration has no such design variable, or another number of them.
-pub fn design_tolerance(
-    of: &Ast,
-    text: &str,
-    variable: usize,
-    design: &[f64],
-) -> Result<ToleranceInfo, Mistakes> {
+pub fn design_tolerance(of: &Ast, text: &str, variable: usize, design: &[f64]) -> Result<ToleranceInfo, Mistakes> {
     let tolerance = given::design_tolerance(of, tokens(text)?, variable, design)?;
     Ok(description::tolerance(&tolerance))
 }

@@ -91,12 +91,7 @@ pub fn with_setting(
     Ok(study)
 }
 
-fn toleranced(
-    study: Study<Interpreted>,
-    of: &Ast,
-    name: &str,
-    text: &str,
-) -> Result<Study<Interpreted>> {
+fn toleranced(study: Study<Interpreted>, of: &Ast, name: &str, text: &str) -> Result<Study<Interpreted>> {
     let (parameter, unit) = parameter(&study, name)?;
     let place = || format!("tolerance {name}={text}");
     let (value, parsed) = match parameter {

@@ -59,7 +59,11 @@ pub(crate) enum Answer {
         /// The values of the controls by name, each in its unit.
         values: BTreeMap<String, f64>,
     },
-    File { name: String, text: String, note: Option<String> },
+    File {
+        name: String,
+        text: String,
+        note: Option<String>,
+    },
 }
 
 /// Derivatives of frequencies by what can be changed.

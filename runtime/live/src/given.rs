@@ -29,8 +29,7 @@ type Texts = BTreeMap<String, String>;
 impl Given {
     /// The study with these settings.
     pub(crate) fn apply(&self, mut study: Study<Interpreted>, of: &Ast) -> Result<Study<Interpreted>, WantedError> {
-        let kinds =
-            [(Setting::Set, &self.set), (Setting::Start, &self.start), (Setting::Tolerance, &self.tolerance)];
+        let kinds = [(Setting::Set, &self.set), (Setting::Start, &self.start), (Setting::Tolerance, &self.tolerance)];
         for (setting, texts) in kinds {
             for (name, text) in texts {
                 study = with_setting(study, of, setting, name, text)?;

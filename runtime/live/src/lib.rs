@@ -10,5 +10,5 @@ mod server;
 mod work;
 
 pub use error::Error;
-pub use machine::Subject;
+pub use machine::{Subject, compiled, read_file};
 pub use server::Server;

@@ -1,10 +1,13 @@
 //! The state of a server: the newest text, the newest machine that it could be compiled to, and what is wrong with the text.
 
+use std::fs;
+use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use eigentol::Study;
-use eigentol_compiler::Compilation;
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::{Compilation, compile_text, with_included};
 use eigentol_interpreter::Interpreted;
 use serde::Serialize;
 use tokio::sync::watch;
@@ -31,6 +34,23 @@ pub struct Subject {
 type Read = Box<dyn Fn() -> Result<String, String> + Send + Sync>;
 type Compile = Box<dyn Fn(&str) -> Result<Compilation, String> + Send + Sync>;
 type Begin = Box<dyn Fn(&Compilation) -> Result<Study<Interpreted>, String> + Send + Sync>;
+
+/// Reads a declaration with all that it includes.
+///
+/// # Errors
+/// Why it cannot, in a sentence for people.
+pub fn read_file(file: &Path) -> Result<String, String> {
+    let text = fs::read_to_string(file).map_err(|error| format!("cannot read `{}`: {error}", file.display()))?;
+    with_included(&text, file).map(|(text, _)| text).map_err(|mistakes| mistakes.to_string())
+}
+
+/// Compiles a declaration.
+///
+/// # Errors
+/// Its mistakes, each with line and column.
+pub fn compiled(text: &str) -> Result<Compilation, String> {
+    compile_text(text, Limits::default()).map_err(|mistakes| mistakes.to_string())
+}
 
 /// A declaration that compiled.
 pub(crate) struct Machine {

@@ -118,11 +118,7 @@ async fn accept(listener: &tokio::net::TcpListener, gate: &Arc<Gate>, state: &Ar
     }
 }
 
-async fn respond(
-    request: Request<Incoming>,
-    gate: &Gate,
-    state: &Arc<State>,
-) -> Result<Response<Body>, Infallible> {
+async fn respond(request: Request<Incoming>, gate: &Gate, state: &Arc<State>) -> Result<Response<Body>, Infallible> {
     let answer = match gate.asked(request.method(), request.uri().path(), request.headers()) {
         Ok(asked) => answered(asked, request.into_body(), state).await,
         Err(refusal) => Err(refusal),
@@ -146,7 +142,8 @@ async fn answered(asked: Asked, body: Incoming, state: &Arc<State>) -> Result<Re
     let json = "application/json";
     Ok(match asked {
         Asked::Page => {
-            let page = frame(&state.subject.name, include_str!("../assets/live.css"), include_str!("../assets/live.js"));
+            let page =
+                frame(&state.subject.name, include_str!("../assets/live.css"), include_str!("../assets/live.js"));
             with_headers("text/html; charset=utf-8", text(page))
         }
         Asked::News => {

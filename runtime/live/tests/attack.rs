@@ -6,9 +6,8 @@ use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 use eigentol::Study;
-use eigentol_compiler::{compile_text, mechanics::Limits};
 use eigentol_interpreter::Interpreted;
-use eigentol_live::{Server, Subject};
+use eigentol_live::{Server, Subject, compiled};
 use serde_json::Value;
 
 const TEXT: &str = "mechanism Bob {
@@ -22,7 +21,7 @@ fn server() -> Server {
     let subject = Subject {
         name: "bob.mechanism".to_owned(),
         read: Box::new(|| Ok(TEXT.to_owned())),
-        compile: Box::new(|text| compile_text(text, Limits::default()).map_err(|mistakes| mistakes.to_string())),
+        compile: Box::new(compiled),
         study: Box::new(|compilation| Ok(Study::new(Interpreted::new(compilation)))),
         settings: toml::Table::new(),
     };
@@ -117,7 +116,8 @@ fn strangers_get_nothing() {
         let shown = answer.to_string();
         assert!(!shown.contains("NaN") && !shown.contains("<script>"), "{shown}");
         let refused = answer["refused"].is_string();
-        let no = shown.contains("no equilibrium") || shown.contains("must be positive") || shown.contains("not positive");
+        let no =
+            shown.contains("no equilibrium") || shown.contains("must be positive") || shown.contains("not positive");
         assert!(refused || no, "{value}: {shown}");
     }
 }

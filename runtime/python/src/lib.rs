@@ -7,6 +7,7 @@ mod errors;
 mod figures;
 mod hints;
 mod kernels;
+mod live;
 mod mechanism;
 mod motion;
 mod names;
@@ -35,6 +36,8 @@ mod module {
     use crate::clusters::Clusters;
     #[pymodule_export]
     use crate::errors::Mistake;
+    #[pymodule_export]
+    use crate::live::Live;
     #[pymodule_export]
     use crate::mechanism::Mechanism;
     #[pymodule_export]

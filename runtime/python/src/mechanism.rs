@@ -20,8 +20,10 @@ use crate::values::{List, refused};
 pub(crate) struct Mechanism {
     pub(crate) inner: Interpreted,
     text: String,
+    /// Where it was read from.
+    pub(crate) file: Option<PathBuf>,
     /// Units in which answers are stated, by name, and the unit of frequencies.
-    stated: (BTreeMap<String, String>, Option<String>),
+    pub(crate) stated: (BTreeMap<String, String>, Option<String>),
 }
 
 impl Mechanism {
@@ -35,10 +37,29 @@ impl Mechanism {
             .collect()
     }
 
+    /// A mechanism that states its answers in these units, and frequencies in this one.
+    pub(crate) fn with_units(
+        py: Python<'_>,
+        mut machine: Interpreted,
+        units: &BTreeMap<String, String>,
+        frequency: Option<&str>,
+    ) -> PyResult<Interpreted> {
+        for (name, unit) in units {
+            machine = machine.in_unit(name, unit).map_err(|error| match error {
+                UnitError::Mistakes(mistakes) => refused(py, unit, &mistakes),
+                other => new(py, Kind::UnknownName, other.to_string()),
+            })?;
+        }
+        match frequency {
+            None => Ok(machine),
+            Some(unit) => machine.frequencies_in(unit).map_err(|mistakes| refused(py, unit, &mistakes)),
+        }
+    }
+
     /// Reads the mechanism declared in a text.
     pub(crate) fn read(py: Python<'_>, text: String) -> PyResult<Self> {
         match py.detach(|| Interpreted::from_text(&text)) {
-            Ok(inner) => Ok(Self { inner, text, stated: Default::default() }),
+            Ok(inner) => Ok(Self { inner, text, file: None, stated: Default::default() }),
             Err(mistakes) => Err(errors::declaration(py, &mistakes, None)),
         }
     }
@@ -111,7 +132,7 @@ impl Mechanism {
             Ok((inner, std::fs::read_to_string(&path).unwrap_or_default()))
         };
         let (inner, text) = py.detach(read).map_err(|error| errors::file(py, error))?;
-        Ok(Self { inner, text, stated: Default::default() })
+        Ok(Self { inner, text, file: Some(path), stated: Default::default() })
     }
 
     /// The mechanism that a text declares: `mechanism Name { ... }`.
@@ -155,19 +176,10 @@ impl Mechanism {
         frequency: Option<String>,
     ) -> PyResult<Self> {
         let units = units.unwrap_or_default();
-        let mut inner = self.inner.clone();
-        for (name, unit) in &units {
-            inner = inner.in_unit(name, unit).map_err(|error| match error {
-                UnitError::Mistakes(mistakes) => refused(py, unit, &mistakes),
-                other => new(py, Kind::UnknownName, other.to_string()),
-            })?;
-        }
-        if let Some(unit) = &frequency {
-            inner = inner.frequencies_in(unit).map_err(|mistakes| refused(py, unit, &mistakes))?;
-        }
+        let inner = Self::with_units(py, self.inner.clone(), &units, frequency.as_deref())?;
         let (mut known, last) = self.stated.clone();
         known.extend(units);
-        Ok(Self { inner, text: self.text.clone(), stated: (known, frequency.or(last)) })
+        Ok(Self { inner, text: self.text.clone(), file: self.file.clone(), stated: (known, frequency.or(last)) })
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Restored)> {

@@ -132,6 +132,11 @@ impl Study {
         })
     }
 
+    /// The settings as given.
+    pub(crate) fn given(&self, py: Python<'_>) -> Py<PyDict> {
+        self.settings.clone_ref(py)
+    }
+
     fn with(mechanism: &Bound<'_, Mechanism>, settings: Bound<'_, PyDict>) -> PyResult<Self> {
         Ok(Self {
             inner: settings::study(mechanism.get().inner.clone(), &settings)?,
@@ -160,7 +165,7 @@ attributes! {
 impl Study {
     #[new]
     #[pyo3(signature = (mechanism, **settings))]
-    fn new(mechanism: &Bound<'_, Mechanism>, settings: Option<&Settings<'_>>) -> PyResult<Self> {
+    pub(crate) fn new(mechanism: &Bound<'_, Mechanism>, settings: Option<&Settings<'_>>) -> PyResult<Self> {
         let settings = match settings {
             Some(given) => settings::copied(given)?,
             None => PyDict::new(mechanism.py()),

@@ -11,9 +11,10 @@ use eigentol::{
 
 use eigentol_figures::Style;
 
-use crate::{Part, Report};
+use crate::Report;
 use crate::answer::answer;
 use crate::forced::Forced;
+use crate::part::Part;
 use crate::pictures::Pictures;
 
 /// Operations that judging a spread may take where an answer is to be there at once.
@@ -75,7 +76,10 @@ impl Content {
     ///
     /// # Errors
     /// Errors of the caller only; any other error is kept and reported in its place.
-    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(report: &Report<M>, part: Part) -> Result<Self, Error> {
+    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(
+        report: &Report<M>,
+        part: Part,
+    ) -> Result<Self, Error> {
         let study = &report.study;
         let setup = Setup::of(study)?;
         let equilibrium = answer(study.equilibrium())?;

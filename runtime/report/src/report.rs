@@ -6,9 +6,9 @@ use std::path::Path;
 use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol::{Input, Output, Study, Value};
 use eigentol_figures::Style;
-use serde::Serialize;
 
 use crate::content::Content;
+use crate::part::{Part, Section};
 use crate::pictures::Pictures;
 use crate::scene::View;
 use crate::{Error, page, sections};
@@ -48,28 +48,6 @@ pub struct Report<M> {
     pub(crate) orders: Vec<f64>,
     pub(crate) orbits: Vec<[Output; 2]>,
     pub(crate) style: Style,
-}
-
-/// Which sections of a report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Part {
-    /// Those of the operating point: of forced vibration only the sentences.
-    AtPoint,
-    /// Those along an input, and forced vibration.
-    Along,
-    /// All, with samples and branches.
-    All,
-}
-
-/// A section of a report, written.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Section {
-    /// Its anchor.
-    pub id: &'static str,
-    /// Its heading.
-    pub heading: &'static str,
-    /// Its content.
-    pub html: String,
 }
 
 /// The equilibrium, modes and forced vibrations of a study in motion: an HTML file, which loads nothing, with the view in 3-D

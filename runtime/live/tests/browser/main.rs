@@ -10,9 +10,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use eigentol::{InDeclaredUnit, Study};
-use eigentol_compiler::{compile_text, mechanics::Limits};
 use eigentol_interpreter::Interpreted;
-use eigentol_live::{Server, Subject};
+use eigentol_live::{Server, Subject, compiled, read_file};
 use serde_json::{Value, json};
 
 use crate::chrome::Chrome;
@@ -51,8 +50,8 @@ impl Page {
         let read = file.clone();
         let subject = Subject {
             name: format!("{name}.mechanism"),
-            read: Box::new(move || fs::read_to_string(&read).map_err(|error| error.to_string())),
-            compile: Box::new(|text| compile_text(text, Limits::default()).map_err(|mistakes| mistakes.to_string())),
+            read: Box::new(move || read_file(&read)),
+            compile: Box::new(compiled),
             study: Box::new(move |compilation| {
                 let study = Study::new(Interpreted::new(compilation));
                 let first = study.description().inputs.first().map(|info| info.name.to_string());
@@ -105,7 +104,8 @@ impl Page {
 
     /// The frequencies beside the controls.
     fn frequencies(&mut self) -> Vec<f64> {
-        let all = self.chrome.evaluate("[...document.querySelectorAll('aside select option')].map((own) => own.textContent)");
+        let all =
+            self.chrome.evaluate("[...document.querySelectorAll('aside select option')].map((own) => own.textContent)");
         let number = |text: &Value| {
             let text = text.as_str().unwrap();
             text.split_once(": ").unwrap().1.split(' ').next().unwrap().parse().unwrap()
@@ -148,7 +148,9 @@ fn a_move_an_edit_and_a_mistake_are_answered() {
     assert!(close(&page.frequencies(), &hertz(&study(&text, 1500.0))));
     let slider = page.chrome.number("Number(document.querySelector('[aria-label=\"speed, slider\"]').value)");
     assert!((slider - 1500.0).abs() < 20.0, "{slider}");
-    page.until("document.documentElement.dataset.followed >= 1 && !document.querySelector('#along').classList.contains('old')");
+    page.until(
+        "document.documentElement.dataset.followed >= 1 && !document.querySelector('#along').classList.contains('old')",
+    );
     assert!(page.chrome.number("document.querySelectorAll('#along figure svg').length") >= 1.0);
 
     // A slider.
@@ -191,7 +193,9 @@ fn a_move_an_edit_and_a_mistake_are_answered() {
     let heavier = text.replace("radius = 250 mm", "radius = 300 mm");
     assert_ne!(heavier, text);
     fs::write(&page.file, &heavier).unwrap();
-    page.until("document.querySelector('.mistakes').hidden && !document.querySelector('#modes').classList.contains('old')");
+    page.until(
+        "document.querySelector('.mistakes').hidden && !document.querySelector('#modes').classList.contains('old')",
+    );
     assert!(close(&page.frequencies(), &hertz(&study(&heavier, 1500.0))));
 
     // The address holds what was set.
@@ -216,7 +220,9 @@ fn a_move_an_edit_and_a_mistake_are_answered() {
     fs::write(&page.file, &heavier[..heavier.len() / 2]).unwrap();
     page.until("!document.querySelector('.mistakes').hidden");
     fs::write(&page.file, &heavier).unwrap();
-    page.until("document.querySelector('.mistakes').hidden && !document.querySelector('#modes').classList.contains('old')");
+    page.until(
+        "document.querySelector('.mistakes').hidden && !document.querySelector('#modes').classList.contains('old')",
+    );
     assert_eq!(page.chrome.complaints, Vec::<String>::new());
     let own = page.server.address();
     assert!(page.chrome.requests.iter().all(|request| request.starts_with(&own)), "{:?}", page.chrome.requests);
@@ -283,7 +289,9 @@ fn moves(page: &mut Page, slider: &str, count: u32) -> (f64, [f64; 2]) {
 fn a_hundred_moves_leave_nothing_behind() {
     let Some(mut page) = Page::open("hundred", &example("jeffcott_rotor"), 3000.0) else { return };
     let (slowest, [before, after]) = moves(&mut page, "diameter", 100);
-    println!("95 % of the moves of the rotor are answered in {slowest:.0} ms; {before:.0} bytes before, {after:.0} after");
+    println!(
+        "95 % of the moves of the rotor are answered in {slowest:.0} ms; {before:.0} bytes before, {after:.0} after"
+    );
     assert!(after < before + 2e6, "{before} {after}");
 }
 
@@ -292,6 +300,8 @@ fn a_hundred_moves_leave_nothing_behind() {
 fn a_thousand_moves_leave_nothing_behind() {
     let Some(mut page) = Page::open("thousand", &example("jeffcott_rotor"), 3000.0) else { return };
     let (slowest, [before, after]) = moves(&mut page, "diameter", 1000);
-    println!("95 % of 1000 moves of the rotor are answered in {slowest:.0} ms; {before:.0} bytes before, {after:.0} after");
+    println!(
+        "95 % of 1000 moves of the rotor are answered in {slowest:.0} ms; {before:.0} bytes before, {after:.0} after"
+    );
     assert!(after < before + 2e6, "{before} {after}");
 }

@@ -14,9 +14,10 @@ pub(crate) use modes::player;
 mod verdicts;
 mod vibration;
 
+use crate::Error;
 use crate::content::Content;
-use crate::{Error, Part, report};
 use crate::html::Html;
+use crate::part::{self, Part};
 use crate::words::sentence;
 
 /// The section that is the answer.
@@ -56,12 +57,12 @@ pub(crate) fn of(content: &Content) -> Vec<Section> {
 ///
 /// # Errors
 /// [`Error::Data`].
-pub(crate) fn each(content: &Content, part: Part) -> Result<Vec<report::Section>, Error> {
+pub(crate) fn each(content: &Content, part: Part) -> Result<Vec<part::Section>, Error> {
     let wanted = of(content).into_iter().filter(|own| part == Part::All || own.part == part);
     let written = wanted.map(|Section { id, heading, write, .. }| {
         let mut html = Html::default();
         write(&mut html, content)?;
-        Ok(report::Section { id, heading, html: html.finish() })
+        Ok(part::Section { id, heading, html: html.finish() })
     });
     written.collect()
 }

@@ -5,10 +5,11 @@ use eigentol_figures::{deflections, mode_shapes, participation};
 use eigentol_tables::Answer as _;
 
 use super::refused;
-use crate::{Error, Part};
+use crate::Error;
 use crate::charts::chart;
 use crate::content::Content;
 use crate::html::Html;
+use crate::part::Part;
 use crate::pictures::{AMPLITUDE, Pictures};
 use crate::scene::View;
 use crate::tables::table;
