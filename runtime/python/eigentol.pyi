@@ -32,6 +32,7 @@ Nominal: TypeAlias = dict[str, float]
 Units: TypeAlias = dict[str, str]
 Along: TypeAlias = tuple[str, ArrayLike] | tuple[str, ArrayLike, str]
 FrequencyUnit: TypeAlias = Literal["Hz", "rad/s"]
+Responsive: TypeAlias = Mapping[str, str]
 
 @type_check_only
 class UrdfOptions(TypedDict, total=False):
@@ -544,6 +545,12 @@ class Response:
         """The response at a design, or at each of several, SI."""
     def gradient(self, x: ArrayLike) -> Real:
         """Total derivatives by the variables, SI: shape (variables,) for one design, (N, variables) for several."""
+    def jax(self) -> Any:
+        """For JAX: a function of arrays of shape (..., variables), SI, with the exact derivative in both directions (`grad`, `jvp`, `vmap`,
+        `jit`). Without `jax_enable_x64` JAX rounds to single precision.
+        """
+    def torch(self) -> Any:
+        """For PyTorch: a function of tensors of shape (..., variables), SI, with the exact first derivative."""
 
 @final
 class Answer(_Result):
@@ -1243,6 +1250,11 @@ class Study:
         loses its stiffness; "resonance 1 speed=0..6000rpm order 2", where a frequency is 2 (1) times the input; "flutter 1
         speed=0..6000rpm", where a mode begins or ceases to grow. `variables` names the design variables that vary, in
         order; all unless given.
+        """
+    def openmdao(self, responses: Responsive, variables: Sequence[str] | None = None) -> Any:
+        """For OpenMDAO: an `ExplicitComponent` with exact partial derivatives, an input for each of the `variables` and an output for
+        each of the `responses`, texts as of `response` by name: `study.openmdao({"first": "frequency 1"})`. All is SI; of
+        `blade[1].mass` the input is `blade_1_mass`. A design without an answer raises `AnalysisError`, from which drivers go back.
         """
     @property
     def settings(self) -> Settings:

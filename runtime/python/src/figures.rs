@@ -1,4 +1,5 @@
-//! Results on matplotlib, and as pandas and xarray know them. The module in Python draws; it is part of this one.
+//! Results on matplotlib, and as pandas and xarray know them; responses as tools of others know functions. The modules in
+//! Python that do it are part of this one.
 
 use std::ffi::CStr;
 
@@ -11,12 +12,20 @@ use pyo3::types::PyModule;
 
 use crate::hints::{Anything, Table};
 
-const SOURCE: &CStr = c_str!(include_str!("../figures.py"));
+const FIGURES: &CStr = c_str!(include_str!("../figures.py"));
+const TOOLS: &CStr = c_str!(include_str!("../tools.py"));
 
-/// A function of the module.
+/// A function of the module for figures.
 fn function<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
-    let read = || PyModule::from_code(py, SOURCE, c"eigentol/figures.py", c"eigentol.figures").map(Bound::unbind);
+    let read = || PyModule::from_code(py, FIGURES, c"eigentol/figures.py", c"eigentol.figures").map(Bound::unbind);
+    MODULE.get_or_try_init(py, read)?.bind(py).getattr(name)
+}
+
+/// A function of the module for tools of others.
+pub(crate) fn tool<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
+    let read = || PyModule::from_code(py, TOOLS, c"eigentol/tools.py", c"eigentol.tools").map(Bound::unbind);
     MODULE.get_or_try_init(py, read)?.bind(py).getattr(name)
 }
 

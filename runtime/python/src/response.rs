@@ -7,11 +7,14 @@ use eigentol::response::{self, Responses, Workspace};
 use eigentol::{Equilibrium, Error, Modes};
 use eigentol_interpreter::Interpreted;
 use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLike2, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::IntoPyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{Array1, or_nan, rows, vector};
 use crate::errors::raise;
+use crate::figures::tool;
+use crate::hints::Anything;
 use crate::results::attributes;
 use crate::study::Study;
 use crate::values::{List, meaningless, numbers, text, word};
@@ -109,6 +112,32 @@ impl Study {
     }
 }
 
+#[pymethods]
+impl Study {
+    /// For OpenMDAO: an `ExplicitComponent` with exact partial derivatives, an input for each of the `variables` and an output for
+    /// each of the `responses`, texts as of `response` by name: `study.openmdao({"first": "frequency 1"})`. All is SI; of
+    /// `blade[1].mass` the input is `blade_1_mass`. A design without an answer raises `AnalysisError`, from which drivers go back.
+    #[pyo3(signature = (responses, variables=None))]
+    fn openmdao<'py>(
+        slf: &Bound<'py, Self>,
+        responses: Responsive<'py>,
+        variables: Option<Vec<String>>,
+    ) -> PyResult<Anything<'py>> {
+        let py = slf.py();
+        let all = PyDict::new(py);
+        for (name, of) in responses {
+            all.set_item(name, Self::response(slf, py, &of, variables.clone())?)?;
+        }
+        if all.is_empty() {
+            return Err(PyValueError::new_err("`responses`: at least one is needed"));
+        }
+        tool(py, "openmdao")?.call1((all,))
+    }
+}
+
+/// Texts by name. In Python `Mapping[str, str]`.
+type Responsive<'py> = Bound<'py, PyDict>;
+
 impl Response {
     /// Evaluates each design; `x` holds the variables.
     fn evaluate<R: Send>(
@@ -198,6 +227,17 @@ impl Response {
             return Ok(all.reshape([self.variables.len()])?.to_dyn().clone());
         }
         Ok(all.to_dyn().clone())
+    }
+
+    /// For JAX: a function of arrays of shape (..., variables), SI, with the exact derivative in both directions (`grad`, `jvp`, `vmap`,
+    /// `jit`). Without `jax_enable_x64` JAX rounds to single precision.
+    fn jax<'py>(slf: &Bound<'py, Self>) -> PyResult<Anything<'py>> {
+        tool(slf.py(), "jax")?.call1((slf,))
+    }
+
+    /// For PyTorch: a function of tensors of shape (..., variables), SI, with the exact first derivative.
+    fn torch<'py>(slf: &Bound<'py, Self>) -> PyResult<Anything<'py>> {
+        tool(slf.py(), "torch")?.call1((slf,))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, ())> {

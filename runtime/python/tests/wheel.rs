@@ -113,6 +113,7 @@ fn the_module_passes_its_tests() {
         "test_equilibria.py",
         "test_forced.py",
         "test_kernels.py",
+        "test_live.py",
         "test_mistakes.py",
         "test_motion.py",
         "test_parts.py",
@@ -124,6 +125,14 @@ fn the_module_passes_its_tests() {
         "test_tables.py",
     ];
     run("python", &packages, &files);
+}
+
+/// PyTorch, which downloads gigabytes, is tested where the environment has it.
+#[test]
+#[ignore = "installs CasADi, FMPy, JAX and OpenMDAO, and builds a shared library"]
+fn the_module_works_inside_other_tools() {
+    let packages = ["maturin>=1.9.4,<2", "numpy", "pytest", "scipy", "casadi", "fmpy", "jax", "openmdao"];
+    run("python-tools", &packages, &["test_shared_library.py", "test_tools.py"]);
 }
 
 /// Downloads hundreds of megabytes.

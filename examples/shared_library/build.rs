@@ -1,0 +1,5 @@
+//! Compiles the declaration.
+
+fn main() {
+    eigentol_build::compile("rotor.mechanism");
+}
