@@ -195,8 +195,8 @@ unsafe extern "C" fn fmi3SetFloat64(
     value_count: usize,
 ) -> Status {
     let Some(own) = (unsafe { instance(pointer) }) else { return ERROR };
-    let pairs = unsafe { all(references, count).iter().zip(all(values, value_count)) };
-    let outcome = pairs.map(|(reference, value)| own.set(*reference, *value)).collect();
+    let mut pairs = unsafe { all(references, count).iter().zip(all(values, value_count)) };
+    let outcome = pairs.try_for_each(|(reference, value)| own.set(*reference, *value));
     own.told(outcome)
 }
 
