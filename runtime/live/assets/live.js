@@ -211,8 +211,7 @@ function take({ sections }, time) {
     const before = own.body.querySelector(".mechanism")?.player;
     own.body.innerHTML = html;
     Object.assign(own, { drawn: false, time });
-    if (own.element.open !== false) draw(own);
-    if (before && own.drawn) own.body.querySelector(".mechanism")?.player?.resume(before);
+    if (own.element.open !== false) draw(own, before);
   }
   age();
   scrollTo(scrollX, scroll);
@@ -227,10 +226,10 @@ function age() {
   }
 }
 
-function draw(own) {
+function draw(own, before) {
   if (own.drawn) return;
   own.drawn = true;
-  enliven(own.body);
+  enliven(own.body, before);
 }
 
 function newSection(id, heading) {

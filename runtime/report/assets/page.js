@@ -1,12 +1,12 @@
-// Brings a page to life: each piece of data is drawn where it stands.
+// Brings a page to life: each piece of data is drawn where it stands, the mechanism as another player shows it, if one is given.
 
-function enliven(root) {
+function enliven(root, before) {
   for (const data of root.querySelectorAll("script[data-kind]")) {
     const content = JSON.parse(data.textContent);
     const box = data.parentElement;
     if (data.dataset.kind === "table") addCopyButton(box, content);
     if (data.dataset.kind === "figure") drawFigure(content, box.querySelector(".drawing"));
-    if (data.dataset.kind === "scene") box.player = showMechanism(content, box.querySelector(".drawing"));
+    if (data.dataset.kind === "scene") box.player = showMechanism(content, box.querySelector(".drawing"), before);
   }
 }
 enliven(document);

@@ -1,12 +1,16 @@
 // The mechanism with its modes and forced vibrations: a small picture of each to choose from, and a large one that moves and can be turned.
 
 const SECONDS = 2;
+// Milliseconds for small pictures at a time.
+const PAINTING = 8;
+const whenIdle = (act) => (window.requestIdleCallback ? requestIdleCallback(act, { timeout: 200 }) : setTimeout(act, 20));
 const VIEWS = [["oblique", -0.9, 0.42], ["from the front", -Math.PI / 2, 0], ["from the side", 0, 0], ["from above", -Math.PI / 2, Math.PI / 2]];
 
-function showMechanism({ scene, up, motions }, parent) {
+// As another player shows it, if one is given.
+function showMechanism({ scene, up, motions }, parent, before) {
   const model = new Model(scene, up);
   const states = [{ title: "Equilibrium", about: "", frames: [model.rest] }, ...motions.map(stateOf)];
-  return new Player(model, states, parent);
+  return new Player(model, states, parent, before);
 }
 
 function stateOf({ title, about, frames }) {
@@ -15,7 +19,7 @@ function stateOf({ title, about, frames }) {
 }
 
 class Player {
-  constructor(model, states, parent) {
+  constructor(model, states, parent, before) {
     Object.assign(this, { model, states, chosen: 0, phase: 0, playing: false });
     this.large = htmlElement("canvas", {
       class: "view3d",
@@ -28,7 +32,8 @@ class Player {
     this.controls(parent);
     this.gallery(parent);
     this.listen();
-    this.choose(0);
+    if (before) this.resume(before);
+    else this.choose(0);
   }
 
   controls(parent) {
@@ -130,12 +135,22 @@ class Player {
     this.painter.paint(this.poses(), { ghost: this.chosen > 0, names: this.named.checked });
   }
 
+  // A few pictures at a time, where nothing else is to do: what is large moves on meanwhile, and a later call begins anew.
   paintGallery() {
-    this.states.forEach(({ frames }, number) => {
-      const { painter } = this.small[number];
-      Object.assign(painter, { azimuth: this.painter.azimuth, elevation: this.painter.elevation, up: this.painter.up });
-      painter.paint(frames[0], { ghost: number > 0, triad: false });
+    const states = [...this.states.keys()];
+    const pass = (this.pass = () => {
+      if (this.pass !== pass || !this.large.isConnected) return;
+      const end = performance.now() + PAINTING;
+      while (states.length > 0 && performance.now() < end) this.paintSmall(states.shift());
+      if (states.length > 0) whenIdle(pass);
     });
+    whenIdle(pass);
+  }
+
+  paintSmall(number) {
+    const { painter } = this.small[number];
+    Object.assign(painter, { azimuth: this.painter.azimuth, elevation: this.painter.elevation, up: this.painter.up });
+    painter.paint(this.states[number].frames[0], { ghost: number > 0, triad: false });
   }
 
   look(azimuth, elevation) {

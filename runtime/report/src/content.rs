@@ -15,7 +15,7 @@ use crate::Report;
 use crate::answer::answer;
 use crate::forced::Forced;
 use crate::part::Part;
-use crate::pictures::Pictures;
+use crate::pictures::{FEW_POSES, POSES, Pictures};
 
 /// Operations that judging a spread may take where an answer is to be there at once.
 const QUICK: f64 = 0.0;
@@ -95,7 +95,10 @@ impl Content {
         let at_point = part != Part::Along;
         let pictures = match (&modes, &equilibrium) {
             _ if !at_point => None,
-            (Ok(_), _) => Some(answer(Pictures::of(study))?),
+            (Ok(_), _) => {
+                let poses = if part == Part::AtPoint { FEW_POSES } else { POSES };
+                Some(answer(Pictures::of(study, poses))?)
+            }
             (Err(_), Ok(_)) => Some(answer(study.picture())?.map(Pictures::at_rest)),
             (Err(error), Err(_)) => Some(Err(error.clone())),
         };

@@ -7,8 +7,10 @@ use eigentol::{Error, Excitation, Study};
 
 use crate::forced::harmonics;
 
-/// Maximum number of poses over all modes and vibrations; they make up most of the file.
-const POSES: usize = 14_000;
+/// Maximum number of poses over all modes and vibrations; they make up most of a file.
+pub(crate) const POSES: usize = 14_000;
+/// The same where a page is to be there at once.
+pub(crate) const FEW_POSES: usize = 4_000;
 /// Number of poses per period. The view interpolates linearly between them.
 const MOST_FRAMES: usize = 24;
 const LEAST_FRAMES: usize = 8;
@@ -16,9 +18,9 @@ const LEAST_FRAMES: usize = 8;
 /// Largest displacement in a mode or a vibration, as a fraction of the size of the mechanism.
 pub(crate) const AMPLITUDE: f64 = 0.12;
 
-/// The number of animated motions, and the number of frames in each, for so many poses per frame.
-fn frames(poses: usize, motions: usize) -> (usize, usize) {
-    let most = POSES / poses.max(1);
+/// The number of animated motions, and the number of frames in each, of so many poses in all and so many per frame.
+fn frames(all: usize, poses: usize, motions: usize) -> (usize, usize) {
+    let most = all / poses.max(1);
     let frames = (most / motions.max(1)).clamp(LEAST_FRAMES, MOST_FRAMES);
     (motions.min(most / frames), frames)
 }
@@ -33,11 +35,11 @@ pub(crate) struct Pictures {
 }
 
 impl Pictures {
-    pub(crate) fn of<M: PictureKernels>(study: &Study<M>) -> Result<Self, Error> {
+    pub(crate) fn of<M: PictureKernels>(study: &Study<M>, poses: usize) -> Result<Self, Error> {
         let scene = study.picture()?;
         let harmonics = harmonics(study.description());
         let motions = harmonics.len() + study.modes()?.modes.len();
-        let (shown, phases) = frames(scene.poses(), motions);
+        let (shown, phases) = frames(poses, scene.poses(), motions);
         let vibrations = harmonics
             .into_iter()
             .take(shown)
@@ -59,10 +61,10 @@ mod tests {
 
     #[test]
     fn large_mechanisms_get_fewer_poses_and_then_fewer_modes() {
-        assert_eq!(frames(3, 2), (2, MOST_FRAMES));
-        assert_eq!(frames(0, 0), (0, MOST_FRAMES));
+        assert_eq!(frames(POSES, 3, 2), (2, MOST_FRAMES));
+        assert_eq!(frames(POSES, 0, 0), (0, MOST_FRAMES));
         for (bodies, modes) in [(30, 30), (60, 120), (POSES, 5), (2 * POSES, 5)] {
-            let (animated, each) = frames(bodies, modes);
+            let (animated, each) = frames(POSES, bodies, modes);
             assert!(animated <= modes && (LEAST_FRAMES..=MOST_FRAMES).contains(&each));
             assert!(bodies * animated * each <= POSES, "{bodies} {modes}");
         }

@@ -9,7 +9,7 @@ use eigentol_figures::Style;
 
 use crate::content::Content;
 use crate::part::{Part, Section};
-use crate::pictures::Pictures;
+use crate::pictures::{POSES, Pictures};
 use crate::scene::View;
 use crate::{Error, page, sections};
 
@@ -56,7 +56,7 @@ pub struct Report<M> {
 /// # Errors
 /// [`Error::Study`] if there is no equilibrium or there are no modes.
 pub fn motion<M: PictureKernels>(study: &Study<M>, style: &Style) -> Result<String, Error> {
-    let (pictures, modes) = (Pictures::of(study)?, study.modes()?);
+    let (pictures, modes) = (Pictures::of(study, POSES)?, study.modes()?);
     let title = style.titled(study.description().name.to_string());
     page::motion(&title, &View::new(&pictures, study.description(), Some(&modes), style))
 }
