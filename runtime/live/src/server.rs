@@ -47,7 +47,7 @@ type Body = Either<Full<Bytes>, http_body_util::channel::Channel<Bytes>>;
 pub struct Server {
     gate: Arc<Gate>,
     ended: Arc<AtomicBool>,
-    threads: Vec<JoinHandle<()>>,
+    answering: Option<JoinHandle<()>>,
 }
 
 impl Server {
@@ -68,11 +68,9 @@ impl Server {
             let _inside = runtime.enter();
             tokio::net::TcpListener::from_std(listener).map_err(refused)?
         };
-        let follow = {
-            let (state, ended) = (Arc::clone(&state), Arc::clone(&ended));
-            std::thread::spawn(move || state.follow(|| ended.load(Ordering::Relaxed)))
-        };
-        let answer = {
+        let (following, until) = (Arc::clone(&state), Arc::clone(&ended));
+        std::thread::spawn(move || following.follow(|| until.load(Ordering::Relaxed)));
+        let answering = {
             let (gate, ended) = (Arc::clone(&gate), Arc::clone(&ended));
             std::thread::spawn(move || {
                 runtime.block_on(accept(&listener, &gate, &state, &ended));
@@ -80,7 +78,7 @@ impl Server {
                 runtime.shutdown_background();
             })
         };
-        Ok(Self { gate, ended, threads: vec![follow, answer] })
+        Ok(Self { gate, ended, answering: Some(answering) })
     }
 
     /// The address of the page, with its token.
@@ -93,7 +91,8 @@ impl Server {
 impl Drop for Server {
     fn drop(&mut self) {
         self.ended.store(true, Ordering::Relaxed);
-        for thread in self.threads.drain(..) {
+        // The port is free after this; what reads the declaration ends when it has read it.
+        if let Some(thread) = self.answering.take() {
             // What a thread died of is on standard error.
             let _ = thread.join();
         }

@@ -1,6 +1,7 @@
 //! The page that answers while one edits.
 
 use std::fs;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use clap::Args;
@@ -53,11 +54,11 @@ impl Serve {
         };
         let server = Server::start(subject, self.port)?;
         print(&format!("{shown}: {}\n", server.address()))?;
-        while !stop.load(std::sync::atomic::Ordering::Relaxed) {
+        while !stop.load(Ordering::Relaxed) {
             std::thread::sleep(LOOK);
         }
         interrupt::answer();
         drop(server);
-        Ok(Verdict::Yes)
+        Ok(Verdict::Stopped("the page is no longer served".to_owned()))
     }
 }

@@ -243,6 +243,7 @@ fn every_subcommand_ends_soon() {
         ask("sample", &format!("{pendulum} --samples 2000000000")),
         ask("report", &format!("{pendulum} --set omega=5rad/s --samples 2000000000 -o {report}")),
         ask("allocate", &format!("--study {study}")),
+        ask("serve", &long),
         ask(
             "probability",
             &format!(

@@ -19,6 +19,7 @@ mod program;
 mod readme;
 mod reports;
 mod rust_examples;
+mod serve;
 mod starter;
 mod strangers;
 mod streams;
