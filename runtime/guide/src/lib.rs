@@ -13,6 +13,8 @@
 //! | [Rotors](rotors) | whirl, Campbell diagrams, critical speeds, instability |
 //! | [Forced vibration](vibration) | unbalance, shaking and harmonic loads: amplitudes, bands, the balance grade |
 //! | [Blades, booms and arms](beams) | flexible beams: how many coordinates, how exact, and when not to use them |
+//! | [A page that answers](live) | sliders for every value, saved files followed, in a browser or a notebook |
+//! | [Inside other tools](tools) | OpenMDAO, JAX, PyTorch, CasADi, FMI: exact derivatives where you optimise or simulate |
 //! | [Theory](theory) | the equations, with the numbers of the paper |
 //! | [Embedding](embedding) | Python, C, build scripts, no standard library |
 //! | [Performance](performance) | measurements, and where the numbers come from |
@@ -53,6 +55,12 @@ pub mod vibration {}
 
 #[doc = include_str!("beams.md")]
 pub mod beams {}
+
+#[doc = include_str!("live.md")]
+pub mod live {}
+
+#[doc = include_str!("tools.md")]
+pub mod tools {}
 
 #[doc = include_str!("theory.md")]
 pub mod theory {}

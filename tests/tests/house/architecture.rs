@@ -81,7 +81,7 @@ const CRATES: [(&str, &[&str], usize); 22] = [
     ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 61),
     ("runtime/tables", &["eigentol-contract", "eigentol-results"], 20),
     ("runtime/figures", &["eigentol"], 114),
-    ("runtime/report", &["eigentol", "eigentol-figures", "eigentol-tables"], 64),
+    ("runtime/report", &["eigentol", "eigentol-figures", "eigentol-tables"], 65),
     (
         "runtime/live",
         &["eigentol", "eigentol-compiler", "eigentol-figures", "eigentol-interpreter", "eigentol-report"],
@@ -100,7 +100,7 @@ const CRATES: [(&str, &[&str], usize); 22] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        121,
+        122,
     ),
     (
         "runtime/python",
@@ -115,7 +115,7 @@ const CRATES: [(&str, &[&str], usize); 22] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        111,
+        112,
     ),
 ];
 
