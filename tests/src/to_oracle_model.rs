@@ -392,6 +392,9 @@ impl Fixing<'_> {
             declared::ForceLaw::CoordinateDamper { coordinate, damping } => {
                 ForceLaw::Damper { coordinate: self.coordinate(*coordinate), damping: v(damping) }
             }
+            declared::ForceLaw::CoordinateInerter { coordinate, inertance } => {
+                ForceLaw::Inerter { coordinate: self.coordinate(*coordinate), inertance: v(inertance) }
+            }
             declared::ForceLaw::SpringDamper { from, to, stiffness, damping, length } => ForceLaw::SpringDamper {
                 from: point(from),
                 to: point(to),

@@ -186,6 +186,24 @@ fn files_hold_what_was_set() {
     assert!(report.starts_with("<!doctype html>") && report.contains("1.5"));
 }
 
+/// Shares and derivatives beside the controls are those of the library.
+#[test]
+fn controls_have_their_own_derivatives_and_shares() {
+    let server = server();
+    let (host, token) = parts(&server);
+    let question = "{\"ask\":\"at_point\",\"given\":{\"tolerance\":{\"m\":\"5%\"}}}";
+    let slopes = asked(&host, &token, question)["answer"]["sections"]["slopes"].clone();
+    // f = sqrt(1.5 g / l) / 2 pi, whatever the mass.
+    let omega = (1.5_f64 * 9.81).sqrt();
+    let (by, shares) = (&slopes["by"], &slopes["shares"]);
+    let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{slopes}"));
+    let scale = number(&slopes["modes"][0]["frequency"]) / omega;
+    assert!((number(&by["l"][0]) + 0.5 * scale * omega).abs() < 1e-9);
+    assert!(number(&by["m"][0]).abs() < 1e-9);
+    assert_eq!((number(&shares["l"][0]), number(&shares["m"][0])), (1.0, 0.0));
+    assert!((number(&slopes["modes"][0]["band"]) - 0.005 * scale * omega).abs() < 1e-9);
+}
+
 /// A server that is dropped has ended: its port is free.
 #[test]
 fn a_dropped_server_is_gone() {

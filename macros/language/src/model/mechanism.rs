@@ -102,9 +102,9 @@ impl Mechanism {
     pub fn forget_forces_of(&mut self, cut: &[JointId]) {
         let joint_of = |id: CoordinateId| self.coordinates[id.index()].joint;
         self.forces.retain(|force| match force.law {
-            ForceLaw::CoordinateSpring { coordinate, .. } | ForceLaw::CoordinateDamper { coordinate, .. } => {
-                !force.of_every || !cut.contains(&joint_of(coordinate))
-            }
+            ForceLaw::CoordinateSpring { coordinate, .. }
+            | ForceLaw::CoordinateDamper { coordinate, .. }
+            | ForceLaw::CoordinateInerter { coordinate, .. } => !force.of_every || !cut.contains(&joint_of(coordinate)),
             _ => true,
         });
     }
@@ -474,6 +474,13 @@ pub enum ForceLaw {
         coordinate: CoordinateId,
         /// N m s/rad or N s/m.
         damping: Expr,
+    },
+    /// `-inertance qddot` on a coordinate.
+    CoordinateInerter {
+        /// The coordinate.
+        coordinate: CoordinateId,
+        /// kg m^2 or kg.
+        inertance: Expr,
     },
     /// Tension `stiffness (distance - length) + damping d(distance)/dt` between two points.
     SpringDamper {

@@ -65,6 +65,11 @@ impl Printer<'_> {
                 let (name, damping) = (self.name(*coordinate), self.value(*damping, unit));
                 format!("damper(on: {name}, damping: {damping})")
             }
+            ForceLaw::Inerter { coordinate, inertance } => {
+                let unit = self.motion(*coordinate).inertance_unit();
+                let (name, inertance) = (self.name(*coordinate), self.value(*inertance, unit));
+                format!("inerter(on: {name}, inertance: {inertance})")
+            }
             ForceLaw::SpringDamper { from, to, stiffness, damping, length } => format!(
                 "spring_damper(from: {}, to: {}, stiffness: {}, damping: {}, length: {})",
                 self.end(*from),

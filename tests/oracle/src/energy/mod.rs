@@ -100,10 +100,17 @@ fn lagrangian<D: Scalar>(flow: &Flow<D>) -> D {
     kinetic(flow) - potential(flow)
 }
 
-/// `1/2 tr(Xdot P Xdot^T)`, one row of `Xdot` at a time; its last row is zero.
+/// `1/2 tr(Xdot P Xdot^T)`, one row of `Xdot` at a time; its last row is zero. And `1/2 inertance qdot^2` of inerters.
 fn kinetic<D: Scalar>(flow: &Flow<D>) -> D {
     let mut total = D::zero();
-    for (body, pose) in flow.model.bodies.iter().zip(&flow.moving().bodies) {
+    let poses = flow.moving();
+    for force in &flow.model.forces {
+        if let &ForceLaw::Inerter { coordinate, inertance } = &force.law {
+            let speed = poses.coordinate(coordinate).eps;
+            total += get(inertance, &flow.design) * speed * speed * 0.5;
+        }
+    }
+    for (body, pose) in flow.model.bodies.iter().zip(&poses.bodies) {
         let p = pseudo_inertia(&body.parts, &flow.design);
         for row in &pose[..3] {
             for i in 0..4 {

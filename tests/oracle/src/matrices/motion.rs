@@ -2,13 +2,13 @@
 
 use num_dual::Dual;
 
-use super::bodies::inertia;
+use super::bodies::{inertia, value};
 use super::forces::Moving;
 use super::kinematics::{Columns, Configuration, VelocityTransformation, of_body, rows_of, times, transposed_times};
 use super::scalar::{along, rates, still};
 use super::space::{Matrix, Vector};
 use super::{Oracle, Scalar};
-use crate::model::Coordinate;
+use crate::model::{Coordinate, ForceLaw};
 
 /// A state of motion: free accelerations, speeds and positions, inputs, design variables.
 #[derive(Clone, Debug)]
@@ -111,7 +111,10 @@ impl Oracle<'_> {
         let bodies = self.bodies(state);
         // M* = B_R^T (M B_R), one column at a time; it is symmetric
         let columns = bodies.b_free.iter().map(|column| bodies.times_mass(column));
-        let mass = columns.map(|column| transposed_times(&bodies.b_free, &column)).collect();
+        let mut mass: Vec<Vec<D>> = columns.map(|column| transposed_times(&bodies.b_free, &column)).collect();
+        for (k, inertance) in self.inertances(&state.design).into_iter().enumerate() {
+            mass[k][k] += inertance;
+        }
         let inertial = sum(&bodies.times_mass(&bodies.bias), &bodies.gyroscopic);
         Motion {
             mass,
@@ -129,8 +132,24 @@ impl Oracle<'_> {
         let unbalanced: Vec<D> =
             inertial.iter().zip(&bodies.applied).map(|(&inertial, &applied)| inertial - applied).collect();
         let projected = transposed_times(&bodies.b_free, &unbalanced);
-        let both = projected.iter().zip(&bodies.generalized);
-        both.map(|(&unbalanced, &force)| unbalanced - force).collect()
+        let inertances = self.inertances(&state.design);
+        let coupled =
+            inertances.iter().zip(&state.acceleration).map(|(&inertance, &acceleration)| inertance * acceleration);
+        let both = projected.iter().zip(&bodies.generalized).zip(coupled);
+        both.map(|((&unbalanced, &force), coupled)| unbalanced - force + coupled).collect()
+    }
+
+    /// The sum of the inertances on each free coordinate.
+    fn inertances<D: Scalar>(&self, design: &[D]) -> Vec<D> {
+        let mut sums = vec![D::zero(); self.free.len()];
+        for force in &self.model.forces {
+            if let ForceLaw::Inerter { coordinate, inertance } = force.law
+                && let Some(k) = self.free.iter().position(|&other| other == coordinate)
+            {
+                sums[k] += value(inertance, design);
+            }
+        }
+        sums
     }
 
     /// `Bdot_D u + Bdot_R qdot_R`: accelerations where the coordinates themselves have none.

@@ -108,6 +108,13 @@ pub enum ForceLaw {
         /// Damping.
         damping: Value,
     },
+    /// `-inertance qddot` on a coordinate.
+    Inerter {
+        /// Coordinate.
+        coordinate: Coordinate,
+        /// Inertance.
+        inertance: Value,
+    },
     /// Tension `stiffness (distance - length) + damping d(distance)/dt` between two points.
     SpringDamper {
         /// Index of one point.

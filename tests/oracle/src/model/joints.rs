@@ -73,6 +73,14 @@ impl Motion {
         }
     }
 
+    /// Unit of an inertance on the coordinate.
+    pub fn inertance_unit(self) -> Unit {
+        match self {
+            Self::Slide => Unit::Kilogram,
+            Self::Turn | Self::Screw { .. } => Unit::KilogramSquareMetre,
+        }
+    }
+
     /// Unit of a damping on the coordinate.
     pub fn damping_unit(self) -> Unit {
         match self {

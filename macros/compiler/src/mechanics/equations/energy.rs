@@ -8,7 +8,7 @@ use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, MassDistribution};
 use crate::model::mechanism::ForceLaw;
 
-/// `integral |v_O + omega x rho|^2 dm / 2` over all bodies.
+/// `integral |v_O + omega x rho|^2 dm / 2` over all bodies, and `inertance qdot^2 / 2` of inerters.
 pub(crate) fn kinetic(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> ExprId {
     let mut twice = g.zero();
     for (index, motion) in kinematics.bodies.iter().enumerate() {
@@ -44,6 +44,15 @@ pub(crate) fn kinetic(g: &mut Graph, context: &Context, kinematics: &Kinematics)
         let v = kinematics.of(beam.body).frame.velocity;
         let share = inertia.twice_kinetic(g, &kinematics.beams[index], v);
         twice = g.add(twice, share);
+    }
+    for force in &context.mechanism.forces {
+        if let ForceLaw::CoordinateInerter { coordinate, inertance } = &force.law {
+            let inertance = context.values.scalar(g, inertance);
+            let velocity = kinematics.coordinates[coordinate.index()].velocity;
+            let square = g.mul(velocity, velocity);
+            let share = g.mul(inertance, square);
+            twice = g.add(twice, share);
+        }
     }
     g.scale(0.5, twice)
 }
@@ -94,6 +103,7 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
             }
             ForceLaw::Potential { energy } => values.scalar_at(g, energy, kinematics),
             ForceLaw::CoordinateDamper { .. }
+            | ForceLaw::CoordinateInerter { .. }
             | ForceLaw::Tension { .. }
             | ForceLaw::Generalized { .. }
             | ForceLaw::Bushing { .. }

@@ -85,6 +85,7 @@ fn forces(forces: &[Force]) -> impl Iterator<Item = PictureLink> + '_ {
             ForceLaw::Bushing { from, to, .. } => ("bushing", from, to),
             ForceLaw::CoordinateSpring { .. }
             | ForceLaw::CoordinateDamper { .. }
+            | ForceLaw::CoordinateInerter { .. }
             | ForceLaw::Generalized { .. }
             | ForceLaw::Potential { .. }
             | ForceLaw::Load { .. }

@@ -32,16 +32,20 @@ impl Jacobians {
         let applied = &e.parts.applied;
         let applied_at_rest = at_rest(g, s, applied);
         let by_position = columns(g, &applied_at_rest, &s.q);
-        let moving = columns(g, applied, &s.velocity);
-        let by_velocity: Vec<_> = moving.iter().map(|column| at_rest(g, s, column)).collect();
+        let [by_acceleration, by_velocity] = [&s.acceleration, &s.velocity].map(|list| -> Columns {
+            let moving = columns(g, applied, list);
+            moving.iter().map(|column| at_rest(g, s, column)).collect()
+        });
         // less moves with the coordinates further out
         let inward: Vec<usize> = context.outward_order().into_iter().map(|order| usize::MAX - order).collect();
-        let [by_velocity, by_position] = [by_velocity, by_position].map(|matrix| folded(g, context, &matrix, &inward));
+        let [by_acceleration, by_velocity, by_position] =
+            [by_acceleration, by_velocity, by_position].map(|matrix| folded(g, context, &matrix, &inward));
         let mut in_unknowns = |columns: Columns| -> Columns {
             context.in_unknowns(g, &columns.concat()).chunks(columns.len().max(1)).map(<[_]>::to_vec).collect()
         };
         let [mass, damping, stiffness] = [mass, damping, stiffness].map(&mut in_unknowns);
-        let matrices = [mass, added(g, &damping, &by_velocity), added(g, &stiffness, &by_position)];
+        let matrices =
+            [added(g, &mass, &by_acceleration), added(g, &damping, &by_velocity), added(g, &stiffness, &by_position)];
         let [mass, damping, stiffness] = context.multiblade.matrices(g, matrices);
         Self { mass, damping, stiffness }
     }

@@ -98,7 +98,11 @@ impl Linear {
         let all = |g: &mut Graph, motion: &[ExprId], inertial: Option<&Variation>| {
             let mut roots = match inertial {
                 None => self.mass.clone(),
-                Some(known) => entries(n).map(|(i, j)| known.mass[j][i]).collect(),
+                Some(known) => {
+                    let applied = columns(g, motion, &s.acceleration);
+                    let mass = added(g, &known.mass, &applied);
+                    entries(n).map(|(i, j)| mass[j][i]).collect()
+                }
             };
             let inertial = inertial.map(|known| [&known.by_velocity, &known.by_position]);
             for (k, list) in [&s.velocity, &s.q].into_iter().enumerate() {

@@ -54,6 +54,15 @@ impl AppliedForces {
                 let slot = &mut self.on_coordinates[coordinate.index()];
                 *slot = g.sub(*slot, load);
             }
+            // Q = -inertance qddot
+            ForceLaw::CoordinateInerter { coordinate, inertance } => {
+                let inertance = values.scalar(g, inertance);
+                let acceleration = kinematics.coordinates[coordinate.index()].acceleration;
+                let load = g.mul(inertance, acceleration);
+                g.set_name(load, || name);
+                let slot = &mut self.on_coordinates[coordinate.index()];
+                *slot = g.sub(*slot, load);
+            }
             ForceLaw::Generalized { coordinate, value } => {
                 let load = values.scalar_at(g, value, kinematics);
                 g.set_name(load, || name);

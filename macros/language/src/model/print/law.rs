@@ -17,6 +17,9 @@ impl Names<'_> {
             ForceLaw::CoordinateDamper { coordinate: on, damping } => {
                 format!("damper on {} damping {}", coordinate(on), s(damping))
             }
+            ForceLaw::CoordinateInerter { coordinate: on, inertance } => {
+                format!("inerter on {} inertance {}", coordinate(on), s(inertance))
+            }
             ForceLaw::SpringDamper { from, to, stiffness, damping, length } => format!(
                 "spring_damper from {} to {} stiffness {} damping {} length {}",
                 point(from),

@@ -56,6 +56,13 @@ pub(super) const LAWS: &[Row] =
         )
         .refusing(&[("from", BETWEEN_POINTS), ("to", BETWEEN_POINTS)]),
         Row::new(
+            "inerter",
+            &["on", "inertance"],
+            "inerter(on: theta, inertance: 0.1 kg*m^2)",
+            Reader::Law(|resolver, arguments| resolver.inerter(arguments)),
+        )
+        .refusing(&[("from", BETWEEN_POINTS), ("to", BETWEEN_POINTS)]),
+        Row::new(
             "spring_damper",
             &["from", "to", "stiffness"],
             "spring_damper(from: p, to: q, stiffness: 100 N/m)",
@@ -123,7 +130,9 @@ pub(super) const LAWS: &[Row] =
     ];
 
 /// Names of the laws in other tools.
-const SYNONYMS: [(&str, &str); 25] = [
+const SYNONYMS: [(&str, &str); 27] = [
+    ("armature", "inerter"),
+    ("rotor_inertia", "inerter"),
     ("shaker", "harmonic"),
     ("excitation", "harmonic"),
     ("sine", "harmonic"),

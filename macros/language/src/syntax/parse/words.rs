@@ -62,6 +62,7 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
         &[
             "spring",
             "damper",
+            "inerter",
             "spring_damper",
             "tension",
             "generalized",

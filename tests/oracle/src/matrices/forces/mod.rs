@@ -96,6 +96,8 @@ impl Oracle<'_> {
                 let speed = self.speed(moving, coordinate);
                 self.act(efforts, coordinate, -get(damping) * speed);
             }
+            // With the mass matrix.
+            ForceLaw::Inerter { .. } => {}
             ForceLaw::Generalized { coordinate, value } => {
                 let effort = self.of_motion(moving, value);
                 self.act(efforts, *coordinate, effort);

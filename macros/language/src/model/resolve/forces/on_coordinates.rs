@@ -1,4 +1,4 @@
-//! Springs and dampers on a coordinate.
+//! Springs, dampers and inerters on a coordinate.
 
 use super::super::arguments::Arguments;
 use super::super::coordinates::DeclaredMotion;
@@ -34,6 +34,16 @@ impl Resolver<'_> {
         });
         let damping = self.coefficient(arguments, "damping", damping);
         Some(ForceLaw::CoordinateDamper { coordinate: target?.0, damping: damping? })
+    }
+
+    pub(super) fn inerter(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let target = self.free_coordinate("inerter", arguments);
+        let inertance = target.map(|(_, quantity)| match quantity {
+            CoordinateQuantity::Angle => Dimension::INERTIA.into(),
+            CoordinateQuantity::Displacement => Dimension::MASS.into(),
+        });
+        let inertance = self.coefficient(arguments, "inertance", inertance);
+        Some(ForceLaw::CoordinateInerter { coordinate: target?.0, inertance: inertance? })
     }
 
     /// A free coordinate. A force on a driven coordinate changes no motion, because the drive supplies any force that
