@@ -154,6 +154,14 @@ pub enum Reason {
         /// The nearest inertia about the centre of mass, in the axes of the first link: xx, yy, zz, xy, yz, xz, kg m^2.
         replacement: [f64; 6],
     },
+    /// A mistake of a MuJoCo file.
+    #[error("{message}")]
+    Model {
+        /// The problem.
+        message: String,
+        /// Advice.
+        help: String,
+    },
     /// Nothing in the robot moves.
     #[error("nothing moves: {0}")]
     NothingMoves(&'static str),
@@ -168,7 +176,8 @@ impl Reason {
         let did_you_mean = |near: Option<&str>| near.map(|near| format!("did you mean `{near}`?"));
         match self {
             Reason::Xml(_) => "export the robot again; the file may be cut off".to_owned(),
-            Reason::NotARobot(_) => "give a URDF file; SDF and MJCF have to be converted to it".to_owned(),
+            Reason::NotARobot(_) => "give a URDF file or one of MuJoCo; SDF has to be converted".to_owned(),
+            Reason::Model { help, .. } => help.clone(),
             Reason::Template => "expand it first: `xacro robot.xacro > robot.urdf`".to_owned(),
             Reason::MissingAttribute { attribute, .. } => format!("add `{attribute}=\"...\"`"),
             Reason::MissingElement { element, .. } => format!("add `<{element} .../>`"),

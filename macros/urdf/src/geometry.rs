@@ -64,6 +64,13 @@ impl Pose {
         turns.fold(matrix(identity), |before, &(axis, angle)| product(&before, &rotation(axis, angle)))
     }
 
+    /// The pose of the outer frame in this one.
+    pub(crate) fn inverse(&self) -> Pose {
+        let rotations: Vec<_> = self.rotations.iter().rev().map(|&(axis, angle)| (axis, -angle)).collect();
+        let back = Pose { offset: [0.0; 3], rotations: rotations.clone() };
+        Pose { offset: turned(&back.matrix(), self.offset).map(|x| -x), rotations }
+    }
+
     /// This pose followed by `inner`, which is a pose in the frame that this one describes.
     pub(crate) fn then(&self, inner: &Pose) -> Pose {
         let offset = turned(&self.matrix(), inner.offset);

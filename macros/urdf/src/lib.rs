@@ -3,6 +3,7 @@
 mod assemble;
 mod error;
 mod geometry;
+mod mjcf;
 mod names;
 mod note;
 mod options;
@@ -15,6 +16,7 @@ mod write;
 use std::collections::BTreeMap;
 
 pub use error::{ImportError, Mistake, Reason};
+pub use mjcf::{Include, import_mjcf, is_mjcf};
 pub use note::Note;
 pub use options::{Base, Options, Resistance};
 

@@ -43,6 +43,8 @@ pub enum Note {
         /// Its name in the file.
         joint: String,
     },
+    /// What is written in another way, or left out, in words.
+    Remark(String),
     /// A coordinate that nothing resists, or a joint that moves no mass, is driven at 0.
     Driven {
         /// The coordinate in the declaration.
@@ -73,6 +75,7 @@ impl fmt::Display for Note {
                 three(principal)
             ),
             Note::Held { joint } => write!(f, "`{joint}` follows what stands still: it is fixed"),
+            Note::Remark(text) => f.write_str(text),
             Note::FixedMimic { joint } => write!(f, "`{joint}` is fixed: its `mimic` says nothing"),
             Note::Driven { coordinate, why } => write!(f, "`{coordinate}` is driven at 0: {why}"),
         }

@@ -53,7 +53,9 @@ pub enum Resistance {
         /// For displacements, N s/m.
         linear_damping: f64,
     },
-    /// Joints that nothing resists, not even gravity, are driven at 0; so are those that move no mass.
+    /// What the file says, and nothing else.
+    File,
+    /// Joints that nothing resists, not even gravity, are driven at 0; so are those that move no mass. Of a MuJoCo file the same as `File`.
     Drives,
     /// No resistance: the declaration is only for its kernels.
     KernelsOnly,

@@ -61,7 +61,11 @@ pub(crate) fn declaration(assembly: &Assembly, kernels_only: bool) -> String {
         );
     }
     if !kernels_only {
-        for item in springs(assembly) {
+        let is_free = |is_angle: bool| {
+            let mut all = assembly.joints.iter().flat_map(|joint| &joint.coordinates);
+            all.any(|coordinate| coordinate.is_angle == is_angle && !coordinate.driven)
+        };
+        for item in springs(assembly.resistance, is_free) {
             line("", item);
         }
     }
@@ -70,23 +74,23 @@ pub(crate) fn declaration(assembly: &Assembly, kernels_only: bool) -> String {
 }
 
 /// Removes characters that would end a comment or a line.
-fn printable(name: &str) -> String {
+pub(crate) fn printable(name: &str) -> String {
     let printable = |c: char| if c.is_control() || c == '`' { ' ' } else { c };
     name.chars().map(printable).collect()
 }
 
 /// Writes a number so that it is read back unchanged.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     // Avoids negative zero.
     format!("{:?}", value + 0.0)
 }
 
-fn vector(values: &[f64]) -> String {
+pub(crate) fn vector(values: &[f64]) -> String {
     let values: Vec<String> = values.iter().map(|value| number(*value)).collect();
     format!("[{}]", values.join(", "))
 }
 
-fn direction(axis: Vector) -> String {
+pub(crate) fn direction(axis: Vector) -> String {
     match axis {
         [x, 0.0, 0.0] => signed(x, "x"),
         [0.0, y, 0.0] => signed(y, "y"),
@@ -100,7 +104,7 @@ fn signed(value: f64, axis: &str) -> String {
     format!("{sign}{axis}")
 }
 
-fn body(body: &Body) -> String {
+pub(crate) fn body(body: &Body) -> String {
     let Some(mass) = &body.mass else {
         return format!("body {}: massless", body.name);
     };
@@ -144,7 +148,7 @@ fn joint(joint: &Moving) -> String {
     text
 }
 
-fn placed(pose: &Pose) -> String {
+pub(crate) fn placed(pose: &Pose) -> String {
     let mut text = String::new();
     if pose.offset != [0.0; 3] {
         let _ = write!(text, " at {} m", vector(&pose.offset));
@@ -177,13 +181,10 @@ fn coupling(coupling: &Coupling) -> String {
     )
 }
 
-fn springs(assembly: &Assembly) -> Vec<String> {
-    let Resistance::Springs { stiffness, damping, linear_stiffness, linear_damping } = assembly.resistance else {
+/// Springs and dampers on all free coordinates, of the kinds that there are.
+pub(crate) fn springs(resistance: Resistance, is_free: impl Fn(bool) -> bool) -> Vec<String> {
+    let Resistance::Springs { stiffness, damping, linear_stiffness, linear_damping } = resistance else {
         return Vec::new();
-    };
-    let is_free = |is_angle: bool| {
-        let mut all = assembly.joints.iter().flat_map(|joint| &joint.coordinates);
-        all.any(|coordinate| coordinate.is_angle == is_angle && !coordinate.driven)
     };
     let mut items = Vec::new();
     if is_free(true) {

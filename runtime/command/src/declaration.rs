@@ -18,8 +18,8 @@ pub(crate) struct Declaration {
 }
 
 impl Declaration {
-    /// Reads a file, or standard input if the path is `-`.
-    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+    /// Reads a file of any language as it is, or standard input if the path is `-`.
+    pub(crate) fn raw(path: &Path) -> Result<Self, Failure> {
         let failure = |source| Failure::read(path, source);
         if path.as_os_str() == "-" {
             let mut text = String::new();
@@ -28,7 +28,15 @@ impl Declaration {
             return Ok(Self { name, text });
         }
         let text = fs::read_to_string(path).map_err(failure)?;
-        let mut declaration = Self { name: path.display().to_string(), text };
+        Ok(Self { name: path.display().to_string(), text })
+    }
+
+    /// Reads a declaration with the files that it includes, or standard input if the path is `-`.
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let mut declaration = Self::raw(path)?;
+        if path.as_os_str() == "-" {
+            return Ok(declaration);
+        }
         match with_included(&declaration.text, path) {
             Ok((text, _)) => {
                 declaration.text = text;

@@ -49,7 +49,7 @@ mod module {
     #[pymodule_export]
     use crate::results::{Answer, Equilibrium, ForcedResponse, Modes, MonteCarlo, Sensitivities, Sweep, json_schema};
     #[pymodule_export]
-    use crate::robots::{Import, import_urdf};
+    use crate::robots::{Import, import_mjcf, import_urdf};
     #[pymodule_export]
     use crate::study::Study;
 

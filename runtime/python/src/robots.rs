@@ -1,4 +1,4 @@
-//! Robots from URDF files.
+//! Robots from URDF files, models from MuJoCo's.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ pub(crate) type UrdfOptions<'py> = Bound<'py, PyDict>;
 /// The options by name, with their types in Python.
 const OPTIONS: [(&str, &str); 9] = [
     ("base", "Literal[\"fixed\", \"floating\", \"planar\"]"),
-    ("resistance", "Literal[\"springs\", \"drives\", \"none\"]"),
+    ("resistance", "Literal[\"springs\", \"drives\", \"file\", \"none\"]"),
     ("stiffness", "float"),
     ("damping", "float"),
     ("linear_stiffness", "float"),
@@ -60,8 +60,12 @@ fn options(py: Python<'_>, given: Option<&UrdfOptions<'_>>) -> PyResult<Options>
         options.base = word(py, "base", &base.extract::<String>()?, &words)?;
     }
     if let Some(resistance) = given.get_item("resistance")? {
-        let words =
-            [("springs", Resistance::default()), ("drives", Resistance::Drives), ("none", Resistance::KernelsOnly)];
+        let words = [
+            ("springs", Resistance::default()),
+            ("drives", Resistance::Drives),
+            ("file", Resistance::File),
+            ("none", Resistance::KernelsOnly),
+        ];
         options.resistance = word(py, "resistance", &resistance.extract::<String>()?, &words)?;
     }
     if let Resistance::Springs { stiffness, damping, linear_stiffness, linear_damping } = &mut options.resistance {
@@ -111,10 +115,35 @@ fn read(py: Python<'_>, path: &Path, given: Option<&UrdfOptions<'_>>) -> PyResul
 #[pyfunction]
 #[pyo3(signature = (path, **options))]
 pub(crate) fn import_urdf(py: Python<'_>, path: PathBuf, options: Option<&UrdfOptions<'_>>) -> PyResult<Import> {
-    let imported = read(py, &path, options)?;
+    Ok(as_import(read(py, &path, options)?))
+}
+
+/// The declaration of a model from its MuJoCo file (MJCF), with defaults and included files. Bodies and coordinates keep their names; coordinates
+/// are zero at the reference (`qpos` less `ref`). Joined bodies and coupled joints are exact, not soft. `notes` tells what a mechanism cannot
+/// express, such as contacts, motors and limits.
+///
+/// Options as of `import_urdf`, of which `name` and `resistance` matter: unless given, what the file says resists its joints; "none" gives a
+/// mechanism of kernels alone, for a machine that nothing holds.
+///
+/// Raises OSError when the file cannot be read, DeclarationError with line and column of every mistake.
+#[pyfunction]
+#[pyo3(signature = (path, **options))]
+pub(crate) fn import_mjcf(py: Python<'_>, path: PathBuf, options: Option<&UrdfOptions<'_>>) -> PyResult<Import> {
+    let text = std::fs::read_to_string(&path).map_err(|source| errors::unreadable(&path, &source))?;
+    let says = options.is_some_and(|given| given.contains("resistance").unwrap_or(false));
+    let mut options = self::options(py, options)?;
+    if !says {
+        options.resistance = Resistance::File;
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let read = |name: &str| std::fs::read_to_string(folder.join(name));
+    let imported = py.detach(|| eigentol_urdf::import_mjcf(&text, &options, &read));
+    Ok(as_import(imported.map_err(|error| errors::urdf(py, &error, &path))?))
+}
+
+fn as_import(imported: eigentol_urdf::Import) -> Import {
     let notes = imported.notes.iter().map(ToString::to_string).collect();
-    let (declaration, names) = (imported.declaration, imported.names);
-    Ok(Import { declaration, names, notes })
+    Import { declaration: imported.declaration, names: imported.names, notes }
 }
 
 #[pymethods]
@@ -140,5 +169,12 @@ impl Mechanism {
     #[pyo3(signature = (path, **options))]
     fn from_urdf(class: &Bound<'_, PyType>, path: PathBuf, options: Option<&UrdfOptions<'_>>) -> PyResult<Self> {
         Self::read(class.py(), read(class.py(), &path, options)?.declaration)
+    }
+
+    /// The model that a MuJoCo file describes; `import_mjcf` also tells names and remarks.
+    #[classmethod]
+    #[pyo3(signature = (path, **options))]
+    fn from_mjcf(class: &Bound<'_, PyType>, path: PathBuf, options: Option<&UrdfOptions<'_>>) -> PyResult<Self> {
+        Self::read(class.py(), import_mjcf(class.py(), path, options)?.declaration)
     }
 }

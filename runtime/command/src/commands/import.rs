@@ -1,11 +1,12 @@
-//! Translation of URDF robots into declarations.
+//! Translation of robots in URDF or MuJoCo files into declarations.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use eigentol::Unit;
 use eigentol_interpreter::value;
-use eigentol_urdf::{Options, Resistance};
+use eigentol_urdf::{Options, Resistance, import_mjcf, is_mjcf};
 
 use crate::declaration::Declaration;
 use crate::destination::Destination;
@@ -14,18 +15,20 @@ use crate::failure::Failure;
 use crate::mistake::Mistake;
 use crate::verdict::Verdict;
 
-/// Translate a robot in a URDF file into a declaration; notes say what a mechanism cannot express
+/// Translate a robot in a URDF file, or a model of MuJoCo (MJCF), into a declaration; notes say what a mechanism cannot express.
+///
+/// A model of MuJoCo says itself what holds it and what resists its joints: of the options only `--name` and `--joints` matter to it.
 #[derive(Args, Debug)]
 pub(crate) struct Import {
-    /// URDF file, `-` for standard input
+    /// URDF or MJCF file, `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// How the root of the robot is held
     #[arg(long, value_enum, default_value = "fixed")]
     base: Base,
-    /// What resists the joints, so that the robot has an equilibrium
-    #[arg(long, value_enum, default_value = "springs")]
-    joints: Joints,
+    /// What resists the joints, so that the robot has an equilibrium [default: springs; of a model of MuJoCo what it says]
+    #[arg(long, value_enum)]
+    joints: Option<Joints>,
     /// Stiffness of the springs of turning joints [default: 50 N*m/rad]
     #[arg(long, value_name = "VALUE")]
     stiffness: Option<String>,
@@ -70,6 +73,8 @@ enum Joints {
     Springs,
     /// Joints that nothing resists are driven at 0
     Driven,
+    /// What the file says, and nothing else
+    File,
     /// Nothing: the declaration is for its kernels alone
     Free,
 }
@@ -77,8 +82,15 @@ enum Joints {
 impl Import {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.place.check()?;
-        let file = Declaration::read(&self.file)?;
-        let robot = eigentol_urdf::import(&file.text, &self.options()?);
+        let file = Declaration::raw(&self.file)?;
+        let folder = self.file.parent().unwrap_or(Path::new(""));
+        let is_mjcf = is_mjcf(&file.text);
+        let options = self.options(self.joints.unwrap_or(if is_mjcf { Joints::File } else { Joints::Springs }))?;
+        let robot = if is_mjcf {
+            import_mjcf(&file.text, &options, &|name| fs::read_to_string(folder.join(name)))
+        } else {
+            eigentol_urdf::import(&file.text, &options)
+        };
         let robot = robot.map_err(|error| file.refused(error.mistakes.iter().map(Mistake::from).collect()))?;
         self.place.write(&robot.declaration)?;
         if !self.quiet {
@@ -87,10 +99,11 @@ impl Import {
         Ok(Verdict::Yes)
     }
 
-    fn options(&self) -> Result<Options, Failure> {
-        let resistance = match self.joints {
+    fn options(&self, joints: Joints) -> Result<Options, Failure> {
+        let resistance = match joints {
             Joints::Springs => self.springs()?,
             Joints::Driven => Resistance::Drives,
+            Joints::File => Resistance::File,
             Joints::Free => Resistance::KernelsOnly,
         };
         let options = Options::default()
