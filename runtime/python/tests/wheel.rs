@@ -129,10 +129,11 @@ fn the_module_passes_its_tests() {
 
 /// PyTorch, which downloads gigabytes, is tested where the environment has it.
 #[test]
-#[ignore = "installs CasADi, FMPy, JAX and OpenMDAO, and builds a shared library"]
+#[ignore = "installs CasADi, FMPy, JAX, OpenMDAO and MuJoCo, and builds a shared library"]
 fn the_module_works_inside_other_tools() {
-    let packages = ["maturin>=1.9.4,<2", "numpy", "pytest", "scipy", "casadi", "fmpy", "jax", "openmdao"];
-    run("python-tools", &packages, &["test_shared_library.py", "test_tools.py"]);
+    let tools = ["casadi", "fmpy", "jax", "openmdao", "mujoco", "gymnasium", "dm_control"];
+    let packages = [&["maturin>=1.9.4,<2", "numpy", "pytest", "scipy"][..], &tools].concat();
+    run("python-tools", &packages, &["test_mjcf.py", "test_shared_library.py", "test_tools.py"]);
 }
 
 /// Downloads hundreds of megabytes.

@@ -25,6 +25,8 @@ pub(super) struct Coordinate {
     pub(super) is_angle: bool,
     /// Where the file's coordinate stands when the declared one is zero.
     pub(super) reference: f64,
+    /// Where its spring is at rest, in the declared coordinate.
+    pub(super) rest: f64,
 }
 
 /// A body that others may refer to.
@@ -44,6 +46,10 @@ pub(super) struct Translation {
     pub(super) angles: Angles,
     source: Source,
     groups: [f64; 2],
+    /// What the masses of all bodies are to add up to.
+    total: Option<f64>,
+    /// By which all masses are multiplied.
+    share: f64,
     gravity: Vector,
     pub(super) names: Names,
     /// By their names in the file.
@@ -74,7 +80,7 @@ impl Translation {
             settings.extend(compiler.attributes.clone());
         }
         let setting = |name: &str| settings.get(name).map(String::as_str);
-        for name in ["settotalmass", "balanceinertia", "boundmass", "boundinertia", "alignfree"] {
+        for name in ["balanceinertia", "boundmass", "boundinertia", "alignfree"] {
             if setting(name).is_some_and(|text| !["false", "0", "-1"].contains(&text)) {
                 notes.push(remark(format!("`{name}` of the compiler is not followed")));
             }
@@ -111,6 +117,8 @@ impl Translation {
                 _ => Source::Either,
             },
             groups,
+            total: setting("settotalmass").and_then(|text| text.trim().parse().ok()).filter(|total| *total > 0.0),
+            share: 1.0,
             gravity,
             names: Names::default(),
             joints: BTreeMap::new(),
@@ -127,6 +135,14 @@ impl Translation {
         let mut mistakes = Vec::new();
         let ground = Placed { name: GROUND.to_owned(), pose: Pose::default() };
         self.bodies.insert("world".to_owned(), ground.clone());
+        if let Some(total) = self.total {
+            let sum = root.named("worldbody").map(|world| self.masses(world)).sum::<Result<f64>>();
+            match sum {
+                Ok(sum) if sum > 0.0 => self.share = total / sum,
+                Ok(_) => {}
+                Err(mistake) => mistakes.push(mistake),
+            }
+        }
         // Results are identified by coordinate, so joints get first choice of their names.
         for world in root.named("worldbody") {
             self.name_joints(world);
@@ -180,11 +196,21 @@ impl Translation {
             for joint in body.children.iter().filter(|own| ["joint", "freejoint"].contains(&&*own.tag)) {
                 if let Some(name) = joint.get("name").filter(|name| !self.joints.contains_key(*name)) {
                     let own = self.names.of_file(name, "joint");
-                    self.joints.insert(name.to_owned(), Coordinate { name: own, is_angle: true, reference: 0.0 });
+                    self.joints
+                        .insert(name.to_owned(), Coordinate { name: own, is_angle: true, reference: 0.0, rest: 0.0 });
                 }
             }
             self.name_joints(body);
         }
+    }
+
+    /// The mass of all bodies in one, or in the world.
+    fn masses(&self, of: &Element) -> Result<f64> {
+        let each = of.named("body").map(|body| {
+            let own = mass(body, &self.angles, self.source, self.groups)?.map_or(0.0, |own| own.mass);
+            Ok(own + self.masses(body)?)
+        });
+        each.sum()
     }
 
     fn unnamed(&mut self, kind: &str) -> String {
@@ -245,7 +271,11 @@ impl Translation {
         let mass = mass(own, &self.angles, self.source, self.groups)?;
         let mass = mass.map(|total| {
             let (center, inertia) = total.central();
-            assemble::Mass { mass: total.mass, center, inertia }
+            assemble::Mass {
+                mass: self.share * total.mass,
+                center,
+                inertia: inertia.map(|row| row.map(|x| self.share * x)),
+            }
         });
         let joints: Vec<&Element> =
             own.children.iter().filter(|child| ["joint", "freejoint"].contains(&&*child.tag)).collect();
@@ -334,12 +364,12 @@ impl Translation {
     fn resistance(&mut self, own: &Element, name: &str, is_angle: bool) -> Result<()> {
         let scale = if is_angle { self.angles.scale } else { 1.0 };
         let reference = scale * number(own, "ref", 0.0)?;
-        if let Some(original) = own.get("name") {
-            let coordinate = Coordinate { name: name.to_owned(), is_angle, reference };
-            self.joints.insert(original.to_owned(), coordinate);
-        }
         let units = if is_angle { ["N*m/rad", "rad", "N*m*s/rad", "kg*m^2"] } else { ["N/m", "m", "N*s/m", "kg"] };
         let rest = scale * number(own, "springref", 0.0)? - reference;
+        if let Some(original) = own.get("name") {
+            let coordinate = Coordinate { name: name.to_owned(), is_angle, reference, rest };
+            self.joints.insert(original.to_owned(), coordinate);
+        }
         let [stiffness, damping, armature] =
             [("stiffness", "spring"), ("damping", "damping"), ("armature", "armature")].map(|(attribute, word)| {
                 let all = numbers(own, attribute)?;

@@ -76,9 +76,9 @@ fn solid(geom: &Element, angles: &Angles) -> Result<Option<Inertial>> {
     });
     let size = |k: usize| -> Result<f64> {
         let found = match along {
-            // The radius, or half-widths, then half the distance of the ends.
+            // The radius or the half-width both ways, then half the distance of the ends.
             Some(half) if k == 2 || (k == 1 && ["capsule", "cylinder"].contains(&kind)) => Some(half),
-            Some(_) => size.get(k).or(size.first()).copied(),
+            Some(_) => size.first().copied(),
             None => size.get(k).copied(),
         };
         let wrong = || geom.wrong(format!("the size of this {kind} has too few numbers"), "give all of them, positive");

@@ -32,8 +32,8 @@ pub(super) fn tendon(all: &mut Translation, own: &Element) -> Result<(), Mistake
     if stiffness != 0.0 {
         let reference: f64 = parts.iter().map(|(factor, own)| factor * own.reference).sum();
         let rest = match numbers(own, "springlength")?[..] {
-            [] => 0.0,
-            [one] | [one, _] if one < 0.0 => 0.0,
+            // Where the springs of its joints are at rest.
+            [] | [-1.0] | [-1.0, -1.0] => parts.iter().map(|(factor, own)| factor * own.rest).sum(),
             [one] => one - reference,
             [low, high, ..] => {
                 if low != high {
