@@ -39,7 +39,7 @@ class UrdfOptions(TypedDict, total=False):
     """How a URDF file becomes a declaration."""
 
     base: Literal["fixed", "floating", "planar"]
-    resistance: Literal["springs", "drives", "none"]
+    resistance: Literal["springs", "drives", "file", "none"]
     stiffness: float
     damping: float
     linear_stiffness: float
@@ -84,6 +84,17 @@ def import_urdf(path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Im
     `stiffness` (50 N m/rad), `damping` (0.5 N m s/rad), `linear_stiffness` (50 N/m), `linear_damping` (0.5 N s/m);
     `file_damping`, whether the damping of the file is taken (True); `nearest_inertias`, whether impossible inertias are
     replaced by the nearest possible ones (False); `name` of the mechanism.
+
+    Raises OSError when the file cannot be read, DeclarationError with line and column of every mistake.
+    """
+
+def import_mjcf(path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Import:
+    """The declaration of a model from its MuJoCo file (MJCF), with defaults and included files. Bodies and coordinates keep their names; coordinates
+    are zero at the reference (`qpos` less `ref`). Joined bodies and coupled joints are exact, not soft. `notes` tells what a mechanism cannot
+    express, such as contacts, motors and limits.
+
+    Options as of `import_urdf`, of which `name` and `resistance` matter: unless given, what the file says resists its joints; "none" gives a
+    mechanism of kernels alone, for a machine that nothing holds.
 
     Raises OSError when the file cannot be read, DeclarationError with line and column of every mistake.
     """
@@ -475,6 +486,9 @@ class Mechanism:
     @classmethod
     def from_urdf(cls, path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Self:
         """The robot that a URDF file describes; options as of `import_urdf`, which also tells names and remarks."""
+    @classmethod
+    def from_mjcf(cls, path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Self:
+        """The model that a MuJoCo file describes; `import_mjcf` also tells names and remarks."""
 
 @final
 class Motion:

@@ -73,11 +73,11 @@ const CRATES: [(&str, &[&str], usize); 22] = [
         58,
     ),
     ("macros/symbolic", &[], 69),
-    ("macros/language", &["eigentol-symbolic"], 416),
+    ("macros/language", &["eigentol-symbolic"], 417),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 420),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
-    ("macros/urdf", &["eigentol-compiler"], 46),
+    ("macros/urdf", &["eigentol-compiler"], 79),
     ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 61),
     ("runtime/tables", &["eigentol-contract", "eigentol-results"], 20),
     ("runtime/figures", &["eigentol"], 114),
@@ -115,7 +115,7 @@ const CRATES: [(&str, &[&str], usize); 22] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        112,
+        113,
     ),
 ];
 

@@ -1,10 +1,10 @@
 //! Attributes as numbers, and frames in the ways in which a file may write them.
 
 use super::element::Element;
-use crate::error::{Mistake, Reason};
+use crate::error::{ImportError, Reason};
 use crate::geometry::{Pose, Vector, cross, norm};
 
-type Result<T> = std::result::Result<T, Mistake>;
+type Result<T> = std::result::Result<T, ImportError>;
 
 /// How angles are written.
 #[derive(Clone, Debug)]

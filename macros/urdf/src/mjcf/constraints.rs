@@ -4,11 +4,11 @@ use super::attributes::{exactly, numbers, of_quaternion, required};
 use super::element::Element;
 use super::model::{CONSTRAINTS, Coordinate, Placed, Translation};
 use super::remark;
-use crate::error::{Mistake, Reason};
+use crate::error::{ImportError, Reason};
 use crate::geometry::{Pose, Vector};
 use crate::write::number as text_of;
 
-type Result<T> = std::result::Result<T, Mistake>;
+type Result<T> = std::result::Result<T, ImportError>;
 
 pub(super) fn equality(all: &mut Translation, own: &Element) -> Result<()> {
     if own.get("active") == Some("false") {

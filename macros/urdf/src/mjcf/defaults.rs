@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::element::Element;
-use crate::error::{ImportError, Mistake};
+use crate::error::ImportError;
 
 /// By class, then by kind of element, the attributes.
 type Classes = BTreeMap<String, BTreeMap<String, BTreeMap<String, String>>>;
@@ -19,11 +19,11 @@ pub(super) fn written_out(mut root: Element) -> Result<Element, ImportError> {
         let own = root.children.iter_mut().filter(|child| child.tag != "default");
         own.into_iter().try_for_each(|child| write(child, MAIN, &classes))
     };
-    read.and_then(|()| write(&mut root)).map_err(|mistake| ImportError { mistakes: vec![mistake] })?;
+    read.and_then(|()| write(&mut root))?;
     Ok(root)
 }
 
-fn class(own: &Element, parent: Option<&str>, classes: &mut Classes) -> Result<(), Mistake> {
+fn class(own: &Element, parent: Option<&str>, classes: &mut Classes) -> Result<(), ImportError> {
     let name = match (own.get("class"), parent) {
         (Some(name), _) => name.to_owned(),
         (None, None) => MAIN.to_owned(),
@@ -42,7 +42,7 @@ fn class(own: &Element, parent: Option<&str>, classes: &mut Classes) -> Result<(
 }
 
 /// Writes the defaults of a class, or of that which an element names, into it and what it contains.
-fn write(own: &mut Element, inherited: &str, classes: &Classes) -> Result<(), Mistake> {
+fn write(own: &mut Element, inherited: &str, classes: &Classes) -> Result<(), ImportError> {
     let within = own.get("childclass").unwrap_or(inherited).to_owned();
     let class = own.get("class").unwrap_or(if own.tag == "body" { &within } else { inherited }).to_owned();
     let Some(defaults) = classes.get(&class).or_else(|| classes.get(MAIN).filter(|_| class == MAIN)) else {

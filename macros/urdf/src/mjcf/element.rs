@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use roxmltree::{Document, Node};
 
 use super::Include;
-use crate::error::{ImportError, Mistake, Reason};
+use crate::error::{ImportError, Reason};
 use crate::robot::SourcePosition;
 
 /// Most levels of files that include each other.
@@ -30,25 +30,30 @@ impl Element {
         self.children.iter().filter(move |child| child.tag == tag)
     }
 
-    pub(super) fn mistake(&self, reason: Reason) -> Mistake {
-        self.at.mistake(reason)
+    pub(super) fn mistake(&self, reason: Reason) -> ImportError {
+        ImportError { mistakes: vec![self.at.mistake(reason)] }
     }
 
     /// A mistake in words of its own.
-    pub(super) fn wrong(&self, message: impl Into<String>, help: impl Into<String>) -> Mistake {
+    pub(super) fn wrong(&self, message: impl Into<String>, help: impl Into<String>) -> ImportError {
         self.mistake(Reason::Model { message: message.into(), help: help.into() })
     }
 }
 
 pub(super) fn read(text: &str, include: Include<'_>) -> Result<Element, ImportError> {
-    parsed(text, include, None, DEPTH).map_err(|mistake| ImportError { mistakes: vec![mistake] })
+    parsed(text, include, None, DEPTH)
 }
 
-fn parsed(text: &str, include: Include<'_>, within: Option<SourcePosition>, depth: usize) -> Result<Element, Mistake> {
+fn parsed(
+    text: &str,
+    include: Include<'_>,
+    within: Option<SourcePosition>,
+    depth: usize,
+) -> Result<Element, ImportError> {
     let document = Document::parse(text).map_err(|error| {
         let at = error.pos();
         let own = SourcePosition { line: at.row, column: at.col };
-        within.unwrap_or(own).mistake(Reason::Xml(error.to_string()))
+        ImportError { mistakes: vec![within.unwrap_or(own).mistake(Reason::Xml(error.to_string()))] }
     })?;
     element(&document, document.root_element(), include, within, depth)
 }
@@ -59,7 +64,7 @@ fn element(
     include: Include<'_>,
     within: Option<SourcePosition>,
     depth: usize,
-) -> Result<Element, Mistake> {
+) -> Result<Element, ImportError> {
     let place = document.text_pos_at(node.range().start);
     let at = within.unwrap_or(SourcePosition { line: place.row, column: place.col });
     let mut children = Vec::new();

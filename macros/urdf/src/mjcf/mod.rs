@@ -51,7 +51,7 @@ pub type Include<'a> = &'a dyn Fn(&str) -> io::Result<String>;
 pub fn import_mjcf(text: &str, options: &Options, include: Include<'_>) -> Result<Import, ImportError> {
     let root = element::read(text, include)?;
     if root.tag != "mujoco" {
-        return Err(ImportError { mistakes: vec![root.mistake(Reason::NotARobot(root.tag.clone()))] });
+        return Err(root.mistake(Reason::NotARobot(root.tag.clone())));
     }
     let root = defaults::written_out(root)?;
     model::Translation::new(&root)?.import(&root, options)

@@ -16,7 +16,7 @@ use crate::options::{Options, Resistance};
 use crate::write::{body, direction, number as text_of, placed, printable, springs, vector as vector_text};
 use crate::{Import, assemble};
 
-type Result<T> = std::result::Result<T, Mistake>;
+type Result<T> = std::result::Result<T, ImportError>;
 
 /// A joint with one coordinate.
 #[derive(Clone, Debug)]
@@ -35,6 +35,11 @@ pub(super) struct Placed {
     pub(super) name: String,
     /// In the world, at the reference.
     pub(super) pose: Pose,
+}
+
+/// The mistakes of one step.
+fn of(step: Result<()>) -> Vec<Mistake> {
+    step.err().map(|error| error.mistakes).unwrap_or_default()
 }
 
 /// What of joints has no meaning in a mechanism.
@@ -69,11 +74,7 @@ pub(super) const FORCES: usize = 3;
 pub(super) const CONSTRAINTS: usize = 4;
 
 impl Translation {
-    pub(super) fn new(root: &Element) -> std::result::Result<Self, ImportError> {
-        Self::with_settings(root).map_err(|mistake| ImportError { mistakes: vec![mistake] })
-    }
-
-    fn with_settings(root: &Element) -> Result<Self> {
+    pub(super) fn new(root: &Element) -> Result<Self> {
         let mut notes = Vec::new();
         let mut settings = BTreeMap::new();
         for compiler in root.named("compiler") {
@@ -131,7 +132,7 @@ impl Translation {
         })
     }
 
-    pub(super) fn import(mut self, root: &Element, options: &Options) -> std::result::Result<Import, ImportError> {
+    pub(super) fn import(mut self, root: &Element, options: &Options) -> Result<Import> {
         let mut mistakes = Vec::new();
         let ground = Placed { name: GROUND.to_owned(), pose: Pose::default() };
         self.bodies.insert("world".to_owned(), ground.clone());
@@ -140,7 +141,7 @@ impl Translation {
             match sum {
                 Ok(sum) if sum > 0.0 => self.share = total / sum,
                 Ok(_) => {}
-                Err(mistake) => mistakes.push(mistake),
+                Err(error) => mistakes.extend(error.mistakes),
             }
         }
         // Results are identified by coordinate, so joints get first choice of their names.
@@ -151,13 +152,13 @@ impl Translation {
             self.inside(world, &ground, &mut mistakes);
         }
         for section in root.named("equality").flat_map(|own| &own.children) {
-            mistakes.extend(constraints::equality(&mut self, section).err());
+            mistakes.extend(of(constraints::equality(&mut self, section)));
         }
         for section in root.named("tendon").flat_map(|own| &own.children) {
-            mistakes.extend(tendons::tendon(&mut self, section).err());
+            mistakes.extend(of(tendons::tendon(&mut self, section)));
         }
         if mistakes.is_empty() && self.joints.is_empty() && self.lines[1].is_empty() {
-            mistakes.push(root.mistake(Reason::NothingMoves("no body has a joint")));
+            mistakes.extend(root.mistake(Reason::NothingMoves("no body has a joint")).mistakes);
         }
         if !mistakes.is_empty() {
             mistakes.sort_by_key(|mistake| (mistake.line, mistake.column));
@@ -221,17 +222,17 @@ impl Translation {
     /// What is in a body or in the world.
     fn inside(&mut self, own: &Element, placed: &Placed, mistakes: &mut Vec<Mistake>) {
         for site in own.named("site") {
-            mistakes.extend(self.site(site, placed).err());
+            mistakes.extend(of(self.site(site, placed)));
         }
         for child in &own.children {
             match &*child.tag {
                 "body" => match self.body(child, placed) {
                     Ok(child_placed) => self.inside(child, &child_placed, mistakes),
-                    Err(mistake) => mistakes.push(mistake),
+                    Err(error) => mistakes.extend(error.mistakes),
                 },
                 "frame" | "replicate" | "attach" | "composite" | "flexcomp" => {
                     let help = "let MuJoCo write the model out: `mj_saveLastXML`";
-                    mistakes.push(child.wrong(format!("`{}` is not read", child.tag), help));
+                    mistakes.extend(child.wrong(format!("`{}` is not read", child.tag), help).mistakes);
                 }
                 _ => {}
             }
@@ -260,10 +261,10 @@ impl Translation {
             None => self.unnamed("body"),
         };
         let there = Placed { name: name.clone(), pose: parent.pose.then(&frame) };
-        if let Some(original) = own.get("name") {
-            if self.bodies.insert(original.to_owned(), there.clone()).is_some() {
-                return Err(own.mistake(Reason::Twice { what: "body", name: original.to_owned() }));
-            }
+        if let Some(original) = own.get("name")
+            && self.bodies.insert(original.to_owned(), there.clone()).is_some()
+        {
+            return Err(own.mistake(Reason::Twice { what: "body", name: original.to_owned() }));
         }
         if own.get("gravcomp").is_some_and(|text| text.parse() != Ok(0.0)) {
             self.notes.push(remark(format!("`gravcomp` of `{name}` is left out: its weight acts")));

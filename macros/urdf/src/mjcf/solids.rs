@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use super::attributes::{Angles, exactly, from_z, number, numbers, pose};
 use super::element::Element;
-use crate::error::Mistake;
+use crate::error::ImportError;
 use crate::geometry::{Inertial, Moments, Pose, Vector, matrix, norm};
 
-type Result<T> = std::result::Result<T, Mistake>;
+type Result<T> = std::result::Result<T, ImportError>;
 
 /// Where the mass of bodies comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,10 +4,10 @@ use super::attributes::{number, numbers};
 use super::element::Element;
 use super::model::{Coordinate, FORCES, Translation};
 use super::remark;
-use crate::error::Mistake;
+use crate::error::ImportError;
 use crate::write::number as text_of;
 
-pub(super) fn tendon(all: &mut Translation, own: &Element) -> Result<(), Mistake> {
+pub(super) fn tendon(all: &mut Translation, own: &Element) -> Result<(), ImportError> {
     let wanted = own.get("name").unwrap_or("tendon").to_owned();
     if own.tag != "fixed" {
         all.notes.push(remark(format!("the {} tendon `{wanted}` is left out", own.tag)));
