@@ -168,7 +168,7 @@ fn random_models_leave_nothing_out() {
         ("joint", 9),
         ("reversed ", 10),
         ("driven ", 9),
-        ("force", 9),
+        ("force", 10),
         ("load", 2),
         ("spring between", 2),
     ] {

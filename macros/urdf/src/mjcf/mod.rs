@@ -11,6 +11,7 @@ mod element;
 mod model;
 mod solids;
 mod tendons;
+mod whole;
 
 use std::io;
 

@@ -5,16 +5,14 @@ use std::fmt::Write as _;
 
 use super::attributes::{Angles, exactly, number, numbers, pose, required, unit, vector};
 use super::element::Element;
+use super::remark;
 use super::solids::{Source, mass};
-use super::{constraints, remark, tendons};
-use crate::assemble::{Body, GROUND};
+use crate::assemble::{self, Body};
 use crate::error::{ImportError, Mistake, Reason};
 use crate::geometry::{Pose, Vector};
-use crate::names::{Names, type_name};
+use crate::names::Names;
 use crate::note::Note;
-use crate::options::{Options, Resistance};
-use crate::write::{body, direction, number as text_of, placed, printable, springs, vector as vector_text};
-use crate::{Import, assemble};
+use crate::write::{body, direction, number as text_of, placed, vector as vector_text};
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -37,25 +35,18 @@ pub(super) struct Placed {
     pub(super) pose: Pose,
 }
 
-/// The mistakes of one step.
-fn of(step: Result<()>) -> Vec<Mistake> {
-    step.err().map(|error| error.mistakes).unwrap_or_default()
-}
-
 /// What of joints has no meaning in a mechanism.
 const IGNORED_OF_JOINTS: [&str; 3] = ["range", "frictionloss", "actuatorfrcrange"];
-/// Sections of a file that a mechanism has.
-const SECTIONS: [&str; 7] = ["compiler", "option", "default", "worldbody", "equality", "tendon", "size"];
 
 pub(super) struct Translation {
     pub(super) angles: Angles,
     source: Source,
     groups: [f64; 2],
     /// What the masses of all bodies are to add up to.
-    total: Option<f64>,
+    pub(super) total: Option<f64>,
     /// By which all masses are multiplied.
-    share: f64,
-    gravity: Vector,
+    pub(super) share: f64,
+    pub(super) gravity: Vector,
     pub(super) names: Names,
     /// By their names in the file.
     pub(super) joints: BTreeMap<String, Coordinate>,
@@ -65,10 +56,11 @@ pub(super) struct Translation {
     /// Bodies, joints, points, forces and constraints as text.
     pub(super) lines: [Vec<(String, String)>; 5],
     pub(super) notes: Vec<Note>,
-    ignored: BTreeMap<String, Vec<String>>,
+    pub(super) ignored: BTreeMap<String, Vec<String>>,
     unnamed: usize,
 }
 
+pub(super) const JOINTS: usize = 1;
 pub(super) const POINTS: usize = 2;
 pub(super) const FORCES: usize = 3;
 pub(super) const CONSTRAINTS: usize = 4;
@@ -132,67 +124,7 @@ impl Translation {
         })
     }
 
-    pub(super) fn import(mut self, root: &Element, options: &Options) -> Result<Import> {
-        let mut mistakes = Vec::new();
-        let ground = Placed { name: GROUND.to_owned(), pose: Pose::default() };
-        self.bodies.insert("world".to_owned(), ground.clone());
-        if let Some(total) = self.total {
-            let sum = root.named("worldbody").map(|world| self.masses(world)).sum::<Result<f64>>();
-            match sum {
-                Ok(sum) if sum > 0.0 => self.share = total / sum,
-                Ok(_) => {}
-                Err(error) => mistakes.extend(error.mistakes),
-            }
-        }
-        // Results are identified by coordinate, so joints get first choice of their names.
-        for world in root.named("worldbody") {
-            self.name_joints(world);
-        }
-        for world in root.named("worldbody") {
-            self.inside(world, &ground, &mut mistakes);
-        }
-        for section in root.named("equality").flat_map(|own| &own.children) {
-            mistakes.extend(of(constraints::equality(&mut self, section)));
-        }
-        for section in root.named("tendon").flat_map(|own| &own.children) {
-            mistakes.extend(of(tendons::tendon(&mut self, section)));
-        }
-        if mistakes.is_empty() && self.joints.is_empty() && self.lines[1].is_empty() {
-            mistakes.extend(root.mistake(Reason::NothingMoves("no body has a joint")).mistakes);
-        }
-        if !mistakes.is_empty() {
-            mistakes.sort_by_key(|mistake| (mistake.line, mistake.column));
-            return Err(ImportError { mistakes });
-        }
-        for section in root.children.iter().filter(|own| !SECTIONS.contains(&&*own.tag)) {
-            self.notes.push(Note::Ignored { element: section.tag.clone(), of: "the robot", names: Vec::new() });
-        }
-        for (element, names) in std::mem::take(&mut self.ignored) {
-            self.notes.push(Note::Ignored { element, of: "joints", names });
-        }
-        let model = root.get("model").unwrap_or("model");
-        let name = options.name.clone().unwrap_or_else(|| type_name(model));
-        let mut text = format!("/// The model `{}`, from a MuJoCo file.\npub mechanism {name} {{\n", printable(model));
-        if options.resistance == Resistance::KernelsOnly {
-            text.push_str("    kernels only;\n");
-        }
-        if self.gravity != [0.0; 3] {
-            let _ = writeln!(text, "    gravity {} m/s^2;", vector_text(&self.gravity));
-        }
-        for (name, line) in self.lines.iter().flatten() {
-            let original = self.names.renamed.get(name);
-            let comment = original.map(|original| format!(" // `{}`", printable(original)));
-            let _ = writeln!(text, "    {line};{}", comment.unwrap_or_default());
-        }
-        let all = self.joints.values();
-        for line in springs(options.resistance, |is_angle| all.clone().any(|own| own.is_angle == is_angle)) {
-            let _ = writeln!(text, "    {line};");
-        }
-        text.push_str("}\n");
-        Ok(Import { declaration: text, names: self.names.renamed, notes: self.notes })
-    }
-
-    fn name_joints(&mut self, of: &Element) {
+    pub(super) fn name_joints(&mut self, of: &Element) {
         for body in of.named("body") {
             for joint in body.children.iter().filter(|own| ["joint", "freejoint"].contains(&&*own.tag)) {
                 if let Some(name) = joint.get("name").filter(|name| !self.joints.contains_key(*name)) {
@@ -206,7 +138,7 @@ impl Translation {
     }
 
     /// The mass of all bodies in one, or in the world.
-    fn masses(&self, of: &Element) -> Result<f64> {
+    pub(super) fn masses(&self, of: &Element) -> Result<f64> {
         let each = of.named("body").map(|body| {
             let own = mass(body, &self.angles, self.source, self.groups)?.map_or(0.0, |own| own.mass);
             Ok(own + self.masses(body)?)
@@ -220,9 +152,11 @@ impl Translation {
     }
 
     /// What is in a body or in the world.
-    fn inside(&mut self, own: &Element, placed: &Placed, mistakes: &mut Vec<Mistake>) {
+    pub(super) fn inside(&mut self, own: &Element, placed: &Placed, mistakes: &mut Vec<Mistake>) {
         for site in own.named("site") {
-            mistakes.extend(of(self.site(site, placed)));
+            if let Err(error) = self.site(site, placed) {
+                mistakes.extend(error.mistakes);
+            }
         }
         for child in &own.children {
             match &*child.tag {
@@ -295,7 +229,7 @@ impl Translation {
         if joints.is_empty() {
             let weld = self.names.unique(&format!("weld_{name}"), "joint");
             let line = format!("joint {weld}: fixed from {from} to {name}{}", placed(&frame));
-            self.lines[1].push((String::new(), line));
+            self.lines[JOINTS].push((String::new(), line));
         }
         let declared = Body { name: name.clone(), mass };
         self.lines[0].push((name, body(&declared)));
@@ -349,7 +283,7 @@ impl Translation {
                 return Err(own.wrong(message, "known are hinge, slide, ball, free"));
             }
         };
-        self.lines[1].push((name.clone(), format!("joint {name}: {motions} from {from} to {to}{place}")));
+        self.lines[JOINTS].push((name.clone(), format!("joint {name}: {motions} from {from} to {to}{place}")));
         if ["hinge", "slide"].contains(&kind) {
             return self.resistance(own, &name, kind == "hinge");
         }
