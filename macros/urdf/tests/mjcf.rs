@@ -14,7 +14,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/truth/mjcf")
 }
 
-fn nothing(_: &str) -> io::Result<String> {
+fn nothing(_: &str) -> io::Result<Vec<u8>> {
     Err(io::ErrorKind::NotFound.into())
 }
 
@@ -86,7 +86,7 @@ fn what_cannot_be_read_is_said_with_its_place() {
         (body("<joint pos='0 x 1'/><geom size='0.1'/>"), 3, "`pos` is `0 x 1`"),
         (body("<joint class='stiff'/><geom size='0.1'/>"), 3, "there is no class `stiff`"),
         (body("<joint/><geom type='box' size='0.1'/>"), 3, "the size of this box"),
-        (body("<joint/><geom type='mesh' mesh='leg'/>"), 3, "the mass of a mesh"),
+        (body("<joint/><geom type='mesh' mesh='leg'/>"), 3, "no mesh `leg`"),
         (body("<joint/><geom size='0.1' shellinertia='true'/>"), 3, "shell"),
         (body("<joint/><inertial mass='1'/>"), 3, "has no inertia"),
         (body("<joint/><geom size='0.1'/><replicate count='3'/>"), 3, "`replicate` is not read"),
@@ -118,15 +118,89 @@ fn files_include_files_but_not_themselves() {
     let text = "<mujoco><include file='world.xml'/></mujoco>";
     let options = Options::default().resistance(Resistance::File);
     let read = |name: &str| match name {
-        "world.xml" => Ok("<mujoco><worldbody><include file='b.xml'/></worldbody></mujoco>".to_owned()),
-        "b.xml" => Ok("<any><body name='b'><joint name='j' stiffness='2'/><geom size='0.1'/></body></any>".to_owned()),
+        "world.xml" => Ok("<mujoco><worldbody><include file='b.xml'/></worldbody></mujoco>".into()),
+        "b.xml" => Ok("<any><body name='b'><joint name='j' stiffness='2'/><geom size='0.1'/></body></any>".into()),
         _ => nothing(name),
     };
     let found = import_mjcf(text, &options, &read).unwrap();
     assert!(found.declaration.contains("spring(on: j, stiffness: 2.0 N*m/rad)"), "{}", found.declaration);
-    let circle = |_: &str| Ok(text.to_owned());
+    let circle = |_: &str| Ok(text.into());
     let error = import_mjcf(text, &options, &circle).unwrap_err();
     assert!(error.to_string().contains("included too deeply"), "{error}");
+}
+
+/// A box as a mesh, from vertices in the file, from OBJ and from STL.
+#[test]
+fn a_mesh_has_the_mass_of_what_it_encloses() {
+    let corners: Vec<[f32; 3]> =
+        (0..8).map(|k| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { [0.125, 0.25, 0.5][axis] } else { 0.0 })).collect();
+    let faces = [
+        [0, 2, 3],
+        [0, 3, 1],
+        [4, 5, 7],
+        [4, 7, 6],
+        [0, 1, 5],
+        [0, 5, 4],
+        [2, 6, 7],
+        [2, 7, 3],
+        [0, 4, 6],
+        [0, 6, 2],
+        [1, 3, 7],
+        [1, 7, 5],
+    ];
+    let obj: String = corners.iter().map(|[x, y, z]| format!("v {x} {y} {z}\n")).collect();
+    let obj: String = obj + &faces.map(|[a, b, c]| format!("f {} {} -{}\n", a + 1, b + 1, 8 - c)).concat();
+    let mut stl = vec![0; 80];
+    stl.extend(12_u32.to_le_bytes());
+    for face in faces {
+        stl.extend([0; 12]);
+        stl.extend(face.iter().flat_map(|&k| corners[k]).flat_map(f32::to_le_bytes));
+        stl.extend([0; 2]);
+    }
+    let words = |numbers: Vec<String>| numbers.join(" ");
+    let vertices = words(corners.iter().flatten().map(f32::to_string).collect());
+    let triples = words(faces.iter().flatten().map(usize::to_string).collect());
+    let inline = format!("name='box' vertex='{vertices}' face='{triples}'");
+    let read = |name: &str| match name {
+        "m/box.obj" => Ok(obj.clone().into_bytes()),
+        "m/box.stl" => Ok(stl.clone()),
+        "m/cut.stl" => Ok(stl[..300].to_vec()),
+        _ => nothing(name),
+    };
+    let options = Options::default().resistance(Resistance::File);
+    let model = |mesh: &str, geom: &str| {
+        let text = format!(
+            "<mujoco><compiler meshdir='m/'/><asset><mesh {mesh}/></asset><worldbody><body name='b'><joint name='j'/>{geom}</body></worldbody></mujoco>"
+        );
+        import_mjcf(&text, &options, &read)
+    };
+    let solid = "<geom type='box' size='0.0625 0.125 0.25' pos='0.0625 0.125 0.25'/>";
+    let expected = model(&inline, solid).unwrap().declaration;
+    let numbers = |text: &str| -> Vec<f64> {
+        let body = text.lines().find(|line| line.contains("body b:")).unwrap();
+        body.split(|c: char| !(c.is_ascii_digit() || ".e-".contains(c))).filter_map(|word| word.parse().ok()).collect()
+    };
+    for mesh in [&*inline, "file='box.obj'", "file='box.stl'", "file='box.stl' inertia='exact'"] {
+        let found = model(mesh, "<geom type='mesh' mesh='box'/>").unwrap().declaration;
+        let (ours, theirs) = (numbers(&found), numbers(&expected));
+        let most = theirs.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let [mass, rest @ ..] = &ours[..] else { panic!("{found}") };
+        assert!((mass - theirs[0]).abs() < 1e-12 * most, "{found}{expected}");
+        // The moments about the axes first; products are zero.
+        assert!(rest[..3].iter().zip(&theirs[1..]).all(|(a, b)| (a - b).abs() < 1e-12 * most), "{found}{expected}");
+    }
+    for (mesh, words) in [
+        ("file='none.obj' name='box'", "cannot be read"),
+        ("file='cut.stl' name='box'", "is no mesh"),
+        ("file='box.stl' inertia='shell'", "is not known here"),
+        ("name='box' vertex='0 0 0 1 0 0 0 1 0' face='0 1 5'", "not those of its vertices"),
+        ("name='box' vertex='0 0 0 1 0 0 0 1 0' face='0 1 2'", "encloses no volume"),
+    ] {
+        let error = model(mesh, "<geom type='mesh' mesh='box'/>").unwrap_err();
+        assert!(error.to_string().contains(words), "{mesh}: {error}");
+        // Who does not need its mass does not open it.
+        assert!(model(mesh, solid).is_ok());
+    }
 }
 
 /// Wherever a file ends or whatever byte is wrong, there is an answer.

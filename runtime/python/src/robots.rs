@@ -136,7 +136,7 @@ pub(crate) fn import_mjcf(py: Python<'_>, path: PathBuf, options: Option<&UrdfOp
         options.resistance = Resistance::File;
     }
     let folder = path.parent().unwrap_or(Path::new(""));
-    let read = |name: &str| std::fs::read_to_string(folder.join(name));
+    let read = |name: &str| std::fs::read(folder.join(name));
     let imported = py.detach(|| eigentol_urdf::import_mjcf(&text, &options, &read));
     Ok(as_import(imported.map_err(|error| errors::urdf(py, &error, &path))?))
 }

@@ -77,7 +77,7 @@ const CRATES: [(&str, &[&str], usize); 22] = [
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 420),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
-    ("macros/urdf", &["eigentol-compiler"], 79),
+    ("macros/urdf", &["eigentol-compiler"], 86),
     ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 61),
     ("runtime/tables", &["eigentol-contract", "eigentol-results"], 20),
     ("runtime/figures", &["eigentol"], 114),

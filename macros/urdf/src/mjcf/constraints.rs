@@ -10,7 +10,7 @@ use crate::write::number as text_of;
 
 type Result<T> = std::result::Result<T, ImportError>;
 
-pub(super) fn equality(all: &mut Translation, own: &Element) -> Result<()> {
+pub(super) fn equality(all: &mut Translation<'_>, own: &Element) -> Result<()> {
     if own.get("active") == Some("false") {
         all.notes.push(remark(format!("an `{}` that is not active is left out", own.tag)));
         return Ok(());
@@ -42,7 +42,7 @@ pub(super) fn factors(own: &Element) -> Result<Vec<f64>> {
     Ok(if given.is_empty() { vec![0.0, 1.0] } else { given })
 }
 
-fn add(all: &mut Translation, wanted: &str, law: &str) {
+fn add(all: &mut Translation<'_>, wanted: &str, law: &str) {
     let name = all.names.of_file(wanted, "constraint");
     all.lines[CONSTRAINTS].push((name.clone(), format!("constraint {name}: {law}")));
 }
@@ -77,7 +77,7 @@ fn polynomial(first: &Coordinate, second: Option<&Coordinate>, factors: &[f64]) 
 }
 
 /// The two points that an equality of bodies joins; of a weld they have axes.
-fn ends(all: &mut Translation, own: &Element, wanted: &str, axes: bool) -> Result<[String; 2]> {
+fn ends(all: &mut Translation<'_>, own: &Element, wanted: &str, axes: bool) -> Result<[String; 2]> {
     if own.get("site1").is_some() {
         let site = |attribute| {
             let name = required(own, attribute)?;
@@ -115,7 +115,7 @@ fn at(offset: Vector) -> Pose {
     Pose { offset, rotations: Vec::new() }
 }
 
-fn placed(all: &Translation, own: &Element, name: &str) -> Result<Placed> {
+fn placed(all: &Translation<'_>, own: &Element, name: &str) -> Result<Placed> {
     let unknown = || own.mistake(Reason::Unknown { what: "body", name: name.to_owned(), near: None });
     all.bodies.get(name).cloned().ok_or_else(unknown)
 }

@@ -80,9 +80,10 @@ fn element(
         if depth == 0 {
             return Err(own.wrong(format!("`{file}` is included too deeply"), "files cannot include each other"));
         }
-        let text = include(file).map_err(|error| {
+        let bytes = include(file).map_err(|error| {
             own.wrong(format!("`{file}` cannot be read: {error}"), "it is looked for beside the file that is imported")
         })?;
+        let text = String::from_utf8_lossy(&bytes);
         children.extend(parsed(&text, include, Some(own.at), depth - 1)?.children);
     }
     let attributes = node.attributes().map(|own| (own.name().to_owned(), own.value().to_owned()));

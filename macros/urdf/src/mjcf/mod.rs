@@ -8,6 +8,7 @@ mod attributes;
 mod constraints;
 mod defaults;
 mod element;
+mod meshes;
 mod model;
 mod solids;
 mod tendons;
@@ -19,13 +20,13 @@ use crate::error::{ImportError, Reason};
 use crate::options::Options;
 use crate::{Import, Note};
 
-/// Reads a file that another one includes, by the name that it has there.
-pub type Include<'a> = &'a dyn Fn(&str) -> io::Result<String>;
+/// Reads a file that another one names, an included one or a mesh, by the name that it has there.
+pub type Include<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 
 /// Translates the text of a MuJoCo file. Of [`Options`], name and resistance matter; such a file says itself what resists its joints, with
 /// [`Resistance::File`](crate::Resistance::File).
 ///
-/// Meshes and textures are never opened: a body whose mass they make needs an `inertial`.
+/// Of meshes only the mass counts: those are read that give a body its mass.
 ///
 /// # Errors
 /// All mistakes in the file, each with its line and column.
@@ -55,7 +56,7 @@ pub fn import_mjcf(text: &str, options: &Options, include: Include<'_>) -> Resul
         return Err(root.mistake(Reason::NotARobot(root.tag.clone())));
     }
     let root = defaults::written_out(root)?;
-    model::Translation::new(&root)?.import(&root, options)
+    model::Translation::new(&root, include)?.import(&root, options)
 }
 
 /// Whether a text is a MuJoCo file.

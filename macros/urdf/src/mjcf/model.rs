@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 
 use super::attributes::{Angles, exactly, number, numbers, pose, required, unit, vector};
 use super::element::Element;
-use super::remark;
-use super::solids::{Source, mass};
+use super::meshes::Meshes;
+use super::solids::{Masses, Source, mass};
+use super::{Include, remark};
 use crate::assemble::{self, Body};
 use crate::error::{ImportError, Mistake, Reason};
 use crate::geometry::{Pose, Vector};
@@ -38,10 +39,8 @@ pub(super) struct Placed {
 /// What of joints has no meaning in a mechanism.
 const IGNORED_OF_JOINTS: [&str; 3] = ["range", "frictionloss", "actuatorfrcrange"];
 
-pub(super) struct Translation {
-    pub(super) angles: Angles,
-    source: Source,
-    groups: [f64; 2],
+pub(super) struct Translation<'a> {
+    masses: Masses<'a>,
     /// What the masses of all bodies are to add up to.
     pub(super) total: Option<f64>,
     /// By which all masses are multiplied.
@@ -65,8 +64,8 @@ pub(super) const POINTS: usize = 2;
 pub(super) const FORCES: usize = 3;
 pub(super) const CONSTRAINTS: usize = 4;
 
-impl Translation {
-    pub(super) fn new(root: &Element) -> Result<Self> {
+impl<'a> Translation<'a> {
+    pub(super) fn new(root: &'a Element, include: Include<'a>) -> Result<Self> {
         let mut notes = Vec::new();
         let mut settings = BTreeMap::new();
         for compiler in root.named("compiler") {
@@ -100,16 +99,19 @@ impl Translation {
             }
         }
         Ok(Self {
-            angles: Angles {
-                scale: if degrees { std::f64::consts::PI / 180.0 } else { 1.0 },
-                order: setting("eulerseq").unwrap_or("xyz").to_owned(),
+            masses: Masses {
+                angles: Angles {
+                    scale: if degrees { std::f64::consts::PI / 180.0 } else { 1.0 },
+                    order: setting("eulerseq").unwrap_or("xyz").to_owned(),
+                },
+                source: match setting("inertiafromgeom") {
+                    Some("true") => Source::Geoms,
+                    Some("false") => Source::Inertial,
+                    _ => Source::Either,
+                },
+                groups,
+                meshes: Meshes::new(root, setting("meshdir").or(setting("assetdir")).unwrap_or_default(), include),
             },
-            source: match setting("inertiafromgeom") {
-                Some("true") => Source::Geoms,
-                Some("false") => Source::Inertial,
-                _ => Source::Either,
-            },
-            groups,
             total: setting("settotalmass").and_then(|text| text.trim().parse().ok()).filter(|total| *total > 0.0),
             share: 1.0,
             gravity,
@@ -140,7 +142,7 @@ impl Translation {
     /// The mass of all bodies in one, or in the world.
     pub(super) fn masses(&self, of: &Element) -> Result<f64> {
         let each = of.named("body").map(|body| {
-            let own = mass(body, &self.angles, self.source, self.groups)?.map_or(0.0, |own| own.mass);
+            let own = mass(body, &self.masses)?.map_or(0.0, |own| own.mass);
             Ok(own + self.masses(body)?)
         });
         each.sum()
@@ -176,7 +178,7 @@ impl Translation {
     fn site(&mut self, site: &Element, of: &Placed) -> Result<()> {
         // A site without a name is a picture.
         let Some(original) = site.get("name") else { return Ok(()) };
-        let frame = pose(site, &self.angles)?;
+        let frame = pose(site, &self.masses.angles)?;
         let name = self.names.of_file(original, "site");
         self.sites.insert(original.to_owned(), name.clone());
         self.point(&name, &of.name, &frame);
@@ -189,7 +191,7 @@ impl Translation {
     }
 
     fn body(&mut self, own: &Element, parent: &Placed) -> Result<Placed> {
-        let frame = pose(own, &self.angles)?;
+        let frame = pose(own, &self.masses.angles)?;
         let name = match own.get("name") {
             Some(original) => self.names.of_file(original, "body"),
             None => self.unnamed("body"),
@@ -203,7 +205,7 @@ impl Translation {
         if own.get("gravcomp").is_some_and(|text| text.parse() != Ok(0.0)) {
             self.notes.push(remark(format!("`gravcomp` of `{name}` is left out: its weight acts")));
         }
-        let mass = mass(own, &self.angles, self.source, self.groups)?;
+        let mass = mass(own, &self.masses)?;
         let mass = mass.map(|total| {
             let (center, inertia) = total.central();
             assemble::Mass {
@@ -297,7 +299,7 @@ impl Translation {
 
     /// Spring, damper and armature of a joint with one coordinate.
     fn resistance(&mut self, own: &Element, name: &str, is_angle: bool) -> Result<()> {
-        let scale = if is_angle { self.angles.scale } else { 1.0 };
+        let scale = if is_angle { self.masses.angles.scale } else { 1.0 };
         let reference = scale * number(own, "ref", 0.0)?;
         let units = if is_angle { ["N*m/rad", "rad", "N*m*s/rad", "kg*m^2"] } else { ["N/m", "m", "N*s/m", "kg"] };
         let rest = scale * number(own, "springref", 0.0)? - reference;

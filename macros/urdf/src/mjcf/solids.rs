@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::attributes::{Angles, exactly, from_z, number, numbers, pose};
 use super::element::Element;
+use super::meshes::{Mesh, Meshes};
 use crate::error::ImportError;
 use crate::geometry::{Inertial, Moments, Pose, Vector, matrix, norm};
 
@@ -20,18 +21,28 @@ pub(super) enum Source {
     Inertial,
 }
 
+/// What masses are made from.
+pub(super) struct Masses<'a> {
+    pub(super) angles: Angles,
+    pub(super) source: Source,
+    /// Of geoms that count.
+    pub(super) groups: [f64; 2],
+    pub(super) meshes: Meshes<'a>,
+}
+
 /// Mass, centre and inertia in the axes of the body; `None` of what has none.
-pub(super) fn mass(body: &Element, angles: &Angles, source: Source, groups: [f64; 2]) -> Result<Option<Moments>> {
-    let said = body.named("inertial").next().filter(|_| source != Source::Geoms);
+pub(super) fn mass(body: &Element, from: &Masses<'_>) -> Result<Option<Moments>> {
+    let Masses { angles, source, groups, .. } = from;
+    let said = body.named("inertial").next().filter(|_| *source != Source::Geoms);
     let mut total = Moments::default();
     match said {
         Some(own) => total.add(&Moments::of(&inertial(own, angles)?, &Pose::default())),
-        None if source == Source::Inertial => {}
+        None if *source == Source::Inertial => {}
         None => {
             for geom in body.named("geom") {
                 let group = number(geom, "group", 0.0)?;
                 if (groups[0]..=groups[1]).contains(&group)
-                    && let Some(own) = solid(geom, angles)?
+                    && let Some(own) = solid(geom, from)?
                 {
                     total.add(&Moments::of(&own, &Pose::default()));
                 }
@@ -53,7 +64,8 @@ fn inertial(own: &Element, angles: &Angles) -> Result<Inertial> {
 }
 
 /// A geom of some mass.
-fn solid(geom: &Element, angles: &Angles) -> Result<Option<Inertial>> {
+fn solid(geom: &Element, from: &Masses<'_>) -> Result<Option<Inertial>> {
+    let angles = &from.angles;
     let kind = geom.get("type").unwrap_or(if geom.get("mesh").is_some() { "mesh" } else { "sphere" });
     if ["plane", "hfield"].contains(&kind) {
         return Ok(None);
@@ -115,8 +127,14 @@ fn solid(geom: &Element, angles: &Angles) -> Result<Option<Inertial>> {
             let volume = tube + ends;
             (volume, [across / volume, across / volume, about / volume])
         }
+        "mesh" => {
+            let Mesh { volume, unit } = from.meshes.get(geom)?;
+            let mass = given.unwrap_or(density * volume);
+            let pose = frame.then(&unit.pose);
+            return Ok(Some(Inertial { pose, mass, inertia: unit.inertia.map(|row| row.map(|x| mass * x)) }));
+        }
         other => {
-            let help = "give its body an `inertial`: files of meshes are not opened";
+            let help = "give its body an `inertial`";
             return Err(geom.wrong(format!("the mass of a {other} is not known here"), help));
         }
     };

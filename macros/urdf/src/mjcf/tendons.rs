@@ -7,7 +7,7 @@ use super::remark;
 use crate::error::ImportError;
 use crate::write::number as text_of;
 
-pub(super) fn tendon(all: &mut Translation, own: &Element) -> Result<(), ImportError> {
+pub(super) fn tendon(all: &mut Translation<'_>, own: &Element) -> Result<(), ImportError> {
     let wanted = own.get("name").unwrap_or("tendon").to_owned();
     if own.tag != "fixed" {
         all.notes.push(remark(format!("the {} tendon `{wanted}` is left out", own.tag)));

@@ -24,7 +24,7 @@ fn of(step: Result<()>) -> Vec<Mistake> {
     step.err().map(|error| error.mistakes).unwrap_or_default()
 }
 
-impl Translation {
+impl Translation<'_> {
     pub(super) fn import(mut self, root: &Element, options: &Options) -> Result<Import> {
         let mut mistakes = Vec::new();
         let ground = Placed { name: GROUND.to_owned(), pose: Pose::default() };

@@ -87,7 +87,7 @@ impl Import {
         let is_mjcf = is_mjcf(&file.text);
         let options = self.options(self.joints.unwrap_or(if is_mjcf { Joints::File } else { Joints::Springs }))?;
         let robot = if is_mjcf {
-            import_mjcf(&file.text, &options, &|name| fs::read_to_string(folder.join(name)))
+            import_mjcf(&file.text, &options, &|name| fs::read(folder.join(name)))
         } else {
             eigentol_urdf::import(&file.text, &options)
         };
