@@ -66,10 +66,6 @@ impl Builder {
         if self.source.random.chance(0.25) {
             laws.push(ForceLaw::Damper { coordinate, damping: self.source.between(0.1, 2.0, motion.damping_unit()) });
         }
-        if self.source.random.chance(0.1) {
-            let inertance = self.source.between(0.1, 2.0, motion.inertance_unit());
-            laws.push(ForceLaw::Inerter { coordinate, inertance });
-        }
     }
 
     fn between_points(&mut self, elements: &mut Elements) {

@@ -22,7 +22,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use crate::agreement::Case;
 use crate::matrices::{Oracle, State};
-use crate::model::{Model, Motion};
+use crate::model::{Force, ForceLaw, Model, Motion, Value};
 
 /// How the mechanism is mounted on the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,11 +62,24 @@ impl Plan {
         for _ in 0..100 {
             let model = self.draft(random.clone());
             if !model.free().is_empty() && is_regular(&model) {
-                return model;
+                return self.with_inerters(model);
             }
             random = Random::new(random.bits());
         }
         panic!("no regular model: {self:?}");
+    }
+
+    /// Inerters on some coordinates, from numbers of their own: whatever else a seed draws stays.
+    fn with_inerters(&self, mut model: Model) -> Model {
+        let mut random = Random::new(!self.seed);
+        for coordinate in model.free() {
+            if random.chance(0.1) {
+                let inertance = Value::Number(random.between(0.1, 2.0));
+                let name = format!("inerter{}", model.forces.len());
+                model.forces.push(Force { name, law: ForceLaw::Inerter { coordinate, inertance } });
+            }
+        }
+        model
     }
 
     /// The first attempt, whether or not its mass matrix is regular.

@@ -88,7 +88,9 @@ pub(crate) fn without_forces_on(mut model: Model, joint: usize) -> Model {
         found
     };
     model.forces.retain(|force| match &force.law {
-        ForceLaw::Spring { coordinate, .. } | ForceLaw::Damper { coordinate, .. } => coordinate.joint != joint,
+        ForceLaw::Spring { coordinate, .. }
+        | ForceLaw::Damper { coordinate, .. }
+        | ForceLaw::Inerter { coordinate, .. } => coordinate.joint != joint,
         ForceLaw::Generalized { coordinate, value } => coordinate.joint != joint && !on(value),
         ForceLaw::Potential { energy } => !on(energy),
         _ => true,
