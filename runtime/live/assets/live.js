@@ -5,6 +5,8 @@ const SECTIONS = ["brief", "modes", "along", "vibration", "shares", "verdicts", 
 const OPEN = ["modes", "along", "vibration"];
 // Milliseconds without a move after which the answers along an input are asked for, and the address follows.
 const REST = 250;
+// Controls beyond which one of them is looked for by its name.
+const MANY = 12;
 const SIMPLE = /^\s*(?:\+\/-)?\s*(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*(\S*)\s*(.*)$/;
 
 // What the page has set, from its address.
@@ -163,6 +165,8 @@ async function follow() {
     const began = performance.now();
     try {
       const { sections } = await ask("at_point");
+      // The view stays under the hand that turns it.
+      while (document.querySelector(".view3d:active")) await new Promise((done) => setTimeout(done, 50));
       page.slopes = sections.slopes;
       for (const own of page.controls.values()) own.follow(sections.values[own.name]);
       take(sections, time);
@@ -277,6 +281,7 @@ function build() {
   htmlElement("span", {}, choice, "Derivatives of");
   page.choice = htmlElement("select", {}, choice);
   page.choice.addEventListener("change", () => { page.mode = Number(page.choice.value); describe(); });
+  if (page.news.controls.length > MANY) finder();
   for (const [kind, text, usual] of KINDS) {
     const all = page.news.controls.filter((own) => own.kind === kind);
     if (all.length === 0) continue;
@@ -288,6 +293,19 @@ function build() {
   field(box, "Values", "points", "41");
   field(box, "Orders", "orders", "1");
   field(box, "Samples", "samples", "what 5 s allow");
+}
+
+// Hides what does not have the text in its name.
+function finder() {
+  const label = htmlElement("label", { class: "wide" }, aside);
+  htmlElement("span", {}, label, "Find");
+  const input = htmlElement("input", { type: "search", "aria-label": "Find a control", value: page.found ?? "" }, label);
+  const find = () => {
+    page.found = input.value;
+    for (const { box, name } of page.controls.values()) box.hidden = !name.includes(input.value.trim());
+  };
+  input.addEventListener("input", find);
+  setTimeout(find);
 }
 
 class Control {

@@ -146,11 +146,16 @@ impl Study {
         }
         if let Some(named) = named("tolerances")? {
             let mut texts = toml::Table::new();
-            for (name, text) in named {
+            for (name, given) in named {
+                let name = name.extract::<String>()?;
                 // Numbers are in SI, and a study file has texts.
-                if let (Ok(name), Ok(text)) = (name.extract::<String>(), text.extract::<String>()) {
-                    texts.insert(name, text.into());
-                }
+                let unit = quantities.iter().find(|(known, ..)| ***known == *name).map(|(_, unit, _)| *unit);
+                let text = match (given.extract::<String>(), given.extract::<f64>(), unit) {
+                    (Ok(text), ..) => text,
+                    (_, Ok(width), Some(unit)) => format!("{} {}", unit.from_si(width), unit.symbol),
+                    _ => continue,
+                };
+                texts.insert(name, text.trim_end().into());
             }
             all.insert("tolerance".to_owned(), texts.into());
         }

@@ -198,6 +198,13 @@ fn a_move_an_edit_and_a_mistake_are_answered() {
     );
     assert!(close(&page.frequencies(), &hertz(&study(&heavier, 1500.0))));
 
+    // Among many controls one is found by its name.
+    page.chrome.evaluate(
+        "(() => { const own = document.querySelector('[type=search]'); own.value = 'seal'; own.dispatchEvent(new Event('input')); })()",
+    );
+    let shown = "[...document.querySelectorAll('.control')].filter((own) => !own.hidden).map((own) => own.querySelector('.what').textContent)";
+    assert_eq!(page.chrome.evaluate(shown), json!(["seal_x", "seal_y", "seal_damping"]));
+
     // The address holds what was set.
     page.until("location.search.includes('25+Hz')");
     let address = page.chrome.text("location.href");
