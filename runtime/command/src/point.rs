@@ -202,7 +202,7 @@ impl Point {
     }
 
     /// The study of a declaration with all settings but the number of an equilibrium.
-    pub(crate) fn study(&self, compilation: &Compilation, file: &StudyFile) -> Result<Study<Interpreted>, Failure> {
+    fn study(&self, compilation: &Compilation, file: &StudyFile) -> Result<Study<Interpreted>, Failure> {
         let machine = self.stated(Interpreted::new(compilation), file)?;
         advice::remember(&machine, compilation);
         let mut study = Study::new(machine);
@@ -234,7 +234,9 @@ impl Point {
         let name = path.file_name().unwrap_or(path.as_os_str());
         all.insert("mechanism".to_owned(), name.display().to_string().into());
         let options = [("set", &self.set), ("start", &self.start), ("guess", &self.guess), ("hold", &self.hold)];
-        for (key, given) in options.into_iter().chain([("tolerance", &self.tol), ("unit", &self.unit)]) {
+        for (key, given) in
+            options.into_iter().chain([("tolerance", &self.tol), ("unit", &self.unit), ("between", &self.between)])
+        {
             let own = given.iter().map(|(name, text)| (name.clone(), text.clone().into()));
             match all.get_mut(key) {
                 Some(toml::Value::Table(table)) => table.extend(own),
@@ -246,6 +248,9 @@ impl Point {
         }
         if self.stay {
             all.insert("stay".to_owned(), true.into());
+        }
+        if let Some(number) = self.equilibrium.and_then(|number| i64::try_from(number).ok()) {
+            all.insert("equilibrium".to_owned(), number.into());
         }
         if let Some(level) = self.sigma_level {
             all.insert("sigma_level".to_owned(), level.into());
@@ -260,7 +265,18 @@ impl Point {
     pub(crate) fn question(&self) -> Result<Question, Failure> {
         let (file, path) = self.files()?;
         let declaration = Declaration::read(&path)?;
-        let study = self.study(&declaration.compiled()?, &file)?;
+        let compilation = declaration.compiled()?;
+        self.question_about(&compilation, declaration.text, file)
+    }
+
+    /// The question about a declaration with this text.
+    pub(crate) fn question_about(
+        &self,
+        compilation: &Compilation,
+        text: String,
+        file: StudyFile,
+    ) -> Result<Question, Failure> {
+        let study = self.study(compilation, &file)?;
         let given = file.between.iter();
         let options = self.between.iter().map(|(name, text)| (name, text));
         let between = given.chain(options).map(|(name, text)| bounds(&study, name, text));
@@ -269,7 +285,7 @@ impl Point {
             starts: self.starts,
             set: self.set.iter().flat_map(|(name, _)| meant(name, study.description())).collect(),
             study,
-            text: declaration.text,
+            text,
             file,
         };
         match self.equilibrium.or(question.file.equilibrium) {

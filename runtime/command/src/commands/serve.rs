@@ -49,7 +49,10 @@ impl Serve {
                 let declaration = Declaration { name: name.clone(), text: text.to_owned() };
                 declaration.compiled().map_err(|failure| plain(&failure))
             }),
-            study: Box::new(move |compilation| self.point.study(compilation, &file).map_err(|failure| plain(&failure))),
+            study: Box::new(move |compilation| {
+                let question = self.point.question_about(compilation, String::new(), file.clone());
+                Ok(question.map_err(|failure| plain(&failure))?.study)
+            }),
             settings,
         };
         let server = Server::start(subject, self.port)?;

@@ -117,6 +117,21 @@ fn the_page_has_the_numbers_and_messages_of_the_command() {
     assert_eq!((again.code, again.out), (0, direct.out));
 }
 
+/// A page begins at the equilibrium that is chosen.
+#[test]
+fn a_page_begins_at_a_numbered_equilibrium() {
+    let point = ["rotating_pendulum.mechanism", "--set", "omega=5rad/s"];
+    let numbers = |number: &str| {
+        let page = Page::of(&[&["serve"], &point[..], &["--equilibrium", number]].concat());
+        page.news(|news| news["machine"] == 1);
+        page.asked("{\"ask\":\"at_point\"}")["answer"]["sections"]["sections"][0]["html"].as_str().unwrap().to_owned()
+    };
+    let found: Vec<String> = ["1", "2", "3"].map(numbers).into();
+    let stable = found.iter().filter(|html| html.contains("The equilibrium is stable")).count();
+    let unstable = found.iter().filter(|html| html.contains("unstable")).count();
+    assert!(stable >= 1 && unstable >= 1, "{found:?}");
+}
+
 #[test]
 fn what_cannot_be_served_is_refused_at_once() {
     let nowhere = run(&["serve", "nowhere.mechanism"]);
