@@ -10,10 +10,10 @@ use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // Cargo puts the library beside this program.
+    // Cargo builds the library with this program, which is in the folder above.
     let folder = std::env::current_exe()?;
     let folder = folder.parent().ok_or("a program is in a folder")?;
-    let library = folder.join(format!("{DLL_PREFIX}rotor{DLL_SUFFIX}"));
+    let library = folder.join("deps").join(format!("{DLL_PREFIX}rotor{DLL_SUFFIX}"));
     let system = match OS {
         "macos" => "darwin",
         other => other,
@@ -24,7 +24,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     archive.start_file("modelDescription.xml", options)?;
     archive.write_all(rotor::fmi::description().as_bytes())?;
     archive.start_file(format!("binaries/{ARCH}-{system}/rotor{DLL_SUFFIX}"), options)?;
-    archive.write_all(&fs::read(library)?)?;
+    let content = fs::read(&library).map_err(|error| format!("{}: {error}", library.display()))?;
+    archive.write_all(&content)?;
     archive.finish()?;
     println!("{}", file.display());
     Ok(())

@@ -28,11 +28,11 @@ def built(tmp_path_factory):
     target = Path(os.environ.get("CARGO_TARGET_DIR", PACKAGE.parents[1] / "target")) / "shared"
     fmu = folder / "rotor.fmu"
     # Its lock file is that of the project, so that nothing new is looked for.
-    shutil.copytree(PACKAGE, folder / "package", ignore=shutil.ignore_patterns("target"))
     shutil.copy(PACKAGE.parents[1] / "Cargo.lock", PACKAGE)
     run = ["cargo", "run", "--quiet", "--manifest-path", PACKAGE / "Cargo.toml", "--bin", "fmu", "--", fmu]
     subprocess.run(run, check=True, env={**os.environ, "CARGO_TARGET_DIR": str(target)})
-    library = next(path for path in (target / "debug").glob("*rotor.*") if path.suffix in {".so", ".dylib", ".dll"})
+    built = (target / "debug" / "deps").glob("*rotor.*")
+    library = next(path for path in built if path.suffix in {".so", ".dylib", ".dll"})
     return library, fmu
 
 
