@@ -113,6 +113,7 @@ pub fn text(number: u64) -> String {
         random.bits();
         model = plan.draft(random.clone());
     }
+    let mut model = plan.with_inerters(model);
     if !all_forces {
         let free = model.free();
         let springs = free.into_iter().enumerate().map(|(k, coordinate)| Force {

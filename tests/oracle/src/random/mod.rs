@@ -70,7 +70,7 @@ impl Plan {
     }
 
     /// Inerters on some coordinates, from numbers of their own: whatever else a seed draws stays.
-    fn with_inerters(&self, mut model: Model) -> Model {
+    pub fn with_inerters(&self, mut model: Model) -> Model {
         let mut random = Random::new(!self.seed);
         for coordinate in model.free() {
             if random.chance(0.1) {
