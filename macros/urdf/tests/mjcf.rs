@@ -80,6 +80,8 @@ fn what_cannot_be_read_is_said_with_its_place() {
         ("<mujoco>".to_owned(), 1, "not XML"),
         ("<sdf/>".to_owned(), 1, "not a `robot`"),
         (world(ball), 1, "nothing moves"),
+        (body("<geom size='0.1'/>"), 1, "nothing moves"),
+        (body("<joint name='j'/><joint name='j' type='slide'/><geom size='0.1'/>"), 3, "the joint `j` is there twice"),
         (body("<joint type='hing'/><geom size='0.1'/>"), 3, "`hing` is not a type of joint"),
         (body("<joint axis='0 0 0'/><geom size='0.1'/>"), 3, "has no length"),
         (body("<joint axis='0 1'/><geom size='0.1'/>"), 3, "`axis` has 2 numbers"),
@@ -110,6 +112,8 @@ fn what_cannot_be_read_is_said_with_its_place() {
     for inside in ["<joint joint1='k'/>", "<connect body1='c' anchor='0 0 0'/>", "<weld site1='s' site2='t'/>"] {
         assert!(matches!(refused(&equal(inside)).mistakes[0].reason, Reason::Unknown { .. }), "{inside}");
     }
+    let ball_joint = equal("<joint joint1='j'/>").replace("<joint name='j'/>", "<joint name='j' type='ball'/>");
+    assert!(refused(&ball_joint).to_string().contains("no joint with one coordinate `j`"));
     assert!(matches!(refused(&equal("<connect body1='b'/>")).mistakes[0].reason, Reason::MissingAttribute { .. }));
 }
 
@@ -200,6 +204,23 @@ fn a_mesh_has_the_mass_of_what_it_encloses() {
         assert!(error.to_string().contains(words), "{mesh}: {error}");
         // Who does not need its mass does not open it.
         assert!(model(mesh, solid).is_ok());
+    }
+}
+
+/// Springs of the option are on what moves, be it the angles of a ball.
+#[test]
+fn springs_are_on_what_moves() {
+    for (joint, words) in [
+        ("<joint type='ball'/>", vec!["every angle"]),
+        ("<joint type='slide'/>", vec!["every displacement"]),
+        ("<freejoint/>", vec!["every angle", "every displacement"]),
+    ] {
+        let text = world(&format!("<body name='b'>{joint}<geom size='0.1'/></body>"));
+        let found = import_mjcf(&text, &Options::default(), &nothing).unwrap().declaration;
+        for word in ["every angle", "every displacement"] {
+            assert_eq!(found.contains(word), words.contains(&word), "{found}");
+        }
+        compile(found.parse().unwrap(), Limits::default()).unwrap_or_else(|error| panic!("{found}\n{error}"));
     }
 }
 

@@ -56,10 +56,12 @@ pub(super) struct Translation<'a> {
     pub(super) lines: [Vec<(String, String)>; 5],
     pub(super) notes: Vec<Note>,
     pub(super) ignored: BTreeMap<String, Vec<String>>,
+    /// Whether some joint moves by a displacement, and some by an angle.
+    pub(super) moves: [bool; 2],
     unnamed: usize,
 }
 
-pub(super) const JOINTS: usize = 1;
+const JOINTS: usize = 1;
 pub(super) const POINTS: usize = 2;
 pub(super) const FORCES: usize = 3;
 pub(super) const CONSTRAINTS: usize = 4;
@@ -122,20 +124,22 @@ impl<'a> Translation<'a> {
             lines: Default::default(),
             notes,
             ignored: BTreeMap::new(),
+            moves: [false; 2],
             unnamed: 0,
         })
     }
 
-    pub(super) fn name_joints(&mut self, of: &Element) {
+    pub(super) fn name_joints(&mut self, of: &Element, mistakes: &mut Vec<Mistake>) {
         for body in of.named("body") {
             for joint in body.children.iter().filter(|own| ["joint", "freejoint"].contains(&&*own.tag)) {
-                if let Some(name) = joint.get("name").filter(|name| !self.joints.contains_key(*name)) {
-                    let own = self.names.of_file(name, "joint");
-                    self.joints
-                        .insert(name.to_owned(), Coordinate { name: own, is_angle: true, reference: 0.0, rest: 0.0 });
+                let Some(name) = joint.get("name") else { continue };
+                let own =
+                    Coordinate { name: self.names.of_file(name, "joint"), is_angle: true, reference: 0.0, rest: 0.0 };
+                if self.joints.insert(name.to_owned(), own).is_some() {
+                    mistakes.extend(joint.mistake(Reason::Twice { what: "joint", name: name.to_owned() }).mistakes);
                 }
             }
-            self.name_joints(body);
+            self.name_joints(body, mistakes);
         }
     }
 
@@ -286,8 +290,13 @@ impl<'a> Translation<'a> {
             }
         };
         self.lines[JOINTS].push((name.clone(), format!("joint {name}: {motions} from {from} to {to}{place}")));
+        self.moves = [self.moves[0] || ["slide", "free"].contains(&kind), self.moves[1] || kind != "slide"];
         if ["hinge", "slide"].contains(&kind) {
             return self.resistance(own, &name, kind == "hinge");
+        }
+        // It has no coordinate of its name, which something else could follow.
+        if let Some(original) = own.get("name") {
+            self.joints.remove(original);
         }
         self.resistance_of_several(
             own,
@@ -369,9 +378,8 @@ impl<'a> Translation<'a> {
     /// The coordinate of a joint that an element names.
     pub(super) fn coordinate(&self, of: &Element, attribute: &'static str) -> Result<Coordinate> {
         let name = required(of, attribute)?;
-        self.joints
-            .get(name)
-            .cloned()
-            .ok_or_else(|| of.mistake(Reason::Unknown { what: "joint", name: name.to_owned(), near: None }))
+        self.joints.get(name).cloned().ok_or_else(|| {
+            of.mistake(Reason::Unknown { what: "joint with one coordinate", name: name.to_owned(), near: None })
+        })
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::element::Element;
-use super::model::{JOINTS, Placed, Translation};
+use super::model::{Placed, Translation};
 use super::{constraints, tendons};
 use crate::Import;
 use crate::assemble::GROUND;
@@ -39,7 +39,7 @@ impl Translation<'_> {
         }
         // Results are identified by coordinate, so joints get first choice of their names.
         for world in root.named("worldbody") {
-            self.name_joints(world);
+            self.name_joints(world, &mut mistakes);
         }
         for world in root.named("worldbody") {
             self.inside(world, &ground, &mut mistakes);
@@ -50,7 +50,7 @@ impl Translation<'_> {
         for section in root.named("tendon").flat_map(|own| &own.children) {
             mistakes.extend(of(tendons::tendon(&mut self, section)));
         }
-        if mistakes.is_empty() && self.joints.is_empty() && self.lines[JOINTS].is_empty() {
+        if mistakes.is_empty() && self.moves == [false; 2] {
             mistakes.extend(root.mistake(Reason::NothingMoves("no body has a joint")).mistakes);
         }
         if !mistakes.is_empty() {
@@ -77,8 +77,7 @@ impl Translation<'_> {
             let comment = original.map(|original| format!(" // `{}`", printable(original)));
             let _ = writeln!(text, "    {line};{}", comment.unwrap_or_default());
         }
-        let all = self.joints.values();
-        for line in springs(options.resistance, |is_angle| all.clone().any(|own| own.is_angle == is_angle)) {
+        for line in springs(options.resistance, |is_angle| self.moves[usize::from(is_angle)]) {
             let _ = writeln!(text, "    {line};");
         }
         text.push_str("}\n");

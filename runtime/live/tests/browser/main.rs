@@ -315,6 +315,12 @@ fn a_thousand_moves_leave_nothing_behind() {
     );
     assert!(after < before + 2e6, "{before} {after}");
     drop(page);
+    let disks =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/truth/users/two_disks.mechanism"));
+    let Some(mut page) = Page::open("disks", &disks.unwrap(), 5000.0) else { return };
+    let (slowest, _) = moves(&mut page, "speed", 200);
+    println!("95 % of 200 moves of the rotor with two disks are answered in {slowest:.0} ms");
+    drop(page);
     let chain = "mechanism Chain {
         design l = 30 mm +/- 1%;  design m = 20 g +/- 2%;  gravity 9.81 m/s^2 along -z;
         body link[0..60]: rod(mass: m, length: l, along: -z);
