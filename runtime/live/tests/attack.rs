@@ -18,9 +18,13 @@ const TEXT: &str = "mechanism Bob {
 }";
 
 fn server() -> Server {
+    serving(TEXT)
+}
+
+fn serving(text: &'static str) -> Server {
     let subject = Subject {
         name: "bob.mechanism".to_owned(),
-        read: Box::new(|| Ok(TEXT.to_owned())),
+        read: Box::new(|| Ok(text.to_owned())),
         compile: Box::new(compiled),
         study: Box::new(|compilation| Ok(Study::new(Interpreted::new(compilation)))),
         settings: toml::Table::new(),
@@ -202,6 +206,46 @@ fn controls_have_their_own_derivatives_and_shares() {
     assert!(number(&by["m"][0]).abs() < 1e-9);
     assert_eq!((number(&shares["l"][0]), number(&shares["m"][0])), (1.0, 0.0));
     assert!((number(&slopes["modes"][0]["band"]) - 0.005 * scale * omega).abs() < 1e-9);
+}
+
+/// Forced vibration is among what follows a move: at the operating point in words, along an input in figures.
+#[test]
+fn vibration_follows_too() {
+    let text = "mechanism Shaken {
+        input speed: rpm; design k = 20 kN/m +/- 5%; design c = 40 N*s/m;
+        body mass: point(mass: 2 kg); joint x: prismatic(x) from ground to mass;
+        force spring: spring(on: x, stiffness: k); force film: damper(on: x, damping: c);
+        force u: harmonic(on: x, force: 3 N, frequency: speed);
+        output shake: mm = x;
+    }";
+    let server = serving(text);
+    let (host, token) = parts(&server);
+    let part = |ask: &str, speed: &str| {
+        let question = format!("{{\"ask\":\"{ask}\",\"given\":{{\"set\":{{\"speed\":\"{speed}\"}},\"points\":11}}}}");
+        let answer = asked(&host, &token, &question);
+        let sections =
+            answer["answer"]["sections"]["sections"].as_array().unwrap_or_else(|| panic!("{answer}")).clone();
+        let html = |id: &str| {
+            let own = sections.iter().find(|own| own["id"] == id);
+            own.map(|own| own["html"].as_str().unwrap().to_owned()).unwrap_or_default()
+        };
+        [html("brief"), html("vibration"), html("along"), html("distributions")]
+    };
+    // |x| = F / |k - m w^2 + i w c|
+    let amplitude = |rpm: f64| {
+        let w = rpm * std::f64::consts::PI / 30.0;
+        3e3 / (20e3 - 2.0 * w * w).hypot(40.0 * w)
+    };
+    for rpm in [600.0, 1200.0] {
+        let [brief, vibration, ..] = part("at_point", &format!("{rpm} rpm"));
+        let words = brief.split("Shake under u is ").nth(1).unwrap_or_else(|| panic!("{brief}"));
+        let found: f64 = words.split(' ').next().unwrap().parse().unwrap();
+        assert!((found / amplitude(rpm) - 1.0).abs() < 1e-4, "{words}");
+        assert!(vibration.is_empty() && brief.contains("no samples judge it here"));
+        let [brief, vibration, along, distributions] = part("along", &format!("{rpm} rpm"));
+        assert!(vibration.contains("Bode plot of") && along.contains("Campbell diagram"));
+        assert!(brief.is_empty() && distributions.is_empty());
+    }
 }
 
 /// A server that is dropped has ended: its port is free.

@@ -241,16 +241,28 @@ JOINED = """<mujoco model="joined"><compiler angle="radian"/><include file="part
   <equality>
     <connect body1="rod" body2="rocker" anchor="0.8 0 0.4"/>
     <joint joint1="e" joint2="d" polycoef="0.05 0.3 0.2 0 0"/>
-    <weld body1="crank" body2="loose"/>
+    WELD
   </equality></mujoco>"""
 
 
-def test_equalities(tmp_path):
+WELDS = [
+    '<weld body1="crank" body2="loose"/>',
+    '<weld body1="crank" body2="loose" relpose="0.4 0.1 0.2 0.9 0.1 0.3 0.2"/>',
+    '<weld body1="crank" body2="loose" relpose="0.4 0.1 0.2 0.9 0.1 0.3 0.2" anchor="0.1 0.2 0.3"/>',
+    '<weld site1="on_crank" site2="on_loose"/>',
+    '<weld body1="loose"/>',
+]
+
+
+@pytest.mark.parametrize("weld", WELDS)
+def test_equalities(tmp_path, weld):
     """At our equilibrium MuJoCo's equalities are met, and its forces are balanced by their reactions."""
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts" / "defaults.xml").write_text("<mujoco><default><geom density='500'/></default></mujoco>")
     path = tmp_path / "joined.xml"
-    path.write_text(JOINED)
+    sites = '<site name="on_{0}" pos="0.1 0 0.2" euler="0.2 0.3 0.4"/></body>'
+    text = JOINED.replace("WELD", weld).replace('size="0.1 0.2 0.1" mass="1"/></body>', 'size="0.1 0.2 0.1" mass="1"/>' + sites.format("loose"))
+    path.write_text(text.replace('mass="1"/></body>\n    </body>', 'mass="1"/></body>' + sites.format("crank").replace("</body>", "") + "\n    </body>"))
     imported = eigentol.import_mjcf(path)
     study = eigentol.Study(imported.mechanism())
     state = study.equilibrium()
@@ -262,16 +274,21 @@ def test_equalities(tmp_path):
         kind, at = int(model.jnt_type[joint]), model.jnt_qposadr[joint]
         if kind != FREE:
             data.qpos[at] += values[model.joint(joint).name]
-    # The loose body follows the crank to which it is welded.
-    mujoco.mj_kinematics(model, data)
-    crank = data.body("crank")
+    # Our coordinates of the loose body are along its axes at the reference.
     start = mujoco.MjData(model)
     mujoco.mj_kinematics(model, start)
-    turn = crank.xmat.reshape(3, 3) @ start.body("crank").xmat.reshape(3, 3).T
+    loose = start.body("loose")
+    first = loose.xmat.reshape(3, 3)
+    own = next(name.removesuffix("_px") for name in values if name.endswith("_px"))
     at = model.jnt_qposadr[model.njnt - 1]
-    data.qpos[at : at + 3] = crank.xpos + turn @ (start.body("loose").xpos - start.body("crank").xpos)
-    quaternion = np.zeros(4)
-    mujoco.mju_mat2Quat(quaternion, (turn @ start.body("loose").xmat.reshape(3, 3)).ravel())
+    data.qpos[at : at + 3] = loose.xpos + first @ [values[f"{own}_p{axis}"] for axis in "xyz"]
+    turn = first
+    for ending, axis in (("yaw", [0, 0, 1]), ("pitch", [0, 1, 0]), ("roll", [1, 0, 0])):
+        quaternion, matrix = np.zeros(4), np.zeros(9)
+        mujoco.mju_axisAngle2Quat(quaternion, np.array(axis, float), values[f"{own}_{ending}"])
+        mujoco.mju_quat2Mat(matrix, quaternion)
+        turn = turn @ matrix.reshape(3, 3)
+    mujoco.mju_mat2Quat(quaternion, turn.ravel())
     data.qpos[at + 3 : at + 7] = quaternion
     mujoco.mj_forward(model, data)
     rows = data.nefc

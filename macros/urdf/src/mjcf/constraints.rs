@@ -98,7 +98,8 @@ fn ends(all: &mut Translation<'_>, own: &Element, wanted: &str, axes: bool) -> R
     // The anchor of a weld is in the second body, that of a connection in the first one.
     let (at_first, at_second) = if axes {
         let anchor = anchor.unwrap_or([0.0; 3]);
-        (relative.then(&at(anchor)), at(anchor))
+        // A pose that is said is that of the anchor.
+        (if said.is_some() { relative } else { relative.then(&at(anchor)) }, at(anchor))
     } else {
         let Some(anchor) = anchor else {
             return Err(own.mistake(Reason::MissingAttribute { element: own.tag.clone(), attribute: "anchor" }));
