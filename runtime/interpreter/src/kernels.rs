@@ -5,8 +5,8 @@ use std::slice::from_ref;
 
 use eigentol::kernels::{
     BatchKernels, BatchLinear, BatchPartials, BatchPoint, Curvature, CurvatureKernels, Directional, DirectionalKernels,
-    Gradient, Interval, Kernel, Kernels, Linear, MotionKernel, MotionKernels, PartialMatrices, PictureKernels, Second,
-    Sizes, gradient_results, linear_results,
+    Gradient, Interval, Kernel, Kernels, Linear, MotionKernel, MotionKernels, PartialMatrices, PencilAlong,
+    PictureKernels, Second, Sizes, gradient_results, linear_results,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Description, Dual, PictureInfo, PoseMargin, Shared, Violation};
@@ -79,30 +79,22 @@ fn run_along(tape: &Option<Tape>, arguments: &[&[f64]], direction: &[&[f64]], to
     });
 }
 
-/// Runs a tape at one state and copies the derivatives of its results along each of several directions, which pass side
-/// by side through the vectors of the processor.
-fn run_along_each<const N: usize>(
-    tape: &Option<Tape>,
-    arguments: &[&[f64]; N],
-    directions: &[[&[f64]; N]],
-    gradients: &mut [Gradient],
-) {
-    for (directions, gradients) in directions.chunks(WIDTH).zip(gradients.chunks_mut(WIDTH)) {
-        let (Some(tape), [_, _, ..]) = (tape, directions) else {
-            for (direction, gradient) in directions.iter().zip(gradients) {
+/// Runs a tape at each of several points and copies the derivatives of its results, each along a direction of its own, side
+/// by side in the vectors of the processor.
+fn run_along_each<const N: usize>(tape: &Option<Tape>, points: &[[[&[f64]; N]; 2]], gradients: &mut [Gradient]) {
+    for (points, gradients) in points.chunks(WIDTH).zip(gradients.chunks_mut(WIDTH)) {
+        let (Some(tape), [first, _, ..]) = (tape, points) else {
+            for ([arguments, direction], gradient) in points.iter().zip(gradients) {
                 run_along(tape, arguments, direction, &mut gradient_results(gradient));
             }
             continue;
         };
+        let lanes = |part: usize, list: usize, k: usize| {
+            Batch::from_fn(|lane| points.get(lane).unwrap_or(first)[part][list][k])
+        };
         let moved: [Vec<Dual<Batch>>; N] = from_fn(|list| {
-            arguments[list]
-                .iter()
-                .enumerate()
-                .map(|(k, &value)| Dual {
-                    value: Batch::all(value),
-                    slope: Batch::from_fn(|lane| directions.get(lane).map_or(0.0, |direction| direction[list][k])),
-                })
-                .collect()
+            let number = |k| Dual { value: lanes(0, list, k), slope: lanes(1, list, k) };
+            (0..first[0][list].len()).map(number).collect()
         });
         along_each(tape, &moved.each_ref().map(Vec::as_slice), |registers| {
             for (lane, gradient) in gradients.iter_mut().enumerate() {
@@ -281,8 +273,8 @@ impl DirectionalKernels for Interpreted {
         directions: &[[&[f64]; 4]],
         gradients: &mut [Gradient],
     ) {
-        let tape = self.tape(Kernel::ResidualGradient);
-        run_along_each(tape, &[q, u, b, w], directions, gradients);
+        let points: Vec<_> = directions.iter().map(|direction| [[q, u, b, w], *direction]).collect();
+        run_along_each(self.tape(Kernel::ResidualGradient), &points, gradients);
     }
 }
 
@@ -307,10 +299,22 @@ impl CurvatureKernels for Interpreted {
         directions: &[([&[f64]; 4], f64)],
         gradients: &mut [Gradient],
     ) {
-        let along = directions.iter().map(|([dq, du, db, dphi], rate)| [*dq, du, db, dphi, from_ref(rate)]);
-        let along: Vec<[&[f64]; 5]> = along.collect();
-        let tape = self.tape(Kernel::ModeGradient);
-        run_along_each(tape, &[q, u, b, phi, &[lambda]], &along, gradients);
+        let at: [&[f64]; 5] = [q, u, b, phi, &[lambda]];
+        let along = directions.iter().map(|([dq, du, db, dphi], rate)| [at, [*dq, du, db, dphi, from_ref(rate)]]);
+        run_along_each(self.tape(Kernel::ModeGradient), &along.collect::<Vec<_>>(), gradients);
+    }
+
+    fn pencil_gradients_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        points: &[PencilAlong<'_>],
+        gradients: &mut [Gradient],
+    ) {
+        let lists = |[q, u, b]: [_; 3], [l, a, v, x]: [_; 4]| -> [&[f64]; 7] { [q, u, b, l, a, v, x] };
+        let points = points.iter().map(|own| [lists([q, u, b], own.vectors), lists(own.direction, own.changes)]);
+        run_along_each(self.tape(Kernel::PencilGradient), &points.collect::<Vec<_>>(), gradients);
     }
 }
 

@@ -229,7 +229,7 @@ fn vibration_follows_too() {
             let own = sections.iter().find(|own| own["id"] == id);
             own.map(|own| own["html"].as_str().unwrap().to_owned()).unwrap_or_default()
         };
-        [html("brief"), html("vibration"), html("along"), html("distributions")]
+        ["brief", "verdicts", "vibration", "along", "distributions"].map(html)
     };
     // |x| = F / |k - m w^2 + i w c|
     let amplitude = |rpm: f64| {
@@ -237,13 +237,14 @@ fn vibration_follows_too() {
         3e3 / (20e3 - 2.0 * w * w).hypot(40.0 * w)
     };
     for rpm in [600.0, 1200.0] {
-        let [brief, vibration, ..] = part("at_point", &format!("{rpm} rpm"));
+        let [brief, verdicts, vibration, ..] = part("at_point", &format!("{rpm} rpm"));
         let words = brief.split("Shake under u is ").nth(1).unwrap_or_else(|| panic!("{brief}"));
         let found: f64 = words.split(' ').next().unwrap().parse().unwrap();
         assert!((found / amplitude(rpm) - 1.0).abs() < 1e-4, "{words}");
-        assert!(vibration.is_empty() && brief.contains("no samples judge it here"));
-        let [brief, vibration, along, distributions] = part("along", &format!("{rpm} rpm"));
+        assert!(vibration.is_empty() && verdicts.is_empty() && !brief.contains("trusted"));
+        let [brief, verdicts, vibration, along, distributions] = part("along", &format!("{rpm} rpm"));
         assert!(vibration.contains("Bode plot of") && along.contains("Campbell diagram"));
+        assert!(verdicts.contains("nothing contradicts the first-order sigma"), "{verdicts}");
         assert!(brief.is_empty() && distributions.is_empty());
     }
 }

@@ -6,21 +6,25 @@ const PAINTING = 8;
 const whenIdle = (act) => (window.requestIdleCallback ? requestIdleCallback(act, { timeout: 200 }) : setTimeout(act, 20));
 const VIEWS = [["oblique", -0.9, 0.42], ["from the front", -Math.PI / 2, 0], ["from the side", 0, 0], ["from above", -Math.PI / 2, Math.PI / 2]];
 
-// As another player shows it, if one is given.
+// As another player shows it, if one is given: by that player itself where the same can be chosen.
 function showMechanism({ scene, up, motions }, parent, before) {
   const model = new Model(scene, up);
-  const states = [{ title: "Equilibrium", about: "", frames: [model.rest] }, ...motions.map(stateOf)];
-  return new Player(model, states, parent, before);
+  const states = [{ title: "Equilibrium", about: "", count: 1, frame: () => model.rest }, ...motions.map(stateOf)];
+  if (!before?.offers(model, states)) return new Player(model, states, parent, before);
+  before.follow(model, states, parent);
+  return before;
 }
 
+// Poses are formed when they are first seen.
 function stateOf({ title, about, frames }) {
   const poses = (numbers) => Array.from({ length: numbers.length / 12 }, (_, pose) => poseOf(numbers, 12 * pose));
-  return { title, about, frames: frames.map(poses) };
+  const seen = [];
+  return { title, about, count: frames.length, frame: (phase) => (seen[phase] ??= poses(frames[phase])) };
 }
 
 class Player {
   constructor(model, states, parent, before) {
-    Object.assign(this, { model, states, chosen: 0, phase: 0, playing: false });
+    Object.assign(this, { model, states, parent, chosen: 0, phase: 0, playing: false });
     this.large = htmlElement("canvas", {
       class: "view3d",
       tabindex: "0",
@@ -33,7 +37,26 @@ class Player {
     this.gallery(parent);
     this.listen();
     if (before) this.resume(before);
-    else this.choose(0);
+    else this.show(0);
+  }
+
+  offers(model, states) {
+    const names = (own) => Object.keys(own.upright).join();
+    return states.length === this.states.length && names(model) === names(this.model);
+  }
+
+  // Shows another machine, at another place of the page.
+  follow(model, states, parent) {
+    parent.append(...this.parent.childNodes);
+    Object.assign(this, { model, states, parent });
+    this.painter.model = model;
+    this.small.forEach(({ text, painter }, number) => {
+      text.textContent = states[number].title;
+      painter.model = model;
+    });
+    this.tell();
+    this.paint();
+    this.paintGallery();
   }
 
   controls(parent) {
@@ -73,24 +96,29 @@ class Player {
     this.small = this.states.map((state, number) => {
       const button = htmlElement("button", { type: "button", "aria-pressed": "false" }, box);
       const canvas = htmlElement("canvas", { class: "small", "aria-hidden": "true" }, button);
-      htmlElement("span", {}, button, state.title);
-      button.addEventListener("click", () => this.choose(number));
-      return { button, painter: new Painter(canvas, this.model, this.model.coarse) };
+      const text = htmlElement("span", {}, button, state.title);
+      button.addEventListener("click", () => {
+        this.show(number);
+        this.paint();
+      });
+      return { button, text, painter: new Painter(canvas, this.model, false) };
     });
   }
 
-  choose(number) {
+  tell() {
+    const { title, about } = this.states[this.chosen];
+    this.about.textContent = about ? `${title}: ${about}` : title;
+  }
+
+  show(number) {
     this.chosen = number;
     this.phase = 0;
-    const { title, about, frames } = this.states[number];
-    this.about.textContent = about ? `${title}: ${about}` : title;
+    this.tell();
     this.small.forEach(({ button }, k) => button.setAttribute("aria-pressed", String(k === number)));
-    const moves = frames.length > 1;
+    const moves = this.states[number].count > 1;
     this.play.disabled = !moves;
     this.slider.disabled = !moves;
     this.setPlaying(moves && !matchMedia("(prefers-reduced-motion: reduce)").matches);
-    this.paint();
-    this.paintGallery();
   }
 
   // Shows what another player shows, as it shows it.
@@ -99,11 +127,10 @@ class Player {
     if (up in this.model.upright) this.upwards.value = up;
     Object.assign(this.painter, { azimuth, elevation, zoom, up: this.upwards.value });
     this.named.checked = named.checked;
-    this.choose(Math.min(chosen, this.states.length - 1));
+    this.show(Math.min(chosen, this.states.length - 1));
     this.phase = phase;
     if (!playing) this.setPlaying(false);
     this.slider.value = 360 * phase;
-    this.paint();
   }
 
   setPlaying(playing) {
@@ -125,10 +152,11 @@ class Player {
 
   // The poses of the chosen state at the phase.
   poses() {
-    const { frames } = this.states[this.chosen];
-    const place = this.phase * frames.length;
-    const [before, after] = [frames[Math.floor(place) % frames.length], frames[(Math.floor(place) + 1) % frames.length]];
-    return before.map((pose, body) => between(pose, after[body], place - Math.floor(place)));
+    const { count, frame } = this.states[this.chosen];
+    const place = this.phase * count;
+    const first = Math.floor(place);
+    const [before, after] = [frame(first % count), frame((first + 1) % count)];
+    return before.map((pose, body) => between(pose, after[body], place - first));
   }
 
   paint() {
@@ -150,7 +178,7 @@ class Player {
   paintSmall(number) {
     const { painter } = this.small[number];
     Object.assign(painter, { azimuth: this.painter.azimuth, elevation: this.painter.elevation, up: this.painter.up });
-    painter.paint(this.states[number].frames[0], { ghost: number > 0, triad: false });
+    painter.paint(this.states[number].frame(0), { ghost: number > 0, triad: false });
   }
 
   look(azimuth, elevation) {
@@ -199,6 +227,7 @@ class Player {
       keys[event.key]();
       event.preventDefault();
     });
+    // The first call is the first painting.
     new ResizeObserver(() => {
       this.paint();
       this.paintGallery();

@@ -36,12 +36,12 @@ class Model {
     this.colours = this.colourBodies();
   }
 
-  // Each beam with the poses of its sections, which follow those of the bodies, and the sections of a smooth picture.
+  // Each beam with the poses of its sections, which follow those of the bodies.
   beams(poses) {
     let number = this.scene.bodies.length;
     return this.scene.beams.map(({ name, round, sections }) => {
       const own = sections.map(({ size }) => ({ pose: poses[number++], size }));
-      return { name, round, sections: own, smooth: smoothed(own) };
+      return { name, round, sections: own };
     });
   }
 
@@ -75,10 +75,10 @@ class Model {
 
 // One picture of a model: projects, sorts, paints.
 class Painter {
-  constructor(canvas, model, faces = model.faces) {
+  constructor(canvas, model, fine = true) {
     this.canvas = canvas;
     this.model = model;
-    this.faces = faces;
+    this.fine = fine;
     this.context = canvas.getContext("2d");
     this.azimuth = -0.9;
     this.elevation = 0.42;
@@ -124,7 +124,8 @@ class Painter {
 
   bodies(poses, ghost) {
     const jobs = [];
-    this.faces.forEach((faces, body) => {
+    const all = this.fine ? this.model.faces : this.model.coarse;
+    all.forEach((faces, body) => {
       const pose = poses[body];
       for (const { corners, smooth } of faces) {
         const there = corners.map((corner) => placed(pose, corner));
@@ -153,10 +154,11 @@ class Painter {
   // stroke along the second axis says how a section stands.
   beams(poses, ghost) {
     const stroke = 0.02 * this.model.size;
-    return this.model.beams(poses).flatMap(({ sections, smooth, round }, number) => {
+    return this.model.beams(poses).flatMap(({ sections, round }, number) => {
+      const drawn = this.fine ? smoothed(sections) : sections;
       const colour = this.model.colours[this.model.scene.bodies.length + number];
       const line = ghost ? "#dddddd" : colour;
-      const path = smooth.map(({ pose }) => this.see(pose.position));
+      const path = drawn.map(({ pose }) => this.see(pose.position));
       const lines = path.slice(1).map((end, k) => [path[k], end]);
       const shaped = sections.every(({ size }) => size[0] > 0);
       if (!shaped) {
@@ -165,7 +167,7 @@ class Painter {
       }
       const jobs = lines.map(([a, b]) => ({ depth: (a[2] + b[2]) / 2, paint: () => this.line([a, b], line, 2) }));
       if (!shaped) return jobs;
-      const faces = beamFaces(smooth, round);
+      const faces = beamFaces(drawn, round);
       return [...jobs, ...faces.flatMap(({ corners, smooth }) => this.face(corners, smooth, colour, ghost))];
     });
   }

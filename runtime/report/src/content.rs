@@ -4,7 +4,7 @@
 use eigentol::branches::Branches;
 use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol::summary::Summary;
-use eigentol::tolerance::{Distribution, OutputTolerances};
+use eigentol::tolerance::{Distribution, FirstOrder, OutputTolerances};
 use eigentol::{
     Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Output, Study, Text, Tolerances, Value,
 };
@@ -59,7 +59,9 @@ pub(crate) struct Setup {
 
 /// The effect of tolerances.
 pub(crate) struct Spreads {
-    pub(crate) summary: Result<Summary, Error>,
+    pub(crate) first: Result<FirstOrder, Error>,
+    /// The judgement of the first order; `None` where it is not part of the answer.
+    pub(crate) summary: Option<Result<Summary, Error>>,
     /// `None` without samples.
     pub(crate) monte_carlo: Option<Result<MonteCarlo, Error>>,
 }
@@ -92,11 +94,11 @@ impl Content {
             Ok(_) => answer(study.output_tolerances())?,
             Err(error) => Err(error.clone()),
         };
-        let at_point = part != Part::Along;
+        let at_once = part == Part::AtPoint;
         let pictures = match (&modes, &equilibrium) {
-            _ if !at_point => None,
+            _ if part == Part::Along => None,
             (Ok(_), _) => {
-                let poses = if part == Part::AtPoint { FEW_POSES } else { POSES };
+                let poses = if at_once { FEW_POSES } else { POSES };
                 Some(answer(Pictures::of(study, poses))?)
             }
             (Err(_), Ok(_)) => Some(answer(study.picture())?.map(Pictures::at_rest)),
@@ -104,22 +106,30 @@ impl Content {
         };
         let varies = setup.tolerances.sigmas().iter().any(|sigma| *sigma > 0.0);
         let spread = match &modes {
-            _ if !varies || !at_point => None,
-            Ok(_) if part == Part::AtPoint => {
-                Some(Spreads { summary: answer(study.summary_within(QUICK))?, monte_carlo: None })
-            }
-            Ok(_) => {
-                Some(Spreads { summary: answer(study.summary())?, monte_carlo: Some(answer(study.monte_carlo())?) })
-            }
-            Err(error) => Some(Spreads { summary: Err(error.clone()), monte_carlo: Some(Err(error.clone())) }),
+            _ if !varies => None,
+            Ok(_) => Some(Spreads {
+                first: answer(study.first_order())?,
+                summary: match part {
+                    Part::AtPoint => None,
+                    Part::Along => Some(answer(study.summary_within(QUICK))?),
+                    Part::All => Some(answer(study.summary())?),
+                },
+                monte_carlo: if part == Part::All { Some(answer(study.monte_carlo())?) } else { None },
+            }),
+            Err(error) => Some(Spreads {
+                first: Err(error.clone()),
+                summary: Some(Err(error.clone())),
+                monte_carlo: Some(Err(error.clone())),
+            }),
         };
         let description = study.description().clone();
         let swept = match &report.along {
-            Some((input, values)) if part != Part::AtPoint => Some((*input, values_si(study, *input, values)?)),
+            Some((input, values)) if !at_once => Some((*input, values_si(study, *input, values)?)),
             _ => None,
         };
         let swept = swept.as_ref().map(|(input, values)| (*input, &values[..]));
-        let forced = if description.excitations.is_empty() { None } else { Some(Forced::of(study, swept, varies)?) };
+        let forced =
+            if description.excitations.is_empty() { None } else { Some(Forced::of(study, swept, varies && !at_once)?) };
         let along = swept.map(|along| Along::of(study, along, &report.orders, part));
         Ok(Self {
             part,

@@ -5,9 +5,10 @@ use serde::Serialize;
 /// Which sections of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// Those of the operating point: of forced vibration only the sentences.
+    /// What a moved value changes at once: those of the operating point, tolerances to first order, and of forced vibration
+    /// only the sentences.
     AtPoint,
-    /// Those along an input, and forced vibration.
+    /// What takes longer: the judgement of tolerances, forced vibration, and those along an input.
     Along,
     /// All, with samples and branches.
     All,

@@ -10,7 +10,7 @@ use crate::forced::harmonics;
 /// Maximum number of poses over all modes and vibrations; they make up most of a file.
 pub(crate) const POSES: usize = 14_000;
 /// The same where a page is to be there at once.
-pub(crate) const FEW_POSES: usize = 4_000;
+pub(crate) const FEW_POSES: usize = 2_000;
 /// Number of poses per period. The view interpolates linearly between them.
 const MOST_FRAMES: usize = 24;
 const LEAST_FRAMES: usize = 8;

@@ -138,8 +138,7 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`]; [`Error::CriticalState`], [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn sensitivities(&self) -> Result<Sensitivities, Error> {
-        let (state, modes) = self.solved()?;
-        sensitivity::sensitivities(&self.mechanism, state, modes)
+        self.settings.sensitivities(&self.mechanism).cloned()
     }
 
     /// First-order spread of the modes and frequencies ([`tolerance::first_order`]).
@@ -151,9 +150,7 @@ impl<M: Kernels> Study<M> {
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
         let toleranced = Toleranced::<dyn Kernels>::of(&self.settings, &self.mechanism)?;
-        let (state, modes) = toleranced.solved();
-        let slopes = sensitivity::sensitivities(toleranced.kernels(), state, modes)?;
-        tolerance::first_order(modes, &slopes, toleranced.tolerances)
+        tolerance::first_order(toleranced.solved().1, &*toleranced.sensitivities()?, toleranced.tolerances)
     }
 
     /// Classifies each mode as whirling forward, backward or not at all ([`modes::whirls`](crate::modes::whirls)).

@@ -10,6 +10,7 @@ use std::borrow::Cow;
 
 use super::settings::Settings;
 use crate::kernels::{BatchKernels, CurvatureKernels, DeviatingInputs, DirectionalKernels, Kernels, SummaryKernels};
+use crate::sensitivity::{Sensitivities, sensitivities};
 use crate::{Equilibrium, Error, Modes, Tolerances};
 
 /// A table of kernels with the settings to study it with, and the same with deviating inputs if any are wanted.
@@ -51,6 +52,16 @@ impl<'a, K: ?Sized> Toleranced<'a, K> {
 
     pub(super) fn settings(&self) -> &'a Settings {
         self.table.settings
+    }
+}
+
+impl Toleranced<'_, dyn Kernels + '_> {
+    /// The derivatives of the modes.
+    pub(super) fn sensitivities(&self) -> Result<Cow<'_, Sensitivities>, Error> {
+        match &self.deviating {
+            Some(of) => sensitivities(self.kernels(), &of.0, &of.1).map(Cow::Owned),
+            None => self.table.settings.sensitivities(self.table.plain).map(Cow::Borrowed),
+        }
     }
 }
 

@@ -13,6 +13,7 @@ use crate::equilibrium::{Assembly, OperatingPoint, Policy, Search};
 use crate::kernels::Kernels;
 use crate::modes::Family;
 use crate::scalar::Instructions;
+use crate::sensitivity::{self, Sensitivities};
 use crate::tolerance::{Distribution, Sampling, Tolerances};
 use crate::{Coordinate, CorrelationInfo, Description, Equilibrium, Error, Input, Mode, Modes, Shared, Unit, Watch};
 use crate::{Matrix, Vector};
@@ -24,6 +25,7 @@ use eigentol_solve::free::{Held, declared};
 struct Solution {
     equilibrium: OnceLock<Result<Box<Equilibrium>, Error>>,
     modes: OnceLock<Result<Modes, Error>>,
+    sensitivities: OnceLock<Result<Sensitivities, Error>>,
 }
 
 /// The operating point, the tolerances and the solver options.
@@ -431,6 +433,13 @@ impl Settings {
         let state = self.regular(mechanism)?;
         let modes = &self.solution.modes;
         Ok((state, modes.get_or_init(|| self.modes_about(state, Vec::new())).as_ref().map_err(Error::clone)?))
+    }
+
+    /// The derivatives of the modes, computed once.
+    pub(super) fn sensitivities(&self, mechanism: &dyn Kernels) -> Result<&Sensitivities, Error> {
+        let (state, modes) = self.solved(mechanism)?;
+        let slopes = self.solution.sensitivities.get_or_init(|| sensitivity::sensitivities(mechanism, state, modes));
+        slopes.as_ref().map_err(Error::clone)
     }
 
     fn modes_about(&self, state: &Equilibrium, judged: Vec<Mode>) -> Result<Modes, Error> {

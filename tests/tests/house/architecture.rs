@@ -27,7 +27,7 @@ const CRATES: [(&str, &[&str], usize); 22] = [
     ("runtime/statistics", &[], 140),
     ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 147),
     ("runtime/results", &["eigentol-contract"], 23),
-    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 354),
+    ("runtime/solve", &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-statistics"], 355),
     (
         "runtime/tolerance",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-solve", "eigentol-statistics"],
@@ -70,7 +70,7 @@ const CRATES: [(&str, &[&str], usize); 22] = [
             "eigentol-tolerance",
             "eigentol-uncertainty",
         ],
-        58,
+        59,
     ),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 417),

@@ -11,7 +11,7 @@ use crate::algebra::{Matrix, Vector, dot, dot_complex, times_complex};
 use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_results};
 use crate::modes::{pencil_slope_times, pencil_times, transposed};
 use crate::second_order::{Adjoint, SecondDerivatives, joined, symmetric};
-use crate::sensitivity::{ComplexGradient, Direction, Slopes, directions, form_gradient_along, subtract};
+use crate::sensitivity::{ComplexGradient, Direction, Slopes, directions, form_gradients_along, subtract};
 use crate::{Complex, Equilibrium, Error, Output};
 
 /// A forced response with its total first and second derivatives.
@@ -219,11 +219,10 @@ impl<'a> Curved<'a> {
         let (vibration, fixed) = (self.output_adjoint.vibration, &self.output_adjoint.factors);
         let motion = &vibration.motion();
         let (change, motion_change) = &self.change(moved)?;
-        let zeros = || [(); 2].map(|()| Gradient::zeros(mechanism.sizes()));
-        let (mut total, mut rooms) = (zeros(), zeros());
-        let forms = (&fixed.form(motion), &change.form(motion_change));
-        form_gradient_along(mechanism, at, forms, &along.direction, &mut rooms, &mut total);
-        let room = &mut rooms[0];
+        let form = fixed.form(motion);
+        let moved_form = [(&along.direction, change.form(motion_change))];
+        let mut total = form_gradients_along(mechanism, at, &form, &moved_form).map(|mut own| own.swap_remove(0));
+        let room = &mut Gradient::zeros(mechanism.sizes());
         let weights = |motion, factors, of| {
             let mut weights = Weights::of(mechanism.sizes(), vibration, motion, of);
             weights.set_output(&self.output_adjoint, factors, of);

@@ -12,7 +12,7 @@ use crate::modes::{Family, pencil_slope_times};
 use crate::scalar::Real as _;
 use crate::sensitivity::{
     BilinearForm, ComplexGradient, Direction, ModeSensitivity, Quantity, Slopes, directions, eigenvalue_curvature,
-    eigenvalue_slope, form_gradient, form_gradient_along, normaliser, outside_domain,
+    eigenvalue_slope, form_gradient, form_gradients_along, normaliser, outside_domain,
 };
 use crate::shapes::Shapes;
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
@@ -117,10 +117,7 @@ pub(super) fn mode_curvatures(
                         }
                         Family::General => {
                             for pending in &mut ready {
-                                let rows = directions.iter().zip(&changes).map(|(direction, change)| {
-                                    let (gradient, shapes) = (&pending.gradient, &pending.shapes);
-                                    gradient.along(direction, change, shapes)
-                                });
+                                let rows = pending.gradient.along((directions, &shift), &changes, &pending.shapes);
                                 pending.rows.extend(rows);
                             }
                         }
@@ -332,26 +329,41 @@ impl<'a> AdjointGradient<'a> {
         changes.into_iter().map(slopes).collect()
     }
 
-    /// The derivatives of [`Self::slopes`] of a general mode along a direction in which the matrices change by `change`.
-    fn along(&self, direction: &Direction, change: &Linear, shapes: &Shapes<'_>) -> Slopes<Complex> {
-        let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
-        let rate = shapes.rate.along(change);
-        let (dphi, dpsi) = shapes.along(change, rate);
-        let [mut total, mut room] = gradients(mechanism);
-        let moved = BilinearForm::along(mode, &dpsi, rate, &dphi);
-        let forms = (&form(mode), &moved);
-        form_gradient_along(mechanism, at, forms, direction, &mut room, &mut total);
-        for (part, w) in total.iter_mut().zip(&self.w) {
-            self.adjoint.total_along(part, w, direction, &mut room[0]);
+    /// The derivatives of [`Self::slopes`] of a general mode along directions, along which the matrices change as given.
+    fn along(
+        &self,
+        (directions, shift): (&[Direction], &Matrix),
+        changes: &[Linear],
+        shapes: &Shapes<'_>,
+    ) -> Vec<Slopes<Complex>> {
+        let (mechanism, mode) = (self.mechanism, self.mode);
+        let (ratios, moved): (Vec<Complex>, Vec<(&Direction, BilinearForm)>) = directions
+            .iter()
+            .zip(changes)
+            .map(|(direction, change)| {
+                let rate = shapes.rate.along(change);
+                let (dphi, dpsi) = shapes.along(change, rate);
+                let ratio = self.denominator_along(change, rate, &dphi, &dpsi) / self.denominator;
+                (ratio, (direction, BilinearForm::along(mode, &dpsi, rate, &dphi)))
+            })
+            .unzip();
+        let mut totals = form_gradients_along(mechanism, self.at, &form(mode), &moved);
+        let mut room = vec![Gradient::zeros(mechanism.sizes()); directions.len()];
+        for (changes, w) in totals.iter_mut().zip(&self.w) {
+            self.adjoint.total_along_each(changes, w, directions, (shift, &mut room));
         }
-        let mut slopes = joined(&total);
-        let ratio = self.denominator_along(change, rate, &dphi, &dpsi) / self.denominator;
-        let n = &self.numerator;
-        let inputs = slopes.by_input.iter_mut().zip(&n.by_input);
-        for (dn, n) in inputs.chain(slopes.by_design.iter_mut().zip(&n.by_design)) {
-            *dn = (ratio * n - *dn) / self.denominator;
-        }
-        slopes
+        let [re, im] = totals;
+        let each = re.into_iter().zip(im).zip(ratios);
+        each.map(|((re, im), ratio)| {
+            let mut slopes = joined(&[re, im]);
+            let n = &self.numerator;
+            let inputs = slopes.by_input.iter_mut().zip(&n.by_input);
+            for (dn, n) in inputs.chain(slopes.by_design.iter_mut().zip(&n.by_design)) {
+                *dn = (ratio * n - *dn) / self.denominator;
+            }
+            slopes
+        })
+        .collect()
     }
 
     /// Derivative of `d` when the matrices change by `change`, the eigenvalue by `ds` and the shapes by `dphi` and

@@ -78,7 +78,7 @@ fn equilibrium(content: &Content) -> Line {
 
 /// Each mode with its spread and the main source of that spread.
 fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
-    let first = (content.spread.as_ref()).and_then(|spread| spread.summary.as_ref().ok()).map(|summary| &summary.first);
+    let first = content.spread.as_ref().and_then(|spread| spread.first.as_ref().ok());
     let style = &content.brief_style;
     let (scale, unit) = style.frequency(&modes.description);
     let each = modes.foremost(MODES).into_iter().map(|r| (r, &modes.modes[r]));
@@ -162,15 +162,11 @@ fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
 fn tolerances(spread: &Spreads, foremost: &[usize], style: &Style) -> Vec<Line> {
     let mut lines = Vec::new();
     match &spread.summary {
-        // Where an answer is to be there at once.
-        Ok(summary) if summary.trusted() && spread.monte_carlo.is_none() => {
-            let text = "Nothing contradicts the first-order spread of any mode; no samples judge it here.";
-            lines.push((None, text.to_owned()));
-        }
-        Ok(summary) if summary.trusted() => {
+        None => {}
+        Some(Ok(summary)) if summary.trusted() => {
             lines.push((Some(true), "The first-order spread of every mode can be trusted.".to_owned()));
         }
-        Ok(summary) => {
+        Some(Ok(summary)) => {
             let told = |mode: usize| foremost.contains(&mode);
             let doubted = summary.trust.iter().filter(|x| !x.trusted() && told(x.mode));
             let doubted: Vec<String> = doubted.map(|doubted| style.mode(doubted.mode)).collect();
@@ -184,7 +180,7 @@ fn tolerances(spread: &Spreads, foremost: &[usize], style: &Style) -> Vec<Line> 
                 (Some(false), format!("The first-order spread of {names} is not to be trusted. See Tolerances."))
             });
         }
-        Err(error) => lines.push((Some(false), sentence(&format!("no spread: {error}")))),
+        Some(Err(error)) => lines.push((Some(false), sentence(&format!("no spread: {error}")))),
     }
     if let Some(Ok(monte_carlo)) = &spread.monte_carlo {
         lines.push(stable_samples(monte_carlo));

@@ -40,8 +40,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         let style = &content.brief_style;
         let style = style.clone().title(capital(&style.mode(mode)));
         let mut histogram = Histogram::new(monte_carlo, mode);
-        if let Ok(summary) = &spread.summary {
-            histogram = histogram.first_order(&summary.first);
+        if let Ok(first) = &spread.first {
+            histogram = histogram.first_order(first);
         }
         histogram.figure(&style)
     });

@@ -42,7 +42,7 @@ pub(crate) fn of(content: &Content) -> Vec<Section> {
         ("equilibrium", "Equilibrium", Part::AtPoint, equilibrium::section),
         ("modes", "Modes", Part::AtPoint, modes::section),
         ("vibration", "Forced vibration", Part::Along, vibration::section),
-        ("verdicts", "Tolerances", Part::AtPoint, verdicts::section),
+        ("verdicts", "Tolerances", Part::Along, verdicts::section),
         ("shares", "Contributions", Part::AtPoint, shares::section),
         ("distributions", "Distributions", Part::All, distributions::section),
         ("along", "Along an input", Part::Along, along::section),

@@ -19,8 +19,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             html.leaf("p", &[("class", "refused")], NOTHING_VARIES);
             return Ok(());
         }
-        Some(spread) => match &spread.summary {
-            Ok(summary) => &summary.first,
+        Some(spread) => match &spread.first {
+            Ok(first) => first,
             Err(error) => {
                 refused(html, "contributions are not known", error);
                 return Ok(());

@@ -10,16 +10,14 @@ use crate::html::Html;
 use crate::tables::table;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
-    let summary = match &content.spread {
+    let summary = match content.spread.as_ref().map(|spread| &spread.summary) {
         None => {
             html.leaf("p", &[("class", "refused")], NOTHING_VARIES);
             return Ok(());
         }
-        Some(spread) => &spread.summary,
-    };
-    let summary = match summary {
-        Ok(summary) => summary,
-        Err(error) => {
+        Some(None) => return Ok(()),
+        Some(Some(Ok(summary))) => summary,
+        Some(Some(Err(error))) => {
             refused(html, "the effect of tolerances is not known", error);
             return Ok(());
         }

@@ -77,6 +77,20 @@ pub trait CurvatureKernels: DirectionalKernels {
         );
     }
 
+    /// [`Self::pencil_gradient_along_into`] at several points, with the same results as one by one.
+    fn pencil_gradients_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        points: &[PencilAlong<'_>],
+        gradients: &mut [Gradient],
+    ) {
+        for (&PencilAlong { vectors, direction, changes }, gradient) in points.iter().zip(gradients) {
+            self.pencil_gradient_along_into(q, u, b, vectors, direction, changes, gradient);
+        }
+    }
+
     /// [`Mechanism::output_partials_along`](eigentol_contract::Mechanism::output_partials_along); `direction` is `dq`,
     /// `du`, `db`.
     fn output_partials_along_into(
@@ -90,6 +104,17 @@ pub trait CurvatureKernels: DirectionalKernels {
         let results = &mut matrix_results(partials);
         self.evaluate_curvature(Curvature::OutputPartials, &[q, u, b], &direction, results);
     }
+}
+
+/// A point at which the derivative of a gradient of the pencil is wanted, along a direction of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct PencilAlong<'a> {
+    /// The left vector, accelerations, velocities and positions.
+    pub vectors: [&'a [f64]; 4],
+    /// `dq`, `du`, `db`.
+    pub direction: [&'a [f64]; 3],
+    /// The change of the vectors.
+    pub changes: [&'a [f64]; 4],
 }
 
 impl dyn CurvatureKernels + '_ {

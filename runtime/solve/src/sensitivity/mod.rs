@@ -34,7 +34,7 @@ pub use mode::root_rate;
 pub use mode::{ModeSensitivity, Slopes};
 pub use outputs::{OutputSensitivities, output_sensitivities};
 #[doc(hidden)]
-pub use pencil::{BilinearForm, ComplexGradient, Direction, form_gradient, form_gradient_along, subtract};
+pub use pencil::{BilinearForm, ComplexGradient, Direction, form_gradient, form_gradients_along, subtract};
 pub use quantity::Quantity;
 #[doc(hidden)]
 pub use quantity::{eigenvalue_curvature, eigenvalue_slope};

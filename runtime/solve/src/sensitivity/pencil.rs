@@ -5,8 +5,10 @@
 //! `psi^T (s^2 Mhat + s Chat + Khat) phi` is bilinear, so four calls of a real kernel (`pencil_gradient`) give its
 //! complex gradient. Generated code needs no complex numbers.
 
+use core::mem::take;
+
 use crate::algebra::{Values, Vector};
-use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear};
+use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, PencilAlong};
 use crate::{Complex, Equilibrium, Mode};
 
 /// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of its four
@@ -92,21 +94,8 @@ pub type ComplexGradient = [Gradient; 2];
 /// second is its real part, the third and the fourth together its imaginary part.
 const PRODUCTS: [(Part, Part); 4] = [(RE, RE), (IM, IM), (RE, IM), (IM, RE)];
 
-/// A complex gradient from real ones: `products(which, into)` computes those of [`PRODUCTS`]. `room` is scratch space.
-fn complex(
-    [re, im]: &mut ComplexGradient,
-    [first, second]: &mut ComplexGradient,
-    real: bool,
-    products: impl FnOnce(&[(Part, Part)], &mut [&mut Gradient]),
-) {
-    if real {
-        products(&PRODUCTS[..1], &mut [re]);
-        each(im, re, |im, _| *im = 0.0);
-        return;
-    }
-    products(&PRODUCTS, &mut [re, first, im, second]);
-    subtract(re, first);
-    each(im, second, |im, product| *im += product);
+fn products(real: bool) -> &'static [(Part, Part)] {
+    if real { &PRODUCTS[..1] } else { &PRODUCTS }
 }
 
 /// Subtracts every component.
@@ -124,36 +113,56 @@ fn each(to: &mut Gradient, from: &Gradient, f: impl Fn(&mut f64, f64)) {
     }
 }
 
-/// Gradient of a form with respect to coordinates, inputs and design variables, its vectors held fixed.
+/// Gradient of a form with respect to coordinates, inputs and design variables, its vectors held fixed. `room` is scratch
+/// space.
 pub fn form_gradient(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
     form: &BilinearForm,
-    room: &mut ComplexGradient,
-    gradient: &mut ComplexGradient,
+    [first, second]: &mut ComplexGradient,
+    [re, im]: &mut ComplexGradient,
 ) {
-    let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    complex(gradient, room, form.is_real(), |products, into| {
-        let vectors: Vec<_> = products.iter().map(|&(left, others)| form.parts(left, others)).collect();
-        mechanism.pencil_gradients_into(q, u, b, &vectors, into);
-    });
+    let real = form.is_real();
+    let vectors: Vec<_> = products(real).iter().map(|&(left, others)| form.parts(left, others)).collect();
+    let into = &mut [&mut *re, first, &mut *im, second][..vectors.len()];
+    mechanism.pencil_gradients_into(&at.coordinates, &at.inputs, &at.design, &vectors, into);
+    if real {
+        each(im, re, |im, _| *im = 0.0);
+    } else {
+        combine(re, first, im, second);
+    }
 }
 
-/// Derivative of [`form_gradient`] along a direction in which the vectors of the form move by `change`.
-pub fn form_gradient_along(
+fn combine(re: &mut Gradient, first: &Gradient, im: &mut Gradient, second: &Gradient) {
+    subtract(re, first);
+    each(im, second, |im, product| *im += product);
+}
+
+/// Derivatives of [`form_gradient`] along several directions, along each of which the vectors of the form change in their
+/// own way: of the real parts, and of the imaginary parts.
+pub fn form_gradients_along(
     mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
-    (form, change): (&BilinearForm, &BilinearForm),
-    along: &Direction,
-    room: &mut ComplexGradient,
-    gradient: &mut ComplexGradient,
-) {
-    let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    let real = form.is_real() && change.is_real();
-    complex(gradient, room, real, |products, into| {
-        for (&(left, others), gradient) in products.iter().zip(into) {
-            let (vectors, changes) = (form.parts(left, others), change.parts(left, others));
-            mechanism.pencil_gradient_along_into(q, u, b, vectors, along.parts(), changes, gradient);
-        }
+    form: &BilinearForm,
+    along: &[(&Direction, BilinearForm)],
+) -> [Vec<Gradient>; 2] {
+    let products = products(form.is_real() && along.iter().all(|(_, change)| change.is_real()));
+    let points = along.iter().flat_map(|(direction, change)| {
+        products.iter().map(|&(left, others)| PencilAlong {
+            vectors: form.parts(left, others),
+            direction: direction.parts(),
+            changes: change.parts(left, others),
+        })
     });
+    let points: Vec<PencilAlong<'_>> = points.collect();
+    let mut gradients = vec![Gradient::zeros(mechanism.sizes()); points.len()];
+    mechanism.pencil_gradients_along_into(&at.coordinates, &at.inputs, &at.design, &points, &mut gradients);
+    let both = gradients.chunks_exact_mut(products.len()).map(|own| match own {
+        [re, first, im, second] => {
+            combine(re, first, im, second);
+            (take(re), take(im))
+        }
+        own => (take(&mut own[0]), Gradient::zeros(mechanism.sizes())),
+    });
+    both.unzip().into()
 }

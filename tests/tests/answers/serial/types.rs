@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Types that cannot be written, and why.
-const NOT_WRITTEN: [(&str, &str); 34] = [
+const NOT_WRITTEN: [(&str, &str); 35] = [
     ("Any", "has no values"),
     ("Axes", "borrows its values"),
     ("Batch", "a register"),
@@ -30,6 +30,7 @@ const NOT_WRITTEN: [(&str, &str); 34] = [
     ("Derived", "derivatives on their way to a text"),
     ("Variable", "a name and a unit for texts"),
     ("PartialMatrices", "an intermediate result of kernels"),
+    ("PencilAlong", "borrows its values"),
     ("Requirements", "borrows a mechanism"),
     ("Responses", "borrows a mechanism"),
     ("Sampling", "holds a function"),
