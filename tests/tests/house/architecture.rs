@@ -72,6 +72,7 @@ const CRATES: [(&str, &[&str], usize); 22] = [
         ],
         59,
     ),
+    ("runtime/shafts", &["eigentol-numerics"], 34),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 417),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 420),

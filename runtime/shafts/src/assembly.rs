@@ -1,0 +1,534 @@
+//! Spans of shafts between stations, and everything else there is at the stations.
+
+use eigentol_numerics::Complex;
+use eigentol_numerics::algebra::{Lu, Matrix, Vector};
+
+use crate::basis::{Class, MOST, classes};
+use crate::chain::{Along, Chain};
+use crate::element::{Element, Node, Shape, forms, loads};
+use crate::error::Error;
+use crate::modes::Mode;
+use crate::section::{Coefficients, Line, Number, Section, TERMS, at, slope_at};
+
+/// Which unknown of the stations a motion of an end is, and how many times it; `None` where the end is held.
+pub type Place = Option<(usize, f64)>;
+
+/// A part of a shaft between two stations, at which all that is attached to it is.
+#[derive(Clone, Debug)]
+pub struct Span {
+    /// What it does.
+    pub line: Line,
+    /// Speed at which it turns about its axis, rad/s; of no meaning for a bar.
+    pub speed: f64,
+    /// Its sections in order, and into how many equal elements each is divided.
+    pub sections: Vec<(Section, usize)>,
+    /// The motions of its two ends: along `y`, slope of the section in the plane of `x` and `y`, along `z`, slope in the
+    /// plane of `x` and `z`; of a bar the first alone. Positive slopes turn about `z` and about `-y`.
+    pub ends: [[Place; 4]; 2],
+}
+
+/// Spans with what is at their stations: `T(s) = s^2 M + s C + K + spans(s)`.
+#[derive(Clone, Debug)]
+pub struct Assembly {
+    spans: Vec<Span>,
+    mass: Matrix,
+    damping: Matrix,
+    stiffness: Matrix,
+    /// By line.
+    classes: [[Class; 2]; 3],
+}
+
+/// An assembly at one `s`, factored.
+#[derive(Clone, Debug)]
+pub struct At<'a> {
+    assembly: &'a Assembly,
+    /// 1/s.
+    pub s: Complex,
+    chains: Vec<Vec<Chain>>,
+    factors: Lu<Complex>,
+}
+
+/// A motion of all unknowns, or the weights of all equations.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// At the stations.
+    pub stations: Vector<Complex>,
+    spans: Vec<Vec<Along>>,
+}
+
+/// Which directions of planar motion a vector has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kept {
+    All,
+    /// Of a real motion, whose second is the conjugate of the first.
+    First,
+}
+
+/// Of which side a vector is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    Right,
+    Left,
+}
+
+impl Span {
+    /// A planar motion is the sum of `y + i z` and `y - i z`, which do not mix where the shaft is round.
+    fn directions(&self) -> &'static [f64] {
+        if self.line == Line::Bar { &[0.0] } else { &[1.0, -1.0] }
+    }
+
+    fn components(&self) -> usize {
+        if self.line == Line::Bar { 1 } else { 2 }
+    }
+
+    fn pieces(&self) -> impl Iterator<Item = usize> + '_ {
+        self.sections.iter().enumerate().flat_map(|(k, (_, pieces))| std::iter::repeat_n(k, *pieces))
+    }
+
+    /// A section as one of its elements.
+    fn element(&self, section: usize) -> Section {
+        let (mut own, pieces) = self.sections[section];
+        own.length /= pieces as f64;
+        own
+    }
+
+    fn shape(&self, section: usize) -> Shape {
+        let slope = if self.line == Line::Slender { self.element(section).length / 2.0 } else { 1.0 };
+        Shape { components: self.components(), slope }
+    }
+
+    fn coefficients(&self, section: usize, direction: f64) -> Coefficients {
+        self.element(section).coefficients(self.line, direction * self.speed)
+    }
+
+    /// The motions of the ends in each direction.
+    fn ends_of(&self, stations: &[Complex], side: Side) -> Vec<[Node; 2]> {
+        let value = |place: Place| place.map_or(Complex::ZERO, |(index, factor)| stations[index] * factor);
+        if self.line == Line::Bar {
+            return vec![self.ends.map(|end| [value(end[0]), Complex::ZERO])];
+        }
+        let turn = |direction: f64| match side {
+            Side::Right => (Complex::new(0.0, direction), 1.0),
+            Side::Left => (Complex::new(0.0, -direction), 0.5),
+        };
+        let directions = self.directions().iter().map(|&direction| {
+            let (turn, scale) = turn(direction);
+            self.ends.map(|end| [0, 1].map(|k| (value(end[k]) + turn * value(end[k + 2])) * scale))
+        });
+        directions.collect()
+    }
+
+    /// Adds the loads on the ends in each direction to those on the stations.
+    fn add_loads(&self, loads: &[[Node; 2]], side: Side, to: &mut [Complex]) {
+        let mut put = |place: Place, load: Complex| {
+            if let Some((index, factor)) = place {
+                to[index] += load * factor;
+            }
+        };
+        for (direction, loads) in self.directions().iter().zip(loads) {
+            for (end, load) in self.ends.iter().zip(loads) {
+                if self.line == Line::Bar {
+                    put(end[0], load[0]);
+                    continue;
+                }
+                let (turn, scale) = match side {
+                    Side::Right => (Complex::new(0.0, -direction), 0.5),
+                    Side::Left => (Complex::new(0.0, *direction), 1.0),
+                };
+                for k in 0..2 {
+                    put(end[k], load[k] * scale);
+                    put(end[k + 2], turn * load[k] * scale);
+                }
+            }
+        }
+    }
+}
+
+impl Assembly {
+    /// Spans with mass, damping and stiffness of all else in terms of the unknowns of the stations, and the degree of the
+    /// polynomials in each element: 4 has errors of `1e-8` in the frequencies whose waves are some three elements long.
+    ///
+    /// # Errors
+    /// [`Error::Degree`], [`Error::Sizes`], [`Error::Place`], [`Error::NoSections`], [`Error::Number`].
+    pub fn new(spans: Vec<Span>, [mass, damping, stiffness]: [Matrix; 3], degree: usize) -> Result<Self, Error> {
+        if !(1..=MOST).contains(&degree) {
+            return Err(Error::Degree { degree });
+        }
+        let count = mass.row_count();
+        for matrix in [&mass, &damping, &stiffness] {
+            if [matrix.row_count(), matrix.column_count()] != [count; 2] {
+                return Err(Error::Sizes);
+            }
+        }
+        for (index, span) in spans.iter().enumerate() {
+            check(index, span, count)?;
+        }
+        let classes = [Line::Timoshenko, Line::Slender, Line::Bar].map(|line| classes(line, degree));
+        Ok(Self { spans, mass, damping, stiffness, classes })
+    }
+
+    /// The number of unknowns of the stations.
+    #[must_use]
+    pub fn stations(&self) -> usize {
+        self.mass.row_count()
+    }
+
+    /// The spans.
+    #[must_use]
+    pub fn spans(&self) -> &[Span] {
+        &self.spans
+    }
+
+    fn classes_of(&self, line: Line) -> &[Class; 2] {
+        &self.classes[match line {
+            Line::Timoshenko => 0,
+            Line::Slender => 1,
+            Line::Bar => 2,
+        }]
+    }
+
+    fn chain(&self, span: &Span, direction: f64, s: Complex) -> Chain {
+        let classes = self.classes_of(span.line);
+        let element = |section: usize| {
+            let k = at(&span.coefficients(section, direction), s);
+            Element::new(classes, span.shape(section), &k)
+        };
+        let elements = (0..span.sections.len()).map(element).collect();
+        Chain::new(elements, span.pieces().collect(), span.components())
+    }
+
+    /// No motion.
+    pub(crate) fn still(&self, kept: Kept) -> Motion {
+        let of_span = |span: &Span| {
+            let size = self.classes_of(span.line).iter().map(|class| class.size).sum();
+            let directions = if kept == Kept::First { 1 } else { span.directions().len() };
+            vec![Along::zeros(span.pieces().count(), size); directions]
+        };
+        let stations = Vector::zeros(self.stations());
+        Motion { stations, spans: self.spans.iter().map(of_span).collect() }
+    }
+
+    /// Factors the assembly at one `s`: a cost that grows linearly with the sections. `None` if it is singular there.
+    #[must_use]
+    pub fn at(&self, s: Complex) -> Option<At<'_>> {
+        let chains: Vec<Vec<Chain>> = self
+            .spans
+            .iter()
+            .map(|span| span.directions().iter().map(|&direction| self.chain(span, direction, s)).collect())
+            .collect();
+        let matrix = self.matrix(&chains, s);
+        let factors = Lu::of(matrix)?;
+        Some(At { assembly: self, s, chains, factors })
+    }
+
+    /// `T(s)`.
+    fn matrix(&self, chains: &[Vec<Chain>], s: Complex) -> Matrix<Complex> {
+        let n = self.stations();
+        let mut matrix = Matrix::from_fn(n, n, |i, j| {
+            let constant = Complex::new(self.stiffness[i][j], 0.0);
+            constant + s * (self.damping[i][j] + s * self.mass[i][j])
+        });
+        for (span, chains) in self.spans.iter().zip(chains) {
+            let c = span.components();
+            for (direction, chain) in span.directions().iter().zip(chains) {
+                // planes `y y`, `y z`, `z y`, `z z` of each entry
+                let (half, turned) = (0.5, Complex::new(0.0, 0.5 * direction));
+                for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    for (a, b) in (0..c).flat_map(|a| (0..c).map(move |b| (a, b))) {
+                        let entry = chain.ends[p][q][a][b];
+                        let mut put = |row: usize, column: usize, value: Complex| {
+                            if let (Some((i, left)), Some((j, right))) = (span.ends[p][row], span.ends[q][column]) {
+                                matrix[i][j] += value * (left * right);
+                            }
+                        };
+                        if c == 1 {
+                            put(a, b, entry);
+                            continue;
+                        }
+                        put(a, b, entry * half);
+                        put(a, b + 2, entry * turned);
+                        put(a + 2, b, -entry * turned);
+                        put(a + 2, b + 2, entry * half);
+                    }
+                }
+            }
+        }
+        matrix
+    }
+
+    /// The loads that a motion asks for: each coefficient times what `of` makes of it, and the matrices of the stations
+    /// times `stations`.
+    fn loads(
+        &self,
+        x: &Motion,
+        of: impl Fn(&Coefficients) -> [Complex; TERMS],
+        [stiffness, damping, mass]: [Complex; 3],
+        side: Side,
+    ) -> Motion {
+        let entry = |i: usize, j: usize| {
+            self.stiffness[i][j] * stiffness + self.damping[i][j] * damping + self.mass[i][j] * mass
+        };
+        let n = self.stations();
+        let stations = Vector::from_fn(n, |i| {
+            let at = |j: usize| if side == Side::Right { entry(i, j) } else { entry(j, i) };
+            (0..n).map(|j| at(j) * x.stations[j]).sum()
+        });
+        let spans = self.spans.iter().zip(&x.spans).map(|(span, x)| {
+            let directions = span.directions().iter().zip(x);
+            let each = directions.map(|(&direction, x)| {
+                let classes = self.classes_of(span.line);
+                let k: Vec<[Complex; TERMS]> =
+                    (0..span.sections.len()).map(|section| of(&span.coefficients(section, direction))).collect();
+                let mut on = Along::zeros(x.nodes.len() - 1, x.size);
+                for ((section, x), on) in span.pieces().zip(x.elements()).zip(on.inner.chunks_exact_mut(x.size)) {
+                    loads(classes, &k[section], x, on);
+                }
+                on
+            });
+            each.collect()
+        });
+        Motion { stations, spans: spans.collect() }
+    }
+
+    /// `P'(s) x`, as loads.
+    pub(crate) fn slope_loads(&self, x: &Motion, s: Complex, side: Side) -> Motion {
+        self.loads(x, |k| slope_at(k, s), [Complex::ZERO, Complex::new(1.0, 0.0), 2.0 * s], side)
+    }
+
+    /// `(s M + C) x + M v`, as loads.
+    pub(crate) fn momentum(&self, x: &Motion, v: &Motion, s: Complex) -> Motion {
+        let (one, zero) = (Complex::new(1.0, 0.0), Complex::ZERO);
+        let mut sum = self.loads(x, |k| k.map(|[_, b, c]| b + s * c), [zero, one, s], Side::Right);
+        sum.add(one, &self.loads(v, |k| k.map(|[.., c]| c), [zero, zero, one], Side::Right));
+        sum
+    }
+
+    /// `left^T P'(s) right`.
+    #[must_use]
+    pub fn normaliser(&self, left: &Motion, right: &Motion, s: Complex) -> Complex {
+        let n = self.stations();
+        let mut sum: Complex = (0..n)
+            .flat_map(|i| (0..n).map(move |j| (i, j)))
+            .map(|(i, j)| left.stations[i] * (2.0 * s * self.mass[i][j] + self.damping[i][j]) * right.stations[j])
+            .sum();
+        self.each_form(left, right, |span, section, direction, forms| {
+            let slopes = slope_at(&span.coefficients(section, direction), s);
+            sum += product(&slopes, forms);
+        });
+        sum
+    }
+
+    /// Derivatives of `left^T P(s) right` by the numbers of each section of each span, in the order of [`Number::ALL`],
+    /// and by the speed of each span. With the opposite sign, they are those of what [`At::adjoint`] weighs in a response.
+    #[must_use]
+    pub fn gradient(&self, left: &Motion, right: &Motion, s: Complex) -> Vec<SpanGradient> {
+        let mut all: Vec<SpanGradient> = self
+            .spans
+            .iter()
+            .map(|span| SpanGradient {
+                speed: Complex::ZERO,
+                sections: vec![[Complex::ZERO; Number::ALL.len()]; span.sections.len()],
+            })
+            .collect();
+        for (index, span) in self.spans.iter().enumerate() {
+            let own = &mut all[index];
+            let sides = left.spans[index].iter().zip(&right.spans[index]);
+            for (&direction, (left, right)) in span.directions().iter().zip(sides) {
+                let classes = self.classes_of(span.line);
+                for (section, (left, right)) in span.pieces().zip(left.elements().zip(right.elements())) {
+                    let element = span.element(section);
+                    let forms = forms(classes, left, right);
+                    let turned = direction * span.speed;
+                    own.speed += product(&at(&element.by_speed(span.line), s), &forms) * direction;
+                    for (to, number) in own.sections[section].iter_mut().zip(Number::ALL) {
+                        let slopes = at(&element.slopes(span.line, turned, number), s);
+                        let share = if number == Number::Length { 1.0 / span.sections[section].1 as f64 } else { 1.0 };
+                        *to += product(&slopes, &forms) * share;
+                    }
+                    if span.line == Line::Slender {
+                        // The slopes at the nodes, times half the length, are unknowns of the element.
+                        let k = at(&span.coefficients(section, direction), s);
+                        let at_slope = |a: &[Complex], b: &[Complex]| -> Complex {
+                            let mut on = vec![Complex::ZERO; a.len()];
+                            loads(classes, &k, a, &mut on);
+                            [1, classes[0].size + 1].iter().map(|&place| on[place] * b[place]).sum()
+                        };
+                        let by_slope = at_slope(left, right) + at_slope(right, left);
+                        own.sections[section][0] += by_slope / span.sections[section].0.length;
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span. By
+    /// an entry of the matrices of the stations it is `-left_i right_j` times 1, `s` or `s^2`, over [`Self::normaliser`].
+    #[must_use]
+    pub fn slopes(&self, mode: &Mode) -> Vec<SpanGradient> {
+        let mut all = self.gradient(&mode.left, &mode.right, mode.s);
+        let factor = -self.normaliser(&mode.left, &mode.right, mode.s).inv();
+        for own in &mut all {
+            own.speed *= factor;
+            own.sections.iter_mut().flatten().for_each(|x| *x *= factor);
+        }
+        all
+    }
+
+    fn each_form(&self, left: &Motion, right: &Motion, mut visit: impl FnMut(&Span, usize, f64, &[Complex; TERMS])) {
+        for (span, (left, right)) in self.spans.iter().zip(left.spans.iter().zip(&right.spans)) {
+            for (&direction, (left, right)) in span.directions().iter().zip(left.iter().zip(right)) {
+                for (section, (left, right)) in span.pieces().zip(left.elements().zip(right.elements())) {
+                    visit(span, section, direction, &forms(self.classes_of(span.line), left, right));
+                }
+            }
+        }
+    }
+}
+
+/// Derivatives by what describes a span.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpanGradient {
+    /// By its speed.
+    pub speed: Complex,
+    /// By the numbers of each section, in the order of [`Number::ALL`].
+    pub sections: Vec<[Complex; Number::ALL.len()]>,
+}
+
+fn product(k: &[Complex; TERMS], forms: &[Complex; TERMS]) -> Complex {
+    k.iter().zip(forms).map(|(k, form)| k * form).sum()
+}
+
+fn check(index: usize, span: &Span, count: usize) -> Result<(), Error> {
+    if span.sections.is_empty() || span.sections.iter().any(|(_, pieces)| *pieces == 0) {
+        return Err(Error::NoSections { span: index });
+    }
+    let used = if span.line == Line::Bar { 1 } else { 4 };
+    if span.ends.iter().flat_map(|end| &end[..used]).flatten().any(|(place, _)| *place >= count) {
+        return Err(Error::Place { span: index, count });
+    }
+    let positive: &[Number] = match span.line {
+        Line::Timoshenko => &[Number::Length, Number::Stiffness, Number::Shear, Number::Mass],
+        Line::Slender | Line::Bar => &[Number::Length, Number::Stiffness, Number::Mass],
+    };
+    for (section, (own, _)) in span.sections.iter().enumerate() {
+        for number in Number::ALL {
+            let value = own.number(number);
+            if !value.is_finite() || (positive.contains(&number) && value <= 0.0) {
+                return Err(Error::Number { span: index, section, number, value });
+            }
+        }
+    }
+    Ok(())
+}
+
+impl At<'_> {
+    /// The motion under loads on the stations.
+    #[must_use]
+    pub fn response(&self, loads: &[Complex]) -> Motion {
+        self.between(self.factors.solve(loads))
+    }
+
+    /// The motion in which the stations move like this and nothing loads what is between them.
+    pub(crate) fn between(&self, stations: Vector<Complex>) -> Motion {
+        let mut motion = self.assembly.still(Kept::All);
+        motion.stations = stations;
+        self.spread(&mut motion, Side::Right);
+        motion
+    }
+
+    /// The weights of all equations whose sum has no other unknowns than those of the stations, with these factors there:
+    /// the same motion for the transposed equations.
+    #[must_use]
+    pub fn adjoint(&self, factors: &[Complex]) -> Motion {
+        let mut motion = self.assembly.still(Kept::All);
+        motion.stations = self.factors.solve_transposed(factors);
+        self.spread(&mut motion, Side::Left);
+        motion
+    }
+
+    /// Turns reduced loads between the stations into the motion there.
+    fn spread(&self, motion: &mut Motion, side: Side) {
+        for ((span, chains), own) in self.assembly.spans.iter().zip(&self.chains).zip(&mut motion.spans) {
+            let ends = span.ends_of(&motion.stations, side);
+            for ((chain, ends), along) in chains.iter().zip(ends).zip(own) {
+                chain.motion(ends, along);
+            }
+        }
+    }
+
+    /// [`Self::solve`] for real loads at a real `s`, of which the first direction alone is kept.
+    pub(crate) fn solve_real(&self, mut loads: Motion) -> Motion {
+        for ((span, chains), within) in self.assembly.spans.iter().zip(&self.chains).zip(&mut loads.spans) {
+            let ends: Vec<[Node; 2]> = chains.iter().zip(within).map(|(chain, loads)| chain.reduce(loads)).collect();
+            let mut on = Vector::zeros(loads.stations.len());
+            span.add_loads(&ends, Side::Right, &mut on);
+            let directions = span.directions().len() as f64;
+            loads.stations.iter_mut().zip(&on).for_each(|(to, load)| *to += directions * load.re);
+        }
+        loads.stations = self.factors.solve(&loads.stations);
+        loads.stations.iter_mut().for_each(|x| x.im = 0.0);
+        self.spread(&mut loads, Side::Right);
+        loads
+    }
+
+    /// Turns loads everywhere into the motion under them.
+    pub(crate) fn solve(&self, mut loads: Motion, side: Side) -> Motion {
+        for ((span, chains), within) in self.assembly.spans.iter().zip(&self.chains).zip(&mut loads.spans) {
+            let ends: Vec<[Node; 2]> = chains.iter().zip(within).map(|(chain, loads)| chain.reduce(loads)).collect();
+            span.add_loads(&ends, side, &mut loads.stations);
+        }
+        loads.stations = match side {
+            Side::Right => self.factors.solve(&loads.stations),
+            Side::Left => self.factors.solve_transposed(&loads.stations),
+        };
+        self.spread(&mut loads, side);
+        loads
+    }
+}
+
+impl Motion {
+    pub(crate) fn add(&mut self, factor: Complex, other: &Self) {
+        let others: Vec<&[Complex]> = other.lists().collect();
+        for (to, from) in self.lists_mut().zip(others) {
+            to.iter_mut().zip(from).for_each(|(to, from)| *to += factor * from);
+        }
+    }
+
+    pub(crate) fn scale(&mut self, factor: Complex) {
+        self.lists_mut().flatten().for_each(|x| *x *= factor);
+    }
+
+    pub(crate) fn size(&self) -> f64 {
+        self.flat().map(|x| x.norm_sqr()).sum::<f64>().sqrt()
+    }
+
+    /// The unknowns of the stations and of the elements; those of the nodes are among them.
+    fn lists(&self) -> impl Iterator<Item = &[Complex]> {
+        core::iter::once(&self.stations[..]).chain(self.spans.iter().flatten().map(|along| &along.inner[..]))
+    }
+
+    fn lists_mut(&mut self) -> impl Iterator<Item = &mut [Complex]> {
+        let spans = self.spans.iter_mut().flatten().map(|along| &mut along.inner[..]);
+        core::iter::once(&mut self.stations[..]).chain(spans)
+    }
+
+    /// All numbers, for products of vectors.
+    pub(crate) fn flat(&self) -> impl Iterator<Item = Complex> + '_ {
+        self.lists().flatten().copied()
+    }
+
+    /// All numbers of a real motion, times a factor.
+    pub(crate) fn reals(&self, factor: f64) -> Vec<f64> {
+        let within = self.spans.iter().flatten().flat_map(|along| &along.inner).flat_map(|x| [x.re, x.im]);
+        self.stations.iter().map(|x| x.re).chain(within).map(|x| factor * x).collect()
+    }
+
+    /// Sets them, in the same order.
+    pub(crate) fn set_reals(&mut self, from: &[f64], factor: f64) {
+        let (stations, within) = from.split_at(self.stations.len());
+        self.stations.iter_mut().zip(stations).for_each(|(to, x)| *to = Complex::new(factor * x, 0.0));
+        let all = self.spans.iter_mut().flatten().flat_map(|along| &mut along.inner);
+        all.zip(within.chunks_exact(2)).for_each(|(to, x)| *to = Complex::new(factor * x[0], factor * x[1]));
+    }
+}

@@ -1,0 +1,143 @@
+//! Elements in series: inner nodes eliminated from one end to the other.
+
+use eigentol_numerics::Complex;
+
+use crate::element::{Block, Element, Node};
+
+/// A series of elements at one `s`, with all but its two end nodes eliminated.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    elements: Vec<Element>,
+    /// Which element each piece is.
+    pieces: Vec<usize>,
+    inner: Vec<Eliminated>,
+    /// Between the end nodes.
+    pub(crate) ends: [[Block; 2]; 2],
+}
+
+/// An eliminated node: the inverse of its own block, and its block with the first node.
+#[derive(Clone, Debug)]
+struct Eliminated {
+    inverse: Block,
+    with_first: Block,
+}
+
+/// The motion of a series of elements, or loads on it.
+#[derive(Clone, Debug)]
+pub(crate) struct Along {
+    pub(crate) nodes: Vec<Node>,
+    /// Element by element.
+    pub(crate) inner: Vec<Complex>,
+    /// The number of unknowns of an element.
+    pub(crate) size: usize,
+}
+
+impl Along {
+    pub(crate) fn zeros(pieces: usize, size: usize) -> Self {
+        Self { nodes: vec![[Complex::ZERO; 2]; pieces + 1], inner: vec![Complex::ZERO; pieces * size], size }
+    }
+
+    pub(crate) fn elements(&self) -> impl Iterator<Item = &[Complex]> {
+        self.inner.chunks_exact(self.size)
+    }
+}
+
+impl Chain {
+    /// `pieces` names the element of each piece.
+    pub(crate) fn new(elements: Vec<Element>, pieces: Vec<usize>, components: usize) -> Self {
+        let mut ends = elements[pieces[0]].blocks;
+        let mut inner = Vec::with_capacity(pieces.len() - 1);
+        for &piece in &pieces[1..] {
+            let [[first, across], [_, second]] = &elements[piece].blocks;
+            let [[start, with_first], [_, last]] = ends;
+            let inverse = inverse(&plus(&last, first), components);
+            let through = times(&with_first, &inverse);
+            let onward = times(&inverse, across);
+            let start = minus(&start, &times(&through, &transposed(&with_first)));
+            let with_end = negative(&times(&with_first, &onward));
+            let end = minus(second, &times(&transposed(across), &onward));
+            ends = [[start, with_end], [transposed(&with_end), end]];
+            inner.push(Eliminated { inverse, with_first });
+        }
+        Self { elements, pieces, inner, ends }
+    }
+
+    /// Loads on the two ends that do as loads on everything; what remains within is reduced in place, for
+    /// [`Self::motion`].
+    pub(crate) fn reduce(&self, loads: &mut Along) -> [Node; 2] {
+        for (k, (&piece, own)) in self.pieces.iter().zip(loads.inner.chunks_exact_mut(loads.size)).enumerate() {
+            let on = self.elements[piece].reduce(own);
+            for (node, on) in on.iter().enumerate() {
+                loads.nodes[k + node] = add(loads.nodes[k + node], *on);
+            }
+        }
+        for (k, eliminated) in self.inner.iter().enumerate() {
+            let moved = apply(&eliminated.inverse, loads.nodes[k + 1]);
+            let [[_, across], _] = &self.elements[self.pieces[k + 1]].blocks;
+            loads.nodes[0] = subtract(loads.nodes[0], apply(&eliminated.with_first, moved));
+            loads.nodes[k + 2] = subtract(loads.nodes[k + 2], apply(&transposed(across), moved));
+        }
+        [loads.nodes[0], loads.nodes[self.pieces.len()]]
+    }
+
+    /// Turns loads that were reduced into the motion of everything between two ends.
+    pub(crate) fn motion(&self, ends: [Node; 2], along: &mut Along) {
+        let count = self.pieces.len();
+        (along.nodes[0], along.nodes[count]) = (ends[0], ends[1]);
+        for (k, eliminated) in self.inner.iter().enumerate().rev() {
+            let [[_, across], _] = &self.elements[self.pieces[k + 1]].blocks;
+            let by_first = apply(&transposed(&eliminated.with_first), along.nodes[0]);
+            let by_next = apply(across, along.nodes[k + 2]);
+            let rest = subtract(subtract(along.nodes[k + 1], by_first), by_next);
+            along.nodes[k + 1] = apply(&eliminated.inverse, rest);
+        }
+        for (k, (&piece, own)) in self.pieces.iter().zip(along.inner.chunks_exact_mut(along.size)).enumerate() {
+            self.elements[piece].unknowns([along.nodes[k], along.nodes[k + 1]], own);
+        }
+    }
+}
+
+fn map(f: impl Fn(usize, usize) -> Complex) -> Block {
+    [0, 1].map(|i| [0, 1].map(|j| f(i, j)))
+}
+
+fn plus(a: &Block, b: &Block) -> Block {
+    map(|i, j| a[i][j] + b[i][j])
+}
+
+fn minus(a: &Block, b: &Block) -> Block {
+    map(|i, j| a[i][j] - b[i][j])
+}
+
+fn negative(a: &Block) -> Block {
+    map(|i, j| -a[i][j])
+}
+
+fn transposed(a: &Block) -> Block {
+    map(|i, j| a[j][i])
+}
+
+fn times(a: &Block, b: &Block) -> Block {
+    map(|i, j| a[i][0] * b[0][j] + a[i][1] * b[1][j])
+}
+
+fn apply(a: &Block, x: Node) -> Node {
+    [0, 1].map(|i| a[i][0] * x[0] + a[i][1] * x[1])
+}
+
+pub(crate) fn add(a: Node, b: Node) -> Node {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn subtract(a: Node, b: Node) -> Node {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// Of one or two components.
+fn inverse(a: &Block, components: usize) -> Block {
+    if components == 1 {
+        return [[a[0][0].inv(), Complex::ZERO], [Complex::ZERO; 2]];
+    }
+    let scale = (a[0][0] * a[1][1] - a[0][1] * a[1][0]).inv();
+    [[a[1][1] * scale, -a[0][1] * scale], [-a[1][0] * scale, a[0][0] * scale]]
+}

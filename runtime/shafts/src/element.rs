@@ -1,0 +1,181 @@
+//! One element: its inner unknowns eliminated, class by class.
+
+use eigentol_numerics::Complex;
+
+use crate::basis::{Class, MOST, SIGNS};
+use crate::section::TERMS;
+
+/// A block between two nodes.
+pub(crate) type Block = [[Complex; 2]; 2];
+/// The unknowns of a node: deflection and slope, or one of a bar.
+pub(crate) type Node = [Complex; 2];
+
+/// The largest number of unknowns of a class.
+const SIZE: usize = MOST + 1;
+
+/// The number of unknowns of a node, and what the slope there is multiplied by to be one on `[-1, 1]`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shape {
+    pub(crate) components: usize,
+    pub(crate) slope: f64,
+}
+
+/// An element at one `s` with its inner unknowns eliminated. Its unknowns are those of its two classes, one after the
+/// other, nodal unknowns first in each.
+#[derive(Clone, Debug)]
+pub(crate) struct Element {
+    /// Between the two nodes.
+    pub(crate) blocks: [[Block; 2]; 2],
+    /// Class by class for each inner unknown `p`: the inverse of its pivot, then the share of each unknown before it in
+    /// `x_p = r_p / pivot_p - sum_j<p share_pj x_j`.
+    factors: Vec<Complex>,
+    sizes: [usize; 2],
+    shape: Shape,
+}
+
+impl Shape {
+    /// Half of what a nodal unknown is multiplied by.
+    fn half(self, component: usize) -> f64 {
+        if component == 1 { 0.5 * self.slope } else { 0.5 }
+    }
+
+    /// A nodal unknown of a class, from those of the two nodes.
+    fn amplitude(self, class: usize, component: usize, nodes: [Node; 2]) -> Complex {
+        let [first, second] = SIGNS[class][component];
+        (nodes[0][component] * first + nodes[1][component] * second) * self.half(component)
+    }
+}
+
+impl Element {
+    pub(crate) fn new(classes: &[Class; 2], shape: Shape, k: &[Complex; TERMS]) -> Self {
+        let c = shape.components;
+        let mut blocks = [[[[Complex::ZERO; 2]; 2]; 2]; 2];
+        let mut factors = Vec::with_capacity(32);
+        for (number, class) in classes.iter().enumerate() {
+            let nodal = eliminated(class, c, k, &mut factors);
+            for (a, b) in (0..c).flat_map(|a| (0..c).map(move |b| (a, b))) {
+                let value = nodal[a][b] * (shape.half(a) * shape.half(b));
+                let signs = [SIGNS[number][a], SIGNS[number][b]];
+                for (p, row) in blocks.iter_mut().enumerate() {
+                    for (q, block) in row.iter_mut().enumerate() {
+                        block[a][b] += value * (signs[0][p] * signs[1][q]);
+                    }
+                }
+            }
+        }
+        Self { blocks, factors, sizes: [classes[0].size, classes[1].size], shape }
+    }
+
+    /// All unknowns of the element from those of its nodes; `own` holds reduced loads on the inner ones.
+    pub(crate) fn unknowns(&self, nodes: [Node; 2], own: &mut [Complex]) {
+        let c = self.shape.components;
+        let (mut rest, mut factors) = (own, &self.factors[..]);
+        for (class, size) in self.sizes.into_iter().enumerate() {
+            let (x, others) = rest.split_at_mut(size);
+            for (component, to) in x[..c].iter_mut().enumerate() {
+                *to = self.shape.amplitude(class, component, nodes);
+            }
+            for p in c..size {
+                let (row, next) = factors.split_at(p + 1);
+                let known: Complex = row[1..].iter().zip(&*x).map(|(share, x)| share * x).sum();
+                x[p] = x[p] * row[0] - known;
+                factors = next;
+            }
+            rest = others;
+        }
+    }
+
+    /// Loads on the nodes that do as loads on all unknowns; what acts on the inner ones is reduced in place, for
+    /// [`Self::unknowns`].
+    pub(crate) fn reduce(&self, own: &mut [Complex]) -> [Node; 2] {
+        let c = self.shape.components;
+        let mut nodes = [[Complex::ZERO; 2]; 2];
+        let (mut rest, mut factors) = (own, &self.factors[..]);
+        for (class, size) in self.sizes.into_iter().enumerate() {
+            let (loads, others) = rest.split_at_mut(size);
+            let count: usize = (c..size).map(|p| p + 1).sum();
+            let (mut rows, next) = factors.split_at(count);
+            for p in (c..size).rev() {
+                let (before, row) = rows.split_at(rows.len() - p - 1);
+                let load = loads[p];
+                for (to, share) in loads.iter_mut().zip(&row[1..]) {
+                    *to -= share * load;
+                }
+                rows = before;
+            }
+            for component in 0..c {
+                let load = loads[component] * self.shape.half(component);
+                for (node, sign) in nodes.iter_mut().zip(SIGNS[class][component]) {
+                    node[component] += load * sign;
+                }
+            }
+            (rest, factors) = (others, next);
+        }
+        nodes
+    }
+}
+
+/// Eliminates the inner unknowns of a class, the last first; its matrix is symmetric. Returns the block of the nodal ones.
+fn eliminated(class: &Class, components: usize, k: &[Complex; TERMS], factors: &mut Vec<Complex>) -> Block {
+    let n = class.size;
+    let mut all = [[Complex::ZERO; SIZE]; SIZE];
+    for &(i, j, term, value) in &class.entries {
+        all[i][j] += k[term] * value;
+    }
+    let start = factors.len();
+    let count: usize = (components..n).map(|p| p + 1).sum();
+    factors.resize(start + count, Complex::ZERO);
+    let mut end = start + count;
+    for p in (components..n).rev() {
+        let (above, row) = all.split_at_mut(p);
+        let row = &row[0];
+        let inverse = row[p].inv();
+        let own = &mut factors[end - p - 1..end];
+        own[0] = inverse;
+        for (j, to) in own[1..].iter_mut().enumerate() {
+            *to = row[j] * inverse;
+        }
+        for (i, target) in above.iter_mut().enumerate() {
+            let share = own[1 + i];
+            if share != Complex::ZERO {
+                for (to, from) in target[..=i].iter_mut().zip(row) {
+                    *to -= share * from;
+                }
+            }
+        }
+        end -= p + 1;
+    }
+    let within = |a: usize, b: usize| a < components && b < components;
+    [0, 1].map(|a: usize| [0, 1].map(|b| if within(a, b) { all[a.max(b)][a.min(b)] } else { Complex::ZERO }))
+}
+
+/// `left^T Q x` for each constant matrix.
+pub(crate) fn forms(classes: &[Class; 2], left: &[Complex], right: &[Complex]) -> [Complex; TERMS] {
+    let mut forms = [Complex::ZERO; TERMS];
+    let mut start = 0;
+    for class in classes {
+        let (left, right) = (&left[start..], &right[start..]);
+        for &(i, j, term, value) in &class.entries {
+            let product = if i == j { left[i] * right[i] } else { left[i] * right[j] + left[j] * right[i] };
+            forms[term] += product * value;
+        }
+        start += class.size;
+    }
+    forms
+}
+
+/// Loads on all unknowns: the sum of the constant matrices times their coefficients, on a motion.
+pub(crate) fn loads(classes: &[Class; 2], k: &[Complex; TERMS], x: &[Complex], loads: &mut [Complex]) {
+    let mut start = 0;
+    for class in classes {
+        let (x, loads) = (&x[start..], &mut loads[start..]);
+        for &(i, j, term, value) in &class.entries {
+            let factor = k[term] * value;
+            loads[i] += factor * x[j];
+            if i != j {
+                loads[j] += factor * x[i];
+            }
+        }
+        start += class.size;
+    }
+}

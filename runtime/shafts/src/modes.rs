@@ -1,0 +1,206 @@
+//! Modes: approximations from a Krylov space, each made exact by itself.
+//!
+//! The pencil is linear in twice as many unknowns, of which Arnoldi's method finds the modes nearest to a shift with one
+//! factorisation. Each is then refined with the condensed `T(s)`: two-sided Newton steps converge cubically (K. Schreiber,
+//! "Nonlinear Eigenvalue Problems: Newton-type Methods and Nonlinear Rayleigh Functionals", 2008).
+
+use eigentol_numerics::Complex;
+use eigentol_numerics::algebra::{Lu, Matrix, Vector, add_to, dot};
+use eigentol_numerics::eigenproblem::eigenvalues;
+
+use crate::assembly::{Assembly, At, Kept, Motion, Side};
+use crate::error::Error;
+use crate::section::Line;
+
+/// A mode: `P(s) right = 0` and `left^T P(s) = 0`.
+#[derive(Clone, Debug)]
+pub struct Mode {
+    /// 1/s.
+    pub s: Complex,
+    /// Its shape.
+    pub right: Motion,
+    /// The weights of its adjoint.
+    pub left: Motion,
+}
+
+/// Newton steps at most; three are usual from a Krylov space, two from a neighbour.
+const STEPS: usize = 12;
+/// A relative step after which `s` and both vectors are as exact as rounding lets them be.
+const CLOSE: f64 = 1e-8;
+/// What is slower than this part of a typical frequency is a rigid motion, whose rounding it is.
+const RIGID: f64 = 1e-4;
+/// The shift as a part of a typical frequency: rigid motions have none.
+const SHIFT: f64 = 0.1;
+
+impl Assembly {
+    /// The modes of lowest `|s|` with frequencies above zero, by frequency: at least `count` unless there are fewer in
+    /// reach of the search.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`].
+    pub fn modes(&self, count: usize) -> Result<Vec<Mode>, Error> {
+        let mut modes: Vec<Mode> = Vec::new();
+        for (s, stations) in self.krylov(3 * count + 20)?.into_iter().take(count + 2) {
+            let mode = self.turned(&self.beside(s)?, stations)?;
+            if !modes.iter().any(|other| same(other, &mode)) {
+                modes.push(mode);
+            }
+        }
+        modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
+        modes.truncate(count);
+        Ok(modes)
+    }
+
+    /// A mode from an approximation, for example the mode at a neighbouring speed or design.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`].
+    pub fn near(&self, mode: &Mode) -> Result<Mode, Error> {
+        let Mode { mut s, mut right, mut left } = mode.clone();
+        for _ in 0..STEPS {
+            let at = self.beside(s)?;
+            let mut next = at.solve(self.slope_loads(&right, at.s, Side::Right), Side::Right);
+            let mut next_left = at.solve(self.slope_loads(&left, at.s, Side::Left), Side::Left);
+            let change = self.normaliser(&next_left, &right, at.s) / self.normaliser(&next_left, &next, at.s);
+            for own in [&mut next, &mut next_left] {
+                own.scale(Complex::new(own.size().recip(), 0.0));
+            }
+            (s, right, left) = (at.s - change, next, next_left);
+            let step = change.norm() / s.norm();
+            if !step.is_finite() {
+                break;
+            }
+            // What remains is the cube of the last step.
+            if step < CLOSE {
+                return Ok(Mode { s, right, left });
+            }
+        }
+        Err(Error::NotConverged)
+    }
+
+    /// The mode nearest to a value of `s`, as far as the stations move in it.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`].
+    pub fn mode_at(&self, s: Complex) -> Result<Mode, Error> {
+        let at = self.beside(s)?;
+        let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0 + 0.1 * k as f64, 0.0));
+        self.turned(&at, at.response(&ones).stations)
+    }
+
+    /// Factors at `s`, or beside it where there is nothing to solve with.
+    fn beside(&self, s: Complex) -> Result<At<'_>, Error> {
+        self.at(s).or_else(|| self.at(s * (1.0 + 1e-10))).ok_or(Error::NotConverged)
+    }
+
+    /// Both vectors by steps that do not move `s`, from an approximation of the motion of the stations.
+    fn turned(&self, at: &At<'_>, stations: Vector<Complex>) -> Result<Mode, Error> {
+        let mut right = at.between(stations);
+        let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0 - 0.1 * k as f64, 0.0));
+        let mut left = at.adjoint(&ones);
+        for _ in 0..2 {
+            right = at.solve(self.slope_loads(&right, at.s, Side::Right), Side::Right);
+            left = at.solve(self.slope_loads(&left, at.s, Side::Left), Side::Left);
+            for own in [&mut right, &mut left] {
+                own.scale(Complex::new(own.size().recip(), 0.0));
+            }
+        }
+        self.near(&Mode { s: at.s, right, left })
+    }
+
+    /// Eigenvalues near a shift and the motions of the stations, the nearest first. The shift is real, and so are all
+    /// vectors: planar motions are real where that of `y - i z` is the conjugate of that of `y + i z`, which alone is kept.
+    fn krylov(&self, wanted: usize) -> Result<Vec<(Complex, Vector<Complex>)>, Error> {
+        let typical = self.typical_frequency();
+        let shift = Complex::new(SHIFT * typical, 0.0);
+        let at = self.at(shift).ok_or(Error::NotConverged)?;
+        let mut seed = 1_u64;
+        let mut first = self.still(Kept::First);
+        first.stations = Vector::from_fn(self.stations(), |_| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            Complex::new((seed >> 40) as f64 / (1 << 24) as f64 - 0.5, 0.0)
+        });
+        let first = at.solve_real(first);
+        // The second half of a vector is the first times `s`: divided by what is typical, both weigh alike.
+        let flat = |x: &Motion, v: &Motion| {
+            let mut all = x.reals(1.0);
+            all.extend(v.reals(1.0 / typical));
+            all
+        };
+        let mut start = flat(&first, &first);
+        let half = start.len() / 2;
+        let most = wanted.min(2 * half);
+        normalise(&mut start);
+        let mut basis = vec![start];
+        let mut hessenberg = Matrix::<f64>::zeros(most, most);
+        let (mut x, mut v) = (first.clone(), first);
+        let mut count = most;
+        for k in 0..most {
+            x.set_reals(&basis[k][..half], 1.0);
+            v.set_reals(&basis[k][half..], typical);
+            let mut loads = self.momentum(&x, &v, shift);
+            loads.scale(Complex::new(-1.0, 0.0));
+            let w = at.solve_real(loads);
+            x.add(shift, &w);
+            let mut next = flat(&w, &x);
+            let before = dot(&next, &next).sqrt();
+            for _ in 0..2 {
+                let shares: Vec<f64> = basis.iter().map(|own| dot(own, &next)).collect();
+                for (j, (own, share)) in basis.iter().zip(&shares).enumerate() {
+                    hessenberg[j][k] += share;
+                    add_to(&mut next, -share, own);
+                }
+            }
+            let rest = normalise(&mut next);
+            if rest <= 1e-13 * before {
+                count = k + 1;
+                break;
+            }
+            if k + 1 < most {
+                hessenberg[k + 1][k] = rest;
+                basis.push(next);
+            }
+        }
+        let small = Matrix::from_fn(count, count, |i, j| Complex::new(hessenberg[i][j], 0.0));
+        let mut values = vec![Complex::ZERO; count];
+        if !eigenvalues(small.clone().as_flattened_mut(), &mut values) {
+            return Err(Error::NotConverged);
+        }
+        values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+        let rigid = RIGID * typical;
+        let oscillates = |value: &Complex| value.norm() > 0.0 && (shift + value.inv()).im > rigid;
+        let pairs = values.into_iter().filter(oscillates).take(wanted / 3).filter_map(|value| {
+            let near = value * (1.0 + 1e-12);
+            let shifted = Matrix::from_fn(count, count, |i, j| if i == j { small[i][j] - near } else { small[i][j] });
+            let y = Lu::of(shifted)?.solve(&vec![Complex::new(1.0, 0.0); count]);
+            let stations = Vector::from_fn(self.stations(), |i| (0..count).map(|j| y[j] * basis[j][i]).sum());
+            Some((shift + value.inv(), stations))
+        });
+        Ok(pairs.collect())
+    }
+
+    /// That of the longest span between hinges, 1/s.
+    fn typical_frequency(&self) -> f64 {
+        let of_span = |span: &crate::Span| {
+            let length: f64 = span.sections.iter().map(|(own, _)| own.length).sum();
+            let wave = core::f64::consts::PI / length;
+            let power = if span.line == Line::Bar { 2 } else { 4 };
+            let own = span.sections.iter().map(|(own, _)| own.stiffness / own.mass).sum::<f64>();
+            (own / span.sections.len() as f64 * wave.powi(power)).sqrt()
+        };
+        let lowest = self.spans().iter().map(of_span).fold(f64::INFINITY, f64::min);
+        if lowest.is_finite() { lowest } else { 1.0 }
+    }
+}
+
+/// Whether two modes are one.
+fn same(a: &Mode, b: &Mode) -> bool {
+    let product: Complex = a.right.flat().zip(b.right.flat()).map(|(a, b)| a.conj() * b).sum();
+    (a.s - b.s).norm() < 1e-7 * a.s.norm() && product.norm() > 0.999
+}
+
+fn normalise(x: &mut [f64]) -> f64 {
+    let norm = dot(x, x).sqrt();
+    x.iter_mut().for_each(|x| *x /= norm);
+    norm
+}

@@ -1,0 +1,166 @@
+//! Sections of a shaft: the numbers that are constant along each, and what they multiply.
+
+use eigentol_numerics::Complex;
+
+/// What a line of a shaft does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Line {
+    /// Bends and shears: Timoshenko's theory with rotary inertia. Two unknowns a node and plane, deflection and rotation
+    /// of the section.
+    Timoshenko,
+    /// Bends without shear: Rayleigh's theory. The same unknowns.
+    Slender,
+    /// Twists, or stretches. One unknown a node.
+    Bar,
+}
+
+/// The largest number of coefficients of a line.
+pub(crate) const TERMS: usize = 5;
+
+/// A piece of a shaft with the same numbers all along, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section {
+    /// m.
+    pub length: f64,
+    /// `E I`, N m^2; of a bar `G J`, or `E A` in N.
+    pub stiffness: f64,
+    /// `kappa G A`, N. Only of [`Line::Timoshenko`].
+    pub shear: f64,
+    /// Per length, kg/m; of a bar that twists polar inertia, kg m.
+    pub mass: f64,
+    /// Inertia about a diameter per length, kg m.
+    pub rotary: f64,
+    /// Time that the rate of bending or twist is multiplied by, s: the material's damping, which turns with it.
+    pub lag: f64,
+    /// Axial force, N; positive if it stretches.
+    pub tension: f64,
+    /// Resistance of a medium at rest, N s/m^2; of a bar that twists N s.
+    pub drag: f64,
+}
+
+/// The numbers of a section, in the order of gradients.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs, reason = "the fields of a section")]
+pub enum Number {
+    Length,
+    Stiffness,
+    Shear,
+    Mass,
+    Rotary,
+    Lag,
+    Tension,
+    Drag,
+}
+
+impl Number {
+    /// All, in the order of gradients.
+    pub const ALL: [Self; 8] =
+        [Self::Length, Self::Stiffness, Self::Shear, Self::Mass, Self::Rotary, Self::Lag, Self::Tension, Self::Drag];
+}
+
+/// Each coefficient of a line as a polynomial in `s`: constant, linear and quadratic part.
+pub(crate) type Coefficients = [[Complex; 3]; TERMS];
+
+impl Section {
+    /// A number of the section.
+    #[must_use]
+    pub fn number(&self, number: Number) -> f64 {
+        let mut own = *self;
+        *own.number_mut(number)
+    }
+
+    /// A number of the section, to change it.
+    pub fn number_mut(&mut self, number: Number) -> &mut f64 {
+        match number {
+            Number::Length => &mut self.length,
+            Number::Stiffness => &mut self.stiffness,
+            Number::Shear => &mut self.shear,
+            Number::Mass => &mut self.mass,
+            Number::Rotary => &mut self.rotary,
+            Number::Lag => &mut self.lag,
+            Number::Tension => &mut self.tension,
+            Number::Drag => &mut self.drag,
+        }
+    }
+
+    /// The coefficients at a speed, for `y + i z`; for `y - i z` the speed changes its sign. They are those of the mass
+    /// of deflection, the mass of rotation (with the stiffness of shear), bending, the slope of deflection, and shear; of
+    /// a slender line the deflection, its slope and its curvature; of a bar the deflection and its slope.
+    pub(crate) fn coefficients(&self, line: Line, speed: f64) -> Coefficients {
+        let half = self.length / 2.0;
+        let real = |x: f64| Complex::new(x, 0.0);
+        let turning = Complex::new(0.0, speed);
+        let zero = [Complex::ZERO; 3];
+        let inertia = [Complex::ZERO, real(half * self.drag), real(half * self.mass)];
+        let rotary = |scale: f64| [Complex::ZERO, -2.0 * turning * (scale * self.rotary), real(scale * self.rotary)];
+        let elastic = |x: f64| [real(x) * (1.0 - self.lag * turning), real(x * self.lag), Complex::ZERO];
+        let plus = |[a, b, c]: [Complex; 3], x: f64| [a + x, b, c];
+        match line {
+            Line::Timoshenko => [
+                inertia,
+                plus(rotary(half), half * self.shear),
+                elastic(self.stiffness / half),
+                [real((self.shear + self.tension) / half), Complex::ZERO, Complex::ZERO],
+                [real(-self.shear), Complex::ZERO, Complex::ZERO],
+            ],
+            Line::Slender => [
+                inertia,
+                plus(rotary(1.0 / half), self.tension / half),
+                elastic(self.stiffness / (half * half * half)),
+                zero,
+                zero,
+            ],
+            // What twists turns with the shaft: its damping does not.
+            Line::Bar => [
+                inertia,
+                [real(self.stiffness / half), real(self.stiffness * self.lag / half), Complex::ZERO],
+                zero,
+                zero,
+                zero,
+            ],
+        }
+    }
+
+    /// Derivative of the coefficients by a number.
+    pub(crate) fn slopes(&self, line: Line, speed: f64, number: Number) -> Coefficients {
+        let with = |change: &dyn Fn(&mut Self)| {
+            let mut own = *self;
+            change(&mut own);
+            own.coefficients(line, speed)
+        };
+        // All but the length enter linearly, the lag together with the stiffness.
+        match number {
+            Number::Length => {
+                let half = self.length / 2.0;
+                let powers: [[f64; 3]; TERMS] = match line {
+                    Line::Timoshenko => [[1.0; 3], [1.0; 3], [-1.0; 3], [-1.0; 3], [0.0; 3]],
+                    Line::Slender => [[1.0; 3], [-1.0; 3], [-3.0; 3], [0.0; 3], [0.0; 3]],
+                    Line::Bar => [[1.0; 3], [-1.0; 3], [0.0; 3], [0.0; 3], [0.0; 3]],
+                };
+                let all = self.coefficients(line, speed);
+                core::array::from_fn(|m| core::array::from_fn(|k| all[m][k] * (powers[m][k] / (2.0 * half))))
+            }
+            number => {
+                let high = with(&|own| *own.number_mut(number) = 1.0);
+                let low = with(&|own| *own.number_mut(number) = 0.0);
+                core::array::from_fn(|m| core::array::from_fn(|k| high[m][k] - low[m][k]))
+            }
+        }
+    }
+
+    /// Derivative of the coefficients by the speed.
+    pub(crate) fn by_speed(&self, line: Line) -> Coefficients {
+        let (high, low) = (self.coefficients(line, 1.0), self.coefficients(line, 0.0));
+        core::array::from_fn(|m| core::array::from_fn(|k| high[m][k] - low[m][k]))
+    }
+}
+
+/// The coefficients at `s`.
+pub(crate) fn at(coefficients: &Coefficients, s: Complex) -> [Complex; TERMS] {
+    coefficients.map(|[a, b, c]| a + s * (b + s * c))
+}
+
+/// Their derivatives by `s`.
+pub(crate) fn slope_at(coefficients: &Coefficients, s: Complex) -> [Complex; TERMS] {
+    coefficients.map(|[_, b, c]| b + 2.0 * s * c)
+}

@@ -1,0 +1,470 @@
+//! Rotors against exact solutions: closed forms and transfer matrices in seventy digits (`tests/truth/flexible`).
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
+
+use eigentol_shafts::{Assembly, Complex, Line, Matrix, Number, Place, Section, Span};
+use serde_json::Value;
+
+fn truth(name: &str) -> Value {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/truth/flexible");
+    serde_json::from_str(&fs::read_to_string(folder.join(format!("{name}.json"))).unwrap()).unwrap()
+}
+
+fn number(value: &Value, key: &str) -> f64 {
+    value[key].as_f64().unwrap()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+const NONE: Section =
+    Section { length: 0.0, stiffness: 0.0, shear: 0.0, mass: 0.0, rotary: 0.0, lag: 0.0, tension: 0.0, drag: 0.0 };
+
+fn close(found: f64, expected: f64, scale: f64, tolerance: f64, what: &str) {
+    assert!((found - expected).abs() <= tolerance * scale, "{what}: {found} against {expected}");
+}
+
+/// Simply supported: only the slopes of the ends are free.
+fn supported(section: Section, line: Line, speed: f64, elements: usize, degree: usize) -> Assembly {
+    let end = |k: usize| -> [Place; 4] { [None, Some((2 * k, 1.0)), None, Some((2 * k + 1, 1.0))] };
+    let span = Span { line, speed, sections: vec![(section, elements)], ends: [end(0), end(1)] };
+    let zero = Matrix::zeros(4, 4);
+    Assembly::new(vec![span], [zero.clone(), zero.clone(), zero], degree).unwrap()
+}
+
+#[test]
+fn a_spinning_shaft() {
+    let truth = truth("F7_spinning_shaft");
+    let own = &truth["parameters"];
+    let section = Section {
+        length: number(own, "L"),
+        stiffness: number(own, "EI"),
+        shear: number(own, "kGA"),
+        mass: number(own, "rhoA"),
+        rotary: number(own, "rhoI"),
+        ..NONE
+    };
+    let by = [
+        ("L", Number::Length),
+        ("EI", Number::Stiffness),
+        ("kGA", Number::Shear),
+        ("rhoA", Number::Mass),
+        ("rhoI", Number::Rotary),
+    ];
+    for case in truth["cases"].as_array().unwrap() {
+        let speed = number(case, "Omega");
+        let assembly = supported(section, Line::Timoshenko, speed, 6, 10);
+        for (k, omega) in numbers(&case["omega"]).into_iter().enumerate() {
+            let mode = assembly.mode_at(Complex::new(0.0, omega * (1.0 + 1e-5))).unwrap();
+            close(mode.s.im, omega, omega.abs(), 1e-10, "omega");
+            close(mode.s.re, 0.0, omega.abs(), 1e-10, "decay");
+            let slopes = assembly.slopes(&mode).swap_remove(0);
+            for (name, which) in by {
+                let exact = numbers(&case["derivatives"][name]["first"])[k];
+                close(slopes.sections[0][which as usize].im, exact, exact.abs(), 1e-8, name);
+            }
+            if speed != 0.0 {
+                let exact = numbers(&case["derivatives"]["Omega"]["first"])[k];
+                close(slopes.speed.im, exact, exact.abs(), 1e-8, "Omega");
+            }
+        }
+    }
+}
+
+#[test]
+fn internal_damping() {
+    let truth = truth("F8_internal_damping");
+    let own = &truth["parameters"];
+    let section = Section {
+        length: number(own, "L"),
+        stiffness: number(own, "EI"),
+        mass: number(own, "rhoA"),
+        rotary: number(own, "rhoI"),
+        drag: number(own, "c"),
+        lag: number(own, "eta"),
+        ..NONE
+    };
+    let assembly = supported(section, Line::Slender, number(own, "Omega"), 3, 9);
+    let exact = numbers(&truth["eigenvalues_re_im_twice"]);
+    let by = [
+        ("L", Number::Length),
+        ("EI", Number::Stiffness),
+        ("rhoA", Number::Mass),
+        ("rhoI", Number::Rotary),
+        ("c", Number::Drag),
+        ("eta", Number::Lag),
+    ];
+    for k in [0, 2] {
+        let s = Complex::new(exact[k], exact[k + 1]);
+        let mode = assembly.mode_at(s * Complex::new(1.0, 1e-5)).unwrap();
+        assert!((mode.s - s).norm() < 1e-10 * s.norm(), "{} {s}", mode.s);
+        let slopes = assembly.slopes(&mode).swap_remove(0);
+        let compare = |found: Complex, name: &str| {
+            let first = numbers(&truth["derivatives"][name]["first"]);
+            let expected = Complex::new(first[k], first[k + 1]);
+            assert!((found - expected).norm() < 1e-8 * expected.norm(), "{name} {found} {expected}");
+        };
+        for (name, which) in by {
+            compare(slopes.sections[0][which as usize], name);
+        }
+        compare(slopes.speed, "Omega");
+    }
+}
+
+/// Nelson and McVaugh's rotor: its stations, and which unknowns they have.
+struct Rotor {
+    assembly: Assembly,
+    stations: Vec<usize>,
+}
+
+impl Rotor {
+    /// The unknowns at a station: along `y`, its slope, along `z`, its slope.
+    fn base(&self, station: u64) -> usize {
+        4 * self.stations.iter().position(|x| *x == station as usize).unwrap()
+    }
+
+    fn new(
+        rotor: &Value,
+        [stiffness, damping]: [[f64; 4]; 2],
+        speed: f64,
+        scale: f64,
+        slender: bool,
+        degree: usize,
+    ) -> Self {
+        let sections: Vec<Section> = rotor["sections"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|own| {
+                let [od, id] = ["od", "id"].map(|key| number(own, key));
+                let (area, second) = (PI / 4.0 * (od * od - id * id), PI / 64.0 * (od.powi(4) - id.powi(4)));
+                Section {
+                    length: number(own, "L"),
+                    stiffness: scale * number(own, "E") * second,
+                    shear: number(own, "kappa") * number(own, "G") * area,
+                    mass: number(own, "rho") * area,
+                    rotary: number(own, "rho") * second,
+                    ..NONE
+                }
+            })
+            .collect();
+        let stations = vec![0, 4, 10, 14, 15, 18];
+        let n = 4 * stations.len();
+        let [mut mass, mut damped, mut stiff] = [(); 3].map(|()| Matrix::zeros(n, n));
+        let base = |station: usize| 4 * stations.iter().position(|x| *x == station).unwrap();
+        for disc in rotor["discs"].as_array().unwrap() {
+            let b = base(disc["station"].as_u64().unwrap() as usize);
+            for (k, key) in [(0, "m"), (1, "Id"), (2, "m"), (3, "Id")] {
+                mass[b + k][b + k] += number(disc, key);
+            }
+            damped[b + 1][b + 3] += speed * number(disc, "Ip");
+            damped[b + 3][b + 1] -= speed * number(disc, "Ip");
+        }
+        for station in [10, 14] {
+            let b = base(station);
+            for (k, (i, j)) in [(0, 0), (0, 2), (2, 0), (2, 2)].into_iter().enumerate() {
+                stiff[b + i][b + j] += stiffness[k];
+                damped[b + i][b + j] += damping[k];
+            }
+        }
+        let line = if slender { Line::Slender } else { Line::Timoshenko };
+        let spans = stations.windows(2).enumerate().map(|(k, ends)| Span {
+            line,
+            speed,
+            sections: sections[ends[0]..ends[1]].iter().map(|own| (*own, 1)).collect(),
+            ends: [k, k + 1].map(|station| [0, 1, 2, 3].map(|j| Some((4 * station + j, 1.0)))),
+        });
+        let assembly = Assembly::new(spans.collect(), [mass, damped, stiff], degree).unwrap();
+        Self { assembly, stations }
+    }
+}
+
+const ISOTROPIC: [f64; 4] = [4.378e7, 0.0, 0.0, 4.378e7];
+const ORTHOTROPIC: [f64; 4] = [3.503e7, -8.756e6, -8.756e6, 3.503e7];
+
+#[test]
+fn a_rotor_of_eighteen_sections() {
+    let truth = truth("F9_nelson_mcvaugh");
+    for case in truth["modes"].as_array().unwrap() {
+        let bearings = if case["bearings"] == "isotropic" { ISOTROPIC } else { ORTHOTROPIC };
+        let slender = case["theory"] == "rayleigh";
+        let rotor = Rotor::new(
+            &truth["rotor"],
+            [bearings, [0.0; 4]],
+            number(case, "Omega"),
+            1.0,
+            slender,
+            if slender { 7 } else { 5 },
+        );
+        let exact = case["eigenvalues"].as_array().unwrap();
+        let modes = rotor.assembly.modes(exact.len()).unwrap();
+        for (mode, exact) in modes.iter().zip(exact) {
+            let exact = numbers(exact);
+            let s = Complex::new(exact[0], exact[1]);
+            assert!((mode.s - s).norm() < 1e-8 * s.norm(), "{} {s}", mode.s);
+        }
+    }
+}
+
+#[test]
+fn unbalance_response() {
+    let truth = truth("F10_nelson_unbalance");
+    for case in truth["cases"].as_array().unwrap() {
+        let bearings = if case["bearings"] == "isotropic" { ISOTROPIC } else { ORTHOTROPIC };
+        let speed = number(case, "Omega");
+        let damping = [1752.0, 0.0, 0.0, 1752.0];
+        let rotor = Rotor::new(&truth["rotor"], [bearings, damping], speed, 1.0, false, 5);
+        let assembly = &rotor.assembly;
+        let s = Complex::new(0.0, speed);
+        let at = assembly.at(s).unwrap();
+        let mut loads = vec![Complex::new(0.0, 0.0); assembly.stations()];
+        for (station, amount, angle) in [(4, 6.35e-6, 0.0), (15, 2e-6, 1.2)] {
+            let force = Complex::from_polar(amount * speed * speed, angle);
+            let base = rotor.base(station);
+            loads[base] = force;
+            loads[base + 2] = force * Complex::new(0.0, -1.0);
+        }
+        let right = at.response(&loads);
+        let shown = case["stations"].as_array().unwrap().iter().map(|x| rotor.base(x.as_u64().unwrap()));
+        let shown: Vec<usize> = shown.flat_map(|base| [base, base + 2]).collect();
+        let exact = |values: &Value, k: usize| {
+            let own = numbers(&values[k]);
+            Complex::new(own[0], own[1])
+        };
+        let size = (0..shown.len()).map(|k| exact(&case["XY"], k).norm()).fold(0.0, f64::max);
+        for (k, &unknown) in shown.iter().enumerate() {
+            let expected = exact(&case["XY"], k);
+            assert!((right.stations[unknown] - expected).norm() < 1e-8 * size, "{speed} {unknown}");
+
+            // dX = -left^T dP right
+            let mut seen = vec![Complex::new(0.0, 0.0); assembly.stations()];
+            seen[unknown] = Complex::new(1.0, 0.0);
+            let left = at.adjoint(&seen);
+            let product = |i: usize, j: usize| left.stations[i] * right.stations[j];
+            let (disc, ends) = (rotor.base(4), [10, 14].map(|station| rotor.base(station)));
+            let gradient = assembly.gradient(&left, &right, s);
+            let section =
+                |span: usize, section: usize, number: Number| -gradient[span].sections[section][number as usize];
+            // Section 10, counted from 1, is the last of the second span, 25.4 mm in diameter.
+            let own = assembly.spans()[1].sections[5].0;
+            let od_10 = [Number::Stiffness, Number::Shear, Number::Mass, Number::Rotary].map(|number| {
+                let power = if [Number::Stiffness, Number::Rotary].contains(&number) { 4.0 } else { 2.0 };
+                section(1, 5, number) * power * own.number(number) / 0.0254
+            });
+            let modulus = assembly
+                .spans()
+                .iter()
+                .enumerate()
+                .flat_map(|(span, of)| (0..of.sections.len()).map(move |k| (span, k)));
+            let modulus = modulus
+                .map(|(span, k)| section(span, k, Number::Stiffness) * assembly.spans()[span].sections[k].0.stiffness);
+            let found = [
+                ("disc_mass", -s * s * (product(disc, disc) + product(disc + 2, disc + 2))),
+                ("disc_Ip", -s * speed * (product(disc + 1, disc + 3) - product(disc + 3, disc + 1))),
+                ("bearing_kxx", -ends.iter().map(|&b| product(b, b)).sum::<Complex>()),
+                ("bearing_cyy", -s * ends.iter().map(|&b| product(b + 2, b + 2)).sum::<Complex>()),
+                ("od_10", od_10.iter().sum()),
+                ("modulus", modulus.sum::<Complex>() / number(&truth["rotor"]["sections"][0], "E")),
+            ];
+            for (name, found) in found {
+                let all = &case["derivatives"][name]["first"];
+                let size = (0..shown.len()).map(|k| exact(all, k).norm()).fold(0.0, f64::max);
+                let expected = exact(all, k);
+                assert!((found - expected).norm() < 1e-8 * size, "{speed} {unknown} {name} {found} {expected}");
+            }
+        }
+    }
+}
+
+/// Three shafts, five inertias and a gear: the wheel of the third shaft turns `ratio` times as fast as that of the second.
+#[test]
+fn a_torsional_train() {
+    let truth = truth("F15_torsional_train");
+    let own = &truth["parameters"];
+    let ratio = number(own, "ratio");
+    let spans = (1..4).map(|k| {
+        let section = Section {
+            length: number(own, &format!("L{k}")),
+            stiffness: number(own, &format!("GJ{k}")),
+            mass: number(own, &format!("rhoJ{k}")),
+            ..NONE
+        };
+        // The gear is the third unknown; the second wheel turns with it.
+        let ends: [Place; 2] =
+            if k == 3 { [Some((2, ratio)), Some((3, 1.0))] } else { [Some((k - 1, 1.0)), Some((k, 1.0))] };
+        Span {
+            line: Line::Bar,
+            speed: 0.0,
+            sections: vec![(section, 2)],
+            ends: ends.map(|end| [end, None, None, None]),
+        }
+    });
+    let inertia = |k: usize| number(own, &format!("J{k}"));
+    let all = [inertia(1), inertia(2), inertia(3) + ratio * ratio * inertia(4), inertia(5)];
+    let mass = Matrix::from_fn(4, 4, |i, j| if i == j { all[i] } else { 0.0 });
+    let zero = Matrix::zeros(4, 4);
+    let assembly = Assembly::new(spans.collect(), [mass, zero.clone(), zero], 8).unwrap();
+    let exact = numbers(&truth["frequencies"]);
+    let modes = assembly.modes(3).unwrap();
+    assert_eq!(modes.len(), 3);
+    for (k, (mode, exact)) in modes.iter().zip(exact).enumerate() {
+        close(mode.s.im, exact, exact, 1e-10, "frequency");
+        let below = assembly.normaliser(&mode.left, &mode.right, mode.s);
+        let slopes = assembly.slopes(mode);
+        let at = |span: usize, number: Number| slopes[span].sections[0][number as usize].im;
+        let of_inertia =
+            |place: usize| (-mode.s * mode.s * mode.left.stations[place] * mode.right.stations[place] / below).im;
+        let found = [
+            ("L1", at(0, Number::Length)),
+            ("GJ2", at(1, Number::Stiffness)),
+            ("rhoJ3", at(2, Number::Mass)),
+            ("J2", of_inertia(1)),
+            ("J5", of_inertia(3)),
+        ];
+        for (name, found) in found {
+            let exact = numbers(&truth["derivatives"][name]["first"])[k];
+            close(found, exact, exact.abs(), 1e-8, name);
+        }
+    }
+}
+
+/// Numbers between 0 and 1.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as f64 / (1_u64 << 31) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+}
+
+/// A shaft of random steps on random bearings with a random disk; `split` is the number of elements of a section.
+fn random(seed: u64, line: Line, split: usize, degree: usize) -> Assembly {
+    let (spans, matrices) = random_parts(seed, line, split);
+    Assembly::new(spans, matrices, degree).unwrap()
+}
+
+fn random_parts(seed: u64, line: Line, split: usize) -> (Vec<Span>, [Matrix; 3]) {
+    let mut random = Random(seed);
+    let speed = random.between(0.0, 900.0);
+    let mut spans: Vec<Span> = (0..3)
+        .map(|k| Span {
+            line,
+            speed,
+            sections: (0..2 + seed as usize % 3)
+                .map(|_| {
+                    let diameter: f64 = random.between(0.03, 0.08);
+                    let (area, second) = (PI / 4.0 * diameter.powi(2), PI / 64.0 * diameter.powi(4));
+                    let section = Section {
+                        length: random.between(0.05, 0.2),
+                        stiffness: 210e9 * second,
+                        shear: 0.9 * 81e9 * area,
+                        mass: 7850.0 * area,
+                        rotary: 7850.0 * second,
+                        lag: random.between(0.0, 1e-5),
+                        tension: random.between(-2e4, 2e4),
+                        drag: random.between(0.0, 50.0),
+                    };
+                    (section, split)
+                })
+                .collect(),
+            ends: [k, k + 1].map(|station| [0, 1, 2, 3].map(|j| Some((4 * station + j, 1.0)))),
+        })
+        .collect();
+    spans[0].ends[0][1] = None;
+    let [mut mass, mut damping, mut stiffness] = [(); 3].map(|()| Matrix::zeros(16, 16));
+    for k in 0..4 {
+        mass[4 + k][4 + k] = if k % 2 == 0 { 12.0 } else { 0.04 };
+    }
+    (damping[5][7], damping[7][5]) = (0.07 * speed, -0.07 * speed);
+    for station in [0, 8, 12] {
+        for (i, j) in [(0, 0), (0, 2), (2, 0), (2, 2)] {
+            let cross = if i == j { 1.0 } else { 0.2 };
+            stiffness[station + i][station + j] = cross * random.between(1e7, 4e7);
+            damping[station + i][station + j] = cross * random.between(0.0, 4e3);
+        }
+    }
+    stiffness[1][1] = 1.0;
+    stiffness[3][3] = 1.0;
+    (spans, [mass, damping, stiffness])
+}
+
+#[test]
+fn random_shafts_do_not_depend_on_the_elements() {
+    for (seed, line) in (1..25).flat_map(|seed| [(seed, Line::Timoshenko), (seed, Line::Slender)]) {
+        let coarse = random(seed, line, 2, 6).modes(5).unwrap();
+        let fine = random(seed, line, 8, if line == Line::Slender { 6 } else { 4 }).modes(5).unwrap();
+        for (coarse, fine) in coarse.iter().zip(&fine) {
+            assert!((coarse.s - fine.s).norm() < 2e-8 * fine.s.norm(), "{seed} {line:?} {} {}", coarse.s, fine.s);
+        }
+    }
+}
+
+#[test]
+fn random_slopes_are_those_of_differences() {
+    for (seed, line) in (1..9).flat_map(|seed| [(seed, Line::Timoshenko), (seed, Line::Slender)]) {
+        let assembly = random(seed, line, 1, 5);
+        let (_, matrices) = random_parts(seed, line, 1);
+        let mode = assembly.modes(3).unwrap().swap_remove(2);
+        let slopes = assembly.slopes(&mode);
+        let moved = |change: &dyn Fn(&mut Vec<Span>)| {
+            let mut spans = assembly.spans().to_vec();
+            change(&mut spans);
+            Assembly::new(spans, matrices.clone(), 5).unwrap().near(&mode).unwrap().s
+        };
+        for (span, own) in slopes.iter().enumerate() {
+            for (section, own) in own.sections.iter().enumerate() {
+                for number in Number::ALL {
+                    let value = assembly.spans()[span].sections[section].0.number(number);
+                    let step = 3e-3 * value.abs();
+                    let at =
+                        |step: f64| moved(&|spans| *spans[span].sections[section].0.number_mut(number) = value + step);
+                    let difference =
+                        (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step);
+                    let found = own[number as usize];
+                    let size = mode.s.norm() / value.abs();
+                    assert!(
+                        (found - difference).norm() < 1e-9 * size,
+                        "{seed} {line:?} {number:?} {found} {difference}"
+                    );
+                }
+            }
+            let step = 0.05;
+            let at = |step: f64| moved(&|spans| spans[span].speed += step);
+            let difference = (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step);
+            assert!((own.speed - difference).norm() < 1e-9 * mode.s.norm(), "{seed} {} {difference}", own.speed);
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let section = Section { length: 1.0, stiffness: 1.0, shear: 1.0, mass: 1.0, ..NONE };
+    let ends = [[Some((0, 1.0)), None, None, None], [None; 4]];
+    let span = Span { line: Line::Timoshenko, speed: 0.0, sections: vec![(section, 1)], ends };
+    let one = || [(); 3].map(|()| Matrix::zeros(1, 1));
+    let said = |span: Span, degree: usize| Assembly::new(vec![span], one(), degree).unwrap_err().to_string();
+    assert!(said(span.clone(), 40).contains("degree 1 to 12, not 40"));
+    let mut own = span.clone();
+    own.ends[1][2] = Some((7, 1.0));
+    assert!(said(own, 4).contains("beyond the 1 of the stations"));
+    let mut own = span.clone();
+    own.sections[0].0.shear = 0.0;
+    assert!(said(own, 4).contains("Shear of section 0 of span 0 is 0"));
+    let mut own = span.clone();
+    own.sections[0].0.lag = f64::NAN;
+    assert!(said(own, 4).contains("Lag of section 0 of span 0 is NaN"));
+    let mut own = span.clone();
+    own.sections[0].1 = 0;
+    assert!(said(own, 4).contains("divided into no element"));
+    let wide = [Matrix::zeros(1, 1), Matrix::zeros(2, 2), Matrix::zeros(1, 1)];
+    assert!(Assembly::new(vec![span], wide, 4).unwrap_err().to_string().contains("the same size"));
+}
