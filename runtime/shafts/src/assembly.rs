@@ -447,6 +447,13 @@ impl At<'_> {
         motion
     }
 
+    /// The phase of the determinant of all equations.
+    pub(crate) fn phase(&self) -> Complex {
+        let spans = self.assembly.spans.iter().zip(&self.chains);
+        let within = spans.flat_map(|(span, chains)| chains.iter().map(|chain| chain.phase(span.components())));
+        within.product::<Complex>() * self.factors.phase_of_determinant()
+    }
+
     /// Turns reduced loads between the stations into the motion there.
     fn spread(&self, motion: &mut Motion, side: Side) {
         for ((span, chains), own) in self.assembly.spans.iter().zip(&self.chains).zip(&mut motion.spans) {

@@ -2,7 +2,7 @@
 
 use eigentol_numerics::Complex;
 
-use crate::element::{Block, Element, Node};
+use crate::element::{Block, Element, Node, turned};
 
 /// A series of elements at one `s`, with all but its two end nodes eliminated.
 #[derive(Clone, Debug)]
@@ -60,6 +60,16 @@ impl Chain {
             inner.push(Eliminated { inverse, with_first });
         }
         Self { elements, pieces, inner, ends }
+    }
+
+    /// The phase of the determinant of what was eliminated.
+    pub(crate) fn phase(&self, components: usize) -> Complex {
+        let elements =
+            self.pieces.iter().fold(Complex::new(1.0, 0.0), |phase, &piece| phase * self.elements[piece].phase());
+        self.inner.iter().fold(elements, |phase, node| {
+            let [[a, b], [c, d]] = node.inverse;
+            turned(phase, if components == 1 { a } else { a * d - b * c }.conj())
+        })
     }
 
     /// Loads on the two ends that do as loads on everything; what remains within is reduced in place, for

@@ -66,6 +66,19 @@ impl Element {
         Self { blocks, factors, sizes: [classes[0].size, classes[1].size], shape }
     }
 
+    /// The phase of the determinant of what was eliminated.
+    pub(crate) fn phase(&self) -> Complex {
+        let mut phase = Complex::new(1.0, 0.0);
+        let mut factors = &self.factors[..];
+        for size in self.sizes {
+            for p in self.shape.components..size {
+                phase = turned(phase, factors[0].conj());
+                factors = &factors[p + 1..];
+            }
+        }
+        phase
+    }
+
     /// All unknowns of the element from those of its nodes; `own` holds reduced loads on the inner ones.
     pub(crate) fn unknowns(&self, nodes: [Node; 2], own: &mut [Complex]) {
         let c = self.shape.components;
@@ -113,6 +126,11 @@ impl Element {
         }
         nodes
     }
+}
+
+/// A phase turned by that of a number.
+pub(crate) fn turned(phase: Complex, by: Complex) -> Complex {
+    phase * by / by.norm()
 }
 
 /// Eliminates the inner unknowns of a class, the last first; its matrix is symmetric. Returns the block of the nodal ones.

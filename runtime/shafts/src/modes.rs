@@ -29,6 +29,8 @@ const STEPS: usize = 12;
 const CLOSE: f64 = 1e-8;
 /// What is slower than this part of a typical frequency is a rigid motion, whose rounding it is.
 const RIGID: f64 = 1e-4;
+/// Radians by which a determinant may turn in half a step along an edge.
+const TURN: f64 = 0.9;
 /// The shift as a part of a typical frequency: rigid motions have none.
 const SHIFT: f64 = 0.1;
 
@@ -49,6 +51,41 @@ impl Assembly {
         modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
         modes.truncate(count);
         Ok(modes)
+    }
+
+    /// The number of eigenvalues within a rectangle from one corner to the opposite one, each as often as it is a zero of the
+    /// determinant: the times that this turns about zero along the edges. `None` where an eigenvalue is on an edge.
+    ///
+    /// A list of modes within the rectangle is complete where it has as many. Steps are a quarter of the shorter edge at
+    /// most, so that what is as far from an edge is not stepped over.
+    #[must_use]
+    pub fn count_within(&self, low: Complex, high: Complex) -> Option<usize> {
+        let corners = [low, Complex::new(high.re, low.im), high, Complex::new(low.re, high.im), low];
+        let most = 0.25 * f64::min((high.re - low.re).abs(), (high.im - low.im).abs());
+        let mut turns = 0.0;
+        for edge in corners.windows(2) {
+            let at = |share: f64| Some(self.at(edge[0] + (edge[1] - edge[0]) * share)?.phase());
+            let longest = most / (edge[1] - edge[0]).norm();
+            let (mut place, mut phase, mut step) = (0.0, at(0.0)?, longest);
+            while place < 1.0 {
+                let next = f64::min(place + step, 1.0);
+                let (half, whole) = (at((place + next) / 2.0)?, at(next)?);
+                let [first, second] = [(half / phase).arg(), (whole / half).arg()];
+                if first.abs() > TURN || second.abs() > TURN {
+                    step /= 2.0;
+                    if step < 1e-9 {
+                        return None;
+                    }
+                    continue;
+                }
+                turns += (first + second) / core::f64::consts::TAU;
+                (place, phase) = (next, whole);
+                if first.abs().max(second.abs()) < TURN / 3.0 {
+                    step = f64::min(2.0 * step, longest);
+                }
+            }
+        }
+        Some(turns.round().max(0.0) as usize)
     }
 
     /// A mode from an approximation, for example the mode at a neighbouring speed or design.

@@ -207,6 +207,10 @@ fn a_rotor_of_eighteen_sections() {
             let s = Complex::new(exact[0], exact[1]);
             assert!((mode.s - s).norm() < 1e-8 * s.norm(), "{} {s}", mode.s);
         }
+        // No other is between the lowest and what is above the highest.
+        let [low, high] = [0.5 * modes[0].s.im, 1.001 * modes[modes.len() - 1].s.im];
+        let within = rotor.assembly.count_within(Complex::new(-300.0, low), Complex::new(300.0, high));
+        assert_eq!(within, Some(modes.len()));
     }
 }
 

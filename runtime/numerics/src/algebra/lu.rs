@@ -245,6 +245,14 @@ impl Lu<f64> {
     }
 }
 
+impl Lu<Complex> {
+    /// The determinant over its modulus.
+    pub fn phase_of_determinant(&self) -> Complex {
+        let sign = Complex::new(if self.odd { -1.0 } else { 1.0 }, 0.0);
+        (0..self.order.len()).fold(sign, |product, i| product * self.factors[i][i] / self.factors[i][i].norm())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
