@@ -5,27 +5,11 @@ use eigentol_numerics::algebra::{Lu, Matrix, Vector};
 
 use crate::basis::{Class, MOST, classes};
 use crate::chain::{Along, Chain};
-use crate::element::{Element, Node, Shape, forms, loads};
+use crate::element::{Element, Node, forms, loads};
 use crate::error::Error;
-use crate::modes::Mode;
-use crate::section::{Coefficients, Line, Number, Section, TERMS, at, slope_at};
-
-/// Which unknown of the stations a motion of an end is, and how many times it; `None` where the end is held.
-pub type Place = Option<(usize, f64)>;
-
-/// A part of a shaft between two stations, at which all that is attached to it is.
-#[derive(Clone, Debug)]
-pub struct Span {
-    /// What it does.
-    pub line: Line,
-    /// Speed at which it turns about its axis, rad/s; of no meaning for a bar.
-    pub speed: f64,
-    /// Its sections in order, and into how many equal elements each is divided.
-    pub sections: Vec<(Section, usize)>,
-    /// The motions of its two ends: along `y`, slope of the section in the plane of `x` and `y`, along `z`, slope in the
-    /// plane of `x` and `z`; of a bar the first alone. Positive slopes turn about `z` and about `-y`.
-    pub ends: [[Place; 4]; 2],
-}
+use crate::motion::{Kept, Motion, Side};
+use crate::section::{Coefficients, Line, Number, TERMS, at, slope_at};
+use crate::span::{Span, check};
 
 /// Spans with what is at their stations: `T(s) = s^2 M + s C + K + spans(s)`.
 #[derive(Clone, Debug)]
@@ -34,8 +18,7 @@ pub struct Assembly {
     mass: Matrix,
     damping: Matrix,
     stiffness: Matrix,
-    /// By line.
-    classes: [[Class; 2]; 3],
+    degree: usize,
 }
 
 /// An assembly at one `s`, factored.
@@ -46,102 +29,6 @@ pub struct At<'a> {
     pub s: Complex,
     chains: Vec<Vec<Chain>>,
     factors: Lu<Complex>,
-}
-
-/// A motion of all unknowns, or the weights of all equations.
-#[derive(Clone, Debug)]
-pub struct Motion {
-    /// At the stations.
-    pub stations: Vector<Complex>,
-    spans: Vec<Vec<Along>>,
-}
-
-/// Which directions of planar motion a vector has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kept {
-    All,
-    /// Of a real motion, whose second is the conjugate of the first.
-    First,
-}
-
-/// Of which side a vector is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
-    Right,
-    Left,
-}
-
-impl Span {
-    /// A planar motion is the sum of `y + i z` and `y - i z`, which do not mix where the shaft is round.
-    fn directions(&self) -> &'static [f64] {
-        if self.line == Line::Bar { &[0.0] } else { &[1.0, -1.0] }
-    }
-
-    fn components(&self) -> usize {
-        if self.line == Line::Bar { 1 } else { 2 }
-    }
-
-    fn pieces(&self) -> impl Iterator<Item = usize> + '_ {
-        self.sections.iter().enumerate().flat_map(|(k, (_, pieces))| std::iter::repeat_n(k, *pieces))
-    }
-
-    /// A section as one of its elements.
-    fn element(&self, section: usize) -> Section {
-        let (mut own, pieces) = self.sections[section];
-        own.length /= pieces as f64;
-        own
-    }
-
-    fn shape(&self, section: usize) -> Shape {
-        let slope = if self.line == Line::Slender { self.element(section).length / 2.0 } else { 1.0 };
-        Shape { components: self.components(), slope }
-    }
-
-    fn coefficients(&self, section: usize, direction: f64) -> Coefficients {
-        self.element(section).coefficients(self.line, direction * self.speed)
-    }
-
-    /// The motions of the ends in each direction.
-    fn ends_of(&self, stations: &[Complex], side: Side) -> Vec<[Node; 2]> {
-        let value = |place: Place| place.map_or(Complex::ZERO, |(index, factor)| stations[index] * factor);
-        if self.line == Line::Bar {
-            return vec![self.ends.map(|end| [value(end[0]), Complex::ZERO])];
-        }
-        let turn = |direction: f64| match side {
-            Side::Right => (Complex::new(0.0, direction), 1.0),
-            Side::Left => (Complex::new(0.0, -direction), 0.5),
-        };
-        let directions = self.directions().iter().map(|&direction| {
-            let (turn, scale) = turn(direction);
-            self.ends.map(|end| [0, 1].map(|k| (value(end[k]) + turn * value(end[k + 2])) * scale))
-        });
-        directions.collect()
-    }
-
-    /// Adds the loads on the ends in each direction to those on the stations.
-    fn add_loads(&self, loads: &[[Node; 2]], side: Side, to: &mut [Complex]) {
-        let mut put = |place: Place, load: Complex| {
-            if let Some((index, factor)) = place {
-                to[index] += load * factor;
-            }
-        };
-        for (direction, loads) in self.directions().iter().zip(loads) {
-            for (end, load) in self.ends.iter().zip(loads) {
-                if self.line == Line::Bar {
-                    put(end[0], load[0]);
-                    continue;
-                }
-                let (turn, scale) = match side {
-                    Side::Right => (Complex::new(0.0, -direction), 0.5),
-                    Side::Left => (Complex::new(0.0, *direction), 1.0),
-                };
-                for k in 0..2 {
-                    put(end[k], load[k] * scale);
-                    put(end[k + 2], turn * load[k] * scale);
-                }
-            }
-        }
-    }
 }
 
 impl Assembly {
@@ -163,8 +50,7 @@ impl Assembly {
         for (index, span) in spans.iter().enumerate() {
             check(index, span, count)?;
         }
-        let classes = [Line::Timoshenko, Line::Slender, Line::Bar].map(|line| classes(line, degree));
-        Ok(Self { spans, mass, damping, stiffness, classes })
+        Ok(Self { spans, mass, damping, stiffness, degree })
     }
 
     /// The number of unknowns of the stations.
@@ -179,12 +65,8 @@ impl Assembly {
         &self.spans
     }
 
-    fn classes_of(&self, line: Line) -> &[Class; 2] {
-        &self.classes[match line {
-            Line::Timoshenko => 0,
-            Line::Slender => 1,
-            Line::Bar => 2,
-        }]
+    fn classes_of(&self, line: Line) -> &'static [Class; 2] {
+        classes(line, self.degree)
     }
 
     fn chain(&self, span: &Span, direction: f64, s: Complex) -> Chain {
@@ -362,19 +244,6 @@ impl Assembly {
         all
     }
 
-    /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span. By
-    /// an entry of the matrices of the stations it is `-left_i right_j` times 1, `s` or `s^2`, over [`Self::normaliser`].
-    #[must_use]
-    pub fn slopes(&self, mode: &Mode) -> Vec<SpanGradient> {
-        let mut all = self.gradient(&mode.left, &mode.right, mode.s);
-        let factor = -self.normaliser(&mode.left, &mode.right, mode.s).inv();
-        for own in &mut all {
-            own.speed *= factor;
-            own.sections.iter_mut().flatten().for_each(|x| *x *= factor);
-        }
-        all
-    }
-
     fn each_form(&self, left: &Motion, right: &Motion, mut visit: impl FnMut(&Span, usize, f64, &[Complex; TERMS])) {
         for (span, (left, right)) in self.spans.iter().zip(left.spans.iter().zip(&right.spans)) {
             for (&direction, (left, right)) in span.directions().iter().zip(left.iter().zip(right)) {
@@ -397,29 +266,6 @@ pub struct SpanGradient {
 
 fn product(k: &[Complex; TERMS], forms: &[Complex; TERMS]) -> Complex {
     k.iter().zip(forms).map(|(k, form)| k * form).sum()
-}
-
-fn check(index: usize, span: &Span, count: usize) -> Result<(), Error> {
-    if span.sections.is_empty() || span.sections.iter().any(|(_, pieces)| *pieces == 0) {
-        return Err(Error::NoSections { span: index });
-    }
-    let used = if span.line == Line::Bar { 1 } else { 4 };
-    if span.ends.iter().flat_map(|end| &end[..used]).flatten().any(|(place, _)| *place >= count) {
-        return Err(Error::Place { span: index, count });
-    }
-    let positive: &[Number] = match span.line {
-        Line::Timoshenko => &[Number::Length, Number::Stiffness, Number::Shear, Number::Mass],
-        Line::Slender | Line::Bar => &[Number::Length, Number::Stiffness, Number::Mass],
-    };
-    for (section, (own, _)) in span.sections.iter().enumerate() {
-        for number in Number::ALL {
-            let value = own.number(number);
-            if !value.is_finite() || (positive.contains(&number) && value <= 0.0) {
-                return Err(Error::Number { span: index, section, number, value });
-            }
-        }
-    }
-    Ok(())
 }
 
 impl At<'_> {
@@ -491,51 +337,5 @@ impl At<'_> {
         };
         self.spread(&mut loads, side);
         loads
-    }
-}
-
-impl Motion {
-    pub(crate) fn add(&mut self, factor: Complex, other: &Self) {
-        let others: Vec<&[Complex]> = other.lists().collect();
-        for (to, from) in self.lists_mut().zip(others) {
-            to.iter_mut().zip(from).for_each(|(to, from)| *to += factor * from);
-        }
-    }
-
-    pub(crate) fn scale(&mut self, factor: Complex) {
-        self.lists_mut().flatten().for_each(|x| *x *= factor);
-    }
-
-    pub(crate) fn size(&self) -> f64 {
-        self.flat().map(|x| x.norm_sqr()).sum::<f64>().sqrt()
-    }
-
-    /// The unknowns of the stations and of the elements; those of the nodes are among them.
-    fn lists(&self) -> impl Iterator<Item = &[Complex]> {
-        core::iter::once(&self.stations[..]).chain(self.spans.iter().flatten().map(|along| &along.inner[..]))
-    }
-
-    fn lists_mut(&mut self) -> impl Iterator<Item = &mut [Complex]> {
-        let spans = self.spans.iter_mut().flatten().map(|along| &mut along.inner[..]);
-        core::iter::once(&mut self.stations[..]).chain(spans)
-    }
-
-    /// All numbers, for products of vectors.
-    pub(crate) fn flat(&self) -> impl Iterator<Item = Complex> + '_ {
-        self.lists().flatten().copied()
-    }
-
-    /// All numbers of a real motion, times a factor.
-    pub(crate) fn reals(&self, factor: f64) -> Vec<f64> {
-        let within = self.spans.iter().flatten().flat_map(|along| &along.inner).flat_map(|x| [x.re, x.im]);
-        self.stations.iter().map(|x| x.re).chain(within).map(|x| factor * x).collect()
-    }
-
-    /// Sets them, in the same order.
-    pub(crate) fn set_reals(&mut self, from: &[f64], factor: f64) {
-        let (stations, within) = from.split_at(self.stations.len());
-        self.stations.iter_mut().zip(stations).for_each(|(to, x)| *to = Complex::new(factor * x, 0.0));
-        let all = self.spans.iter_mut().flatten().flat_map(|along| &mut along.inner);
-        all.zip(within.chunks_exact(2)).for_each(|(to, x)| *to = Complex::new(factor * x[0], factor * x[1]));
     }
 }

@@ -6,6 +6,8 @@
 //! two small problems in place of one large. The nodal unknowns of one class are half the sums or half the differences of
 //! those of the two ends.
 
+use std::sync::OnceLock;
+
 use eigentol_numerics::Matrix;
 
 use crate::section::{Line, TERMS};
@@ -41,25 +43,29 @@ impl Class {
 /// A function of the place by its values, first and second derivatives at the points of quadrature.
 type Function = Vec<[f64; 3]>;
 
-/// Both classes of a line at a degree: the even deflection first.
-pub(crate) fn classes(line: Line, degree: usize) -> [Class; 2] {
+/// Both classes of a line at a degree up to [`MOST`], computed once: the even deflection first.
+pub(crate) fn classes(line: Line, degree: usize) -> &'static [Class; 2] {
+    static KNOWN: [[OnceLock<[Class; 2]>; MOST + 1]; 3] = [const { [const { OnceLock::new() }; MOST + 1] }; 3];
+    KNOWN[line as usize][degree].get_or_init(|| computed(line, degree))
+}
+
+fn computed(line: Line, degree: usize) -> [Class; 2] {
     let (points, weights) = gauss(degree + 4);
-    let at = |f: &dyn Fn(f64) -> [f64; 3]| -> Function { points.iter().map(|&x| f(x)).collect() };
     [0, 1].map(|class| {
         let odd = class == 1;
         match line {
             Line::Bar => {
-                let functions = lagrange_and_bubbles(odd, degree, &at);
+                let functions = lagrange_and_bubbles(odd, degree, &points);
                 let q = |a: usize, b: usize| integral(&weights, &functions, &functions, [a, b]);
                 Class::new(&[q(0, 0), q(1, 1)])
             }
             Line::Slender => {
-                let functions = hermite_and_bubbles(odd, degree, &at);
+                let functions = hermite_and_bubbles(odd, degree, &points);
                 let q = |k: usize| integral(&weights, &functions, &functions, [k, k]);
                 Class::new(&[q(0), q(1), q(2)])
             }
             Line::Timoshenko => {
-                let (w, b) = (lagrange_and_bubbles(odd, degree, &at), lagrange_and_bubbles(!odd, degree, &at));
+                let (w, b) = (lagrange_and_bubbles(odd, degree, &points), lagrange_and_bubbles(!odd, degree, &points));
                 let size = w.len() + b.len();
                 // both nodal unknowns first
                 let place_w = |k: usize| if k == 0 { 0 } else { k + 1 };
@@ -87,10 +93,10 @@ pub(crate) fn classes(line: Line, degree: usize) -> [Class; 2] {
 }
 
 /// `1` or `eta`, then `(P_k - P_{k-2}) / (2 (2k - 1))` of the same parity, which vanish at the ends.
-fn lagrange_and_bubbles(odd: bool, degree: usize, at: &dyn Fn(&dyn Fn(f64) -> [f64; 3]) -> Function) -> Vec<Function> {
-    let node = if odd { at(&|x| [x, 1.0, 0.0]) } else { at(&|_| [1.0, 0.0, 0.0]) };
+fn lagrange_and_bubbles(odd: bool, degree: usize, points: &[f64]) -> Vec<Function> {
+    let node = if odd { at(points, |x| [x, 1.0, 0.0]) } else { at(points, |_| [1.0, 0.0, 0.0]) };
     let bubble = |k: usize| {
-        at(&|x| {
+        at(points, |x| {
             let (high, low) = (legendre(k, x), legendre(k - 2, x));
             let scale = 0.5 / (2.0 * k as f64 - 1.0);
             [0, 1, 2].map(|d| scale * (high[d] - low[d]))
@@ -101,17 +107,17 @@ fn lagrange_and_bubbles(odd: bool, degree: usize, at: &dyn Fn(&dyn Fn(f64) -> [f
 }
 
 /// The deflection with slope zero at the ends, the slope with deflection zero there, and `(1 - eta^2)^2 P_k`.
-fn hermite_and_bubbles(odd: bool, degree: usize, at: &dyn Fn(&dyn Fn(f64) -> [f64; 3]) -> Function) -> Vec<Function> {
+fn hermite_and_bubbles(odd: bool, degree: usize, points: &[f64]) -> Vec<Function> {
     let nodes: [Function; 2] = if odd {
         [
-            at(&|x| [(3.0 * x - x * x * x) / 2.0, (3.0 - 3.0 * x * x) / 2.0, -3.0 * x]),
-            at(&|x| [(x * x * x - x) / 2.0, (3.0 * x * x - 1.0) / 2.0, 3.0 * x]),
+            at(points, |x| [(3.0 * x - x * x * x) / 2.0, (3.0 - 3.0 * x * x) / 2.0, -3.0 * x]),
+            at(points, |x| [(x * x * x - x) / 2.0, (3.0 * x * x - 1.0) / 2.0, 3.0 * x]),
         ]
     } else {
-        [at(&|_| [1.0, 0.0, 0.0]), at(&|x| [(x * x - 1.0) / 2.0, x, 1.0])]
+        [at(points, |_| [1.0, 0.0, 0.0]), at(points, |x| [(x * x - 1.0) / 2.0, x, 1.0])]
     };
     let bubble = |k: usize| {
-        at(&|x| {
+        at(points, |x| {
             let rest = 1.0 - x * x;
             let (q, dq, ddq) = (rest * rest, -4.0 * x * rest, 12.0 * x * x - 4.0);
             let [p, dp, ddp] = legendre(k, x);
@@ -120,6 +126,10 @@ fn hermite_and_bubbles(odd: bool, degree: usize, at: &dyn Fn(&dyn Fn(f64) -> [f6
     };
     let first = usize::from(odd);
     nodes.into_iter().chain((first..=degree.saturating_sub(4) + first).step_by(2).map(bubble)).collect()
+}
+
+fn at(points: &[f64], f: impl Fn(f64) -> [f64; 3]) -> Function {
+    points.iter().map(|&x| f(x)).collect()
 }
 
 fn integral(weights: &[f64], a: &[Function], b: &[Function], [da, db]: [usize; 2]) -> Matrix {

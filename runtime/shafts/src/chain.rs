@@ -107,43 +107,53 @@ impl Chain {
     }
 }
 
+#[inline(always)]
 fn map(f: impl Fn(usize, usize) -> Complex) -> Block {
-    [0, 1].map(|i| [0, 1].map(|j| f(i, j)))
+    [[f(0, 0), f(0, 1)], [f(1, 0), f(1, 1)]]
 }
 
+#[inline(always)]
 fn plus(a: &Block, b: &Block) -> Block {
     map(|i, j| a[i][j] + b[i][j])
 }
 
+#[inline(always)]
 fn minus(a: &Block, b: &Block) -> Block {
     map(|i, j| a[i][j] - b[i][j])
 }
 
+#[inline(always)]
 fn negative(a: &Block) -> Block {
     map(|i, j| -a[i][j])
 }
 
+#[inline(always)]
 fn transposed(a: &Block) -> Block {
     map(|i, j| a[j][i])
 }
 
+#[inline(always)]
 fn times(a: &Block, b: &Block) -> Block {
     map(|i, j| a[i][0] * b[0][j] + a[i][1] * b[1][j])
 }
 
+#[inline(always)]
 fn apply(a: &Block, x: Node) -> Node {
-    [0, 1].map(|i| a[i][0] * x[0] + a[i][1] * x[1])
+    [a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1]]
 }
 
-pub(crate) fn add(a: Node, b: Node) -> Node {
+#[inline(always)]
+fn add(a: Node, b: Node) -> Node {
     [a[0] + b[0], a[1] + b[1]]
 }
 
+#[inline(always)]
 fn subtract(a: Node, b: Node) -> Node {
     [a[0] - b[0], a[1] - b[1]]
 }
 
 /// Of one or two components.
+#[inline(always)]
 fn inverse(a: &Block, components: usize) -> Block {
     if components == 1 {
         return [[a[0][0].inv(), Complex::ZERO], [Complex::ZERO; 2]];

@@ -12,6 +12,8 @@ pub(crate) type Node = [Complex; 2];
 
 /// The largest number of unknowns of a class.
 const SIZE: usize = MOST + 1;
+/// That of degree 4.
+const SMALL: usize = 5;
 
 /// The number of unknowns of a node, and what the slope there is multiplied by to be one on `[-1, 1]`.
 #[derive(Clone, Copy, Debug)]
@@ -53,12 +55,14 @@ impl Element {
         let mut factors = Vec::with_capacity(32);
         for (number, class) in classes.iter().enumerate() {
             let nodal = eliminated(class, c, k, &mut factors);
-            for (a, b) in (0..c).flat_map(|a| (0..c).map(move |b| (a, b))) {
-                let value = nodal[a][b] * (shape.half(a) * shape.half(b));
-                let signs = [SIGNS[number][a], SIGNS[number][b]];
-                for (p, row) in blocks.iter_mut().enumerate() {
-                    for (q, block) in row.iter_mut().enumerate() {
-                        block[a][b] += value * (signs[0][p] * signs[1][q]);
+            for a in 0..c {
+                for b in 0..c {
+                    let value = nodal[a][b] * (shape.half(a) * shape.half(b));
+                    let (first, second) = (&SIGNS[number][a], &SIGNS[number][b]);
+                    for p in 0..2 {
+                        for q in 0..2 {
+                            blocks[p][q][a][b] += value * (first[p] * second[q]);
+                        }
                     }
                 }
             }
@@ -136,7 +140,23 @@ pub(crate) fn turned(phase: Complex, by: Complex) -> Complex {
 /// Eliminates the inner unknowns of a class, the last first; its matrix is symmetric. Returns the block of the nodal ones.
 fn eliminated(class: &Class, components: usize, k: &[Complex; TERMS], factors: &mut Vec<Complex>) -> Block {
     let n = class.size;
-    let mut all = [[Complex::ZERO; SIZE]; SIZE];
+    if n <= SMALL {
+        within::<SMALL>(class, components, k, factors)
+    } else {
+        within::<SIZE>(class, components, k, factors)
+    }
+}
+
+/// The same with room for so many unknowns.
+#[inline(always)]
+fn within<const ROOM: usize>(
+    class: &Class,
+    components: usize,
+    k: &[Complex; TERMS],
+    factors: &mut Vec<Complex>,
+) -> Block {
+    let n = class.size;
+    let mut all = [[Complex::ZERO; ROOM]; ROOM];
     for &(i, j, term, value) in &class.entries {
         all[i][j] += k[term] * value;
     }
@@ -163,8 +183,8 @@ fn eliminated(class: &Class, components: usize, k: &[Complex; TERMS], factors: &
         }
         end -= p + 1;
     }
-    let within = |a: usize, b: usize| a < components && b < components;
-    [0, 1].map(|a: usize| [0, 1].map(|b| if within(a, b) { all[a.max(b)][a.min(b)] } else { Complex::ZERO }))
+    let mixed = if components == 2 { all[1][0] } else { Complex::ZERO };
+    [[all[0][0], mixed], [mixed, if components == 2 { all[1][1] } else { Complex::ZERO }]]
 }
 
 /// `left^T Q x` for each constant matrix.

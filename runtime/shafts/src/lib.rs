@@ -6,10 +6,14 @@ mod chain;
 mod element;
 mod error;
 mod modes;
+mod motion;
 mod section;
+mod span;
 
-pub use assembly::{Assembly, At, Motion, Place, Span, SpanGradient};
+pub use assembly::{Assembly, At, SpanGradient};
 pub use eigentol_numerics::{Complex, Matrix};
 pub use error::Error;
 pub use modes::Mode;
+pub use motion::Motion;
 pub use section::{Line, Number, Section};
+pub use span::{Place, Span};

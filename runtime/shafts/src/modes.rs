@@ -8,8 +8,9 @@ use eigentol_numerics::Complex;
 use eigentol_numerics::algebra::{Lu, Matrix, Vector, add_to, dot};
 use eigentol_numerics::eigenproblem::eigenvalues;
 
-use crate::assembly::{Assembly, At, Kept, Motion, Side};
+use crate::assembly::{Assembly, At, SpanGradient};
 use crate::error::Error;
+use crate::motion::{Kept, Motion, Side};
 use crate::section::Line;
 
 /// A mode: `P(s) right = 0` and `left^T P(s) = 0`.
@@ -26,7 +27,7 @@ pub struct Mode {
 /// Newton steps at most; three are usual from a Krylov space, two from a neighbour.
 const STEPS: usize = 12;
 /// A relative step after which `s` and both vectors are as exact as rounding lets them be.
-const CLOSE: f64 = 1e-8;
+const CLOSE: f64 = 1e-6;
 /// What is slower than this part of a typical frequency is a rigid motion, whose rounding it is.
 const RIGID: f64 = 1e-4;
 /// Radians by which a determinant may turn in half a step along an edge.
@@ -42,7 +43,7 @@ impl Assembly {
     /// [`Error::NotConverged`].
     pub fn modes(&self, count: usize) -> Result<Vec<Mode>, Error> {
         let mut modes: Vec<Mode> = Vec::new();
-        for (s, stations) in self.krylov(3 * count + 20)?.into_iter().take(count + 2) {
+        for (s, stations) in self.krylov(count + 2)? {
             let mode = self.turned(&self.beside(s)?, stations)?;
             if !modes.iter().any(|other| same(other, &mode)) {
                 modes.push(mode);
@@ -88,21 +89,38 @@ impl Assembly {
         Some(turns.round().max(0.0) as usize)
     }
 
+    /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span. By
+    /// an entry of the matrices of the stations it is `-left_i right_j` times 1, `s` or `s^2`, over [`Self::normaliser`].
+    #[must_use]
+    pub fn slopes(&self, mode: &Mode) -> Vec<SpanGradient> {
+        let mut all = self.gradient(&mode.left, &mode.right, mode.s);
+        let factor = -self.normaliser(&mode.left, &mode.right, mode.s).inv();
+        for own in &mut all {
+            own.speed *= factor;
+            own.sections.iter_mut().flatten().for_each(|x| *x *= factor);
+        }
+        all
+    }
+
     /// A mode from an approximation, for example the mode at a neighbouring speed or design.
     ///
     /// # Errors
     /// [`Error::NotConverged`].
     pub fn near(&self, mode: &Mode) -> Result<Mode, Error> {
-        let Mode { mut s, mut right, mut left } = mode.clone();
+        let Mode { mut s, .. } = *mode;
+        let mut on = self.slope_loads(&mode.right, s, Side::Right);
+        let mut on_left = self.slope_loads(&mode.left, s, Side::Left);
         for _ in 0..STEPS {
             let at = self.beside(s)?;
-            let mut next = at.solve(self.slope_loads(&right, at.s, Side::Right), Side::Right);
-            let mut next_left = at.solve(self.slope_loads(&left, at.s, Side::Left), Side::Left);
-            let change = self.normaliser(&next_left, &right, at.s) / self.normaliser(&next_left, &next, at.s);
-            for own in [&mut next, &mut next_left] {
-                own.scale(Complex::new(own.size().recip(), 0.0));
-            }
-            (s, right, left) = (at.s - change, next, next_left);
+            // T(s) right = on, so that on is what is left of the equations.
+            let mut left = at.solve(on_left, Side::Left);
+            left.normalise();
+            let rest = left.product(&on);
+            let mut right = at.solve(on, Side::Right);
+            let size = right.normalise();
+            on = self.slope_loads(&right, at.s, Side::Right);
+            let change = rest * size / left.product(&on);
+            s = at.s - change;
             let step = change.norm() / s.norm();
             if !step.is_finite() {
                 break;
@@ -111,6 +129,7 @@ impl Assembly {
             if step < CLOSE {
                 return Ok(Mode { s, right, left });
             }
+            on_left = self.slope_loads(&left, s, Side::Left);
         }
         Err(Error::NotConverged)
     }
@@ -138,16 +157,15 @@ impl Assembly {
         for _ in 0..2 {
             right = at.solve(self.slope_loads(&right, at.s, Side::Right), Side::Right);
             left = at.solve(self.slope_loads(&left, at.s, Side::Left), Side::Left);
-            for own in [&mut right, &mut left] {
-                own.scale(Complex::new(own.size().recip(), 0.0));
-            }
+            right.normalise();
+            left.normalise();
         }
         self.near(&Mode { s: at.s, right, left })
     }
 
     /// Eigenvalues near a shift and the motions of the stations, the nearest first. The shift is real, and so are all
     /// vectors: planar motions are real where that of `y - i z` is the conjugate of that of `y + i z`, which alone is kept.
-    fn krylov(&self, wanted: usize) -> Result<Vec<(Complex, Vector<Complex>)>, Error> {
+    fn krylov(&self, count: usize) -> Result<Vec<(Complex, Vector<Complex>)>, Error> {
         let typical = self.typical_frequency();
         let shift = Complex::new(SHIFT * typical, 0.0);
         let at = self.at(shift).ok_or(Error::NotConverged)?;
@@ -166,12 +184,12 @@ impl Assembly {
         };
         let mut start = flat(&first, &first);
         let half = start.len() / 2;
-        let most = wanted.min(2 * half);
+        let most = (2 * count + 14).min(2 * half);
         normalise(&mut start);
         let mut basis = vec![start];
         let mut hessenberg = Matrix::<f64>::zeros(most, most);
         let (mut x, mut v) = (first.clone(), first);
-        let mut count = most;
+        let mut size = most;
         for k in 0..most {
             x.set_reals(&basis[k][..half], 1.0);
             v.set_reals(&basis[k][half..], typical);
@@ -190,7 +208,7 @@ impl Assembly {
             }
             let rest = normalise(&mut next);
             if rest <= 1e-13 * before {
-                count = k + 1;
+                size = k + 1;
                 break;
             }
             if k + 1 < most {
@@ -198,19 +216,19 @@ impl Assembly {
                 basis.push(next);
             }
         }
-        let small = Matrix::from_fn(count, count, |i, j| Complex::new(hessenberg[i][j], 0.0));
-        let mut values = vec![Complex::ZERO; count];
+        let small = Matrix::from_fn(size, size, |i, j| Complex::new(hessenberg[i][j], 0.0));
+        let mut values = vec![Complex::ZERO; size];
         if !eigenvalues(small.clone().as_flattened_mut(), &mut values) {
             return Err(Error::NotConverged);
         }
         values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
         let rigid = RIGID * typical;
         let oscillates = |value: &Complex| value.norm() > 0.0 && (shift + value.inv()).im > rigid;
-        let pairs = values.into_iter().filter(oscillates).take(wanted / 3).filter_map(|value| {
+        let pairs = values.into_iter().filter(oscillates).take(count).filter_map(|value| {
             let near = value * (1.0 + 1e-12);
-            let shifted = Matrix::from_fn(count, count, |i, j| if i == j { small[i][j] - near } else { small[i][j] });
-            let y = Lu::of(shifted)?.solve(&vec![Complex::new(1.0, 0.0); count]);
-            let stations = Vector::from_fn(self.stations(), |i| (0..count).map(|j| y[j] * basis[j][i]).sum());
+            let shifted = Matrix::from_fn(size, size, |i, j| if i == j { small[i][j] - near } else { small[i][j] });
+            let y = Lu::of(shifted)?.solve(&vec![Complex::new(1.0, 0.0); size]);
+            let stations = Vector::from_fn(self.stations(), |i| (0..size).map(|j| y[j] * basis[j][i]).sum());
             Some((shift + value.inv(), stations))
         });
         Ok(pairs.collect())

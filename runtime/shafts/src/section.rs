@@ -86,6 +86,7 @@ impl Section {
     /// The coefficients at a speed, for `y + i z`; for `y - i z` the speed changes its sign. They are those of the mass
     /// of deflection, the mass of rotation (with the stiffness of shear), bending, the slope of deflection, and shear; of
     /// a slender line the deflection, its slope and its curvature; of a bar the deflection and its slope.
+    #[inline]
     pub(crate) fn coefficients(&self, line: Line, speed: f64) -> Coefficients {
         let half = self.length / 2.0;
         let real = |x: f64| Complex::new(x, 0.0);
@@ -156,11 +157,13 @@ impl Section {
 }
 
 /// The coefficients at `s`.
+#[inline(always)]
 pub(crate) fn at(coefficients: &Coefficients, s: Complex) -> [Complex; TERMS] {
-    coefficients.map(|[a, b, c]| a + s * (b + s * c))
+    core::array::from_fn(|m| coefficients[m][0] + s * (coefficients[m][1] + s * coefficients[m][2]))
 }
 
 /// Their derivatives by `s`.
+#[inline(always)]
 pub(crate) fn slope_at(coefficients: &Coefficients, s: Complex) -> [Complex; TERMS] {
-    coefficients.map(|[_, b, c]| b + 2.0 * s * c)
+    core::array::from_fn(|m| coefficients[m][1] + 2.0 * s * coefficients[m][2])
 }

