@@ -3,6 +3,8 @@
 const SECONDS = 2;
 // Milliseconds for small pictures at a time.
 const PAINTING = 8;
+// Milliseconds without another machine after which the small pictures follow.
+const STILL = 120;
 const whenIdle = (act) => (window.requestIdleCallback ? requestIdleCallback(act, { timeout: 200 }) : setTimeout(act, 20));
 const VIEWS = [["oblique", -0.9, 0.42], ["from the front", -Math.PI / 2, 0], ["from the side", 0, 0], ["from above", -Math.PI / 2, Math.PI / 2]];
 
@@ -56,7 +58,8 @@ class Player {
     });
     this.tell();
     this.paint();
-    this.paintGallery();
+    clearTimeout(this.later);
+    this.later = setTimeout(() => this.paintGallery(), STILL);
   }
 
   controls(parent) {

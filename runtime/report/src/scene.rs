@@ -61,18 +61,18 @@ impl<'a> View<'a> {
 
 /// Flattens poses and rounds them to four decimals of the size, finer than a screen can show.
 fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
-    let step = if size > 0.0 { 10_f64.powf(size.log10().floor() - 4.0) } else { 1e-4 };
-    let round = |value: f64, step: f64| {
-        let digits = (value / step).round() * step;
-        // A multiple that is not exact in binary is rounded to a short decimal.
-        format!("{digits:.6e}").parse().unwrap_or(digits)
+    let power = if size > 0.0 { 4 - size.log10().floor() as i32 } else { 4 };
+    // An integer over a power of ten is the number nearest to a short decimal.
+    let round = |value: f64, power: i32| {
+        let (up, down) = (10_f64.powi(power.max(0)), 10_f64.powi((-power).max(0)));
+        (value * up / down).round() * down / up
     };
     poses
         .iter()
         .flat_map(|pose| {
-            let position = pose.position.map(|value| round(value, step));
+            let position = pose.position.map(|value| round(value, power));
             let rotation = pose.rotation.as_flattened().to_vec();
-            position.into_iter().chain(rotation.into_iter().map(|value| round(value, 1e-4)))
+            position.into_iter().chain(rotation.into_iter().map(|value| round(value, 4)))
         })
         .collect()
 }
