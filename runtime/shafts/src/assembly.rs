@@ -43,7 +43,7 @@ impl Assembly {
         }
         let count = mass.row_count();
         for matrix in [&mass, &damping, &stiffness] {
-            if [matrix.row_count(), matrix.column_count()] != [count; 2] {
+            if count == 0 || [matrix.row_count(), matrix.column_count()] != [count; 2] {
                 return Err(Error::Sizes);
             }
         }

@@ -14,7 +14,7 @@ pub enum Error {
         degree: usize,
     },
     /// Matrices of different sizes.
-    #[error("mass, damping and stiffness of the stations are square and of the same size")]
+    #[error("mass, damping and stiffness of the stations are square and of the same size, for one unknown at least")]
     Sizes,
     /// A span without sections, or a section without elements.
     #[error("span {span} has no section, or a section that is divided into no element")]

@@ -36,8 +36,8 @@ const TURN: f64 = 0.9;
 const SHIFT: f64 = 0.1;
 
 impl Assembly {
-    /// The modes of lowest `|s|` with frequencies above zero, by frequency: at least `count` unless there are fewer in
-    /// reach of the search.
+    /// Up to `count` modes of lowest `|s|` that oscillate and in which stations move, by frequency. The search can miss one:
+    /// [`Self::count_within`] tells.
     ///
     /// # Errors
     /// [`Error::NotConverged`].

@@ -469,6 +469,9 @@ fn what_is_wrong_is_said() {
     let mut own = span.clone();
     own.sections[0].1 = 0;
     assert!(said(own, 4).contains("divided into no element"));
+    let held = Span { ends: [[None; 4]; 2], ..span.clone() };
+    let none = [(); 3].map(|()| Matrix::zeros(0, 0));
+    assert!(Assembly::new(vec![held], none, 4).unwrap_err().to_string().contains("one unknown at least"));
     let wide = [Matrix::zeros(1, 1), Matrix::zeros(2, 2), Matrix::zeros(1, 1)];
     assert!(Assembly::new(vec![span], wide, 4).unwrap_err().to_string().contains("the same size"));
 }

@@ -162,7 +162,10 @@ fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
 fn tolerances(spread: &Spreads, foremost: &[usize], style: &Style) -> Vec<Line> {
     let mut lines = Vec::new();
     match &spread.summary {
-        None => {}
+        None => {
+            let error = spread.first.as_ref().err();
+            lines.extend(error.map(|error| (Some(false), sentence(&format!("no spread: {error}")))));
+        }
         Some(Ok(summary)) if summary.trusted() => {
             lines.push((Some(true), "The first-order spread of every mode can be trusted.".to_owned()));
         }
