@@ -1,8 +1,8 @@
 //! Converts the compiler's description of a mechanism to the runtime's types.
 
 use eigentol::{
-    CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, Law,
-    OutputInfo, RingInfo, Role, Text, ToleranceInfo, Unit,
+    CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, Law, LineKind,
+    OutputInfo, RingInfo, Role, SpanInfo, Text, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::base::names::written;
@@ -40,6 +40,18 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
 
 fn correlation(of: &mechanism::Correlation) -> CorrelationInfo {
     CorrelationInfo { variables: of.variables.map(|id| id.index()), correlation: of.correlation }
+}
+
+fn span(of: &mechanics::SpanPlaces) -> SpanInfo {
+    SpanInfo {
+        line: match of.line {
+            mechanism::Line::Timoshenko => LineKind::Timoshenko,
+            mechanism::Line::Slender => LineKind::Slender,
+            mechanism::Line::Bar => LineKind::Bar,
+        },
+        elements: of.elements.clone().into(),
+        ends: of.ends.clone().map(Into::into),
+    }
 }
 
 fn ring(of: &mechanics::RingPlaces) -> RingInfo {
@@ -124,6 +136,7 @@ pub fn description(compilation: &Compilation) -> Description {
         correlations: mechanism.correlations.iter().map(correlation).collect::<Vec<_>>().into(),
         held: functions.held.clone().into(),
         rings: functions.rings.iter().map(ring).collect::<Vec<_>>().into(),
+        spans: functions.spans.iter().map(span).collect::<Vec<_>>().into(),
         harmonics: functions.harmonics.clone().into(),
         length: mechanism.length,
         frequency: unit(&mechanism.frequency_unit()),

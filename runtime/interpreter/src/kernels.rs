@@ -251,6 +251,12 @@ impl Kernels for Interpreted {
             copy(&once(tape, &[u, b]), &tape.results[0], values);
         }
     }
+
+    fn spans_into(&self, u: &[Second], b: &[Second], numbers: &mut [Second]) {
+        if let Some(tape) = &self.shared.tapes.spans {
+            copy(&once(tape, &[u, b]), &tape.results[0], numbers);
+        }
+    }
 }
 
 impl DirectionalKernels for Interpreted {

@@ -47,6 +47,7 @@ pub(crate) struct Tapes {
     pub(crate) violation: Option<Tape>,
     pub(crate) pose_margin: Option<Tape>,
     pub(crate) held_values: Option<Tape>,
+    pub(crate) spans: Option<Tape>,
 }
 
 impl Tapes {
@@ -62,6 +63,7 @@ impl Tapes {
             violation: tape("violation"),
             pose_margin: tape("pose_margin"),
             held_values: tape("held_values"),
+            spans: tape("spans"),
         }
     }
 }

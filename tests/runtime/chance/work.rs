@@ -84,6 +84,10 @@ impl Kernels for Counting<'_> {
     fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {
         self.inner.held_values_into(u, b, values);
     }
+
+    fn spans_into(&self, u: &[Second], b: &[Second], numbers: &mut [Second]) {
+        self.inner.spans_into(u, b, numbers);
+    }
 }
 
 impl DirectionalKernels for Counting<'_> {

@@ -60,4 +60,8 @@ impl Kernels for Priced<'_> {
     fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {
         self.machine.held_values_into(u, b, values);
     }
+
+    fn spans_into(&self, u: &[Second], b: &[Second], numbers: &mut [Second]) {
+        self.machine.spans_into(u, b, numbers);
+    }
 }

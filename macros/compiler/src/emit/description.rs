@@ -7,7 +7,7 @@ use super::tolerance;
 use crate::base::names::{flattened, written};
 use crate::mechanics::{self, Damping, Functions, Role, Unknown, resolved_modes};
 use crate::model::exchanged::Exchanged;
-use crate::model::mechanism::{Mechanism, Unit};
+use crate::model::mechanism::{Line, Mechanism, Unit};
 use crate::program::Program;
 
 /// `const DESCRIPTION`.
@@ -79,6 +79,25 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
             }
         }
     });
+    let spans = functions.spans.iter().map(|span| {
+        let line = match span.line {
+            Line::Timoshenko => quote!(Timoshenko),
+            Line::Slender => quote!(Slender),
+            Line::Bar => quote!(Bar),
+        };
+        let elements = &span.elements;
+        let [first, last] = span.ends.each_ref().map(|end| {
+            let motions = end.iter().map(|(place, factor)| quote!((#place, #factor)));
+            quote!(::eigentol::Shared::Static(&[#(#motions),*]))
+        });
+        quote! {
+            ::eigentol::SpanInfo {
+                line: ::eigentol::LineKind::#line,
+                elements: ::eigentol::Shared::Static(&[#(#elements),*]),
+                ends: [#first, #last],
+            }
+        }
+    });
     let harmonics = &functions.harmonics;
     let length = mechanism.length;
     let frequency = unit(&mechanism.frequency_unit());
@@ -111,6 +130,7 @@ pub(super) fn description(mechanism: &Mechanism, functions: &Functions, program:
             correlations: ::eigentol::Shared::Static(&[#(#correlations),*]),
             held: ::eigentol::Shared::Static(&[#(#held),*]),
             rings: ::eigentol::Shared::Static(&[#(#rings),*]),
+            spans: ::eigentol::Shared::Static(&[#(#spans),*]),
             harmonics: ::eigentol::Shared::Static(&[#(#harmonics),*]),
             length: #length,
             frequency: #frequency,

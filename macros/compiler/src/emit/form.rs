@@ -37,6 +37,6 @@ pub(super) fn form(kernel: KernelName) -> Option<Form> {
         | KernelName::PencilGradient
         | KernelName::ResidualGradient
         | KernelName::ForcedGradient => Form::Record("Gradient", 3),
-        KernelName::Violation | KernelName::PoseMargin | KernelName::HeldValues => return None,
+        KernelName::Violation | KernelName::PoseMargin | KernelName::HeldValues | KernelName::Spans => return None,
     })
 }

@@ -1,4 +1,4 @@
-//! The values that select one of a family of steady motions.
+//! The values that select one of a family of steady motions, and the numbers of shafts.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use crate::program::Kernel;
 use super::body::Body;
 use super::signature::{documentation, head};
 
-/// `fn held_values`: writes one value for each held unknown.
+/// `fn held_values` and `fn spans`: write their values into a slice.
 pub(super) fn method(kernel: &Kernel) -> String {
     let body = Body::new(kernel);
     let head = head(kernel, kernel.name, "values_: &mut [T]", "()", "");

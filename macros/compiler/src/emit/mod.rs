@@ -73,7 +73,7 @@ pub fn emit<E: Debug>(
         let method = match form::form(name) {
             Some(form) => contract::method(kernel, form),
             None if name == KernelName::Violation => violation::method(kernel, &functions.requirements),
-            None if name == KernelName::HeldValues => held_values::method(kernel),
+            None if matches!(name, KernelName::HeldValues | KernelName::Spans) => held_values::method(kernel),
             None => pose_margin::method(kernel, &functions.poses),
         };
         let _ = writeln!(methods, "{method}");

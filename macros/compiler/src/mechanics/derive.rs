@@ -14,8 +14,8 @@ use super::checks::{
     requirements,
 };
 use super::equations::{Equations, excited};
-use super::functions::{FreeDirections, Functions, Limits, RingPlaces, Role, Unknown};
-use super::kernels::{Excitations, forced, held_values, kernels, picture, pose_margin, violation, whirl};
+use super::functions::{FreeDirections, Functions, Limits, Properties, RingPlaces, Role, SpanPlaces, Unknown};
+use super::kernels::{Excitations, forced, held_values, kernels, picture, pose_margin, spans, violation, whirl};
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
 use super::motion::{Kinematics, in_common_frame, in_common_frame_at_zero};
@@ -208,6 +208,7 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, blades: Blades) -
     let speeds: Vec<ExprId> =
         drives.iter().map(|drive| drive.map_or_else(|| g.zero(), |(_, [_, speed])| speed)).collect();
     functions.extend(held_values(g, context, &speeds));
+    functions.extend(spans(g, context));
     let unknowns = unknowns(context);
     let held = held(mechanism, &unknowns);
     let rings = rings(context);
@@ -218,11 +219,12 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, blades: Blades) -
         requirements,
         poses,
         picture,
-        properties,
+        properties: if mechanism.shafts.is_empty() { properties } else { Properties::GENERAL },
         undetermined,
         free,
         held,
         rings,
+        spans: places_of_spans(context),
         harmonics: harmonics.orders.clone(),
         excitations: excitations.facts,
     })
@@ -272,6 +274,21 @@ fn held(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<usize> {
     };
     let steady = mechanism.steady.iter();
     steady.map(|steady| index_of(steady.coordinate)).collect()
+}
+
+/// Where the ends of spans of shafts are among the unknowns.
+fn places_of_spans(context: &Context) -> Vec<SpanPlaces> {
+    let free = &context.topology.free;
+    let place = |&(id, factor): &(CoordinateId, f64)| {
+        let place = free.iter().position(|own| *own == id).expect("motions of stations are neither driven nor cut");
+        (place, factor)
+    };
+    let spans = context.mechanism.spans().map(|span| SpanPlaces {
+        line: span.line,
+        elements: span.elements.clone(),
+        ends: span.ends.each_ref().map(|end| end.iter().map(place).collect()),
+    });
+    spans.collect()
 }
 
 /// Where the rings are among the unknowns and the design variables.

@@ -2,6 +2,7 @@
 
 use crate::algebra::{ExprId, Function, Graph};
 use crate::base::ids::CoordinateId;
+use crate::model::mechanism::Line;
 
 use super::picture::Picture;
 
@@ -29,6 +30,8 @@ pub struct Functions {
     pub free: FreeDirections,
     /// Positions of the unknowns whose values select a steady motion, in the order of the kernel `held_values`.
     pub held: Vec<usize>,
+    /// Spans of shafts.
+    pub spans: Vec<SpanPlaces>,
     /// Rings of equal instances.
     pub rings: Vec<RingPlaces>,
     /// Multiples of the speed of the rings with which the unknowns vibrate in steady motion; the unknowns are the means of
@@ -52,6 +55,17 @@ pub struct RingPlaces {
     pub patterns: bool,
     /// Design variables.
     pub design: Vec<usize>,
+}
+
+/// A span of a shaft: see the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpanPlaces {
+    /// What it does.
+    pub line: Line,
+    /// Into how many elements each section is divided.
+    pub elements: Vec<usize>,
+    /// The unknowns of its two ends, each with the factor that makes it a motion of the span.
+    pub ends: [Vec<(usize, f64)>; 2],
 }
 
 /// What the derivation found out about an excitation.
@@ -162,6 +176,11 @@ pub struct Properties {
     pub symmetric_stiffness: bool,
     /// The form of `Chat`.
     pub damping: Damping,
+}
+
+impl Properties {
+    /// Nothing is known: shafts damp and turn what the equations of a mechanism do not show.
+    pub const GENERAL: Self = Self { symmetric_stiffness: false, damping: Damping::General };
 }
 
 /// The form of `Chat`.

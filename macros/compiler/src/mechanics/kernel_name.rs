@@ -72,4 +72,6 @@ kernel_names! {
     PoseMargin "pose_margin",
     /// Values of unknowns that select a steady motion.
     HeldValues "held_values",
+    /// Speeds of the spans of shafts and numbers of their sections.
+    Spans "spans",
 }

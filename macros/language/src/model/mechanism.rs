@@ -15,6 +15,7 @@ pub use super::beam::{Beam, Section, Station};
 pub use super::constraint::{Constraint, ConstraintLaw};
 pub use super::excitation::{Deviation, Excitation, ExcitationLaw, Frequency, ShakenBy};
 use super::expression::{Expr, Matrix, Vector};
+pub use super::shaft::{LUMPED, Line, NUMBERS, Shaft, ShaftStation, Span};
 pub use super::shape::Shape;
 pub use super::tolerance::{Law, Tolerance};
 pub use super::unit::Unit;
@@ -55,6 +56,8 @@ pub struct Mechanism {
     pub bodies: Vec<Body>,
     /// Flexible bodies.
     pub beams: Vec<Beam>,
+    /// Shafts of many sections.
+    pub shafts: Vec<Shaft>,
     /// Joints.
     pub joints: Vec<Joint>,
     /// Joint coordinates, in the order of their joints.
@@ -115,9 +118,15 @@ impl Mechanism {
         joint.closing == Some(Closing::Planar) && joint.steps.iter().all(coasts)
     }
 
+    /// The spans of all shafts.
+    pub fn spans(&self) -> impl Iterator<Item = &Span> {
+        self.shafts.iter().flat_map(|shaft| &shaft.spans)
+    }
+
     /// Whether a body has a mass of its own.
     pub fn has_mass(&self, body: BodyId) -> bool {
-        !self.bodies[body.index()].parts.is_empty() || self.beam(body).is_some()
+        let of_shaft = |shaft: &Shaft| shaft.stations.iter().any(|station| station.body == body);
+        !self.bodies[body.index()].parts.is_empty() || self.beam(body).is_some() || self.shafts.iter().any(of_shaft)
     }
 
     /// Whether a coordinate is a strain of a beam.

@@ -13,6 +13,7 @@ mod print;
 pub mod resolve;
 pub mod rotor;
 mod rules;
+pub mod shaft;
 pub mod shape;
 mod simplify;
 pub mod tolerance;

@@ -34,6 +34,7 @@ mod references;
 mod resolver;
 mod rings;
 mod scope;
+mod shafts;
 mod steady;
 mod tension;
 mod tolerances;
@@ -45,7 +46,8 @@ use self::resolver::Resolver;
 use self::scope::Scope;
 use super::expression::Vector;
 use super::mechanism::{
-    Beam, Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output, Point, Steady,
+    Beam, Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output, Point, Shaft,
+    Steady,
 };
 use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;
@@ -107,6 +109,7 @@ pub fn resolve_what_is_right(ast: &Ast, more: usize) -> Resolution {
         kernels_only: items.kernels_only,
         bodies: items.bodies,
         beams: items.beams,
+        shafts: items.shafts,
         joints: items.joints,
         coordinates: resolver.declared_coordinates,
         points: items.points,
@@ -138,6 +141,7 @@ struct Items {
     kernels_only: bool,
     bodies: Vec<Body>,
     beams: Vec<Beam>,
+    shafts: Vec<Shaft>,
     joints: Vec<Joint>,
     points: Vec<Point>,
     forces: Vec<Force>,
@@ -174,9 +178,10 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
     let constraints = resolver.constraints();
     let steady = resolver.steady_values();
     let outputs = resolver.outputs();
-    let beams = resolver.beams(&mut bodies, &mut joints, &points);
+    let (beams, shafts) = resolver.beams_and_shafts(&mut bodies, &mut joints, &points, &mut forces, &gravity);
     Items {
         beams,
+        shafts,
         inputs,
         design,
         gravity,
@@ -208,14 +213,18 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
 
 /// Whether every declared body, joint and constraint has become an entry.
 fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
-    let stations: usize = mechanism.beams.iter().map(|beam| beam.stations.len()).sum();
+    let of_shafts: usize = mechanism.shafts.iter().map(|shaft| shaft.stations.len()).sum();
+    let stations = mechanism.beams.iter().map(|beam| beam.stations.len()).sum::<usize>() + of_shafts;
     let of_beams: usize = mechanism.beams.iter().map(Beam::size).sum();
+    let motions = mechanism.shafts.iter().flat_map(|shaft| &shaft.stations).flat_map(|own| own.coordinates);
+    let of_shafts = motions.flatten().count();
     let (bodies, joints) = (mechanism.bodies.len(), mechanism.joints.len());
     !ast.unread.iter().any(Unread::may_connect)
-        && bodies == count(ast, |kind| matches!(kind, ItemKind::Body(_))) + stations
+        && bodies == count(ast, |kind| matches!(kind, ItemKind::Body(_))) + stations - mechanism.shafts.len()
         && joints == count(ast, |kind| matches!(kind, ItemKind::Joint(_))) + stations
-        && mechanism.coordinates.len() == coordinates::declared(ast).len() + of_beams
-        && (beams::declared::number_of(ast) == 0) == mechanism.beams.is_empty()
+        && mechanism.coordinates.len() == coordinates::declared(ast).len() + of_beams + of_shafts
+        && (beams::declared::number_of(ast, "beam") == 0) == mechanism.beams.is_empty()
+        && beams::declared::number_of(ast, "shaft") == mechanism.shafts.len()
         && mechanism.constraints.len() == count(ast, |kind| matches!(kind, ItemKind::Constraint(_)))
 }
 

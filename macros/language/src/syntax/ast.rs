@@ -591,6 +591,8 @@ pub enum ValueKind {
     Sections(Vec<NamedCall>),
     /// `0.4 length`: a place along a beam, only after `at`.
     Fraction(f64),
+    /// `station 4`: the end of a section of a shaft, counted from 1; 0 is its root. Only after `at`.
+    Station(u32),
     /// `(a)`: kept in the tree because `(3 kg) * m` is not `3 kg * m`.
     Parenthesised(Box<Value>),
 }
@@ -661,7 +663,11 @@ impl Value {
     pub fn new(kind: ValueKind, extent: impl Into<Extent>) -> Self {
         let tallest = |values: &[Value]| values.iter().map(|value| value.height).max();
         let below = match &kind {
-            ValueKind::Number(..) | ValueKind::Name(_) | ValueKind::Fraction(_) | ValueKind::Sections(_) => None,
+            ValueKind::Number(..)
+            | ValueKind::Name(_)
+            | ValueKind::Fraction(_)
+            | ValueKind::Station(_)
+            | ValueKind::Sections(_) => None,
             ValueKind::Vector(values, _) | ValueKind::Call(_, values) => tallest(values),
             ValueKind::Negate(of) | ValueKind::Component(of, _) => Some(of.height),
             ValueKind::Parenthesised(of) => Some(of.height),
@@ -698,7 +704,7 @@ impl Value {
         while let Some(value) = rest.pop() {
             parts.push(value);
             match &value.kind {
-                ValueKind::Number(..) | ValueKind::Name(_) | ValueKind::Fraction(_) => {}
+                ValueKind::Number(..) | ValueKind::Name(_) | ValueKind::Fraction(_) | ValueKind::Station(_) => {}
                 ValueKind::Sections(calls) => {
                     let arguments = calls.iter().rev().flat_map(NamedCall::values);
                     rest.extend(arguments);

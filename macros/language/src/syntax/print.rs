@@ -294,6 +294,7 @@ pub fn value(tree: &Value) -> String {
             calls.join(" to ")
         }
         ValueKind::Fraction(fraction) => format!("{fraction:?} length"),
+        ValueKind::Station(station) => format!("station {station}"),
         ValueKind::Parenthesised(inner) => format!("({})", value(inner)),
     }
 }

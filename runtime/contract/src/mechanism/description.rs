@@ -52,6 +52,9 @@ pub struct Description {
     /// Equal instances around axes.
     #[cfg_attr(feature = "serde", serde(default = "none"))]
     pub rings: List<RingInfo>,
+    /// Spans of shafts, whose numbers are those of [`Mechanism::spans`](crate::Mechanism::spans).
+    #[cfg_attr(feature = "serde", serde(default = "none"))]
+    pub spans: List<SpanInfo>,
     /// Multiples of the speed of the rings with which the mechanism vibrates in steady motion. The unknowns are then the
     /// means of all coordinates, followed, for each of these multiples, by the amplitudes of the cosines and of the sines.
     #[cfg_attr(feature = "serde", serde(default = "none"))]
@@ -320,4 +323,41 @@ pub struct KernelInfo {
     pub operations: usize,
     /// Divisions, roots and elementary functions.
     pub functions: usize,
+}
+
+/// A part of a shaft between two stations. Linear in small motions, it is not in the equations that are compiled, but for what
+/// it does at rest.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SpanInfo {
+    /// What it does.
+    pub line: LineKind,
+    /// Into how many equal elements each of its sections is divided.
+    pub elements: List<usize>,
+    /// Unknowns of its two ends, each with the factor that makes it a motion of the span: along `y`, slope towards it, along
+    /// `z`, slope; of a bar one.
+    pub ends: [List<(usize, f64)>; 2],
+}
+
+/// What a part of a shaft does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum LineKind {
+    /// It bends and shears (Timoshenko).
+    Timoshenko,
+    /// It bends without shear (Rayleigh).
+    Slender,
+    /// It twists or stretches.
+    Bar,
+}
+
+impl SpanInfo {
+    /// The numbers of a section.
+    pub const NUMBERS: usize = 8;
+
+    /// How many numbers it has in [`Mechanism::spans`](crate::Mechanism::spans).
+    #[must_use]
+    pub fn len(&self) -> usize {
+        1 + Self::NUMBERS * self.elements.len()
+    }
 }

@@ -13,7 +13,7 @@ mod tolerance;
 pub use array::Array;
 pub use description::{
     CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo,
-    OutputInfo, RingInfo, Role, Unit,
+    LineKind, OutputInfo, RingInfo, Role, SpanInfo, Unit,
 };
 pub use handles::{Any, Coordinate, DesignVariable, Excitation, Input, Output};
 pub use picture::{
@@ -433,6 +433,11 @@ pub trait Mechanism: Clone + Sync + Sized {
     /// The values that select one of a family of steady motions, of the unknowns at the positions [`Description::held`],
     /// followed by the speeds at which the rings turn about their axes, [`Description::rings`], in `values`.
     fn held_values<T: Real>(&self, _u: &Self::Inputs<T>, _b: &Self::Design<T>, _values: &mut [T]) {}
+
+    /// For each span of [`Description::spans`] the speed of its material, rad/s, then for each of its sections eight numbers,
+    /// SI: length; stiffness against bending, twist or stretch, and against shear; mass, or inertia about the axis, and
+    /// inertia about a diameter, of a length; time by which the material lags; tension; drag of a length.
+    fn spans<T: Real>(&self, _u: &Self::Inputs<T>, _b: &Self::Design<T>, _numbers: &mut [T]) {}
 
     /// The declared outputs.
     fn outputs<T: Real>(&self, q: &Self::Coordinates<T>, u: &Self::Inputs<T>, b: &Self::Design<T>) -> Self::Outputs<T>;

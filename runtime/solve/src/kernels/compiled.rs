@@ -335,6 +335,10 @@ impl<M: Mechanism> Kernels for M {
     fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]) {
         Mechanism::held_values(self, Array::view(u), Array::view(b), values);
     }
+
+    fn spans_into(&self, u: &[Second], b: &[Second], numbers: &mut [Second]) {
+        Mechanism::spans(self, Array::view(u), Array::view(b), numbers);
+    }
 }
 
 impl<M: Mechanism> DirectionalKernels for M {

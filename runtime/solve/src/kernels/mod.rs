@@ -247,6 +247,9 @@ pub trait Kernels: Sync {
     /// [`Mechanism::held_values`](eigentol_contract::Mechanism::held_values) with first and second derivatives.
     fn held_values_into(&self, u: &[Second], b: &[Second], values: &mut [Second]);
 
+    /// [`Mechanism::spans`](eigentol_contract::Mechanism::spans) with first and second derivatives.
+    fn spans_into(&self, u: &[Second], b: &[Second], numbers: &mut [Second]);
+
     /// [`Mechanism::outputs`](eigentol_contract::Mechanism::outputs).
     fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {
         self.evaluate(Kernel::Outputs, &[q, u, b], &mut [outputs]);

@@ -61,7 +61,9 @@ pub(crate) fn requirements(g: &mut Graph, mechanism: &Mechanism, values: &Values
             value: values.scalar(g, value),
         });
     }
-    for (quantity, value) in mechanism.beams.iter().flat_map(|beam| &beam.positive) {
+    let of_beams = mechanism.beams.iter().flat_map(|beam| &beam.positive);
+    let of_shafts = mechanism.shafts.iter().flat_map(|shaft| &shaft.positive);
+    for (quantity, value) in of_beams.chain(of_shafts) {
         let value = values.scalar(g, value);
         // The parts of a beam that loads split share what was asked of the whole.
         if list.iter().all(|known| known.value != value) {

@@ -14,6 +14,7 @@ mod forced;
 mod held_values;
 mod parameters;
 mod picture;
+mod spans;
 mod whirl;
 
 pub(super) use conditions::{pose_margin, violation};
@@ -21,4 +22,5 @@ pub(super) use contract::kernels;
 pub(super) use forced::{Excitations, forced};
 pub(super) use held_values::held_values;
 pub(super) use picture::picture;
+pub(super) use spans::spans;
 pub(super) use whirl::whirl;

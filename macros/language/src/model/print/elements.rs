@@ -3,7 +3,7 @@
 use super::Names;
 use crate::model::elements::Element;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Mechanism, Motion};
+use crate::model::mechanism::{Force, Mechanism, Motion};
 
 impl Mechanism {
     /// Gravity, drives, forces, constraints and curves, in the order of declaration of each kind.
@@ -25,8 +25,14 @@ impl Mechanism {
                 law: format!("at {}", names.scalar(speed)),
             })
         });
-        let forces = self.forces.iter();
+        let of_shaft = |force: &&Force| self.shafts.iter().any(|shaft| shaft.name == force.name);
+        let forces = self.forces.iter().filter(|force| !of_shaft(force));
         let forces = forces.map(|force| element(&force.name, &names.law(&force.law)));
+        let shafts = self.shafts.iter().map(|shaft| Element {
+            name: shaft.name.to_string(),
+            kind: "shaft".to_owned(),
+            law: format!("of {} sections with {} stations", shaft.masses.len(), shaft.stations.len()),
+        });
         let constraints = self.constraints.iter();
         let constraints = constraints.map(|constraint| element(&constraint.name, &names.constraint(&constraint.law)));
         let curves = self.curves.iter().map(|curve| {
@@ -39,7 +45,7 @@ impl Mechanism {
                 law: format!("through {points} points from {first} to {}", curve.with_unit(last)),
             }
         });
-        gravity.into_iter().chain(drives).chain(forces).chain(constraints).chain(curves).collect()
+        gravity.into_iter().chain(drives).chain(forces).chain(shafts).chain(constraints).chain(curves).collect()
     }
 }
 

@@ -113,7 +113,7 @@ impl Resolver<'_> {
     }
 
     /// Along the beam, the axis of bending about which the height stands, and up.
-    fn axes_of_beam(&mut self, given: &Arguments<'_>) -> Option<[Vector; 3]> {
+    pub(super) fn axes_of_beam(&mut self, given: &Arguments<'_>) -> Option<[Vector; 3]> {
         let mut direction = |name: &str| {
             let value = given.get(name)?;
             Some((self.direction(value, ValueContext::Parameter)?, value))
@@ -196,7 +196,7 @@ impl Resolver<'_> {
     }
 
     /// A whole number that is written as one.
-    fn whole(&mut self, value: &Value, name: &str, range: std::ops::RangeInclusive<usize>) -> Option<usize> {
+    pub(super) fn whole(&mut self, value: &Value, name: &str, range: std::ops::RangeInclusive<usize>) -> Option<usize> {
         if let ValueKind::Number(number, None) = value.kind
             && number.fract() == 0.0
             && range.contains(&(number as usize))

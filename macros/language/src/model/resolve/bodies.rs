@@ -10,7 +10,7 @@ use proc_macro2::Ident;
 
 use self::quantities::Quantities;
 use self::shapes::SYNONYMS;
-pub(super) use self::shapes::{BEAM, Row, SHAPES};
+pub(super) use self::shapes::{BEAM, Row, SHAFT, SHAPES};
 use super::coordinates;
 use super::joints::kinds::Kind;
 use super::resolver::Resolver;
@@ -83,8 +83,11 @@ impl Resolver<'_> {
         if let Some(beam) = body.terms.iter().find(|term| term.shape.word == BEAM.word) {
             return self.beam(body, beam).map(|()| Vec::new());
         }
+        if let Some(shaft) = body.terms.iter().find(|term| term.shape.word == SHAFT.word) {
+            return self.shaft(body, shaft).map(|()| Vec::new());
+        }
         if let Some(speed) = &body.spinning {
-            let message = "only a `beam` can spin about its own bent axis";
+            let message = "only a `beam` or a `shaft` can spin about its own bent axis";
             let help = "turn the body by a joint: `revolute(x) ... driven at omega`";
             self.diagnostics.error_with_help(speed.extent, message, help);
             return None;

@@ -137,7 +137,7 @@ impl Resolver<'_> {
     }
 
     /// Enters a constant; a plain number is used directly.
-    fn shared(&mut self, name: Ident, value: Expr) -> Expr {
+    pub(super) fn shared(&mut self, name: Ident, value: Expr) -> Expr {
         let id = ConstantId::new(self.constants.len());
         let reference = match &value {
             Expr::Number(number) => Expr::Number(*number),

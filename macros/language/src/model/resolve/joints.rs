@@ -100,7 +100,7 @@ impl Resolver<'_> {
     fn station_before_to(&mut self, joint: &ast::Joint, value: &Value) -> Option<Frame> {
         let station = self.station(&joint.from, value);
         if station.is_none() {
-            let message = "before `to` stands a place along a beam: `at tip` or `at 0.4 length`";
+            let message = "before `to` stands a place along a beam or a shaft: `at tip`, `at 0.4 length` or `at station 4`";
             let help = format!("place the joint after its sides: `from {0} to {1} at ...`", joint.from, joint.to);
             self.diagnostics.error_with_help(value.extent, message, help);
         }
@@ -117,11 +117,11 @@ impl Resolver<'_> {
         let offset = placement.offset.as_ref()?;
         let sides = [(0, &joint.from), (1, &joint.to)];
         let meant = sides.into_iter().filter(|(_, name)| on.is_none_or(|on| on == *name));
-        let meant: Vec<_> = meant.filter(|(_, name)| self.is_beam(name)).collect();
+        let meant: Vec<_> = meant.filter(|(_, name)| self.has_places(name)).collect();
         let (side, name) = match (&meant[..], &offset.kind) {
             ([only], _) => *only,
             ([_, to, ..], _) => *to,
-            ([], ValueKind::Fraction(_)) => (0, &joint.from),
+            ([], ValueKind::Fraction(_) | ValueKind::Station(_)) => (0, &joint.from),
             ([], _) => return None,
         };
         Some((side, self.station(name, offset)?))

@@ -43,8 +43,8 @@ impl Resolver<'_> {
                 self.diagnostics.error(value.extent, message);
                 None
             }
-            ValueKind::Fraction(_) => {
-                let message = "a fraction of a length is a place on a beam";
+            ValueKind::Fraction(_) | ValueKind::Station(_) => {
+                let message = "a fraction of a length is a place on a beam, a station one on a shaft";
                 self.diagnostics.error(value.extent, message);
                 None
             }

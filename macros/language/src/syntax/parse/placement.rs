@@ -5,6 +5,7 @@ use proc_macro2::{Delimiter, Ident};
 use super::super::ast::{Placement, Value, ValueKind};
 use super::super::scope::Meaning;
 use super::super::tokens::{Parsed, Tokens};
+use super::index::bound;
 use super::value::value;
 use crate::base::span::Extent;
 
@@ -25,7 +26,7 @@ pub(super) fn placement(tokens: &mut Tokens) -> Parsed<Option<Placement>> {
     Ok(Some(Placement { offset, rotations, keyword }))
 }
 
-/// Reads a vector, `tip`, or a fraction of a beam such as `0.4 length` or `1/3 length`.
+/// Reads a vector, `tip`, a fraction of a beam such as `0.4 length` or `1/3 length`, or a station of a shaft, `station 4`.
 pub(super) fn place(tokens: &mut Tokens) -> Parsed<Value> {
     let start = Extent::from(tokens.span());
     let mut ahead = *tokens;
@@ -34,6 +35,11 @@ pub(super) fn place(tokens: &mut Tokens) -> Parsed<Value> {
             *tokens = ahead;
             let end = tokens.expect_word("length")?;
             Ok(Value::new(ValueKind::Fraction(fraction), start.to(end)))
+        }
+        _ if tokens.peek_word("station") && !tokens.scope.find("station").is_some_and(is_value) => {
+            tokens.expect_word("station")?;
+            let station = bound(tokens)?;
+            Ok(Value::new(ValueKind::Station(station), start.to(tokens.last)))
         }
         // The end of a beam, although something may have its name.
         _ if tokens.peek_ident().is_some_and(|word| is_end(&word, tokens)) => {
@@ -44,8 +50,12 @@ pub(super) fn place(tokens: &mut Tokens) -> Parsed<Value> {
     }
 }
 
+/// Whether a name stands for a value.
+fn is_value(of: &Meaning) -> bool {
+    matches!(of, Meaning::Item(keyword) if keyword == "let" || keyword == "design")
+}
+
 fn is_end(word: &Ident, tokens: &Tokens) -> bool {
-    let is_value = |of: &Meaning| matches!(of, Meaning::Item(keyword) if keyword == "let" || keyword == "design");
     (word == "tip" || word == "root") && !tokens.scope.find(&word.to_string()).is_some_and(is_value)
 }
 

@@ -88,6 +88,11 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         let (u, b) = self.deviations.applied(u, b, Second::add);
         self.kernels.held_values_into(&u, b, values);
     }
+
+    fn spans_into(&self, u: &[Second], b: &[Second], numbers: &mut [Second]) {
+        let (u, b) = self.deviations.applied(u, b, Second::add);
+        self.kernels.spans_into(&u, b, numbers);
+    }
 }
 
 impl<K: DirectionalKernels + ?Sized> DirectionalKernels for DeviatingInputs<'_, K> {

@@ -2,6 +2,7 @@
 
 use proc_macro2::Ident;
 
+use super::super::shafts;
 use super::table::Table;
 use crate::base::legendre::Gauss;
 use crate::model::expression::{Expr, Vector};
@@ -57,29 +58,59 @@ impl Declared {
     }
 }
 
-/// The beams of a declaration and the stations used so far. Every beam has a station at its tip.
+/// A body with places along it; `None` if it is wrong.
+#[derive(Clone, Debug)]
+pub(super) enum Flexible {
+    Beam(Option<Declared>),
+    Shaft(Option<shafts::Declared>),
+}
+
+/// The beams and shafts of a declaration and the stations used so far. Each has a station at its tip.
 #[derive(Debug, Default)]
 pub(in crate::model::resolve) struct Stations {
-    pub(super) beams: Vec<(Ident, Option<Declared>)>,
-    /// The beam and the fraction of its length.
-    pub(super) used: Vec<(usize, f64)>,
+    pub(super) bodies: Vec<(Ident, Flexible)>,
+    /// The beam and the fraction of its length, or the shaft and the number of sections before.
+    pub(in crate::model::resolve) used: Vec<(usize, f64)>,
 }
 
 impl Stations {
     pub(super) fn declare(&mut self, name: &Ident, beam: Option<Declared>) {
-        self.used.push((self.beams.len(), 1.0));
-        self.beams.push((name.clone(), beam));
+        self.used.push((self.bodies.len(), 1.0));
+        self.bodies.push((name.clone(), Flexible::Beam(beam)));
+    }
+
+    pub(in crate::model::resolve) fn declare_shaft(&mut self, name: &Ident, shaft: Option<shafts::Declared>) {
+        let last = shaft.as_ref().map_or(1, shafts::Declared::last);
+        self.used.push((self.bodies.len(), last as f64));
+        self.bodies.push((name.clone(), Flexible::Shaft(shaft)));
+    }
+
+    /// The shafts that are right, with their numbers and names.
+    pub(in crate::model::resolve) fn shafts(&self) -> impl Iterator<Item = (usize, &Ident, &shafts::Declared)> {
+        self.bodies.iter().enumerate().filter_map(|(k, (name, own))| match own {
+            Flexible::Shaft(Some(shaft)) => Some((k, name, shaft)),
+            _ => None,
+        })
+    }
+
+    pub(super) fn beams(&self) -> impl Iterator<Item = (usize, &Ident, &Option<Declared>)> {
+        self.bodies.iter().enumerate().filter_map(|(k, (name, own))| match own {
+            Flexible::Beam(beam) => Some((k, name, beam)),
+            Flexible::Shaft(_) => None,
+        })
+    }
+
+    /// Whether all are right.
+    pub(super) fn are_right(&self) -> bool {
+        !self.bodies.iter().any(|(_, own)| matches!(own, Flexible::Beam(None) | Flexible::Shaft(None)))
     }
 }
 
-/// The word among the shapes.
-const WORD: &str = "beam";
-
-/// The number of beams in a declaration.
-pub(in crate::model::resolve) fn number_of(ast: &Ast) -> usize {
-    let is_beam = |item: &&ast::Item| match &item.kind {
-        ItemKind::Body(body) => body.terms.iter().any(|term| term.shape.word == WORD),
+/// The number of bodies of this shape in a declaration: `beam` or `shaft`.
+pub(in crate::model::resolve) fn number_of(ast: &Ast, word: &str) -> usize {
+    let is_such = |item: &&ast::Item| match &item.kind {
+        ItemKind::Body(body) => body.terms.iter().any(|term| term.shape.word == word),
         _ => false,
     };
-    ast.items.iter().filter(is_beam).count()
+    ast.items.iter().filter(is_such).count()
 }

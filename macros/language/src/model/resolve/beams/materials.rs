@@ -93,7 +93,7 @@ impl Resolver<'_> {
     }
 
     /// The material of a beam: one that is declared, or properties of its own.
-    pub(super) fn material_of(&mut self, name: &Ident, given: &Arguments<'_>) -> Option<Properties> {
+    pub(in crate::model::resolve) fn material_of(&mut self, name: &Ident, given: &Arguments<'_>) -> Option<Properties> {
         let properties = self.properties(name, given);
         let Some(value) = given.get("material") else {
             return properties;

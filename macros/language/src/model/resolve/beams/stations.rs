@@ -5,11 +5,13 @@ use proc_macro2::Ident;
 use super::super::coordinates;
 use super::super::placements::unplaced;
 use super::super::resolver::Resolver;
-use super::declared::Declared;
+use super::declared::{Declared, Flexible};
 use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId};
 use crate::base::names::joined;
-use crate::model::expression::Expr;
-use crate::model::mechanism::{Beam, Body, Coordinate, CoordinateQuantity, Frame, Joint, Motion, Point, Station};
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::{
+    Beam, Body, Coordinate, CoordinateQuantity, Force, Frame, Joint, Motion, Point, Shaft, Station,
+};
 use crate::model::simplify;
 use crate::syntax::ast::{ItemKind, Value, ValueKind};
 
@@ -34,9 +36,22 @@ impl Resolver<'_> {
     /// The station that a place means on a frame: `tip`, `root` or a fraction of the length of a beam; `None` if it is
     /// an ordinary place, with an inner `None` if it is wrong.
     pub(in crate::model::resolve) fn station(&mut self, frame: &Ident, value: &Value) -> Option<Option<Frame>> {
-        let beam = self.stations.beams.iter().position(|(name, _)| name == frame);
+        let beam = self.stations.bodies.iter().position(|(name, _)| name == frame);
+        let shaft = beam.and_then(|beam| match &self.stations.bodies[beam].1 {
+            Flexible::Shaft(shaft) => Some(shaft.as_ref().map(super::super::shafts::Declared::last)),
+            Flexible::Beam(_) => None,
+        });
+        if let Some(last) = shaft {
+            return self.station_of_shaft(frame, beam?, last, value);
+        }
         let fraction = match &value.kind {
             ValueKind::Fraction(fraction) => *fraction,
+            ValueKind::Station(_) => {
+                let message = format!("`{frame}` is not a shaft: it has no stations");
+                let help = "`at station 4` is the end of the fourth section of a `shaft`";
+                self.diagnostics.error_with_help(value.extent, message, help);
+                return Some(None);
+            }
             ValueKind::Name(word) if beam.is_some() && word == "tip" => 1.0,
             ValueKind::Name(word) if beam.is_some() && word == "root" => 0.0,
             _ => return None,
@@ -53,25 +68,65 @@ impl Resolver<'_> {
             self.diagnostics.error_with_help(value.extent, message, help);
             return Some(None);
         }
-        let root = self.frame(frame);
-        if fraction == 0.0 {
-            return Some(root);
+        Some(self.place_along(frame, beam, fraction))
+    }
+
+    /// The station that a place means on a shaft; its number of sections is `None` if it is wrong.
+    fn station_of_shaft(
+        &mut self,
+        frame: &Ident,
+        shaft: usize,
+        last: Option<usize>,
+        value: &Value,
+    ) -> Option<Option<Frame>> {
+        let station = match &value.kind {
+            ValueKind::Station(station) => *station as usize,
+            ValueKind::Name(word) if word == "tip" => last.unwrap_or(1),
+            ValueKind::Name(word) if word == "root" => 0,
+            ValueKind::Fraction(_) => {
+                let message = "things stand on a shaft between two sections";
+                let help = format!("write `{frame} at station 4` for the end of its fourth section; divide a section in two");
+                self.diagnostics.error_with_help(value.extent, message, help);
+                return Some(None);
+            }
+            _ => return None,
+        };
+        let Some(last) = last else { return Some(None) };
+        if station > last {
+            let message = format!("station {station} is off the shaft `{frame}`, whose last is {last}");
+            let help = "station 4 is the end of the fourth section, station 0 the root";
+            self.diagnostics.error_with_help(value.extent, message, help);
+            return Some(None);
         }
-        let index = self.stations.used.iter().position(|x| *x == (beam, fraction)).unwrap_or_else(|| {
-            self.stations.used.push((beam, fraction));
+        Some(self.place_along(frame, shaft, station as f64))
+    }
+
+    /// The frame of a place that is used: of the root, that of the body.
+    fn place_along(&mut self, frame: &Ident, body: usize, place: f64) -> Option<Frame> {
+        let root = self.frame(frame);
+        if place == 0.0 {
+            return root;
+        }
+        let index = self.stations.used.iter().position(|x| *x == (body, place)).unwrap_or_else(|| {
+            self.stations.used.push((body, place));
             self.stations.used.len() - 1
         });
         let bodies = self.items_that(|kind| matches!(kind, ItemKind::Body(_)));
-        root.map(|_| Some(Frame::Body(BodyId::new(bodies + index))))
+        root.map(|_| Frame::Body(BodyId::new(bodies + index)))
+    }
+
+    /// Whether a body has places along it.
+    pub(in crate::model::resolve) fn has_places(&self, name: &Ident) -> bool {
+        self.stations.bodies.iter().any(|(x, _)| x == name)
     }
 
     pub(in crate::model::resolve) fn is_beam(&self, name: &Ident) -> bool {
-        self.stations.beams.iter().any(|(x, _)| x == name)
+        self.stations.beams().any(|(_, x, _)| x == name)
     }
 
     /// Whether a beam stretches or shears by coordinates of its own; `None` if it is wrong.
     pub(in crate::model::resolve) fn strains(&self, name: &Ident) -> Option<bool> {
-        let (_, beam) = self.stations.beams.iter().find(|(x, _)| x == name)?;
+        let (.., beam) = self.stations.beams().find(|(_, x, _)| *x == name)?;
         Some(beam.as_ref()?.strains != [0; 3])
     }
 
@@ -79,14 +134,16 @@ impl Resolver<'_> {
         self.ast.items.iter().filter(|item| is(&item.kind)).count()
     }
 
-    /// The beams with their stations, which are added to the bodies and joints, and their coordinates. A beam is split
-    /// where a load stands on it: its moment has a kink there, which no polynomial has.
-    pub(in crate::model::resolve) fn beams(
+    /// The beams and shafts with their stations, which are added to the bodies and joints, their coordinates, and what
+    /// shafts do at rest. A beam is split where a load stands on it: its moment has a kink there, which no polynomial has.
+    pub(in crate::model::resolve) fn beams_and_shafts(
         &mut self,
         bodies: &mut Vec<Body>,
         joints: &mut Vec<Joint>,
         points: &[Point],
-    ) -> Vec<Beam> {
+        forces: &mut Vec<Force>,
+        gravity: &Vector,
+    ) -> (Vec<Beam>, Vec<Shaft>) {
         let stations = std::mem::take(&mut self.stations);
         let first = First {
             body: self.items_that(|kind| matches!(kind, ItemKind::Body(_))),
@@ -97,17 +154,21 @@ impl Resolver<'_> {
         let is_whole = bodies.len() == first.body
             && joints.len() == first.joint
             && self.declared_coordinates.len() == first.coordinate
-            && stations.beams.iter().all(|(_, beam)| beam.is_some());
+            && stations.are_right();
         if !is_whole {
-            return beams;
+            return (beams, Vec::new());
         }
         let loaded = self.loaded(joints, points);
         for (index, (beam, fraction)) in stations.used.iter().enumerate() {
-            let name = &stations.beams[*beam].0;
-            let word = if *fraction == 1.0 { "tip".to_owned() } else { format!("station_{index}") };
+            let (name, of) = &stations.bodies[*beam];
+            let word = match of {
+                Flexible::Beam(_) if *fraction == 1.0 => "tip".to_owned(),
+                Flexible::Beam(_) => format!("station_{index}"),
+                Flexible::Shaft(_) => format!("station_{fraction}"),
+            };
             bodies.push(Body { name: self.unused(&format!("{name}_{word}"), name), parts: Vec::new() });
         }
-        for (index, (name, declared)) in stations.beams.iter().enumerate() {
+        for (index, name, declared) in stations.beams() {
             let root = bodies.iter().position(|body| body.name == *name);
             let (Some(declared), Some(root)) = (declared, root) else {
                 continue;
@@ -136,11 +197,12 @@ impl Resolver<'_> {
                 };
                 let within = beam_stations.iter().filter(|(fraction, _)| start.0 < *fraction && *fraction <= end.0);
                 let piece = Piece { name, root: start, end: end.0, stations: within.copied().collect() };
-                beams.push(self.piece(&stations.beams[index].0, declared, piece, beams.len(), bodies, joints));
+                beams.push(self.piece(&stations.bodies[index].0, declared, piece, beams.len(), bodies, joints));
                 start = *end;
             }
         }
-        beams
+        let shafts = self.shafts(&stations, first.body, bodies, joints, forces, gravity);
+        (beams, shafts)
     }
 
     /// A tip without a section takes neither a force nor a moment.

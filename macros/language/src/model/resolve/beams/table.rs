@@ -9,14 +9,14 @@ use crate::model::simplify::{add, call, divide, multiply, power_integer, subtrac
 /// Density, Young's modulus and shear modulus, as far as they are given.
 #[derive(Clone, Debug, Default)]
 pub(in crate::model::resolve) struct Properties {
-    pub(super) density: Option<Expr>,
-    pub(super) modulus: Option<Expr>,
-    pub(super) shear_modulus: Option<Expr>,
+    pub(in crate::model::resolve) density: Option<Expr>,
+    pub(in crate::model::resolve) modulus: Option<Expr>,
+    pub(in crate::model::resolve) shear_modulus: Option<Expr>,
 }
 
 /// Kinds of section.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Kind {
+pub(in crate::model::resolve) enum Kind {
     Rectangle,
     Circle,
     Tube,
@@ -26,18 +26,18 @@ pub(super) enum Kind {
 /// What a section is computed from, at the root and at the tip.
 #[derive(Clone, Debug)]
 pub(in crate::model::resolve) struct Table {
-    pub(super) kind: Kind,
+    pub(in crate::model::resolve) kind: Kind,
     /// The dimensions at the root and at the tip.
-    pub(super) ends: [Vec<Expr>; 2],
-    pub(super) material: Properties,
+    pub(in crate::model::resolve) ends: [Vec<Expr>; 2],
+    pub(in crate::model::resolve) material: Properties,
     /// The centre of mass off the axis, at the root and at the tip.
-    pub(super) centers: [[Expr; 2]; 2],
+    pub(in crate::model::resolve) centers: [[Expr; 2]; 2],
     /// Stiffness that couples strains, at the root and at the tip; see [`Section::coupling`].
-    pub(super) coupling: [Vec<(usize, usize, Expr)>; 2],
+    pub(in crate::model::resolve) coupling: [Vec<(usize, usize, Expr)>; 2],
     /// Whether a rectangle is wider than high at the nominal design.
-    pub(super) is_flat: bool,
+    pub(in crate::model::resolve) is_flat: bool,
     /// Whether the stiffness is given as a matrix.
-    pub(super) is_matrix: bool,
+    pub(in crate::model::resolve) is_matrix: bool,
 }
 
 impl Table {
@@ -105,7 +105,7 @@ impl Table {
     }
 
     /// The section at a fraction of the length.
-    pub(super) fn section(&self, fraction: f64, turned: (&Expr, &[Expr; 2])) -> Section {
+    pub(in crate::model::resolve) fn section(&self, fraction: f64, turned: (&Expr, &[Expr; 2])) -> Section {
         let [root, tip] = &self.ends;
         let at: Vec<Expr> = root.iter().zip(tip).map(|(root, tip)| between(root, tip, fraction)).collect();
         let center = [0, 1].map(|k| between(&self.centers[0][k], &self.centers[1][k], fraction));

@@ -62,6 +62,7 @@ pub(in crate::model::resolve) const SHAPES: &[Row] = &[
         .optional(&["center", "about"])
         .refusing(&[("density", "the volume of a `rigid` body is not known: give its `mass`")]),
     BEAM,
+    SHAFT,
 ];
 
 /// What a beam takes. It is no shape that others can be added to, so nothing reads it as one.
@@ -109,8 +110,23 @@ pub(in crate::model::resolve) const BEAM: Row = Row::new(
     ("axis", "the beam runs `along` its axis; `up` is the direction of the height of its section"),
 ]);
 
+/// What a shaft takes; nothing reads it as a shape either.
+pub(in crate::model::resolve) const SHAFT: Row = Row::new(
+    "shaft",
+    &["along", "up", "sections"],
+    "shaft(along: x, up: z, sections: [[120 mm, 40 mm], [80 mm, 60 mm, 20 mm]], material: steel)",
+    |_| None,
+)
+.optional(&["material", "density", "modulus", "shear_modulus", "poisson", "lines", "shear", "lag", "elements"])
+.refusing(&[
+    ("length", "its `sections` have lengths; a rigid shaft is a `cylinder`"),
+    ("mass", "a rigid shaft is a `cylinder`; a flexible one has a `material`"),
+    ("radius", "a rigid shaft is a `cylinder`; a flexible one has `sections`"),
+    ("axis", "the shaft runs `along` its axis; `up` is one of the two directions in which it bends"),
+]);
+
 /// Names of the shapes in other tools.
-pub(super) const SYNONYMS: [(&str, &str); 22] = [
+pub(super) const SYNONYMS: [(&str, &str); 21] = [
     ("none", "massless"),
     ("weightless", "massless"),
     ("empty", "massless"),
@@ -122,7 +138,6 @@ pub(super) const SYNONYMS: [(&str, &str); 22] = [
     ("stick", "rod"),
     ("disc", "disk"),
     ("wheel", "disk"),
-    ("shaft", "cylinder"),
     ("pipe", "tube"),
     ("ring", "tube"),
     ("hollow_cylinder", "tube"),

@@ -1,0 +1,341 @@
+//! Shafts: a table of sections, each with its length, its diameters and its material.
+
+mod at_rest;
+mod stations;
+
+use proc_macro2::Ident;
+
+use super::arguments::Arguments;
+use super::beams::table::{Kind, Properties, Table};
+use super::bodies::{Row, SHAFT};
+use super::placements::zero;
+use super::resolver::Resolver;
+use crate::base::dimension::Dimension;
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::Line;
+use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::simplify::{add, multiply};
+use crate::syntax::ast::{self, Term, Value, ValueKind};
+
+/// Elements of a whole shaft at least: waves longer than an eighth of it have errors below `1e-8`.
+const ELEMENTS: usize = 24;
+/// Most elements of a whole shaft.
+const MOST: usize = 4096;
+
+/// A shaft as declared; its stations are known once everything has been resolved.
+#[derive(Clone, Debug)]
+pub(in crate::model::resolve) struct Declared {
+    origin: Vector,
+    axes: [Vector; 3],
+    speed: Expr,
+    lag: Expr,
+    sections: Vec<Section>,
+    /// What bends, and whether it twists and stretches.
+    bending: Option<Line>,
+    twists: bool,
+    stretches: bool,
+    elements: usize,
+    positive: Vec<(String, Expr)>,
+}
+
+/// A row of the table: numbers of all its layers together.
+#[derive(Clone, Debug)]
+struct Section {
+    length: Expr,
+    outer: Expr,
+    mass: Expr,
+    rotary: Expr,
+    polar: Expr,
+    bending: Expr,
+    shear: Expr,
+    twist: Expr,
+    stretch: Expr,
+}
+
+impl Declared {
+    /// How many sections it has: the number of its last station.
+    pub(in crate::model::resolve) fn last(&self) -> usize {
+        self.sections.len()
+    }
+}
+
+impl Resolver<'_> {
+    /// A shaft stands alone: no other shape can be added to it.
+    pub(super) fn shaft(&mut self, body: &ast::Body, shaft: &Term) -> Option<()> {
+        static SIGNATURE: Row = SHAFT;
+        let word = &shaft.shape.word;
+        if body.terms.len() > 1 || shaft.hole {
+            let message = "`shaft` stands alone: it cannot be part of a sum";
+            let help = "weld another body to a station of it by a `fixed` joint";
+            self.diagnostics.error_with_help(word, message, help);
+            return None;
+        }
+        let arguments = self.arguments(&shaft.shape, &SIGNATURE);
+        let declared = self.shaft_of(body, shaft, &arguments);
+        let is_right = declared.is_some();
+        self.stations.declare_shaft(&body.name, declared);
+        is_right.then_some(())
+    }
+
+    fn shaft_of(&mut self, body: &ast::Body, shaft: &Term, given: &Arguments<'_>) -> Option<Declared> {
+        let name = &body.name;
+        let before = self.requirements.len();
+        let speed = match &body.spinning {
+            Some(value) => self.scalar_of(value, Dimension::RATE, "the speed of spinning"),
+            None => Some(Expr::Number(0.0)),
+        };
+        let axes = self.axes_of_beam(given);
+        let lag = match given.get("lag") {
+            Some(value) => self.scalar_of(value, Dimension::TIME, "`lag`"),
+            None => Some(Expr::Number(0.0)),
+        };
+        let elements = match given.get("elements") {
+            Some(value) => self.whole(value, "elements", 1..=MOST),
+            None => Some(ELEMENTS),
+        };
+        let bends = match given.get("shear") {
+            None => Some(Line::Timoshenko),
+            Some(value) if matches!(&value.kind, ValueKind::Number(0.0, None)) => Some(Line::Slender),
+            Some(value) => {
+                let message = "`shear` is left out, or `0` for a shaft that does not shear";
+                self.diagnostics.error(value.extent, message);
+                None
+            }
+        };
+        let lines = match given.get("lines") {
+            Some(value) => self.lines(value),
+            None => Some([true, false, false]),
+        };
+        let origin = match &shaft.placement {
+            Some(placement) if !placement.rotations.is_empty() => {
+                let message = "a shaft is not turned: `along` and `up` say how it lies";
+                self.diagnostics.error(placement.keyword, message);
+                None
+            }
+            Some(placement) => match &placement.offset {
+                Some(offset) => self.position(offset, "the place of a shaft's root"),
+                None => Some(zero()),
+            },
+            None => Some(zero()),
+        };
+        let material = self.material_of(name, given);
+        let sections = given.get("sections").and_then(|value| self.sections_of_shaft(name, value, material.as_ref()?));
+        let (bends, [bending, twists, stretches]) = (bends?, lines?);
+        let (axes, sections) = (axes?, sections?);
+        let positive = positive(&self.requirements[before..]);
+        Some(Declared {
+            origin: origin?,
+            axes,
+            speed: speed?,
+            lag: lag?,
+            sections,
+            bending: bending.then_some(bends),
+            twists,
+            stretches,
+            elements: elements?,
+            positive,
+        })
+    }
+
+    /// Whether a shaft bends, twists and stretches.
+    fn lines(&mut self, value: &Value) -> Option<[bool; 3]> {
+        const LINES: [&str; 3] = ["bending", "torsion", "stretch"];
+        let mut lines = [false; 3];
+        let names: &[Value] = match &value.kind {
+            ValueKind::Vector(names, None) => names,
+            _ => std::slice::from_ref(value),
+        };
+        for named in names {
+            let known = match &named.kind {
+                ValueKind::Name(name) => LINES.iter().position(|line| name == line),
+                _ => None,
+            };
+            let Some(known) = known else {
+                let message = "`lines` are `bending`, `torsion` and `stretch`, each where the shaft does it";
+                let help = "write `lines: [bending, torsion]`; without it a shaft bends only";
+                self.diagnostics.error_with_help(named.extent, message, help);
+                return None;
+            };
+            lines[known] = true;
+        }
+        lines.contains(&true).then_some(lines)
+    }
+
+    fn sections_of_shaft(&mut self, name: &Ident, value: &Value, whole: &Properties) -> Option<Vec<Section>> {
+        let rows: Option<Vec<&[Value]>> = match &value.kind {
+            ValueKind::Vector(rows, None) if !rows.is_empty() => rows.iter().map(row_of).collect(),
+            _ => None,
+        };
+        let Some(rows) = rows else {
+            let message = "`sections` is a table: a row of length, outer and inner diameter for each section";
+            let help = "write `sections: [[120 mm, 40 mm], [80 mm, 60 mm, 20 mm]]`";
+            self.diagnostics.error_with_help(value.extent, message, help);
+            return None;
+        };
+        let sections = rows.into_iter().enumerate().map(|(index, row)| {
+            let number = index + 1;
+            let (first, layers) = row.split_first()?;
+            let length = self.size_of_section(name, number, "length", first);
+            let layers = self.layers(name, number, layers, first, whole);
+            let (length, layers) = (length?, layers?);
+            let outer = layers.last().map_or(Expr::Number(0.0), |(outer, _)| outer.clone());
+            let sum = |of: fn(&crate::model::mechanism::Section) -> &Expr| {
+                layers.iter().fold(Expr::Number(0.0), |sum, (_, layer)| add(sum, of(layer).clone()))
+            };
+            let rotary = sum(|layer| &layer.inertia[0]);
+            Some(Section {
+                length,
+                outer,
+                mass: sum(|layer| &layer.mass),
+                polar: multiply(Expr::Number(2.0), rotary.clone()),
+                rotary,
+                bending: sum(|layer| &layer.stiffness[1]),
+                shear: sum(|layer| &layer.against_strain[1]),
+                twist: sum(|layer| &layer.stiffness[0]),
+                stretch: sum(|layer| &layer.against_strain[0]),
+            })
+        });
+        // Every row is read, so that each mistake is reported.
+        let sections: Vec<Option<Section>> = sections.collect();
+        sections.into_iter().collect()
+    }
+
+    /// Layers from the inside out, each an outer and perhaps an inner diameter and perhaps a material: its diameter and its
+    /// section.
+    fn layers(
+        &mut self,
+        name: &Ident,
+        number: usize,
+        entries: &[Value],
+        at: &Value,
+        whole: &Properties,
+    ) -> Option<Vec<(Expr, crate::model::mechanism::Section)>> {
+        let mut layers = Vec::new();
+        let mut sizes: Vec<&Value> = Vec::new();
+        let mut rest = entries.iter().peekable();
+        while let Some(entry) = rest.next() {
+            let material = self.material_named_by(entry);
+            if material.is_none() {
+                sizes.push(entry);
+                if rest.peek().is_some() {
+                    continue;
+                }
+            }
+            let (outer, inner) = match sizes[..] {
+                [outer] => (outer, None),
+                [outer, inner] => (outer, Some(inner)),
+                _ => {
+                    let message = format!("a layer of section {number} has an outer diameter and perhaps an inner one");
+                    let help = "name the material before the next layer: `[80 mm, 40 mm, 20 mm, steel, 44 mm, 40 mm, bronze]`";
+                    self.diagnostics.error_with_help(entry.extent, message, help);
+                    return None;
+                }
+            };
+            sizes.clear();
+            let material = material.map_or_else(|| Some(whole.clone()), |material| material)?;
+            if let Some(missing) = missing(&material) {
+                let message = format!("section {number} of `{name}` has no {missing}");
+                let help = "write `material: steel` and declare `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
+                self.diagnostics.error_with_help(entry.extent, message, help);
+                return None;
+            }
+            layers.push(self.layer(name, number, outer, inner, material)?);
+        }
+        if layers.is_empty() {
+            let message = format!("section {number} of `{name}` has a length and no diameter");
+            self.diagnostics.error(at.extent, message);
+            return None;
+        }
+        Some(layers)
+    }
+
+    /// What a name among the entries of a row means if it is a material, with an inner `None` if that is wrong.
+    fn material_named_by(&self, entry: &Value) -> Option<Option<Properties>> {
+        let ValueKind::Name(name) = &entry.kind else { return None };
+        let name = name.to_string();
+        self.materials.iter().find(|(own, _)| *own == name).map(|(_, material)| material.clone())
+    }
+
+    fn layer(
+        &mut self,
+        name: &Ident,
+        number: usize,
+        outer: &Value,
+        inner: Option<&Value>,
+        material: Properties,
+    ) -> Option<(Expr, crate::model::mechanism::Section)> {
+        let diameter = self.size_of_section(name, number, "outer diameter", outer);
+        let bore = match inner {
+            Some(value) if matches!(&value.kind, ValueKind::Number(0.0, _)) => None,
+            Some(value) => Some((self.size_of_section(name, number, "inner diameter", value)?, value)),
+            None => None,
+        };
+        let diameter = diameter?;
+        let radius = |diameter: &Expr| multiply(Expr::Number(0.5), diameter.clone());
+        let (kind, ends) = match bore {
+            None => (Kind::Circle, vec![radius(&diameter)]),
+            Some((bore, value)) => {
+                self.requirements.push(Requirement {
+                    what: format!("the inner diameter of section {number} of `{name}`"),
+                    values: vec![bore.clone(), diameter.clone()],
+                    demand: Demand::BelowOuter,
+                    extent: value.extent,
+                });
+                (Kind::Tube, vec![radius(&diameter), radius(&bore)])
+            }
+        };
+        let none = || [Expr::Number(0.0), Expr::Number(0.0)];
+        let table = Table {
+            kind,
+            ends: [ends.clone(), ends],
+            material,
+            centers: [none(), none()],
+            coupling: [Vec::new(), Vec::new()],
+            is_flat: false,
+            is_matrix: false,
+        };
+        Some((diameter, table.section(0.0, (&Expr::Number(0.0), &none()))))
+    }
+
+    fn size_of_section(&mut self, name: &Ident, number: usize, what: &str, value: &Value) -> Option<Expr> {
+        let what = format!("the {what} of section {number} of `{name}`");
+        let size = self.scalar_of(value, Dimension::LENGTH, &what)?;
+        self.requirements.push(Requirement {
+            what,
+            values: vec![size.clone()],
+            demand: Demand::Positive(Dimension::LENGTH),
+            extent: value.extent,
+        });
+        Some(size)
+    }
+}
+
+fn row_of(row: &Value) -> Option<&[Value]> {
+    match &row.kind {
+        ValueKind::Vector(entries, None) if !entries.is_empty() => Some(entries),
+        _ => None,
+    }
+}
+
+fn missing(material: &Properties) -> Option<&'static str> {
+    let all = [
+        (&material.density, "density"),
+        (&material.modulus, "modulus"),
+        (&material.shear_modulus, "shear modulus: give `poisson` or `shear_modulus`"),
+    ];
+    all.into_iter().find_map(|(given, what)| given.is_none().then_some(what))
+}
+
+/// What was required of sizes, to be required at run time.
+fn positive(asked: &[Requirement]) -> Vec<(String, Expr)> {
+    let plain = |requirement: &Requirement| requirement.what.trim_start_matches("the ").replace('`', "");
+    let each = asked.iter().filter_map(|requirement| match (&requirement.demand, &requirement.values[..]) {
+        (Demand::Positive(_), [value]) => Some((plain(requirement), value.clone())),
+        (Demand::BelowOuter, [inner, outer]) => {
+            let wall = crate::model::simplify::subtract(outer.clone(), inner.clone());
+            Some((plain(requirement).replace("inner diameter", "wall"), wall))
+        }
+        _ => None,
+    });
+    each.collect()
+}

@@ -1,0 +1,210 @@
+//! The stations of shafts that are used, with their coordinates, and what is between them.
+
+use proc_macro2::Ident;
+
+use super::super::beams::declared::Stations;
+use super::super::placements::unplaced;
+use super::super::resolver::Resolver;
+use super::{Declared, Section};
+use crate::base::ids::{BodyId, CoordinateId, JointId};
+use crate::base::names::joined;
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::{
+    Body, Coordinate, CoordinateQuantity, Force, ForceLaw, Frame, Joint, JointStep, LUMPED, Line, Motion, Placement, Shaft, ShaftStation,
+    Span, StepMotion,
+};
+use crate::model::simplify::{add, dot, multiply, power_integer};
+
+/// The names of the coordinates of a station, their axes, and whether they turn. The order is that of their motions.
+const MOTIONS: [(&str, usize, bool); 6] =
+    [("y", 1, false), ("z", 2, false), ("turn_y", 1, true), ("turn_z", 2, true), ("stretch", 0, false), ("twist", 0, true)];
+
+impl Resolver<'_> {
+    /// The shafts, whose stations `bodies` holds already, from the given one on; joints, coordinates and what the shafts do
+    /// at rest are added.
+    pub(in crate::model::resolve) fn shafts(
+        &mut self,
+        stations: &Stations,
+        first: usize,
+        bodies: &[Body],
+        joints: &mut Vec<Joint>,
+        forces: &mut Vec<Force>,
+        gravity: &Vector,
+    ) -> Vec<Shaft> {
+        let mut shafts = Vec::new();
+        for (index, name, declared) in stations.shafts() {
+            let Some(root) = bodies.iter().position(|body| body.name == *name) else { continue };
+            let mut places: Vec<(usize, BodyId)> = stations
+                .used
+                .iter()
+                .enumerate()
+                .filter(|(_, (of, _))| *of == index)
+                .map(|(k, (_, place))| (*place as usize, BodyId::new(first + k)))
+                .collect();
+            places.push((0, BodyId::new(root)));
+            places.sort_by_key(|(place, _)| *place);
+            let stations: Vec<ShaftStation> =
+                places.iter().map(|&(place, body)| self.shaft_station(name, declared, place, body, bodies, joints)).collect();
+            let mut spans = Vec::new();
+            for ends in stations.windows(2) {
+                spans.extend(self.spans(name, declared, [&ends[0], &ends[1]], gravity, forces));
+            }
+            let mass = |section: &Section| multiply(section.mass.clone(), section.length.clone());
+            shafts.push(Shaft {
+                name: name.clone(),
+                axes: declared.axes.clone(),
+                speed: declared.speed.clone(),
+                masses: declared.sections.iter().map(mass).collect(),
+                sizes: declared.sections.iter().map(|own| [own.length.clone(), own.outer.clone()]).collect(),
+                stations,
+                spans,
+                positive: declared.positive.clone(),
+            });
+        }
+        shafts
+    }
+
+    fn shaft_station(
+        &mut self,
+        name: &Ident,
+        declared: &Declared,
+        place: usize,
+        body: BodyId,
+        bodies: &[Body],
+        joints: &mut Vec<Joint>,
+    ) -> ShaftStation {
+        let joint = JointId::new(joints.len());
+        let has = [declared.bending.is_some(); 4].into_iter().chain([declared.stretches, declared.twists]);
+        let mut coordinates = [None; 6];
+        let mut steps = Vec::new();
+        for (k, ((word, axis, turns), _)) in MOTIONS.into_iter().zip(has).enumerate().filter(|(_, (_, has))| *has) {
+            let id = CoordinateId::new(self.declared_coordinates.len());
+            let named = joined(&joined(&name.to_string(), word), &place.to_string());
+            let (motion, quantity) = match turns {
+                true => (StepMotion::Turn, CoordinateQuantity::Angle),
+                false => (StepMotion::Slide, CoordinateQuantity::Displacement),
+            };
+            self.declared_coordinates.push(Coordinate {
+                name: Ident::new(&named, name.span()),
+                joint,
+                quantity,
+                motion: Motion::Free,
+            });
+            coordinates[k] = Some(id);
+            steps.push(JointStep { motion, axis: declared.axes[axis].clone(), coordinate: id });
+        }
+        let before = declared.sections[..place].iter();
+        let arm = before.fold(Expr::Number(0.0), |arm, section| add(arm, section.length.clone()));
+        let along = &declared.axes[0];
+        let offset = std::array::from_fn(|k| add(declared.origin[k].clone(), multiply(arm.clone(), along[k].clone())));
+        joints.push(Joint {
+            name: bodies[body.index()].name.clone(),
+            word: "station",
+            closing: None,
+            steps,
+            from: Frame::Ground,
+            to: Frame::Body(body),
+            from_placement: Placement { offset, rotations: Vec::new() },
+            to_placement: unplaced(),
+            cut: false,
+            flexure: None,
+        });
+        ShaftStation { place, body, joint, coordinates }
+    }
+
+    /// What is between two stations, with what it does at rest.
+    fn spans(
+        &mut self,
+        name: &Ident,
+        declared: &Declared,
+        ends: [&ShaftStation; 2],
+        gravity: &Vector,
+        forces: &mut Vec<Force>,
+    ) -> Vec<Span> {
+        let sections = &declared.sections[ends[0].place..ends[1].place];
+        let zero = || Expr::Number(0.0);
+        let lag = &declared.lag;
+        let mut lines: Vec<(Line, &[(usize, f64)], Vec<[Expr; 8]>)> = Vec::new();
+        let numbers = |of: &dyn Fn(&Section) -> [Expr; 4]| -> Vec<[Expr; 8]> {
+            let row = |own: &Section| {
+                let [stiffness, shear, mass, rotary] = of(own);
+                [own.length.clone(), stiffness, shear, mass, rotary, lag.clone(), zero(), zero()]
+            };
+            sections.iter().map(row).collect()
+        };
+        if let Some(line) = declared.bending {
+            let of = |own: &Section| [own.bending.clone(), own.shear.clone(), own.mass.clone(), own.rotary.clone()];
+            lines.push((line, &[(0, 1.0), (3, 1.0), (1, 1.0), (2, -1.0)], numbers(&of)));
+        }
+        if declared.stretches {
+            let of = |own: &Section| [own.stretch.clone(), zero(), own.mass.clone(), zero()];
+            lines.push((Line::Bar, &[(4, 1.0)], numbers(&of)));
+        }
+        if declared.twists {
+            let of = |own: &Section| [own.twist.clone(), zero(), own.polar.clone(), zero()];
+            lines.push((Line::Bar, &[(5, 1.0)], numbers(&of)));
+        }
+        let lengths: Vec<f64> = declared.sections.iter().map(|own| self.nominal_of(&own.length)).collect();
+        let total: f64 = lengths.iter().sum();
+        let pieces = |length: &f64| ((declared.elements as f64 * length / total - 1e-9).ceil() as usize).max(1);
+        let elements: Vec<usize> = lengths[ends[0].place..ends[1].place].iter().map(pieces).collect();
+        let mut spans = Vec::new();
+        for (line, motions, sections) in lines {
+            // Each number is computed once for everything that uses it.
+            let sections: Vec<[Expr; 8]> = sections
+                .into_iter()
+                .map(|row| row.map(|number| self.shared_of_shaft(name, number)))
+                .collect();
+            let of_end = |end: &ShaftStation| {
+                motions.iter().filter_map(|(k, factor)| Some((end.coordinates[*k]?, *factor))).collect()
+            };
+            let span = Span {
+                line,
+                speed: declared.speed.clone(),
+                sections,
+                elements: elements.clone(),
+                ends: ends.map(of_end),
+            };
+            let along = if motions[0].0 == 5 { None } else { Some(motions[0].0) };
+            let weight = match (line, along) {
+                (Line::Bar, None) => [zero(), zero()],
+                (Line::Bar, _) => [dot(gravity, &declared.axes[0]), zero()],
+                _ => [1, 2].map(|axis| dot(gravity, &declared.axes[axis])),
+            };
+            let laws = self.at_rest(name, &span, weight).into_iter().chain(self.lumped(name, &span));
+            forces.extend(laws.map(|law| Force { name: name.clone(), law, of_every: true }));
+            spans.push(span);
+        }
+        spans
+    }
+
+
+    /// Half the inertia of a span at each end, so that all its coordinates move some in the equations that are compiled. The
+    /// run time takes the same away again ([`LUMPED`]).
+    fn lumped(&mut self, name: &Ident, span: &Span) -> Vec<ForceLaw> {
+        let [mut length, mut mass, mut rotary] = [(); 3].map(|()| Expr::Number(0.0));
+        for section in &span.sections {
+            let part = |k: usize| multiply(section[k].clone(), section[0].clone());
+            [length, mass, rotary] = [add(length, section[0].clone()), add(mass, part(3)), add(rotary, part(4))];
+        }
+        let turned = multiply(mass.clone(), multiply(Expr::Number(LUMPED), power_integer(length, 2)));
+        let half = |x: Expr| multiply(Expr::Number(0.5), x);
+        let both = [half(mass), half(add(rotary, turned))].map(|x| self.shared_of_shaft(name, x));
+        let ends = span.ends.iter().flat_map(|end| end.iter().enumerate());
+        ends.map(|(k, (coordinate, _))| ForceLaw::CoordinateInerter {
+            coordinate: *coordinate,
+            inertance: both[k % 2].clone(),
+        })
+        .collect()
+    }
+
+    pub(super) fn shared_of_shaft(&mut self, name: &Ident, value: Expr) -> Expr {
+        match value {
+            Expr::Number(_) | Expr::Design(_) | Expr::Input(_) | Expr::Constant(_) => value,
+            value => {
+                let name = Ident::new(&joined(&name.to_string(), "section"), name.span());
+                self.shared(name, value)
+            }
+        }
+    }
+}
