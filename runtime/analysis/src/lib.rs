@@ -30,7 +30,7 @@ use eigentol_numerics::algebra::Vector;
 use eigentol_numerics::{Complex, algebra, eigenproblem};
 use eigentol_results::setters;
 use eigentol_solve::{Behaviour, Equilibrium, Error, Kernels, Mode, Modes, Quantity, Sensitivities, Stability, Watch};
-use eigentol_solve::{arguments, constraints, equilibrium, error, free, kernels, modes, rounding, sensitivity};
+use eigentol_solve::{arguments, constraints, equilibrium, error, free, kernels, modes, rounding, sensitivity, shafts};
 use eigentol_tolerance::{batched, tolerance};
 
 pub use campbell::Campbell;

@@ -21,13 +21,21 @@ pub struct Assembly {
     degree: usize,
 }
 
-/// An assembly at one `s`, factored.
+/// An assembly at one `s`, with everything between the stations eliminated.
 #[derive(Clone, Debug)]
-pub struct At<'a> {
+pub struct Condensed<'a> {
     assembly: &'a Assembly,
     /// 1/s.
     pub s: Complex,
     chains: Vec<Vec<Chain>>,
+}
+
+/// An assembly at one `s`, factored.
+#[derive(Clone, Debug)]
+pub struct At<'a> {
+    condensed: Condensed<'a>,
+    /// 1/s.
+    pub s: Complex,
     factors: Lu<Complex>,
 }
 
@@ -93,49 +101,16 @@ impl Assembly {
     /// Factors the assembly at one `s`: a cost that grows linearly with the sections. `None` if it is singular there.
     #[must_use]
     pub fn at(&self, s: Complex) -> Option<At<'_>> {
-        let chains: Vec<Vec<Chain>> = self
-            .spans
-            .iter()
-            .map(|span| span.directions().iter().map(|&direction| self.chain(span, direction, s)).collect())
-            .collect();
-        let matrix = self.matrix(&chains, s);
-        let factors = Lu::of(matrix)?;
-        Some(At { assembly: self, s, chains, factors })
+        let condensed = self.condensed(s);
+        let factors = Lu::of(condensed.matrix())?;
+        Some(At { condensed, s, factors })
     }
 
-    /// `T(s)`.
-    fn matrix(&self, chains: &[Vec<Chain>], s: Complex) -> Matrix<Complex> {
-        let n = self.stations();
-        let mut matrix = Matrix::from_fn(n, n, |i, j| {
-            let constant = Complex::new(self.stiffness[i][j], 0.0);
-            constant + s * (self.damping[i][j] + s * self.mass[i][j])
-        });
-        for (span, chains) in self.spans.iter().zip(chains) {
-            let c = span.components();
-            for (direction, chain) in span.directions().iter().zip(chains) {
-                // planes `y y`, `y z`, `z y`, `z z` of each entry
-                let (half, turned) = (0.5, Complex::new(0.0, 0.5 * direction));
-                for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    for (a, b) in (0..c).flat_map(|a| (0..c).map(move |b| (a, b))) {
-                        let entry = chain.ends[p][q][a][b];
-                        let mut put = |row: usize, column: usize, value: Complex| {
-                            if let (Some((i, left)), Some((j, right))) = (span.ends[p][row], span.ends[q][column]) {
-                                matrix[i][j] += value * (left * right);
-                            }
-                        };
-                        if c == 1 {
-                            put(a, b, entry);
-                            continue;
-                        }
-                        put(a, b, entry * half);
-                        put(a, b + 2, entry * turned);
-                        put(a + 2, b, -entry * turned);
-                        put(a + 2, b + 2, entry * half);
-                    }
-                }
-            }
-        }
-        matrix
+    /// The assembly at one `s`, not factored: a cost that grows linearly with the sections.
+    #[must_use]
+    pub fn condensed(&self, s: Complex) -> Condensed<'_> {
+        let of_span = |span: &Span| span.directions().iter().map(|&direction| self.chain(span, direction, s)).collect();
+        Condensed { assembly: self, s, chains: self.spans.iter().map(of_span).collect() }
     }
 
     /// The loads that a motion asks for: each coefficient times what `of` makes of it, and the matrices of the stations
@@ -268,36 +243,75 @@ fn product(k: &[Complex; TERMS], forms: &[Complex; TERMS]) -> Complex {
     k.iter().zip(forms).map(|(k, form)| k * form).sum()
 }
 
-impl At<'_> {
-    /// The motion under loads on the stations.
+impl<'a> Condensed<'a> {
+    /// `T(s)`.
     #[must_use]
-    pub fn response(&self, loads: &[Complex]) -> Motion {
-        self.between(self.factors.solve(loads))
+    pub fn matrix(&self) -> Matrix<Complex> {
+        let (own, s, n) = (self.assembly, self.s, self.assembly.stations());
+        let mut matrix = Matrix::from_fn(n, n, |i, j| {
+            let constant = Complex::new(own.stiffness[i][j], 0.0);
+            constant + s * (own.damping[i][j] + s * own.mass[i][j])
+        });
+        for (span, chains) in own.spans.iter().zip(&self.chains) {
+            let c = span.components();
+            for (direction, chain) in span.directions().iter().zip(chains) {
+                // planes `y y`, `y z`, `z y`, `z z` of each entry
+                let (half, turned) = (0.5, Complex::new(0.0, 0.5 * direction));
+                for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    for (a, b) in (0..c).flat_map(|a| (0..c).map(move |b| (a, b))) {
+                        let entry = chain.ends[p][q][a][b];
+                        let mut put = |row: usize, column: usize, value: Complex| {
+                            if let (Some((i, left)), Some((j, right))) = (span.ends[p][row], span.ends[q][column]) {
+                                matrix[i][j] += value * (left * right);
+                            }
+                        };
+                        if c == 1 {
+                            put(a, b, entry);
+                            continue;
+                        }
+                        put(a, b, entry * half);
+                        put(a, b + 2, entry * turned);
+                        put(a + 2, b, -entry * turned);
+                        put(a + 2, b + 2, entry * half);
+                    }
+                }
+            }
+        }
+        matrix
     }
 
     /// The motion in which the stations move like this and nothing loads what is between them.
-    pub(crate) fn between(&self, stations: Vector<Complex>) -> Motion {
-        let mut motion = self.assembly.still(Kept::All);
-        motion.stations = stations;
-        self.spread(&mut motion, Side::Right);
-        motion
-    }
-
-    /// The weights of all equations whose sum has no other unknowns than those of the stations, with these factors there:
-    /// the same motion for the transposed equations.
     #[must_use]
-    pub fn adjoint(&self, factors: &[Complex]) -> Motion {
+    pub fn motion(&self, stations: &[Complex]) -> Motion {
+        self.spread_from(stations, Side::Right)
+    }
+
+    /// The weights of all equations whose sum has no other unknowns than those of the stations, with these weights there.
+    #[must_use]
+    pub fn weights(&self, stations: &[Complex]) -> Motion {
+        self.spread_from(stations, Side::Left)
+    }
+
+    fn spread_from(&self, stations: &[Complex], side: Side) -> Motion {
         let mut motion = self.assembly.still(Kept::All);
-        motion.stations = self.factors.solve_transposed(factors);
-        self.spread(&mut motion, Side::Left);
+        motion.stations = stations.into();
+        self.spread(&mut motion, side);
         motion
     }
 
-    /// The phase of the determinant of all equations.
-    pub(crate) fn phase(&self) -> Complex {
-        let spans = self.assembly.spans.iter().zip(&self.chains);
-        let within = spans.flat_map(|(span, chains)| chains.iter().map(|chain| chain.phase(span.components())));
-        within.product::<Complex>() * self.factors.phase_of_determinant()
+    /// `T'(s)` times a motion of the stations.
+    #[must_use]
+    pub fn slope_times(&self, stations: &[Complex]) -> Vector<Complex> {
+        self.reduced(self.assembly.slope_loads(&self.motion(stations), self.s, Side::Right), Side::Right).stations
+    }
+
+    /// Loads everywhere as loads on the stations; what remains within is reduced in place, for [`Self::spread`].
+    fn reduced(&self, mut loads: Motion, side: Side) -> Motion {
+        for ((span, chains), within) in self.assembly.spans.iter().zip(&self.chains).zip(&mut loads.spans) {
+            let ends: Vec<[Node; 2]> = chains.iter().zip(within).map(|(chain, loads)| chain.reduce(loads)).collect();
+            span.add_loads(&ends, side, &mut loads.stations);
+        }
+        loads
     }
 
     /// Turns reduced loads between the stations into the motion there.
@@ -309,10 +323,38 @@ impl At<'_> {
             }
         }
     }
+}
+
+impl At<'_> {
+    /// The motion under loads on the stations.
+    #[must_use]
+    pub fn response(&self, loads: &[Complex]) -> Motion {
+        self.between(self.factors.solve(loads))
+    }
+
+    /// The motion in which the stations move like this and nothing loads what is between them.
+    pub(crate) fn between(&self, stations: Vector<Complex>) -> Motion {
+        self.condensed.motion(&stations)
+    }
+
+    /// The weights of all equations whose sum has no other unknowns than those of the stations, with these factors there:
+    /// the same motion for the transposed equations.
+    #[must_use]
+    pub fn adjoint(&self, factors: &[Complex]) -> Motion {
+        self.condensed.weights(&self.factors.solve_transposed(factors))
+    }
+
+    /// The phase of the determinant of all equations.
+    pub(crate) fn phase(&self) -> Complex {
+        let spans = self.condensed.assembly.spans.iter().zip(&self.condensed.chains);
+        let within = spans.flat_map(|(span, chains)| chains.iter().map(|chain| chain.phase(span.components())));
+        within.product::<Complex>() * self.factors.phase_of_determinant()
+    }
 
     /// [`Self::solve`] for real loads at a real `s`, of which the first direction alone is kept.
     pub(crate) fn solve_real(&self, mut loads: Motion) -> Motion {
-        for ((span, chains), within) in self.assembly.spans.iter().zip(&self.chains).zip(&mut loads.spans) {
+        let spans = self.condensed.assembly.spans.iter().zip(&self.condensed.chains);
+        for ((span, chains), within) in spans.zip(&mut loads.spans) {
             let ends: Vec<[Node; 2]> = chains.iter().zip(within).map(|(chain, loads)| chain.reduce(loads)).collect();
             let mut on = Vector::zeros(loads.stations.len());
             span.add_loads(&ends, Side::Right, &mut on);
@@ -321,21 +363,18 @@ impl At<'_> {
         }
         loads.stations = self.factors.solve(&loads.stations);
         loads.stations.iter_mut().for_each(|x| x.im = 0.0);
-        self.spread(&mut loads, Side::Right);
+        self.condensed.spread(&mut loads, Side::Right);
         loads
     }
 
     /// Turns loads everywhere into the motion under them.
-    pub(crate) fn solve(&self, mut loads: Motion, side: Side) -> Motion {
-        for ((span, chains), within) in self.assembly.spans.iter().zip(&self.chains).zip(&mut loads.spans) {
-            let ends: Vec<[Node; 2]> = chains.iter().zip(within).map(|(chain, loads)| chain.reduce(loads)).collect();
-            span.add_loads(&ends, side, &mut loads.stations);
-        }
+    pub(crate) fn solve(&self, loads: Motion, side: Side) -> Motion {
+        let mut loads = self.condensed.reduced(loads, side);
         loads.stations = match side {
             Side::Right => self.factors.solve(&loads.stations),
             Side::Left => self.factors.solve_transposed(&loads.stations),
         };
-        self.spread(&mut loads, side);
+        self.condensed.spread(&mut loads, side);
         loads
     }
 }

@@ -10,7 +10,7 @@ mod motion;
 mod section;
 mod span;
 
-pub use assembly::{Assembly, At, SpanGradient};
+pub use assembly::{Assembly, At, Condensed, SpanGradient};
 pub use eigentol_numerics::{Complex, Matrix};
 pub use error::Error;
 pub use modes::Mode;

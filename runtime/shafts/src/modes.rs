@@ -32,6 +32,12 @@ const CLOSE: f64 = 1e-6;
 const RIGID: f64 = 1e-4;
 /// Radians by which a determinant may turn in half a step along an edge.
 const TURN: f64 = 0.9;
+/// Distance of equal eigenvalues as a part of them.
+const SAME: f64 = 1e-7;
+/// How far beside an eigenvalue another one with the same value is looked for, as a part of it.
+const APART: f64 = 1e-9;
+/// The inverse of what is left without a mode, above which no other has its eigenvalue.
+const ALONE: f64 = 1e3;
 /// The shift as a part of a typical frequency: rigid motions have none.
 const SHIFT: f64 = 0.1;
 
@@ -45,9 +51,13 @@ impl Assembly {
         let mut modes: Vec<Mode> = Vec::new();
         for (s, stations) in self.krylov(count + 2)? {
             let mode = self.turned(&self.beside(s)?, stations)?;
-            if !modes.iter().any(|other| same(other, &mode)) {
-                modes.push(mode);
+            // Both of two equal ones are found with the first.
+            if modes.iter().any(|other| other.is_near(&mode)) {
+                continue;
             }
+            let second = self.beside_it(&mode)?;
+            modes.push(mode);
+            modes.extend(second);
         }
         modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
         modes.truncate(count);
@@ -87,6 +97,33 @@ impl Assembly {
             }
         }
         Some(turns.round().max(0.0) as usize)
+    }
+
+    /// Another mode with the same eigenvalue, as each of a round rotor at rest has: a Krylov space knows one of them. It is
+    /// what inverse iteration leaves of a motion without the known mode; `None` where that is nothing.
+    fn beside_it(&self, mode: &Mode) -> Result<Option<Mode>, Error> {
+        let s = mode.s * (1.0 + APART);
+        let Some(at) = self.at(s) else { return Ok(None) };
+        let slope = self.slope_loads(&mode.right, s, Side::Right);
+        let slope_left = self.slope_loads(&mode.left, s, Side::Left);
+        let rest = |side: Side, known: &Motion, weights: &Motion| {
+            let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0, 0.3 * (k % 3) as f64));
+            let mut loads = self.still(Kept::All);
+            loads.stations = ones;
+            let mut motion = at.solve(loads, side);
+            motion.normalise();
+            motion.add(-motion.product(weights) / known.product(weights), known);
+            motion
+        };
+        let (mut right, mut left) =
+            (rest(Side::Right, &mode.right, &slope_left), rest(Side::Left, &mode.left, &slope));
+        // What is left where the eigenvalue is single is smaller by the distance from it as a part of that to the next.
+        if right.normalise() > ALONE || left.normalise() > ALONE {
+            return Ok(None);
+        }
+        // Once more: beside an eigenvalue already the first step is small.
+        let second = self.near(&self.near(&Mode { s, right, left })?)?;
+        Ok(Some(second).filter(|second| second.is_near(mode) && !second.is_same(mode)))
     }
 
     /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span. By
@@ -248,10 +285,17 @@ impl Assembly {
     }
 }
 
-/// Whether two modes are one.
-fn same(a: &Mode, b: &Mode) -> bool {
-    let product: Complex = a.right.flat().zip(b.right.flat()).map(|(a, b)| a.conj() * b).sum();
-    (a.s - b.s).norm() < 1e-7 * a.s.norm() && product.norm() > 0.999
+impl Mode {
+    /// Whether two modes are one.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        let product: Complex = self.right.flat().zip(other.right.flat()).map(|(a, b)| a.conj() * b).sum();
+        self.is_near(other) && product.norm() > 0.999
+    }
+
+    fn is_near(&self, other: &Self) -> bool {
+        (self.s - other.s).norm() < SAME * self.s.norm()
+    }
 }
 
 fn normalise(x: &mut [f64]) -> f64 {

@@ -18,6 +18,8 @@ pub mod kernels;
 pub mod modes;
 #[doc(hidden)]
 pub mod rounding;
+#[doc(hidden)]
+pub mod shafts;
 pub mod sensitivity;
 #[doc(hidden)]
 pub mod state;

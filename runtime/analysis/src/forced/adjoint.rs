@@ -60,7 +60,10 @@ impl<'a> OutputAdjoint<'a> {
         let (first, rows) = (outputs.start, &vibration.seen);
         let weights = Matrix::from_fn(z.len(), outputs.len(), |i, k| rows[first + k][i]);
         let lefts = vibration.stiffness.solve_transposed(&weights);
-        let of_matrices = pencil_slope_times(&solved.at.linear, s, z);
+        let of_matrices = match &solved.shafts {
+            None => pencil_slope_times(&solved.at.linear, s, z),
+            Some(own) => own.shafts.slope_times(s, z),
+        };
         let adjoint = |output: usize| {
             let finite = solved.smooth[output] && !vibration.stiffness.seen_by(&rows[output]);
             finite.then(|| {
@@ -119,6 +122,16 @@ pub(super) fn gradients(solved: &Solved<'_>, vibration: &Vibration, outputs: &[&
         for _ in calls {
             let pairs = total.iter_mut().zip(rows.by_ref());
             pairs.for_each(|(total, row)| add_to(total, -1.0, row));
+        }
+    }
+    if let Some(shafts) = &solved.shafts {
+        let (s, n) = (vibration.harmonic.s(), solved.at.coordinates.len());
+        let [re, im] = &mut total;
+        for (k, output) in outputs.iter().enumerate() {
+            shafts.add(&output.factors.left, s, &vibration.harmonic.unknowns, |variable, slope| {
+                re[k][n + variable] += slope.re;
+                im[k][n + variable] += slope.im;
+            });
         }
     }
     total

@@ -12,6 +12,7 @@ use crate::Complex;
 use crate::algebra::{Lu, Matrix, Vector, product_complex};
 use crate::kernels::Linear;
 use crate::scalar::Real as _;
+use crate::shafts::Shafts;
 
 /// Rounding errors of a scaled element that a vanishing direction may hide behind, times the number of unknowns.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -42,9 +43,12 @@ struct Vanishing {
 }
 
 impl DynamicStiffness {
-    /// At `s = i w`; `None` if it is singular beyond what single modes explain.
-    pub(super) fn new(linear: &Linear, s: Complex) -> Option<Self> {
-        let Scaled { rows, columns, mut matrix } = Scaled::new(linear, s);
+    /// At `s = i w`, with the shafts if there are any; `None` if it is singular beyond what single modes explain.
+    pub(super) fn new(linear: &Linear, shafts: Option<&Shafts>, s: Complex) -> Option<Self> {
+        let Scaled { rows, columns, mut matrix } = match shafts {
+            None => Scaled::new(linear, s),
+            Some(shafts) => Scaled::of_matrix(shafts.matrix(s)),
+        };
         let n = rows.len();
         let mut vanishing = Vec::new();
         for _ in 0..=n {
@@ -53,7 +57,11 @@ impl DynamicStiffness {
                 return Some(Self { rows, columns, matrix, factors, vanishing });
             };
             let (c, m) = (&linear.damping, &linear.mass);
-            let slope = Matrix::from_fn(n, n, |i, j| (2.0 * s * m[i][j] + c[i][j]) * (rows[i] * columns[j]));
+            let slope = match shafts {
+                None => Matrix::from_fn(n, n, |i, j| 2.0 * s * m[i][j] + c[i][j]),
+                Some(shafts) => shafts.slope(s),
+            };
+            let slope = Matrix::from_fn(n, n, |i, j| slope[i][j] * (rows[i] * columns[j]));
             let column = unit(&times(&slope, &direction.right))?;
             let row = unit(&times(&slope.transpose(), &direction.left))?;
             for i in 0..n {
@@ -113,6 +121,16 @@ impl Scaled {
             #[inline(always)]
             || Self::of(linear, s),
         )
+    }
+
+    fn of_matrix(mut matrix: Matrix<Complex>) -> Self {
+        let n = matrix.row_count();
+        let sizes: Vec<i32> = matrix.as_flattened().iter().map(|value| twice_log2(value.norm())).collect();
+        let (rows, columns) = scales(n, &sizes);
+        for (row, by_row) in matrix.iter_mut().zip(&rows) {
+            row.iter_mut().zip(&columns).for_each(|(value, by_column)| *value *= by_row * by_column);
+        }
+        Self { rows, columns, matrix }
     }
 
     #[inline(always)]

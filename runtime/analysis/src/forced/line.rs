@@ -181,7 +181,7 @@ impl<'a> Lines<'a> {
         }
         let scale = measure.of(w, Complex::new(1.0, 0.0)).norm();
         let residues = modes.iter().map(|mode| {
-            let (size, share) = residue(&at.linear, mode, seen, &force);
+            let (size, share) = residue(&self.solved, mode, seen, &force);
             (scale * size, share)
         });
         let amplitude = [measure.of(w, y), measure.slope((w, y), dw, dy)];
@@ -243,7 +243,7 @@ const NOT_SMOOTH: Error = Error::NoSensitivity { reason: NoDerivative::NotSmooth
 
 /// `|(c . phi) (psi . f) / psi^T (2 s M + C) phi|`: the size of the residue of `c . D^-1 f` at the pole of a mode; zero
 /// where rounding alone makes it differ from that. And the lesser of what is left of the terms in both products, as a share.
-fn residue(linear: &Linear, mode: &Mode, seen: &[Complex], force: &[Complex]) -> (f64, f64) {
+fn residue(solved: &Solved<'_>, mode: &Mode, seen: &[Complex], force: &[Complex]) -> (f64, f64) {
     let product = |x: &[Complex], y: &[Complex]| {
         let terms: f64 = x.iter().zip(y).map(|(x, y)| (x * y).norm()).sum();
         let product = dot_complex(x, y).norm();
@@ -255,7 +255,10 @@ fn residue(linear: &Linear, mode: &Mode, seen: &[Complex], force: &[Complex]) ->
     if share == 0.0 {
         return (0.0, 0.0);
     }
-    let slope = pencil_slope_times(linear, mode.s, right);
+    let slope = match &solved.shafts {
+        None => pencil_slope_times(&solved.at.linear, mode.s, right),
+        Some(own) => own.shafts.slope_times(mode.s, right),
+    };
     (seen.0 * force.0 / dot_complex(left, &slope).norm(), share)
 }
 

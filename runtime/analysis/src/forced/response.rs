@@ -10,6 +10,7 @@ use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
 use crate::modes::modes;
 use crate::sensitivity::{check_state, outside_domain};
+use crate::shafts::ShaftSlopes;
 use crate::{Complex, Description, Equilibrium, Error, Excitation, Output, Shared};
 
 /// The steady vibration under all excitations: of each output and unknown, `Re(y e^{i w t})`, by harmonic.
@@ -108,6 +109,7 @@ pub(super) struct Solved<'a> {
     /// Whether each output has a derivative.
     pub(super) smooth: Vec<bool>,
     pub(super) vibrations: Vec<Vibration>,
+    pub(super) shafts: Option<ShaftSlopes>,
 }
 
 /// A harmonic and the factors of its dynamic stiffness.
@@ -144,6 +146,7 @@ impl<'a> Solved<'a> {
         closes(at, &forces)?;
         let mut seen = Seen::of(mechanism, at);
         let smooth = seen.without_rough(&forces);
+        let shafts = ShaftSlopes::of(mechanism, at)?;
         let mut vibrations: Vec<Vibration> = Vec::new();
         for first in (0..infos.len()).filter(|&k| infos[k].with == k) {
             let frequency = forces.frequency(first).abs();
@@ -151,7 +154,11 @@ impl<'a> Solved<'a> {
             let stiffness = match vibrations.iter().find(same) {
                 Some(vibration) => vibration.stiffness.clone(),
                 None => {
-                    let dynamic_stiffness = DynamicStiffness::new(&at.linear, Complex::new(0.0, frequency));
+                    let dynamic_stiffness = DynamicStiffness::new(
+                        &at.linear,
+                        shafts.as_ref().map(|own| &own.shafts),
+                        Complex::new(0.0, frequency),
+                    );
                     Rc::new(dynamic_stiffness.ok_or_else(|| resonance(at, first, frequency))?)
                 }
             };
@@ -161,7 +168,7 @@ impl<'a> Solved<'a> {
             let shares = shares.map_err(|driven| resonance(at, driven, frequency))?;
             vibrations.push(Vibration { harmonic: superposed(mechanism, frequency, shares), stiffness, seen: rows });
         }
-        Ok(Self { mechanism, at, seen, smooth, vibrations })
+        Ok(Self { mechanism, at, seen, smooth, vibrations, shafts })
     }
 
     /// Why derivatives are not finite: an output that has none by the value of the state is in the way of all.

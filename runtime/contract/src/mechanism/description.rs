@@ -357,7 +357,7 @@ impl SpanInfo {
 
     /// How many numbers it has in [`Mechanism::spans`](crate::Mechanism::spans).
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         1 + Self::NUMBERS * self.elements.len()
     }
 }

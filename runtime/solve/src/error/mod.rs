@@ -174,6 +174,18 @@ pub enum Error {
         /// The coordinate whose pivot vanishes.
         coordinate: Text,
     },
+    /// A shaft is not one that can be computed, or its modes were not found.
+    #[error("shafts: {reason}")]
+    Shaft {
+        /// What is wrong.
+        reason: Text,
+    },
+    /// A question that takes all modes or all equations, of a mechanism with shafts.
+    #[error("{what}: not for mechanisms with a `shaft`, whose equations are not all compiled; chains of `beam`s have them")]
+    NotWithShafts {
+        /// What was asked.
+        what: Text,
+    },
     /// The stiffness matrix is singular: the equilibrium is a critical state.
     #[error(
         "the stiffness matrix is singular at this equilibrium: its shift by design variables is not defined. At a \

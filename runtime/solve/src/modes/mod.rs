@@ -32,6 +32,7 @@ pub use blades::{BladePattern, Travel, ring_speeds};
 #[doc(hidden)]
 pub use constrained::free_pairs;
 pub(crate) use deflation::deflated;
+pub(crate) use normalisation::normalise_by_mass;
 #[doc(hidden)]
 pub use kinetic::inertia;
 pub use mode::{Behaviour, Mode};
@@ -48,6 +49,7 @@ use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::{Eigenproblem, EigenproblemError, Pairs, Root, roots_near};
 use crate::kernels::{DeviatingInputs, Kernels, Linear};
 use crate::rounding::{Sign, sign};
+use crate::shafts::Shafts;
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
 
 /// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances: rounding mixes their
@@ -254,6 +256,8 @@ pub enum ModesFailure {
     /// Undamped modes were requested, but speeds or constraints on velocities rule them out.
     NotHolonomic,
     Pencil(EigenproblemError),
+    /// Those of shafts were not found.
+    Shafts,
     /// Harmonics that are left out move an eigenvalue by about this part of it.
     Periodic {
         error: f64,
@@ -269,6 +273,7 @@ impl ModesFailure {
     #[cold]
     pub(crate) fn explain(self, description: &Description) -> Error {
         match self {
+            Self::Shafts => Error::Shaft { reason: "its modes did not converge".into() },
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
             Self::NotHolonomic => Error::NoUndampedModes,
             Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
@@ -324,6 +329,13 @@ impl Modes {
     /// given.
     #[doc(hidden)]
     pub fn solve_judged(&mut self, at: &Equilibrium, judged: Vec<Mode>, nearby: &[Mode]) -> Result<(), ModesFailure> {
+        let of_shafts = Shafts::of(at).map_err(|_| ModesFailure::Shafts)?;
+        if let Some(shafts) = of_shafts {
+            self.modes = if judged.is_empty() { shafts.modes(at, nearby).ok_or(ModesFailure::Shafts)? } else { judged };
+            self.family = Family::General;
+            sort_by_frequency(&mut self.modes);
+            return Ok(());
+        }
         let alone = at.free.held.is_empty();
         if self.family == Family::General && !judged.is_empty() && alone {
             self.modes = judged;
@@ -458,18 +470,11 @@ fn solve_general(
         } else if s.im > 0.0 && keeps_amplitude && conservative {
             s.re = 0.0;
         }
-        let behaviour = match (zero, s.im > 0.0, s.re > 0.0) {
-            (true, ..) if free_left > 0 => {
-                free_left -= 1;
-                Behaviour::Free
-            }
-            (true, ..) => Behaviour::Neutral,
-            (_, true, _) if keeps_amplitude => Behaviour::Oscillating(s.im),
-            (_, true, false) => Behaviour::Damped(s.im),
-            (_, true, true) => Behaviour::Flutter(s.im),
-            (_, false, false) => Behaviour::Decaying(-s.re),
-            (_, false, true) => Behaviour::Divergent(s.re),
-        };
+        let mut behaviour = behaviour(s, error, zero);
+        if zero && free_left > 0 {
+            free_left -= 1;
+            behaviour = Behaviour::Free;
+        }
         let lambda = -(s * s).re;
         if !lambda.is_finite() {
             let size = s.norm();
@@ -490,6 +495,19 @@ fn solve_general(
     principal::keep_principal(linear, description, modes)?;
     sort_by_frequency(modes);
     Ok(())
+}
+
+/// What a general mode does, whose eigenvalue is known up to an error.
+pub(crate) fn behaviour(s: Complex, error: f64, zero: bool) -> Behaviour {
+    let keeps_amplitude = sign(s.re, error) == Sign::Zero;
+    match (zero, s.im > 0.0, s.re > 0.0) {
+        (true, ..) => Behaviour::Neutral,
+        (_, true, _) if keeps_amplitude => Behaviour::Oscillating(s.im),
+        (_, true, false) => Behaviour::Damped(s.im),
+        (_, true, true) => Behaviour::Flutter(s.im),
+        (_, false, false) => Behaviour::Decaying(-s.re),
+        (_, false, true) => Behaviour::Divergent(s.re),
+    }
 }
 
 /// Puts modes that ascend in `|s|` in ascending order of their frequencies; those without one come first, as undamped

@@ -184,6 +184,17 @@ impl Mode {
         }
     }
 
+    /// A mode of a mechanism with shafts.
+    pub(crate) fn general(
+        s: Complex,
+        (shape, left): (Vector<Complex>, Vector<Complex>),
+        behaviour: Behaviour,
+        residual: f64,
+        error: f64,
+    ) -> Self {
+        Self { s, lambda: -(s * s).re, shape, left, behaviour, residual, error, condition: 1.0, label: 0 }
+    }
+
     /// An empty mode, to be overwritten.
     pub(super) fn blank() -> Self {
         Self {

@@ -10,6 +10,7 @@ use super::{Method, ModeSensitivity, Sensitivities, assemble_into, check_state, 
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
 use crate::kernels::{Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros};
 use crate::modes::{Family, pencil_slope_times};
+use crate::shafts::ShaftSlopes;
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
 /// Total derivatives of every mode with respect to every input and design variable.
@@ -75,7 +76,8 @@ impl<'a> Adjoint<'a> {
             Source::Reverse => (None, None),
         };
         let sizes = mechanism.sizes();
-        let shared = AdjointContext { mechanism: *mechanism, at, factors: &factors, residual };
+        let shafts = ShaftSlopes::of(*mechanism, at)?;
+        let shared = AdjointContext { mechanism: *mechanism, at, factors: &factors, residual, shafts };
         match (modes.family, matrices, residual) {
             (Family::Undamped, Some(matrices), Some(residual)) => {
                 assemble_into(at, modes, sensitivities, |sensitivity, mode| {
@@ -106,6 +108,7 @@ struct AdjointContext<'a> {
     factors: &'a Factors,
     /// Explicit partials of the residual, if its gradients are computed from them.
     residual: Option<&'a ResidualPartials>,
+    shafts: Option<ShaftSlopes>,
 }
 
 impl AdjointContext<'_> {
@@ -174,8 +177,22 @@ impl AdjointContext<'_> {
         for part in gradient.iter_mut() {
             self.total(part, &mut room[0]);
         }
-        let [re, im] = &*gradient;
-        let scale = -normaliser(self.at, mode);
+        let [re, im] = gradient;
+        let scale = match &self.shafts {
+            None => -normaliser(self.at, mode),
+            Some(shafts) => {
+                let (left, s, right) = (mode.left(), mode.s, &mode.shape);
+                shafts.add(left, s, right, |k, slope| {
+                    let inputs = re.inputs.len();
+                    let (re, im) = match k.checked_sub(inputs) {
+                        None => (&mut re.inputs[k], &mut im.inputs[k]),
+                        Some(k) => (&mut re.design[k], &mut im.design[k]),
+                    };
+                    (*re, *im) = (*re + slope.re, *im + slope.im);
+                });
+                -dot_complex(left, &shafts.shafts.slope_times(s, right))
+            }
+        };
         let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
         let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
         let by_design = re.design.iter().zip(&im.design).map(slope);

@@ -35,7 +35,10 @@ pub struct Equilibrium {
     /// it to matter, and if `Khat` is not symmetric.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub rounding: f64,
-    /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).
+    /// The numbers of the spans of shafts, SI.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub spans: Vector,
+    /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17); with shafts those that are compiled.
     pub linear: Linear,
     /// Remaining residual, N or N m; at the positions of reactions the gaps of their constraints, in the direction of
     /// the reaction.
@@ -83,6 +86,7 @@ impl Equilibrium {
             design: design.into(),
             stability: Stability::Undecided,
             rounding: 0.0,
+            spans: Vector::default(),
             linear: Linear::zeros(n),
             residual: Vector::zeros(n),
             relative_residual: f64::INFINITY,

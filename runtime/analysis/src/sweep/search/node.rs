@@ -10,6 +10,7 @@ use crate::eigenproblem::eigenvalues;
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{Family, free_pairs, pencil_slope_times, pencil_times};
 use crate::sensitivity::Direction;
+use crate::shafts::ShaftSlopes;
 use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
 /// Eigenvalues closer than this, relative to the larger, are derived together: rounding mixes their shapes.
@@ -47,7 +48,11 @@ impl Question<'_> {
         let change = direction.linear(self.mechanism, state);
         let roots = match self.family {
             Family::Undamped => undamped(&modes.modes, &change),
-            Family::General => general(&modes.modes, &state.linear, &change),
+            Family::General => {
+                let shafts = ShaftSlopes::of(self.mechanism, state)?;
+                let along_input = (self.input, along.p);
+                general(&modes.modes, &state.linear, &change, shafts.as_ref().map(|own| (own, along_input)))
+            }
         };
         let stiffness = if self.stiffness { stiffness(state, &change)? } else { Vec::new() };
         let input = [point.place.p + self.deviation, along.p];
@@ -110,7 +115,13 @@ fn real_roots(
     (0..values.len()).map(root).collect()
 }
 
-fn general(modes: &[Mode], linear: &Linear, change: &Linear) -> Vec<Root> {
+/// Eigenvalues with their derivatives; shafts with the input that varies and how fast.
+fn general(
+    modes: &[Mode],
+    linear: &Linear,
+    change: &Linear,
+    shafts: Option<(&ShaftSlopes, (usize, f64))>,
+) -> Vec<Root> {
     let near = |r: usize, k: usize| {
         let (a, b) = (&modes[r], &modes[k]);
         let size = a.s.norm().max(b.s.norm());
@@ -122,9 +133,15 @@ fn general(modes: &[Mode], linear: &Linear, change: &Linear) -> Vec<Root> {
             let images: Vec<_> = cluster.iter().map(|&j| matrix(&modes[j].shape)).collect();
             Matrix::from_fn(cluster.len(), cluster.len(), |i, j| dot_complex(modes[cluster[i]].left(), &images[j]))
         };
-        let rates = products(&|x| pencil_slope_times(linear, s, x));
         let changes = products(&|x| pencil_times(change, s, x));
-        quotient(rates, changes)
+        let Some((shafts, (input, rate))) = shafts else {
+            return quotient(products(&|x| pencil_slope_times(linear, s, x)), changes);
+        };
+        let changes = Matrix::from_fn(cluster.len(), cluster.len(), |i, j| {
+            let (left, right) = (modes[cluster[i]].left(), &modes[cluster[j]].shape);
+            changes[i][j] + shafts.along_input(left, s, right, input) * rate
+        });
+        quotient(products(&|x| shafts.shafts.slope_times(s, x)), changes)
     });
     let roots = modes.iter().zip(slopes);
     let root = |(mode, slope): (&Mode, Complex)| Root {

@@ -1,0 +1,325 @@
+//! Shafts: what they add to the equations that are compiled.
+//!
+//! A compiled mechanism holds of a shaft what it does at rest and, at its stations, half the inertia of each neighbouring
+//! span. Everything else follows here from the numbers of the sections: with `spans(s)` what remains of the spans when all
+//! between the stations is eliminated, `T(s) = s^2 Mhat + s Chat + Khat + spans(s) - spans(0) - s^2 lumped`. Small motions and
+//! vibrations of a mechanism with shafts are those of `T`; its equilibrium is that of the compiled equations.
+
+use eigentol_contract::{LineKind, SpanInfo};
+use eigentol_shafts::{Assembly, Line, Number, Section, Span, SpanGradient};
+
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, dot_complex};
+use crate::kernels::{Kernels, Second};
+use crate::modes::{Behaviour, Modes, behaviour, normalise_by_mass};
+use crate::scalar::Dual;
+use crate::{Complex, Description, Equilibrium, Error, Mode, Stability};
+
+/// The degree of the polynomials in each element.
+const DEGREE: usize = 4;
+/// The inertia of a slope of a span, as a part of its mass times the square of its length.
+const LUMPED: f64 = 1.0 / 52.5;
+/// The number of modes that are sought: those of lowest frequency.
+const MODES: usize = 12;
+/// Rounding of an eigenvalue in units of that of the largest terms.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// What the shafts of a mechanism add at one state.
+#[doc(hidden)]
+pub struct Shafts {
+    /// Spans with everything that the compiled equations have of the stations.
+    whole: Assembly,
+    /// Spans alone.
+    spans: Assembly,
+}
+
+/// The numbers of the spans of a mechanism; see [`Mechanism::spans`](eigentol_contract::Mechanism::spans).
+pub(crate) fn numbers(mechanism: &dyn Kernels, description: &Description, u: &[f64], b: &[f64]) -> Vector {
+    let constant = |values: &[f64]| values.iter().map(|&value| second(value, 0.0)).collect::<Vec<Second>>();
+    let mut numbers = vec![second(0.0, 0.0); description.spans.iter().map(SpanInfo::count).sum()];
+    if !numbers.is_empty() {
+        mechanism.spans_into(&constant(u), &constant(b), &mut numbers);
+    }
+    numbers.iter().map(|number| number.value.value).collect()
+}
+
+fn second(value: f64, slope: f64) -> Second {
+    Dual { value: Dual { value, slope }, slope: Dual { value: 0.0, slope: 0.0 } }
+}
+
+/// Derivatives of the numbers of the spans by inputs and design variables: a row for each variable.
+#[must_use]
+fn number_slopes(mechanism: &dyn Kernels, at: &Equilibrium) -> Matrix {
+    let (inputs, design) = (at.inputs.len(), at.design.len());
+    let mut slopes = Matrix::zeros(inputs + design, at.spans.len());
+    if at.spans.is_empty() {
+        return slopes;
+    }
+    let values = |from: &[f64]| from.iter().map(|&value| second(value, 0.0)).collect::<Vec<Second>>();
+    let (mut u, mut b) = (values(&at.inputs), values(&at.design));
+    let mut numbers = vec![second(0.0, 0.0); at.spans.len()];
+    let place = |k: usize, u: &mut [Second], b: &mut [Second], set: &dyn Fn(&mut Second)| match k.checked_sub(inputs) {
+        None => set(&mut u[k]),
+        Some(k) => set(&mut b[k]),
+    };
+    // Two variables at a time: the first and the second slope of a number with both.
+    for first in (0..inputs + design).step_by(2) {
+        let other = (first + 1 < inputs + design).then_some(first + 1);
+        place(first, &mut u, &mut b, &|x| x.value.slope = 1.0);
+        other.into_iter().for_each(|k| place(k, &mut u, &mut b, &|x| x.slope.value = 1.0));
+        mechanism.spans_into(&u, &b, &mut numbers);
+        slopes[first].iter_mut().zip(&numbers).for_each(|(to, number)| *to = number.value.slope);
+        if let Some(k) = other {
+            slopes[k].iter_mut().zip(&numbers).for_each(|(to, number)| *to = number.slope.value);
+            place(k, &mut u, &mut b, &|x| x.slope.value = 0.0);
+        }
+        place(first, &mut u, &mut b, &|x| x.value.slope = 0.0);
+    }
+    slopes
+}
+
+impl Shafts {
+    /// The shafts of a mechanism at a state; `None` if it has none.
+    ///
+    /// # Errors
+    /// [`Error::Shaft`] for numbers that no shaft has.
+    pub fn of(at: &Equilibrium) -> Result<Option<Self>, Error> {
+        if at.description.spans.is_empty() {
+            return Ok(None);
+        }
+        let wrong = |error: eigentol_shafts::Error| Error::Shaft { reason: error.to_string().into() };
+        let n = at.coordinates.len();
+        let mut numbers = &at.spans[..];
+        let spans: Vec<Span> = at.description.spans.iter().map(|info| span(info, &mut numbers)).collect();
+        let zeros = || [(); 3].map(|()| Matrix::zeros(n, n));
+        let alone = Assembly::new(spans.clone(), zeros(), DEGREE).map_err(wrong)?;
+        let at_rest = alone.condensed(Complex::ZERO).matrix();
+        let at_rest = Matrix::from_fn(n, n, |i, j| at_rest[i][j].re);
+        let linear = &at.linear;
+        let mut mass = linear.mass.clone();
+        for (i, lumped) in lumped(&spans, n).into_iter().enumerate() {
+            mass[i][i] -= lumped;
+        }
+        let stiffness = Matrix::from_fn(n, n, |i, j| linear.stiffness[i][j] - at_rest[i][j]);
+        let whole = Assembly::new(spans, [mass, linear.damping.clone(), stiffness], DEGREE).map_err(wrong)?;
+        Ok(Some(Self { whole, spans: alone }))
+    }
+
+    /// `T(s)`.
+    #[must_use]
+    pub fn matrix(&self, s: Complex) -> Matrix<Complex> {
+        self.whole.condensed(s).matrix()
+    }
+
+    /// `T'(s) x`.
+    #[must_use]
+    pub fn slope_times(&self, s: Complex, x: &[Complex]) -> Vector<Complex> {
+        self.whole.condensed(s).slope_times(x)
+    }
+
+    /// `T'(s)`.
+    #[must_use]
+    pub fn slope(&self, s: Complex) -> Matrix<Complex> {
+        let n = self.whole.stations();
+        let unit = |k: usize| Vector::from_fn(n, |i| Complex::from(f64::from(u8::from(i == k))));
+        let condensed = self.whole.condensed(s);
+        let columns: Vec<Vector<Complex>> = (0..n).map(|k| condensed.slope_times(&unit(k))).collect();
+        Matrix::from_fn(n, n, |i, j| columns[j][i])
+    }
+
+    /// Derivatives of `left^T T(s) right` by the numbers of the spans, at fixed compiled matrices.
+    #[must_use]
+    pub fn gradient(&self, left: &[Complex], s: Complex, right: &[Complex]) -> Vector<Complex> {
+        let at = |s: Complex| {
+            let condensed = self.spans.condensed(s);
+            self.spans.gradient(&condensed.weights(left), &condensed.motion(right), s)
+        };
+        let (moving, still) = (at(s), at(Complex::ZERO));
+        let mut all = Vec::new();
+        for ((span, moving), still) in self.spans.spans().iter().zip(&moving).zip(&still) {
+            all.extend(of_span(span, moving, still, |i| s * s * left[i] * right[i]));
+        }
+        all.into()
+    }
+
+    /// The modes at a state of these shafts, from those of a nearby one if given: the lowest that oscillate.
+    pub(crate) fn modes(&self, at: &Equilibrium, nearby: &[Mode]) -> Option<Vec<Mode>> {
+        let found = self.followed(nearby).or_else(|| self.whole.modes(MODES).ok())?;
+        let mut modes = Vec::new();
+        for own in found {
+            let (mut right, mut left) = (own.right.stations.clone(), own.left.stations.clone());
+            let weighs = normalise_by_mass(&mut right, &at.linear.mass) && normalise_by_mass(&mut left, &at.linear.mass);
+            if !weighs {
+                return None;
+            }
+            let condensed = self.whole.condensed(own.s);
+            let matrix = condensed.matrix();
+            let size = |row: &[Complex]| row.iter().zip(&right).map(|(a, x)| a.norm() * x.norm()).sum::<f64>();
+            let terms: f64 = left.iter().zip(matrix.iter()).map(|(l, row)| l.norm() * size(row)).sum();
+            let slope = dot_complex(&left, &condensed.slope_times(&right)).norm();
+            let error = ROUNDING * (terms / slope + own.s.norm());
+            let rest: f64 = matrix
+                .iter()
+                .map(|row: &[Complex]| {
+                    let sum: Complex = row.iter().zip(&right).map(|(a, x)| a * x).sum();
+                    sum.norm() / size(row).max(f64::MIN_POSITIVE)
+                })
+                .fold(0.0, f64::max);
+            let behaviour = behaviour(own.s, error, false);
+            modes.push(Mode::general(own.s, (right, left), behaviour, rest, error));
+        }
+        Some(modes)
+    }
+
+    /// The modes next to others; `None` if two of them became one.
+    fn followed(&self, nearby: &[Mode]) -> Option<Vec<eigentol_shafts::Mode>> {
+        if nearby.is_empty() {
+            return None;
+        }
+        let near = nearby.iter().map(|mode| {
+            let condensed = self.whole.condensed(mode.s);
+            let (right, left) = (condensed.motion(&mode.shape), condensed.weights(mode.left()));
+            self.whole.near(&eigentol_shafts::Mode { s: mode.s, right, left }).ok()
+        });
+        let found: Vec<eigentol_shafts::Mode> = near.collect::<Option<_>>()?;
+        let twice = |k: usize| found[..k].iter().any(|other| other.is_same(&found[k]));
+        (!(0..found.len()).any(twice)).then_some(found)
+    }
+
+    /// The stability of a state with these modes.
+    pub(crate) fn stability(at: &Equilibrium, modes: &[Mode]) -> Stability {
+        let growing = modes.iter().filter(|mode| mode.behaviour.grows()).count();
+        let stiffness = &at.linear.stiffness;
+        if Lu::new(stiffness).is_some_and(|factors| factors.negative_determinant()) {
+            Stability::Divergent { negative: 1 }
+        } else if growing > 0 {
+            Stability::Flutter { growing }
+        } else if modes.iter().all(|mode| matches!(mode.behaviour, Behaviour::Damped(_)))
+            || Cholesky::new(&symmetric_part(stiffness)).is_ok()
+        {
+            Stability::Stable
+        } else {
+            Stability::Marginal
+        }
+    }
+}
+
+fn symmetric_part(a: &Matrix) -> Matrix {
+    Matrix::from_fn(a.row_count(), a.row_count(), |i, j| 0.5 * (a[i][j] + a[j][i]))
+}
+
+/// Shafts with the derivatives of their numbers.
+#[doc(hidden)]
+pub struct ShaftSlopes {
+    #[doc(hidden)]
+    pub shafts: Shafts,
+    /// A row for each input and design variable.
+    slopes: Matrix,
+}
+
+impl ShaftSlopes {
+    #[doc(hidden)]
+    pub fn of(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<Option<Self>, Error> {
+        Ok(Shafts::of(at)?.map(|shafts| Self { shafts, slopes: number_slopes(mechanism, at) }))
+    }
+
+    /// Adds the derivatives of `left^T T(s) right` by each input and then each design variable, at fixed compiled matrices.
+    #[doc(hidden)]
+    pub fn add(&self, left: &[Complex], s: Complex, right: &[Complex], mut add: impl FnMut(usize, Complex)) {
+        let gradient = self.shafts.gradient(left, s, right);
+        for (k, row) in self.slopes.iter().enumerate() {
+            add(k, row.iter().zip(&gradient).map(|(slope, by_number)| by_number * slope).sum());
+        }
+    }
+}
+
+impl ShaftSlopes {
+    /// The derivative of `left^T T(s) right` by an input, at fixed compiled matrices.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn along_input(&self, left: &[Complex], s: Complex, right: &[Complex], input: usize) -> Complex {
+        let gradient = self.shafts.gradient(left, s, right);
+        self.slopes[input].iter().zip(&gradient).map(|(slope, by_number)| by_number * slope).sum()
+    }
+}
+
+impl Modes {
+    /// Refuses modes of shafts where all modes are needed.
+    #[doc(hidden)]
+    pub fn all_of_them(of: &Description, what: &'static str) -> Result<(), Error> {
+        if of.spans.is_empty() { Ok(()) } else { Err(Error::NotWithShafts { what: what.into() }) }
+    }
+}
+
+/// A span with the first of these numbers.
+fn span(info: &SpanInfo, numbers: &mut &[f64]) -> Span {
+    let (own, rest) = numbers.split_at(info.count());
+    *numbers = rest;
+    let line = match info.line {
+        LineKind::Timoshenko => Line::Timoshenko,
+        LineKind::Slender => Line::Slender,
+        LineKind::Bar => Line::Bar,
+    };
+    let sections = own[1..].chunks_exact(SpanInfo::NUMBERS).zip(info.elements.iter());
+    let section = |(row, elements): (&[f64], &usize)| {
+        let mut section = Section {
+            length: 0.0,
+            stiffness: 0.0,
+            shear: 0.0,
+            mass: 0.0,
+            rotary: 0.0,
+            lag: 0.0,
+            tension: 0.0,
+            drag: 0.0,
+        };
+        Number::ALL.into_iter().zip(row).for_each(|(number, value)| *section.number_mut(number) = *value);
+        (section, *elements)
+    };
+    let end = |motions: &[(usize, f64)]| core::array::from_fn(|k| motions.get(k).copied());
+    Span { line, speed: own[0], sections: sections.map(section).collect(), ends: info.ends.each_ref().map(|x| end(x)) }
+}
+
+/// What the compiled equations have as inertia of the spans at the unknowns of their stations.
+fn lumped(spans: &[Span], n: usize) -> Vector {
+    let mut all = Vector::zeros(n);
+    for span in spans {
+        let sum = |of: fn(&Section) -> f64| span.sections.iter().map(|(own, _)| of(own)).sum::<f64>();
+        let (length, mass) = (sum(|own| own.length), sum(|own| own.mass * own.length));
+        let turned = sum(|own| own.rotary * own.length) + LUMPED * mass * length * length;
+        for (k, place) in span.ends.iter().flat_map(|end| end.iter().enumerate()) {
+            if let Some((index, _)) = place {
+                all[*index] += 0.5 * if k % 2 == 0 { mass } else { turned };
+            }
+        }
+    }
+    all
+}
+
+/// Derivatives by the numbers of a span: in motion, less those at rest and of the lumped inertia, whose `weight` at each
+/// unknown is `s^2 left right`.
+fn of_span(
+    span: &Span,
+    moving: &SpanGradient,
+    still: &SpanGradient,
+    weight: impl Fn(usize) -> Complex,
+) -> Vec<Complex> {
+    let sum = |of: fn(&Section) -> f64| span.sections.iter().map(|(own, _)| of(own)).sum::<f64>();
+    let (length, mass) = (sum(|own| own.length), sum(|own| own.mass * own.length));
+    let mut weights = [Complex::ZERO; 2];
+    for (k, place) in span.ends.iter().flat_map(|end| end.iter().enumerate()) {
+        if let Some((index, _)) = place {
+            weights[k % 2] += 0.5 * weight(*index);
+        }
+    }
+    let [along, across] = weights;
+    let mut all = vec![moving.speed - still.speed];
+    for ((section, _), (moving, still)) in span.sections.iter().zip(moving.sections.iter().zip(&still.sections)) {
+        let Section { length: own, mass: line, rotary, .. } = *section;
+        let mut slopes: Vec<Complex> = moving.iter().zip(still).map(|(a, b)| a - b).collect();
+        slopes[Number::Mass as usize] -= own * (along + across * (LUMPED * length * length));
+        slopes[Number::Rotary as usize] -= across * own;
+        let by_length = LUMPED * (line * length * length + 2.0 * mass * length);
+        slopes[Number::Length as usize] -= along * line + across * (rotary + by_length);
+        all.extend(slopes);
+    }
+    all
+}
